@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A radar sees one target in clutter, every 2 s: the target becomes a track, the clutter none. Exit
- * code 0 where so.
+ * main: smallest complete use of the library: a radar sees one target in clutter every 2 s; the
+ * target becomes a track, the clutter does not. Exit code 0 on success.
  */
 #include <stdio.h>
 
@@ -15,7 +15,8 @@ static struct rho_initiator initiator;
 static struct rho_report report;
 static struct rho_plot plots[NUM_PLOTS];
 
-static int is_ok(const char *what, enum rho_status status)
+/* Prints the status unless it is RHO_OK; returns whether it is. */
+static int print_if_failed(const char *what, enum rho_status status)
 {
     if (status != RHO_OK) {
         printf("%s: %s\n", what, rho_status_name(status));
@@ -23,46 +24,47 @@ static int is_ok(const char *what, enum rho_status status)
     return status == RHO_OK;
 }
 
-static int start(void)
+static int init_objects(void)
 {
     struct rho_tracker_config maintain;
     struct rho_initiator_config initiate;
     rho_tracker_config_default(&maintain);
     rho_initiator_config_default(&initiate);
-    return is_ok("tracker", rho_tracker_init(&tracker, sizeof tracker, &maintain)) &&
-           is_ok("initiator", rho_initiator_init(&initiator, sizeof initiator, &initiate));
+    return print_if_failed("tracker", rho_tracker_init(&tracker, sizeof tracker, &maintain)) &&
+           print_if_failed("initiator",
+                           rho_initiator_init(&initiator, sizeof initiator, &initiate));
 }
 
-/* Metres from 0 to 20 km, by a linear congruential generator. */
-static float anywhere(void)
+/* A random coordinate, 0 to 20 km, by a linear congruential generator. */
+static float random_coordinate_m(void)
 {
     static uint32_t seed = 1;
     seed = seed * 1664525u + 1013904223u;
     return (float)(seed >> 8) * (20000.0f / 16777216.0f);
 }
 
-/* The target flies east at 250 m/s; the other plots are clutter. */
-static int step(int k)
+/* Steps scan k: plot 0 is the target, flying east at 250 m/s, the others are clutter. */
+static int step_scan(int k)
 {
     struct rho_scan scan = {
         .time_us = 2000000 * (int64_t)k, .num_plots = NUM_PLOTS, .plots = plots};
     for (int i = 0; i < NUM_PLOTS; i++) {
-        plots[i].x_m = i == 0 ? 500.0f * (float)k : anywhere();
-        plots[i].y_m = i == 0 ? 1000.0f : anywhere();
+        plots[i].x_m = i == 0 ? 500.0f * (float)k : random_coordinate_m();
+        plots[i].y_m = i == 0 ? 1000.0f : random_coordinate_m();
         plots[i].sigma_range_m = 10.0f;
         plots[i].sigma_cross_m = 10.0f;
     }
-    return is_ok("step", rho_tracker_step(&tracker, &initiator, &scan, &report));
+    return print_if_failed("step", rho_tracker_step(&tracker, &initiator, &scan, &report));
 }
 
 int main(void)
 {
     const struct rho_track_report *track = &report.tracks[0];
-    if (!start()) {
+    if (!init_objects()) {
         return 1;
     }
     for (int k = 0; k < NUM_SCANS; k++) {
-        if (!step(k)) {
+        if (!step_scan(k)) {
             return 1;
         }
     }

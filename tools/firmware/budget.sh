@@ -1,12 +1,13 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# What the images of the radar node take of their budget: flash and RAM, stack included, as the
-# linker laid them. Exit 1 where it is exceeded. The last line is what tools/lab/MEASUREMENTS.md
-# says of the M4. Environment: BUILD.
+# Compares flash and RAM (stack included) of the linked radar node images with their budget. Exit 1
+# where it is exceeded. The last line is the sentence on the M4 in tools/lab/MEASUREMENTS.md.
+# Environment: BUILD.
 set -eu
 cd "$(dirname "$0")/../.."
 flash_most=$((96 * 1024)) ram_most=$((176 * 1024)) failed=0
-digits() { sed -E 's/([0-9])([0-9]{3})$/\1 \2/' <<<"$1"; } # 65 536
+# group_digits 65536: prints 65 536
+group_digits() { sed -E 's/([0-9])([0-9]{3})$/\1 \2/' <<<"$1"; }
 
 printf '%-44s %9s %9s %9s %9s\n' 'radar node' flash 'at most' RAM 'at most'
 for core in m4 m7; do
@@ -24,7 +25,8 @@ for core in m4 m7; do
     printf '%-44s %9d %9d %9d %9d  %s\n' "Cortex-${core^^}, default mode, stack included" "$flash" \
         "$flash_most" "$ram" \
         "$ram_most" "$verdict"
-    [ "$core" = m7 ] || said="$(digits "$flash") bytes of flash and $(digits "$ram") of RAM"
+    [ "$core" = m7 ] || said="$(group_digits "$flash") bytes of flash and $(group_digits \
+        "$ram") of RAM"
 done
 echo "$said"
 exit "$failed"

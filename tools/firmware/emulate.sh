@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Runs an image with its arguments in QEMU: emulate.sh m4|m7 IMAGE.elf ARGUMENT... Exit code and
-# console are the image's, the console on standard output; no argument may have a space or a comma.
-# Instructions take 64 ns of the machine's time, whatever the host does; after EMULATE_SECONDS
-# (default 120) of the host's time it is ended.
+# console (on standard output) are the image's; arguments must not contain spaces or commas.
+# Each instruction takes 64 ns of emulated time, whatever the host's load; QEMU is killed after
+# EMULATE_SECONDS (default 120) of the host's time.
 set -eu
 case ${1-} in
 m4) machine=mps2-an386 ;;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The radar node: hears scans over LCM, publishes tracks. Where to start from for a node of your
- * own: the radars that it knows are in radars.h, the tracker's settings in start_node(), the
- * hardware in board/.
+ * main: the radar node's main loop: receives scans over LCM, publishes tracks. To make your own
+ * node: its radars are in radars.h, the tracker's settings in start_node(), the hardware in board/.
  */
 #include "board/board.h"
 #include "node.h"
@@ -36,35 +35,35 @@ static enum rho_status start_node(void)
 }
 
 /*
- * A number that only grows goes to the end of the text, "stack       3904", which has room for ten
- * digits.
+ * A counter and the line that reports it, "stack       3904", with room for ten digits at its end.
  */
-struct growth {
+struct growing_number {
     char text[sizeof "stack           "];
     uint32_t said;
 };
 
-static void say_growth(struct growth *growth, uint32_t number)
+/* Prints the counter's line if the number is larger than at the last print. */
+static void print_if_grown(struct growing_number *growing_number, uint32_t number)
 {
-    size_t last = sizeof growth->text - 2;
-    if (number <= growth->said) {
+    size_t last = sizeof growing_number->text - 2;
+    if (number <= growing_number->said) {
         return;
     }
-    growth->said = number;
+    growing_number->said = number;
     for (; number > 0; number /= 10) {
-        growth->text[last--] = (char)('0' + number % 10);
+        growing_number->text[last--] = (char)('0' + number % 10);
     }
-    board_say(growth->text);
+    board_say(growing_number->text);
 }
 
-static void say_counters(void)
+static void print_grown_counters(void)
 {
-    static struct growth stack = {.text = "stack           "},
-                         unsent = {.text = "unsent          "},
-                         strange = {.text = "strange         "};
-    say_growth(&stack, (uint32_t)board_stack_used());
-    say_growth(&unsent, board_unsent());
-    say_growth(&strange, rho_count(node_guard()->refused_source, node_guard()->refused_mac));
+    static struct growing_number stack = {.text = "stack           "},
+                                 unsent = {.text = "unsent          "},
+                                 strange = {.text = "strange         "};
+    print_if_grown(&stack, (uint32_t)board_stack_used());
+    print_if_grown(&unsent, board_unsent());
+    print_if_grown(&strange, rho_count(node_guard()->refused_source, node_guard()->refused_mac));
 }
 
 int main(void)
@@ -90,7 +89,7 @@ int main(void)
         node_tick(now_us);
         if (now_us >= report_us) {
             report_us = now_us + REPORT_INTERVAL_US;
-            say_counters();
+            print_grown_counters();
         }
         if (size == 0) {
             board_wait(node_due_us());

@@ -18,24 +18,27 @@ static struct rho_tracker tracker;
 static struct rho_frames frames;
 static struct rho_report report;
 static struct rho_node node;
-static struct rho_reflector_learning learning; /* with NODE_LEARNS_REFLECTORS */
+static struct rho_reflector_learning learning; /* used where NODE_LEARNS_REFLECTORS is 1 */
 
 static struct rho_udpm_guard guard;
 
-static uint8_t buffer[RHO_UDPM_MAX_DATAGRAM]; /* the datagram that goes out */
+static uint8_t buffer[RHO_UDPM_MAX_DATAGRAM]; /* the datagram being sent */
 static int is_started;
 static uint32_t datagrams_sent, datagrams_refused;
 static int64_t status_due_us;
 
-/* ---- Messages that go out ---- */
+/* ---- Sent messages ---- */
 
-/* Another one after each start, and where the sensors' clock was set. */
-static int32_t next_epoch(void)
+/* Epoch of track numbers: differs after each start, and after each jump of the sensors' clock. */
+static int32_t current_epoch(void)
 {
     return (int32_t)((uint32_t)settings.boot << 8 | (node.counters.restarts & 0xffu));
 }
 
-/* Where the channel's message is written; NULL: it is no channel. */
+/*
+ * Writes the datagram's header for the channel; returns where its message goes, NULL where the
+ * channel is not valid.
+ */
 static uint8_t *begin_message(const char *channel, size_t *head)
 {
     return rho_udpm_begin(buffer, sizeof buffer, datagrams_sent, channel, head) == RHO_OK
@@ -43,7 +46,7 @@ static uint8_t *begin_message(const char *channel, size_t *head)
                : NULL;
 }
 
-static void send_message(enum rho_status status, size_t size)
+static void send_if_encoded(enum rho_status status, size_t size)
 {
     if (status == RHO_OK) {
         datagrams_sent++;
@@ -58,11 +61,11 @@ static void publish_step(void)
         uint8_t *message = begin_message(rho_node_channel(&node, part), &head);
         enum rho_status status = rho_node_publish(&node, track_starts_initiator(), part, message,
                                                   sizeof buffer - head, &size);
-        send_message(status, head + size);
+        send_if_encoded(status, head + size);
     }
 }
 
-static void add_to_counter(int32_t *counter, uint32_t more)
+static void add_saturating(int32_t *counter, uint32_t more)
 {
     *counter = more < (uint32_t)(INT32_MAX - *counter) ? *counter + (int32_t)more : INT32_MAX;
 }
@@ -76,26 +79,26 @@ static void publish_status(void)
     uint8_t *message = begin_message(RHO_MESSAGE_STATUS_CHANNEL, &head);
     enum rho_status status;
     rho_node_status(&node, track_starts_initiator(), &state);
-    add_to_counter(&state.fragments_refused, datagrams_refused);
-    add_to_counter(&state.fragments_refused, guard.refused_source);
-    add_to_counter(&state.fragments_refused, guard.refused_mac);
+    add_saturating(&state.fragments_refused, datagrams_refused);
+    add_saturating(&state.fragments_refused, guard.refused_source);
+    add_saturating(&state.fragments_refused, guard.refused_mac);
     status = rho_message_status_encode(&state, message, sizeof buffer - head, &size);
-    send_message(status, head + size);
+    send_if_encoded(status, head + size);
     message = begin_message(RHO_MESSAGE_WORK_CHANNEL, &head);
     rho_node_work(&node, &work);
     status = rho_message_work_encode(&work, message, sizeof buffer - head, &size);
-    send_message(status, head + size);
-    /* without hypotheses nothing is learned */
+    send_if_encoded(status, head + size);
+    /* a library without the filter of hypotheses (RHO_FILTERS 4) learns nothing */
     if (((RHO_FILTERS)&4) != 0 && rho_node_learned(&node, &learned)) {
         message = begin_message(RHO_MESSAGE_LEARNED_CHANNEL, &head);
         status = rho_message_learned_encode(&learned, message, sizeof buffer - head, &size);
-        send_message(status, head + size);
+        send_if_encoded(status, head + size);
     }
 }
 
 /* ---- Steps ---- */
 
-static enum rho_status open_tracker(void)
+static enum rho_status init_tracker_keeping_counters(void)
 {
     const struct rho_tracker_counters counters = tracker.counters;
     const struct rho_tracker_work work = tracker.work;
@@ -126,28 +129,35 @@ static void step_and_publish(void)
     }
 }
 
-/* At a restart the settings are taken once more. */
+/*
+ * Steps and publishes all scans that are due; at a restart initialises the tracker anew with the
+ * same settings.
+ */
 static void step_all_due(int64_t now_us)
 {
     enum rho_node_due due;
     while ((due = rho_node_next(&node, now_us)) != RHO_NODE_NOTHING) {
         if (due == RHO_NODE_RESTART) {
-            is_started = open_tracker() == RHO_OK;
-            node.epoch = next_epoch();
+            is_started = init_tracker_keeping_counters() == RHO_OK;
+            node.epoch = current_epoch();
         } else {
             step_and_publish();
         }
     }
 }
 
-/* ---- Datagrams that come in ---- */
+/* ---- Received datagrams ---- */
 
 const struct rho_udpm_guard *node_guard(void)
 {
     return &guard;
 }
 
-static int is_datagram_admitted(const uint8_t *bytes, size_t *size, uint32_t source_ipv4)
+/*
+ * Whether the sender is allowed and the authentication code is right; removes the code from *size
+ * and counts refused datagrams.
+ */
+static int admit_datagram(const uint8_t *bytes, size_t *size, uint32_t source_ipv4)
 {
     const size_t whole = *size;
     if (!rho_udpm_admits(&guard, source_ipv4)) {
@@ -164,7 +174,7 @@ static int is_datagram_admitted(const uint8_t *bytes, size_t *size, uint32_t sou
 void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64_t now_us)
 {
     struct rho_udpm_datagram datagram;
-    if (!is_started || !is_datagram_admitted(bytes, &size, source_ipv4)) {
+    if (!is_started || !admit_datagram(bytes, &size, source_ipv4)) {
         return;
     }
     if (rho_udpm_parse(bytes, size, &datagram) != RHO_OK) {
@@ -213,7 +223,7 @@ void node_config_default(struct node_config *config)
     node_settings(&config->tracker, &config->initiator);
 }
 
-static enum rho_status open_assembler(const struct node_config *config)
+static enum rho_status init_assembler(const struct node_config *config)
 {
     enum rho_status status =
         rho_scan_assembler_init(&assembler, sizeof assembler, &config->assembler);
@@ -223,10 +233,10 @@ static enum rho_status open_assembler(const struct node_config *config)
     return status;
 }
 
-static enum rho_status open_node(void)
+static enum rho_status init_library_node(void)
 {
     struct rho_node_config config = {
-        .assembler = &assembler, .tracker = &tracker, .report = &report, .epoch = next_epoch()};
+        .assembler = &assembler, .tracker = &tracker, .report = &report, .epoch = current_epoch()};
     enum rho_status status = RHO_OK;
     if (NODE_HAS_BEARINGS) {
         struct rho_frames_config gather;
@@ -252,13 +262,13 @@ enum rho_status node_start(const struct node_config *config)
     for (uint16_t i = 0; i < config->num_sources; i++) {
         guard.sources[i] = config->sources[i];
     }
-    status_due_us = INT64_MIN; /* at once */
-    status = open_assembler(config);
+    status_due_us = INT64_MIN; /* the first status is due at once */
+    status = init_assembler(config);
     if (status == RHO_OK) {
-        status = open_tracker();
+        status = init_tracker_keeping_counters();
     }
     if (status == RHO_OK) {
-        status = open_node();
+        status = init_library_node();
     }
     if (NODE_LEARNS_REFLECTORS && status == RHO_OK) {
         status = rho_reflector_learning_init(&learning, sizeof learning);

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node: a radar node for firmware: LCM datagrams in, LCM datagrams out. It knows no board.
+ * node: a radar node for firmware, independent of the board: LCM datagrams in and out.
  *
  *     node_start(&config);
  *     for (;;) {
- *         if (a datagram has come) {
+ *         if (a datagram has arrived) {
  *             node_receive(datagram, size, source, now_us);
  *         }
  *         node_tick(now_us);                           wait for a datagram, or until node_due_us()
  *     }
  *
- * Every byte is static: one node a program. What the messages do wrong is counted (RHO_STATUS and
- * RHO_WORK, once a second, with RHO_LEARNED of each sensor in turn) and nothing of it stops the
- * node. It takes passive sensors, too, where RHO_SCAN_KINDS has them. What becomes of the messages
- * is the library's node (rhotrack/node.h).
+ * All memory is static: one node a program. Faulty messages never stop the node; they are counted
+ * in the messages RHO_STATUS and RHO_WORK, which are sent once a second, with RHO_LEARNED of each
+ * sensor in turn. Passive sensors are handled, too, where RHO_SCAN_KINDS includes them. Messages
+ * are processed by the library's node (rhotrack/node.h).
  */
 #ifndef NODE_H
 #define NODE_H
@@ -30,56 +30,60 @@ struct node_config {
     struct rho_scan_assembler_config assembler;
     struct rho_tracker_config tracker;
     struct rho_initiator_config initiator;
-    const struct rho_scan_assembler_sensor
-        *sensors; /* num_sensors of them; only read by node_start */
+    /* num_sensors known sensors; only read by node_start */
+    const struct rho_scan_assembler_sensor *sensors;
     uint16_t num_sensors;
     /*
-     * Where the network is not closed: addresses that datagrams may come from (IPv4, 10.9.0.1 as
-     * 0x0a090001), num_sources of them, 0: any; only read by node_start. And the check of the
-     * code behind each datagram: returns 0 where it is not the right one, else *size without it.
-     * NULL: there is none. What is sent gets its code in send.
+     * Protection on an open network. sources: num_sources IPv4 addresses (10.9.0.1 as 0x0a090001)
+     * that datagrams are accepted from, 0: any; only read by node_start. is_authentic checks the
+     * authentication code at the end of a datagram: returns 0 where it is wrong, else sets *size to
+     * the size without it; NULL: there are no codes. Codes of sent datagrams are added in send.
      */
     const uint32_t *sources;
     uint16_t num_sources;
     int (*is_authentic)(void *context, const uint8_t *datagram, size_t *size);
     /*
-     * Counts starts, in memory that stays: receivers see by it that track numbers began anew.
-     * Messages say 256 of it and how often the sensors' clock was set.
+     * Count of starts in non-volatile memory, by which receivers see that track numbers began anew:
+     * the epoch in messages is 256 boot plus the number of jumps of the sensors' clock.
      */
     int32_t boot;
-    /* Called from within the functions below, which must not be called by them. */
+    /* Callbacks, called from within the functions below, which they must not call. */
     void *context;
-    void (*send)(void *context, const uint8_t *datagram, size_t size); /* to LCM's group and port */
-    void (*stepped)(void *context,
-                    const struct rho_report *report); /* before its messages; may be NULL */
-    int64_t (*clock_us)(void *context);               /* for the step times in RHO_STATUS */
+    /* sends a datagram to LCM's group and port */
+    void (*send)(void *context, const uint8_t *datagram, size_t size);
+    /* called after each step, before its messages are sent; may be NULL */
+    void (*stepped)(void *context, const struct rho_report *report);
+    int64_t (*clock_us)(void *context); /* clock for the step times in RHO_STATUS */
 };
 
-/* What node_settings.h says, else the defaults; without sensors and functions. */
+/* The settings of node_settings.h, which default to the library's; no sensors and no callbacks. */
 void node_config_default(struct node_config *config);
 
 /*
- * Once a program. The config is copied. Errors: those of the objects' init functions; the node then
- * takes nothing.
+ * Starts the node; call it once a program. The config is copied. Errors are those of the objects'
+ * init functions; the node then ignores all datagrams.
  */
 RHO_MUST_CHECK enum rho_status node_start(const struct node_config *config);
 
 /*
- * A datagram of any bytes and length that came from that IPv4 address at now_us of the reception
- * clock.
+ * Processes a datagram of any content and length that came from source_ipv4 at now_us of the
+ * reception clock.
  */
 void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64_t now_us);
 
-/* Senders refused so far; in RHO_STATUS among fragments_refused, with datagrams that are no LCM. */
+/*
+ * The sender filter with its counts of refused datagrams; RHO_STATUS has these in
+ * fragments_refused, together with datagrams that are not LCM.
+ */
 const struct rho_udpm_guard *node_guard(void);
 
-/* Steps what is due though nothing has come, and says once a second how the node is. */
+/* Steps scans that have become due without a new datagram, and sends the status once a second. */
 void node_tick(int64_t now_us);
 
-/* When node_tick is to be called though nothing has come. */
+/* Time at which node_tick must be called even if no datagram arrives. */
 int64_t node_due_us(void);
 
-/* The end of a record: all that is there is stepped. */
+/* End of a recording: steps all scans that are still held, and sends the status. */
 void node_flush(void);
 
 #endif

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node_settings: what a node's configuration (nodes/NAME.h, which is RHO_CONFIG_FILE) may say
- * beside its capacities: its radar, how its targets move, the work that a step may do. What it does
- * not say is as here.
+ * node_settings: defaults of the settings that a node's configuration (nodes/NAME.h, used as
+ * RHO_CONFIG_FILE) may define besides capacities: radar, motion of targets, work of a step.
  */
 #ifndef RHOTRACK_FIRMWARE_NODE_SETTINGS_H
 #define RHOTRACK_FIRMWARE_NODE_SETTINGS_H
@@ -34,11 +33,14 @@
 #ifndef NODE_ACCEL_MAX_MPS2
 #define NODE_ACCEL_MAX_MPS2 30.0f
 #endif
-/* Its longest target, where targets give several plots (RHO_BODIES 1); 0: they are points. */
+/*
+ * Length of the largest target where one target gives several plots (RHO_BODIES 1); 0: point
+ * targets.
+ */
 #ifndef NODE_BODY_MAX_M
 #define NODE_BODY_MAX_M 0.0f
 #endif
-/* 1: walls that show targets twice are learned (RHO_MAX_REFLECTORS above 0). */
+/* 1: reflectors that make mirror images are learned (needs RHO_MAX_REFLECTORS above 0). */
 #ifndef NODE_LEARNS_REFLECTORS
 #define NODE_LEARNS_REFLECTORS 0
 #endif
@@ -49,7 +51,7 @@
 #define NODE_WORK_MAX RHO_WORK_MAX
 #endif
 
-/* The library's defaults, but for what the configuration says. */
+/* Fills both configs with the library's defaults and the node's settings. */
 static inline void node_settings(struct rho_tracker_config *tracker,
                                  struct rho_initiator_config *initiator)
 {

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# What a step of each shipped configuration of the node (nodes/) costs at most, as far as a guided
-# search for the worst one can tell: `promise_of NAME` sets a step's fixed instructions (a),
-# those of a unit of work (b), and what the processor has time for (most): a quarter of the scan
-# interval at 168 MHz, for `smallest` 4 million; `full` is any radar's, here one of 4 s. `traffic`
-# has half of its interval, which is below a quarter of it at 480 MHz (M7).
+# Upper bounds of a step's instructions for each shipped configuration of the node (nodes/), checked
+# by a guided search for the worst step. `promise_of NAME` sets the fixed instructions of a step
+# (a), those of a unit of work (b), and the instructions that the processor has time for (most): a
+# quarter of the scan interval at 168 MHz; 4 million for `smallest`; `full` is taken with 4 s a
+# scan; `traffic` has half of its interval, which is less than a quarter of it at 480 MHz (M7).
 shipped='full en_route marine traffic smallest'
 promise_of() {
     a=5000000 b=90
@@ -17,8 +17,8 @@ promise_of() {
     esac
 }
 
-# worst_of NAME ARGUMENT...: runs its program (search or sky); sets instructions, work, work_max,
-# sky of the worst.
+# worst_of NAME ARGUMENT...: runs the configuration's worst-case program (a search, or one sky) in
+# QEMU; sets instructions, work, work_max and sky of the worst step found.
 worst_of() {
     local name=$1 line said
     shift

@@ -1,52 +1,53 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * radar_capacities: the embedded profile but for what one radar does not need (RHO_CONFIG_FILE;
- * rhotrack/config.h says what each costs). Library and node are compiled with it.
+ * radar_capacities: capacities of a node for one radar (RHO_CONFIG_FILE): the embedded profile
+ * without the features that one radar does not need. Library and node are compiled with it;
+ * rhotrack/config.h gives the cost of each.
  */
 
-/* Plots and polar plots: passive sensors are none of this. */
+/* Plots and polar plots, no bearings of passive sensors. */
 #define RHO_SCAN_KINDS 3
 
-/* One radar: no scans of others come in between, one is assembled at a time. */
+/* One scan is assembled at a time: scans of one radar do not interleave. */
 #define RHO_MAX_OPEN_SCANS 1
 
-/* Its identity may change a few times. */
+/* Sensors: the one radar's sensor_id may change a few times. */
 #ifndef RHO_MAX_SENSORS
 #define RHO_MAX_SENSORS 4
 #endif
 
 /*
- * Tracks of plots by hypotheses alone: the gate best. The filters of the others, and of bearings,
- * are left out.
+ * Only the hypothesis filter for plots (gate best); filters of other gates and of bearings are left
+ * out.
  */
 #define RHO_FILTERS 4
 
-/* No plots of two targets: the flash is full. */
+/* No merged plots of unresolved targets, to save flash. */
 #define RHO_SHARES_PLOTS 0
 
-/* The scan assembler's scans are never larger. */
+/* No claims of plots beyond RHO_MAX_PLOTS: the scan assembler never makes larger scans. */
 #define RHO_CLAIMS_BEYOND 0
 
-/* Its range rates, if it has any, are not ambiguous. */
+/* No ambiguous range rates. */
 #define RHO_AMBIGUOUS_RANGE_RATES 0
 
-/* No walls before it. */
+/* No reflectors that make mirror images. */
 #ifndef RHO_MAX_REFLECTORS
 #define RHO_MAX_REFLECTORS 0
 #endif
 
-/* No operator. */
+/* No areas that an operator excludes. */
 #ifndef RHO_MAX_EXCLUDED_AREAS
 #define RHO_MAX_EXCLUDED_AREAS 0
 #endif
 
-/* It sees targets at all range rates: 2.3 KB of flash. */
+/* No Doppler notch; it would take 2.3 KB of flash. */
 #ifndef RHO_DOPPLER_NOTCH
 #define RHO_DOPPLER_NOTCH 0
 #endif
 
-/* Nor a memory of clutter, for the same reason. */
+/* No clutter map, to save flash. */
 #define RHO_MAX_CLUTTER_CELLS 0
 
-/* Its scans are whole turns. */
+/* No sectors: each scan is a whole turn. */
 #define RHO_SECTORS 0

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The radars that the node knows before it hears them: of the image, and of the replay that says
- * what it must send.
+ * radars: table of the radars that the node knows beforehand; used by the firmware image and by
+ * replay, which computes the messages that the image must send.
  */
 #ifndef RHOTRACK_FIRMWARE_RADARS_H
 #define RHOTRACK_FIRMWARE_RADARS_H
@@ -10,8 +10,8 @@
 #include "rhotrack/scan_assembler.h"
 
 /*
- * One radar at the origin. Sensors that are not in the table are taken at their word, with the
- * scan assembler's defaults.
+ * One radar at the origin. Sensors that are not in the table are accepted with the description in
+ * their messages and the scan assembler's defaults.
  */
 static const struct rho_scan_assembler_sensor radars[] = {
     {.sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = NODE_RANGE_MAX_M},

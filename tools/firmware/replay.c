@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * replay: the node on a record instead of a network, on any machine: `replay IN.lcm OUT.lcm
- * [NAME=VALUE ...]`. Names are gate (best, hough, nearest; the latter two with input estimation),
- * v_min_mps, v_max_mps, accel_mps2, in whole numbers; radars=1: it knows those of radars.h.
+ * replay: runs the firmware's node on a recorded log instead of a network, on any machine: `replay
+ * IN.lcm OUT.lcm [NAME=VALUE ...]`. Names are gate (best, hough, nearest; the latter two with input
+ * estimation), v_min_mps, v_max_mps and accel_mps2 in whole numbers, and radars=1 for those of
+ * radars.h.
  *
- * IN.lcm is an LCM log of scans; each message goes into the node as the datagram that it would be,
- * at the time at which it was recorded. OUT.lcm holds the node's own datagrams as messages, and
- * beside them on the channel FATES what the messages do not say: a byte a plot or bearing of each
- * step. Both machines right, both files are the same bytes. At the end one line: steps, tracks'
- * reports, partial steps, and where the machine can count them instructions and stack.
+ * IN.lcm is an LCM log of scans; each message is given to the node as a datagram at the time at
+ * which it was recorded. OUT.lcm gets the messages that the node sends, and on the channel FATES
+ * the fate of each plot or bearing of each step, a byte each. The output must be the same bytes on
+ * all machines. Prints one line at the end: steps, track reports, partial steps, and instructions
+ * and stack where the machine can count them.
  */
 #include <string.h>
 
@@ -20,34 +21,35 @@
 #define LOG_SYNC 0xEDA1DA01u
 #define LOG_HEAD 28u
 #define CHANNEL_MAX 63u
-#define WARM_UP_STEPS 7 /* not in the mean: a window that is not full costs less */
+/* first steps, which the mean does not include: a window that is not yet full costs less */
+#define WARM_UP_STEPS 7
 
 static int output;
 static int64_t now_us, events_written;
 static int has_failed;
 static struct {
     uint32_t steps, track_reports, partial_steps;
-    uint32_t instructions_max, instructions_aside; /* aside: in the functions that the node calls */
+    uint32_t instructions_max, instructions_aside; /* aside: in the callbacks, not the node's */
     uint64_t instructions_sum;
     uint32_t instructions_steps;
 } tally;
 
 /* ---- The log ---- */
 
-static void put32(uint8_t *out, uint32_t value)
+static void put_be32(uint8_t *out, uint32_t value)
 {
     for (int i = 0; i < 4; i++) {
         out[i] = (uint8_t)(value >> (24 - 8 * i));
     }
 }
 
-static void put64(uint8_t *out, int64_t value)
+static void put_be64(uint8_t *out, int64_t value)
 {
-    put32(out, (uint32_t)((uint64_t)value >> 32));
-    put32(out + 4, (uint32_t)value);
+    put_be32(out, (uint32_t)((uint64_t)value >> 32));
+    put_be32(out + 4, (uint32_t)value);
 }
 
-static uint32_t get32(const uint8_t *in)
+static uint32_t get_be32(const uint8_t *in)
 {
     return (uint32_t)in[0] << 24 | (uint32_t)in[1] << 16 | (uint32_t)in[2] << 8 | in[3];
 }
@@ -56,18 +58,21 @@ static void write_event(const char *channel, const uint8_t *data, size_t size)
 {
     uint8_t head[LOG_HEAD];
     size_t length = strlen(channel);
-    put32(head, LOG_SYNC);
-    put64(head + 4, events_written++);
-    put64(head + 12, now_us);
-    put32(head + 20, (uint32_t)length);
-    put32(head + 24, (uint32_t)size);
+    put_be32(head, LOG_SYNC);
+    put_be64(head + 4, events_written++);
+    put_be64(head + 12, now_us);
+    put_be32(head + 20, (uint32_t)length);
+    put_be32(head + 24, (uint32_t)size);
     has_failed |= !files_write(output, head, sizeof head) ||
                   !files_write(output, (const uint8_t *)channel, length) ||
                   (size > 0 && !files_write(output, data, size));
 }
 
-/* Reads an event as a datagram. Returns its bytes, 0 at the end of the log, or where it is none. */
-static size_t read_datagram(int input, uint8_t datagram[RHO_UDPM_MAX_DATAGRAM])
+/*
+ * Reads an event of the log as a datagram and sets now_us to its time. Returns its size, 0 at the
+ * end of the log or where it is damaged.
+ */
+static size_t read_event_as_datagram(int input, uint8_t datagram[RHO_UDPM_MAX_DATAGRAM])
 {
     static uint32_t sequence;
     uint8_t event[LOG_HEAD];
@@ -76,9 +81,9 @@ static size_t read_datagram(int input, uint8_t datagram[RHO_UDPM_MAX_DATAGRAM])
     if (got == 0) {
         return 0;
     }
-    length = get32(event + 20);
-    size = get32(event + 24);
-    if (got < sizeof event || get32(event) != LOG_SYNC || length > CHANNEL_MAX ||
+    length = get_be32(event + 20);
+    size = get_be32(event + 24);
+    if (got < sizeof event || get_be32(event) != LOG_SYNC || length > CHANNEL_MAX ||
         files_read(input, (uint8_t *)channel, length) < length ||
         rho_udpm_begin(datagram, RHO_UDPM_MAX_DATAGRAM, sequence++, channel, &head) != RHO_OK ||
         size > RHO_UDPM_MAX_DATAGRAM - head || files_read(input, datagram + head, size) < size) {
@@ -86,11 +91,11 @@ static size_t read_datagram(int input, uint8_t datagram[RHO_UDPM_MAX_DATAGRAM])
         has_failed = 1;
         return 0;
     }
-    now_us = (int64_t)((uint64_t)get32(event + 12) << 32 | get32(event + 16));
+    now_us = (int64_t)((uint64_t)get_be32(event + 12) << 32 | get_be32(event + 16));
     return head + size;
 }
 
-/* ---- What the node calls: not counted as its work ---- */
+/* ---- Callbacks of the node: not counted as its instructions ---- */
 
 static void send_datagram(void *context, const uint8_t *bytes, size_t size)
 {
@@ -105,7 +110,7 @@ static void send_datagram(void *context, const uint8_t *bytes, size_t size)
     tally.instructions_aside += files_instructions_between(from, files_instructions());
 }
 
-static void count_step(void *context, const struct rho_report *report)
+static void tally_step(void *context, const struct rho_report *report)
 {
     uint32_t from = files_instructions();
     (void)context;
@@ -117,8 +122,8 @@ static void count_step(void *context, const struct rho_report *report)
     tally.instructions_aside += files_instructions_between(from, files_instructions());
 }
 
-/* Step times would differ from machine to machine. */
-static int64_t no_clock(void *context)
+/* Clock of the node's step times: always 0, as they would differ from machine to machine. */
+static int64_t zero_clock_us(void *context)
 {
     (void)context;
     return 0;
@@ -126,13 +131,14 @@ static int64_t no_clock(void *context)
 
 /* ---- Run ---- */
 
-static float whole_number(const char *text)
+static float parse_whole_number(const char *text)
 {
     float value = 0.0f;
     while (*text >= '0' && *text <= '9') {
         value = 10.0f * value + (float)(*text++ - '0');
     }
-    return *text ? -1.0f : value; /* the node refuses what is negative */
+    /* -1 where the text is no number: the node refuses negative values */
+    return *text ? -1.0f : value;
 }
 
 static int gate_by_name(const char *name)
@@ -145,7 +151,7 @@ static int gate_by_name(const char *name)
     return gate;
 }
 
-/* Returns 0 where there is no such setting. */
+/* Applies an option NAME=VALUE; returns 0 where the name is unknown. */
 static int set_option(struct node_config *config, const char *argument)
 {
     const char *value = strchr(argument, '=');
@@ -154,13 +160,13 @@ static int set_option(struct node_config *config, const char *argument)
         config->tracker.gate = (uint8_t)gate_by_name(value + 1);
         config->tracker.input.is_estimated = config->tracker.gate != RHO_TRACKER_BEST;
     } else if (length == 9 && strncmp(argument, "v_min_mps", length) == 0) {
-        config->initiator.v_min_mps = whole_number(value + 1);
+        config->initiator.v_min_mps = parse_whole_number(value + 1);
         config->tracker.v_min_mps = config->initiator.v_min_mps;
     } else if (length == 9 && strncmp(argument, "v_max_mps", length) == 0) {
-        config->initiator.v_max_mps = whole_number(value + 1);
+        config->initiator.v_max_mps = parse_whole_number(value + 1);
         config->tracker.v_max_mps = config->initiator.v_max_mps;
     } else if (length == 10 && strncmp(argument, "accel_mps2", length) == 0) {
-        config->tracker.accel_max_mps2 = whole_number(value + 1);
+        config->tracker.accel_max_mps2 = parse_whole_number(value + 1);
         config->initiator.turn_mps2 = 0.2f * config->tracker.accel_max_mps2;
     } else if (length == 6 && strncmp(argument, "radars", length) == 0) {
         config->sensors = radars;
@@ -171,7 +177,7 @@ static int set_option(struct node_config *config, const char *argument)
     return 1;
 }
 
-static int start_node(int count, char **arguments)
+static int start_node_with_options(int count, char **arguments)
 {
     struct node_config config;
     node_config_default(&config);
@@ -181,14 +187,14 @@ static int start_node(int count, char **arguments)
         }
     }
     config.send = send_datagram;
-    config.stepped = count_step;
-    config.clock_us = no_clock;
+    config.stepped = tally_step;
+    config.clock_us = zero_clock_us;
     return node_start(&config) == RHO_OK;
 }
 
 /*
- * A datagram that made a step counts with it; parts of a scan before its last are added to the
- * next.
+ * Gives a datagram to the node and counts instructions a step; those of a scan's earlier parts
+ * count with the step that its last part causes.
  */
 static void receive_and_measure(const uint8_t *datagram, size_t size)
 {
@@ -212,7 +218,7 @@ static void receive_and_measure(const uint8_t *datagram, size_t size)
     since_step = 0;
 }
 
-static void say_number(const char *text, uint32_t number)
+static void print_number(const char *text, uint32_t number)
 {
     char digits[11];
     char *first = digits + sizeof digits - 1;
@@ -225,18 +231,18 @@ static void say_number(const char *text, uint32_t number)
     files_say(first);
 }
 
-static void say_tally(void)
+static void print_tally(void)
 {
-    say_number("steps ", tally.steps);
-    say_number(" reports ", tally.track_reports);
-    say_number(" partial ", tally.partial_steps);
+    print_number("steps ", tally.steps);
+    print_number(" reports ", tally.track_reports);
+    print_number(" partial ", tally.partial_steps);
     if (tally.instructions_max > 0 && tally.instructions_steps > 0) {
-        say_number(" instructions mean ",
-                   (uint32_t)(tally.instructions_sum / tally.instructions_steps));
-        say_number(" max ", tally.instructions_max);
+        print_number(" instructions mean ",
+                     (uint32_t)(tally.instructions_sum / tally.instructions_steps));
+        print_number(" max ", tally.instructions_max);
     }
     if (files_stack_used() > 0) {
-        say_number(" stack ", (uint32_t)files_stack_used());
+        print_number(" stack ", (uint32_t)files_stack_used());
     }
     files_say("\n");
 }
@@ -251,15 +257,15 @@ int main(int argc, char **argv)
         files_say("usage: replay IN.lcm OUT.lcm [NAME=VALUE ...]; or a file does not open\n");
         return 2;
     }
-    if (!start_node(argc - 3, argv + 3)) {
+    if (!start_node_with_options(argc - 3, argv + 3)) {
         files_say("replay: a setting is not known, or not taken\n");
         return 2;
     }
-    while ((size = read_datagram(input, datagram)) > 0) {
+    while ((size = read_event_as_datagram(input, datagram)) > 0) {
         receive_and_measure(datagram, size);
     }
     node_flush();
     has_failed |= !files_close(output);
-    say_tally();
+    print_tally();
     return has_failed;
 }

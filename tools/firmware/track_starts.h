@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * track_starts: how tracks of the node start. A node has one of
+ * track_starts: how the node starts tracks. A node is linked with one of
  *
  *     track_starts_best.c    the library's initiator, for bearings its passive search
  *     track_starts_paper.c   the papers' methods: Hough transforms of plots and of bearings
@@ -13,19 +13,22 @@
 #include "node.h"
 #include "rhotrack/node.h"
 
-/* A node of a library without bearings carries none of their code and memory. */
+/* 1 where the library handles bearings; else their code and memory are left out of the node. */
 #define NODE_HAS_BEARINGS RHO_SCAN_ASSEMBLER_HAS(RHO_SCAN_ASSEMBLER_BEARINGS)
 
-/* With the tracker: at the start, and where it begins anew. Errors: those of the objects' init. */
+/*
+ * Initialises the initiators; called together with the tracker's init at the start and at restarts.
+ * Errors are those of the init functions.
+ */
 RHO_MUST_CHECK enum rho_status track_starts_open(const struct node_config *config);
 
-/* How the node's frames of bearings start tracks. */
+/* Sets in the node's config how frames of bearings start tracks. */
 void track_starts_of_bearings(struct rho_node_config *config);
 
-/* rho_node_step, and the tracks that start. */
+/* Calls rho_node_step, and starts tracks from its scan or frame. */
 RHO_MUST_CHECK enum rho_status track_starts_step(struct rho_node *node);
 
-/* What the node's messages tell of; NULL: there is none. */
+/* The initiator whose state the node publishes; NULL where there is none. */
 const struct rho_initiator *track_starts_initiator(void);
 
 #endif

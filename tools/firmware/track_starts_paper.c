@@ -6,8 +6,8 @@
 static struct rho_paper_starts starts;
 static struct rho_passive_paper paper;
 
-/* The paper's cells where they reach, wider ones where the radar sees farther. */
-static void fit_cells(struct rho_hough_config *hough, float range_m)
+/* Keeps the paper's rho cells where RHO_MAX_RHO_CELLS of them cover the range, else widens them. */
+static void widen_cells_to_range(struct rho_hough_config *hough, float range_m)
 {
     const float cell_m = 2.0f * range_m / (float)(RHO_MAX_RHO_CELLS - 2);
     if (cell_m > hough->rho_cell_m) {
@@ -17,7 +17,7 @@ static void fit_cells(struct rho_hough_config *hough, float range_m)
     hough->rho_max_m = 0.5f * (float)(RHO_MAX_RHO_CELLS - 1) * hough->rho_cell_m;
 }
 
-static enum rho_status open_paper(void)
+static enum rho_status init_passive_paper(void)
 {
     struct rho_passive_paper_config search;
     rho_passive_paper_config_default(&search);
@@ -31,9 +31,9 @@ enum rho_status track_starts_open(const struct node_config *config)
     rho_paper_starts_config_default(&own, RHO_HOUGH_NHT_C);
     own.hough.v_min_mps = config->initiator.v_min_mps;
     own.hough.v_max_mps = config->initiator.v_max_mps;
-    fit_cells(&own.hough, NODE_RANGE_MAX_M);
+    widen_cells_to_range(&own.hough, NODE_RANGE_MAX_M);
     status = rho_paper_starts_init(&starts, sizeof starts, &own);
-    return status == RHO_OK ? open_paper() : status;
+    return status == RHO_OK ? init_passive_paper() : status;
 }
 
 void track_starts_of_bearings(struct rho_node_config *config)
@@ -41,7 +41,10 @@ void track_starts_of_bearings(struct rho_node_config *config)
     config->apart_max_m = paper.batch.apart_max_m;
 }
 
-/* Sensors that do not go with those of the batch begin another one. */
+/*
+ * Starts tracks from a closed frame of bearings; where its sensors do not fit the batch, begins a
+ * new batch.
+ */
 static enum rho_status start_from_bearings(const struct rho_node_config *node)
 {
     struct rho_frame_view view;
@@ -49,7 +52,7 @@ static enum rho_status start_from_bearings(const struct rho_node_config *node)
         rho_passive_paper_step(&paper, node->tracker, &view.frame, node->report) == RHO_OK) {
         return RHO_OK;
     }
-    return open_paper();
+    return init_passive_paper();
 }
 
 enum rho_status track_starts_step(struct rho_node *node)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks the register of claims: the tables tools/lab/claims/*.ini are as they should be, each
-file, function and test that they name exists, and the page tools/lab/CLAIMS.md has each of their
-rows, with a verdict.
+"""Checks the register of the papers' claims: the tables tools/lab/claims/*.ini are valid, each
+file, function and test that they name exists, and the page tools/lab/CLAIMS.md has a verdict for
+each row.
 
 Usage: claims.py [TABLES [PAGE]]
 Prints a line for each fault; exit 1 if there is one.
@@ -23,8 +23,8 @@ VERDICT = re.compile(r"\*\*(holds|fails|cannot be known|definition|not measured)
 
 
 @functools.cache
-def names_in(file):
-    """The functions that a C file defines or a Python file has (classes, too); None: no file."""
+def functions_in_file(file):
+    """Names of the functions that a C or Python file defines (classes, too); None: no such file."""
     path = ROOT / file
     if not path.is_file():
         return None
@@ -36,18 +36,19 @@ def names_in(file):
 
 
 @functools.cache
-def tests_in(file):
-    """The tests that a file runs."""
+def tests_in_file(file):
+    """Names of the tests in a C or Python test file; None: no such file."""
     path = ROOT / file
     if not path.is_file():
         return None
     if file.endswith(".py"):
-        return {name for name in names_in(file) if name.startswith("test_")}
+        return {name for name in functions_in_file(file) if name.startswith("test_")}
     return set(re.findall(r"cmocka_unit_test\w*\((\w+)", path.read_text(encoding="utf-8")))
 
 
-def faults_of(row):
-    for what, pairs, names in (("function", row.code, names_in), ("test", row.test, tests_in)):
+def faults_of_row(row):
+    for what, pairs, names in (("function", row.code, functions_in_file),
+                               ("test", row.test, tests_in_file)):
         for file, name in pairs:
             if names(file) is None:
                 yield f"{row.file}: [{row.name}]: no file {file}"
@@ -56,7 +57,8 @@ def faults_of(row):
 
 
 def faults_of_page(page, papers):
-    """By paper, as two papers have a row of the same name."""
+    """A line for each row of the tables that is not in the page, or has no verdict there. Rows are
+    looked up by paper, as two papers have rows of the same name."""
     parts = dict(re.findall(r"^## (.*)\n((?:(?!## ).*\n)*)", page.read_text(encoding="utf-8"),
                             re.MULTILINE))
     name = page.name
@@ -79,7 +81,8 @@ def main():
     except table.Fault as fault:
         sys.exit(f"claims: {fault}")
     rows = [row for paper in papers for row in paper.rows]
-    found = [fault for row in rows for fault in faults_of(row)] + list(faults_of_page(page, papers))
+    found = [fault for row in rows for fault in faults_of_row(row)]
+    found += faults_of_page(page, papers)
     print("\n".join(found) or f"claims: {len(rows)} rows name what exists, and have verdicts")
     sys.exit(1 if found else 0)
 

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# The same input gives the same bytes, whatever the compiler and its optimisation: builds the
-# program with gcc and clang at -O0 and -O3, lets each simulate, track, initiate by every method,
-# and maintain, with a fixed seed, plots and bearings, and compares all files.
+# Checks that the program's output is the same bytes whatever the compiler and its optimisation:
+# builds it with gcc and clang at -O0 and -O3, runs simulate, track, initiate with every method, and
+# maintain on plots and bearings with a fixed seed, and compares all files.
 set -eu
 cd "$(dirname "$0")/../.."
 build=${BUILD:-build}/determinism
@@ -12,7 +12,8 @@ variants='gcc-O0 gcc-O3 clang-O0 clang-O3'
 
 unset MAKEFLAGS MAKELEVEL MFLAGS
 mkdir -p "$build"
-make_variant() { # gcc-O0
+# make_variant gcc-O0: builds the program with this compiler and optimisation
+make_variant() {
     folder=$build/$1
     make --no-print-directory -s BUILD="$folder" CC="${1%-*}" OPT="-${1#*-}" "$folder/rhotrack" \
         >"$build/$1.log" 2>&1 || { grep -v '^  ' "$build/$1.log"; echo \
@@ -23,7 +24,8 @@ export build
 # shellcheck disable=SC2086 # words on purpose
 printf '%s\n' $variants | xargs -P "$(nproc)" -I{} bash -euc 'make_variant {}'
 
-run() { # variant, scenario: its files in output/SCENARIO
+# run_scenario VARIANT SCENARIO: runs the commands; their files are in output/SCENARIO
+run_scenario() {
     local rhotrack=$build/$1/rhotrack data=$build/$1/output/$2 method files='tracks.csv found.csv' \
         input=plots.csv
     local more=()
@@ -36,7 +38,7 @@ run() { # variant, scenario: its files in output/SCENARIO
     "$rhotrack" simulate "$2" --seed 3 "${more[@]}" -o "$data" &&
         "$rhotrack" track "$data/$input" --covariance -o "$data/tracks.csv" &&
         "$rhotrack" initiate "$data/$input" -o "$data/found.csv" || return 1
-    if [ "$2" = crossing ]; then # traffic's area has too many cells of 5 m
+    if [ "$2" = crossing ]; then # the area of traffic is too large for cells of 5 m
         for method in ht mht iht nht; do
             "$rhotrack" initiate "$data/plots.csv" --method "$method" -o "$data/$method.csv" \
                 || return 1
@@ -44,7 +46,7 @@ run() { # variant, scenario: its files in output/SCENARIO
         done
     fi
     if [ "$2" = popup ]; then
-        files=tracks.csv # the last scans start no track
+        files=tracks.csv # in the last scans initiate finds no track
         for method in best hough nearest; do
             "$rhotrack" maintain "$data/plots.csv" --gate "$method" --covariance -o \
                 "$data/$method.csv" || return 1
@@ -63,7 +65,7 @@ for variant in $variants; do
     rm -rf "$build/$variant/output"
     for scenario in $scenarios; do
         mkdir -p "$build/$variant/output/$scenario"
-        run "$variant" "$scenario" >"$build/$variant.log" 2>&1 || {
+        run_scenario "$variant" "$scenario" >"$build/$variant.log" 2>&1 || {
             cat "$build/$variant.log"
             echo "determinism: $variant fails on scenario $scenario"
             exit 1

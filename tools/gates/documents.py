@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks the written documents: lengths, lines, links, and that the files and functions that they
-name exist.
+"""Checks the Markdown documents: number of words, width of lines, links, and that the files and
+functions that they name exist.
 
 Usage: documents.py [FOLDER]
 FOLDER has the documents (default: this repository); the files that they name are always those of
@@ -12,10 +12,10 @@ import re
 import sys
 
 HOME = pathlib.Path(__file__).resolve().parent.parent.parent
-# CHANGELOG names files of the past, and commands write the measurements and the register of claims,
-# whose names tools/gates/claims.py checks.
+# Documents that are not checked: CHANGELOG names former files; measurements and the register of
+# claims are generated, and tools/gates/claims.py checks the latter.
 NOT_WRITTEN = {"CHANGELOG.md", "tools/lab/CLAIMS.md", "tools/lab/MEASUREMENTS.md"}
-# Words of README.md (outside code and tables), of DESIGN, of all documents.
+# Most words of README.md (outside code and tables), of DESIGN.md, of all documents; most columns.
 README_MOST, DESIGN_MOST, ALL_MOST, COLUMNS = 1200, 14000, 26000, 100
 FOREIGN = {
     "stdio.h", "stdbool.h", "stdlib.h", "stdint.h", "stddef.h", "string.h", "math.h", "errno.h",
@@ -24,14 +24,14 @@ FOREIGN = {
 PLACEHOLDER = re.compile(r"[A-Z]{3,}")
 
 
-def tree():
-    """All files of the repository but what is built."""
+def repository_files():
+    """All files of the repository except build folders and .git."""
     return [path.relative_to(HOME).as_posix() for path in HOME.rglob("*")
             if path.is_file() and not re.match(r"build|\.git/", path.relative_to(HOME).as_posix())]
 
 
-def prose(text):
-    """The lines outside code and tables, with their numbers."""
+def prose_lines(text):
+    """(number, line) of the lines outside code blocks and tables."""
     in_code = False
     for number, line in enumerate(text.splitlines(), 1):
         if line.startswith("```"):
@@ -40,14 +40,14 @@ def prose(text):
             yield number, line
 
 
-def anchors(text):
-    """The headings as GitHub's links name them."""
+def heading_anchors(text):
+    """The anchors of the headings, as GitHub's links name them."""
     return {re.sub(r"[^\w\- ]", "", line.lstrip("# ").lower()).replace(" ", "-")
-            for _, line in prose(text) if line.startswith("#")}
+            for _, line in prose_lines(text) if line.startswith("#")}
 
 
 def broken_links(folder, name, text):
-    for number, line in prose(text):
+    for number, line in prose_lines(text):
         for target in re.findall(r"\]\(([^)\s]+)\)", line):
             if re.match(r"[a-z]+:", target):
                 continue
@@ -59,13 +59,13 @@ def broken_links(folder, name, text):
             found = next((place for place in places if place.exists()), None)
             if found is None:
                 yield f"{name}:{number}: no file {target}"
-            elif anchor and anchor not in anchors(found.read_text(encoding="utf-8")):
+            elif anchor and anchor not in heading_anchors(found.read_text(encoding="utf-8")):
                 yield f"{name}:{number}: no heading {target}"
 
 
 def unknown_files(name, text, files):
-    """Sources that are named and not there; `_cases.c` is the end of a name, FILE.c a
-    placeholder."""
+    """A line for each source file that is named but does not exist; `_cases.c` may be the end of a
+    name, FILE.c is a placeholder."""
     for number, line in enumerate(text.splitlines(), 1):
         for found in re.findall(r"(?<![\w./*-])[\w./-]*\w\.(?:c|h|py|sh|bash)\b(?![\w/(])", line):
             end = found.lstrip("./") if found.startswith((".", "_")) else "/" + found
@@ -81,8 +81,8 @@ def unknown_functions(name, text, names):
                 yield f"{name}:{number}: no function or type {found}"
 
 
-def faults(folder):
-    files = tree()
+def faults_of_documents(folder):
+    files = repository_files()
     sources = [
         path for path in files
         if re.match(r"(include|src|tools|tests)/.*\.[ch]$|lcm_types/.*\.lcm$", path)
@@ -103,10 +103,10 @@ def faults(folder):
         yield from broken_links(folder, name, text)
         yield from unknown_files(name, text, files)
         yield from unknown_functions(name, text, names)
-        yield from (f"{name}:{number}: {len(line)} columns" for number, line in prose(text)
+        yield from (f"{name}:{number}: {len(line)} columns" for number, line in prose_lines(text)
                     if len(line) > COLUMNS)
         if name == "README.md":
-            length = sum(len(line.split()) for _, line in prose(text))
+            length = sum(len(line.split()) for _, line in prose_lines(text))
         most = {"README.md": README_MOST, "src/DESIGN.md": DESIGN_MOST}.get(name, ALL_MOST)
         if length > most:
             yield f"{name}: {length} words, at most {most}"
@@ -115,7 +115,8 @@ def faults(folder):
 
 
 def main():
-    found = list(faults(pathlib.Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else HOME))
+    folder = pathlib.Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else HOME
+    found = list(faults_of_documents(folder))
     print("\n".join(found) or "documents: lengths, links and names hold")
     sys.exit(1 if found else 0)
 

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# The C examples of a document are true: each ```c block that has a main is compiled with gcc and
-# clang, all warnings as errors, linked with the library, and run: it must exit with 0. Blocks
-# without a main are compiled only. Usage: extract_example.sh [DOCUMENT [LIBRARY]]
+# Checks the C examples of a document: each ```c block with a main is compiled with gcc and clang,
+# all warnings as errors, linked with the library, and run; it must exit with 0. Blocks without a
+# main are only compiled. Usage: extract_example.sh [DOCUMENT [LIBRARY]]
 set -eu
 cd "$(dirname "$0")/../.."
 document=${1:-README.md}

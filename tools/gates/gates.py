@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the library must never have, looked for in its objects for the processors that it is made
-for.
+"""Checks the library's cross-compiled objects for what it must never contain.
 
-On each target at -Os: symbols from elsewhere but memcpy, memset, memmove, memcmp and the compiler's
-own arithmetic on integers and single precision (CHARGES of stack.py); mutable globals; frames that
-grow at run time; calls by a pointer; recursion. The last three also on a graph of -O0, as -Os can
-turn a recursion into a loop. tools/gates/poison.sh looks at the sources and at this machine's
+Forbidden on each target at -Os: external symbols other than memcpy, memset, memmove, memcmp and the
+compiler's arithmetic on integers and single precision (CHARGES of stack.py); mutable globals;
+frames of variable size; calls by a pointer; recursion. The last three are also checked at -O0, as
+-Os can turn a recursion into a loop. tools/gates/poison.sh checks the sources and this machine's
 objects.
 
-Usage: gates.py [--target m0plus,m4f,m7,r5f,rv32] [ROOT]. Prints FILE:LINE: function: what is wrong; exit 1 where anything
-is.
+Usage: gates.py [--target m0plus,m4f,m7,r5f,rv32] [ROOT]. Prints FILE:LINE: function: fault; exit 1
+where there is any.
 """
 import argparse
 import re
@@ -36,52 +35,56 @@ KINDS = [
     ("libm, float", LIBM + "f"),
 ]
 MUTABLE = "BbCcDdGgSsVv" # types of nm: data, common, small data, weak objects
-UNOPTIMISED = "m4f" # looked at at -O0, too
+UNOPTIMISED = "m4f" # target that is checked at -O0, too
 
 
-def kind_of(symbol):
+def kind_of_symbol(symbol):
     return next((kind for kind, names in KINDS if re.fullmatch(names, symbol)), "not the library's")
 
 
-def foreign(symbols, graph):
-    """Symbols that the library may not take from elsewhere, by the functions that call them, or by
-    their files."""
+def foreign_symbols(symbols, graph):
+    """A line for each function (or file) that uses an external symbol which is not allowed."""
     wanted = {}
     for source, letter, symbol in symbols:
-        if letter in "Uw" and not symbol.startswith("rho_") and stack.charge(symbol) is None:
+        if letter in "Uw" and not symbol.startswith("rho_") and stack.charged_bytes(symbol) is None:
             wanted.setdefault(symbol, []).append(source)
     for symbol, sources in sorted(wanted.items()):
-        what = f"{symbol} ({kind_of(symbol)})"
+        what = f"{symbol} ({kind_of_symbol(symbol)})"
         callers = graph.callers(symbol)
-        yield from (f"{graph.places[name]}: {stack.short(name)}: calls {what}" for name in callers)
+        yield from (f"{graph.places[name]}: {stack.short_name(name)}: calls {what}"
+                    for name in callers)
         yield from (f"{source}: refers to {what}" for source in sources if not callers)
 
 
-def mutable(symbols):
+def mutable_globals(symbols):
     for source, letter, symbol in symbols:
         if letter in MUTABLE:
             yield f"{source}: {symbol}: mutable global"
 
 
-def shape(graph):
-    """What the graph of calls may not have."""
+def call_graph_faults(graph):
+    """A line for each frame of variable size, call by a pointer, and recursion in the call
+    graph."""
     for name in sorted(graph.growing):
-        yield f"{graph.places[name]}: {stack.short(name)}: frame grows at run time"
+        yield f"{graph.places[name]}: {stack.short_name(name)}: frame grows at run time"
     for name in graph.callers(stack.INDIRECT):
-        yield f"{graph.places[name]}: {stack.short(name)}: calls by a pointer"
+        yield f"{graph.places[name]}: {stack.short_name(name)}: calls by a pointer"
     for cycle in graph.cycles():
-        yield f"{graph.places[cycle[0]]}: {stack.short(cycle[0])}: recursion: {' > '.join(map(stack.short, cycle))}"
+        names = [stack.short_name(name) for name in cycle]
+        yield f"{graph.places[cycle[0]]}: {names[0]}: recursion: {' > '.join(names)}"
 
 
-def findings(target, root):
-    """All of one target, as text and where it was seen."""
+def faults_of_target(target, root):
+    """(fault, target and optimisation) of everything wrong on one target."""
     build = cross.Build(target, root)
-    graph = stack.Graph(build)
+    graph = stack.CallGraph(build)
     symbols = list(build.symbols())
-    for text in [*foreign(symbols, graph), *mutable(symbols), *shape(graph)]:
+    for text in [*foreign_symbols(symbols, graph), *mutable_globals(symbols),
+                 *call_graph_faults(graph)]:
         yield text, build.target.title
     if target == UNOPTIMISED:
-        for text in shape(stack.Graph(cross.Build(target, root, optimisation="-O0"))):
+        unoptimised = stack.CallGraph(cross.Build(target, root, optimisation="-O0"))
+        for text in call_graph_faults(unoptimised):
             yield text, f"{build.target.title} -O0"
 
 
@@ -93,12 +96,12 @@ def main():
     parser.add_argument("root", nargs="?", default=cross.HOME)
     options = parser.parse_args()
     targets = options.target.split(",")
-    for compiler in cross.missing(targets):
+    for compiler in cross.missing_compilers(targets):
         print(f"skipped: gates: no {compiler} here (tools/setup.sh installs it)")
-    targets = [name for name in targets if cross.TARGETS[name].is_there()]
+    targets = [name for name in targets if cross.TARGETS[name].is_installed()]
     found = {}
     for target in targets:
-        for text, where in findings(target, options.root):
+        for text, where in faults_of_target(target, options.root):
             found.setdefault(text, []).append(where)
     for text, places in sorted(found.items()):
         print(f"{text} [{', '.join(places)}]")

@@ -1,22 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Checks every #include of the library against the table of rooms in src/DESIGN.md, and the objects
-for circles of files.
+for circular dependencies of files.
 
 A room is a folder of src/. A public header (include/rhotrack/, include/rhotrack/detail/) belongs to
 the room that has the source of its name, or of the longest name that it begins with; else to the
 first room. A file may include the headers of its own room, those of the rooms that the table lists
 for it (`all above`: every earlier row), a public header that declares a function which it defines,
-private headers of its own folder, and the system headers below. No function has an #if inside: an
-option is an `if` on a constant, or a file that the build chooses.
+private headers of its own folder, and the system headers below. A function must not contain an #if:
+an option is an `if` on a constant, or a file that the build chooses.
 
-Files that need one another, directly or through others, are a circle: one file, or there is a third
-one below them. The symbols of the objects tell, in BUILD/embedded/src and
-BUILD/program/tools/rhotrack. No object of the program needs one of the lab,
-BUILD/program/tools/lab.
+Files that need one another, directly or through others, must not form a circle; such files are to
+be merged, or their common part moved to a third file. Dependencies are read from the symbols of the
+objects in BUILD/embedded/src and BUILD/program/tools/rhotrack. No object of the program may need
+one of the lab, BUILD/program/tools/lab.
 
-Usage: layers.py [ROOT [BUILD]]. Prints FILE:LINE: what is wrong; exit 1 where anything is. BUILD: default $BUILD or build;
-objects that are not there are not looked at.
+Usage: layers.py [ROOT [BUILD]]. Prints FILE:LINE: fault; exit 1 where there is any. BUILD: default
+$BUILD or build; missing objects are not checked.
 """
 import os
 import pathlib
@@ -25,12 +25,12 @@ import subprocess
 import sys
 
 SYSTEM = {"float.h", "stdint.h", "stdbool.h", "stddef.h", "string.h", "math.h"}
-UMBRELLA = "rhotrack"  # rhotrack.h includes what users call, of every room
+UMBRELLA = "rhotrack"  # rhotrack.h includes public headers of every room
 
 
-def read_table(path):
-    """{room: rooms it may include}, and what is wrong with the table itself, as (path, line,
-    text)."""
+def read_room_table(path):
+    """{room: rooms it may include} from the table in DESIGN.md, and the table's own faults as
+    (path, line, text)."""
     allowed, problems, in_section = {}, [], False
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         if line.startswith("#"):
@@ -51,8 +51,8 @@ def read_table(path):
     return allowed, problems
 
 
-def includes_of(text):
-    """(line, kind, name) of every #include, comments left out; kind is <, \" or empty (a macro)."""
+def list_includes(text):
+    """(line, kind, name) of every #include outside comments; kind is <, \" or empty (a macro)."""
     blank = lambda match: re.sub(r"[^\n]", " ", match.group())
     code = re.sub(r"/\*.*?\*/", blank, text, flags=re.DOTALL)
     for number, line in enumerate(code.splitlines(), 1):
@@ -61,8 +61,8 @@ def includes_of(text):
             yield number, found.group(1), found.group(2)
 
 
-def conditions_inside(text):
-    """Lines of #if and the like between a function's braces, which stand alone in the first
+def conditionals_in_functions(text):
+    """Line numbers of #if, #else and #endif within functions, whose braces are alone in the first
     column."""
     inside = False
     for number, line in enumerate(text.splitlines(), 1):
@@ -71,23 +71,23 @@ def conditions_inside(text):
             yield number
 
 
-def declares_one(header, text):
-    """True where a header declares a function that a source defines."""
+def declares_function_of(header, text):
+    """True where a header declares a function that the source `text` defines."""
     defined = re.findall(r"^\w[\w *]*?\b(rho_\w+)\([^;{]*\)\n\{", text, re.MULTILINE)
     declared = re.findall(r"\b(rho_\w+)\(", header.read_text(encoding="utf-8"))
     return not set(defined).isdisjoint(declared)
 
 
-def check_file(path, room, rooms, allowed, include):
-    """What is wrong with one file, as (path, line, text). rooms: {stem of a public header: its
-    room}; include: the folder of rhotrack/."""
+def faults_of_file(path, room, rooms, allowed, include):
+    """Faults of one file's includes, as (path, line, text). rooms: {stem of a public header: its
+    room}; include: the folder that contains rhotrack/."""
     if room not in allowed:
         yield path, 1, f"room {room} has no row in the table"
         return
     text = path.read_text(encoding="utf-8")
-    for number in conditions_inside(text):
+    for number in conditionals_in_functions(text):
         yield path, number, "#if inside a function"
-    for number, kind, name in includes_of(text):
+    for number, kind, name in list_includes(text):
         target = pathlib.PurePosixPath(name)
         if kind == "<":
             if name not in SYSTEM:
@@ -100,7 +100,7 @@ def check_file(path, room, rooms, allowed, include):
             if home is None or not (include / name).is_file():
                 yield path, number, f"there is no header {name}"
             elif home != room and home not in allowed[room] and not (
-                    path.suffix == ".c" and declares_one(include / name, text)):
+                    path.suffix == ".c" and declares_function_of(include / name, text)):
                 yield path, number, f"{room} may not include {name} of {home}"
         elif "include" in path.parts or not (path.parent / target).is_file():
             yield path, number, f"private header \"{name}\""
@@ -109,23 +109,23 @@ def check_file(path, room, rooms, allowed, include):
             yield path, number, f"{room} may not include {name}"
 
 
-class Objects:
-    """Which object files of a folder need which."""
+class ObjectDependencies:
+    """Which object files of some folders need symbols of which others."""
 
     def __init__(self, root, build, *folders):
         self.defined, self.undefined = {}, {}
         for folder in folders:
             for path in sorted((build / folder).rglob("*.o")):
                 source = path.relative_to(build).with_suffix(".c")
-                if (root / source).is_file():  # else left over from a file that was moved
-                    self.read(path, str(source))
+                if (root / source).is_file():  # else the object is left over from a moved source
+                    self.read_object(path, str(source))
         self.needs = {
             name: sorted({self.defined[symbol]
                           for symbol in symbols if symbol in self.defined} - {name})
             for name, symbols in self.undefined.items()
         }
 
-    def read(self, path, name):
+    def read_object(self, path, name):
         self.undefined[name] = set()
         listed = subprocess.run(["nm", path], capture_output=True, text=True, check=True).stdout
         for words in map(str.split, listed.splitlines()):
@@ -134,8 +134,8 @@ class Objects:
             elif words[1] in "TDBRVWC":
                 self.defined[words[2]] = name
 
-    def reached(self, name):
-        """Every file that this one needs, directly or through others."""
+    def all_needed_by(self, name):
+        """Every file that `name` needs, directly or through others."""
         found, waiting = set(), list(self.needs[name])
         while waiting:
             other = waiting.pop()
@@ -145,36 +145,37 @@ class Objects:
         return found
 
     def circles(self):
-        reached = {name: self.reached(name) for name in self.needs}
+        reached = {name: self.all_needed_by(name) for name in self.needs}
         found = {
             frozenset(other for other in reached[name] if name in reached[other])
             for name in reached
         }
         return sorted(sorted(circle) for circle in found if len(circle) > 1)
 
-    def symbols(self, name, other):
+    def symbols_needed(self, name, other):
         return sorted(
             symbol for symbol in self.undefined[name] if self.defined.get(symbol) == other)
 
 
-def check_objects(root, build):
-    """What is wrong between object files, as texts."""
-    library = Objects(root, build / "embedded", "src")
-    program = Objects(root, build / "program", "tools/rhotrack", "tools/lab")
+def faults_between_objects(root, build):
+    """A line for each circle of object files, and for each that needs the lab."""
+    library = ObjectDependencies(root, build / "embedded", "src")
+    program = ObjectDependencies(root, build / "program", "tools/rhotrack", "tools/lab")
     for objects in (library, program):
         for circle in objects.circles():
             if not circle[0].startswith("tools/lab"):
-                calls = [f"{name} needs {other} ({objects.symbols(name, other)[0]})"
+                calls = [f"{name} needs {other} ({objects.symbols_needed(name, other)[0]})"
                          for name in circle for other in objects.needs[name] if other in circle]
                 yield f"circle of {len(circle)} files: " + "; ".join(calls)
     for name, needs in program.needs.items():
         for other in needs:
             if name.startswith("tools/rhotrack") and other.startswith("tools/lab"):
-                yield f"{name} needs {other} of the lab ({program.symbols(name, other)[0]})"
+                yield f"{name} needs {other} of the lab ({program.symbols_needed(name, other)[0]})"
 
 
-def owner(stem, sources):
-    """The room of the source of this name, or of the longest name that this one begins with."""
+def room_of_header(stem, sources):
+    """Room of the source with the header's name, or with the longest name that the header's begins
+    with."""
     names = [name for name in sources if stem == name or stem.startswith(name + "_")]
     return sources[max(names, key=len)] if names else None
 
@@ -185,23 +186,23 @@ def main():
     table = root / "src" / "DESIGN.md"
     if not table.is_file():
         sys.exit(f"layers: {table} with the table of rooms is missing")
-    allowed, problems = read_table(table)
+    allowed, problems = read_room_table(table)
     first = next(iter(allowed), None)
     sources = {path.stem: path.parent.name for path in root.glob("src/*/*.c")}
     headers = sorted(root.glob("include/**/*.h"))
-    rooms = {path.stem: owner(path.stem, sources) or first for path in headers}
+    rooms = {path.stem: room_of_header(path.stem, sources) or first for path in headers}
     files = sorted(root.glob("src/**/*.[ch]"))
     for path in files:
-        problems.extend(check_file(path, path.relative_to(root / "src").parts[0], rooms, allowed,
-                                   root / "include"))
+        problems.extend(faults_of_file(path, path.relative_to(root / "src").parts[0], rooms,
+                                       allowed, root / "include"))
     for path in headers:
         if path.stem != UMBRELLA:
             problems.extend(
-                check_file(path, rooms[path.stem], rooms, allowed, root / "include"))
+                faults_of_file(path, rooms[path.stem], rooms, allowed, root / "include"))
     for path, number, text in problems:
         print(f"{path.relative_to(root)}:{number}: {text}")
     between = list(
-        check_objects(
+        faults_between_objects(
             root,
             pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else os.environ.get("BUILD", "build"))))
     for text in between:

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Changes each policy constant of the library (gates, decays, limits) by a factor of two, and the
-row from which a claim counts from 0 to 1, and says which change no test notices.
+"""Mutation test: changes each policy constant of the library (gates, decays, limits) by a factor of
+two, and each comparison of a row number `>= 0` to `>= 1`, and lists the changes that no test
+notices.
 
 A constant is a `#define NAME number` or a `static const` number in src/. Constants that are no
 policy are left out: magic numbers, bits, units, check sums, the coefficients of src/base, floating
-point numbers of 1e12 and more, which only keep arithmetic finite, and those of ALIKE. A mutant is
-noticed where it does not compile, or a golden file differs, or a compiled test of `make test` fails
-or does not end; and does so again, since a machine under load fails tests that are right. A program
-that somebody kills says nothing: the run ends. Programs whose bytes the mutant leaves as they were
-are not run. Each is tried in a copy of the sources, in BUILD/mutate; one copy for each of the
---jobs.
+point numbers of 1e12 and more, which only keep arithmetic finite, and those in ALIKE. A mutant is
+noticed where it does not compile, a golden file differs, or a compiled test of `make test` fails or
+times out; each twice, as tests may fail on a loaded machine. Where a program is killed from
+outside, the run ends without a result. Programs that are the same bytes with the mutant are not
+run. Mutants are tried in copies of the sources in BUILD/mutate, one copy for each of the --jobs.
 
 Usage: mutate.py [--sample N] [--seed S] [--only REGEX] [--jobs N]. Prints each mutant; exit 1 where
 fewer than nine in ten are noticed.
@@ -37,8 +37,8 @@ NO_POLICY = re.compile(
     r"MAGIC|VERSION|BITS|MASK|SHIFT|EXPONENT|_H$|PI\b|HALF|OFFSET|PRIME|POLYNOM|ROUNDING|EPSILON"
     r"|TURN_(HIGH|MIDDLE|LOW)|^SECOND_US$|^CHECK_(START|FACTOR)$|^NAT_PER_MNAT$|^M2_PER_KM2$")
 GUARD_MIN = 1e12
-# file: constants by which only the time or the stack of a call changes: cost models that choose
-# between two ways to the same result, and how many elements one pass takes
+# {file: constants that change only the time or stack of a call, not its result}: cost models that
+# choose between two algorithms, numbers of elements a pass
 ALIKE = {
     "src/association/hypotheses_soundness.c": r"PASS_NODES$",
     "src/tracker/tracker_soundness.c": r"PASS_SLOTS$",
@@ -65,7 +65,7 @@ def mutants_of(root):
             found = CONSTANT.match(line)
             constant = found and (found["define"] or found["const"])
             if found and is_policy(name, constant, found["number"]):
-                for value in filter(None, (changed(found, 2), changed(found, 0.5))):
+                for value in filter(None, (scaled_number(found, 2), scaled_number(found, 0.5))):
                     yield name, number, constant, found, value
             for found in ROW.finditer(line):
                 yield name, number, found["name"], found, "1"
@@ -77,7 +77,7 @@ def is_policy(path, constant, number):
             and not re.match(ALIKE.get(path, "$^"), constant))
 
 
-def changed(found, factor):
+def scaled_number(found, factor):
     """The number times the factor, in the same type; None where an integer does not change."""
     if re.search("[.e]", found["number"]):
         value = f"{float(found['number']) * factor:.9g}"
@@ -86,8 +86,8 @@ def changed(found, factor):
     return str(value) if value not in (0, int(found["number"])) else None
 
 
-class Tree:
-    """A copy of the sources with a build of its own."""
+class SourceCopy:
+    """A copy of the sources with its own build folder, in which mutants are tried."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -95,26 +95,27 @@ class Tree:
         for name in FOLDERS:
             if (ROOT / name).is_dir():
                 shutil.copytree(ROOT / name, folder / name, dirs_exist_ok=True,
-                                copy_function=self.copy)
+                                copy_function=self.copy_if_different)
             else:
-                self.copy(ROOT / name, folder / name)
+                self.copy_if_different(ROOT / name, folder / name)
         makefile = (folder / "Makefile").read_text()
         self.left_out = re.search(r"^left_out := (.*)$", makefile, re.M)[1].split()
-        self.bytes = {}  # hash of each program of the sources without a change
+        self.bytes = {}  # hash of each program built from the unchanged sources
         what = self.noticed_by("base", "status")
         if what:
             sys.exit(f"mutate: {what} notices the sources without a change")
-        self.bytes = {program: self.hash(program) for program in PROGRAMS + self.all_tests()}
+        self.bytes = {program: self.hash_of_program(program)
+                      for program in PROGRAMS + self.all_test_programs()}
 
     @staticmethod
-    def copy(source, target):
-        """Only what differs, so that make compiles no more than it must."""
+    def copy_if_different(source, target):
+        """Copies a file only where it differs, so that make compiles no more than necessary."""
         if not pathlib.Path(target).exists() or pathlib.Path(source).read_bytes() != pathlib.Path(
                 target).read_bytes():
             shutil.copyfile(source, target)
             shutil.copymode(source, target)
 
-    def run(self, *command):
+    def succeeds(self, *command):
         environment = os.environ | {
             "BUILD": "build", "RHOTRACK": str(self.folder / "build/rhotrack")
         }
@@ -129,54 +130,57 @@ class Tree:
             sys.exit(f"mutate: {command[0]} was killed")
         return code == 0
 
-    def fails(self, *command):
-        return not self.run(*command) and not self.run(*command)
+    def fails_twice(self, *command):
+        return not self.succeeds(*command) and not self.succeeds(*command)
 
-    def hash(self, program):
+    def hash_of_program(self, program):
         return hashlib.sha256((self.folder / program).read_bytes()).digest()
 
-    def is_changed(self, program):
-        return self.hash(program) != self.bytes.get(program)
+    def is_program_changed(self, program):
+        return self.hash_of_program(program) != self.bytes.get(program)
 
-    def tests(self, *patterns):
-        """Programs whose sources are tests/PATTERN/test_*.c, or tests/PATTERN."""
+    def test_programs(self, *patterns):
+        """Paths of the test programs whose sources match tests/PATTERN."""
         folder = self.folder / "tests"
         sources = sorted({path for pattern in patterns for path in folder.glob(pattern)})
         names = [str(path.relative_to(folder).with_suffix("")) for path in sources]
-        return [f"build/tests/{self.profile_of(name)}{name}" for name in names]
+        return [f"build/tests/{self.profile_folder_of_test(name)}{name}" for name in names]
 
-    def profile_of(self, name):
-        """Where `make test` runs a program: unit tests of what the embedded profile leaves out are
-        run in the other one."""
+    def profile_folder_of_test(self, name):
+        """Build folder of a test program: unit tests of modules that the embedded profile leaves
+        out are built with the workstation profile."""
         if not name.startswith("unit/"):
             return ""
         is_left_out = name.rpartition("test_")[2] in self.left_out
         return "workstation/" if is_left_out else "embedded/"
 
-    def all_tests(self):
-        return self.tests("unit/*/test_*.c", "tools/*/test_*.c", "scenario/test_*.c")
+    def all_test_programs(self):
+        return self.test_programs("unit/*/test_*.c", "tools/*/test_*.c", "scenario/test_*.c")
 
-    def failing(self, programs):
-        """The first of these programs that the sources as they are now break; None: none."""
-        if programs and self.fails("make", "-k", *programs):
+    def first_failing(self, programs):
+        """The first of these programs that fails with the present sources ("the compiler" where one
+        does not build); None where none fails."""
+        if programs and self.fails_twice("make", "-k", *programs):
             return "the compiler"
-        return next((program for program in filter(self.is_changed, programs)
-                     if self.fails(program)), None)
+        return next((program for program in filter(self.is_program_changed, programs)
+                     if self.fails_twice(program)), None)
 
     def noticed_by(self, room, module):
-        """What notices the sources as they are now; None: nothing. The likeliest comes first."""
-        by = self.failing(self.tests(f"unit/{room}/test_{module}.c"))
+        """The program that fails with the present sources; None where none does. The likeliest one
+        is run first."""
+        by = self.first_failing(self.test_programs(f"unit/{room}/test_{module}.c"))
         if by:
             return by
-        if self.fails("make", *PROGRAMS):
+        if self.fails_twice("make", *PROGRAMS):
             return "the compiler"
-        if any(map(self.is_changed, PROGRAMS)) and self.fails("tests/regression/golden.py",
-                                                              "--first"):
+        if any(map(self.is_program_changed, PROGRAMS)) and self.fails_twice(
+                "tests/regression/golden.py", "--first"):
             return "the golden files"
-        return self.failing(self.tests(f"unit/{room}/test_*.c")) or self.failing(self.all_tests())
+        return (self.first_failing(self.test_programs(f"unit/{room}/test_*.c"))
+                or self.first_failing(self.all_test_programs()))
 
     def try_mutant(self, name, line, found, value):
-        """What notices this mutant; None: nothing."""
+        """Applies the mutant, and returns the program that fails with it; None where none does."""
         path = self.folder / name
         text = path.read_text()
         lines = text.splitlines(keepends=True)
@@ -208,7 +212,7 @@ def main():
     folder = ROOT / os.environ.get("BUILD", "build") / "mutate"
     trees = queue.SimpleQueue()
 
-    def attempt(mutant):
+    def test_mutant(mutant):
         name, line, constant, found, value = mutant
         tree = trees.get()
         try:
@@ -220,9 +224,9 @@ def main():
         return by is not None
 
     with ThreadPoolExecutor(options.jobs) as pool:
-        for tree in pool.map(Tree, (folder / str(job) for job in range(options.jobs))):
+        for tree in pool.map(SourceCopy, (folder / str(job) for job in range(options.jobs))):
             trees.put(tree)
-        noticed = sum(pool.map(attempt, mutants))
+        noticed = sum(pool.map(test_mutant, mutants))
     print(f"{noticed} of {len(mutants)} mutants noticed")
     sys.exit(noticed < NOTICED_MIN * len(mutants))
 

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# What the library must never have: heap, stdio, errno, double, mutable globals, foreign symbols.
-# Looks at the text of src/ and include/ (comments and strings left out) and at the symbols of
+# Checks that the library contains no heap, stdio, errno, double, mutable globals or external
+# symbols: searches the text of src/ and include/ (without comments and strings) and the symbols of
 # $BUILD/librhotrack.a. Usage: poison.sh [ROOT [LIBRARY]]. Exit 1 where anything is found.
 set -u
 root=${1:-$(dirname "$0")/../..}
@@ -12,13 +12,14 @@ cd "$root" || exit 1
 words='malloc|calloc|realloc|free|(__builtin_)?alloca|strdup|\w*printf|puts|putchar|FILE|stdio|stdlib|errno|double|goto|setjmp|longjmp'
 bad=0
 
-report() { # heading, findings (a line each; none: nothing wrong)
+# report HEADING FINDINGS: prints the findings, a line each, and sets bad unless they are empty
+report() {
     [ -n "$2" ] || return 0
     printf 'poison: %s\n%s\n' "$1" "$2" | sed '2,$s/^/    /'
     bad=1
 }
 
-# The code of a file with comments and strings blanked, line by line behind FILE:LINE.
+# code_of FILE: prints its lines with comments and strings blanked, each after FILE:LINE
 code_of() {
     perl -0777 -pe 's{(/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*")}{$1 =~ s/[^\n]/ /gr}gse' "$1" | awk \
         -v file="$1" '{print file ":" NR ": " $0}'
@@ -35,8 +36,8 @@ report 'symbols that the library takes from elsewhere' \
        grep -vE ' (rho_\w+|memcpy|memset|memmove|memcmp|_GLOBAL_OFFSET_TABLE_)$')"
 report 'public symbols without the prefix rho_' \
     "$(nm -A -g --defined-only "$library" | sed -nE 's/.*:([^:]+:)[0-9a-f]+ (. .*)/\1 \2/p' | grep -vE ' rho_\w+$')"
-# Not .data.rel.ro: constant tables of pointers, which the dynamic loader relocates once and then
-# protects.
+# .data.rel.ro is allowed: constant tables of pointers, which the dynamic loader relocates once and
+# then write-protects.
 report 'mutable globals' \
     "$(objdump -t "$library" | awk '/file format/ {object = $1}
        (/ O .*\.(data|bss|tdata|tbss)/ || /\*COM\*/) && !/\.data\.rel\.ro/ {print object, $NF}')"

@@ -1,4 +1,4 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# What the library costs, and what must fit: size.sh [--bars | --update]; see tools/gates/size.py.
+# Runs size.py, which measures the library's size and checks limits: size.sh [--bars | --update].
 exec "$(dirname "$0")/size.py" "$@"

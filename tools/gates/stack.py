@@ -3,15 +3,15 @@
 """The worst stack of every public function, by the call graph that gcc writes
 (-fcallgraph-info=su), at -Os.
 
-A function's bytes are its frame and the largest bytes of its callees. Functions of the compiler's
-library and of the C library are charged as CHARGES says. Recursion, calls by a pointer and frames
-that grow have no figure; gates.py forbids them. Exception frames come on top.
+A function's stack is its frame plus the largest stack of its callees. Functions of the compiler's
+library and of the C library are charged the bytes in CHARGES. Recursion, calls by a pointer and
+frames of variable size have no figure; gates.py forbids them. Exception frames come on top.
 
-Usage: stack.py [--target m0plus|m4f|m7|r5f|rv32] [--workstation] [--path FUNCTION | --headers [FOLDER]]
---path shows who takes the bytes. --headers holds what the public headers state against the figures,
-and exits with 1 where a function takes more, or where none is stated: `Stack: N bytes` (or KB) in
-the comment above it, `no stack`, `stack as above`, or in the header's first comment for all
-functions that have none of their own.
+Usage: stack.py [--target m0plus|m4f|m7|r5f|rv32] [--workstation] [--path FUNCTION | --headers
+[FOLDER]] --path prints the frames on the worst path of a function. --headers compares the figures
+with those that the public headers state, and exits with 1 where a function takes more, or none is
+stated. A header states `Stack: N bytes` (or KB), `no stack` or `stack as above` in the comment
+above a function, or in its first comment for all functions without a statement of their own.
 """
 import argparse
 import os
@@ -21,8 +21,8 @@ import sys
 
 import cross
 
-# Bytes charged to functions of other libraries, upper bounds for newlib, picolibc and libgcc of
-# Debian 12: on most processors, and on those whose 64-bit arithmetic takes many calls.
+# (function, bytes, bytes on SMALL targets) charged to functions of other libraries: upper bounds
+# for newlib, picolibc and libgcc of Debian 12. SMALL targets need many calls for 64-bit arithmetic.
 CHARGES = [
     (r"mem(cpy|set|move|cmp)", 64, 64),
     (r"__aeabi_(f(add|sub|rsub|mul|div|2iz|2uiz|cmp\w+)|u?i2f|u?idiv(mod)?|lmul)", 64, 64),
@@ -35,29 +35,28 @@ SMALL = {"m0plus", "rv32"}
 INDIRECT = "__indirect_call"
 
 
-def charge(function, is_small=False):
-    """Bytes charged to a function that is not the library's; None where it is none that may be
-    called."""
+def charged_bytes(function, is_small=False):
+    """Bytes charged to a function of another library; None where the library may not call it."""
     return next((small if is_small else size
                  for name, size, small in CHARGES if re.fullmatch(name, function)), None)
 
 
-def short(function):
-    """A function's name: static ones stand behind their file in the graph."""
+def short_name(function):
+    """A function's name without the file that the graph puts before the names of static ones."""
     return function.rsplit(":", 1)[-1]
 
 
-class Graph:
-    """The functions of a build: bytes of their frames, where they stand, whom they call."""
+class CallGraph:
+    """Call graph of a build: each function's frame size, place in the source, and callees."""
 
     def __init__(self, build):
         self.is_small = build.name in SMALL
         self.frames, self.places, self.callees, self.growing = {}, {}, {}, set()
         self.known = {}
         for made in build.objects.values():
-            self.read(made.with_suffix(".ci").read_text(encoding="utf-8"))
+            self.add_functions(made.with_suffix(".ci").read_text(encoding="utf-8"))
 
-    def read(self, text):
+    def add_functions(self, text):
         for title, label in re.findall(r'^node: \{ title: "([^"]+)" label: "([^"]*)"', text,
                                        re.MULTILINE):
             frame = re.search(r"\\n(\d+) bytes \((\w+)", label)
@@ -72,7 +71,7 @@ class Graph:
             self.callees.setdefault(caller, set()).add(callee)
 
     def cycles(self):
-        """The ways from a function back to itself, each once."""
+        """The cycles of calls, each once, as lists that begin and end with the same function."""
         found, done = [], set()
 
         def visit(function, path):
@@ -88,42 +87,43 @@ class Graph:
         return found
 
     def callers(self, callee):
-        """The functions that call one, in order."""
+        """The functions that call `callee`, sorted."""
         return sorted(caller for caller, callees in self.callees.items() if callee in callees)
 
-    def worst(self, function):
-        """Bytes that a call takes at most, and the path on which it does."""
+    def worst_stack(self, function):
+        """The largest stack of a call in bytes, and the path of calls that needs it."""
         if function not in self.known:
-            self.known[function] = None # being looked at
-            self.known[function] = self.worst_anew(function)
+            self.known[function] = None # on the path being searched
+            self.known[function] = self.compute_worst_stack(function)
         if self.known[function] is None:
-            sys.exit(f"stack: {short(function)} calls itself")
+            sys.exit(f"stack: {short_name(function)} calls itself")
         return self.known[function]
 
-    def worst_anew(self, function):
+    def compute_worst_stack(self, function):
         if function not in self.frames:
-            size = charge(function, self.is_small)
+            size = charged_bytes(function, self.is_small)
             if size is None:
                 sys.exit(
-                    f"stack: nothing is known of {function}, called by {short(self.callers(function)[0])}"
+                    f"stack: nothing is known of {function}, called by "
+                    f"{short_name(self.callers(function)[0])}"
                 )
             return size, [function]
-        below = [self.worst(callee) for callee in sorted(self.callees[function])]
+        below = [self.worst_stack(callee) for callee in sorted(self.callees[function])]
         size, path = max(below, key=lambda way: way[0], default=(0, []))
         return self.frames[function] + size, [function, *path]
 
 
-class Declared:
-    """A public function: its header, line, and the stack that its comment states (None:
-    nothing)."""
+class PublicFunction:
+    """A public function: its header, line, name, and the stack stated in its comment (None: not
+    stated)."""
 
     def __init__(self, header, line, name, stated):
         self.header, self.line, self.name, self.stated = header, line, name, stated
 
 
 def stated_stack(comment):
-    """Bytes of a comment's sentence on the stack, the largest of several; None where there is
-    none."""
+    """The stack in bytes that a comment states, the largest of several figures; None where it
+    states none."""
     words = re.sub(r"\s*\n\s*\*?\s*", " ", comment)
     if re.search(r"\bno stack\b", words, re.IGNORECASE):
         return 0
@@ -133,9 +133,9 @@ def stated_stack(comment):
                default=None)
 
 
-def declarations(header):
-    """The functions of a header. A comment speaks for the prototypes below it up to the next empty
-    line."""
+def public_functions_of(header):
+    """The functions that a header declares. A comment holds for the prototypes below it up to the
+    next empty line."""
     text = header.read_text(encoding="utf-8")
     for_all = stated_stack(text[:text.index("#ifndef")])
     stated, above = for_all, for_all
@@ -150,42 +150,45 @@ def declarations(header):
             stated = for_all
         else:
             above = stated
-            yield Declared(header,
+            yield PublicFunction(header,
                            text.count("\n", 0, found.start("name")) + 1, found["name"], stated)
 
 
-def public(folder=pathlib.Path("include/rhotrack")):
-    """Every function that the headers of a folder declare."""
-    return [found for header in sorted(folder.rglob("*.h")) for found in declarations(header)]
+def public_functions(folder=pathlib.Path("include/rhotrack")):
+    """The functions that the headers of a folder declare."""
+    return [found for header in sorted(folder.rglob("*.h"))
+            for found in public_functions_of(header)]
 
 
-def show_path(graph, function):
-    size, path = graph.worst(function)
+def print_path(graph, function):
+    size, path = graph.worst_stack(function)
     print(f"{function}: {size} bytes")
     for name in path:
         frame = graph.frames.get(name)
-        size = charge(name, graph.is_small) if frame is None else frame
-        print(f"{size:7}  {short(name):36} {graph.places.get(name, 'charged')}")
+        size = charged_bytes(name, graph.is_small) if frame is None else frame
+        print(f"{size:7}  {short_name(name):36} {graph.places.get(name, 'charged')}")
 
 
-def show_all(graph):
+def print_all(graph):
     print(f"{'bytes':>7} {'stated':>7}  function")
-    for found in public():
-        size, path = graph.worst(found.name)
+    for found in public_functions():
+        size, path = graph.worst_stack(found.name)
         stated = "-" if found.stated is None else found.stated
         print(
-            f"{size:7} {stated:>7}  {found.name:36} {' > '.join(short(name) for name in path[1:])}")
+            f"{size:7} {stated:>7}  {found.name:36} "
+            f"{' > '.join(short_name(name) for name in path[1:])}")
 
 
-def check_headers(graph, folder):
-    """What is wrong with the stated figures, a line each."""
-    for found in public(folder):
-        size, path = graph.worst(found.name)
+def faults_of_headers(graph, folder):
+    """A line for each function whose stated stack is missing or too small."""
+    for found in public_functions(folder):
+        size, path = graph.worst_stack(found.name)
         place = f"{found.header}:{found.line}: {found.name}"
         if found.stated is None:
             yield f"{place} states no stack; it takes {size} bytes"
         elif size > found.stated:
-            yield f"{place} states {found.stated} bytes of stack; it takes {size}: {' > '.join(map(short, path))}"
+            yield (f"{place} states {found.stated} bytes of stack; it takes {size}: "
+                   f"{' > '.join(map(short_name, path))}")
 
 
 def main():
@@ -198,24 +201,26 @@ def main():
     options = parser.parse_args()
     folder = pathlib.Path(options.headers).absolute() if options.headers else None
     os.chdir(cross.HOME)
-    if cross.missing([options.target]):
+    if cross.missing_compilers([options.target]):
         print(
-            f"skipped: stack: no {cross.missing([options.target])[0]} here (tools/setup.sh installs it)"
+            f"skipped: stack: no {cross.missing_compilers([options.target])[0]} here "
+            "(tools/setup.sh installs it)"
         )
         return
-    graph = Graph(
+    graph = CallGraph(
         cross.Build(options.target, profile="workstation" if options.workstation else "embedded"))
     if options.path:
         if options.path not in graph.frames:
             sys.exit(f"stack: there is no {options.path}")
-        show_path(graph, options.path)
+        print_path(graph, options.path)
     elif folder:
-        wrong = list(check_headers(graph, folder))
+        wrong = list(faults_of_headers(graph, folder))
         print("\n".join(wrong)
-              or f"stack: {len(public())} public functions take what their headers state, or less")
+              or f"stack: {len(public_functions())} public functions take what their headers "
+              "state, or less")
         sys.exit(1 if wrong else 0)
     else:
-        show_all(graph)
+        print_all(graph)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 """Checks that each function of the public headers is named in a unit test of its room.
 
 The functions are the global symbols of BUILD/embedded/src/ROOM that a header of include/rhotrack
-declares. A test of the room names one in tests/unit/ROOM/*.c, in a header of tests/unit that such a
-file includes, or in a macro of either: the preprocessed text tells.
+declares. A test names a function where its preprocessed text contains the name, in
+tests/unit/ROOM/*.c or in a header or macro of tests/ that it uses.
 
 Usage: tested.py [ROOT [BUILD]]. Prints each function without a test; exit 1 where there is one.
 BUILD: default $BUILD or build.
@@ -20,7 +20,7 @@ NAME = re.compile(r"\brho_\w+\b")
 
 
 def public_functions(root, build):
-    """{function: room} of all objects, where a header declares it."""
+    """{function: room} of all functions in the objects that a public header declares."""
     declared = set()
     for header in root.glob("include/rhotrack/**/*.h"):
         declared |= set(re.findall(r"\b(rho_\w+)\s*\(", header.read_text(encoding="utf-8")))
@@ -37,8 +37,8 @@ def public_functions(root, build):
     return functions
 
 
-def names_of_test(root, test):
-    """What the test itself names, its macros expanded; the library's headers do not count."""
+def names_used_by_test(root, test):
+    """The rho_ names in the preprocessed test, without those in the library's headers."""
     text = subprocess.run(
         [os.environ.get("CC", "cc"), "-E", "-D_GNU_SOURCE", "-Iinclude", "-Itests", "-Itests/unit",
          "-Isrc", "-I.", test], cwd=root, check=True, capture_output=True, text=True).stdout
@@ -52,9 +52,9 @@ def names_of_test(root, test):
     return set(NAME.findall("\n".join(own)))
 
 
-def names_of_room(root, room):
+def names_used_by_room(root, room):
     tests = [str(test.relative_to(root)) for test in sorted(root.glob(f"tests/unit/{room}/*.c"))]
-    return set().union(*(names_of_test(root, test) for test in tests))
+    return set().union(*(names_used_by_test(root, test) for test in tests))
 
 
 def main():
@@ -65,7 +65,7 @@ def main():
         sys.exit(f"tested: no objects in {build}/embedded/src")
     rooms = sorted(set(functions.values()))
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        names = dict(zip(rooms, pool.map(lambda room: names_of_room(root, room), rooms)))
+        names = dict(zip(rooms, pool.map(lambda room: names_used_by_room(root, room), rooms)))
     missing = [(room, name) for name, room in sorted(functions.items()) if name not in names[room]]
     for room, name in sorted(missing):
         print(f"tests/unit/{room}: no test names {name}")

@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The worst scans of each shipped configuration that a guided search finds
-# (tools/instructions/worst.c), in QEMU, against what is promised (tools/firmware/promises.bash).
-# Prints a table and the skies that were found; a sky worse than those kept in
-# tests/firmware/worst_skies.txt belongs there. Exit 1 where a promise does not hold. Environment:
-# BUILD, WORST_SEED (default 1), WORST_SKIES (300), WORST_NODES (all).
+# Searches for the most expensive step of each shipped node configuration
+# (tools/instructions/worst.c, in QEMU) and compares it with the promised upper bound
+# (tools/firmware/promises.bash). Prints a table with the sky (generated traffic) of each; a worse
+# sky than those kept in tests/firmware/worst_skies.txt is to be added there. Exit 1 where a bound
+# is exceeded. Environment: BUILD, WORST_SEED (default 1), WORST_SKIES (300), WORST_NODES (all).
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=$(realpath "${BUILD:-$root/build}")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# How the scenes beside it begin: $program, $seconds, and a folder that is gone at the end, as is all
-# that was started.
+# Sourced by scene.sh and scene_papers.sh: sets $program and $seconds, changes to a temporary
+# folder, and at exit removes it and kills all background jobs.
 set -eu
 program=$(realpath "${RHOTRACK:-$(dirname "$0")/../../build/rhotrack}")
 seconds=${1:-30}

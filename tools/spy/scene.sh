@@ -1,11 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# Something to look at: a turning radar in clutter and two bearing sensors, aircraft that appear one
-# after the other and fly straight or turn, played to a tracker, ten times as fast as it happened.
-# Usage: RHOTRACK=program scene.sh [SECONDS], on the LCM network of LCM_DEFAULT_URL. Everything ends
-# with it.
-# shellcheck source=tools/spy/scene.bash
+# Publishes a simulated scene and its tracks for the viewer: a rotating radar in clutter, two
+# bearing sensors, and aircraft that appear one after the other and fly straight or turn, ten times
+# as fast as real time. Usage: RHOTRACK=program scene.sh [SECONDS], on the LCM network of
+# LCM_DEFAULT_URL. Publisher and tracker end with the script. shellcheck source=tools/spy/scene.bash
 . "$(dirname "$0")/scene.bash"
 python3 - <<'PYTHON'
 import math
@@ -21,7 +20,7 @@ for i in range(16):
                      "y": -reach * math.sin(heading + random.uniform(-.5, .5)), "heading": heading,
                      "start": 0 if i < 5 else 16.0 * (i - 4), "speed": random.uniform(90, 290), "turn": random.choice([0, 0, 0, .006, -.008])})
 
-def place(a, t):
+def position_at(a, t):
     t -= a["start"]
     if a["turn"] == 0:
         return a["x"] + a["speed"] * t * math.cos(a["heading"]), a["y"] + a["speed"] * t * math.sin(a["heading"])
@@ -37,9 +36,9 @@ with open("polar.csv", "w") as polar, open("bearings.csv", "w") as bearings, ope
         rows = []
         there = [a for a in aircraft if a["start"] <= turn * TURN_S]
         for a in there:
-            x, y = place(a, turn * TURN_S)
+            x, y = position_at(a, turn * TURN_S)
             offset = (math.atan2(y, x) % (2 * math.pi)) / (2 * math.pi) * TURN_S
-            x, y = place(a, turn * TURN_S + offset)
+            x, y = position_at(a, turn * TURN_S + offset)
             if random.random() < .93 and math.hypot(x, y) < 48e3:
                 rows.append((offset, math.hypot(x, y) + random.gauss(0, 20),
                              math.atan2(y, x) + random.gauss(0, .0025)))
@@ -53,16 +52,16 @@ with open("polar.csv", "w") as polar, open("bearings.csv", "w") as bearings, ope
             print(f"{turn * TURN_S + offset:.6f},1,{reach:.2f},{azimuth:.6f},{turn}", file=polar)
         for sensor, (sx, sy) in SENSORS.items():
             for a in there:
-                x, y = place(a, turn * TURN_S + 2)
+                x, y = position_at(a, turn * TURN_S + 2)
                 if random.random() < .05:
                     continue
                 print(f"{turn * TURN_S + 2:.6f},{sensor},{sx},{sy},"
                       f"{math.remainder(math.atan2(y - sy, x - sx) + random.gauss(0, .00175), 6.28318):.6f}", file=bearings)
         for i, a in enumerate(there):
-            x, y = place(a, turn * TURN_S)
+            x, y = position_at(a, turn * TURN_S)
             print(f"{turn * TURN_S:.6f},{i},{x:.1f},{y:.1f}", file=truth)
 PYTHON
-sleep 4 # for who looks on to be there
+sleep 4 # until the viewer has started
 timeout "$seconds" "$program" node --set sigma_range_m=20 --set sigma_azimuth_rad=0.0025 \
     --set v_max_mps=400 &
 sleep 0.5

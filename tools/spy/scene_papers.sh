@@ -1,10 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# The passive paper's method to look at: three bearing sensors see aircraft that come three at a
-# time, and a radar sees clutter; played to a tracker that shows ghosts, votes and hypotheses,
-# sixteen times as fast as it happened. Usage: RHOTRACK=program scene_papers.sh [SECONDS], on the
-# LCM network of LCM_DEFAULT_URL. Everything ends with it.
+# Publishes a simulated scene for the viewer, tracked with the passive paper's method: three bearing
+# sensors see aircraft that come three at a time, and a radar sees some of them in clutter; the
+# tracker publishes ghosts, votes and hypotheses, sixteen times as fast as real time. Usage:
+# RHOTRACK=program scene_papers.sh [SECONDS], on the LCM network of LCM_DEFAULT_URL. Publisher and
+# tracker end with the script.
 # shellcheck source=tools/spy/scene.bash
 . "$(dirname "$0")/scene.bash"
 python3 - <<'PYTHON'
@@ -38,7 +39,7 @@ with open("bearings.csv", "w") as bearings, open("plots.csv", "w") as plots:
         for _ in range(25):
             print(f"{t + 5:.6f},9,{random.uniform(-60e3, 60e3):.1f},{random.uniform(-60e3, 60e3):.1f}", file=plots)
 PYTHON
-sleep 4 # for who looks on to be there
+sleep 4 # until the viewer has started
 timeout "$seconds" "$program" node --method passive-paper --show ghosts,votes,hypotheses \
     --set sigma_m=60 --set sigma_rad=0.0009 --set v_max_mps=400 &
 sleep 0.5

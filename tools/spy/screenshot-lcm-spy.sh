@@ -1,10 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# A picture of lcm-spy itself with the viewer opened from it, on a virtual display, while COMMAND
-# publishes. Usage: screenshot-lcm-spy.sh FILE.png SECONDS COMMAND...     (after `make spy`) Debian:
-# xvfb xdotool imagemagick, and what `tools/setup.sh spy` installs. In a network of its own
-# (unshare).
+# Takes a screenshot of lcm-spy with the viewer opened from it, on a virtual display, while COMMAND
+# publishes.
+# Usage: screenshot-lcm-spy.sh FILE.png SECONDS COMMAND...     (after `make spy`)
+# Needs Debian's xvfb, xdotool and imagemagick, and the packages of `tools/setup.sh spy`. Runs in a
+# network namespace of its own.
 set -eu
 if [ $# -lt 3 ]; then
     sed -n 's/^# Usage: /usage: /p' "$0" >&2
@@ -29,7 +30,8 @@ make --no-print-directory spy-run &
 "$@" &
 started=$SECONDS
 
-window() { # name: its number, once it is there
+# wait_for_window NAME: waits until a window of this name is visible, and prints its id
+wait_for_window() {
     local found tries
     for tries in $(seq 60); do
         found=$(xdotool search --onlyvisible --name "$1" 2>/dev/null | tail -n 1 || true)
@@ -40,11 +42,11 @@ window() { # name: its number, once it is there
     exit 1
 }
 
-spy=$(window '^LCM Spy')
+spy=$(wait_for_window '^LCM Spy')
 xdotool windowsize "$spy" 1280 155 windowmove "$spy" 0 0
-sleep 7 # for the channels to be listed
+sleep 7 # until lcm-spy lists the channels
 xdotool mousemove 80 92 click --repeat 2 --delay 80 1
-view=$(window 'rhotrack')
+view=$(wait_for_window 'rhotrack')
 if [ -n "$(xdotool search --onlyvisible --name '^RHO_')" ]; then
     echo 'screenshot: a double-click has opened more than the one window' >&2
     exit 1

@@ -1,11 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# A picture of the viewer while COMMAND publishes, without a display: the viewer listens for SECONDS
-# and paints itself. Usage: screenshot.sh FILE.png SECONDS COMMAND...     (after `make spy`; BUILD,
-# SIZE=1280x800 and SELECT=TRACK, 0 for that with the most hypotheses, from the environment) Where
-# the system allows it, both run in a network of their own: no other LCM traffic gets into the
-# picture.
+# Takes a picture of the viewer without a display while COMMAND publishes: the viewer listens for
+# SECONDS and paints itself to a file.
+# Usage: screenshot.sh FILE.png SECONDS COMMAND...     (after `make spy`)
+# From the environment: BUILD; SIZE=1280x800; SELECT=TRACK, 0 for the track with most hypotheses.
+# Where the system allows it, viewer and COMMAND run in a network namespace of their own, so that no
+# other LCM traffic gets into the picture.
 set -eu
 if [ $# -lt 3 ]; then
     sed -n 's/^# Usage: /usage: /p' "$0" >&2
@@ -33,7 +34,7 @@ trap 'kill "$publisher" 2>/dev/null || true' EXIT
 java -Djava.net.preferIPv4Stack=true -cp "$jars:$spy/rhotrack-types.jar:$spy/rhotrack-spy.jar" \
     rhotrack.spy.Viewer \
     --png "$file" --after "$seconds" --size "${SIZE:-1280x800}" ${SELECT:+--select "$SELECT"}
-# Half the size with a palette; the picture looks the same.
+# A palette halves the file; the picture looks the same.
 if command -v convert >/dev/null 2>&1; then
     convert "$file" +dither -colors 220 -strip "PNG8:$file.part" && mv "$file.part" "$file"
 fi

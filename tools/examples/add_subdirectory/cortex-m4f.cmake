@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# A Cortex-M4F with newlib; printf goes to the debugger (semihosting).
+# Toolchain file for a Cortex-M4F with newlib; printf goes to the debugger (semihosting).
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)

@@ -23,22 +23,22 @@ int main(void)
     radar.notch_mps = 12.0f;
     radar.blind_speed_mps = 160.0f;
     scan.measures = RHO_MEASURES_RANGE_RATE;
-    if (!radar_open()) {
+    if (!init_tracking()) {
         return 2;
     }
-    for (int sector = 0; sector < 4 * 10; sector++) { /* from north, clockwise */
+    for (int sector = 0; sector < 4 * 10; sector++) { /* sectors from north, clockwise */
         int quarter = sector % 4;
         time_s = settings.scan_interval_s * 0.25f * (float)sector;
         scan.sector_from_rad = remainderf(-90.0f * (float)quarter, 360.0f) * DEGREE;
         scan.sector_to_rad = remainderf(90.0f - 90.0f * (float)quarter, 360.0f) * DEGREE;
-        if (quarter == 0) { /* the target flies in this one */
-            radar_sees(&departure, time_s);
+        if (quarter == 0) { /* the target is in this sector */
+            add_target_plot(&departure, time_s);
         }
-        radar_measures(30e3f + 15e3f * noise(), 45.0f + 20.0f * noise() + 90.0f * (float)quarter,
-                       0.0f, 40.0f * noise());
-        if (!radar_step(time_s)) {
+        add_measured_plot(30e3f + 15e3f * noise(), 45.0f + 20.0f * noise() + 90.0f * (float)quarter,
+                          0.0f, 40.0f * noise());
+        if (!step_scan(time_s)) {
             return 2;
         }
     }
-    return radar_found(&departure, time_s);
+    return check_tracks(&departure, time_s);
 }

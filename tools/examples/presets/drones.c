@@ -29,18 +29,19 @@ int main(void)
     settings.pd = 0.7f;
     radar.z_m = 12.0f;
     scan.measures = RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE;
-    if (!radar_open()) {
+    if (!init_tracking()) {
         return 2;
     }
     for (int turn = 0; turn < 20; turn++) {
         time_s = settings.scan_interval_s * (float)turn;
         if (turn % 4 != 2) {
-            radar_sees(&drone, time_s);
+            add_target_plot(&drone, time_s);
         }
-        radar_measures(1500.0f + 700.0f * noise(), 90.0f * noise(), 3.0f + noise(), 3.0f * noise());
-        if (!radar_step(time_s)) {
+        add_measured_plot(1500.0f + 700.0f * noise(), 90.0f * noise(), 3.0f + noise(),
+                          3.0f * noise());
+        if (!step_scan(time_s)) {
             return 2;
         }
     }
-    return radar_found(&drone, time_s);
+    return check_tracks(&drone, time_s);
 }

@@ -23,18 +23,19 @@ int main(void)
     settings.sigma_azimuth_rad = 0.12f * DEGREE;
     settings.pd = 0.8f;
     radar.azimuth_bias_rad = -0.4f * DEGREE;
-    if (!radar_open()) {
+    if (!init_tracking()) {
         return 2;
     }
     for (int turn = 0; turn < 12; turn++) {
         time_s = settings.scan_interval_s * (float)turn;
-        if (turn % 5 != 3) { /* missed now and then */
-            radar_sees(&airliner, time_s);
+        if (turn % 5 != 3) { /* the target is missed now and then */
+            add_target_plot(&airliner, time_s);
         }
-        radar_measures(100e3f + 60e3f * noise(), 180.0f * noise(), 0.0f, 0.0f); /* clutter */
-        if (!radar_step(time_s)) {
+        /* a plot of clutter */
+        add_measured_plot(100e3f + 60e3f * noise(), 180.0f * noise(), 0.0f, 0.0f);
+        if (!step_scan(time_s)) {
             return 2;
         }
     }
-    return radar_found(&airliner, time_s);
+    return check_tracks(&airliner, time_s);
 }

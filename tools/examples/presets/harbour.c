@@ -28,17 +28,18 @@ int main(void)
     radar.y_m = -40.0f;
     radar.sector_from_rad = remainderf(90.0f - 110.0f, 360.0f) * DEGREE;
     radar.sector_to_rad = remainderf(90.0f - 250.0f, 360.0f) * DEGREE;
-    if (!radar_open()) {
+    if (!init_tracking()) {
         return 2;
     }
     for (int turn = 0; turn < 16; turn++) {
         time_s = settings.scan_interval_s * (float)turn;
-        radar_sees(&tug, time_s);
-        radar_measures(900.0f + 10.0f * noise(), 180.0f + noise(), 0.0f, 0.0f); /* a crane */
-        radar_measures(4e3f + 2e3f * noise(), 30.0f * noise(), 0.0f, 0.0f);     /* sea clutter */
-        if (!radar_step(time_s)) {
+        add_target_plot(&tug, time_s);
+        /* echo of a crane */
+        add_measured_plot(900.0f + 10.0f * noise(), 180.0f + noise(), 0.0f, 0.0f);
+        add_measured_plot(4e3f + 2e3f * noise(), 30.0f * noise(), 0.0f, 0.0f); /* sea clutter */
+        if (!step_scan(time_s)) {
             return 2;
         }
     }
-    return radar_found(&tug, time_s);
+    return check_tracks(&tug, time_s);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the six programs beside have in common: the objects, a scan being filled, and a target whose
- * plots have noise. Angles are in degrees here, as data sheets have them; azimuths clockwise from
- * north.
+ * radar: shared by the six example programs in this folder: tracker and initiator, the scan being
+ * filled, and a target whose plots have noise. Angles are in degrees as in data sheets; azimuths
+ * clockwise from north.
  */
 #include <math.h>
 #include <stdio.h>
@@ -24,8 +24,11 @@ static struct rho_sensor radar = {.sensor_id = 1};
 static struct rho_plot plots[NUM_PLOTS];
 static struct rho_scan scan = {.sensor_id = 1, .plots = plots};
 
-/* From settings and radar to objects that are ready; 0 where the settings cannot be. */
-static int radar_open(void)
+/*
+ * Checks the settings and initialises tracker and initiator with them and the radar; 0 where that
+ * fails.
+ */
+static int init_tracking(void)
 {
     struct rho_settings_fault fault;
     struct rho_tracker_config maintain;
@@ -44,7 +47,7 @@ static int radar_open(void)
            rho_tracker_set_sensor(&tracker, &radar) == RHO_OK;
 }
 
-/* -1.7 .. 1.7, of variance 1 or nearly, by a linear congruential generator. */
+/* Random number in -1.7 .. 1.7 of variance close to 1, by a linear congruential generator. */
 static float noise(void)
 {
     static uint32_t seed = 1;
@@ -52,9 +55,9 @@ static float noise(void)
     return (float)(seed >> 8) * (3.4f / 16777216.0f) - 1.7f;
 }
 
-/* A plot goes into the scan as the radar measured it. Plots that cannot be are left out. */
-static void radar_measures(float range_m, float azimuth_deg, float elevation_deg,
-                           float range_rate_mps)
+/* Adds a plot with measured values to the scan; plots that cannot be converted are left out. */
+static void add_measured_plot(float range_m, float azimuth_deg, float elevation_deg,
+                              float range_rate_mps)
 {
     struct rho_polar_plot polar = {.range_m = range_m,
                                    .azimuth_rad = remainderf(90.0f - azimuth_deg, 360.0f) * DEGREE,
@@ -68,8 +71,8 @@ static void radar_measures(float range_m, float azimuth_deg, float elevation_deg
     }
 }
 
-/* The target at a time, as this radar measures it: with its biases and noise. */
-static void radar_sees(const struct target *target, float time_s)
+/* Adds a plot of the target at a time to the scan, with the radar's biases and noise. */
+static void add_target_plot(const struct target *target, float time_s)
 {
     float x_m = target->x_m + target->vx_mps * time_s - radar.x_m;
     float y_m = target->y_m + target->vy_mps * time_s - radar.y_m;
@@ -80,14 +83,14 @@ static void radar_sees(const struct target *target, float time_s)
     if (radar.range_rate_span_mps > 0.0f) {
         rate_mps = remainderf(rate_mps, radar.range_rate_span_mps);
     }
-    radar_measures(
+    add_measured_plot(
         range_m + radar.range_bias_m + settings.sigma_range_m * noise(),
         (atan2f(x_m, y_m) - radar.azimuth_bias_rad + settings.sigma_azimuth_rad * noise()) / DEGREE,
         (atan2f(z_m, ground_m) + settings.sigma_elevation_rad * noise()) / DEGREE, rate_mps);
 }
 
-/* Steps the scan; 0 where it is refused. The next one begins empty. */
-static int radar_step(float time_s)
+/* Steps the scan and empties it for the next one; 0 where the scan is refused. */
+static int step_scan(float time_s)
 {
     scan.time_us = (int64_t)((double)time_s * 1e6);
     if (rho_tracker_step(&tracker, &initiator, &scan, &report) != RHO_OK) {
@@ -97,8 +100,11 @@ static int radar_step(float time_s)
     return 1;
 }
 
-/* Prints the tracks; the exit code: 0 where one is confirmed, near the target. */
-static int radar_found(const struct target *target, float time_s)
+/*
+ * Prints the tracks, and returns the exit code: 0 where the only track is confirmed and close to
+ * the target.
+ */
+static int check_tracks(const struct target *target, float time_s)
 {
     int found = 0;
     for (unsigned i = 0; i < report.num_tracks; i++) {

@@ -27,18 +27,18 @@ int main(void)
     radar.sector_from_rad = (90.0f - 50.0f) * DEGREE;
     radar.sector_to_rad = (90.0f + 50.0f) * DEGREE;
     scan.measures = RHO_MEASURES_RANGE_RATE;
-    if (!radar_open()) {
+    if (!init_tracking()) {
         return 2;
     }
     for (int frame = 0; frame < 40; frame++) {
         time_s = settings.scan_interval_s * (float)frame;
         if (frame % 7 != 5) {
-            radar_sees(&car, time_s);
+            add_target_plot(&car, time_s);
         }
-        radar_measures(60.0f + 30.0f * noise(), 30.0f * noise(), 0.0f, 15.0f * noise());
-        if (!radar_step(time_s)) {
+        add_measured_plot(60.0f + 30.0f * noise(), 30.0f * noise(), 0.0f, 15.0f * noise());
+        if (!step_scan(time_s)) {
             return 2;
         }
     }
-    return radar_found(&car, time_s);
+    return check_tracks(&car, time_s);
 }

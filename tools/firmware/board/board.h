@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * board: what the radar node asks of the hardware. To bring it to another processor, write these
- * functions; nothing else of the node knows where it runs. All are called from one thread.
+ * board: the functions that the radar node needs from the hardware. A port to another processor
+ * writes these; no other part of the node depends on the hardware. All are called from one thread.
  */
 #ifndef BOARD_H
 #define BOARD_H
@@ -9,38 +9,40 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Opens network and clock. Returns 0 where the hardware does not answer. */
+/* Opens network and clock. Returns 0 where the network chip does not answer. */
 int board_open(void);
 
 /*
- * Microseconds since the start; goes on as long as it is called, or board_wait, at least once a
- * minute.
+ * Microseconds since the start. This function or board_wait must be called at least once a minute,
+ * or time is lost.
  */
 int64_t board_time_us(void);
 
 /*
- * A datagram to LCM's group and port that has come. It goes into the buffer; what is longer than
- * capacity is left out whole. Returns its bytes, and the address that it came from (IPv4, 10.9.0.1
- * as 0x0a090001); 0: none has come.
+ * Copies a received datagram to LCM's group and port into the buffer, and returns its size and the
+ * sender's address (IPv4, 10.9.0.1 as 0x0a090001); 0 where none has arrived. Datagrams longer than
+ * capacity are dropped.
  */
 size_t board_receive(uint8_t *buffer, size_t capacity, uint32_t *source_ipv4);
 
-/* Sends a datagram to LCM's group and port; waits some milliseconds for room, and drops it then. */
+/*
+ * Sends a datagram to LCM's group and port; drops it if the chip has no room for some milliseconds.
+ */
 void board_send(const uint8_t *datagram, size_t size);
 
-/* How many were dropped so far. */
+/* Number of datagrams that board_send has dropped. */
 uint32_t board_unsent(void);
 
-/* Counts the starts, in memory that stays without power; 0 where there is none. */
+/* Increments and returns a count of starts in non-volatile memory; 0 where the board has none. */
 int32_t board_boot(void);
 
-/* Sleeps until a datagram may have come, or that time. May return earlier. */
+/* Sleeps until a datagram may have arrived or the time is until_us; may return earlier. */
 void board_wait(int64_t until_us);
 
-/* A line for whoever maintains the node. */
+/* Prints a line on the board's console. */
 void board_say(const char *text);
 
-/* The most of the stack that was in use so far, in bytes. */
+/* Largest stack depth so far, in bytes. */
 size_t board_stack_used(void);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * files: what the replay asks of the machine that it runs on: files, arguments, a count of work. In
- * host/ with stdio, in mps2/ through the debugger (semihosting).
+ * files: the functions that the replay needs from its machine: files, console, instruction count.
+ * Implemented in host/ with stdio, and in mps2/ through the debugger (semihosting).
  */
 #ifndef FILES_H
 #define FILES_H
@@ -9,28 +9,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A file as a number above 0; 0: it cannot be opened. */
+/* Open a file; return a handle above 0, or 0 where it cannot be opened. */
 int files_open_to_read(const char *path);
 int files_open_to_write(const char *path);
 
-/* Returns the bytes that were read, fewer at the end. */
+/* Returns the number of bytes read, fewer than size at the end of the file. */
 size_t files_read(int file, uint8_t *bytes, size_t size);
 
-/* Return 0 where not all was written. */
+/* Return 0 on failure, such as a full disk. */
 int files_write(int file, const uint8_t *bytes, size_t size);
 int files_close(int file);
 
-/* On the console; no newline is added. */
+/* Prints the text on the console, without adding a newline. */
 void files_say(const char *text);
 
 /*
- * The processor's instructions so far, where they can be counted (0 else). Wraps at 2^32 - 1, so
- * that what lies between two calls can be told up to 2.6e9.
+ * files_instructions reads a counter of executed instructions (0 where there is none), which wraps;
+ * files_instructions_between gives the instructions between two readings, up to 2.6e9.
  */
 uint32_t files_instructions(void);
 uint32_t files_instructions_between(uint32_t from, uint32_t to);
 
-/* Bytes of stack that were used at most; 0: not known. */
+/* Largest stack depth so far, in bytes; 0 where not known. */
 size_t files_stack_used(void);
 
 #endif

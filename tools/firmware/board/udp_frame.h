@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * udp_frame: Ethernet frames with an IPv4 UDP datagram to LCM's multicast group, and the IGMP
- * report by which switches learn that this host wants it. No ARP, no fragments, no IP options in
- * what is sent.
+ * udp_frame: builds and parses Ethernet frames with an IPv4 UDP datagram to LCM's multicast group,
+ * and builds the IGMP report by which switches learn that this host is a member. Sends no ARP, no
+ * fragments and no IP options.
  */
 #ifndef UDP_FRAME_H
 #define UDP_FRAME_H
@@ -10,9 +10,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define UDP_FRAME_HEAD 42u /* Ethernet 14, IPv4 20, UDP 8 */
-#define UDP_FRAME_MAX 1514u
-#define UDP_FRAME_JOIN 60u
+#define UDP_FRAME_HEAD 42u  /* size of the headers: Ethernet 14, IPv4 20, UDP 8 */
+#define UDP_FRAME_MAX 1514u /* largest Ethernet frame */
+#define UDP_FRAME_JOIN 60u  /* size of an IGMP report, padded to the smallest frame */
 
 struct udp_frame_host {
     uint8_t mac[6];
@@ -20,22 +20,19 @@ struct udp_frame_host {
 };
 
 /*
- * Writes the head of a frame before payload_size bytes of payload (1472 at most) that stand at
- * frame + UDP_FRAME_HEAD. number: the datagram's, any. Returns the frame's bytes.
+ * Writes the headers of a frame whose payload_size bytes (at most 1472) are already at frame +
+ * UDP_FRAME_HEAD. number: IPv4 identification, any. Returns the frame's size.
  */
 size_t udp_frame_build(uint8_t *frame, const struct udp_frame_host *from, uint16_t number,
                        size_t payload_size);
 
 /*
- * Opens a frame of any bytes. Returns the payload's bytes and where it begins; 0 where it is no
- * whole datagram to the group and port, or its checksums are wrong.
+ * Parses a frame of any content. Returns the payload's size and sets *payload; 0 where it is no
+ * complete datagram to LCM's group and port, or a checksum is wrong.
  */
 size_t udp_frame_open(const uint8_t *frame, size_t size, const uint8_t **payload);
 
-/*
- * The address that a frame comes from which udp_frame_open has opened: IPv4, 10.9.0.1 as
- * 0x0a090001.
- */
+/* Sender's IPv4 address (10.9.0.1 as 0x0a090001) of a frame that udp_frame_open accepted. */
 uint32_t udp_frame_source(const uint8_t *frame);
 
 /* Writes an IGMP version 2 report for the group, UDP_FRAME_JOIN bytes. */

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node: the node of this folder without a board, LCM datagrams in and out. `make budget` links it,
- * and nobody runs it.
+ * node: the firmware's node (../node.c) without a board. `make budget` links it to measure its
+ * size; it is never run.
  */
 #include "../node.h"
 
 static uint8_t datagram[RHO_UDPM_MAX_DATAGRAM];
 
-static void send_nothing(void *context, const uint8_t *bytes, size_t size)
+static void discard_datagram(void *context, const uint8_t *bytes, size_t size)
 {
     (void)context;
     (void)bytes;
     (void)size;
 }
 
-static int64_t clock_us(void *context)
+static int64_t zero_clock_us(void *context)
 {
     (void)context;
     return 0;
@@ -24,8 +24,8 @@ int main(void)
 {
     struct node_config config;
     node_config_default(&config);
-    config.send = send_nothing;
-    config.clock_us = clock_us;
+    config.send = discard_datagram;
+    config.clock_us = zero_clock_us;
     if (node_start(&config) != RHO_OK) {
         return 1;
     }

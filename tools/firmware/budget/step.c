@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * step: the least that a firmware of its own calls: polar plots become plots, scans are stepped.
- * `make budget` links it, and nobody runs it.
+ * step: the minimal use of the library in firmware: converts polar plots and steps scans. `make
+ * budget` links it to measure its size; it is never run.
  */
 #include "rhotrack/initiator.h"
 #include "rhotrack/tracker.h"

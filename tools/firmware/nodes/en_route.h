@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * en_route: a long range surveillance radar of air traffic control, a turn in 10 s: aircraft at 25
- * to 350 m/s, 4 to 370 km.
+ * en_route: node configuration for a long-range air traffic control radar, 10 s a turn: aircraft at
+ * 25 to 350 m/s, 4 to 370 km.
  */
 #define RHO_WORK_MAX 4000000
 #include "radar_capacities.h"

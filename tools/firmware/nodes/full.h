@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * full: the node of README.md: any one radar, with all that the embedded profile holds
- * (radar_capacities.h). The settings are the library's own.
+ * full: node configuration for any one radar, with all capacities of radar_capacities.h and the
+ * library's default settings; the node that README.md describes.
  */
 #include "radar_capacities.h"

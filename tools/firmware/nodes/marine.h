@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * marine: a ship's or harbour's radar, a turn in 2.5 s: vessels of up to 30 m/s, some at anchor,
- * out to 45 km.
+ * marine: node configuration for a ship's or harbour radar, 2.5 s a turn: vessels of up to 30 m/s,
+ * some at anchor, to 45 km.
  */
 #define RHO_WORK_MAX 1000000
 #include "radar_capacities.h"

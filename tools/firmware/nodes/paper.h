@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * paper: the papers' system on a processor: neutrosophic Hough transform of plots, ghost matrix and
- * passive Hough transform of bearings, Kalman filter with input estimation, Hough gate. One radar
- * and three passive sensors.
+ * paper: node configuration with the papers' methods: neutrosophic Hough transform of plots, ghost
+ * matrix and passive Hough transform of bearings, Kalman filter with input estimation, Hough gate.
+ * One radar and three passive sensors.
  */
 #define RHO_MAX_SCANS 4
 #define RHO_MAX_PLOTS 128

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * smallest: one radar, eight tracks of 64 polar plots a turn, by the nearest plot.
+ * smallest: node configuration of least memory: one radar, eight tracks, 64 polar plots a turn,
+ * nearest-plot gate.
  */
 #define RHO_SCAN_KINDS 2
 #define RHO_WORK_MAX 20000

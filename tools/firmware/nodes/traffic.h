@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * traffic: a 24 GHz radar above a road, 20 looks a second of 128 plots with range rates at most:
- * 64 vehicles of up to 90 m/s and 15 m, with their extents. No map of echoes: flash.
+ * traffic: node configuration for a 24 GHz radar above a road: 20 looks a second of at most 128
+ * plots with range rates, 64 vehicles of up to 90 m/s and 15 m length, with estimated extents. No
+ * clutter map, to save flash.
  */
 #define RHO_WORK_MAX 14000
 #define RHO_MAX_SCANS 4

@@ -10,7 +10,8 @@
 
 /* ---- identities ---- */
 
-static size_t target_number(struct evaluation *e, int32_t id, int64_t time_us)
+/* Index of the target with this id in e->targets; a new target starts its life at time_us. */
+static size_t find_or_add_target(struct evaluation *e, int32_t id, int64_t time_us)
 {
     size_t known = e->target_ids.count;
     size_t number = identity_numbers_find_or_add(&e->target_ids, id);
@@ -24,7 +25,8 @@ static size_t target_number(struct evaluation *e, int32_t id, int64_t time_us)
     return number;
 }
 
-static size_t track_number(struct evaluation *e, int32_t id)
+/* Index of the track with this id in e->tracks; a new track is added. */
+static size_t find_or_add_track(struct evaluation *e, int32_t id)
 {
     size_t known = e->track_ids.count;
     size_t number = identity_numbers_find_or_add(&e->track_ids, id);
@@ -42,8 +44,11 @@ static double norm(double x, double y, double z)
     return sqrt(x * x + y * y + z * z);
 }
 
-/* e^T P^-1 e of P = [xx yx; yx yy]; NAN where that is not given or not positive definite. */
-static double nees_of(double xx, double yx, double yy, double ex, double ey)
+/*
+ * NEES e^T P^-1 e of the error e = (ex, ey) with the covariance P = [xx yx; yx yy]; NAN where P is
+ * unknown or not positive definite.
+ */
+static double nees_of_xy_error(double xx, double yx, double yy, double ex, double ey)
 {
     double det = xx * yy - yx * yx;
     if (!(xx > 0.0 && det > 0.0)) {
@@ -63,15 +68,18 @@ static struct pair_error error_of_pair(size_t number, enum evaluation_motion mot
         .motion = track->is_coasting ? EVALUATION_COASTING : motion,
         .error_m = norm(ex_m, ey_m, track->z_m - target->z_m),
         .error_mps = norm(ex_mps, ey_mps, track->vz_mps - target->vz_mps),
-        .nees = nees_of(track->cov_xx_m2, track->cov_yx_m2, track->cov_yy_m2, ex_m, ey_m),
-        .velocity_nees = nees_of(track->cov_vxx_m2ps2, track->cov_vyx_m2ps2, track->cov_vyy_m2ps2,
-                                 ex_mps, ey_mps),
+        .nees = nees_of_xy_error(track->cov_xx_m2, track->cov_yx_m2, track->cov_yy_m2, ex_m, ey_m),
+        .velocity_nees = nees_of_xy_error(track->cov_vxx_m2ps2, track->cov_vyx_m2ps2,
+                                          track->cov_vyy_m2ps2, ex_mps, ey_mps),
     };
 }
 
-/* Notes how the target's velocity changed since its time before. */
-static void note_target_motion(const struct evaluation *e, struct target_life *life,
-                               const struct evaluation_point *target, int64_t time_us)
+/*
+ * Classifies the target as straight or turning by the change of its velocity since its previous
+ * time, and stores its time and velocity for the next call.
+ */
+static void update_target_motion(const struct evaluation *e, struct target_life *life,
+                                 const struct evaluation_point *target, int64_t time_us)
 {
     double *last = life->velocity_mps, passed_s = (double)(time_us - life->last_us) * 1e-6;
     double change_mps =
@@ -85,33 +93,42 @@ static void note_target_motion(const struct evaluation *e, struct target_life *l
     last[2] = target->vz_mps;
 }
 
-/* The target has this track now: what that means for its life. */
-static void note_paired_track(struct target_life *life, size_t track, struct evaluation_scan *scan)
+/*
+ * Records that the target is paired with the track at the time of scan: its first detection, a
+ * switch from another track, a fragment after a gap.
+ */
+static void record_paired_track(struct target_life *life, size_t track,
+                                struct evaluation_scan *scan)
 {
-    bool is_other = life->track != NO_TRACK && life->track != track;
-    bool is_again = life->paired > 0 && !life->is_tracked;
+    bool is_switch = life->track != NO_TRACK && life->track != track;
+    bool is_fragment = life->paired > 0 && !life->is_tracked;
 
     if (life->paired++ == 0) {
         life->found_us = scan->time_us;
         life->delay_scans = life->scans - 1;
     }
     life->kept_until_us = scan->time_us;
-    life->switches += is_other;
-    life->fragments += is_again;
-    scan->switches += is_other;
-    scan->fragments += is_again;
+    life->switches += is_switch;
+    life->fragments += is_fragment;
+    scan->switches += is_switch;
+    scan->fragments += is_fragment;
     life->track = track;
 }
 
 /* ---- one time ---- */
 
-/* Sums of the time's pairs, and numbers of those that have what is summed. */
+/*
+ * Sums of squared velocity errors and of NEES over the pairs at one time, and how many pairs have a
+ * velocity, a covariance and a velocity covariance.
+ */
 struct time_sums {
     double error2_m2ps2, nees, velocity_nees;
     size_t velocities, covariances, velocity_covariances;
 };
 
-static void add_pair(struct evaluation *e, const struct pair_error *error, struct time_sums *sums)
+/* Keeps the errors of a pair for the overall figures, and adds the known ones to sums. */
+static void add_pair_errors(struct evaluation *e, const struct pair_error *error,
+                            struct time_sums *sums)
 {
     e->pairs = must_grow(e->pairs, e->num_pairs, &e->pairs_capacity, sizeof *e->pairs);
     e->pairs[e->num_pairs++] = *error;
@@ -153,23 +170,23 @@ static struct gospa pair_targets_with_tracks(const struct evaluation *e,
     return gospa;
 }
 
-static void note_targets_at_time(struct evaluation *e, const struct evaluation_point *targets,
-                                 size_t num_targets, const struct evaluation_point *tracks,
-                                 const int *track_of, struct evaluation_scan *scan)
+static void record_targets_at_time(struct evaluation *e, const struct evaluation_point *targets,
+                                   size_t num_targets, const struct evaluation_point *tracks,
+                                   const int *track_of, struct evaluation_scan *scan)
 {
     struct time_sums sums = {0};
     for (size_t i = 0; i < num_targets; i++) {
-        size_t number = target_number(e, targets[i].id, scan->time_us);
+        size_t number = find_or_add_target(e, targets[i].id, scan->time_us);
         struct target_life *life = &e->targets[number];
         life->scans++;
-        note_target_motion(e, life, &targets[i], scan->time_us);
+        update_target_motion(e, life, &targets[i], scan->time_us);
         if (track_of[i] >= 0) {
             const struct evaluation_point *track = &tracks[track_of[i]];
             struct pair_error error = error_of_pair(number, life->motion, &targets[i], track);
-            size_t partner = track_number(e, track->id);
-            note_paired_track(life, partner, scan);
+            size_t partner = find_or_add_track(e, track->id);
+            record_paired_track(life, partner, scan);
             e->tracks[partner].paired++;
-            add_pair(e, &error, &sums);
+            add_pair_errors(e, &error, &sums);
         }
         life->is_tracked = track_of[i] >= 0;
     }
@@ -200,10 +217,10 @@ void evaluation_add_time(struct evaluation *e, int64_t time_us,
         .rmse_m = sqrt(evaluation_mean(gospa.localisation_m2, gospa.pairs)),
     };
     for (size_t i = 0; i < num_tracks; i++) {
-        size_t number = track_number(e, tracks[i].id);
+        size_t number = find_or_add_track(e, tracks[i].id);
         e->tracks[number].scans++;
     }
-    note_targets_at_time(e, targets, num_targets, tracks, track_of, &scan);
+    record_targets_at_time(e, targets, num_targets, tracks, track_of, &scan);
     e->scans = must_grow(e->scans, e->num_scans, &e->scans_capacity, sizeof *e->scans);
     e->scans[e->num_scans++] = scan;
     free(track_of);

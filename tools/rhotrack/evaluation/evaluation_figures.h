@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * evaluation_figures: the figures of an evaluation by the names that users read, in the order in
- * which they are printed.
+ * evaluation_figures: results of an evaluation as lists of named figures, with the names and in the
+ * order in which users read them.
  */
 #ifndef RHOTRACK_TOOL_EVALUATION_FIGURES_H
 #define RHOTRACK_TOOL_EVALUATION_FIGURES_H
@@ -14,7 +14,7 @@ struct evaluation_figures {
     size_t count;
     struct {
         const char *name;
-        double value; /* NAN: there is none */
+        double value; /* NAN where the figure is not known */
     } list[EVALUATION_FIGURES_MAX];
 };
 

@@ -14,20 +14,20 @@
 
 struct timed_point {
     int64_t time_us;
-    size_t row; /* in its table */
+    size_t row; /* row in the table that it was read from */
     struct evaluation_point point;
 };
 
 struct points {
     const struct table *table;
-    struct timed_point *list; /* by time, then as in the file */
+    struct timed_point *list; /* sorted by time, then by row of the file */
     size_t count;
     bool has_z, has_vz;
 };
 
 /* ---- reading ---- */
 
-static struct evaluation_point point_of(const struct path_row *path)
+static struct evaluation_point point_from_row(const struct path_row *path)
 {
     return (struct evaluation_point){
         .id = path->id,
@@ -56,7 +56,7 @@ static int by_time(const void *a, const void *b)
     return one->row < other->row ? -1 : one->row > other->row;
 }
 
-/* Confirmed and coasting rows. */
+/* Reads the confirmed and coasting rows of a truth or tracks table, sorted by time. */
 static struct points read_points(const struct table *table, const struct parameters *parameters)
 {
     struct path_columns columns = path_columns_find(table, parameters);
@@ -68,8 +68,8 @@ static struct points read_points(const struct table *table, const struct paramet
         const struct path_row path = path_row_read(&columns, row);
         if (path.status == RHO_MESSAGE_TRACK_CONFIRMED ||
             path.status == RHO_MESSAGE_TRACK_COASTING) {
-            points.list[points.count++] =
-                (struct timed_point){.time_us = path.time_us, .row = row, .point = point_of(&path)};
+            points.list[points.count++] = (struct timed_point){
+                .time_us = path.time_us, .row = row, .point = point_from_row(&path)};
         }
     }
     path_columns_end(&columns);
@@ -77,8 +77,11 @@ static struct points read_points(const struct table *table, const struct paramet
     return points;
 }
 
-/* Heights, and velocities upwards, are compared where both sides have them. */
-static void keep_common_heights(struct points *points, bool has_z, bool has_vz)
+/*
+ * Sets heights (vertical velocities) to 0 unless has_z (has_vz): they are compared only where both
+ * truth and tracks have them.
+ */
+static void zero_uncompared_heights(struct points *points, bool has_z, bool has_vz)
 {
     for (size_t i = 0; i < points->count; i++) {
         struct evaluation_point *point = &points->list[i].point;
@@ -89,8 +92,11 @@ static void keep_common_heights(struct points *points, bool has_z, bool has_vz)
 
 /* ---- tracks at other times than the truth's ---- */
 
-/* A track's row as it would be a little before or after. */
-static struct timed_point moved_to_time(const struct timed_point *timed, int64_t to_us)
+/*
+ * A track's point extrapolated with its own velocity to a nearby time; without a velocity only the
+ * time is changed.
+ */
+static struct timed_point extrapolated_to_time(const struct timed_point *timed, int64_t to_us)
 {
     struct timed_point at = *timed;
     double by_s = (double)(to_us - timed->time_us) * 1e-6;
@@ -112,33 +118,37 @@ static struct alignment_times times_of_points(const struct points *points)
     return (struct alignment_times){.list_us = times_us, .count = points->count};
 }
 
-/* As time_alignment.h has it. */
-static void align_tracks(struct points *tracks, const struct points *truth, int64_t most_us)
+/*
+ * Replaces the tracks' points by their points at the truth's times (see time_alignment.h). Exits
+ * with an error where a track time is further than most_us from every truth time.
+ */
+static void align_tracks_to_truth(struct points *tracks, const struct points *truth,
+                                  int64_t most_us)
 {
     struct alignment_times track_times = times_of_points(tracks),
                            truth_times = times_of_points(truth);
-    size_t far = alignment_find_unmatched(track_times, truth_times, most_us);
-    if (far < tracks->count) {
-        alignment_fail_unmatched(tracks->table, tracks->list[far].row, most_us);
+    size_t unmatched = alignment_find_unmatched(track_times, truth_times, most_us);
+    if (unmatched < tracks->count) {
+        alignment_fail_unmatched(tracks->table, tracks->list[unmatched].row, most_us);
     }
     struct alignment alignment = alignment_to_truth(track_times, truth_times, most_us);
-    struct points leading = *tracks;
-    leading.list = must_calloc(alignment.count + 1, sizeof *leading.list);
-    leading.count = alignment.count;
+    struct points aligned = *tracks;
+    aligned.list = must_calloc(alignment.count + 1, sizeof *aligned.list);
+    aligned.count = alignment.count;
     for (size_t i = 0; i < alignment.count; i++) {
-        leading.list[i] =
-            moved_to_time(&tracks->list[alignment.list[i].row], alignment.list[i].to_us);
+        aligned.list[i] =
+            extrapolated_to_time(&tracks->list[alignment.list[i].row], alignment.list[i].to_us);
     }
     free(track_times.list_us);
     free(truth_times.list_us);
     free(alignment.list);
     free(tracks->list);
-    *tracks = leading;
+    *tracks = aligned;
 }
 
 /* ---- time by time ---- */
 
-/* End of the points from `from` that have its time, within the tolerance. */
+/* Index one past the last point from `from` on whose time is at most time_us plus 1 ms. */
 static size_t end_of_points_at_time(const struct points *points, size_t from, int64_t time_us)
 {
     while (from < points->count && points->list[from].time_us <= time_us + ALIGNMENT_LEAST_US) {
@@ -147,6 +157,10 @@ static size_t end_of_points_at_time(const struct points *points, size_t from, in
     return from;
 }
 
+/*
+ * Exits with an error if the track point at index `at` is earlier than time_us: the truth has no
+ * such time.
+ */
 static void check_truth_has_time(const struct points *tracks, size_t at, int64_t time_us)
 {
     if (at < tracks->count && tracks->list[at].time_us < time_us - ALIGNMENT_LEAST_US) {
@@ -154,14 +168,15 @@ static void check_truth_has_time(const struct points *tracks, size_t at, int64_t
     }
 }
 
-/* The last time that each identity was seen at, times counting from 1. */
+/* For each id, the number of the evaluated time at which it was last seen, counting from 1. */
 struct last_times {
     struct identity_numbers ids;
-    size_t *time; /* by number */
+    size_t *time; /* indexed by the number that ids gives an identity */
     size_t capacity, now;
 };
 
-static bool is_first_at_this_time(struct last_times *last, int32_t id)
+/* Marks the id as seen at the present time; true if it had not been marked at this time before. */
+static bool mark_id_seen_now(struct last_times *last, int32_t id)
 {
     size_t known = last->ids.count, number = identity_numbers_find_or_add(&last->ids, id);
     if (number == known) {
@@ -174,16 +189,16 @@ static bool is_first_at_this_time(struct last_times *last, int32_t id)
 }
 
 /*
- * Scans of several sensors at one time give a track, or a target, a row each: the last one goes to
- * the list. Returns how many are in it.
+ * Copies points begin .. end - 1, all of one time, to list; of several rows with one id (scans of
+ * several sensors at one time) only the last is kept. Returns the length of the list.
  */
-static size_t keep_last_of_each(struct last_times *last, const struct points *points, size_t begin,
-                                size_t end, struct evaluation_point *list)
+static size_t keep_last_point_of_each_id(struct last_times *last, const struct points *points,
+                                         size_t begin, size_t end, struct evaluation_point *list)
 {
     size_t kept = end - begin;
     last->now++;
     for (size_t i = end; i-- > begin;) {
-        if (is_first_at_this_time(last, points->list[i].point.id)) {
+        if (mark_id_seen_now(last, points->list[i].point.id)) {
             list[--kept] = points->list[i].point;
         }
     }
@@ -191,8 +206,8 @@ static size_t keep_last_of_each(struct last_times *last, const struct points *po
     return end - begin - kept;
 }
 
-static void evaluate_times(struct evaluation *e, const struct points *truth,
-                           const struct points *tracks)
+static void evaluate_all_times(struct evaluation *e, const struct points *truth,
+                               const struct points *tracks)
 {
     struct evaluation_point *targets_now = must_calloc(truth->count, sizeof *targets_now);
     struct evaluation_point *tracks_now = must_calloc(tracks->count, sizeof *tracks_now);
@@ -204,8 +219,9 @@ static void evaluate_times(struct evaluation *e, const struct points *truth,
         size_t target_end = end_of_points_at_time(truth, target, time_us);
         size_t track_end = end_of_points_at_time(tracks, track, time_us);
         size_t num_targets =
-            keep_last_of_each(&last_target, truth, target, target_end, targets_now);
-        size_t num_tracks = keep_last_of_each(&last_track, tracks, track, track_end, tracks_now);
+            keep_last_point_of_each_id(&last_target, truth, target, target_end, targets_now);
+        size_t num_tracks =
+            keep_last_point_of_each_id(&last_track, tracks, track, track_end, tracks_now);
         evaluation_add_time(e, time_us, targets_now, num_targets, tracks_now, num_tracks);
         target = target_end;
         track = track_end;
@@ -227,13 +243,13 @@ struct evaluation *evaluation_of_tables(const struct table *truth_table,
     evaluation_set_turning_limit(e, parameters->value[PARAMETER_TURNING_MPS2]);
     struct points truth = read_points(truth_table, parameters);
     struct points tracks = read_points(tracks_table, parameters);
-    keep_common_heights(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
-    keep_common_heights(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
+    zero_uncompared_heights(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
+    zero_uncompared_heights(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     int64_t tolerance_us = alignment_tolerance_us(parameters);
     if (tolerance_us > ALIGNMENT_LEAST_US) {
-        align_tracks(&tracks, &truth, tolerance_us);
+        align_tracks_to_truth(&tracks, &truth, tolerance_us);
     }
-    evaluate_times(e, &truth, &tracks);
+    evaluate_all_times(e, &truth, &tracks);
     free(truth.list);
     free(tracks.list);
     return e;

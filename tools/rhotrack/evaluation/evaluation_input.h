@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * evaluation_input: the rows of a truth and of a tracks file, brought to an evaluation time by
- * time.
- */
+/* evaluation_input: feeds the rows of a truth and a tracks table to an evaluation, time by time. */
 #ifndef RHOTRACK_TOOL_EVALUATION_INPUT_H
 #define RHOTRACK_TOOL_EVALUATION_INPUT_H
 
@@ -11,9 +8,10 @@
 #include "settings/parameters.h"
 
 /*
- * The times are those of the truth; confirmed and coasting rows count. Errors as `rhotrack:
- * FILE:LINE: what is wrong`, exit 2: bad cells, a tracks time that is not a truth time within 1 ms.
- * The parameters say where the origin is of a truth in latitude and longitude.
+ * Evaluates the confirmed and coasting rows of tracks at the times of the truth. Bad cells and a
+ * tracks time that is no truth time within 1 ms (or time_tolerance_s) end the program with
+ * `rhotrack: FILE:LINE: what is wrong`, exit 2. The parameters give the origin for positions in
+ * latitude and longitude.
  */
 struct evaluation *evaluation_of_tables(const struct table *truth, const struct table *tracks,
                                         const struct parameters *parameters, double cutoff_m);

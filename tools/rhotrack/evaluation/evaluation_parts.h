@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Private to evaluation: what is kept of each identity and each pair. */
+/* Internal state of an evaluation: what it keeps for each target, track and pair. */
 #ifndef RHOTRACK_TOOL_EVALUATION_PARTS_H
 #define RHOTRACK_TOOL_EVALUATION_PARTS_H
 
@@ -9,16 +9,17 @@
 #include "evaluation/evaluation.h"
 
 #define NO_TRACK SIZE_MAX
-#define EVALUATION_AXES 2.0 /* of covariances: the mean of e^T P^-1 e where they are right */
+/* number of axes, x and y: the mean NEES (e^T P^-1 e) where covariances are right */
+#define EVALUATION_AXES 2.0
 
-/* A target through its life. */
+/* What is accumulated for a target over its times; fields as in evaluation_target. */
 struct target_life {
     int64_t first_us, last_us, found_us, kept_until_us;
     size_t scans, paired, delay_scans, switches, fragments;
-    size_t track;    /* number of the track that it had last, or NO_TRACK */
-    bool is_tracked; /* at its last time */
+    size_t track;    /* index of the track last paired with the target, or NO_TRACK */
+    bool is_tracked; /* paired with a track at the target's last time */
     enum evaluation_motion motion;
-    double velocity_mps[3]; /* at its last time */
+    double velocity_mps[3]; /* true velocity at the target's last time */
 };
 
 struct track_life {
@@ -26,24 +27,26 @@ struct track_life {
 };
 
 struct pair_error {
-    size_t target; /* its number */
+    size_t target; /* index of the target in evaluation.targets */
     enum evaluation_motion motion;
-    double error_m, error_mps, nees, velocity_nees; /* NAN where not known */
+    /* errors of position and velocity, and their NEES; NAN where not known */
+    double error_m, error_mps, nees, velocity_nees;
 };
 
 struct evaluation {
     double cutoff_m, turning_mps2;
     struct identity_numbers target_ids, track_ids;
-    struct target_life *targets; /* by number, as are tracks */
+    /* indexed by the number that target_ids gives; tracks by that of track_ids */
+    struct target_life *targets;
     struct track_life *tracks;
     size_t targets_capacity, tracks_capacity;
     struct evaluation_scan *scans;
     size_t num_scans, scans_capacity;
-    struct pair_error *pairs; /* in the order of time */
+    struct pair_error *pairs; /* errors of all pairs, by time */
     size_t num_pairs, pairs_capacity;
 };
 
-/* NAN where there is none. */
+/* sum / count; NAN where count is 0. */
 double evaluation_mean(double sum, size_t count);
 
 #endif

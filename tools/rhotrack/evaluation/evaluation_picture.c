@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* evaluation: GOSPA and numbers over time. */
+/*
+ * evaluation_draw: a picture of GOSPA, its parts and the numbers of targets and tracks over time.
+ */
 #include <inttypes.h>
 #include <math.h>
 #include <stdbool.h>
@@ -8,17 +10,18 @@
 #include "evaluation/evaluation_report.h"
 #include "picture/picture.h"
 
-#define LONG_TIME_US                                                                               \
-    1000000000000 /* from there on times are counted from the first: the axis has six digits */
+/* times beyond this are drawn as seconds from the first: axis labels have six digits */
+#define LONG_TIME_US 1000000000000
 
+/* Time that is drawn as 0: the first time where times are long (LONG_TIME_US), else time 0. */
 static int64_t first_shown_time_us(const struct evaluation_scan *scans, size_t count)
 {
     return count > 0 && llabs(scans[count - 1].time_us) >= LONG_TIME_US ? scans[0].time_us : 0;
 }
 
 /*
- * Columns: time; GOSPA and the roots of its parts: missed, false, localisation; targets, tracks,
- * missed, false.
+ * Writes a data block with a row a time: time; GOSPA and the roots of its missed, false and
+ * localisation parts; numbers of targets, tracks, missed targets and false tracks.
  */
 static void put_values_over_time(FILE *script, const struct evaluation_scan *scans, size_t count)
 {
@@ -35,8 +38,8 @@ static void put_values_over_time(FILE *script, const struct evaluation_scan *sca
 }
 
 /*
- * The same look in both panels: wide and grey what the thin lines are parts of. One time alone
- * makes no line.
+ * Defines the line styles of both panels: the total as a wide grey line, its parts as thin coloured
+ * lines; points instead of lines where there is one time only.
  */
 static void define_line_styles(FILE *script, size_t count)
 {
@@ -49,7 +52,7 @@ static void define_line_styles(FILE *script, size_t count)
             line, line, picture_colour(1), line, picture_colour(2), line, picture_colour(0));
 }
 
-/* is_zero: all there is to draw is 0. */
+/* Sets a panel's position, key and y range; is_zero: all values are 0, and the range is 0 .. 1. */
 static void place_panel(FILE *script, double bottom, double top, bool is_zero)
 {
     fprintf(script,

@@ -62,7 +62,10 @@ static void print_motion(struct text_table *table, const char *name,
                        text_table_number(texts[5], 3, of->velocity_inside));
 }
 
-/* Ratios are 1 and shares inside the ellipse 0.95 where covariances are right. */
+/*
+ * Prints a table of errors by motion. Where covariances are right, ratios are 1 and shares inside
+ * the 95 % ellipse are 0.95.
+ */
 static void print_motions(const struct evaluation_result *result, FILE *file)
 {
     struct text_table table = text_table_start(
@@ -83,7 +86,7 @@ void evaluation_print(const struct evaluation *e, bool by_target)
     struct output output = output_open(NULL);
     for (size_t i = 0; i < figures.count; i++) {
         double value = figures.list[i].value;
-        int digits = fabs(value) < 1e5 ? 6 : 10; /* counts and times in full */
+        int digits = fabs(value) < 1e5 ? 6 : 10; /* large counts and times are not rounded */
         if (isfinite(value)) {
             fprintf(output.file, "%-22s %12.*g\n", figures.list[i].name, digits, value);
         } else {

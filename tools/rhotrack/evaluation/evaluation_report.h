@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* evaluation_report: an evaluation as text, JSON, a CSV file or a picture. */
+/* evaluation_report: writes the results of an evaluation as text, JSON, CSV or a picture. */
 #ifndef RHOTRACK_TOOL_EVALUATION_REPORT_H
 #define RHOTRACK_TOOL_EVALUATION_REPORT_H
 
@@ -7,16 +7,22 @@
 
 #include "evaluation/evaluation.h"
 
-/* A line a figure on standard output; by_target: then a table with a row a target. */
+/*
+ * Prints a line for each overall figure to standard output, then a table of errors by motion; with
+ * by_target also a table with a row for each target.
+ */
 void evaluation_print(const struct evaluation *e, bool by_target);
 
-/* One object on standard output: the figures, and by_target and over_time as lists of objects. */
+/*
+ * Prints one JSON object to standard output: the overall figures, by_motion as an object, by_target
+ * and over_time as lists of objects.
+ */
 void evaluation_print_json(const struct evaluation *e);
 
-/* A row a time. */
+/* Writes a CSV file with a row of figures for each evaluated time. */
 void evaluation_write_csv(const struct evaluation *e, const char *path);
 
-/* GOSPA and its parts, and the numbers of targets and tracks, over time; an SVG. */
+/* Draws GOSPA, its parts, and the numbers of targets and tracks over time as an SVG file. */
 void evaluation_draw(const struct evaluation *e, const char *path);
 
 #endif

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* evaluation: figures of what was counted. */
+/*
+ * evaluation_result: computes the figures of an evaluation, overall and for each target, from the
+ * accumulated pairs.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +11,7 @@
 #include "evaluation/evaluation.h"
 #include "evaluation/evaluation_parts.h"
 
-/* chi-square of two degrees of freedom, 95 %: -2 ln 0.05 */
+/* 95 % quantile of chi-square with two degrees of freedom: -2 ln 0.05 */
 #define NEES_95 5.991464547107979
 
 double evaluation_mean(double sum, size_t count)
@@ -24,7 +27,10 @@ static int by_value(const void *a, const void *b)
     return one < other ? -1 : one > other;
 }
 
-/* Of sorted values, interpolated between neighbours. */
+/*
+ * The value below which a share of the sorted values lies, interpolated between neighbours; NAN
+ * where there are none.
+ */
 static double quantile(const double *sorted, size_t count, double share)
 {
     if (count == 0) {
@@ -58,8 +64,8 @@ static void add_nees(struct nees_sum *to, double nees)
     }
 }
 
-static void fill_nees(struct evaluation_errors *errors, const struct pair_error *pairs,
-                      size_t count)
+static void fill_nees_figures(struct evaluation_errors *errors, const struct pair_error *pairs,
+                              size_t count)
 {
     struct nees_sum place = {0}, velocity = {0};
     for (size_t i = 0; i < count; i++) {
@@ -94,19 +100,20 @@ static struct evaluation_errors errors_of_pairs(const struct pair_error *pairs, 
     errors.median_mps = quantile(values, known, 0.5);
     errors.p95_mps = quantile(values, known, 0.95);
     free(values);
-    fill_nees(&errors, pairs, count);
+    fill_nees_figures(&errors, pairs, count);
     return errors;
 }
 
 /* ---- all in all ---- */
 
-static void sum_targets(const struct evaluation *e, struct evaluation_result *result)
+static void fill_target_figures(const struct evaluation *e, struct evaluation_result *result)
 {
     double delay_scans = 0.0, delay_s = 0.0, points = 0.0, points_after = 0.0;
     for (size_t i = 0; i < e->target_ids.count; i++) {
         const struct target_life *life = &e->targets[i];
         points += (double)life->scans;
-        points_after += (double)(life->scans - life->delay_scans); /* never found: all */
+        /* a target that was never found has delay_scans 0: all its points count */
+        points_after += (double)(life->scans - life->delay_scans);
         result->switches += life->switches;
         result->fragments += life->fragments;
         if (life->paired > 0) {
@@ -123,7 +130,7 @@ static void sum_targets(const struct evaluation *e, struct evaluation_result *re
     result->delay_s = evaluation_mean(delay_s, result->targets_found);
 }
 
-static void sum_tracks(const struct evaluation *e, struct evaluation_result *result)
+static void fill_track_figures(const struct evaluation *e, struct evaluation_result *result)
 {
     double hours = (double)(result->last_us - result->first_us) / 3.6e9;
     for (size_t i = 0; i < e->track_ids.count; i++) {
@@ -133,7 +140,7 @@ static void sum_tracks(const struct evaluation *e, struct evaluation_result *res
     result->false_per_hour = hours > 0.0 ? (double)result->false_tracks / hours : NAN;
 }
 
-static void sum_scans(const struct evaluation *e, struct evaluation_result *result)
+static void fill_scan_figures(const struct evaluation *e, struct evaluation_result *result)
 {
     double squared_m2 = 0.0, localisation_m2 = 0.0, ospa_m = 0.0, missed = 0.0, false_rows = 0.0;
     for (size_t i = 0; i < e->num_scans; i++) {
@@ -172,9 +179,9 @@ static void fill_errors_by_motion(const struct evaluation *e, struct evaluation_
 struct evaluation_result evaluation_result(const struct evaluation *e)
 {
     struct evaluation_result result = {0};
-    sum_scans(e, &result);
-    sum_targets(e, &result);
-    sum_tracks(e, &result);
+    fill_scan_figures(e, &result);
+    fill_target_figures(e, &result);
+    fill_track_figures(e, &result);
     result.errors = errors_of_pairs(e->pairs, e->num_pairs);
     fill_errors_by_motion(e, &result);
     return result;
@@ -188,7 +195,9 @@ static int by_id(const void *a, const void *b)
     return one->id < other->id ? -1 : one->id > other->id;
 }
 
-/* The pairs again, those of a target side by side; begin[number] is where its own begin. */
+/*
+ * Copies the pairs' errors sorted by target; begin[number] is the index of a target's first pair.
+ */
 static struct pair_error *group_pairs_by_target(const struct evaluation *e, size_t *begin)
 {
     struct pair_error *grouped = must_calloc(e->num_pairs, sizeof *grouped);

@@ -9,15 +9,15 @@
 #include "evaluation/gospa_clusters.h"
 #include "evaluation/hungarian.h"
 
-/* The two sets, and what becomes of them. */
+/* The two sets that are compared, the pairing and the metric found so far. */
 struct comparison {
     const struct gospa_place *targets, *tracks;
     double cutoff2_m2;
-    int *track_of; /* or NULL */
+    int *track_of; /* index of the track paired with each target, -1 for none; may be NULL */
     struct gospa result;
 };
 
-static void count_pair_if_near(struct comparison *c, size_t target, size_t track)
+static void record_pair_within_cutoff(struct comparison *c, size_t target, size_t track)
 {
     double squared_m2 = gospa_distance2(&c->targets[target], &c->tracks[track]);
     if (squared_m2 >= c->cutoff2_m2) {
@@ -30,7 +30,10 @@ static void count_pair_if_near(struct comparison *c, size_t target, size_t track
     }
 }
 
-/* The costs of all pairs of the cluster; the smaller side has the rows. */
+/*
+ * Matrix of squared distances, at most the cutoff squared, of all target-track pairs of the
+ * cluster; the smaller side has the rows.
+ */
 static double *cluster_costs(const struct comparison *c, const struct gospa_cluster *cluster,
                              bool rows_are_targets)
 {
@@ -47,7 +50,11 @@ static double *cluster_costs(const struct comparison *c, const struct gospa_clus
     return cost;
 }
 
-static void pair_cluster(struct comparison *c, const struct gospa_cluster *cluster)
+/*
+ * Pairs the cluster's targets and tracks at least total cost, and records the pairs within the
+ * cutoff.
+ */
+static void pair_within_cluster(struct comparison *c, const struct gospa_cluster *cluster)
 {
     bool rows_are_targets = cluster->num_targets <= cluster->num_tracks;
     size_t rows = rows_are_targets ? cluster->num_targets : cluster->num_tracks;
@@ -56,8 +63,8 @@ static void pair_cluster(struct comparison *c, const struct gospa_cluster *clust
     size_t *column_of = must_calloc(rows, sizeof *column_of);
     hungarian_assign(rows, columns, cost, column_of);
     for (size_t row = 0; row < rows; row++) {
-        count_pair_if_near(c, cluster->targets[rows_are_targets ? row : column_of[row]],
-                           cluster->tracks[rows_are_targets ? column_of[row] : row]);
+        record_pair_within_cutoff(c, cluster->targets[rows_are_targets ? row : column_of[row]],
+                                  cluster->tracks[rows_are_targets ? column_of[row] : row]);
     }
     free(cost);
     free(column_of);
@@ -86,7 +93,7 @@ struct gospa gospa_compare(const struct gospa_place *targets, size_t num_targets
         track_of[i] = -1;
     }
     for (size_t i = 0; i < clusters.count; i++) {
-        pair_cluster(&c, &clusters.list[i]);
+        pair_within_cluster(&c, &clusters.list[i]);
     }
     gospa_clusters_free(&clusters);
     c.result.missed = num_targets - c.result.pairs;

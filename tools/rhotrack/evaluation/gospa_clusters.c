@@ -12,8 +12,9 @@ double gospa_distance2(const struct gospa_place *a, const struct gospa_place *b)
     return dx * dx + dy * dy + dz * dz;
 }
 
-/* ---- what hangs together: a forest over targets, then tracks ---- */
+/* ---- clusters as trees: a forest over the targets, then the tracks ---- */
 
+/* Root of the tree that the node belongs to; shortens the path to it (union-find). */
 static size_t root_of(size_t *parent, size_t node)
 {
     while (parent[node] != node) {
@@ -56,6 +57,7 @@ static struct sorted *sort_places(const struct gospa_place *places, size_t count
     return sorted;
 }
 
+/* Joins the trees of every target and track nearer than the cutoff, by a sweep along x. */
 static void join_near_pairs(size_t *parent, const struct gospa_place *targets, size_t num_targets,
                             const struct gospa_place *tracks, size_t num_tracks, double cutoff_m)
 {
@@ -79,8 +81,11 @@ static void join_near_pairs(size_t *parent, const struct gospa_place *targets, s
 
 /* ---- from the forest to lists ---- */
 
-/* Where each root's members begin in a list of all; begin[nodes] is its end. */
-static size_t *begin_of_roots(size_t *parent, size_t nodes)
+/*
+ * Offset at which the members of each root's cluster begin in one list of all nodes; the last entry
+ * is the list's length.
+ */
+static size_t *offsets_by_root(size_t *parent, size_t nodes)
 {
     size_t *begin = must_calloc(nodes + 1, sizeof *begin);
     for (size_t node = 0; node < nodes; node++) {
@@ -99,7 +104,7 @@ static struct gospa_clusters list_clusters(size_t *parent, size_t num_targets, s
         .list = must_calloc(num_targets, sizeof *clusters.list),
         .members = must_calloc(nodes, sizeof *clusters.members),
     };
-    size_t *begin = begin_of_roots(parent, nodes), *filled = must_calloc(nodes, sizeof *filled);
+    size_t *begin = offsets_by_root(parent, nodes), *filled = must_calloc(nodes, sizeof *filled);
     size_t *targets_of = must_calloc(nodes, sizeof *targets_of);
     for (size_t node = 0; node < nodes; node++) {
         size_t root = root_of(parent, node);
@@ -107,7 +112,9 @@ static struct gospa_clusters list_clusters(size_t *parent, size_t num_targets, s
         clusters.members[begin[root] + filled[root]++] = is_target ? node : node - num_targets;
         targets_of[root] += is_target;
     }
-    /* a cluster's root is its first member, thus a target */
+    /*
+     * join_trees makes the smallest node the root: a cluster with both kinds has a target as root
+     */
     for (size_t root = 0; root < num_targets; root++) {
         if (filled[root] > targets_of[root]) {
             clusters.list[clusters.count++] = (struct gospa_cluster){

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * gospa_clusters: parts of two sets that have nothing to do with each other. A target and a track
- * nearer than the cutoff are of one cluster, and so is all that hangs together by such pairs: the
- * best pairing of all is that of each cluster.
+ * gospa_clusters: splits targets and tracks into clusters that can be paired independently. A
+ * target and a track nearer than the cutoff are in one cluster, and so is everything connected by
+ * such pairs: the optimal pairing of the whole is that of each cluster.
  */
 #ifndef RHOTRACK_TOOL_GOSPA_CLUSTERS_H
 #define RHOTRACK_TOOL_GOSPA_CLUSTERS_H
@@ -11,7 +11,7 @@
 
 #include "evaluation/gospa.h"
 
-/* Indices of its members, in their order; at least one of each. */
+/* Indices of the cluster's targets and tracks in ascending order; at least one of each. */
 struct gospa_cluster {
     const size_t *targets, *tracks;
     size_t num_targets, num_tracks;
@@ -20,19 +20,19 @@ struct gospa_cluster {
 struct gospa_clusters {
     struct gospa_cluster *list;
     size_t count;
-    size_t *members; /* what the list points into */
+    size_t *members; /* storage of the clusters' index arrays */
 };
 
 /*
- * The clusters, without what is near nothing. Time: sorting, and the pairs whose x differ by less
- * than the cutoff.
+ * Finds the clusters; targets and tracks without a partner within the cutoff are in none. Time:
+ * sorting, and the pairs whose x differ by less than the cutoff.
  */
 struct gospa_clusters gospa_clusters_find(const struct gospa_place *targets, size_t num_targets,
                                           const struct gospa_place *tracks, size_t num_tracks,
                                           double cutoff_m);
 void gospa_clusters_free(struct gospa_clusters *clusters);
 
-/* Squared distance. */
+/* Squared distance of two places, m^2. */
 double gospa_distance2(const struct gospa_place *a, const struct gospa_place *b);
 
 #endif

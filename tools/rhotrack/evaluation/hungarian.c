@@ -13,20 +13,24 @@
  */
 struct assignment {
     size_t rows, columns;
-    const double *cost; /* rows x columns */
-    double *row_price, *column_price, *slack;
-    size_t *row_of, *from; /* by column */
+    const double *cost; /* cost matrix, rows x columns */
+    double *row_potential, *column_potential, *slack;
+    /* for each column: its row, and the column before it on the shortest path */
+    size_t *row_of, *from;
     bool *is_done;
 };
 
 static double reduced_cost(const struct assignment *a, size_t row, size_t column)
 {
-    return a->cost[(row - 1) * a->columns + column - 1] - a->row_price[row] -
-           a->column_price[column];
+    return a->cost[(row - 1) * a->columns + column - 1] - a->row_potential[row] -
+           a->column_potential[column];
 }
 
-/* Scans the columns from `column`'s row: the nearest one not done, and how far on. */
-static size_t nearest_column(struct assignment *a, size_t column, double *step)
+/*
+ * Extends the search from the row of `column`: returns the column not yet done that is reached at
+ * least reduced cost, and in step that cost.
+ */
+static size_t find_nearest_column(struct assignment *a, size_t column, double *step)
 {
     size_t nearest = 0;
     *step = INFINITY;
@@ -47,19 +51,19 @@ static size_t nearest_column(struct assignment *a, size_t column, double *step)
     return nearest;
 }
 
-static void move_prices(struct assignment *a, double step)
+static void update_potentials(struct assignment *a, double step)
 {
     for (size_t j = 0; j <= a->columns; j++) {
         if (a->is_done[j]) {
-            a->row_price[a->row_of[j]] += step;
-            a->column_price[j] -= step;
+            a->row_potential[a->row_of[j]] += step;
+            a->column_potential[j] -= step;
         } else {
             a->slack[j] -= step;
         }
     }
 }
 
-static void assign_row(struct assignment *a, size_t row)
+static void assign_row_by_shortest_path(struct assignment *a, size_t row)
 {
     size_t column = 0;
     a->row_of[0] = row;
@@ -70,8 +74,8 @@ static void assign_row(struct assignment *a, size_t row)
     do {
         double step;
         a->is_done[column] = true;
-        size_t next = nearest_column(a, column, &step);
-        move_prices(a, step);
+        size_t next = find_nearest_column(a, column, &step);
+        update_potentials(a, step);
         column = next;
     } while (a->row_of[column] != 0);
     while (column != 0) {
@@ -87,23 +91,23 @@ void hungarian_assign(size_t rows, size_t columns, const double *cost, size_t *c
         .rows = rows,
         .columns = columns,
         .cost = cost,
-        .row_price = must_calloc(rows + 1, sizeof(double)),
-        .column_price = must_calloc(columns + 1, sizeof(double)),
+        .row_potential = must_calloc(rows + 1, sizeof(double)),
+        .column_potential = must_calloc(columns + 1, sizeof(double)),
         .slack = must_calloc(columns + 1, sizeof(double)),
         .row_of = must_calloc(columns + 1, sizeof(size_t)),
         .from = must_calloc(columns + 1, sizeof(size_t)),
         .is_done = must_calloc(columns + 1, sizeof(bool)),
     };
     for (size_t row = 1; row <= rows; row++) {
-        assign_row(&a, row);
+        assign_row_by_shortest_path(&a, row);
     }
     for (size_t j = 1; j <= columns; j++) {
         if (a.row_of[j] != 0) {
             column_of[a.row_of[j] - 1] = j - 1;
         }
     }
-    free(a.row_price);
-    free(a.column_price);
+    free(a.row_potential);
+    free(a.column_potential);
     free(a.slack);
     free(a.row_of);
     free(a.from);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hungarian: which column each row takes, so that the sum of the costs is least; one row a column
- * at most.
+ * hungarian: assigns each row of a cost matrix a column of its own so that the sum of costs is
+ * least.
  */
 #ifndef RHOTRACK_TOOL_HUNGARIAN_H
 #define RHOTRACK_TOOL_HUNGARIAN_H
@@ -9,7 +9,7 @@
 #include <stddef.h>
 
 /*
- * Fills column_of[row]; rows <= columns, cost[row * columns + column]. Time grows with rows^2 x
+ * Fills column_of[row] for cost[row * columns + column]; rows <= columns. Time grows with rows^2 x
  * columns.
  */
 void hungarian_assign(size_t rows, size_t columns, const double *cost, size_t *column_of);

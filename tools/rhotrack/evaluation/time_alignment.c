@@ -13,8 +13,11 @@ int64_t alignment_tolerance_us(const struct parameters *parameters)
     return tolerance_us > ALIGNMENT_LEAST_US ? tolerance_us : ALIGNMENT_LEAST_US;
 }
 
-/* The first one of the time that is nearest; from: of a time before it, or of its own. */
-static size_t nearest_time(struct alignment_times times, size_t from, int64_t time_us)
+/*
+ * Index of the first entry whose time is nearest to time_us; entries before `from` are not
+ * searched.
+ */
+static size_t find_nearest_time(struct alignment_times times, size_t from, int64_t time_us)
 {
     size_t at = from;
 
@@ -35,7 +38,7 @@ size_t alignment_find_unmatched(struct alignment_times tracks, struct alignment_
     size_t at = 0;
 
     for (size_t i = 0; i < tracks.count && truth.count > 0; i++) {
-        at = nearest_time(truth, at, tracks.list_us[i]);
+        at = find_nearest_time(truth, at, tracks.list_us[i]);
         if (llabs(truth.list_us[at] - tracks.list_us[i]) > most_us) {
             return i;
         }
@@ -61,7 +64,7 @@ struct alignment alignment_to_truth(struct alignment_times tracks, struct alignm
         if (i > 0 && time_us == truth.list_us[i - 1]) {
             continue;
         }
-        from = nearest_time(tracks, from, time_us);
+        from = find_nearest_time(tracks, from, time_us);
         at_us = tracks.list_us[from];
         for (size_t k = from;
              k < tracks.count && tracks.list_us[k] == at_us && llabs(at_us - time_us) <= most_us;

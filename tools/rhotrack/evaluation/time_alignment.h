@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * time_alignment: which rows of tracks count at which times of a truth. Times ascend in both.
+ * time_alignment: matches the times of tracks to the times of a truth. Times ascend in both.
  *
- * A clock's bias that was taken off is known to milliseconds, so that tracks have other times than
- * the truth: each of the truth's times has the rows of the nearest time of the tracks, within a
- * tolerance. The rows count as if at the truth's time.
+ * Where a radar's clock bias was corrected by an estimate, the tracks' times differ from the
+ * truth's by milliseconds: each truth time is given the rows of the nearest track time within a
+ * tolerance, which are then moved to the truth's time.
  */
 #ifndef RHOTRACK_TOOL_TIME_ALIGNMENT_H
 #define RHOTRACK_TOOL_TIME_ALIGNMENT_H
@@ -15,7 +15,7 @@
 #include "io/csv/table.h"
 #include "settings/parameters.h"
 
-#define ALIGNMENT_LEAST_US 1000 /* times that are no further apart are one in any case */
+#define ALIGNMENT_LEAST_US 1000 /* times at most this far apart always count as equal */
 
 struct alignment_times {
     int64_t *list_us;
@@ -23,31 +23,31 @@ struct alignment_times {
 };
 
 struct aligned_row {
-    size_t row; /* of the tracks' times */
+    size_t row; /* index of the track row */
     int64_t to_us;
 };
 
 struct alignment {
-    struct aligned_row *list; /* by time; to be freed */
+    struct aligned_row *list; /* in the order of the truth's times; the caller frees it */
     size_t count;
 };
 
-/* time_tolerance_s, at least ALIGNMENT_LEAST_US. */
+/* The parameter time_tolerance_s in microseconds, at least ALIGNMENT_LEAST_US. */
 int64_t alignment_tolerance_us(const struct parameters *parameters);
 
 /*
- * The first of the tracks' times that is further from each of the truth's than that; their count
+ * Index of the first track time that is further than most_us from every truth time; tracks.count
  * where there is none.
  */
 size_t alignment_find_unmatched(struct alignment_times tracks, struct alignment_times truth,
                                 int64_t most_us);
 
-/* Exit 2: the truth has no such time. */
+/* Ends the program with exit 2: the truth has no time within most_us of this row's time. */
 _Noreturn void alignment_fail_unmatched(const struct table *tracks, size_t row, int64_t most_us);
 
 /*
- * Which rows of the tracks are used at each of the truth's times. A row may be used at none of
- * them, or at several.
+ * Lists the track rows that are used at each truth time. A row may be used at no truth time or at
+ * several.
  */
 struct alignment alignment_to_truth(struct alignment_times tracks, struct alignment_times truth,
                                     int64_t most_us);

@@ -4,15 +4,17 @@
 #include <inttypes.h>
 #include <math.h>
 
-#define MARGIN 0.05       /* of the larger side, around all that is drawn */
-#define MARGIN_MIN_M 10.0 /* of a single place */
-#define AXES_PIXELS 200   /* beside the map, both ways */
+/* margin around everything that is drawn, as a share of the longer side */
+#define MARGIN 0.05
+#define MARGIN_MIN_M 10.0 /* smallest margin, for a map of a single place */
+/* pixels of the picture for axes and legend beside the map, in each direction */
+#define AXES_PIXELS 200
 #define RADARS_RINGED 3
-#define RINGS 4 /* or somewhat more, to the farthest corner */
+#define RINGS 4 /* range rings about a radar, or somewhat more: their spacing is rounded down */
 #define RING_POINTS 144
 #define MARKER_PIXELS 14.0
 
-/* ---- what is seen ---- */
+/* ---- the visible area ---- */
 
 struct map_box map_box_empty(void)
 {
@@ -46,12 +48,12 @@ static double longer_side_m(const struct map_box *box)
     return fmax(box->x_max_m - box->x_min_m, box->y_max_m - box->y_min_m);
 }
 
-static bool is_inside(const struct map_box *box, double x_m, double y_m)
+static bool is_inside_box(const struct map_box *box, double x_m, double y_m)
 {
     return x_m > box->x_min_m && x_m < box->x_max_m && y_m > box->y_min_m && y_m < box->y_max_m;
 }
 
-static void add_margin(struct map_box *box)
+static void add_box_margin(struct map_box *box)
 {
     if (!(box->x_min_m <= box->x_max_m)) {
         map_box_include(box, 0.0, 0.0);
@@ -63,7 +65,7 @@ static void add_margin(struct map_box *box)
 
 struct map map_start(const struct picture *picture, struct map_box box)
 {
-    add_margin(&box);
+    add_box_margin(&box);
     const double unit_m = longer_side_m(&box) > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     const char *unit = unit_m > 1.0 ? "km" : "m";
     fprintf(picture->script,
@@ -105,7 +107,10 @@ size_t map_num_plots_drawn(size_t count)
     return count < MAP_PLOTS_MAX ? count : MAP_PLOTS_MAX;
 }
 
-/* One of each stretch of the list, at a place within it that no period of the scans meets. */
+/*
+ * Samples one plot of each of MAP_PLOTS_MAX equal parts of the list, at a pseudo-random place
+ * within the part, so that samples do not follow the period of the scans.
+ */
 size_t map_plot_index(size_t k, size_t count)
 {
     if (count <= MAP_PLOTS_MAX) {
@@ -130,12 +135,12 @@ void map_draw_plots(const struct map *map, const struct plot_points *plots)
     if (plots->count == 0) {
         return;
     }
-    /* the more there are, the paler and smaller: 0 is opaque, 255 is nothing */
-    const double crowd = fmin(1.0, sqrt((double)drawn / MAP_PLOTS_MAX));
+    /* more plots are drawn smaller and more transparent: alpha 0 is opaque, 255 invisible */
+    const double density = fmin(1.0, sqrt((double)drawn / MAP_PLOTS_MAX));
     fprintf(map->script,
             ", \\\n $plots using 1:2 with points pt 7 ps %.2f lc rgb '#%02x808080' notitle"
             ", \\\n NaN with points pt 7 ps 0.5 lc rgb '#9a9a9a' title '",
-            0.34 - 0.16 * crowd, (unsigned)(70.0 + 90.0 * crowd));
+            0.34 - 0.16 * density, (unsigned)(70.0 + 90.0 * density));
     if (drawn < plots->count) {
         fprintf(map->script, "%zu of %zu plots'", drawn, plots->count);
     } else {
@@ -161,8 +166,11 @@ double map_round_to_1_2_5(double value)
     return value >= 5.0 * decade ? 5.0 * decade : value >= 2.0 * decade ? 2.0 * decade : decade;
 }
 
-/* To the farthest corner that is seen, or as far as the radar sees. */
-static double rings_radius_m(const struct map *map, const struct plot_radar *radar)
+/*
+ * Radius of the largest range ring: distance to the farthest corner of the map, or the radar's
+ * maximum range if that is less.
+ */
+static double largest_ring_radius_m(const struct map *map, const struct plot_radar *radar)
 {
     const double x_m =
         fmax(fabs(map->box.x_min_m - radar->x_m), fabs(map->box.x_max_m - radar->x_m));
@@ -171,6 +179,7 @@ static double rings_radius_m(const struct map *map, const struct plot_radar *rad
     return fmin(hypot(x_m, y_m), radar->range_max_m);
 }
 
+/* Writes an arc about the radar as a line of the data block; radius 0 is the radar itself. */
 static void put_arc(const struct map *map, const struct plot_radar *radar, double radius_m,
                     double from_rad, double turn_rad)
 {
@@ -181,13 +190,16 @@ static void put_arc(const struct map *map, const struct plot_radar *radar, doubl
     }
 }
 
-/* Where the ring crosses an axis within the picture: north, else east, south, west. */
-static void label_ring(const struct map *map, const struct plot_radar *radar, double radius_m)
+/*
+ * Labels a ring where it crosses the north axis of the radar inside the map, else the east, south
+ * or west axis.
+ */
+static void label_range_ring(const struct map *map, const struct plot_radar *radar, double radius_m)
 {
     static const int east[4] = {0, 1, 0, -1}, north[4] = {1, 0, -1, 0};
     for (int i = 0; i < 4; i++) {
         const double x_m = radar->x_m + radius_m * east[i], y_m = radar->y_m + radius_m * north[i];
-        if (is_inside(&map->box, x_m, y_m)) {
+        if (is_inside_box(&map->box, x_m, y_m)) {
             fprintf(map->script,
                     "set label '%.9g %s' at %.9g,%.9g left front font ',10' tc rgb '#888888' "
                     "offset 0.2,0.4\n",
@@ -198,31 +210,32 @@ static void label_ring(const struct map *map, const struct plot_radar *radar, do
     }
 }
 
-/* How far the rings are apart, and how many there are. */
-static double ring_step_m(const struct map *map, const struct plot_radar *radar, int *count)
+/* Spacing of the radar's range rings in metres, and their number in *count. */
+static double ring_spacing_m(const struct map *map, const struct plot_radar *radar, int *count)
 {
-    const double farthest_m = fmax(rings_radius_m(map, radar), 1.0);
+    const double farthest_m = fmax(largest_ring_radius_m(map, radar), 1.0);
     const double step_m = map_round_to_1_2_5(farthest_m / RINGS);
     *count = (int)floor(farthest_m / step_m + 1e-9);
     return step_m;
 }
 
-static void put_rings(const struct map *map, const struct plot_radar *radar)
+static void put_range_rings(const struct map *map, const struct plot_radar *radar)
 {
     int count;
-    const double step_m = ring_step_m(map, radar, &count);
+    const double step_m = ring_spacing_m(map, radar, &count);
     for (int ring = 1; ring <= count; ring++) {
         put_arc(map, radar, ring * step_m, 0.0, 2.0 * M_PI);
         fputc('\n', map->script);
     }
 }
 
-static void label_radar(const struct map *map, const struct plot_radar *radar, bool is_ringed)
+static void label_radar_and_rings(const struct map *map, const struct plot_radar *radar,
+                                  bool is_ringed)
 {
     int count;
-    const double step_m = ring_step_m(map, radar, &count);
+    const double step_m = ring_spacing_m(map, radar, &count);
     for (int ring = 1; ring <= count && is_ringed; ring++) {
-        label_ring(map, radar, ring * step_m);
+        label_range_ring(map, radar, ring * step_m);
     }
     fprintf(map->script,
             "set label 'S%" PRId32 "' at %.9g,%.9g point pt 9 ps 1.2 lc rgb '#000000' offset "
@@ -230,7 +243,7 @@ static void label_radar(const struct map *map, const struct plot_radar *radar, b
             radar->sensor_id, radar->x_m / map->unit_m, radar->y_m / map->unit_m);
 }
 
-static void put_coverage(const struct map *map, const struct plot_radar *radar)
+static void put_coverage_outline(const struct map *map, const struct plot_radar *radar)
 {
     const double turn_rad =
         fmod(radar->sector_to_rad - radar->sector_from_rad + 4.0 * M_PI, 2.0 * M_PI);
@@ -251,15 +264,15 @@ void map_put_radars(const struct map *map, const struct plot_radar *radars, size
 {
     fprintf(map->script, "$rings << EOD\n");
     for (size_t i = 0; i < count && count <= RADARS_RINGED; i++) {
-        put_rings(map, &radars[i]);
+        put_range_rings(map, &radars[i]);
     }
     fprintf(map->script, "NaN NaN\nEOD\n$coverage << EOD\n");
     for (size_t i = 0; i < count; i++) {
-        put_coverage(map, &radars[i]);
+        put_coverage_outline(map, &radars[i]);
     }
     fprintf(map->script, "NaN NaN\nEOD\n");
     for (size_t i = 0; i < count; i++) {
-        label_radar(map, &radars[i], count <= RADARS_RINGED);
+        label_radar_and_rings(map, &radars[i], count <= RADARS_RINGED);
     }
 }
 

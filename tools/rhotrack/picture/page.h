@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * page: plots and tracks as one self-contained HTML page: a map to zoom, a slider of time, tracks
- * with their history. tools/rhotrack/picture/page has its text, and d3, which draws it.
+ * page: writes plots and tracks as one self-contained HTML page: a map with zoom, a time slider and
+ * the history of each track. Its script, style and the library d3 are in picture/page.
  */
 #ifndef RHOTRACK_TOOL_PAGE_H
 #define RHOTRACK_TOOL_PAGE_H
@@ -14,8 +14,8 @@
 bool page_path_is_html(const char *path);
 
 /*
- * Writes it. The plots are read once more, scan by scan, for a track names its plots by their rows
- * in a scan. 11 bytes a plot and 75 a row of a track.
+ * Writes the page. The plots' files are read once more, scan by scan, as a track names its plots by
+ * their row in a scan. The page takes 16 bytes a plot and 80 a row of a track.
  */
 void page_write(const char *path, const struct plot_data *data,
                 const struct parameters *parameters);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * page_parts: the files of tools/rhotrack/picture/page, compiled into the program (the Makefile
- * writes them).
+ * page_parts: the texts of the HTML page (licence, d3, HTML, style, script), compiled into the
+ * program from picture/page by the Makefile.
  */
 #ifndef RHOTRACK_TOOL_PAGE_PARTS_H
 #define RHOTRACK_TOOL_PAGE_PARTS_H

@@ -11,7 +11,7 @@
 
 #include "base/common.h"
 
-/* Okabe and Ito, darkest first where neighbours would look alike in grey. */
+/* The palette of Okabe and Ito, ordered so that neighbours also differ in grey. */
 static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#000000",
                                       "#cc79a7", "#56b4e9", "#e69f00", "#7f7f7f"};
 static const int markers[] = {7, 5, 9, 11, 13, 6, 4, 8};
@@ -55,7 +55,9 @@ static void set_gnuplot_terminal(const struct picture *picture)
                    : "font 'Helvetica,15'");
 }
 
-/* As gnuplot takes it: within single quotes a single quote stands twice. */
+/*
+ * Writes the output file's name quoted for gnuplot: a single quote within single quotes is doubled.
+ */
 static void set_gnuplot_output(const struct picture *picture)
 {
     fputs("set output '", picture->script);
@@ -90,6 +92,7 @@ struct picture picture_open(const char *path, int width, int height)
     return picture;
 }
 
+/* Runs gnuplot on the script; on failure removes the temporary files and exits. */
 static void run_gnuplot(const struct picture *picture)
 {
     pid_t child = fork();

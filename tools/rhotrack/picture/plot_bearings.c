@@ -5,25 +5,26 @@
 
 #include "picture/map.h"
 
-#define RAYS_MAX 6000       /* more are sampled */
-#define RAYS_CROWDED 2000.0 /* rays in a picture, or more, get the thinnest colour */
+#define RAYS_MAX 6000       /* most rays drawn; more are sampled */
+#define RAYS_CROWDED 2000.0 /* number of rays from which they are drawn most transparent */
 
-/* ---- what is seen ---- */
+/* ---- the visible area ---- */
 
+/* Box of sensors, plots and truth; without plots and truth also of the rays' ends. */
 static struct map_box map_box_of_data(const struct plot_data *data)
 {
     const struct plot_rays *rays = &data->bearings;
-    struct map_box frame = map_box_empty();
+    struct map_box box = map_box_empty();
     const struct plot_points sensors = {.list = rays->sensors, .count = rays->num_sensors};
-    map_box_include_points(&frame, &sensors);
-    map_box_include_points(&frame, &data->plots);
-    map_box_include_points(&frame, &data->truth);
+    map_box_include_points(&box, &sensors);
+    map_box_include_points(&box, &data->plots);
+    map_box_include_points(&box, &data->truth);
     if (data->plots.count + data->truth.count == 0) {
         for (size_t i = 0; i < rays->count; i++) {
-            map_box_include(&frame, rays->list[i].end_x_m, rays->list[i].end_y_m);
+            map_box_include(&box, rays->list[i].end_x_m, rays->list[i].end_y_m);
         }
     }
-    return frame;
+    return box;
 }
 
 /* ---- data blocks ---- */
@@ -33,8 +34,11 @@ static size_t num_rays_drawn(const struct plot_rays *rays)
     return rays->count < RAYS_MAX ? rays->count : RAYS_MAX;
 }
 
-/* A block a sensor, so that each has its colour: $rays0, $rays1, ... */
-static void put_rays(const struct map *map, const struct plot_rays *rays, size_t sensor)
+/*
+ * Writes the rays of a sensor as a data block $rays0, $rays1, ..., so that each sensor has its
+ * colour.
+ */
+static void put_rays_of_sensor(const struct map *map, const struct plot_rays *rays, size_t sensor)
 {
     fprintf(map->script, "$rays%zu << EOD\n", sensor);
     for (size_t k = 0; k < num_rays_drawn(rays); k++) {
@@ -56,7 +60,7 @@ static void put_sensors(const struct map *map, const struct plot_rays *rays)
     fprintf(map->script, "EOD\n");
 }
 
-/* Where the targets were last: their paths end in arrows. */
+/* Draws an arrow head at the end of each target's path. */
 static void put_path_arrows(const struct map *map, const struct plot_points *truth)
 {
     struct plot_points one;
@@ -75,8 +79,8 @@ static void put_path_arrows(const struct map *map, const struct plot_points *tru
 
 /* ---- the picture ---- */
 
-/* More rays are paler: 0 is opaque, 255 is nothing. */
-static int ray_paleness(const struct plot_rays *rays)
+/* Alpha of the rays' colour, larger for more rays; 0 is opaque, 255 invisible. */
+static int ray_alpha(const struct plot_rays *rays)
 {
     return (int)(90.0 + 130.0 * fmin(1.0, sqrt((double)rays->count / RAYS_CROWDED)));
 }
@@ -85,8 +89,8 @@ void plot_bearings_draw(const struct map *map, const struct plot_rays *rays)
 {
     for (size_t i = 0; i < rays->num_sensors; i++) {
         fprintf(map->script, ", \\\n $rays%zu using 1:2 with lines lw 0.6 lc rgb '#%02x%s' notitle",
-                i, (unsigned)ray_paleness(rays), picture_colour(i) + 1);
-        /* the legend's sample is not pale */
+                i, (unsigned)ray_alpha(rays), picture_colour(i) + 1);
+        /* the sample in the legend is opaque */
         fprintf(map->script, ", \\\n NaN with lines lw 2 lc rgb '%s' title 'sensor %d'",
                 picture_colour(i), rays->sensors[i].id);
     }
@@ -108,7 +112,7 @@ void plot_bearings_draw_sensors(const struct map *map, const struct plot_rays *r
 void plot_bearings_put_data(const struct map *map, const struct plot_rays *rays)
 {
     for (size_t i = 0; i < rays->num_sensors; i++) {
-        put_rays(map, rays, i);
+        put_rays_of_sensor(map, rays, i);
     }
     put_sensors(map, rays);
     fprintf(map->script,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * plot_bearings: a map of passive sensors: their bearings as rays, beside plots and the truth's
- * paths.
+ * plot_bearings: draws a map of passive sensors with their bearings as rays, plots and the targets'
+ * true paths.
  */
 #ifndef RHOTRACK_TOOL_PLOT_BEARINGS_H
 #define RHOTRACK_TOOL_PLOT_BEARINGS_H
@@ -11,12 +11,15 @@
 #include "picture/plot_data.h"
 
 /*
- * Draws it. With truth or plots the picture shows these and the sensors, and rays end at its edge;
- * else it shows the rays whole.
+ * Draws the map. With truth or plots it shows these and the sensors, and cuts the rays at its edge;
+ * otherwise it shows the rays in full.
  */
 void plot_bearings(struct picture *picture, const struct plot_data *data);
 
-/* Rays and sensors for a map of other things: data blocks, then what draws them. */
+/*
+ * Rays and sensors for another map: first the data blocks, then the clauses of the command plot
+ * that draw them.
+ */
 void plot_bearings_put_data(const struct map *map, const struct plot_rays *rays);
 void plot_bearings_draw(const struct map *map, const struct plot_rays *rays);
 void plot_bearings_draw_sensors(const struct map *map, const struct plot_rays *rays);

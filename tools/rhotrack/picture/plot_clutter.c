@@ -10,7 +10,8 @@
 
 /* ---- sensors ---- */
 
-static struct plot_radar *find_sensor(struct plot_radar *sensors, size_t count, int32_t sensor_id)
+static struct plot_radar *find_sensor_by_id(struct plot_radar *sensors, size_t count,
+                                            int32_t sensor_id)
 {
     for (size_t i = 0; i < count; i++) {
         if (sensors[i].sensor_id == sensor_id) {
@@ -20,16 +21,20 @@ static struct plot_radar *find_sensor(struct plot_radar *sensors, size_t count, 
     return NULL;
 }
 
-/* Sensors that have echoes, as far as the farthest of them. */
-static struct plot_radar *find_sensors(const struct clutter_echo *echoes, size_t count,
-                                       const struct parameters *parameters, size_t *num_sensors)
+/*
+ * Lists the sensors that have echoes, at the places that the parameters give, without a maximum
+ * range.
+ */
+static struct plot_radar *list_echo_sensors(const struct clutter_echo *echoes, size_t count,
+                                            const struct parameters *parameters,
+                                            size_t *num_sensors)
 {
     struct plot_radar *sensors = NULL;
     size_t capacity = 0;
 
     *num_sensors = 0;
     for (size_t i = 0; i < count; i++) {
-        if (!find_sensor(sensors, *num_sensors, echoes[i].sensor_id)) {
+        if (!find_sensor_by_id(sensors, *num_sensors, echoes[i].sensor_id)) {
             struct rho_sensor described;
 
             parameters_to_any_sensor(parameters, echoes[i].sensor_id, &described);
@@ -61,26 +66,26 @@ static struct map_box map_box_of_echoes(const struct clutter_echo *echoes, size_
 
 /* ---- drawing ---- */
 
-static double echo_size(double hits)
+static double echo_point_size(double hits)
 {
     return 0.3 + 0.35 * log10(fmax(hits, 1.0));
 }
 
-static void put_echoes(const struct map *map, const struct clutter_echo *echoes, size_t count,
-                       int32_t sensor_id, size_t index)
+static void put_echoes_of_sensor(const struct map *map, const struct clutter_echo *echoes,
+                                 size_t count, int32_t sensor_id, size_t index)
 {
     fprintf(map->script, "$echoes%zu << EOD\n", index);
     for (size_t i = 0; i < count; i++) {
         if (echoes[i].sensor_id == sensor_id) {
             fprintf(map->script, "%.9g %.9g %.3f\n", (double)echoes[i].x_m / map->unit_m,
-                    (double)echoes[i].y_m / map->unit_m, echo_size(echoes[i].hits));
+                    (double)echoes[i].y_m / map->unit_m, echo_point_size(echoes[i].hits));
         }
     }
     fprintf(map->script, "EOD\n");
 }
 
-/* The legend of sizes: 10, 100, ... up to the largest number of hits. */
-static void put_size_legend(const struct map *map, const struct clutter_echo *echoes, size_t count)
+/* Writes legend entries for the sizes of 10, 100, ... hits up to the largest number of hits. */
+static void draw_size_legend(const struct map *map, const struct clutter_echo *echoes, size_t count)
 {
     unsigned most = 0, hits = 10;
 
@@ -89,7 +94,7 @@ static void put_size_legend(const struct map *map, const struct clutter_echo *ec
     }
     do {
         fprintf(map->script, ", \\\n NaN with points pt 7 ps %.3f lc rgb '#555555' title '%u hits'",
-                echo_size(hits), hits);
+                echo_point_size(hits), hits);
         hits *= 10;
     } while (hits <= most);
 }
@@ -98,13 +103,13 @@ void plot_clutter(struct picture *picture, const struct clutter_echo *echoes, si
                   const struct plot_data *data, const struct parameters *parameters)
 {
     size_t num_sensors;
-    struct plot_radar *sensors = find_sensors(echoes, count, parameters, &num_sensors);
+    struct plot_radar *sensors = list_echo_sensors(echoes, count, parameters, &num_sensors);
     const struct map map =
         map_start(picture, map_box_of_echoes(echoes, count, sensors, num_sensors, &data->plots));
 
     picture_set_title(picture, "Clutter map: %zu fixed echoes of %zu sensors", count, num_sensors);
     for (size_t i = 0; i < num_sensors; i++) {
-        put_echoes(&map, echoes, count, sensors[i].sensor_id, i);
+        put_echoes_of_sensor(&map, echoes, count, sensors[i].sensor_id, i);
     }
     map_put_radars(&map, sensors, num_sensors);
     map_put_plots(&map, &data->plots, 0);
@@ -117,7 +122,7 @@ void plot_clutter(struct picture *picture, const struct clutter_echo *echoes, si
                 "'echoes of sensor %" PRId32 "'",
                 i, picture_colour(i + 1) + 1, sensors[i].sensor_id);
     }
-    put_size_legend(&map, echoes, count);
+    draw_size_legend(&map, echoes, count);
     fprintf(map.script, "\n");
     free(sensors);
 }

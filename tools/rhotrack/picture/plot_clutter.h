@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * plot_clutter: a clutter map as a picture: its echoes, the larger the more often they were seen,
- * over rings of range.
+ * plot_clutter: draws a clutter map: its echoes, larger where they were seen more often, over range
+ * rings.
  */
 #ifndef RHOTRACK_TOOL_PLOT_CLUTTER_H
 #define RHOTRACK_TOOL_PLOT_CLUTTER_H
@@ -11,8 +11,8 @@
 #include "picture/plot_data.h"
 
 /*
- * The data's plots are drawn beneath. Rings are about the sensors, where the parameters place them,
- * else the origin.
+ * Draws the echoes over the plots of data. Range rings are about the sensors' places in the
+ * parameters, or the origin where these give none.
  */
 void plot_clutter(struct picture *picture, const struct clutter_echo *echoes, size_t count,
                   const struct plot_data *data, const struct parameters *parameters);

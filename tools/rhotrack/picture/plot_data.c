@@ -15,10 +15,15 @@
 #include "io/scans/bearing_frame_reader.h"
 #include "rhotrack/message.h"
 
-#define LATE_US 1000000000 /* a first time from here on is a clock's */
+/* a first time at or beyond this is a clock's time: pictures then count from it */
+#define LATE_US 1000000000
 
-static void add_radar(struct plot_data *data, const struct record *record, bool is_polar,
-                      const struct parameters *parameters)
+/*
+ * Adds the radar of a record unless it is known already; a radar of Cartesian plots only where its
+ * place is known.
+ */
+static void add_radar_once(struct plot_data *data, const struct record *record, bool is_polar,
+                           const struct parameters *parameters)
 {
     for (size_t i = 0; i < data->num_radars; i++) {
         if (data->radars[i].sensor_id == record->sensor_id) {
@@ -45,9 +50,9 @@ static void add_radar(struct plot_data *data, const struct record *record, bool 
         .sector_to_rad = record->has_sensor ? (double)sensor->sector_to_rad : 0.0};
 }
 
-/* Plots as `track` reads them, with the same checks and the same conversion. */
-static void add_plots(struct plot_data *data, const struct table *table,
-                      const struct parameters *parameters)
+/* Adds the plots of a table with the checks and conversions of the command track. */
+static void add_plots_of_table(struct plot_data *data, const struct table *table,
+                               const struct parameters *parameters)
 {
     struct plot_points *points = &data->plots;
     const bool is_polar = table_find_column(table, "range_m") >= 0;
@@ -59,7 +64,7 @@ static void add_plots(struct plot_data *data, const struct table *table,
             table_fail_at_row(table, row, "%s", reason);
         }
         if (record.has_measurement) {
-            add_radar(data, &record, is_polar, parameters);
+            add_radar_once(data, &record, is_polar, parameters);
             points->list[points->count++] =
                 (struct plot_point){.time_us = record.time_us - record.bias_us,
                                     .x_m = (double)record.plot.x_m,
@@ -69,12 +74,14 @@ static void add_plots(struct plot_data *data, const struct table *table,
     record_columns_free(&columns);
 }
 
-static double number_or_0(double number)
+static double nan_to_0(double number)
 {
     return isnan(number) ? 0.0 : number;
 }
 
-/* Truth or tracks, but for rows without a place, and of tracks that are no more. */
+/*
+ * Adds the rows of a truth or tracks table, except rows without a place and rows of deleted tracks.
+ */
 static void add_truth_or_tracks(struct plot_points *points, const struct table *table,
                                 const struct parameters *parameters)
 {
@@ -90,8 +97,8 @@ static void add_truth_or_tracks(struct plot_points *points, const struct table *
                                     .id = path.id,
                                     .x_m = path.x_m,
                                     .y_m = path.y_m,
-                                    .vx_mps = number_or_0(path.vx_mps),
-                                    .vy_mps = number_or_0(path.vy_mps),
+                                    .vx_mps = nan_to_0(path.vx_mps),
+                                    .vy_mps = nan_to_0(path.vy_mps),
                                     .is_tentative = path.status == RHO_MESSAGE_TRACK_TENTATIVE,
                                     .table = table,
                                     .row = row};
@@ -100,19 +107,22 @@ static void add_truth_or_tracks(struct plot_points *points, const struct table *
     path_columns_end(&columns);
 }
 
-static void add_points(struct plot_data *data, struct plot_points *points,
-                       const struct table *table, const struct parameters *parameters)
+static void add_points_of_table(struct plot_data *data, struct plot_points *points,
+                                const struct table *table, const struct parameters *parameters)
 {
     points->list =
         must_realloc(points->list, (points->count + table->num_rows + 1) * sizeof points->list[0]);
     if (points == &data->plots) {
-        add_plots(data, table, parameters);
+        add_plots_of_table(data, table, parameters);
     } else {
         add_truth_or_tracks(points, table, parameters);
     }
 }
 
-/* Tables of tracks stay: what is wrong with a row may be seen only beside the truth. */
+/*
+ * Keeps a table of tracks: errors in its rows may be found only when they are compared with the
+ * truth.
+ */
 static void keep_track_table(struct plot_data *data, struct table *table)
 {
     data->track_tables = must_grow(data->track_tables, data->num_track_tables,
@@ -124,18 +134,20 @@ static void add_table(struct plot_data *data, struct table *table,
                       const struct parameters *parameters)
 {
     if (table_find_column(table, "track_id") >= 0) {
-        add_points(data, &data->tracks, table, parameters);
+        add_points_of_table(data, &data->tracks, table, parameters);
         keep_track_table(data, table);
         return;
     }
-    /* plots of a scene have a target, too */
+    /* plots of a simulated scene have a column target_id as well */
     bool are_plots =
         table_find_column(table, "target_id") < 0 || table_find_column(table, "sensor_id") >= 0;
-    add_points(data, are_plots ? &data->plots : &data->truth, table, parameters);
+    add_points_of_table(data, are_plots ? &data->plots : &data->truth, table, parameters);
     table_free(table);
 }
 
-static void add_file(struct plot_data *data, const char *path, const struct parameters *parameters)
+/* Adds the plots, truth and tracks of a CSV file or an LCM log; bearings are read later. */
+static void add_points_of_file(struct plot_data *data, const char *path,
+                               const struct parameters *parameters)
 {
     static const struct rows_kind *const kinds[] = {&rows_kind_plots, &rows_kind_polar,
                                                     &rows_kind_truth, &rows_kind_tracks};
@@ -161,7 +173,7 @@ static void add_file(struct plot_data *data, const char *path, const struct para
 
 /* ---- bearings ---- */
 
-static void keep_bearing_sensors(struct plot_rays *rays, const struct bearing_frame_reader *reader)
+static void list_bearing_sensors(struct plot_rays *rays, const struct bearing_frame_reader *reader)
 {
     const struct frame_sensor *sensors = bearing_frame_reader_sensors(reader, &rays->num_sensors);
     rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
@@ -172,7 +184,8 @@ static void keep_bearing_sensors(struct plot_rays *rays, const struct bearing_fr
     }
 }
 
-static void add_rays(struct plot_rays *rays, const struct rho_bearing_scan *scan, double length_m)
+static void add_rays_of_scan(struct plot_rays *rays, const struct rho_bearing_scan *scan,
+                             double length_m)
 {
     size_t sensor = 0;
     while (rays->sensors[sensor].id != scan->sensor_id) {
@@ -191,25 +204,25 @@ static void add_rays(struct plot_rays *rays, const struct rho_bearing_scan *scan
     }
 }
 
-static void read_bearings(struct plot_rays *rays, char *const *paths, int num_paths,
-                          const struct parameters *parameters)
+static void read_all_bearings(struct plot_rays *rays, char *const *paths, int num_paths,
+                              const struct parameters *parameters)
 {
     struct bearing_frame_reader *reader =
         bearing_frame_reader_open(paths, num_paths, parameters, false);
     const struct rho_frame *frame;
-    keep_bearing_sensors(rays, reader);
+    list_bearing_sensors(rays, reader);
     rays->list =
         must_calloc(bearing_frame_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
     while ((frame = bearing_frame_reader_next(reader)) != NULL) {
         for (uint32_t i = 0; i < frame->num_scans; i++) {
             const struct rho_bearing_scan *scan = &frame->scans[i];
-            add_rays(rays, scan, parameters_range_max_m(parameters, scan->sensor_id));
+            add_rays_of_scan(rays, scan, parameters_range_max_m(parameters, scan->sensor_id));
         }
     }
     bearing_frame_reader_close(reader);
 }
 
-/* ---- all ---- */
+/* ---- all files ---- */
 
 static int by_id_and_time(const void *a, const void *b)
 {
@@ -244,7 +257,7 @@ size_t plot_data_count_identities(const struct plot_points *points)
     return count;
 }
 
-static bool was_confirmed(const struct plot_points *track)
+static bool was_ever_confirmed(const struct plot_points *track)
 {
     for (size_t i = 0; i < track->count; i++) {
         if (!track->list[i].is_tentative) {
@@ -254,12 +267,12 @@ static bool was_confirmed(const struct plot_points *track)
     return false;
 }
 
-static void drop_unconfirmed(struct plot_points *tracks)
+static void drop_never_confirmed_tracks(struct plot_points *tracks)
 {
     struct plot_points one;
     size_t at = 0, kept = 0;
     while (plot_data_next_identity(tracks, &at, &one)) {
-        if (was_confirmed(&one)) {
+        if (was_ever_confirmed(&one)) {
             memmove(tracks->list + kept, one.list, one.count * sizeof one.list[0]);
             kept += one.count;
         }
@@ -267,7 +280,7 @@ static void drop_unconfirmed(struct plot_points *tracks)
     tracks->count = kept;
 }
 
-static void sort_points(struct plot_points *points)
+static void sort_by_id_and_time(struct plot_points *points)
 {
     if (points->count > 0) {
         qsort(points->list, points->count, sizeof points->list[0], by_id_and_time);
@@ -295,7 +308,7 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
         }
         size_t before = count_points(&data), plots_before = data.plots.count;
         if (is_log || !has_bearings) {
-            add_file(&data, paths[i], parameters);
+            add_points_of_file(&data, paths[i], parameters);
         }
         if (data.plots.count > plots_before) {
             data.plot_paths[data.num_plot_paths++] = paths[i];
@@ -303,16 +316,17 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
         data.bearings.has_own_file |= has_bearings && count_points(&data) == before;
     }
     if (num_bearings > 0) {
-        read_bearings(&data.bearings, bearings, num_bearings, parameters);
+        read_all_bearings(&data.bearings, bearings, num_bearings, parameters);
     }
     free(bearings);
-    sort_points(&data.tracks);
-    sort_points(&data.truth);
-    drop_unconfirmed(&data.tracks);
+    sort_by_id_and_time(&data.tracks);
+    sort_by_id_and_time(&data.truth);
+    drop_never_confirmed_tracks(&data.tracks);
     return data;
 }
 
-static int64_t first_time_us(const struct plot_points *points, int64_t otherwise_us)
+/* The earliest time of the points, or otherwise_us if that is earlier. */
+static int64_t earliest_time_us(const struct plot_points *points, int64_t otherwise_us)
 {
     for (size_t i = 0; i < points->count; i++) {
         otherwise_us =
@@ -323,8 +337,8 @@ static int64_t first_time_us(const struct plot_points *points, int64_t otherwise
 
 int64_t plot_data_first_shown_us(const struct plot_data *data)
 {
-    int64_t zero_us = first_time_us(&data->truth, INT64_MAX);
-    zero_us = first_time_us(&data->plots, first_time_us(&data->tracks, zero_us));
+    int64_t zero_us = earliest_time_us(&data->truth, INT64_MAX);
+    zero_us = earliest_time_us(&data->plots, earliest_time_us(&data->tracks, zero_us));
     for (size_t i = 0; i < data->bearings.count; i++) {
         const int64_t time_us = data->bearings.list[i].time_us;
         zero_us = time_us < zero_us ? time_us : zero_us;
@@ -342,15 +356,16 @@ void plot_data_time_label(const struct plot_data *data, char *text, size_t size)
     }
 }
 
-static double track_cell(const struct plot_point *point, const char *column)
+static double number_in_column(const struct plot_point *point, const char *column)
 {
     return table_number_or(point->table, point->row, table_find_column(point->table, column), NAN);
 }
 
 bool plot_data_sigma_ellipse(const struct plot_point *track, struct plot_ellipse *ellipse)
 {
-    const double xx = track_cell(track, "cov_x_x"), yx = track_cell(track, "cov_y_x");
-    const double yy = track_cell(track, "cov_y_y"), sigma_m = track_cell(track, "sigma_m");
+    const double xx = number_in_column(track, "cov_x_x"), yx = number_in_column(track, "cov_y_x");
+    const double yy = number_in_column(track, "cov_y_y"),
+                 sigma_m = number_in_column(track, "sigma_m");
     if (isnan(xx) || isnan(yx) || isnan(yy)) {
         *ellipse = (struct plot_ellipse){sigma_m, sigma_m, 0.0};
         return !isnan(sigma_m);

@@ -8,13 +8,16 @@
 #include "evaluation/gospa.h"
 #include "evaluation/time_alignment.h"
 
-#define MARKERS_MAX 40 /* of a line: closer ones cannot be told apart */
+#define MARKERS_MAX 40 /* most markers on a line; closer ones cannot be told apart */
 
 /* ---- pairs ---- */
 
-/* Indices of the points of one time; tracks count once they are confirmed. */
-static size_t points_at_time(const struct plot_points *points, int64_t time_us, size_t *at,
-                             struct gospa_place *places)
+/*
+ * Collects places and indices (*at) of the points at one time, except tentative ones; returns their
+ * number.
+ */
+static size_t collect_points_at_time(const struct plot_points *points, int64_t time_us, size_t *at,
+                                     struct gospa_place *places)
 {
     size_t count = 0;
     for (size_t i = 0; i < points->count; i++) {
@@ -28,19 +31,20 @@ static size_t points_at_time(const struct plot_points *points, int64_t time_us, 
 
 struct error_finder {
     const struct plot_points *truth;
-    struct plot_points led; /* the tracks, at the truth's times */
+    struct plot_points aligned_tracks; /* tracks extrapolated to the truth's times */
     double cutoff_m;
-    double *error_m; /* by row of the truth; NAN: no track; negative: not yet known */
+    double *error_m; /* by index of the truth's points; NAN: no track; negative: not yet computed */
     size_t *targets, *tracks;
     struct gospa_place *target_places, *track_places;
     int *track_of;
 };
 
-static void find_errors_at(struct error_finder *finder, int64_t time_us)
+static void find_errors_at_time(struct error_finder *finder, int64_t time_us)
 {
     size_t num_targets =
-        points_at_time(finder->truth, time_us, finder->targets, finder->target_places);
-    size_t num_tracks = points_at_time(&finder->led, time_us, finder->tracks, finder->track_places);
+        collect_points_at_time(finder->truth, time_us, finder->targets, finder->target_places);
+    size_t num_tracks = collect_points_at_time(&finder->aligned_tracks, time_us, finder->tracks,
+                                               finder->track_places);
     gospa_compare(finder->target_places, num_targets, finder->track_places, num_tracks,
                   finder->cutoff_m, finder->track_of);
     for (size_t i = 0; i < num_targets; i++) {
@@ -54,7 +58,7 @@ static void find_errors_at(struct error_finder *finder, int64_t time_us)
     }
 }
 
-static void find_errors(struct error_finder *finder)
+static void find_all_errors(struct error_finder *finder)
 {
     const struct plot_points *truth = finder->truth;
     for (size_t i = 0; i < truth->count; i++) {
@@ -62,13 +66,13 @@ static void find_errors(struct error_finder *finder)
     }
     for (size_t i = 0; i < truth->count; i++) {
         if (finder->error_m[i] < 0.0) {
-            find_errors_at(finder, truth->list[i].time_us);
+            find_errors_at_time(finder, truth->list[i].time_us);
         }
     }
 }
 
-/* Exit 2 where there is no error at all, of which gnuplot makes no picture. */
-static void need_one_error(const struct error_finder *finder)
+/* Exits with 2 where no target ever has a track: gnuplot cannot draw an empty picture. */
+static void fail_without_errors(const struct error_finder *finder)
 {
     for (size_t i = 0; i < finder->truth->count; i++) {
         if (!isnan(finder->error_m[i])) {
@@ -90,8 +94,8 @@ static int by_time(const void *a, const void *b)
     return (one->id > other->id) - (one->id < other->id);
 }
 
-/* The points in the order of time, without those of tentative tracks. */
-static struct plot_points in_order_of_time(const struct plot_points *points)
+/* Copy of the points sorted by time, without tentative ones. */
+static struct plot_points confirmed_points_by_time(const struct plot_points *points)
 {
     struct plot_points sorted = {.list = must_calloc(points->count + 1, sizeof *sorted.list)};
     for (size_t i = 0; i < points->count; i++) {
@@ -112,7 +116,7 @@ static struct alignment_times times_of_points(const struct plot_points *points)
     return (struct alignment_times){.list_us = times_us, .count = points->count};
 }
 
-static struct plot_point moved_to_time(const struct plot_point *point, int64_t to_us)
+static struct plot_point extrapolated_to_time(const struct plot_point *point, int64_t to_us)
 {
     struct plot_point at = *point;
     double by_s = (double)(to_us - point->time_us) * 1e-6;
@@ -122,39 +126,43 @@ static struct plot_point moved_to_time(const struct plot_point *point, int64_t t
     return at;
 }
 
-static struct plot_points align_tracks(const struct plot_data *data, int64_t most_us)
+/*
+ * The tracks' points extrapolated to the truth's times; exits with 2 where a track time has no
+ * truth time within most_us.
+ */
+static struct plot_points align_tracks_to_truth(const struct plot_data *data, int64_t most_us)
 {
-    struct plot_points truth = in_order_of_time(&data->truth);
-    struct plot_points tracks = in_order_of_time(&data->tracks);
+    struct plot_points truth = confirmed_points_by_time(&data->truth);
+    struct plot_points tracks = confirmed_points_by_time(&data->tracks);
     struct alignment_times truth_times = times_of_points(&truth),
                            track_times = times_of_points(&tracks);
-    size_t far = alignment_find_unmatched(track_times, truth_times, most_us);
-    if (far < tracks.count) {
-        alignment_fail_unmatched(tracks.list[far].table, tracks.list[far].row, most_us);
+    size_t unmatched = alignment_find_unmatched(track_times, truth_times, most_us);
+    if (unmatched < tracks.count) {
+        alignment_fail_unmatched(tracks.list[unmatched].table, tracks.list[unmatched].row, most_us);
     }
     struct alignment alignment = alignment_to_truth(track_times, truth_times, most_us);
-    struct plot_points leading = {.list = must_calloc(alignment.count + 1, sizeof *leading.list),
+    struct plot_points aligned = {.list = must_calloc(alignment.count + 1, sizeof *aligned.list),
                                   .count = alignment.count};
     for (size_t i = 0; i < alignment.count; i++) {
-        leading.list[i] =
-            moved_to_time(&tracks.list[alignment.list[i].row], alignment.list[i].to_us);
+        aligned.list[i] =
+            extrapolated_to_time(&tracks.list[alignment.list[i].row], alignment.list[i].to_us);
     }
     free(alignment.list);
     free(truth_times.list_us);
     free(track_times.list_us);
     free(truth.list);
     free(tracks.list);
-    return leading;
+    return aligned;
 }
 
 struct plot_errors plot_errors_find(const struct plot_data *data,
                                     const struct parameters *parameters)
 {
-    struct plot_points leading = align_tracks(data, alignment_tolerance_us(parameters));
-    size_t targets = data->truth.count + 1, tracks = leading.count + 1;
+    struct plot_points aligned = align_tracks_to_truth(data, alignment_tolerance_us(parameters));
+    size_t targets = data->truth.count + 1, tracks = aligned.count + 1;
     struct error_finder finder = {
         .truth = &data->truth,
-        .led = leading,
+        .aligned_tracks = aligned,
         .cutoff_m = parameters->value[PARAMETER_GOSPA_CUTOFF_M],
         .error_m = must_calloc(targets, sizeof(double)),
         .targets = must_calloc(targets, sizeof(size_t)),
@@ -163,9 +171,9 @@ struct plot_errors plot_errors_find(const struct plot_data *data,
         .track_places = must_calloc(tracks, sizeof(struct gospa_place)),
         .track_of = must_calloc(targets, sizeof(int)),
     };
-    find_errors(&finder);
-    need_one_error(&finder);
-    free(finder.led.list);
+    find_all_errors(&finder);
+    fail_without_errors(&finder);
+    free(finder.aligned_tracks.list);
     free(finder.targets);
     free(finder.tracks);
     free(finder.target_places);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * plot_errors: how far tracks are from targets, over time: at each of the truth's times each target
- * against the track paired with it.
+ * plot_errors: draws the position errors of tracks over time: at each truth time, the distance of
+ * each target from the track paired with it.
  */
 #ifndef RHOTRACK_TOOL_PLOT_ERRORS_H
 #define RHOTRACK_TOOL_PLOT_ERRORS_H
@@ -11,13 +11,13 @@
 #include "settings/parameters.h"
 
 struct plot_errors {
-    double *error_m; /* by row of the truth; NAN: no track */
+    double *error_m; /* by index of the truth's points; NAN where the target has no track */
 };
 
 /*
- * Pairs them, within gospa_cutoff_m, after tracks have been led to the truth's times
- * (time_alignment.h). Exit 2 where the truth has not such a time, and where no target has a track.
- * Cost: the truth's times, times the rows of both.
+ * Computes the errors: moves tracks to the truth's times (time_alignment.h) and pairs them with
+ * targets within gospa_cutoff_m. Exits with 2 where a track time is no truth time, or no target has
+ * a track. Time: number of truth times multiplied by the number of rows.
  */
 struct plot_errors plot_errors_find(const struct plot_data *data,
                                     const struct parameters *parameters);

@@ -20,12 +20,12 @@ struct votes {
     uint16_t count[RHO_CELLS][THETA_CELLS];
 };
 
-static double theta_of_cell(int cell)
+static double theta_of_cell_rad(int cell)
 {
     return (cell + 0.5) * PI / THETA_CELLS;
 }
 
-static double rho_of(const struct rho_plot *plot, double theta)
+static double rho_of_plot_m(const struct rho_plot *plot, double theta)
 {
     return (double)plot->x_m * cos(theta) + (double)plot->y_m * sin(theta);
 }
@@ -37,7 +37,7 @@ static void find_rho_range(struct votes *votes, const struct revolutions *revolu
     for (size_t i = 0; i < revolutions->count; i++) {
         for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
             for (int t = 0; t < THETA_CELLS; t++) {
-                double rho_m = rho_of(&revolutions->list[i].plots[p], theta_of_cell(t));
+                double rho_m = rho_of_plot_m(&revolutions->list[i].plots[p], theta_of_cell_rad(t));
                 votes->rho_min_m = fmin(votes->rho_min_m, rho_m - 1.0);
                 votes->rho_max_m = fmax(votes->rho_max_m, rho_m + 1.0);
             }
@@ -45,21 +45,23 @@ static void find_rho_range(struct votes *votes, const struct revolutions *revolu
     }
 }
 
-static void cast_vote(struct votes *votes, const struct rho_plot *plot)
+/* Counts the plot in one rho cell for each theta cell: the cells of all lines through it. */
+static void cast_votes_of_plot(struct votes *votes, const struct rho_plot *plot)
 {
     double cells_per_m = RHO_CELLS / (votes->rho_max_m - votes->rho_min_m);
     for (int t = 0; t < THETA_CELLS; t++) {
-        int cell = (int)((rho_of(plot, theta_of_cell(t)) - votes->rho_min_m) * cells_per_m);
+        int cell =
+            (int)((rho_of_plot_m(plot, theta_of_cell_rad(t)) - votes->rho_min_m) * cells_per_m);
         votes->count[cell][t] = (uint16_t)(votes->count[cell][t] + 1u);
     }
 }
 
-static void cast_votes(struct votes *votes, const struct revolutions *revolutions)
+static void cast_all_votes(struct votes *votes, const struct revolutions *revolutions)
 {
     find_rho_range(votes, revolutions);
     for (size_t i = 0; i < revolutions->count; i++) {
         for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
-            cast_vote(votes, &revolutions->list[i].plots[p]);
+            cast_votes_of_plot(votes, &revolutions->list[i].plots[p]);
         }
     }
 }
@@ -71,7 +73,7 @@ static void put_votes(FILE *script, const struct votes *votes, double unit_m)
         double width_m = (votes->rho_max_m - votes->rho_min_m) / RHO_CELLS;
         double rho = (votes->rho_min_m + (r + 0.5) * width_m) / unit_m;
         for (int t = 0; t < THETA_CELLS; t++) {
-            fprintf(script, "%.5g %.5g %d\n", theta_of_cell(t) * 180.0 / PI, rho,
+            fprintf(script, "%.5g %.5g %d\n", theta_of_cell_rad(t) * 180.0 / PI, rho,
                     votes->count[r][t]);
         }
         fprintf(script, "\n");
@@ -79,7 +81,7 @@ static void put_votes(FILE *script, const struct votes *votes, double unit_m)
     fprintf(script, "EOD\n");
 }
 
-static void put_track_lines(FILE *script, const struct plot_points *tracks, double unit_m)
+static void put_lines_of_tracks(FILE *script, const struct plot_points *tracks, double unit_m)
 {
     struct plot_points one;
     size_t at = 0;
@@ -94,7 +96,10 @@ static void put_track_lines(FILE *script, const struct plot_points *tracks, doub
     fprintf(script, "EOD\n");
 }
 
-/* The plots of the last scans: in a table of plots nobody sees what a scan is. */
+/*
+ * Reads the plots again as scans and returns the last ones: the table of plots does not show which
+ * belong to one scan.
+ */
 struct revolutions plot_parameter_space_read(const struct plot_data *data,
                                              const struct parameters *parameters, size_t scans)
 {
@@ -123,10 +128,10 @@ void plot_parameter_space(struct picture *picture, const struct plot_data *data,
                           const struct revolutions *revolutions)
 {
     struct votes *votes = must_calloc(1, sizeof *votes);
-    cast_votes(votes, revolutions);
+    cast_all_votes(votes, revolutions);
     double unit_m = votes->rho_max_m - votes->rho_min_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
-    put_track_lines(picture->script, &data->tracks, unit_m);
+    put_lines_of_tracks(picture->script, &data->tracks, unit_m);
     picture_set_title(picture, "Parameter space: the lines through the plots of the last %zu scans",
                       revolutions->count);
     fprintf(

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * plot_parameter_space: the lines of the last scans' plots, as votes in the plane of rho and theta,
- * and the tracks' own lines.
+ * plot_parameter_space: draws the Hough parameter space (rho, theta): the votes of the last scans'
+ * plots, and the tracks' own lines.
  */
 #ifndef RHOTRACK_TOOL_PLOT_PARAMETER_SPACE_H
 #define RHOTRACK_TOOL_PLOT_PARAMETER_SPACE_H
@@ -12,15 +12,15 @@
 #include "settings/parameters.h"
 
 /*
- * The scans that vote: the last `scans`, at most RHO_MAX_SCANS, which is as many as an initiation
- * window can hold, the sectors of a turn being one. The files with plots are read once more;
- * without a column sensor_id all is sensor 0's. Exit 2 where these have no plots, or are refused:
- * before a picture is begun. To be freed by revolutions_free.
+ * Reads the scans that vote: the last `scans`, at most RHO_MAX_SCANS (the largest initiation
+ * window); the sectors of a turn count as one. Reads the files with plots a second time; without a
+ * column sensor_id all plots are sensor 0's. Exits with 2, before a picture is begun, where there
+ * are no plots or rows are refused. The caller frees the result with revolutions_free.
  */
 struct revolutions plot_parameter_space_read(const struct plot_data *data,
                                              const struct parameters *parameters, size_t scans);
 
-/* Draws their votes, and the lines of the data's tracks. */
+/* Draws the votes of the scans' plots, and the lines of the tracks in data. */
 void plot_parameter_space(struct picture *picture, const struct plot_data *data,
                           const struct revolutions *revolutions);
 

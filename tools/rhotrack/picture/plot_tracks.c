@@ -8,15 +8,15 @@
 #include "picture/map.h"
 #include "picture/plot_bearings.h"
 
-#define TRACKS_MARKED 30 /* the lines of more tracks have no markers */
+#define TRACKS_MARKED 30 /* most tracks that are drawn with markers on their lines */
 #define LABEL_WIDTH_PIXELS 30.0
 #define LABEL_HEIGHT_PIXELS 15.0
-#define ARROW_PIXELS 45.0  /* of the fastest track, at most */
-#define ELLIPSE_PIXELS 2.0 /* smaller ones would be dots */
+#define ARROW_PIXELS 45.0  /* longest arrow, that of the fastest track */
+#define ELLIPSE_PIXELS 2.0 /* smallest ellipse drawn: smaller ones would look like dots */
 #define ELLIPSE_SIGMAS 2.0
 #define WORDS_BYTES 160
 
-static struct map start_map(const struct picture *picture, const struct plot_data *data)
+static struct map start_map_of_all_data(const struct picture *picture, const struct plot_data *data)
 {
     struct map_box box = map_box_empty();
     map_box_include_points(&box, &data->plots);
@@ -28,8 +28,10 @@ static struct map start_map(const struct picture *picture, const struct plot_dat
     return map_start(picture, box);
 }
 
-/* ", 67 s from t_s = 3 on"; empty where nothing has a time */
-static const char *time_span_words(const struct plot_data *data, char text[WORDS_BYTES])
+/*
+ * Time span of all data as text, such as ", 67 s from t_s = 3 on"; empty where nothing has a time.
+ */
+static const char *format_time_span(const struct plot_data *data, char text[WORDS_BYTES])
 {
     int64_t from_us = INT64_MAX, to_us = INT64_MIN;
     const struct plot_points *const all[] = {&data->plots, &data->tracks, &data->truth};
@@ -55,8 +57,11 @@ static const char *time_span_words(const struct plot_data *data, char text[WORDS
     return text;
 }
 
-/* "1526 plots", "48 bearings", or "20000 of 1000000 plots" */
-static const char *plot_count_words(const struct plot_data *data, char text[WORDS_BYTES])
+/*
+ * Number of plots or bearings as text: "1526 plots", "48 bearings" or "20000 of 1000000 plots
+ * drawn".
+ */
+static const char *format_plot_count(const struct plot_data *data, char text[WORDS_BYTES])
 {
     const size_t count = data->plots.count, drawn = map_num_plots_drawn(count);
     if (count == 0 && data->bearings.count > 0) {
@@ -71,11 +76,12 @@ static const char *plot_count_words(const struct plot_data *data, char text[WORD
 
 void plot_scans(struct picture *picture, const struct plot_data *data)
 {
-    const struct map map = start_map(picture, data);
+    const struct map map = start_map_of_all_data(picture, data);
     const size_t drawn = map_num_plots_drawn(data->plots.count);
     char plots[WORDS_BYTES], times[WORDS_BYTES], time[WORDS_BYTES];
     plot_data_time_label(data, time, sizeof time);
-    picture_set_title(picture, "%s%s", plot_count_words(data, plots), time_span_words(data, times));
+    picture_set_title(picture, "%s%s", format_plot_count(data, plots),
+                      format_time_span(data, times));
     map_put_plots(&map, &data->plots, plot_data_first_shown_us(data));
     map_put_radars(&map, data->radars, data->num_radars);
     fprintf(map.script,
@@ -88,7 +94,8 @@ void plot_scans(struct picture *picture, const struct plot_data *data)
 }
 
 /*
- * The straight line on which a track was found, back from its first row to the first plot's time.
+ * Writes the line that started each track: back from its first row with its first velocity, to the
+ * time of the first plot or for at most six scans.
  */
 static void put_start_lines(const struct map *map, const struct plot_data *data)
 {
@@ -117,14 +124,14 @@ static void put_start_lines(const struct map *map, const struct plot_data *data)
 
 /* ---- the ends of tracks ---- */
 
-static bool is_near_on_map(const struct map *map, const struct plot_point *one,
-                           const struct plot_point *other)
+static bool do_labels_overlap(const struct map *map, const struct plot_point *one,
+                              const struct plot_point *other)
 {
     return fabs(one->x_m - other->x_m) * map->pixels_per_m < LABEL_WIDTH_PIXELS &&
            fabs(one->y_m - other->y_m) * map->pixels_per_m < LABEL_HEIGHT_PIXELS;
 }
 
-/* Numbers of tracks, but for those that would be written over another. */
+/* Labels the ends of tracks with their ids, except where a label would overlap another. */
 static void put_track_labels(const struct map *map, const struct plot_points *tracks)
 {
     struct plot_points one;
@@ -133,7 +140,7 @@ static void put_track_labels(const struct map *map, const struct plot_points *tr
     while (plot_data_next_identity(tracks, &at, &one)) {
         const struct plot_point *end = &one.list[one.count - 1];
         size_t i = 0;
-        while (i < count && !is_near_on_map(map, end, &labelled[i])) {
+        while (i < count && !do_labels_overlap(map, end, &labelled[i])) {
             i++;
         }
         if (i == count) {
@@ -145,8 +152,8 @@ static void put_track_labels(const struct map *map, const struct plot_points *tr
     free(labelled);
 }
 
-/* Seconds of motion that an arrow shows. */
-static double arrow_seconds(const struct map *map, const struct plot_points *tracks)
+/* Seconds of motion that an arrow shows: the fastest track's arrow is at most ARROW_PIXELS long. */
+static double arrow_time_s(const struct map *map, const struct plot_points *tracks)
 {
     struct plot_points one;
     size_t at = 0;
@@ -161,7 +168,7 @@ static double arrow_seconds(const struct map *map, const struct plot_points *tra
 
 static void put_arrows_and_ellipses(const struct map *map, const struct plot_points *tracks)
 {
-    const double time_s = arrow_seconds(map, tracks);
+    const double time_s = arrow_time_s(map, tracks);
     struct plot_points one;
     size_t at = 0, index = 0;
     while (plot_data_next_identity(tracks, &at, &one)) {
@@ -188,8 +195,8 @@ static void put_arrows_and_ellipses(const struct map *map, const struct plot_poi
 
 /* ---- lines ---- */
 
-/* The legend's name of track number `index`; empty: none. */
-static void name_track(char *title, size_t size, int32_t id, size_t index, bool many)
+/* Legend clause of track number `index`: a title for each track, or with `many` one for all. */
+static void format_track_legend(char *title, size_t size, int32_t id, size_t index, bool many)
 {
     if (!many) {
         snprintf(title, size, "title 'track %d'", id);
@@ -205,7 +212,7 @@ static void draw_track_lines(const struct map *map, const struct plot_points *tr
     const size_t ids = plot_data_count_identities(tracks);
     while (plot_data_next_identity(tracks, &at, &one)) {
         char title[40];
-        name_track(title, sizeof title, one.list[0].id, index, ids > PLOT_LEGEND_MAX);
+        format_track_legend(title, sizeof title, one.list[0].id, index, ids > PLOT_LEGEND_MAX);
         fprintf(map->script, ", \\\n $tracks index %zu using 1:2 with ", index);
         if (ids <= TRACKS_MARKED) {
             fprintf(map->script, "linespoints pt %d ps 0.55 pi %zu", picture_marker(index),
@@ -218,8 +225,8 @@ static void draw_track_lines(const struct map *map, const struct plot_points *tr
     }
 }
 
-/* Wide and pale, so that a track over it is seen. */
-static void draw_truth(const struct map *map, const struct plot_points *truth)
+/* Draws true paths as wide transparent lines, so that tracks over them are visible. */
+static void draw_truth_paths(const struct map *map, const struct plot_points *truth)
 {
     if (truth->count) {
         fprintf(map->script, ", \\\n $truth using 1:2 with lines lw 3.5 lc rgb '#b0000000' title "
@@ -227,24 +234,24 @@ static void draw_truth(const struct map *map, const struct plot_points *truth)
     }
 }
 
-static void set_title(const struct picture *picture, const struct map *map,
-                      const struct plot_data *data)
+static void set_tracks_title(const struct picture *picture, const struct map *map,
+                             const struct plot_data *data)
 {
     char plots[WORDS_BYTES], times[WORDS_BYTES], arrows[WORDS_BYTES] = "";
-    const double time_s = arrow_seconds(map, &data->tracks);
+    const double time_s = arrow_time_s(map, &data->tracks);
     if (time_s > 0.0) {
         snprintf(arrows, sizeof arrows, "; arrows: %g s of motion; ellipses: %g sigma", time_s,
                  ELLIPSE_SIGMAS);
     }
     picture_set_title(picture, "%zu tracks, %s%s%s", plot_data_count_identities(&data->tracks),
-                      plot_count_words(data, plots), time_span_words(data, times), arrows);
+                      format_plot_count(data, plots), format_time_span(data, times), arrows);
 }
 
 void plot_tracks(struct picture *picture, const struct plot_data *data)
 {
-    const struct map map = start_map(picture, data);
+    const struct map map = start_map_of_all_data(picture, data);
     const bool has_bearings = data->bearings.num_sensors > 0;
-    set_title(picture, &map, data);
+    set_tracks_title(picture, &map, data);
     map_put_plots(&map, &data->plots, 0);
     map_put_points(&map, "truth", &data->truth);
     map_put_points(&map, "tracks", &data->tracks);
@@ -262,7 +269,7 @@ void plot_tracks(struct picture *picture, const struct plot_data *data)
         plot_bearings_draw_sensors(&map, &data->bearings);
     }
     map_draw_plots(&map, &data->plots);
-    draw_truth(&map, &data->truth);
+    draw_truth_paths(&map, &data->truth);
     if (data->tracks.count) {
         fprintf(map.script, ", \\\n $starts using 1:2 with lines lw 1 dt 3 lc rgb '#444444' "
                             "title 'line that started a track'");

@@ -16,13 +16,13 @@
 
 struct plot_votes {
     enum method method;
-    unsigned count; /* of pictures */
+    unsigned count; /* number of pictures: 4 for the neutrosophic method, else 1 */
     unsigned height, width;
-    double from_deg, to_deg, from_m, to_m; /* the window that has all candidates */
+    double from_deg, to_deg, from_m, to_m; /* part of the parameter space that holds all votes */
     uint32_t of[PICTURES][THETA_BLOCKS * RHO_BLOCKS];
 };
 
-/* In the order of the pictures. */
+/* Component of the accumulator and title of each picture. */
 static const struct {
     enum rho_hough_component component;
     const char *title;
@@ -31,17 +31,18 @@ static const struct {
                         {RHO_HOUGH_INDETERMINACY, "indeterminacy, C_I"},
                         {RHO_HOUGH_FALSITY, "falsity, C_F"}};
 
-static unsigned at_most(unsigned cells, unsigned most)
+static unsigned smaller_of(unsigned cells, unsigned most)
 {
     return cells < most ? cells : most;
 }
 
-/* Cells of one direction. */
+/* A range of cells of one axis of the accumulator. */
 struct range {
     unsigned first, last;
 };
 
-static void widen_range(struct range *range, unsigned block, unsigned blocks, unsigned cells)
+static void include_block_in_range(struct range *range, unsigned block, unsigned blocks,
+                                   unsigned cells)
 {
     const unsigned from = block * cells / blocks, to = (block + 1) * cells / blocks;
 
@@ -49,57 +50,57 @@ static void widen_range(struct range *range, unsigned block, unsigned blocks, un
     range->last = to > range->last ? to : range->last;
 }
 
-static struct range with_margin(struct range range, unsigned cells)
+static struct range range_with_margin(struct range range, unsigned cells)
 {
     if (range.first > range.last) {
-        return (struct range){0, cells - 1}; /* nothing voted */
+        return (struct range){0, cells - 1}; /* no votes: the whole axis */
     }
-    range.first -= at_most(range.first, MARGIN_CELLS);
-    range.last = at_most(range.last + MARGIN_CELLS, cells - 1);
+    range.first -= smaller_of(range.first, MARGIN_CELLS);
+    range.last = smaller_of(range.last + MARGIN_CELLS, cells - 1);
     return range;
 }
 
 /*
- * The cells in which any candidate votes, by the last picture: of the neutrosophic method that is
- * falsity, which every candidate has.
+ * Window of accumulator cells with any vote, plus a margin; `whole` holds the last picture's
+ * component: of the neutrosophic method falsity, for which every candidate votes.
  */
-static struct rho_plane window_of_candidates(const struct rho_hough *hough,
-                                             const struct rho_plane *whole)
+static struct rho_plane window_of_votes(const struct rho_hough *hough,
+                                        const struct rho_plane *whole)
 {
     struct range theta = {hough->theta_cells, 0}, rho = {hough->rho_cells, 0};
 
     for (unsigned y = 0; y < whole->height; y++) {
         for (unsigned x = 0; x < whole->width; x++) {
             if (whole->votes[y * whole->width + x] > 0) {
-                widen_range(&theta, y, whole->height, hough->theta_cells);
-                widen_range(&rho, x, whole->width, hough->rho_cells);
+                include_block_in_range(&theta, y, whole->height, hough->theta_cells);
+                include_block_in_range(&rho, x, whole->width, hough->rho_cells);
             }
         }
     }
-    theta = with_margin(theta, hough->theta_cells);
-    rho = with_margin(rho, hough->rho_cells);
+    theta = range_with_margin(theta, hough->theta_cells);
+    rho = range_with_margin(rho, hough->rho_cells);
     const unsigned rows = theta.last - theta.first + 1, columns = rho.last - rho.first + 1;
 
     return (struct rho_plane){.first_theta = (uint16_t)theta.first,
                               .theta_cells = (uint16_t)rows,
                               .first_rho = (uint16_t)rho.first,
                               .rho_cells = (uint16_t)columns,
-                              .height = (uint16_t)at_most(rows, THETA_BLOCKS),
-                              .width = (uint16_t)at_most(columns, RHO_BLOCKS)};
+                              .height = (uint16_t)smaller_of(rows, THETA_BLOCKS),
+                              .width = (uint16_t)smaller_of(columns, RHO_BLOCKS)};
 }
 
-static void fill_vote_pictures(struct plot_votes *votes, const struct rho_hough_config *config,
-                               const struct rho_hough_points *points)
+static void compute_vote_pictures(struct plot_votes *votes, const struct rho_hough_config *config,
+                                  const struct rho_hough_points *points)
 {
     struct rho_hough *hough = must_alloc(sizeof *hough);
 
     must_succeed(rho_hough_init(hough, sizeof *hough, config), "hough");
-    struct rho_plane whole = {.height = (uint16_t)at_most(hough->theta_cells, THETA_BLOCKS),
-                              .width = (uint16_t)at_most(hough->rho_cells, RHO_BLOCKS),
+    struct rho_plane whole = {.height = (uint16_t)smaller_of(hough->theta_cells, THETA_BLOCKS),
+                              .width = (uint16_t)smaller_of(hough->rho_cells, RHO_BLOCKS),
                               .votes = votes->of[0]};
     must_succeed(rho_hough_plane(hough, points, pictures[votes->count - 1].component, &whole),
                  "hough");
-    struct rho_plane plane = window_of_candidates(hough, &whole);
+    struct rho_plane plane = window_of_votes(hough, &whole);
     for (unsigned i = 0; i < votes->count; i++) {
         plane.votes = votes->of[i];
         must_succeed(rho_hough_plane(hough, points, pictures[i].component, &plane), "hough");
@@ -129,13 +130,13 @@ struct plot_votes *plot_votes_find(enum method method, const struct revolutions 
     hough_batch_report_left_out(&batch);
     votes->method = method;
     votes->count = method == METHOD_NHT ? PICTURES : 1;
-    fill_vote_pictures(votes, &config, &points);
+    compute_vote_pictures(votes, &config, &points);
     hough_batch_free(&batch);
     return votes;
 }
 
-/* A plane without votes has a scale, too. */
-static double most_votes(const struct plot_votes *votes, unsigned number)
+/* Largest vote of a picture; 1 where there is none, so that the colour scale is not empty. */
+static double max_votes(const struct plot_votes *votes, unsigned number)
 {
     uint32_t most = 0;
 
@@ -145,8 +146,8 @@ static double most_votes(const struct plot_votes *votes, unsigned number)
     return most > 0 ? most / (double)RHO_HOUGH_VOTE : 1.0;
 }
 
-static void put_vote_picture(FILE *script, const struct plot_votes *votes, unsigned number,
-                             double unit_m)
+static void put_votes_of_picture(FILE *script, const struct plot_votes *votes, unsigned number,
+                                 double unit_m)
 {
     const double step_m = (votes->to_m - votes->from_m) / votes->width;
     const double step_deg = (votes->to_deg - votes->from_deg) / votes->height;
@@ -169,7 +170,7 @@ void plot_votes(struct picture *picture, const struct plot_votes *votes)
     FILE *script = picture->script;
 
     for (unsigned i = 0; i < votes->count; i++) {
-        put_vote_picture(script, votes, i, unit_m);
+        put_votes_of_picture(script, votes, i, unit_m);
     }
     fprintf(script,
             "set key off\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n"
@@ -184,7 +185,7 @@ void plot_votes(struct picture *picture, const struct plot_votes *votes)
         fprintf(script,
                 "set title '%s: %s' noenhanced\nset cbrange [0:%.6g]\n"
                 "plot $of%u using 1:2:3 with image\n",
-                method_name(votes->method), pictures[i].title, most_votes(votes, i), i);
+                method_name(votes->method), pictures[i].title, max_votes(votes, i), i);
     }
     if (votes->count > 1) {
         fprintf(script, "unset multiplot\n");

@@ -8,58 +8,62 @@
 #include "registration/calibrate_segments.h"
 
 #define ROUNDS_MAX 8
-#define SETTLED 0.02 /* noise that changes by less between rounds stays */
+/* noise that changes by a smaller share between rounds has converged */
+#define CONVERGED_SHARE 0.02
 #define TRY_BETTER 1.5
 
-#define PARTS 10 /* of the data, each left out once: what the figures differ by */
+/* number of parts of the data, each left out once to find the sigma of a figure (jackknife) */
+#define PARTS 10
 #define SEGMENTS_MIN 4
 #define LOOKS_MIN 100
 #define TURNS_MIN 6
-#define SETTLING_PLOTS 6 /* of a track: it is there because these were seen */
-#define GROWN_PLOTS 12
-#define MOVES_SIGMAS 4.0
+/* first plots of a track, which pd is not counted from: without them there would be no track */
+#define START_PLOTS 6
+#define TRACK_PLOTS_MIN 12
+#define MOVING_SIGMAS 4.0
 
-/* Squares of normal numbers over their variance, each cut at 4, have this mean. */
+/* The square of a standard normal variable, cut at CUT^2 = 4, has this mean. */
 #define CUT 2.0
 #define CUT_MEAN 0.9205
 
-/* ---- figures that have parts ---- */
+/* ---- jackknife ---- */
 
-struct parts {
-    double without[PARTS]; /* the figure without each part */
+struct jackknife_figures {
+    double without[PARTS]; /* the figure estimated without each of the PARTS */
 };
 
-/* The jackknife's. */
-static double jackknife_sigma(const struct parts *parts)
+/* Standard error of the figure by the jackknife. */
+static double jackknife_sigma(const struct jackknife_figures *jackknife_figures)
 {
     double mean = 0.0, sum = 0.0;
 
     for (int i = 0; i < PARTS; i++) {
-        mean += parts->without[i] / PARTS;
+        mean += jackknife_figures->without[i] / PARTS;
     }
     for (int i = 0; i < PARTS; i++) {
-        sum += (parts->without[i] - mean) * (parts->without[i] - mean);
+        sum += (jackknife_figures->without[i] - mean) * (jackknife_figures->without[i] - mean);
     }
     return sqrt(sum * (PARTS - 1) / PARTS);
 }
 
-static int compare(const void *a, const void *b)
+static int compare_doubles(const void *a, const void *b)
 {
     const double one = *(const double *)a, other = *(const double *)b;
 
     return (one > other) - (one < other);
 }
 
+/* Median of the values, which are sorted in place. */
 static double median(double *values, size_t count)
 {
-    qsort(values, count, sizeof *values, compare);
+    qsort(values, count, sizeof *values, compare_doubles);
     return count % 2 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
 }
 
 /* ---- noise ---- */
 
-/* A residual without its sign: metres, or of an azimuth radians. */
-static double residual_value(const struct residual *residual, bool is_round)
+/* Magnitude of a residual: metres, or radians across the line of sight of a polar plot. */
+static double residual_magnitude(const struct residual *residual, bool is_round)
 {
     return fabs(residual->axis == 1 && !is_round ? residual->off_m / residual->range_m
                                                  : residual->off_m);
@@ -70,8 +74,10 @@ static bool is_residual_counted(const struct residual *residual, int axis, bool 
     return (is_round || residual->axis == axis) && (int)(residual->segment % PARTS) != part;
 }
 
-/* The sigma for which the cut squares have the mean that they should have; without a part, -1: of
- * all. */
+/*
+ * Finds by bisection the sigma for which the residuals' normalised squares, cut at CUT^2, have the
+ * mean CUT_MEAN. Residuals of one part are left out; part -1: none is.
+ */
 static double noise_without_part(const struct calibrate_segments *segments, int axis, bool is_round,
                                  int part)
 {
@@ -83,7 +89,7 @@ static double noise_without_part(const struct calibrate_segments *segments, int 
 
         for (size_t k = 0; k < segments->num_residuals; k++) {
             if (is_residual_counted(&segments->residuals[k], axis, is_round, part)) {
-                const double sigmas = residual_value(&segments->residuals[k], is_round) / sigma;
+                const double sigmas = residual_magnitude(&segments->residuals[k], is_round) / sigma;
 
                 sum += sigmas < CUT ? sigmas * sigmas : CUT * CUT;
                 count += 1.0;
@@ -98,23 +104,23 @@ static double noise_without_part(const struct calibrate_segments *segments, int 
     return sqrt(least * most);
 }
 
-static struct calibrate_figure noise_figure(const struct calibrate_segments *segments, int axis,
-                                            bool is_round)
+static struct calibrate_figure noise_with_jackknife_sigma(const struct calibrate_segments *segments,
+                                                          int axis, bool is_round)
 {
     struct calibrate_figure figure = {.is_known = segments->num_segments >= SEGMENTS_MIN};
-    struct parts parts;
+    struct jackknife_figures jackknife_figures;
 
     if (figure.is_known) {
         for (int i = 0; i < PARTS; i++) {
-            parts.without[i] = noise_without_part(segments, axis, is_round, i);
+            jackknife_figures.without[i] = noise_without_part(segments, axis, is_round, i);
         }
         figure.value = noise_without_part(segments, axis, is_round, -1);
-        figure.sigma = jackknife_sigma(&parts);
+        figure.sigma = jackknife_sigma(&jackknife_figures);
     }
     return figure;
 }
 
-static void set_noise(struct radar_data *radar, bool is_round, double along_m, double across)
+static void set_plot_sigmas(struct radar_data *radar, bool is_round, double along_m, double across)
 {
     for (size_t i = 0; i < radar->num_plots; i++) {
         struct radar_plot *plot = &radar->plots[i];
@@ -128,7 +134,7 @@ static void set_noise(struct radar_data *radar, bool is_round, double along_m, d
     }
 }
 
-static void scale_noise(struct radar_data *radar, double factor)
+static void scale_plot_sigmas(struct radar_data *radar, double factor)
 {
     for (size_t i = 0; i < radar->num_plots; i++) {
         struct radar_plot *plot = &radar->plots[i];
@@ -143,7 +149,8 @@ static void scale_noise(struct radar_data *radar, double factor)
 
 /* ---- rounds ---- */
 
-static void forget_tracks(struct register_data *data)
+/* Frees the tracks of all radars. */
+static void remove_all_tracks(struct register_data *data)
 {
     for (size_t i = 0; i < data->num_tracks; i++) {
         free(data->tracks[i].plots);
@@ -151,82 +158,92 @@ static void forget_tracks(struct register_data *data)
     data->num_tracks = 0;
 }
 
-static struct calibrate_segments track_and_cut(struct register_data *data, size_t radar,
-                                               bool is_round, struct pipeline *pipeline)
+static struct calibrate_segments track_and_cut_segments(struct register_data *data, size_t radar,
+                                                        bool is_round, struct pipeline *pipeline)
 {
-    forget_tracks(data);
+    remove_all_tracks(data);
     register_track_one_radar(data, radar, pipeline);
     return calibrate_cut_segments(data, radar, is_round);
 }
 
-static double num_usable_segments(const struct calibrate_segments *segments)
+/* Score of a noise factor: fitted segments minus segments that fit no parabola. */
+static double segments_minus_left_out(const struct calibrate_segments *segments)
 {
     return (double)segments->num_segments - (double)segments->num_left_out;
 }
 
-/* Noise that is far from what was stated lets no tracks be found: with which of these factors
- * there are most segments. */
-static struct calibrate_segments track_with_best_noise(struct register_data *data, size_t number,
-                                                       bool is_round, struct pipeline *pipeline)
+/*
+ * Tracks a radar with its stated sigmas multiplied by 1 and by each of the factors, keeps in its
+ * plots the factor that gives most segments, and returns these: with sigmas far from the true noise
+ * the tracker finds no tracks.
+ */
+static struct calibrate_segments track_with_best_noise_factor(struct register_data *data,
+                                                              size_t number, bool is_round,
+                                                              struct pipeline *pipeline)
 {
     static const double factors[] = {4.0, 16.0, 0.25};
     struct radar_data *radar = &data->radars[number];
-    struct calibrate_segments best = track_and_cut(data, number, is_round, pipeline);
+    struct calibrate_segments best = track_and_cut_segments(data, number, is_round, pipeline);
     double factor = 1.0;
 
     for (size_t i = 0; i < sizeof factors / sizeof *factors; i++) {
         const double tried = factors[i];
         struct calibrate_segments segments;
 
-        scale_noise(radar, tried / factor);
-        segments = track_and_cut(data, number, is_round, pipeline);
-        if (num_usable_segments(&segments) > TRY_BETTER * fmax(num_usable_segments(&best), 1.0)) {
+        scale_plot_sigmas(radar, tried / factor);
+        segments = track_and_cut_segments(data, number, is_round, pipeline);
+        if (segments_minus_left_out(&segments) >
+            TRY_BETTER * fmax(segments_minus_left_out(&best), 1.0)) {
             calibrate_segments_free(&best);
             best = segments;
             factor = tried;
         } else {
             calibrate_segments_free(&segments);
-            scale_noise(radar, factor / tried);
+            scale_plot_sigmas(radar, factor / tried);
         }
     }
     calibrate_segments_free(&best);
-    return track_and_cut(data, number, is_round, pipeline);
+    return track_and_cut_segments(data, number, is_round, pipeline);
 }
 
-static bool has_noise_settled(const struct calibrate_figure *before,
-                              const struct calibrate_figure *now)
+static bool has_noise_converged(const struct calibrate_figure *before,
+                                const struct calibrate_figure *now)
 {
-    return before->is_known && fabs(now->value / before->value - 1.0) < SETTLED;
+    return before->is_known && fabs(now->value / before->value - 1.0) < CONVERGED_SHARE;
 }
 
-/* Where most segments are no parabolas, those that look so are by chance. */
+/* Whether enough segments fit a parabola: where most do not, the others fit by chance. */
 static bool are_enough_segments(const struct calibrate_segments *segments)
 {
     return segments->num_segments >= SEGMENTS_MIN &&
            segments->num_segments > segments->num_left_out;
 }
 
-/* Noise along and across, with the tracks that it makes. */
-static struct calibrate_segments find_noise(struct register_data *data, size_t number,
-                                            struct calibrate_radar *out, struct pipeline *pipeline)
+/*
+ * Estimates the noise along and across the line of sight: tracks are found again with each estimate
+ * until it converges. Returns the segments of the last tracks.
+ */
+static struct calibrate_segments estimate_noise(struct register_data *data, size_t number,
+                                                struct calibrate_radar *out,
+                                                struct pipeline *pipeline)
 {
     struct calibrate_figure *noise = out->figures;
     struct calibrate_segments segments =
-        track_with_best_noise(data, number, out->is_round, pipeline);
+        track_with_best_noise_factor(data, number, out->is_round, pipeline);
 
     for (int round = 0; round < ROUNDS_MAX && segments.num_segments >= SEGMENTS_MIN; round++) {
         const struct calibrate_figure before[2] = {noise[0], noise[1]};
 
-        noise[0] = noise_figure(&segments, 0, out->is_round);
-        noise[1] = noise_figure(&segments, 1, false);
+        noise[0] = noise_with_jackknife_sigma(&segments, 0, out->is_round);
+        noise[1] = noise_with_jackknife_sigma(&segments, 1, false);
         noise[1].is_known = noise[1].is_known && !out->is_round;
-        if (has_noise_settled(&before[0], &noise[0]) &&
-            (out->is_round || has_noise_settled(&before[1], &noise[1]))) {
+        if (has_noise_converged(&before[0], &noise[0]) &&
+            (out->is_round || has_noise_converged(&before[1], &noise[1]))) {
             break;
         }
-        set_noise(&data->radars[number], out->is_round, noise[0].value, noise[1].value);
+        set_plot_sigmas(&data->radars[number], out->is_round, noise[0].value, noise[1].value);
         calibrate_segments_free(&segments);
-        segments = track_and_cut(data, number, out->is_round, pipeline);
+        segments = track_and_cut_segments(data, number, out->is_round, pipeline);
     }
     if (!are_enough_segments(&segments)) {
         noise[0].is_known = noise[1].is_known = false;
@@ -241,7 +258,8 @@ struct turns {
     double *end_s, *plots;
 };
 
-static struct turns turns_of_radar(const struct register_data *data, const struct radar_data *radar)
+static struct turns group_scans_into_turns(const struct register_data *data,
+                                           const struct radar_data *radar)
 {
     struct turns turns = {.end_s = must_calloc(radar->num_scans + 1, sizeof(double)),
                           .plots = must_calloc(radar->num_scans + 1, sizeof(double))};
@@ -257,7 +275,7 @@ static struct turns turns_of_radar(const struct register_data *data, const struc
     return turns;
 }
 
-static struct calibrate_figure turn_time_figure(const struct turns *turns)
+static struct calibrate_figure estimate_turn_time(const struct turns *turns)
 {
     struct calibrate_figure figure = {.is_known = turns->count > TURNS_MIN};
     const size_t count = turns->count > 0 ? turns->count - 1 : 0;
@@ -272,15 +290,18 @@ static struct calibrate_figure turn_time_figure(const struct turns *turns)
         for (size_t i = 0; i < count; i++) {
             gaps_s[i] = fabs(gaps_s[i] - figure.value);
         }
-        /* of a median: 1.25 sigma / sqrt(n); the sigma by the median of what they are off */
+        /*
+         * standard error of a median: 1.25 sigma / sqrt(n), sigma from the median absolute
+         * deviation
+         */
         figure.sigma = 1.25 * 1.4826 * median(gaps_s, count) / sqrt((double)count);
     }
     free(gaps_s);
     return figure;
 }
 
-static struct calibrate_figure clutter_figure(const struct register_data *data, size_t number,
-                                              const struct turns *turns)
+static struct calibrate_figure estimate_clutter(const struct register_data *data, size_t number,
+                                                const struct turns *turns)
 {
     const double count = (double)turns->count;
     struct calibrate_figure figure = {.is_known = turns->count >= TURNS_MIN};
@@ -300,7 +321,10 @@ static struct calibrate_figure clutter_figure(const struct register_data *data, 
     return figure;
 }
 
-/* Of the circle, or the box, that nearly all plots are in. */
+/*
+ * Area over which clutter is spread: the circle that holds 99.5 % of a polar radar's plots, or the
+ * bounding box of plots without a range.
+ */
 static double covered_area_km2(const struct radar_data *radar, bool is_round)
 {
     double *range_m = must_calloc(radar->num_plots + 1, sizeof *range_m), area_m2 = 0.0;
@@ -316,7 +340,7 @@ static double covered_area_km2(const struct radar_data *radar, bool is_round)
         y[1] = fmax(y[1], (double)plot->y_m);
     }
     if (radar->num_plots > 0) {
-        qsort(range_m, radar->num_plots, sizeof *range_m, compare);
+        qsort(range_m, radar->num_plots, sizeof *range_m, compare_doubles);
         area_m2 = is_round ? (x[1] - x[0]) * (y[1] - y[0])
                            : M_PI * pow(range_m[radar->num_plots - 1 - radar->num_plots / 200], 2);
     }
@@ -326,35 +350,38 @@ static double covered_area_km2(const struct radar_data *radar, bool is_round)
 
 /* ---- pd ---- */
 
-/* Looks and hits between a track's plots, without the first ones, by which it was found at all. */
-static void count_looks(const struct register_data *data, const struct radar_track *track,
-                        double turn_s, double *looks, double *hits)
+/*
+ * Counts a track's looks and hits after its first START_PLOTS plots: without those the track would
+ * not have been found, so that they would make pd too large. Short tracks count 0.
+ */
+static void count_looks_and_hits(const struct register_data *data, const struct radar_track *track,
+                                 double turn_s, double *looks, double *hits)
 {
     const struct radar_plot *plots = data->radars[track->radar].plots;
     const struct radar_plot *first, *last;
 
     *looks = *hits = 0.0;
-    if (track->count < GROWN_PLOTS) {
+    if (track->count < TRACK_PLOTS_MIN) {
         return;
     }
-    first = &plots[track->plots[SETTLING_PLOTS]];
+    first = &plots[track->plots[START_PLOTS]];
     last = &plots[track->plots[track->count - 1]];
-    *hits = (double)(track->count - 1 - SETTLING_PLOTS);
+    *hits = (double)(track->count - 1 - START_PLOTS);
     *looks = fmax(round((double)(last->time_us - first->time_us) * 1e-6 / turn_s), *hits);
 }
 
-static struct calibrate_figure pd_figure(const struct register_data *data, size_t number,
-                                         double turn_s)
+static struct calibrate_figure estimate_pd(const struct register_data *data, size_t number,
+                                           double turn_s)
 {
     double looks[PARTS + 1] = {0.0}, hits[PARTS + 1] = {0.0};
     struct calibrate_figure figure = {.is_known = false};
-    struct parts parts;
+    struct jackknife_figures jackknife_figures;
 
     for (size_t i = 0; i < data->num_tracks; i++) {
         double looks_of, hits_of;
 
         if (data->tracks[i].radar == number) {
-            count_looks(data, &data->tracks[i], turn_s, &looks_of, &hits_of);
+            count_looks_and_hits(data, &data->tracks[i], turn_s, &looks_of, &hits_of);
             for (int part = 0; part <= PARTS; part++) {
                 const bool is_in = (int)(i % PARTS) != part;
                 looks[part] += is_in ? looks_of : 0.0;
@@ -365,20 +392,24 @@ static struct calibrate_figure pd_figure(const struct register_data *data, size_
     if (looks[PARTS] >= LOOKS_MIN) {
         const double pd = hits[PARTS] / looks[PARTS];
         for (int part = 0; part < PARTS; part++) {
-            parts.without[part] = looks[part] > 0.0 ? hits[part] / looks[part] : pd;
+            jackknife_figures.without[part] = looks[part] > 0.0 ? hits[part] / looks[part] : pd;
         }
-        /* where there are as few tracks as parts, rather what chance makes of so many looks */
-        figure = (struct calibrate_figure){
-            true, pd, fmax(jackknife_sigma(&parts), sqrt((pd * (1.0 - pd) + 0.01) / looks[PARTS]))};
+        /* at least the binomial standard error: the jackknife is too small with very few tracks */
+        figure = (struct calibrate_figure){true, pd,
+                                           fmax(jackknife_sigma(&jackknife_figures),
+                                                sqrt((pd * (1.0 - pd) + 0.01) / looks[PARTS]))};
     }
     return figure;
 }
 
 /* ---- speeds ---- */
 
-/* A track's speed: the median of its segments, and its error. False: fewer than two segments. */
-static bool track_speed(const struct calibrate_segments *segments, size_t *next,
-                        struct calibrate_figure *speed)
+/*
+ * Median speed of the segments of the track that begins at *next, with its error; moves *next to
+ * the following track. False where the track has fewer than two segments.
+ */
+static bool next_track_speed(const struct calibrate_segments *segments, size_t *next,
+                             struct calibrate_figure *speed)
 {
     const size_t first = *next;
     double *speeds, square = 0.0;
@@ -402,13 +433,17 @@ static bool track_speed(const struct calibrate_segments *segments, size_t *next,
     return count >= 2;
 }
 
-static void find_speeds(const struct calibrate_segments *segments, struct calibrate_figure *fastest,
-                        struct calibrate_figure *slowest)
+/*
+ * Finds the fastest and the slowest track among those whose speed is at least MOVING_SIGMAS sigma.
+ */
+static void find_speed_extremes(const struct calibrate_segments *segments,
+                                struct calibrate_figure *fastest, struct calibrate_figure *slowest)
 {
     struct calibrate_figure speed;
 
     for (size_t next = 0; next < segments->num_segments;) {
-        if (!track_speed(segments, &next, &speed) || speed.value < MOVES_SIGMAS * speed.sigma) {
+        if (!next_track_speed(segments, &next, &speed) ||
+            speed.value < MOVING_SIGMAS * speed.sigma) {
             continue;
         }
         *fastest = !fastest->is_known || speed.value > fastest->value ? speed : *fastest;
@@ -418,7 +453,8 @@ static void find_speeds(const struct calibrate_segments *segments, struct calibr
 
 /* ---- a radar ---- */
 
-static bool has_round_plots(const struct radar_data *radar)
+/* Whether all plots have equal sigmas along and across: Cartesian plots, without a range. */
+static bool has_isotropic_plots(const struct radar_data *radar)
 {
     for (size_t i = 0; i < radar->num_plots; i++) {
         if (radar->plots[i].sigma_range_m != radar->plots[i].sigma_cross_m) {
@@ -428,8 +464,12 @@ static bool has_round_plots(const struct radar_data *radar)
     return true;
 }
 
-static void find_innovations(struct register_data *data, size_t number, struct calibrate_radar *out,
-                             const double *stated)
+/*
+ * Puts the stated sigmas back into the plots, and computes the mean normalised innovation squared
+ * with them.
+ */
+static void find_innovations_of_stated_noise(struct register_data *data, size_t number,
+                                             struct calibrate_radar *out, const double *stated)
 {
     struct radar_data *radar = &data->radars[number];
     double sum;
@@ -455,23 +495,24 @@ static void calibrate_one_radar(struct register_data *data, size_t number,
         stated[2 * i + 1] = radar->plots[i].sigma_cross_m;
     }
     *out = (struct calibrate_radar){.sensor_id = radar->sensor.sensor_id,
-                                    .is_round = has_round_plots(radar),
+                                    .is_round = has_isotropic_plots(radar),
                                     .scans = radar->num_scans,
                                     .plots = radar->num_plots};
-    segments = find_noise(data, number, out, pipeline);
-    turns = turns_of_radar(data, radar);
+    segments = estimate_noise(data, number, out, pipeline);
+    turns = group_scans_into_turns(data, radar);
     out->turns = turns.count;
     out->tracks = data->num_tracks;
     out->segments = segments.num_segments;
     out->segments_left_out = segments.num_left_out;
     out->area_km2 = covered_area_km2(radar, out->is_round);
-    out->figures[CALIBRATE_TURN] = turn_time_figure(&turns);
-    out->figures[CALIBRATE_CLUTTER] = clutter_figure(data, number, &turns);
+    out->figures[CALIBRATE_TURN] = estimate_turn_time(&turns);
+    out->figures[CALIBRATE_CLUTTER] = estimate_clutter(data, number, &turns);
     if (out->figures[CALIBRATE_TURN].is_known) {
-        out->figures[CALIBRATE_PD] = pd_figure(data, number, out->figures[CALIBRATE_TURN].value);
+        out->figures[CALIBRATE_PD] = estimate_pd(data, number, out->figures[CALIBRATE_TURN].value);
     }
-    find_speeds(&segments, &out->figures[CALIBRATE_FASTEST], &out->figures[CALIBRATE_SLOWEST]);
-    find_innovations(data, number, out, stated);
+    find_speed_extremes(&segments, &out->figures[CALIBRATE_FASTEST],
+                        &out->figures[CALIBRATE_SLOWEST]);
+    find_innovations_of_stated_noise(data, number, out, stated);
     calibrate_segments_free(&segments);
     free(turns.end_s);
     free(turns.plots);

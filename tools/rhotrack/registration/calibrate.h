@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * calibrate: what radars are like, from a recording of theirs.
+ * calibrate: estimates the noise, pd, clutter, turn time and target speeds of radars from a
+ * recording of their plots.
  *
- * Each radar's plots become tracks by the library's tracker, alone (register_tracks). Their paths
- * are cut into segments of ten plots, each a parabola; what the plots lie beside these, along the
- * line of sight and across, is the radar's noise: the tracks are found again with it, until it
- * stays. Then the tracks tell the rest.
+ * The library's tracker makes tracks of each radar's plots alone (register_tracks). The tracks are
+ * cut into segments of ten plots, and a parabola is fitted to each; the residuals along and across
+ * the line of sight give the radar's noise. Tracks are found again with this noise until it
+ * converges. The other figures come from the last tracks.
  */
 #ifndef RHOTRACK_TOOL_CALIBRATE_H
 #define RHOTRACK_TOOL_CALIBRATE_H
@@ -18,13 +19,13 @@
 #include "settings/parameters.h"
 
 enum calibrate_kind {
-    CALIBRATE_RANGE = 0, /* of plots without a range: the noise of each axis */
-    CALIBRATE_AZIMUTH,   /* of these: not known */
+    CALIBRATE_RANGE = 0, /* noise of range; of plots without a range: noise of each axis */
+    CALIBRATE_AZIMUTH,   /* noise of azimuth; not known of plots without a range */
     CALIBRATE_PD,
-    CALIBRATE_CLUTTER, /* plots a turn */
+    CALIBRATE_CLUTTER, /* clutter plots a turn of the antenna */
     CALIBRATE_TURN,
     CALIBRATE_FASTEST,
-    CALIBRATE_SLOWEST, /* of those that surely move */
+    CALIBRATE_SLOWEST, /* slowest of the tracks that certainly move */
     NUM_CALIBRATE_KINDS
 };
 
@@ -35,26 +36,30 @@ struct calibrate_figure {
 
 struct calibrate_radar {
     int32_t sensor_id;
-    bool is_round; /* plots have places, and no range */
+    bool is_round; /* plots are Cartesian, with equal sigmas on all axes */
     size_t scans, turns, plots, tracks;
-    size_t segments, segments_left_out; /* left out: no parabolas */
+    size_t segments, segments_left_out; /* left out: segments that fit no parabola */
     struct calibrate_figure figures[NUM_CALIBRATE_KINDS];
-    /* of the next plots of tracks beside where the last ones lead: squares over what is expected
-     * by the noise that was stated, cut at 4, 1 on average where that is right */
+    /*
+     * mean normalised innovation squared of tracks' plots, extrapolated from the four plots before
+     * with the stated noise; each cut at 4, and scaled to be 1 where the stated noise is right
+     */
     double innovations;
     size_t num_innovations;
-    double area_km2; /* that clutter is spread over */
+    double area_km2; /* area over which clutter is spread */
 };
 
 struct calibrate_result {
     size_t num_radars;
-    struct calibrate_radar *radars; /* by sensor_id */
+    struct calibrate_radar *radars; /* in the order of sensor_id */
 };
 
 struct register_data;
 
-/* Of the scans that were taken (register_data.h). The pipeline is the caller's. calibrate_free what
- * comes back. */
+/*
+ * Calibrates every radar from the scans in data (register_data.h); calibrate_free frees the result.
+ * The pipeline is used for tracking and stays the caller's.
+ */
 struct calibrate_result calibrate(struct register_data *data, struct pipeline *pipeline);
 void calibrate_free(struct calibrate_result *result);
 

@@ -7,7 +7,7 @@
 #include "base/common.h"
 #include "base/text_table.h"
 
-/* Speeds beyond those that were seen: of the fastest, and of the slowest. */
+/* Factors of the fastest and slowest observed speed that give v_max_mps and v_min_mps. */
 #define FASTER 1.3
 #define SLOWER 0.6
 #define SPEED_SIGMAS 3.0
@@ -15,7 +15,7 @@
 
 static const struct {
     const char *what, *unit, *json, *why_not;
-} kinds[NUM_CALIBRATE_KINDS] = {
+} figure_kinds[NUM_CALIBRATE_KINDS] = {
     {"range noise", "m", "sigma_range_m",
      "fewer than four segments of tracks, or most are no parabolas"},
     {"azimuth noise", "rad", "sigma_azimuth_rad",
@@ -28,12 +28,12 @@ static const struct {
      "nothing was tracked for 20 plots that surely moves"},
 };
 
-static const char *figure_name(const struct calibrate_radar *of, int kind)
+static const char *figure_title(const struct calibrate_radar *of, int kind)
 {
-    return of->is_round && kind == CALIBRATE_RANGE ? "noise, each axis" : kinds[kind].what;
+    return of->is_round && kind == CALIBRATE_RANGE ? "noise, each axis" : figure_kinds[kind].what;
 }
 
-/* Plots without a range have no noise of azimuth. */
+/* Whether the figure exists for the radar: plots without a range have no azimuth noise. */
 static bool has_radar_figure(const struct calibrate_radar *of, int kind)
 {
     return !(of->is_round && kind == CALIBRATE_AZIMUTH);
@@ -63,8 +63,8 @@ void calibrate_print(const struct calibrate_result *result, FILE *out)
 
             if (figure->is_known) {
                 text_table_add_row(&table, "%d|%s|%.4g|%.2g|%s", (int)of->sensor_id,
-                                   figure_name(of, kind), figure->value, figure->sigma,
-                                   kinds[kind].unit);
+                                   figure_title(of, kind), figure->value, figure->sigma,
+                                   figure_kinds[kind].unit);
             }
         }
     }
@@ -85,7 +85,7 @@ void calibrate_print(const struct calibrate_result *result, FILE *out)
         for (int kind = 0; kind < NUM_CALIBRATE_KINDS; kind++) {
             if (!of->figures[kind].is_known && has_radar_figure(of, kind)) {
                 fprintf(out, "radar %d, %s: not known: %s\n", (int)of->sensor_id,
-                        figure_name(of, kind), kinds[kind].why_not);
+                        figure_title(of, kind), figure_kinds[kind].why_not);
             }
         }
     }
@@ -110,7 +110,7 @@ void calibrate_print_json(const struct calibrate_result *result, uint64_t rows_s
         for (int kind = 0; kind < NUM_CALIBRATE_KINDS; kind++) {
             const struct calibrate_figure *figure = &of->figures[kind];
             const char *name =
-                of->is_round && kind == CALIBRATE_RANGE ? "sigma_m" : kinds[kind].json;
+                of->is_round && kind == CALIBRATE_RANGE ? "sigma_m" : figure_kinds[kind].json;
             cJSON *both = cJSON_AddObjectToObject(radar, name);
 
             json_add_number(both, "value", figure->is_known ? figure->value : NAN);
@@ -127,7 +127,7 @@ void calibrate_print_json(const struct calibrate_result *result, uint64_t rows_s
 
 /* ---- INI ---- */
 
-/* Of all radars: what a tracker has to follow, a little beyond what was seen. */
+/* Writes v_max_mps and v_min_mps for all radars: the observed speeds with a margin. */
 static void write_speed_limits(const struct calibrate_result *result, FILE *out)
 {
     double fastest = 0.0, slowest = 1e9;
@@ -162,7 +162,7 @@ static void write_figure(FILE *out, const struct calibrate_figure *figure, const
     }
 }
 
-static void write_radar(const struct calibrate_radar *of, FILE *out)
+static void write_radar_section(const struct calibrate_radar *of, FILE *out)
 {
     struct calibrate_figure pd = of->figures[CALIBRATE_PD];
 
@@ -189,7 +189,7 @@ void calibrate_write_ini(const struct calibrate_result *result, const char *path
     fprintf(output.file, "# found by rhotrack calibrate; each with its sigma\n");
     write_speed_limits(result, output.file);
     for (size_t i = 0; i < result->num_radars; i++) {
-        write_radar(&result->radars[i], output.file);
+        write_radar_section(&result->radars[i], output.file);
     }
     output_close(&output);
 }

@@ -9,24 +9,30 @@
 #include "registration/cholesky.h"
 
 #define SEGMENT_PLOTS 10
-#define SEGMENT_S 300.0 /* no longer: a path is no parabola for ever */
-#define LEAD_PLOTS 4    /* that lead on to the next one */
-#define POWERS_MAX 3    /* coefficients of an axis */
+#define SEGMENT_S 300.0   /* longest segment: over a longer time a target's path is no parabola */
+#define PREDICTOR_PLOTS 4 /* plots through which a line is fitted to predict the next one */
+#define POWERS_MAX 3      /* most coefficients of the polynomial of one axis */
 #define MAX_UNKNOWN ((size_t)2 * POWERS_MAX)
 #define CUT2 4.0
 #define LEVERAGE_MAX 0.9
-#define CORRELATION_MAX                                                                            \
-    0.15 /* of a plot with the next one; of white noise beside a parabola -0.2 */
+/*
+ * largest lag-one correlation of residuals that pass as noise; white noise about a parabola has
+ * -0.2
+ */
+#define CORRELATION_MAX 0.15
 
-/* Polynomials of x and of y, fitted to plots. */
+/* Polynomials of x and of y over time, fitted to plots by least squares. */
 struct path {
-    size_t powers; /* of the time from middle_s on */
+    size_t powers; /* number of coefficients of each axis, powers of the seconds since middle_s */
     double middle_s;
     double factor[MAX_UNKNOWN * MAX_UNKNOWN];
     double solution[MAX_UNKNOWN];
 };
 
-/* A place along a direction, as the path has it. */
+/*
+ * Row of the design matrix: the coordinate along the direction (x, y) at time t_s as a linear
+ * function of the path's coefficients.
+ */
 static void design_row(const struct path *path, double t_s, double x, double y, double *row)
 {
     double power = 1.0;
@@ -38,7 +44,7 @@ static void design_row(const struct path *path, double t_s, double x, double y, 
     }
 }
 
-static double dot(const double *a, const double *b, size_t n)
+static double dot_product(const double *a, const double *b, size_t n)
 {
     double sum = 0.0;
 
@@ -48,17 +54,17 @@ static double dot(const double *a, const double *b, size_t n)
     return sum;
 }
 
-/* Of what the row says, by the plots' sigmas. */
+/* Variance of row * coefficients, by the sigmas of the fitted plots. */
 static double path_variance(const struct path *path, const double *row)
 {
     double half[MAX_UNKNOWN];
 
     memcpy(half, row, sizeof half);
     cholesky_solve_lower(path->factor, 2 * path->powers, half);
-    return dot(half, half, 2 * path->powers);
+    return dot_product(half, half, 2 * path->powers);
 }
 
-/* The axes of a plot's noise. */
+/* The two axes of a plot's noise as unit vectors, and the sigma along each. */
 struct axes {
     double x[2], y[2], sigma_m[2];
 };
@@ -71,17 +77,21 @@ static struct axes noise_axes(const struct radar_plot *plot, bool is_round)
         .x = {c, -s}, .y = {s, c}, .sigma_m = {plot->sigma_range_m, plot->sigma_cross_m}};
 }
 
-static double plot_seconds(const struct register_data *data, const struct radar_plot *plot)
+static double plot_time_s(const struct register_data *data, const struct radar_plot *plot)
 {
     return (double)(plot->time_us - data->start_us) * 1e-6;
 }
 
-static double plot_place_along(const struct radar_plot *plot, const struct axes *axes, int axis)
+static double plot_coordinate_along(const struct radar_plot *plot, const struct axes *axes,
+                                    int axis)
 {
     return axes->x[axis] * (double)plot->plot.x_m + axes->y[axis] * (double)plot->plot.y_m;
 }
 
-/* Through `count` plots of a track. False where they tell no such path. */
+/*
+ * Fits the path to `count` plots of a track from `first` on. False where the plots do not determine
+ * it.
+ */
 static bool fit_path(const struct register_data *data, const struct radar_track *track,
                      size_t first, size_t count, bool is_round, struct path *path)
 {
@@ -90,8 +100,8 @@ static bool fit_path(const struct register_data *data, const struct radar_track 
 
     memset(path->factor, 0, sizeof path->factor);
     memset(path->solution, 0, sizeof path->solution);
-    path->middle_s = 0.5 * (plot_seconds(data, &plots[track->plots[first]]) +
-                            plot_seconds(data, &plots[track->plots[first + count - 1]]));
+    path->middle_s = 0.5 * (plot_time_s(data, &plots[track->plots[first]]) +
+                            plot_time_s(data, &plots[track->plots[first + count - 1]]));
     for (size_t k = 0; k < 2 * count; k++) {
         const struct radar_plot *plot = &plots[track->plots[first + k / 2]];
         const struct axes axes = noise_axes(plot, is_round);
@@ -99,9 +109,9 @@ static bool fit_path(const struct register_data *data, const struct radar_track 
         const double weight = 1.0 / (axes.sigma_m[axis] * axes.sigma_m[axis]);
         double row[MAX_UNKNOWN];
 
-        design_row(path, plot_seconds(data, plot), axes.x[axis], axes.y[axis], row);
+        design_row(path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
         for (size_t i = 0; i < n; i++) {
-            path->solution[i] += weight * row[i] * plot_place_along(plot, &axes, axis);
+            path->solution[i] += weight * row[i] * plot_coordinate_along(plot, &axes, axis);
             for (size_t j = 0; j < n; j++) {
                 path->factor[i * n + j] += weight * row[i] * row[j];
             }
@@ -114,9 +124,13 @@ static bool fit_path(const struct register_data *data, const struct radar_track 
     return true;
 }
 
-static void add_residuals(const struct register_data *data, const struct radar_track *track,
-                          size_t first, size_t count, bool is_round, const struct path *path,
-                          struct calibrate_segments *segments)
+/*
+ * Adds the residual of each plot along both axes, divided by sqrt(1 - leverage) so that its
+ * variance is the plot's noise.
+ */
+static void add_segment_residuals(const struct register_data *data, const struct radar_track *track,
+                                  size_t first, size_t count, bool is_round,
+                                  const struct path *path, struct calibrate_segments *segments)
 {
     const struct radar_plot *plots = data->radars[track->radar].plots;
 
@@ -126,10 +140,13 @@ static void add_residuals(const struct register_data *data, const struct radar_t
         const int axis = (int)(k % 2);
         double row[MAX_UNKNOWN], leverage;
 
-        design_row(path, plot_seconds(data, plot), axes.x[axis], axes.y[axis], row);
+        design_row(path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
         leverage = path_variance(path, row) / (axes.sigma_m[axis] * axes.sigma_m[axis]);
         if (leverage > LEVERAGE_MAX) {
-            continue; /* the path goes through it, whatever its noise */
+            /*
+             * this plot alone determines the path here: its residual is near 0 whatever its noise
+             */
+            continue;
         }
         segments->residuals = must_grow(segments->residuals, segments->num_residuals,
                                         &segments->residuals_room, sizeof *segments->residuals);
@@ -137,16 +154,18 @@ static void add_residuals(const struct register_data *data, const struct radar_t
             (struct residual){.segment = segments->num_segments,
                               .track = (size_t)(track - data->tracks),
                               .axis = axis,
-                              .off_m = (plot_place_along(plot, &axes, axis) -
-                                        dot(row, path->solution, 2 * path->powers)) /
+                              .off_m = (plot_coordinate_along(plot, &axes, axis) -
+                                        dot_product(row, path->solution, 2 * path->powers)) /
                                        sqrt(1.0 - leverage),
                               .range_m = plot->range_m};
     }
 }
 
-/* Noise changes sides from plot to plot; where a target turns harder than its path, plots lie on
- * one side for some. */
-static bool look_like_noise(const struct residual *residuals, size_t count)
+/*
+ * Whether successive residuals are uncorrelated, as noise is: where a target manoeuvres harder than
+ * the path can follow, several plots in a row lie on one side.
+ */
+static bool residuals_look_like_noise(const struct residual *residuals, size_t count)
 {
     double product[2] = {0.0, 0.0}, square[2] = {0.0, 0.0}, before[2] = {0.0, 0.0};
 
@@ -160,7 +179,8 @@ static bool look_like_noise(const struct residual *residuals, size_t count)
     return product[0] <= CORRELATION_MAX * square[0] && product[1] <= CORRELATION_MAX * square[1];
 }
 
-static struct calibrate_segment segment_of(const struct path *path, size_t track)
+/* The segment's speed in its middle, and the standard error of the speed. */
+static struct calibrate_segment segment_from_path(const struct path *path, size_t track)
 {
     double vx = path->solution[1], vy = path->solution[path->powers + 1];
     double speed_mps = hypot(vx, vy), row[MAX_UNKNOWN] = {0.0};
@@ -172,8 +192,10 @@ static struct calibrate_segment segment_of(const struct path *path, size_t track
     return (struct calibrate_segment){track, speed_mps, sqrt(path_variance(path, row))};
 }
 
-/* A line where that will do, else a parabola: residuals are added, and it is true, where they look
- * like noise. */
+/*
+ * Fits a line, or where its residuals do not look like noise a parabola, and adds the residuals of
+ * the fit to segments. False, without residuals, where neither fits.
+ */
 static bool fit_segment(const struct register_data *data, const struct radar_track *track,
                         size_t first, bool is_round, struct path *path,
                         struct calibrate_segments *segments)
@@ -184,8 +206,9 @@ static bool fit_segment(const struct register_data *data, const struct radar_tra
         if (!fit_path(data, track, first, SEGMENT_PLOTS, is_round, path)) {
             return false;
         }
-        add_residuals(data, track, first, SEGMENT_PLOTS, is_round, path, segments);
-        if (look_like_noise(&segments->residuals[before], segments->num_residuals - before)) {
+        add_segment_residuals(data, track, first, SEGMENT_PLOTS, is_round, path, segments);
+        if (residuals_look_like_noise(&segments->residuals[before],
+                                      segments->num_residuals - before)) {
             return true;
         }
         segments->num_residuals = before;
@@ -200,11 +223,12 @@ static void cut_track_into_segments(const struct register_data *data, size_t num
     const struct radar_plot *plots = data->radars[track->radar].plots;
 
     for (size_t first = 0; first + SEGMENT_PLOTS <= track->count; first += SEGMENT_PLOTS) {
-        const double took_s = plot_seconds(data, &plots[track->plots[first + SEGMENT_PLOTS - 1]]) -
-                              plot_seconds(data, &plots[track->plots[first]]);
+        const double duration_s =
+            plot_time_s(data, &plots[track->plots[first + SEGMENT_PLOTS - 1]]) -
+            plot_time_s(data, &plots[track->plots[first]]);
         struct path path;
 
-        if (took_s > SEGMENT_S) {
+        if (duration_s > SEGMENT_S) {
             continue;
         }
         if (!fit_segment(data, track, first, is_round, &path, segments)) {
@@ -213,7 +237,7 @@ static void cut_track_into_segments(const struct register_data *data, size_t num
         }
         segments->segments = must_grow(segments->segments, segments->num_segments,
                                        &segments->segments_room, sizeof *segments->segments);
-        segments->segments[segments->num_segments++] = segment_of(&path, number);
+        segments->segments[segments->num_segments++] = segment_from_path(&path, number);
     }
 }
 
@@ -245,18 +269,19 @@ double calibrate_sum_innovations(const struct register_data *data, size_t radar,
     for (size_t i = 0; i < data->num_tracks; i++) {
         const struct radar_track *track = &data->tracks[i];
 
-        for (size_t next = LEAD_PLOTS; track->radar == radar && next < track->count; next++) {
+        for (size_t next = PREDICTOR_PLOTS; track->radar == radar && next < track->count; next++) {
             const struct radar_plot *plot = &data->radars[radar].plots[track->plots[next]];
             const struct axes axes = noise_axes(plot, is_round);
             struct path path = {.powers = 2};
 
-            for (int axis = 0;
-                 axis < 2 && fit_path(data, track, next - LEAD_PLOTS, LEAD_PLOTS, is_round, &path);
+            for (int axis = 0; axis < 2 && fit_path(data, track, next - PREDICTOR_PLOTS,
+                                                    PREDICTOR_PLOTS, is_round, &path);
                  axis++) {
                 double row[MAX_UNKNOWN] = {0.0}, off_m, square;
 
-                design_row(&path, plot_seconds(data, plot), axes.x[axis], axes.y[axis], row);
-                off_m = plot_place_along(plot, &axes, axis) - dot(row, path.solution, 4);
+                design_row(&path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
+                off_m =
+                    plot_coordinate_along(plot, &axes, axis) - dot_product(row, path.solution, 4);
                 square = off_m * off_m /
                          (path_variance(&path, row) + axes.sigma_m[axis] * axes.sigma_m[axis]);
                 sum += square < CUT2 ? square : CUT2;

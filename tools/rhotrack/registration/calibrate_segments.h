@@ -1,40 +1,48 @@
 /* SPDX-License-Identifier: MIT */
-/* calibrate_segments: segments of a radar's tracks, each a parabola, and how far plots lie beside
- * them. */
+/*
+ * calibrate_segments: cuts a radar's tracks into segments, fits a line or a parabola to each, and
+ * collects the plots' residuals.
+ */
 #ifndef RHOTRACK_TOOL_CALIBRATE_SEGMENTS_H
 #define RHOTRACK_TOOL_CALIBRATE_SEGMENTS_H
 
 #include "registration/register_data.h"
 
 /*
- * The distance along an axis of a plot from its segment's path, fitted without that plot; its
- * variance is that of the noise there.
+ * Residual of a plot along one axis of its noise, scaled to the distance from a path fitted without
+ * this plot; its variance is that of the plot's noise.
  */
 struct residual {
     size_t segment, track;
-    int axis; /* 0: along the line of sight, 1: across */
+    int axis; /* axis of the noise; 0: along the line of sight, or x; 1: across it, or y */
     double off_m, range_m;
 };
 
 struct calibrate_segment {
     size_t track;
-    double speed_mps, speed_sigma_mps; /* in its middle */
+    /* speed in the middle of the segment, and its standard error */
+    double speed_mps, speed_sigma_mps;
 };
 
 struct calibrate_segments {
     size_t num_segments, segments_room, num_residuals, residuals_room;
-    size_t num_left_out; /* no parabolas */
+    size_t num_left_out; /* segments that fit neither a line nor a parabola */
     struct calibrate_segment *segments;
     struct residual *residuals;
 };
 
-/* Of the radar's tracks, weighed by the sigmas of its plots. Round: axes are x and y. */
+/*
+ * Cuts the tracks of the radar into segments, with weights by the plots' sigmas. is_round:
+ * residuals are along x and y instead of along and across the line of sight.
+ */
 struct calibrate_segments calibrate_cut_segments(const struct register_data *data, size_t radar,
                                                  bool is_round);
 void calibrate_segments_free(struct calibrate_segments *segments);
 
-/* Squares of the next plots of tracks beside where the last ones lead on a straight line, over
- * what is expected of them by the plots' sigmas; cut at 4. Returns their sum. */
+/*
+ * Sum of the normalised innovations squared, each cut at 4, of the radar's plots against a straight
+ * line through the four plots of the track before; *count is their number.
+ */
 double calibrate_sum_innovations(const struct register_data *data, size_t radar, bool is_round,
                                  size_t *count);
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define PIVOT_LEAST 1e-12 /* of the diagonal: what is left of it by rounding alone */
+#define PIVOT_LEAST 1e-12 /* share of the diagonal element below which a pivot is rounding error */
 
 bool cholesky_factor(double *matrix, size_t n)
 {

@@ -7,10 +7,11 @@
 #include "base/common.h"
 #include "registration/register_data.h"
 
-#define FIRST_GATE_M                                                                               \
-    3000.0 /* two tracks of a target may be so far apart before anything is known */
+/* largest rms distance of two radars' tracks of one target before biases are corrected */
+#define FIRST_GATE_M 3000.0
 #define ROUNDS_MAX 10
-#define KNOWN_SHARE 0.5 /* of a plot's noise: a bias that is not known to so much is not known */
+/* a bias counts as known if its sigma is at most this share of a plot's noise */
+#define KNOWN_SHARE 0.5
 
 /* ---- data ---- */
 
@@ -42,9 +43,12 @@ static struct radar_data *find_or_add_radar(struct register_data *data,
     return &data->radars[at];
 }
 
-/* The library gives polar plots an ellipse, Cartesian ones a circle. */
-static const char *why_scan_unfit(const struct rho_scan *scan, const struct radar_data *radar,
-                                  const struct rho_sensor *sensor)
+/*
+ * Why the scan cannot be used for registration, or NULL. Polar plots are recognised by unequal
+ * sigmas: the library gives Cartesian plots equal ones.
+ */
+static const char *reason_scan_is_unfit(const struct rho_scan *scan, const struct radar_data *radar,
+                                        const struct rho_sensor *sensor)
 {
     if (radar->sensor.x_m != sensor->x_m || radar->sensor.y_m != sensor->y_m) {
         return "it moves; radars that are registered stand still";
@@ -59,8 +63,8 @@ static const char *why_scan_unfit(const struct rho_scan *scan, const struct rada
     return NULL;
 }
 
-static struct radar_plot radar_plot_of(const struct rho_plot *plot, int64_t scan_us,
-                                       const struct rho_sensor *sensor)
+static struct radar_plot radar_plot_from_plot(const struct rho_plot *plot, int64_t scan_us,
+                                              const struct rho_sensor *sensor)
 {
     double x_m = (double)plot->x_m - (double)sensor->x_m;
     double y_m = (double)plot->y_m - (double)sensor->y_m;
@@ -92,19 +96,20 @@ void register_add_any_scan(struct register_data *data, const struct rho_scan *sc
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         radar->plots =
             must_grow(radar->plots, radar->num_plots, &radar->plots_room, sizeof *radar->plots);
-        radar->plots[radar->num_plots++] = radar_plot_of(&scan->plots[i], scan->time_us, sensor);
+        radar->plots[radar->num_plots++] =
+            radar_plot_from_plot(&scan->plots[i], scan->time_us, sensor);
     }
 }
 
 const char *register_add_scan(struct register_data *data, const struct rho_scan *scan,
                               const struct rho_sensor *sensor)
 {
-    const char *wrong = why_scan_unfit(scan, find_or_add_radar(data, sensor), sensor);
+    const char *reason = reason_scan_is_unfit(scan, find_or_add_radar(data, sensor), sensor);
 
-    if (!wrong) {
+    if (!reason) {
         register_add_any_scan(data, scan, sensor);
     }
-    return wrong;
+    return reason;
 }
 
 size_t register_num_radars(const struct register_data *data)
@@ -128,7 +133,7 @@ void register_free(struct register_data *data)
 
 /* ---- the estimate ---- */
 
-static size_t reference_radar(const struct register_data *data)
+static size_t find_reference_radar(const struct register_data *data)
 {
     const struct parameters *parameters = data->parameters;
 
@@ -145,9 +150,9 @@ static size_t reference_radar(const struct register_data *data)
     return 0;
 }
 
-/* The noise of one plot of the radar, of each kind. */
-static void typical_noise(const struct radar_data *radar, double speed_mps,
-                          double noise[NUM_REGISTER_KINDS])
+/* Mean noise of a plot of the radar in range, azimuth and time (range noise over speed_mps). */
+static void mean_plot_noise(const struct radar_data *radar, double speed_mps,
+                            double noise[NUM_REGISTER_KINDS])
 {
     double range_m = 0.0, azimuth_rad = 0.0;
 
@@ -176,7 +181,7 @@ static void fill_radar_result(const struct register_data *data, size_t number,
     for (size_t i = 0; i < data->num_tracks; i++) {
         out->tracks += data->tracks[i].radar == number;
     }
-    typical_noise(radar, solution->speed_mps, noise);
+    mean_plot_noise(radar, solution->speed_mps, noise);
     for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
         double sigma = solution->sigma[number * NUM_REGISTER_KINDS + kind];
         bool is_known = out->common_plots > 0 && sigma <= KNOWN_SHARE * noise[kind];
@@ -188,8 +193,8 @@ static void fill_radar_result(const struct register_data *data, size_t number,
     }
 }
 
-static struct register_result result_of(const struct register_data *data, size_t reference,
-                                        const struct solution *solution, size_t rounds)
+static struct register_result make_result(const struct register_data *data, size_t reference,
+                                          const struct solution *solution, size_t rounds)
 {
     struct register_result result = {.num_radars = data->num_radars,
                                      .reference = reference,
@@ -210,7 +215,7 @@ static struct register_result result_of(const struct register_data *data, size_t
 struct register_result register_estimate_biases(struct register_data *data,
                                                 struct pipeline *pipeline)
 {
-    size_t reference = reference_radar(data), rounds = 1;
+    size_t reference = find_reference_radar(data), rounds = 1;
     struct solution solution;
     struct register_result result;
 
@@ -222,7 +227,7 @@ struct register_result register_estimate_biases(struct register_data *data,
         solution = register_solve_biases(data, reference);
         rounds++;
     }
-    result = result_of(data, reference, &solution, rounds);
+    result = make_result(data, reference, &solution, rounds);
     solution_free(&solution);
     return result;
 }

@@ -1,14 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* register_data: what the parts of register share. */
+/*
+ * register_data: the radars, scans, plots and tracks that all parts of register and calibrate work
+ * on.
+ */
 #ifndef RHOTRACK_TOOL_REGISTER_DATA_H
 #define RHOTRACK_TOOL_REGISTER_DATA_H
 
 #include "registration/register.h"
 
-/* Indices of radars, plots and tracks are those of the arrays below. */
+/*
+ * A plot of a radar; radars, plots and tracks are referred to by their index in the arrays of
+ * radar_data and register_data.
+ */
 struct radar_plot {
     int64_t time_us;
-    double range_m, azimuth_rad; /* as the radar sees it, the configured biases taken off */
+    double range_m, azimuth_rad; /* relative to the radar, with the configured biases subtracted */
     double sigma_range_m, sigma_cross_m;
     struct rho_plot plot;
 };
@@ -17,16 +23,16 @@ struct radar_scan {
     int64_t time_us;
     uint32_t measures;
     double from_rad, to_rad;
-    size_t first, count; /* plots */
+    size_t first, count; /* index of the scan's first plot, and number of its plots */
 };
 
-/* A confirmed track of one radar alone: its plots in the order of time. */
+/* A confirmed track of one radar alone: indices of its plots in the order of time. */
 struct radar_track {
     size_t radar;
     size_t count, capacity;
     size_t *plots;
-    size_t earlier; /* plots that it was started with, before the first of these */
-    size_t target;  /* the tracks of one target have the same */
+    size_t earlier; /* plots used to start the track, before the first of plots */
+    size_t target;  /* number of the matched target, equal for all its tracks */
 };
 
 struct radar_data {
@@ -34,23 +40,24 @@ struct radar_data {
     size_t num_scans, scans_room, num_plots, plots_room;
     struct radar_scan *scans;
     struct radar_plot *plots;
-    double bias[NUM_REGISTER_KINDS]; /* what is left of them, as estimated so far */
+    /* remaining biases after the configured ones, as estimated so far */
+    double bias[NUM_REGISTER_KINDS];
 };
 
 struct register_data {
     const struct parameters *parameters;
-    int64_t start_us; /* times are taken from here */
+    int64_t start_us; /* time of the first scan; t_s counts from here */
     size_t num_radars, radars_room;
     struct radar_data *radars;
     size_t num_tracks, tracks_room;
     struct radar_track *tracks;
 };
 
-/* As register_add_scan, of any plots. */
+/* Adds one scan of a radar without checking it: Cartesian plots are taken, too. */
 void register_add_any_scan(struct register_data *data, const struct rho_scan *scan,
                            const struct rho_sensor *sensor);
 
-/* Where and when a plot was, with the biases as estimated so far. */
+/* Time and place of a plot after subtracting the biases estimated so far. */
 struct corrected {
     double t_s, x_m, y_m;
     double cos_azimuth, sin_azimuth, range_m;
@@ -59,31 +66,38 @@ struct corrected register_correct_plot(const struct register_data *data,
                                        const struct radar_data *radar,
                                        const struct radar_plot *plot);
 
-/* Scans by time, sectors put together to turns; then every radar's tracks. register_tracks.c */
+/*
+ * Make the confirmed tracks of all radars, or of one: sort its scans by time, join sectors to turns
+ * and step the tracker. In register_tracks.c.
+ */
 void register_track_all_radars(struct register_data *data, struct pipeline *pipeline);
 void register_track_one_radar(struct register_data *data, size_t number, struct pipeline *pipeline);
 
-/* One past the last scan of the turn that begins with `first`. register_tracks.c */
+/* Index one past the last scan of the turn that begins with scan `first`. In register_tracks.c. */
 size_t register_turn_end(const struct radar_data *radar, size_t first);
 
 /*
- * Which tracks are one target, by the biases as estimated so far: their number `target`. gate_m:
- * rms distance of two tracks. misfit: they are to be together by their noise, too, which is so much
- * of what their sigmas say; 0: they need not be. True where anything changed. register_match.c
+ * Matches the tracks of different radars to targets with the biases estimated so far, and sets each
+ * track's `target`; true where any changed. gate_m: largest rms distance of two matched tracks.
+ * misfit: ratio of the plots' noise to their sigmas, with which tracks must also agree
+ * statistically; 0: they need not. In register_match.c.
  */
 bool register_match_tracks(struct register_data *data, double gate_m, double misfit);
 
-/* Targets that several radars have tracks of. */
+/* Number of targets of which several radars have tracks. */
 size_t register_num_common_targets(const struct register_data *data);
 
-/* The result of the least squares. register_solve.c */
+/* Result of the least squares for the biases. */
 struct solution {
     size_t segments, segments_left_out, plots;
     double misfit, speed_mps;
-    size_t *radar_plots; /* of each radar */
-    double *sigma;       /* of each radar's NUM_REGISTER_KINDS biases */
+    size_t *radar_plots; /* of each radar: number of plots in the segments used */
+    double *sigma;       /* standard deviations of each radar's NUM_REGISTER_KINDS biases */
 };
-/* Changes the radars' biases. The reference's time stays. */
+/*
+ * Estimates the radars' biases by least squares and stores them in data; the reference radar's time
+ * bias is kept. In register_solve.c.
+ */
 struct solution register_solve_biases(struct register_data *data, size_t reference);
 void solution_free(struct solution *solution);
 

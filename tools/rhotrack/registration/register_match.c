@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * register_match: which tracks of different radars are one target.
+ * register_match: matches tracks of different radars that follow one target.
  *
- * Two tracks are compared wherever both have plots: each plot of one with the place between two
- * plots of the other. Pairs are taken nearest first, and a track belongs to no two targets' worth
- * of tracks at a time.
+ * Two tracks are compared while both have plots: each plot of one with the place interpolated
+ * between two plots of the other. Pairs are joined nearest first, unless a radar would have two
+ * tracks of the joined target at one time.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -12,39 +12,43 @@
 #include "base/common.h"
 #include "registration/register_data.h"
 
-#define GAP_MAX_S 35.0 /* between plots of a track; beyond, nobody knows where it was */
+/* longest interval between two plots of a track in which its place is interpolated */
+#define GAP_MAX_S 35.0
 #define COMPARISONS_MIN 5
 /*
- * mean squared distance in sigmas, 2 where the pair is right and flies straight, and what one
- * comparison counts at most
+ * Largest mean squared Mahalanobis distance of a matching pair (2 is expected where a pair is right
+ * and flies straight), and the value at which one comparison is cut.
  */
 #define CLOSE_MEAN_D2 6.0
 #define FAR_D2 25.0
-#define FAR_M 20000.0 /* root of the sum: the rest of the way is not looked at */
+#define FAR_M 20000.0 /* root of the summed squared distances at which a comparison stops early */
 
 struct comparison {
     size_t count;
     double sum_m2, sum_d2;
 };
 
-/* A track's plots, corrected. */
+/* A track's plots after subtracting the biases, with their variances. */
 struct course {
     const struct radar_track *track;
     size_t radar, count;
     struct corrected *at;
-    double *along_m2, *cross_m2; /* variances */
+    double *along_m2, *cross_m2; /* variances of the plots along and across the line of sight */
 };
 
 struct pair {
-    size_t first, second; /* tracks */
+    size_t first, second; /* indices of the two tracks */
     double distance;
 };
 
 /* ---- one pair ---- */
 
-/* noise: of the plots over what their sigmas say */
-static void load_course(const struct register_data *data, const struct radar_track *track,
-                        double noise, struct course *course)
+/*
+ * Makes a course of a track: its plots corrected by the biases, with variances for the given ratio
+ * of actual noise to sigmas.
+ */
+static void course_from_track(const struct register_data *data, const struct radar_track *track,
+                              double noise, struct course *course)
 {
     const struct radar_data *radar = &data->radars[track->radar];
 
@@ -68,7 +72,8 @@ static void free_course(struct course *course)
     free(course->cross_m2);
 }
 
-static void add_covariance(const struct course *course, size_t i, double share, double sum[3])
+/* Adds share times the covariance (xx, xy, yy) of plot i of the course to sum. */
+static void add_plot_covariance(const struct course *course, size_t i, double share, double sum[3])
 {
     const struct corrected *at = &course->at[i];
     double c = at->cos_azimuth, s = at->sin_azimuth;
@@ -88,7 +93,10 @@ static double mahalanobis2(const double covariance[3], double dx_m, double dy_m)
            determinant;
 }
 
-/* Plot i of `of` against the place of `between` at that time, from its plots k and k + 1. */
+/*
+ * Compares plot i of `of` with the place interpolated between plots k and k + 1 of `between`, and
+ * adds the squared distances to sum.
+ */
 static void compare_plot_with_course(const struct course *of, size_t i,
                                      const struct course *between, size_t k, struct comparison *sum)
 {
@@ -98,15 +106,16 @@ static void compare_plot_with_course(const struct course *of, size_t i,
     double dy_m = at->y_m - from->y_m - share * (to->y_m - from->y_m);
     double covariance[3] = {0};
 
-    add_covariance(of, i, 1.0, covariance);
-    add_covariance(between, k, (1.0 - share) * (1.0 - share), covariance);
-    add_covariance(between, k + 1, share * share, covariance);
+    add_plot_covariance(of, i, 1.0, covariance);
+    add_plot_covariance(between, k, (1.0 - share) * (1.0 - share), covariance);
+    add_plot_covariance(between, k + 1, share * share, covariance);
     sum->count++;
     sum->sum_m2 += dx_m * dx_m + dy_m * dy_m;
     sum->sum_d2 += fmin(mahalanobis2(covariance, dx_m, dy_m), FAR_D2);
 }
 
-static struct comparison compare_with_course(const struct course *of, const struct course *between)
+static struct comparison compare_plots_with_course(const struct course *of,
+                                                   const struct course *between)
 {
     struct comparison sum = {0};
     size_t k = 0;
@@ -129,20 +138,22 @@ static struct comparison compare_with_course(const struct course *of, const stru
     return sum;
 }
 
-static bool overlap_in_time(const struct course *one, const struct course *other)
+static bool courses_overlap_in_time(const struct course *one, const struct course *other)
 {
     return one->count > 1 && other->count > 1 && one->at[0].t_s < other->at[other->count - 1].t_s &&
            other->at[0].t_s < one->at[one->count - 1].t_s;
 }
 
 /*
- * Each plot of one track is compared with the course between the plots of the other. Of both ways
- * round the one with more comparisons counts.
+ * Whether two courses are within the gate, and where misfit is given agree statistically. The
+ * direction of comparison with more compared plots counts; *distance is the mean squared distance,
+ * in metres or sigmas.
  */
-static bool is_one_target(const struct course *one, const struct course *other, double gate_m,
-                          double misfit, double *distance)
+static bool are_courses_of_one_target(const struct course *one, const struct course *other,
+                                      double gate_m, double misfit, double *distance)
 {
-    struct comparison sum = compare_with_course(one, other), back = compare_with_course(other, one);
+    struct comparison sum = compare_plots_with_course(one, other),
+                      back = compare_plots_with_course(other, one);
 
     sum = back.count > sum.count ? back : sum;
     if (sum.count < COMPARISONS_MIN) {
@@ -179,8 +190,8 @@ static int by_distance(const void *a, const void *b)
     return (one->second > other->second) - (one->second < other->second);
 }
 
-static struct pairs find_pairs(const struct register_data *data, const struct course *courses,
-                               double gate_m, double misfit)
+static struct pairs find_matching_pairs(const struct register_data *data,
+                                        const struct course *courses, double gate_m, double misfit)
 {
     struct pairs pairs = {0};
 
@@ -188,8 +199,10 @@ static struct pairs find_pairs(const struct register_data *data, const struct co
         for (size_t j = i + 1; j < data->num_tracks; j++) {
             struct pair pair = {i, j, 0.0};
 
-            if (courses[i].radar != courses[j].radar && overlap_in_time(&courses[i], &courses[j]) &&
-                is_one_target(&courses[i], &courses[j], gate_m, misfit, &pair.distance)) {
+            if (courses[i].radar != courses[j].radar &&
+                courses_overlap_in_time(&courses[i], &courses[j]) &&
+                are_courses_of_one_target(&courses[i], &courses[j], gate_m, misfit,
+                                          &pair.distance)) {
                 pairs.list = must_grow(pairs.list, pairs.count, &pairs.room, sizeof *pairs.list);
                 pairs.list[pairs.count++] = pair;
             }
@@ -201,14 +214,14 @@ static struct pairs find_pairs(const struct register_data *data, const struct co
     return pairs;
 }
 
-/* Two targets can be one unless a radar had a track of each at the same time. */
+/* Whether two targets can be joined: no radar has a track of each at the same time. */
 static bool can_join_targets(const struct course *courses, const size_t *targets, size_t num_tracks,
                              size_t one, size_t other)
 {
     for (size_t i = 0; i < num_tracks; i++) {
         for (size_t j = 0; targets[i] == one && j < num_tracks; j++) {
             if (targets[j] == other && courses[i].radar == courses[j].radar &&
-                overlap_in_time(&courses[i], &courses[j])) {
+                courses_overlap_in_time(&courses[i], &courses[j])) {
                 return false;
             }
         }
@@ -225,6 +238,7 @@ static void join_targets(size_t *targets, size_t num_tracks, size_t one, size_t 
     }
 }
 
+/* Stores the tracks' target numbers; true where any changed. */
 static bool store_targets(struct register_data *data, const size_t *targets)
 {
     bool is_changed = false;
@@ -245,9 +259,9 @@ bool register_match_tracks(struct register_data *data, double gate_m, double mis
 
     for (size_t i = 0; i < data->num_tracks; i++) {
         targets[i] = i;
-        load_course(data, &data->tracks[i], fmax(1.0, misfit), &courses[i]);
+        course_from_track(data, &data->tracks[i], fmax(1.0, misfit), &courses[i]);
     }
-    pairs = find_pairs(data, courses, gate_m, misfit);
+    pairs = find_matching_pairs(data, courses, gate_m, misfit);
     for (size_t i = 0; i < pairs.count; i++) {
         size_t one = targets[pairs.list[i].first], other = targets[pairs.list[i].second];
 
@@ -272,7 +286,7 @@ size_t register_num_common_targets(const struct register_data *data)
     for (size_t i = 0; i < data->num_tracks; i++) {
         bool is_common = false;
 
-        /* counted once, at its first track, whose number it has */
+        /* a target's number is the index of its first track: count it only there */
         for (size_t j = i + 1; data->tracks[i].target == i && j < data->num_tracks; j++) {
             is_common |=
                 data->tracks[j].target == i && data->tracks[j].radar != data->tracks[i].radar;

@@ -11,13 +11,13 @@
 
 static const struct {
     const char *what, *parameter, *json, *json_sigma, *unit;
-} kinds[NUM_REGISTER_KINDS] = {
+} bias_kinds[NUM_REGISTER_KINDS] = {
     {"range", "range_bias_m", "range_bias_m", "range_bias_sigma_m", "m"},
     {"azimuth", "azimuth_bias_rad", "azimuth_bias_rad", "azimuth_bias_sigma_rad", "rad"},
     {"time", "time_bias_s", "time_bias_s", "time_bias_sigma_s", "s"},
 };
 
-static bool is_reference(const struct register_result *result, size_t radar, size_t kind)
+static bool is_reference_time(const struct register_result *result, size_t radar, size_t kind)
 {
     return radar == result->reference && kind == REGISTER_TIME;
 }
@@ -26,7 +26,7 @@ bool register_knows_any_bias(const struct register_result *result)
 {
     for (size_t i = 0; i < result->num_radars; i++) {
         for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
-            if (result->radars[i].biases[kind].is_known && !is_reference(result, i, kind)) {
+            if (result->radars[i].biases[kind].is_known && !is_reference_time(result, i, kind)) {
                 return true;
             }
         }
@@ -36,7 +36,7 @@ bool register_knows_any_bias(const struct register_result *result)
 
 /* ---- table ---- */
 
-static void put_bias_row(struct text_table *table, const struct register_result *result,
+static void add_bias_row(struct text_table *table, const struct register_result *result,
                          size_t radar)
 {
     const struct register_radar *of = &result->radars[radar];
@@ -47,7 +47,7 @@ static void put_bias_row(struct text_table *table, const struct register_result 
     for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
         const struct register_bias *bias = &of->biases[kind];
         double factor = kind == REGISTER_AZIMUTH ? 1.0 / DEG_RAD : 1.0;
-        bool is_taken = is_reference(result, radar, kind);
+        bool is_taken = is_reference_time(result, radar, kind);
         double value = bias->is_known || is_taken ? factor * bias->value : NAN;
         double sigma = bias->is_known && !is_taken ? factor * bias->sigma : NAN;
 
@@ -59,7 +59,7 @@ static void put_bias_row(struct text_table *table, const struct register_result 
                        cells[4], cells[5]);
 }
 
-/* Each bias that is not known, and why. */
+/* Prints each bias that is not known, with the reason. */
 static void print_unknown_biases(const struct register_result *result, FILE *out)
 {
     for (size_t i = 0; i < result->num_radars; i++) {
@@ -71,13 +71,13 @@ static void print_unknown_biases(const struct register_result *result, FILE *out
             continue;
         }
         for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
-            if (!of->biases[kind].is_known && !is_reference(result, i, kind)) {
+            if (!of->biases[kind].is_known && !is_reference_time(result, i, kind)) {
                 fprintf(out,
                         "radar %d, %s: not known; its sigma of %.3g %s is beyond half of a plot's "
                         "noise: too "
                         "few targets, or all in one place or direction\n",
-                        (int)of->sensor_id, kinds[kind].what, of->biases[kind].sigma,
-                        kinds[kind].unit);
+                        (int)of->sensor_id, bias_kinds[kind].what, of->biases[kind].sigma,
+                        bias_kinds[kind].unit);
             }
         }
     }
@@ -90,7 +90,7 @@ void register_print(const struct register_result *result, FILE *out)
                             "deg|sigma|time bias s|sigma");
 
     for (size_t i = 0; i < result->num_radars; i++) {
-        put_bias_row(&table, result, i);
+        add_bias_row(&table, result, i);
     }
     text_table_print(&table, out);
     fprintf(out,
@@ -121,10 +121,11 @@ static cJSON *radar_biases_json(const struct register_result *result, size_t rad
     cJSON_AddNumberToObject(object, "common_plots", (double)of->common_plots);
     for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
         const struct register_bias *bias = &of->biases[kind];
-        bool is_shown = bias->is_known || is_reference(result, radar, kind);
+        bool is_shown = bias->is_known || is_reference_time(result, radar, kind);
 
-        json_add_number(object, kinds[kind].json, is_shown ? bias->value : NAN);
-        json_add_number(object, kinds[kind].json_sigma, of->common_plots > 0 ? bias->sigma : NAN);
+        json_add_number(object, bias_kinds[kind].json, is_shown ? bias->value : NAN);
+        json_add_number(object, bias_kinds[kind].json_sigma,
+                        of->common_plots > 0 ? bias->sigma : NAN);
     }
     return object;
 }
@@ -163,13 +164,13 @@ void register_write_ini(const struct register_result *result, const char *path)
         for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
             const struct register_bias *bias = &of->biases[kind];
 
-            if (is_reference(result, i, kind)) {
-                fprintf(output.file, "%s = %.9f\n", kinds[kind].parameter, bias->value);
+            if (is_reference_time(result, i, kind)) {
+                fprintf(output.file, "%s = %.9f\n", bias_kinds[kind].parameter, bias->value);
             } else if (bias->is_known) {
                 fprintf(output.file, "# sigma %.9f\n%s = %.9f\n", bias->sigma,
-                        kinds[kind].parameter, bias->value);
+                        bias_kinds[kind].parameter, bias->value);
             } else {
-                fprintf(output.file, "# %s: not known\n", kinds[kind].parameter);
+                fprintf(output.file, "# %s: not known\n", bias_kinds[kind].parameter);
             }
         }
     }

@@ -9,9 +9,9 @@
 #include "registration/cholesky.h"
 
 #define SEGMENT_S 30.0
-#define PLOTS_MIN 2    /* of a radar in a segment, for two radars of it at least */
-#define SPARE_MIN 4    /* measurements of a segment more than it has coefficients */
-#define FAR_SIGMAS 3.0 /* plots farther off count with the weight of one there: Huber */
+#define PLOTS_MIN 2    /* fewest plots of a radar in a segment, for at least two radars */
+#define SPARE_MIN 4    /* measurements that a segment needs beyond its number of coefficients */
+#define FAR_SIGMAS 3.0 /* residual in sigmas beyond which a plot's weight falls (Huber) */
 
 /* ---- cutting ---- */
 
@@ -43,7 +43,10 @@ static void add_track_plots(const struct register_data *data, const struct radar
     }
 }
 
-/* Do enough radars have enough plots here to say anything of biases? */
+/*
+ * Whether at least two radars have PLOTS_MIN plots in the segment, so that it says something about
+ * their biases.
+ */
 static bool has_enough_radars(const struct register_data *data, const struct segments *segments,
                               const struct segment *segment)
 {
@@ -60,7 +63,7 @@ static bool has_enough_radars(const struct register_data *data, const struct seg
     return enough >= 2 && 2 * segment->count >= SEGMENT_COEFFICIENTS + SPARE_MIN;
 }
 
-/* The plots of one target, from `first` on. */
+/* Cuts the plots of one target, from index `first` on, into segments of SEGMENT_S. */
 static void cut_target_path(const struct register_data *data, struct segments *segments,
                             size_t first)
 {
@@ -115,72 +118,78 @@ double segment_degrees_of_freedom(const struct segment *segment)
 
 /* ---- fitting ---- */
 
-/* One plot against the parabola: two measurements, along and across, in sigmas. */
-struct opened {
+/*
+ * The terms of a plot in the least squares: two rows, along and across the line of sight, in units
+ * of sigma.
+ */
+struct plot_terms {
     struct corrected at;
-    double unit[2][2]; /* along and across, over sigma */
+    double unit[2][2]; /* unit vectors along and across the line of sight, divided by sigma */
     double basis[SEGMENT_TERMS], slope[SEGMENT_TERMS];
-    double reach; /* metres across for a radian, over sigma */
+    /* metres across the line of sight for a radian of azimuth, divided by sigma */
+    double cross_per_rad;
 };
 
-static struct opened prepare_plot(const struct register_data *data, const struct segment *segment,
-                                  const struct segment_plot *plot)
+static struct plot_terms make_plot_terms(const struct register_data *data,
+                                         const struct segment *segment,
+                                         const struct segment_plot *plot)
 {
     const struct radar_data *radar = &data->radars[plot->radar];
     const struct radar_plot *measured = &radar->plots[plot->plot];
-    struct opened opened = {.at = register_correct_plot(data, radar, measured)};
-    double u = (opened.at.t_s - segment->middle_s) / (SEGMENT_S / 2.0);
+    struct plot_terms plot_terms = {.at = register_correct_plot(data, radar, measured)};
+    double u = (plot_terms.at.t_s - segment->middle_s) / (SEGMENT_S / 2.0);
 
-    opened.unit[0][0] = opened.at.cos_azimuth / measured->sigma_range_m;
-    opened.unit[0][1] = opened.at.sin_azimuth / measured->sigma_range_m;
-    opened.unit[1][0] = -opened.at.sin_azimuth / measured->sigma_cross_m;
-    opened.unit[1][1] = opened.at.cos_azimuth / measured->sigma_cross_m;
-    opened.reach = opened.at.range_m / measured->sigma_cross_m;
-    opened.basis[0] = 1.0;
+    plot_terms.unit[0][0] = plot_terms.at.cos_azimuth / measured->sigma_range_m;
+    plot_terms.unit[0][1] = plot_terms.at.sin_azimuth / measured->sigma_range_m;
+    plot_terms.unit[1][0] = -plot_terms.at.sin_azimuth / measured->sigma_cross_m;
+    plot_terms.unit[1][1] = plot_terms.at.cos_azimuth / measured->sigma_cross_m;
+    plot_terms.cross_per_rad = plot_terms.at.range_m / measured->sigma_cross_m;
+    plot_terms.basis[0] = 1.0;
     for (int k = 1; k < SEGMENT_TERMS; k++) {
-        opened.basis[k] = opened.basis[k - 1] * u;
-        opened.slope[k] = (double)k * opened.basis[k - 1] / (SEGMENT_S / 2.0);
+        plot_terms.basis[k] = plot_terms.basis[k - 1] * u;
+        plot_terms.slope[k] = (double)k * plot_terms.basis[k - 1] / (SEGMENT_S / 2.0);
     }
-    return opened;
+    return plot_terms;
 }
 
-/* By how much the parabola's value changes with each coefficient, in the row's sigmas. */
-static void coefficient_row(const struct opened *opened, int row,
+/* Derivatives of the parabola's coordinate along the row's axis by each coefficient, in sigmas. */
+static void coefficient_row(const struct plot_terms *plot_terms, int row,
                             double values[SEGMENT_COEFFICIENTS])
 {
     for (int k = 0; k < SEGMENT_TERMS; k++) {
-        values[k] = opened->unit[row][0] * opened->basis[k];
-        values[SEGMENT_TERMS + k] = opened->unit[row][1] * opened->basis[k];
+        values[k] = plot_terms->unit[row][0] * plot_terms->basis[k];
+        values[SEGMENT_TERMS + k] = plot_terms->unit[row][1] * plot_terms->basis[k];
     }
 }
 
-static double measured_value(const struct opened *opened, int row)
+static double measured_coordinate(const struct plot_terms *plot_terms, int row)
 {
-    return opened->unit[row][0] * opened->at.x_m + opened->unit[row][1] * opened->at.y_m;
+    return plot_terms->unit[row][0] * plot_terms->at.x_m +
+           plot_terms->unit[row][1] * plot_terms->at.y_m;
+}
+
+/* Subtracts `from`, the place of the segment's first plot: large coordinates would lose digits. */
+static void shift_origin_to(struct plot_terms *plot_terms, const struct corrected *from)
+{
+    plot_terms->at.x_m -= from->x_m;
+    plot_terms->at.y_m -= from->y_m;
 }
 
 /*
- * The place is large beside what is looked for: taken from the segment's first plot, not to lose
- * digits.
+ * Fits the segment's coefficients with the plots' weights; factor is the Cholesky factor of their
+ * normal matrix. False where it is singular.
  */
-static void shift_origin_to(struct opened *opened, const struct corrected *from)
-{
-    opened->at.x_m -= from->x_m;
-    opened->at.y_m -= from->y_m;
-}
-
-/* The coefficients by the plots' weights; the factor of their normal matrix stays for later. */
-static bool fit_coefficients(const struct opened *opened, const struct segment_plot *plots,
-                             struct segment *segment,
-                             double factor[SEGMENT_COEFFICIENTS * SEGMENT_COEFFICIENTS])
+static bool fit_path_coefficients(const struct plot_terms *plot_terms,
+                                  const struct segment_plot *plots, struct segment *segment,
+                                  double factor[SEGMENT_COEFFICIENTS * SEGMENT_COEFFICIENTS])
 {
     memset(factor, 0, sizeof(double) * SEGMENT_COEFFICIENTS * SEGMENT_COEFFICIENTS);
     memset(segment->coefficients, 0, sizeof segment->coefficients);
     for (size_t i = 0; i < segment->count; i++) {
         for (int row = 0; row < 2; row++) {
-            double values[SEGMENT_COEFFICIENTS], value = measured_value(&opened[i], row);
+            double values[SEGMENT_COEFFICIENTS], value = measured_coordinate(&plot_terms[i], row);
 
-            coefficient_row(&opened[i], row, values);
+            coefficient_row(&plot_terms[i], row, values);
             for (int j = 0; j < SEGMENT_COEFFICIENTS; j++) {
                 segment->coefficients[j] += plots[i].weight * values[j] * value;
                 for (int k = 0; k < SEGMENT_COEFFICIENTS; k++) {
@@ -196,35 +205,38 @@ static bool fit_coefficients(const struct opened *opened, const struct segment_p
     return true;
 }
 
-static void path_velocity(const struct segment *segment, const struct opened *opened,
+static void path_velocity(const struct segment *segment, const struct plot_terms *plot_terms,
                           double v_mps[2])
 {
     for (int axis = 0; axis < 2; axis++) {
         v_mps[axis] = 0.0;
         for (int k = 1; k < SEGMENT_TERMS; k++) {
-            v_mps[axis] += segment->coefficients[axis * SEGMENT_TERMS + k] * opened->slope[k];
+            v_mps[axis] += segment->coefficients[axis * SEGMENT_TERMS + k] * plot_terms->slope[k];
         }
     }
 }
 
-/* How a plot's row changes with its radar's biases. */
-static void bias_row(const struct segment *segment, const struct opened *opened, int row,
+/* Derivatives of a plot's row by the biases of its radar. */
+static void bias_row(const struct segment *segment, const struct plot_terms *plot_terms, int row,
                      double values[NUM_REGISTER_KINDS])
 {
     double v_mps[2];
 
-    path_velocity(segment, opened, v_mps);
+    path_velocity(segment, plot_terms, v_mps);
     values[REGISTER_RANGE] =
-        row == 0 ? -hypot(opened->unit[0][0], opened->unit[0][1]) : 0.0; /* -1 / sigma */
-    values[REGISTER_AZIMUTH] = row == 1 ? -opened->reach : 0.0;
-    values[REGISTER_TIME] = opened->unit[row][0] * v_mps[0] + opened->unit[row][1] * v_mps[1];
+        /* the unit vector has length 1 / sigma */
+        row == 0 ? -hypot(plot_terms->unit[0][0], plot_terms->unit[0][1]) : 0.0;
+    values[REGISTER_AZIMUTH] = row == 1 ? -plot_terms->cross_per_rad : 0.0;
+    values[REGISTER_TIME] =
+        plot_terms->unit[row][0] * v_mps[0] + plot_terms->unit[row][1] * v_mps[1];
 }
 
-static double row_residual(const struct segment *segment, const struct opened *opened, int row)
+static double row_residual(const struct segment *segment, const struct plot_terms *plot_terms,
+                           int row)
 {
-    double values[SEGMENT_COEFFICIENTS], off = measured_value(opened, row);
+    double values[SEGMENT_COEFFICIENTS], off = measured_coordinate(plot_terms, row);
 
-    coefficient_row(opened, row, values);
+    coefficient_row(plot_terms, row, values);
     for (int k = 0; k < SEGMENT_COEFFICIENTS; k++) {
         off -= values[k] * segment->coefficients[k];
     }
@@ -232,12 +244,13 @@ static double row_residual(const struct segment *segment, const struct opened *o
 }
 
 /*
- * Adds a segment's normal equations: B'B - B'A (A'A)^-1 A'B of all biases, and -B'e. `mixed` is
- * A'B, a column for each bias.
+ * Adds the normal equations of all biases from one segment, with its coefficients eliminated:
+ * matrix B'B - B'A (A'A)^-1 A'B, right side -B'e. `mixed` is storage for A'B, a column for each
+ * bias.
  */
-static void add_bias_equations(const struct segment_plot *plots, const struct opened *opened,
-                               const struct segment *segment, const double *factor, double *mixed,
-                               struct normal *normal)
+static void add_bias_equations(const struct segment_plot *plots,
+                               const struct plot_terms *plot_terms, const struct segment *segment,
+                               const double *factor, double *mixed, struct normal_equations *normal)
 {
     size_t num = normal->num;
 
@@ -247,10 +260,10 @@ static void add_bias_equations(const struct segment_plot *plots, const struct op
 
         for (int row = 0; row < 2; row++) {
             double values[SEGMENT_COEFFICIENTS], biases[NUM_REGISTER_KINDS];
-            double off = row_residual(segment, &opened[i], row);
+            double off = row_residual(segment, &plot_terms[i], row);
 
-            coefficient_row(&opened[i], row, values);
-            bias_row(segment, &opened[i], row, biases);
+            coefficient_row(&plot_terms[i], row, values);
+            bias_row(segment, &plot_terms[i], row, biases);
             for (size_t j = 0; j < NUM_REGISTER_KINDS; j++) {
                 double weighted = plots[i].weight * biases[j];
 
@@ -264,7 +277,7 @@ static void add_bias_equations(const struct segment_plot *plots, const struct op
             }
         }
     }
-    /* with the factor L: |L^-1 A'B| squared */
+    /* B'A (A'A)^-1 A'B is (L^-1 A'B)' (L^-1 A'B) with A'A = L L' */
     for (size_t j = 0; j < num; j++) {
         cholesky_solve_lower(factor, SEGMENT_COEFFICIENTS, &mixed[j * SEGMENT_COEFFICIENTS]);
     }
@@ -278,13 +291,14 @@ static void add_bias_equations(const struct segment_plot *plots, const struct op
     }
 }
 
-static void weigh_plots(struct segment_plot *plots, const struct opened *opened,
-                        struct segment *segment)
+/* Sets the plots' Huber weights by their residuals, and the segment's weighted chi-square. */
+static void update_weights_and_chi2(struct segment_plot *plots, const struct plot_terms *plot_terms,
+                                    struct segment *segment)
 {
     segment->chi2 = 0.0;
     for (size_t i = 0; i < segment->count; i++) {
-        double d =
-            hypot(row_residual(segment, &opened[i], 0), row_residual(segment, &opened[i], 1));
+        double d = hypot(row_residual(segment, &plot_terms[i], 0),
+                         row_residual(segment, &plot_terms[i], 1));
 
         plots[i].weight = d > FAR_SIGMAS ? FAR_SIGMAS / d : 1.0;
         segment->chi2 += plots[i].weight * d * d;
@@ -292,35 +306,35 @@ static void weigh_plots(struct segment_plot *plots, const struct opened *opened,
 }
 
 bool segment_fit(const struct register_data *data, struct segments *segments,
-                 struct segment *segment, struct normal *normal)
+                 struct segment *segment, struct normal_equations *normal)
 {
     struct segment_plot *plots = &segments->plots[segment->first];
-    struct opened *opened = must_calloc(segment->count, sizeof *opened);
+    struct plot_terms *plot_terms = must_calloc(segment->count, sizeof *plot_terms);
     struct corrected from;
     double factor[SEGMENT_COEFFICIENTS * SEGMENT_COEFFICIENTS];
     bool is_fitted;
 
     for (size_t i = 0; i < segment->count; i++) {
-        opened[i] = prepare_plot(data, segment, &plots[i]);
+        plot_terms[i] = make_plot_terms(data, segment, &plots[i]);
     }
-    from = opened[0].at;
+    from = plot_terms[0].at;
     for (size_t i = 0; i < segment->count; i++) {
-        shift_origin_to(&opened[i], &from);
+        shift_origin_to(&plot_terms[i], &from);
     }
-    is_fitted = fit_coefficients(opened, plots, segment, factor);
+    is_fitted = fit_path_coefficients(plot_terms, plots, segment, factor);
     if (is_fitted) {
         if (normal) {
             double *mixed = must_calloc(normal->num * SEGMENT_COEFFICIENTS, sizeof *mixed);
 
-            add_bias_equations(plots, opened, segment, factor, mixed, normal);
+            add_bias_equations(plots, plot_terms, segment, factor, mixed, normal);
             free(mixed);
         }
         double v_mps[2];
 
-        path_velocity(segment, &opened[segment->count / 2], v_mps);
+        path_velocity(segment, &plot_terms[segment->count / 2], v_mps);
         segment->speed_mps = hypot(v_mps[0], v_mps[1]);
-        weigh_plots(plots, opened, segment);
+        update_weights_and_chi2(plots, plot_terms, segment);
     }
-    free(opened);
+    free(plot_terms);
     return is_fitted;
 }

@@ -9,34 +9,39 @@
 #include "registration/register_data.h"
 #include "registration/register_segments.h"
 
-/* Beyond these nobody believes a bias (types.h): what the plots say nothing of stays within. */
+/*
+ * Prior sigmas of the biases, the largest biases that a sensor may have (types.h): they keep biases
+ * bounded that the plots do not determine.
+ */
 static const double prior_sigma[NUM_REGISTER_KINDS] = {
     (double)RHO_LIMIT_BIAS_M, (double)RHO_LIMIT_BIAS_RAD, (double)RHO_LIMIT_BIAS_S};
-/* Units of the biases, which give the equations entries of like size. */
+/* Units of the biases, chosen so that the entries of the equations are of similar size. */
 static const double unit[NUM_REGISTER_KINDS] = {10.0, 1e-3, 0.1};
 
 #define STEPS_MAX 30
-#define STEP_LEAST 1e-6   /* in those units */
-#define PASSES_MAX 4      /* in which segments are left out */
-#define MISFIT_SIGMAS 4.0 /* a segment whose chi-square is off by more is no parabola */
+/* largest step of any bias, in `unit`, at which the iteration has converged */
+#define STEP_LEAST 1e-6
+#define PASSES_MAX 4 /* most rounds of leaving out segments */
+/* a segment whose chi-square is too large by more sigmas is no parabola */
+#define MISFIT_SIGMAS 4.0
 
-static struct normal start_normal(const struct register_data *data)
+static struct normal_equations alloc_normal_equations(const struct register_data *data)
 {
-    struct normal normal = {.num = data->num_radars * NUM_REGISTER_KINDS};
+    struct normal_equations normal = {.num = data->num_radars * NUM_REGISTER_KINDS};
 
     normal.matrix = must_calloc(normal.num * normal.num, sizeof *normal.matrix);
     normal.right = must_calloc(normal.num, sizeof *normal.right);
     return normal;
 }
 
-static void free_normal(struct normal *normal)
+static void free_normal_equations(struct normal_equations *normal)
 {
     free(normal->matrix);
     free(normal->right);
 }
 
-/* Holds a bias at its value by an equation of its own. */
-static void hold_bias(struct normal *normal, size_t index)
+/* Fixes a bias at its present value: its row and column become those of the identity. */
+static void fix_bias(struct normal_equations *normal, size_t index)
 {
     for (size_t i = 0; i < normal->num; i++) {
         normal->matrix[index * normal->num + i] = normal->matrix[i * normal->num + index] = 0.0;
@@ -45,8 +50,12 @@ static void hold_bias(struct normal *normal, size_t index)
     normal->right[index] = 0.0;
 }
 
-/* In the units above, with the priors, the reference's time held, as a factor. */
-static void finish_normal(const struct register_data *data, size_t reference, struct normal *normal)
+/*
+ * Completes the normal equations: adds the priors, scales to `unit`, fixes the reference's time,
+ * and replaces the matrix by its Cholesky factor.
+ */
+static void finish_and_factor_normal(const struct register_data *data, size_t reference,
+                                     struct normal_equations *normal)
 {
     size_t num = normal->num;
 
@@ -64,14 +73,14 @@ static void finish_normal(const struct register_data *data, size_t reference, st
                 unit[i % NUM_REGISTER_KINDS] * unit[j % NUM_REGISTER_KINDS];
         }
     }
-    hold_bias(normal, reference * NUM_REGISTER_KINDS + REGISTER_TIME);
+    fix_bias(normal, reference * NUM_REGISTER_KINDS + REGISTER_TIME);
     if (!cholesky_factor(normal->matrix, num)) {
         fail(EXIT_RUNTIME, "register: the normal equations of the biases cannot be solved");
     }
 }
 
-static void add_segments(const struct register_data *data, struct segments *segments,
-                         struct normal *normal)
+static void sum_segment_equations(const struct register_data *data, struct segments *segments,
+                                  struct normal_equations *normal)
 {
     memset(normal->matrix, 0, normal->num * normal->num * sizeof *normal->matrix);
     memset(normal->right, 0, normal->num * sizeof *normal->right);
@@ -84,15 +93,18 @@ static void add_segments(const struct register_data *data, struct segments *segm
     }
 }
 
-/* Gauss-Newton, with the weights going along. The normal equations of the last step stay. */
+/*
+ * Gauss-Newton iteration for the biases; the plots' weights are updated in each step. normal keeps
+ * the factored equations of the last step.
+ */
 static void iterate_biases(struct register_data *data, struct segments *segments, size_t reference,
-                           struct normal *normal)
+                           struct normal_equations *normal)
 {
     for (int i = 0; i < STEPS_MAX; i++) {
         double largest = 0.0;
 
-        add_segments(data, segments, normal);
-        finish_normal(data, reference, normal);
+        sum_segment_equations(data, segments, normal);
+        finish_and_factor_normal(data, reference, normal);
         cholesky_solve(normal->matrix, normal->num, normal->right);
         for (size_t j = 0; j < normal->num; j++) {
             size_t kind = j % NUM_REGISTER_KINDS;
@@ -108,7 +120,7 @@ static void iterate_biases(struct register_data *data, struct segments *segments
 
 /* ---- segments that are no parabolas ---- */
 
-static int by_size(const void *a, const void *b)
+static int by_value(const void *a, const void *b)
 {
     double one = *(const double *)a, other = *(const double *)b;
 
@@ -116,10 +128,10 @@ static int by_size(const void *a, const void *b)
 }
 
 /*
- * The median of chi-square over its degrees of freedom, which segments that are no parabolas hardly
- * move.
+ * Median over the segments of chi-square divided by its degrees of freedom, which the few segments
+ * that are no parabolas hardly change.
  */
-static double median_misfit(const struct segments *segments)
+static double median_chi2_ratio(const struct segments *segments)
 {
     double *ratios = must_calloc(segments->num_segments + 1, sizeof *ratios), median = 1.0;
     size_t count = 0;
@@ -131,17 +143,17 @@ static double median_misfit(const struct segments *segments)
         }
     }
     if (count > 0) {
-        qsort(ratios, count, sizeof *ratios, by_size);
+        qsort(ratios, count, sizeof *ratios, by_value);
         median = ratios[count / 2];
     }
     free(ratios);
     return median;
 }
 
-/* True where any segment was left out that was not before. */
-static bool leave_out_misfits(struct segments *segments)
+/* Leaves out segments whose chi-square is too large; true where there was any new one. */
+static bool leave_out_misfit_segments(struct segments *segments)
 {
-    double usual = median_misfit(segments);
+    double usual = median_chi2_ratio(segments);
     bool is_changed = false;
 
     for (size_t i = 0; i < segments->num_segments; i++) {
@@ -156,9 +168,9 @@ static bool leave_out_misfits(struct segments *segments)
     return is_changed;
 }
 
-/* ---- what was found ---- */
+/* ---- result ---- */
 
-static void count_segments(const struct segments *segments, struct solution *solution)
+static void summarise_segments(const struct segments *segments, struct solution *solution)
 {
     double chi2 = 0.0, freedom = 0.0;
 
@@ -185,26 +197,26 @@ static void count_segments(const struct segments *segments, struct solution *sol
 struct solution register_solve_biases(struct register_data *data, size_t reference)
 {
     struct segments segments = segments_cut_paths(data);
-    struct normal normal = start_normal(data);
+    struct normal_equations normal = alloc_normal_equations(data);
     struct solution solution = {0};
     double *work = must_calloc(normal.num, sizeof *work);
 
     for (int pass = 0; pass < PASSES_MAX; pass++) {
         iterate_biases(data, &segments, reference, &normal);
-        if (!leave_out_misfits(&segments)) {
+        if (!leave_out_misfit_segments(&segments)) {
             break;
         }
     }
     solution.radar_plots = must_calloc(data->num_radars + 1, sizeof *solution.radar_plots);
     solution.sigma = must_calloc(normal.num + 1, sizeof *solution.sigma);
-    count_segments(&segments, &solution);
+    summarise_segments(&segments, &solution);
     for (size_t i = 0; i < normal.num; i++) {
         solution.sigma[i] = solution.misfit * unit[i % NUM_REGISTER_KINDS] *
                             sqrt(cholesky_inverse_diagonal(normal.matrix, normal.num, i, work));
     }
     solution.sigma[reference * NUM_REGISTER_KINDS + REGISTER_TIME] = 0.0;
     free(work);
-    free_normal(&normal);
+    free_normal_equations(&normal);
     segments_free(&segments);
     return solution;
 }

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* register_tracks: each radar's scans in the order of time, as turns, and its tracks. */
+/*
+ * register_tracks: makes tracks of each radar's plots alone: its scans in the order of time, joined
+ * to turns.
+ */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,7 +10,7 @@
 #include "registration/register_data.h"
 
 #define TURN_RAD 6.283185307179586
-#define SAME_RAD 1e-4 /* sectors that begin so near begin together */
+#define SAME_RAD 1e-4 /* azimuths nearer than this count as equal */
 
 /* ---- turns ---- */
 
@@ -19,14 +22,14 @@ static double sector_width_rad(const struct radar_scan *scan)
     return width < SAME_RAD ? TURN_RAD : width;
 }
 
-static bool begins_with_same_sector(const struct radar_scan *scan, const struct radar_scan *other)
+static bool begin_with_same_sector(const struct radar_scan *scan, const struct radar_scan *other)
 {
     return fabs(remainder(scan->from_rad - other->from_rad, TURN_RAD)) < SAME_RAD;
 }
 
 /*
- * The plots of scans first .. end - 1, as one scan, for the tracker. Those beyond RHO_MAX_PLOTS are
- * left out.
+ * Makes one scan for the tracker of the plots of scans first .. end - 1; rows gives their indices
+ * in radar->plots. Plots beyond RHO_MAX_PLOTS are left out.
  */
 static struct rho_scan turn_as_scan(const struct radar_data *radar, size_t first, size_t end,
                                     size_t *rows, struct rho_plot *plots)
@@ -54,8 +57,9 @@ static struct rho_scan turn_as_scan(const struct radar_data *radar, size_t first
 }
 
 /*
- * One past the last scan of the turn that begins with `first`: all round, or until the first sector
- * comes again, or for as long as a plot's time may be off its scan's.
+ * One past the last scan of the turn that begins with scan `first`. A turn ends when its sectors
+ * make a full circle, when its first sector begins again, or after half of the largest offset of a
+ * plot's time from its scan's.
  */
 size_t register_turn_end(const struct radar_data *radar, size_t first)
 {
@@ -64,7 +68,7 @@ size_t register_turn_end(const struct radar_data *radar, size_t first)
     size_t end = first + 1;
 
     while (end < radar->num_scans && turned_rad < TURN_RAD - SAME_RAD &&
-           !begins_with_same_sector(&scans[end], &scans[first]) &&
+           !begin_with_same_sector(&scans[end], &scans[first]) &&
            scans[end].time_us - scans[first].time_us < RHO_LIMIT_OFFSET_US / 2) {
         turned_rad += sector_width_rad(&scans[end++]);
     }
@@ -73,7 +77,7 @@ size_t register_turn_end(const struct radar_data *radar, size_t first)
 
 /* ---- tracks ---- */
 
-/* The tracks of the radar that is stepped, by their identities. */
+/* The tracks reported while one radar's scans are stepped, with their track ids. */
 struct following {
     struct register_data *data;
     size_t radar;
@@ -85,9 +89,9 @@ struct following {
     } * ids;
 };
 
-static struct followed *followed_of(struct following *all, uint32_t track_id)
+static struct followed *find_or_add_followed(struct following *all, uint32_t track_id)
 {
-    for (size_t i = all->num_ids; i-- > 0;) { /* the newest are asked for most */
+    for (size_t i = all->num_ids; i-- > 0;) { /* from the newest, which are looked up most often */
         if (all->ids[i].track_id == track_id) {
             return &all->ids[i];
         }
@@ -98,12 +102,12 @@ static struct followed *followed_of(struct following *all, uint32_t track_id)
     return &all->ids[all->num_ids++];
 }
 
-static void note_reported_tracks(struct following *all, const struct rho_report *report,
-                                 const size_t *rows)
+static void record_reported_tracks(struct following *all, const struct rho_report *report,
+                                   const size_t *rows)
 {
     for (unsigned i = 0; i < report->num_tracks; i++) {
         const struct rho_track_report *from = &report->tracks[i];
-        struct followed *followed = followed_of(all, from->track_id);
+        struct followed *followed = find_or_add_followed(all, from->track_id);
         struct radar_track *track = &followed->track;
         const bool is_first = track->count == 0;
 
@@ -117,8 +121,8 @@ static void note_reported_tracks(struct following *all, const struct rho_report 
     }
 }
 
-/* Keeps the confirmed ones. */
-static void keep_confirmed_tracks(struct following *all)
+/* Moves the tracks that were ever confirmed into data, and frees the others. */
+static void move_confirmed_tracks(struct following *all)
 {
     struct register_data *data = all->data;
 
@@ -160,10 +164,10 @@ void register_track_one_radar(struct register_data *data, size_t number, struct 
         struct rho_scan turn = turn_as_scan(radar, first, end, rows, pipeline->plots);
 
         pipeline_step(pipeline, &turn);
-        note_reported_tracks(&all, pipeline->report, rows);
+        record_reported_tracks(&all, pipeline->report, rows);
         first = end;
     }
-    keep_confirmed_tracks(&all);
+    move_confirmed_tracks(&all);
     free(rows);
 }
 

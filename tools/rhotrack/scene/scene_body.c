@@ -34,7 +34,7 @@ void scene_body_draw(const struct scene_body *body, struct random *random,
 
         places_m[i][0] = ((double)i + random_uniform(random)) / parts - 0.5;
         places_m[i][0] *= body->length_m;
-        /* the parts of the width in any order: a shuffle */
+        /* the parts of the width are assigned in random order (shuffle) */
         places_m[i][1] = i > other ? places_m[other][1] : 0.0;
         places_m[other][1] = ((double)i + random_uniform(random)) / parts - 0.5;
         places_m[other][1] *= body->width_m;

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * scene_body: targets that are more than a point: scatterers on a body, each of which is seen by
- * itself.
- */
+/* scene_body: extended targets: scatterers on a body, each of which is detected separately. */
 #ifndef RHOTRACK_TOOL_SCENE_BODY_H
 #define RHOTRACK_TOOL_SCENE_BODY_H
 
@@ -15,20 +12,20 @@
 
 #define SCENE_SCATTERERS_MAX 64
 
-/* A rectangle about the target's place, its length along the velocity. */
+/* An extended target: a rectangle about the target's position, its length along the velocity. */
 struct scene_body {
     double length_m, width_m;
-    size_t scatterers; /* 0: the target is a point */
-    double seen;       /* probability of each scatterer at each look */
-    bool is_anew;      /* they are elsewhere at each look; else they stay where they are */
+    size_t scatterers; /* number of scatterers; 0: a point target */
+    double seen;       /* probability of detection of each scatterer at each look */
+    bool is_anew;      /* scatterer positions are drawn anew at each look; false: once a run */
 };
 
-/* The key "body" of a target. */
+/* Reads the key "body" of a target in a scene file. */
 struct scene_body scene_body_read(struct json_object *object);
 
 /*
- * Where its scatterers are, along and across the body, metres. Its length and its width are cut
- * into as many parts as there are scatterers; each part has one, anywhere in it.
+ * Draws random scatterer positions, in metres along and across the body. Length and width are
+ * divided into as many parts as there are scatterers, and each part has one at a uniform position.
  */
 void scene_body_draw(const struct scene_body *body, struct random *random,
                      double places_m[SCENE_SCATTERERS_MAX][2]);

@@ -18,7 +18,7 @@
 
 /* ---- where a value stands in the text ---- */
 
-/* The text is known to be JSON here. */
+/* The functions below scan text that has been parsed as valid JSON. */
 static const char *skip_space(const char *at)
 {
     return at + strspn(at, " \t\r\n");
@@ -62,9 +62,9 @@ static const char *skip_value(const char *at)
     return at;
 }
 
-/* From the whole file down to a place. */
-static size_t places_down_to(const struct json_place *place,
-                             const struct json_place *chain[DEPTH_MAX])
+/* Lists the places from the root of the file down to `place`; returns their number. */
+static size_t places_from_root(const struct json_place *place,
+                               const struct json_place *chain[DEPTH_MAX])
 {
     size_t count = 0;
 
@@ -79,10 +79,10 @@ static size_t places_down_to(const struct json_place *place,
 }
 
 /*
- * A member of the object or list that begins here: a key's place is that of the key. NULL: there is
- * none.
+ * Text position of a member of the object or list that begins at `at`: of its key, or of the list
+ * element. NULL where there is none.
  */
-static const char *find_member(const char *at, const struct json_place *place)
+static const char *find_member_in_text(const char *at, const struct json_place *place)
 {
     size_t index = 0;
 
@@ -111,17 +111,17 @@ static const char *find_member(const char *at, const struct json_place *place)
 static const char *find_place_in_text(const struct json_place *place)
 {
     const struct json_place *chain[DEPTH_MAX];
-    size_t count = places_down_to(place, chain);
+    size_t count = places_from_root(place, chain);
     const char *at = skip_space(place->file->text);
 
     for (size_t i = 0; i < count; i++) {
         const char *member, *value = at;
 
-        if (i > 0 && chain[i - 1]->key) { /* from the key to its value */
+        if (i > 0 && chain[i - 1]->key) { /* skip from the key to its value */
             value = skip_space(skip_string(at));
             value = *value == ':' ? skip_space(value + 1) : value;
         }
-        member = find_member(value, chain[i]);
+        member = find_member_in_text(value, chain[i]);
         if (!member) {
             return at;
         }
@@ -140,12 +140,12 @@ static size_t line_number_at(const char *text, const char *at)
     return line;
 }
 
-/* ---- what is wrong ---- */
+/* ---- error messages ---- */
 
-static void write_place(const struct json_place *place, char text[PLACE_BYTES])
+static void format_place(const struct json_place *place, char text[PLACE_BYTES])
 {
     const struct json_place *chain[DEPTH_MAX];
-    size_t count = places_down_to(place, chain), used = 0;
+    size_t count = places_from_root(place, chain), used = 0;
 
     text[0] = '\0';
     for (size_t i = 0; i < count && used < PLACE_BYTES; i++) {
@@ -162,7 +162,7 @@ static _Noreturn void fail_at_place(const struct json_place *place, const char *
 {
     char where[PLACE_BYTES];
 
-    write_place(place, where);
+    format_place(place, where);
     fail(EXIT_USAGE, "%s:%zu: %s%s%s", place->file->name,
          line_number_at(place->file->text, find_place_in_text(place)), where, where[0] ? ": " : "",
          what);
@@ -179,14 +179,14 @@ void json_fail(const struct json_place *place, const char *format, ...)
     fail_at_place(place, what);
 }
 
-static struct json_place key_place(const struct json_object *object, const char *key)
+static struct json_place place_of_key(const struct json_object *object, const char *key)
 {
     return (struct json_place){.file = object->place.file, .above = &object->place, .key = key};
 }
 
 void json_fail_key(const struct json_object *object, const char *key, const char *format, ...)
 {
-    struct json_place place = key_place(object, key);
+    struct json_place place = place_of_key(object, key);
     char what[WHAT_BYTES];
     va_list arguments;
 
@@ -234,8 +234,11 @@ void json_close(struct json_file *file)
 
 /* ---- changes ---- */
 
-/* One step of a path: `key`, `[3]` or `3`; moves *path behind it. False: it is none of them. */
-static bool take_path_step(const char **path, char key[KEY_BYTES], int *index)
+/*
+ * Parses one step of a path, `key`, `[3]` or `3`, and moves *path behind it; *index is -1 for a
+ * key. False where it is none of these.
+ */
+static bool parse_path_step(const char **path, char key[KEY_BYTES], int *index)
 {
     bool is_bracketed = **path == '[';
     const char *start = *path + (is_bracketed || **path == '.');
@@ -252,7 +255,7 @@ static bool take_path_step(const char **path, char key[KEY_BYTES], int *index)
     return is_number && (*path)[-1] == ']';
 }
 
-static cJSON *member_at_step(cJSON *item, const char *key, int index)
+static cJSON *member_by_step(cJSON *item, const char *key, int index)
 {
     if (index >= 0) {
         return cJSON_IsArray(item) ? cJSON_GetArrayItem(item, index) : NULL;
@@ -260,7 +263,7 @@ static cJSON *member_at_step(cJSON *item, const char *key, int index)
     return cJSON_IsObject(item) ? cJSON_GetObjectItemCaseSensitive(item, key) : NULL;
 }
 
-static bool put_value_at_step(cJSON *item, const char *key, int index, cJSON *value)
+static bool set_member_by_step(cJSON *item, const char *key, int index, cJSON *value)
 {
     if (index < 0) {
         return cJSON_IsObject(item) && (cJSON_ReplaceItemInObjectCaseSensitive(item, key, value) ||
@@ -273,17 +276,17 @@ static bool put_value_at_step(cJSON *item, const char *key, int index, cJSON *va
                                             : cJSON_AddItemToArray(item, value);
 }
 
-/* For name_hint_nearest, which takes names by index alone. */
+/* Object whose member names hinted_member_name gives: name_hint_nearest passes no context. */
 static const cJSON *hinted_item;
 
-static const char *member_name(size_t index)
+static const char *hinted_member_name(size_t index)
 {
     const cJSON *member = cJSON_GetArrayItem(hinted_item, (int)index);
 
     return member ? member->string : NULL;
 }
 
-/* Refuses an assignment whose path does not exist, with a hint at the nearest name. */
+/* Exits with an error for an assignment whose path does not exist, naming the most similar key. */
 static _Noreturn void fail_unknown_path(const char *assignment, const cJSON *item, const char *key)
 {
     const char *hint = NULL;
@@ -294,7 +297,7 @@ static _Noreturn void fail_unknown_path(const char *assignment, const cJSON *ite
     }
     if (cJSON_IsObject(item)) {
         hinted_item = item;
-        hint = name_hint_nearest(key, member_name);
+        hint = name_hint_nearest(key, hinted_member_name);
     }
     fail(EXIT_USAGE, "--set %s: there is no such place in the scene: '%s'%s%s%s", assignment, key,
          hint ? ", did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
@@ -313,19 +316,20 @@ void json_assign_by_path(struct json_file *file, const char *assignment)
     value = cJSON_ParseWithOpts(equals + 1, NULL, 1);
     value = value ? value : cJSON_CreateString(equals + 1);
     for (;;) {
-        if (!take_path_step(&path, key, &index) || (*path != '=' && *path != '.' && *path != '[')) {
+        if (!parse_path_step(&path, key, &index) ||
+            (*path != '=' && *path != '.' && *path != '[')) {
             fail(EXIT_USAGE, "--set %s: not of the form place=value", assignment);
         }
         if (*path == '=') {
             break;
         }
-        below = member_at_step(item, key, index);
+        below = member_by_step(item, key, index);
         if (!below) {
             fail_unknown_path(assignment, item, key);
         }
         item = below;
     }
-    if (!put_value_at_step(item, key, index, value)) {
+    if (!set_member_by_step(item, key, index, value)) {
         fail_unknown_path(assignment, item, key);
     }
 }
@@ -342,7 +346,8 @@ static const char *json_kind_name(const cJSON *item)
                                   : "null";
 }
 
-static struct json_object object_at(struct json_place place, const cJSON *item)
+/* Makes a json_object of a value; exits with an error where it is no object or has a key twice. */
+static struct json_object checked_object(struct json_place place, const cJSON *item)
 {
     struct json_object object = {.place = place, .item = item};
 
@@ -361,10 +366,11 @@ static struct json_object object_at(struct json_place place, const cJSON *item)
 
 struct json_object json_root(const struct json_file *file)
 {
-    return object_at((struct json_place){.file = file}, file->root);
+    return checked_object((struct json_place){.file = file}, file->root);
 }
 
-static const cJSON *ask_for_key(struct json_object *object, const char *key)
+/* The value of the key or NULL; the key is noted as known, for json_refuse_unknown_keys. */
+static const cJSON *get_and_note_key(struct json_object *object, const char *key)
 {
     size_t i = 0;
 
@@ -382,19 +388,19 @@ static const cJSON *ask_for_key(struct json_object *object, const char *key)
 
 bool json_has_key(struct json_object *object, const char *key)
 {
-    return ask_for_key(object, key) != NULL;
+    return get_and_note_key(object, key) != NULL;
 }
 
 void json_require_key(struct json_object *object, const char *key)
 {
-    if (!ask_for_key(object, key)) {
+    if (!get_and_note_key(object, key)) {
         json_fail(&object->place, "%s is missing", key);
     }
 }
 
 void json_exclude_keys(struct json_object *object, const char *key, const char *other)
 {
-    if (ask_for_key(object, key) && ask_for_key(object, other)) {
+    if (get_and_note_key(object, key) && get_and_note_key(object, other)) {
         json_fail_key(object, other, "does not go with %s", key);
     }
 }
@@ -414,8 +420,8 @@ static double checked_number(const struct json_place *place, const cJSON *item, 
 double json_read_number(struct json_object *object, const char *key, double min, double max,
                         double otherwise)
 {
-    struct json_place place = key_place(object, key);
-    const cJSON *item = ask_for_key(object, key);
+    struct json_place place = place_of_key(object, key);
+    const cJSON *item = get_and_note_key(object, key);
 
     return item ? checked_number(&place, item, min, max) : otherwise;
 }
@@ -433,7 +439,7 @@ uint64_t json_read_count(struct json_object *object, const char *key, uint64_t m
 
 bool json_read_flag(struct json_object *object, const char *key, bool otherwise)
 {
-    const cJSON *item = ask_for_key(object, key);
+    const cJSON *item = get_and_note_key(object, key);
 
     if (item && !cJSON_IsBool(item)) {
         json_fail_key(object, key, "must be true or false, and is %s", json_kind_name(item));
@@ -443,7 +449,7 @@ bool json_read_flag(struct json_object *object, const char *key, bool otherwise)
 
 const char *json_read_text(struct json_object *object, const char *key, const char *otherwise)
 {
-    const cJSON *item = ask_for_key(object, key);
+    const cJSON *item = get_and_note_key(object, key);
 
     if (item && !cJSON_IsString(item)) {
         json_fail_key(object, key, "must be a text, and is %s", json_kind_name(item));
@@ -469,8 +475,8 @@ static void read_numbers(const struct json_place *place, const cJSON *item, size
 bool json_read_numbers(struct json_object *object, const char *key, size_t count, double min,
                        double max, double *numbers)
 {
-    struct json_place place = key_place(object, key);
-    const cJSON *item = ask_for_key(object, key);
+    struct json_place place = place_of_key(object, key);
+    const cJSON *item = get_and_note_key(object, key);
 
     if (item) {
         read_numbers(&place, item, count, min, max, numbers);
@@ -481,8 +487,8 @@ bool json_read_numbers(struct json_object *object, const char *key, size_t count
 struct json_span json_read_span(struct json_object *object, const char *key, double min, double max,
                                 struct json_span otherwise)
 {
-    struct json_place place = key_place(object, key);
-    const cJSON *item = ask_for_key(object, key);
+    struct json_place place = place_of_key(object, key);
+    const cJSON *item = get_and_note_key(object, key);
     double ends[2] = {0, 0};
 
     if (!item) {
@@ -521,17 +527,18 @@ size_t json_read_choice(struct json_object *object, const char *key, const char 
 
 bool json_read_object(struct json_object *object, const char *key, struct json_object *below)
 {
-    const cJSON *item = ask_for_key(object, key);
+    const cJSON *item = get_and_note_key(object, key);
 
     if (item) {
-        *below = object_at(key_place(object, key), item);
+        *below = checked_object(place_of_key(object, key), item);
     }
     return item != NULL;
 }
 
 struct json_list json_read_list(struct json_object *object, const char *key, size_t max)
 {
-    struct json_list list = {.place = key_place(object, key), .item = ask_for_key(object, key)};
+    struct json_list list = {.place = place_of_key(object, key),
+                             .item = get_and_note_key(object, key)};
 
     if (list.item && !cJSON_IsArray(list.item)) {
         json_fail(&list.place, "must be a list, [...], and is %s", json_kind_name(list.item));
@@ -543,39 +550,40 @@ struct json_list json_read_list(struct json_object *object, const char *key, siz
     return list;
 }
 
-static struct json_place element_place(const struct json_list *list, size_t index)
+static struct json_place place_of_element(const struct json_list *list, size_t index)
 {
     return (struct json_place){.file = list->place.file, .above = &list->place, .index = index};
 }
 
 struct json_object json_element(const struct json_list *list, size_t index)
 {
-    return object_at(element_place(list, index), cJSON_GetArrayItem(list->item, (int)index));
+    return checked_object(place_of_element(list, index),
+                          cJSON_GetArrayItem(list->item, (int)index));
 }
 
 void json_element_numbers(const struct json_list *list, size_t index, size_t count, double min,
                           double max, double *numbers)
 {
-    struct json_place place = element_place(list, index);
+    struct json_place place = place_of_element(list, index);
 
     read_numbers(&place, cJSON_GetArrayItem(list->item, (int)index), count, min, max, numbers);
 }
 
 double json_element_number(const struct json_list *list, size_t index, double min, double max)
 {
-    struct json_place place = element_place(list, index);
+    struct json_place place = place_of_element(list, index);
 
     return checked_number(&place, cJSON_GetArrayItem(list->item, (int)index), min, max);
 }
 
-/* ---- keys that nobody knows ---- */
+/* ---- unknown keys ---- */
 
-/* For name_hint_nearest, which takes names by index alone. */
-static const struct json_object *hinted;
+/* Object whose known keys hinted_key_name gives: name_hint_nearest passes no context. */
+static const struct json_object *hinted_object;
 
-static const char *asked_name(size_t index)
+static const char *hinted_key_name(size_t index)
 {
-    return index < hinted->num_asked ? hinted->asked[index] : NULL;
+    return index < hinted_object->num_asked ? hinted_object->asked[index] : NULL;
 }
 
 void json_refuse_unknown_keys(const struct json_object *object)
@@ -590,8 +598,8 @@ void json_refuse_unknown_keys(const struct json_object *object)
         if (i < object->num_asked) {
             continue;
         }
-        hinted = object;
-        hint = name_hint_nearest(one->string, asked_name);
+        hinted_object = object;
+        hint = name_hint_nearest(one->string, hinted_key_name);
         if (hint) {
             json_fail_key(object, one->string, "unknown key, did you mean '%s'?", hint);
         }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_json: a JSON file's values, checked while they are read.
+ * scene_json: reads values of a JSON file and checks them.
  *
- * Whatever is wrong ends the program with exit 2 and one line that names the file, its line and the
- * place, `rhotrack: FILE:12: radars[0].turn_s: -4 is outside 0.001 .. 3600`. Keys that nobody asked
- * for are wrong, too: after its last key is read, an object is closed.
+ * Any error ends the program with exit 2 and one line that names the file, the line and the key:
+ * `rhotrack: FILE:12: radars[0].turn_s: -4 is outside 0.001 .. 3600`. Keys of an object that were
+ * never asked for are errors, too: json_refuse_unknown_keys reports them after the last read.
  */
 #ifndef RHOTRACK_TOOL_SCENE_JSON_H
 #define RHOTRACK_TOOL_SCENE_JSON_H
@@ -18,16 +18,16 @@ struct cJSON;
 #define JSON_KEYS_MAX 64
 
 struct json_file {
-    const char *name; /* as messages say it */
+    const char *name; /* file name for messages */
     const char *text;
     struct cJSON *root;
 };
 
-/* Where a value stands: a key or an index, below another place. */
+/* Position of a value in the file: a key or an index within the place above. */
 struct json_place {
     const struct json_file *file;
-    const struct json_place *above; /* NULL: the whole file */
-    const char *key;                /* NULL: the element of a list */
+    const struct json_place *above; /* enclosing place; NULL for the whole file */
+    const char *key;                /* key of the value; NULL for element `index` of a list */
     size_t index;
 };
 
@@ -40,7 +40,7 @@ struct json_object {
 
 struct json_list {
     struct json_place place;
-    const struct cJSON *item; /* NULL: an empty one */
+    const struct cJSON *item; /* the list; NULL where the key is missing: an empty list */
     size_t count;
 };
 
@@ -49,14 +49,14 @@ struct json_span {
 };
 
 /*
- * The text stays the caller's, and must live as long as the file. Exit 2 with the line where it is
- * no JSON object.
+ * Parses the text, which stays the caller's and must live as long as the file. Exits with 2 and the
+ * line where it is not a JSON object.
  */
 struct json_file json_open(const char *name, const char *text, size_t length);
 /*
- * `radars.0.pd=0.7` or `radars[0].pd=0.7`: the value, JSON or a text, takes the place of what
- * stands there, or is added; behind the last element of a list, too. Exit 2, with the nearest,
- * where there is no such place.
+ * Assigns a value by a path: `radars.0.pd=0.7` or `radars[0].pd=0.7`. The value, JSON or plain
+ * text, replaces or adds a member, and may be appended to a list. Exits with 2, naming the most
+ * similar key, where the path does not exist.
  */
 void json_assign_by_path(struct json_file *file, const char *assignment);
 
@@ -69,7 +69,10 @@ _Noreturn void json_fail_key(const struct json_object *object, const char *key, 
 
 struct json_object json_root(const struct json_file *file);
 
-/* A value, or `otherwise` where it is not there. */
+/*
+ * json_has_key: whether the key is there. The readers return the value of a key, or `otherwise`
+ * where the key is missing; numbers outside min .. max are errors.
+ */
 bool json_has_key(struct json_object *object, const char *key);
 double json_read_number(struct json_object *object, const char *key, double min, double max,
                         double otherwise);
@@ -78,27 +81,27 @@ uint64_t json_read_count(struct json_object *object, const char *key, uint64_t m
 bool json_read_flag(struct json_object *object, const char *key, bool otherwise);
 const char *json_read_text(struct json_object *object, const char *key, const char *otherwise);
 
-/* A number, which is both ends, or a list of two, the first not above the second. */
+/* Reads a span: a number, which is both ends, or a list of two numbers in ascending order. */
 struct json_span json_read_span(struct json_object *object, const char *key, double min, double max,
                                 struct json_span otherwise);
 
-/* So many numbers in a list, within min .. max. False where it is not there. */
+/* Reads a list of exactly `count` numbers within min .. max. False where the key is missing. */
 bool json_read_numbers(struct json_object *object, const char *key, size_t count, double min,
                        double max, double *numbers);
 
-/* The index of a word. */
+/* Reads a text that must be one of `words`, and returns its index. */
 size_t json_read_choice(struct json_object *object, const char *key, const char *const *words,
                         size_t count, size_t otherwise);
 
-/* A member that is required: exit 2 where it is missing. */
+/* Exits with 2 where the key is missing. */
 void json_require_key(struct json_object *object, const char *key);
 
-/* Of two keys that exclude each other: exit 2 where both are there. */
+/* Exits with 2 where both of two exclusive keys are there. */
 void json_exclude_keys(struct json_object *object, const char *key, const char *other);
 
 /*
- * A list of objects or numbers, empty where it is not there; an object below a key, false where it
- * is not there.
+ * json_read_list: a list of at most max elements, empty where the key is missing. json_read_object:
+ * the object of a key; false where it is missing. The others read element `index` of a list.
  */
 struct json_list json_read_list(struct json_object *object, const char *key, size_t max);
 bool json_read_object(struct json_object *object, const char *key, struct json_object *below);
@@ -107,7 +110,7 @@ void json_element_numbers(const struct json_list *list, size_t index, size_t cou
                           double max, double *numbers);
 double json_element_number(const struct json_list *list, size_t index, double min, double max);
 
-/* Exit 2 where the object has a key that was never asked for. */
+/* Exits with 2 where the object has a key that no function above was asked for. */
 void json_refuse_unknown_keys(const struct json_object *object);
 
 #endif

@@ -47,9 +47,9 @@ bool mover_seen_at(const struct scene_mover *mover, const struct scene_sensor *s
     return range_m < 2.0 * mover->unambiguous_m;
 }
 
-/* ---- clutter that lasts ---- */
+/* ---- clutter that persists over scans ---- */
 
-static const struct scene_sensor *first_sensor(const struct scene *scene, uint32_t sensors)
+static const struct scene_sensor *first_radar_in_mask(const struct scene *scene, uint32_t sensors)
 {
     for (size_t i = 0; i < scene->num_radars; i++) {
         if (sensors >> i & 1) {
@@ -59,11 +59,14 @@ static const struct scene_sensor *first_sensor(const struct scene *scene, uint32
     return &scene->sensors[0];
 }
 
-/* Even over the area where the source is: of its box, about its first sensor, or of the scene. */
+/*
+ * Draws a position uniformly over the area of the clutter: its box, else its sector of ranges about
+ * its first radar, else the scene's area.
+ */
 static void draw_clutter_place(const struct scene *scene, const struct scene_clutter *clutter,
                                struct random *random, double *x_m, double *y_m)
 {
-    const struct scene_sensor *sensor = first_sensor(scene, clutter->sensors);
+    const struct scene_sensor *sensor = first_radar_in_mask(scene, clutter->sensors);
     const double *box_m = clutter->has_box ? clutter->box_m : scene->area_m;
 
     if (clutter->has_box || sensor->is_cartesian) {
@@ -86,8 +89,8 @@ static void draw_clutter_place(const struct scene *scene, const struct scene_clu
     }
 }
 
-static void draw_standing(const struct scene *scene, const struct scene_clutter *clutter,
-                          struct random *random, struct scene_mover *mover, size_t index)
+static void draw_standing_echo(const struct scene *scene, const struct scene_clutter *clutter,
+                               struct random *random, struct scene_mover *mover, size_t index)
 {
     draw_clutter_place(scene, clutter, random, &mover->x_m, &mover->y_m);
     if (clutter->places_m) {
@@ -97,8 +100,8 @@ static void draw_standing(const struct scene *scene, const struct scene_clutter 
 }
 
 /*
- * A bird goes round a circle of its own, at its own speed against the flock's; their middles are
- * Gaussian.
+ * Draws a bird of a flock: it flies a circle of its own whose centre moves with the flock, with
+ * Gaussian offsets of the centres.
  */
 static void draw_bird(const struct scene_clutter *clutter, struct random *random,
                       struct scene_mover *mover)
@@ -115,8 +118,8 @@ static void draw_bird(const struct scene_clutter *clutter, struct random *random
     mover->circle_radps = side * speed_mps / mover->circle_m;
 }
 
-static void draw_spike(const struct scene *scene, const struct scene_clutter *clutter,
-                       struct random *random, struct scene_mover *mover)
+static void draw_sea_spike(const struct scene *scene, const struct scene_clutter *clutter,
+                           struct random *random, struct scene_mover *mover)
 {
     double heading_rad;
 
@@ -131,8 +134,8 @@ static void draw_spike(const struct scene *scene, const struct scene_clutter *cl
     mover->y_m -= mover->vy_mps * mover->from_s;
 }
 
-static size_t number_of_movers(const struct scene *scene, const struct scene_clutter *clutter,
-                               struct random *random)
+static size_t draw_number_of_movers(const struct scene *scene, const struct scene_clutter *clutter,
+                                    struct random *random)
 {
     double from_s = fmax(-clutter->life_s.hi, clutter->from_s);
     double until_s = fmin(scene->duration_s, clutter->until_s);
@@ -158,7 +161,7 @@ struct scene_mover *draw_clutter_movers(const struct scene *scene, size_t source
                               source + 1, num_paths);
         *count = *num_paths;
     } else {
-        *count = number_of_movers(scene, clutter, &random);
+        *count = draw_number_of_movers(scene, clutter, &random);
     }
     movers = must_calloc(*count + 1, sizeof *movers);
     for (size_t i = 0; i < *count; i++) {
@@ -171,11 +174,11 @@ struct scene_mover *draw_clutter_movers(const struct scene *scene, size_t source
                                       .pd = clutter->pd,
                                       .target_id = -1};
         if (clutter->kind == CLUTTER_STANDING) {
-            draw_standing(scene, clutter, &own, mover, i);
+            draw_standing_echo(scene, clutter, &own, mover, i);
         } else if (clutter->kind == CLUTTER_FLOCK) {
             draw_bird(clutter, &own, mover);
         } else if (clutter->kind == CLUTTER_SPIKES) {
-            draw_spike(scene, clutter, &own, mover);
+            draw_sea_spike(scene, clutter, &own, mover);
         } else {
             mover->path = &(*paths)[i];
             mover->from_s = fmax(mover->from_s, mover->path->from_s);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_mover: what moves or stands in a scene and is seen again and again: targets, towers, birds,
- * spikes, echoes.
+ * scene_mover: objects of a scene that sensors detect repeatedly: targets, towers, birds, sea
+ * spikes and second-time-around echoes.
  */
 #ifndef RHOTRACK_TOOL_SCENE_MOVER_H
 #define RHOTRACK_TOOL_SCENE_MOVER_H
@@ -9,26 +9,26 @@
 #include "scene/scene.h"
 
 struct scene_mover {
-    const struct scene_path *path; /* or NULL: straight, and round a circle about that */
+    const struct scene_path *path; /* NULL: straight motion, with a circle about it */
     double from_s, until_s;
-    double x_m, y_m, vx_mps, vy_mps; /* at time 0 */
+    double x_m, y_m, vx_mps, vy_mps; /* position and velocity at time 0, without a path */
     double circle_m, circle_rad, circle_radps;
-    double unambiguous_m; /* beyond it from the sensor, it is seen nearer by so much; 0: a target */
-    double pd;            /* below 0: the sensor's, over range */
-    int target_id;        /* -1: clutter */
+    /* unambiguous range of a second-time-around echo, which is seen nearer by this much; 0: none */
+    double unambiguous_m;
+    double pd;     /* probability of detection; below 0: the sensor's curve over range */
+    int target_id; /* id of the target; -1: clutter */
 };
 
 /*
- * Where the sensor sees it, were it to see it. False: it is not there, or no echo of the second
- * time.
+ * Apparent motion of the object for the sensor at time t_s. False: the object does not exist then,
+ * or is outside the ranges of a second-time-around echo.
  */
 bool mover_seen_at(const struct scene_mover *mover, const struct scene_sensor *sensor, double t_s,
                    struct motion *at);
 
 /*
- * Everything of a source of clutter that lasts, in new memory: places and lives are drawn. Kinds
- * that are drawn anew each scan have none. Paths of second-time-around echoes go to *paths, to be
- * freed after the movers.
+ * Draws the persistent objects of a clutter source, in new memory; kinds that are drawn anew each
+ * scan have none. *paths gets the paths of second-time-around echoes, to be freed after the movers.
  */
 struct scene_mover *draw_clutter_movers(const struct scene *scene, size_t source, uint64_t seed,
                                         uint64_t run, size_t *count, struct scene_path **paths,

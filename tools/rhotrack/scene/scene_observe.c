@@ -8,20 +8,23 @@
 #include "base/portable_math.h"
 #include "scene/scene_mover.h"
 
-#define RANGE_LEAST_M 0.01 /* a file's last digit */
-#define MEETING_STEPS                                                                              \
-    16                  /* each leaves the ratio of the angular speeds: 1e-2 at worst in practice */
-#define AGAIN_TURNS 0.5 /* what has just been met is not met again before */
+#define RANGE_LEAST_M 0.01 /* shortest range that a plot gets: the last digit in the file */
+/*
+ * fixed-point iterations for the time at which the beam meets a moving target; each reduces the
+ * error by the ratio of the angular speeds, 1e-2 at worst in practice
+ */
+#define SIGHTING_ITERATIONS 16
+#define NEXT_PASS_TURNS 0.5 /* turns after a sighting before the same object can be seen again */
 
 /* ---- where sensors look ---- */
 
-static double turn_direction(const struct scene_sensor *sensor)
+static double antenna_turn_sign(const struct scene_sensor *sensor)
 {
     return sensor->is_counter_clockwise ? 1.0 : -1.0;
 }
 
-/* Turns of the antenna, or scans of a sensor that does not turn. */
-static size_t num_turns(const struct scene *scene, const struct scene_sensor *sensor)
+/* Number of complete turns in the scene, or of scans of a sensor that does not turn. */
+static size_t count_turns(const struct scene *scene, const struct scene_sensor *sensor)
 {
     double turns = (scene->duration_s - sensor->start_s) / sensor->turn_s;
 
@@ -29,13 +32,13 @@ static size_t num_turns(const struct scene *scene, const struct scene_sensor *se
     return turns > 0.0 ? (size_t)turns : 0;
 }
 
-/*
- * The share of a turn that is left until the antenna says this azimuth, 0 .. below 1, at the time.
- */
-static double turns_until(const struct scene_sensor *sensor, double azimuth_rad, double t_s)
+/* Share of a turn, 0 .. below 1, from t_s until the antenna points to the azimuth. */
+static double turn_share_until_azimuth(const struct scene_sensor *sensor, double azimuth_rad,
+                                       double t_s)
 {
     double turns = (t_s - sensor->start_s) / sensor->turn_s;
-    double way = turn_direction(sensor) * (azimuth_rad - sensor->start_rad) / PORTABLE_TURN - turns;
+    double way =
+        antenna_turn_sign(sensor) * (azimuth_rad - sensor->start_rad) / PORTABLE_TURN - turns;
 
     way -= floor(way);
     return way < 1.0 ? way : 0.0;
@@ -62,8 +65,8 @@ static bool is_in_coverage(const struct scene_coverage *coverage, double range_m
            is_in_sector(coverage, azimuth_rad);
 }
 
-static bool sees_place(const struct scene *scene, const struct scene_sensor *sensor, double x_m,
-                       double y_m)
+static bool is_place_in_coverage(const struct scene *scene, const struct scene_sensor *sensor,
+                                 double x_m, double y_m)
 {
     double dx_m = x_m - sensor->x_m, dy_m = y_m - sensor->y_m;
     const double *area_m = scene->area_m;
@@ -79,28 +82,28 @@ static bool sees_place(const struct scene *scene, const struct scene_sensor *sen
 bool scene_covers_place(const struct scene *scene, double x_m, double y_m)
 {
     for (size_t i = 0; i < scene->num_sensors; i++) {
-        if (sees_place(scene, &scene->sensors[i], x_m, y_m)) {
+        if (is_place_in_coverage(scene, &scene->sensors[i], x_m, y_m)) {
             return true;
         }
     }
     return false;
 }
 
-/* ---- what happens ---- */
+/* ---- events ---- */
 
-static bool event_happens(const struct scene_event *event, size_t sensor, double t_s)
+static bool is_event_active(const struct scene_event *event, size_t sensor, double t_s)
 {
     return (event->sensors >> sensor & 1) && t_s >= event->from_s && t_s < event->until_s;
 }
 
-/* Neither off nor behind a mask. */
-static bool can_see(const struct scene *scene, size_t sensor, double t_s, double range_m,
-                    double azimuth_rad)
+/* Whether no outage of the sensor and no mask over the place is active. */
+static bool is_free_of_outage_and_mask(const struct scene *scene, size_t sensor, double t_s,
+                                       double range_m, double azimuth_rad)
 {
     for (size_t i = 0; i < scene->num_events; i++) {
         const struct scene_event *event = &scene->events[i];
 
-        if (event_happens(event, sensor, t_s) &&
+        if (is_event_active(event, sensor, t_s) &&
             (event->kind == EVENT_OUTAGE ||
              (event->kind == EVENT_MASK && is_in_coverage(&event->within, range_m, azimuth_rad)))) {
             return false;
@@ -109,8 +112,9 @@ static bool can_see(const struct scene *scene, size_t sensor, double t_s, double
     return true;
 }
 
-/* A scan that a silent outage touches is never there. */
-static bool is_scan_silent(const struct scene *scene, size_t sensor, double start_s, double end_s)
+/* Whether a silent outage overlaps the scan, which then is never sent. */
+static bool is_scan_lost_in_outage(const struct scene *scene, size_t sensor, double start_s,
+                                   double end_s)
 {
     for (size_t i = 0; i < scene->num_events; i++) {
         const struct scene_event *event = &scene->events[i];
@@ -123,17 +127,17 @@ static bool is_scan_silent(const struct scene *scene, size_t sensor, double star
     return false;
 }
 
-/* ---- one sensor at work ---- */
+/* ---- plots of one sensor ---- */
 
-/* The state of a target when the sensor's beam passes it. */
+/* State of a target at the time at which the sensor's beam passes it. */
 struct sighting {
     double t_s;
     struct motion at;
     double range_m, azimuth_rad;
-    uint64_t pass; /* counted for each target */
+    uint64_t pass; /* number of the pass, counted for each target */
     int target_id;
     bool is_seen;
-    size_t group; /* the first of those that are one plot */
+    size_t group; /* index of the first sighting of its group of unresolved targets */
 };
 
 struct fade {
@@ -149,7 +153,7 @@ struct target_fades {
 struct observer {
     const struct scene *scene;
     const struct scene_sensor *sensor;
-    size_t index; /* of the sensor */
+    size_t index; /* index of the sensor in the scene */
     uint64_t seed, run;
     size_t turns;
     double end_s;
@@ -174,7 +178,8 @@ static double pd_at_range(const struct scene_curve *curve, double range_m)
                                      (curve->range_m[i] - curve->range_m[i - 1]);
 }
 
-static void keep_plot(struct observer *observer, struct scene_plot plot)
+/* Stores a plot: assigns its scan, limits range and azimuth, and folds an ambiguous range rate. */
+static void store_plot(struct observer *observer, struct scene_plot plot)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double scans = (plot.t_s - sensor->start_s) / sensor->turn_s * (double)sensor->sectors;
@@ -199,9 +204,13 @@ static double range_rate_of(const struct scene_sensor *sensor, const struct moti
            fmax(RANGE_LEAST_M, range_m);
 }
 
-/* With biases and noise. The same numbers are drawn whatever the sensor measures. */
-static struct scene_plot measure_sighting(const struct scene_sensor *sensor,
-                                          const struct sighting *sighting, struct random *random)
+/*
+ * Makes a plot of a sighting with biases and random noise. Three random numbers are drawn whichever
+ * of range, azimuth, range rate and position the sensor measures.
+ */
+static struct scene_plot noisy_plot_of_sighting(const struct scene_sensor *sensor,
+                                                const struct sighting *sighting,
+                                                struct random *random)
 {
     double first = random_normal(random), second = random_normal(random),
            third = random_normal(random);
@@ -226,9 +235,12 @@ static struct scene_plot measure_sighting(const struct scene_sensor *sensor,
     return plot;
 }
 
-/* ---- things that are seen again and again ---- */
+/* ---- passes of the beam over moving objects ---- */
 
-/* When the antenna next points to it, after after_s. False: it is not there then. */
+/*
+ * Finds the time after after_s at which the antenna points to the object, and its state then.
+ * False: the object does not exist then.
+ */
 static bool find_next_sighting(const struct observer *observer, const struct scene_mover *mover,
                                double after_s, struct sighting *sighting)
 {
@@ -236,10 +248,11 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
     double at_s = after_s;
     bool is_there = mover_seen_at(mover, sensor, at_s, &sighting->at);
 
-    for (int i = 0; sensor->turns && i < MEETING_STEPS; i++) {
+    for (int i = 0; sensor->turns && i < SIGHTING_ITERATIONS; i++) {
         double azimuth_rad =
             portable_atan2(sighting->at.y_m - sensor->y_m, sighting->at.x_m - sensor->x_m);
-        double ahead = turns_until(sensor, azimuth_rad + sensor->azimuth_bias_rad, at_s);
+        double ahead =
+            turn_share_until_azimuth(sensor, azimuth_rad + sensor->azimuth_bias_rad, at_s);
 
         at_s += (i > 0 && ahead > 0.5 ? ahead - 1.0 : ahead) * sensor->turn_s;
         is_there = mover_seen_at(mover, sensor, at_s, &sighting->at);
@@ -252,18 +265,21 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
     return is_there;
 }
 
-/* All passes: called with each at which the sensor could see it. */
-static void observe_mover(struct observer *observer, const struct scene_mover *mover,
-                          void (*take)(struct observer *, const struct scene_mover *,
-                                       struct sighting *, uint64_t item),
-                          uint64_t item)
+/*
+ * Calls `take` with each sighting at which the sensor could detect the object: in coverage, outside
+ * outages and masks.
+ */
+static void for_each_sighting(struct observer *observer, const struct scene_mover *mover,
+                              void (*take)(struct observer *, const struct scene_mover *,
+                                           struct sighting *, uint64_t item),
+                              uint64_t item)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double end_s = fmin(observer->end_s, mover->until_s);
     double first_s = fmax(sensor->start_s, mover->from_s), after_s = first_s;
     uint64_t pass = 0;
 
-    if (!sensor->turns) { /* the first scan that is not before */
+    if (!sensor->turns) { /* the first scan at or after first_s */
         after_s = sensor->start_s +
                   ceil((first_s - sensor->start_s) / sensor->turn_s - 1e-9) * sensor->turn_s;
     }
@@ -273,9 +289,9 @@ static void observe_mover(struct observer *observer, const struct scene_mover *m
 
         if (is_there && sighting.t_s >= sensor->start_s && sighting.t_s < observer->end_s &&
             (sensor->is_cartesian || sighting.range_m > 0.0) &&
-            sees_place(observer->scene, sensor, sighting.at.x_m, sighting.at.y_m) &&
-            can_see(observer->scene, observer->index, sighting.t_s, sighting.range_m,
-                    sighting.azimuth_rad)) {
+            is_place_in_coverage(observer->scene, sensor, sighting.at.x_m, sighting.at.y_m) &&
+            is_free_of_outage_and_mask(observer->scene, observer->index, sighting.t_s,
+                                       sighting.range_m, sighting.azimuth_rad)) {
             take(observer, mover, &sighting, item);
         }
         pass++;
@@ -284,15 +300,16 @@ static void observe_mover(struct observer *observer, const struct scene_mover *m
 
             after_s = sensor->start_s + (double)next * sensor->turn_s;
         } else {
-            after_s = fmax(sighting.t_s, after_s) + AGAIN_TURNS * sensor->turn_s;
+            after_s = fmax(sighting.t_s, after_s) + NEXT_PASS_TURNS * sensor->turn_s;
         }
     }
 }
 
 /* ---- targets ---- */
 
-static struct target_fades draw_fades(const struct scene *scene, const struct scene_path *path,
-                                      uint64_t target, uint64_t seed, uint64_t run)
+static struct target_fades draw_fades_of_target(const struct scene *scene,
+                                                const struct scene_path *path, uint64_t target,
+                                                uint64_t seed, uint64_t run)
 {
     struct target_fades fades = {.count = 0};
 
@@ -334,8 +351,8 @@ static double faded_pd(const struct target_fades *fades, size_t sensor, double t
     return pd;
 }
 
-static void keep_target_sighting(struct observer *observer, const struct scene_mover *mover,
-                                 struct sighting *sighting, uint64_t item)
+static void store_target_sighting(struct observer *observer, const struct scene_mover *mover,
+                                  struct sighting *sighting, uint64_t item)
 {
     (void)mover;
     (void)item;
@@ -359,14 +376,14 @@ static void add_split_plots(struct observer *observer, const struct sighting *si
         const struct scene_event *event = &observer->scene->events[i];
         struct random random;
 
-        if (event->kind != EVENT_SPLIT || !event_happens(event, observer->index, sighting->t_s)) {
+        if (event->kind != EVENT_SPLIT || !is_event_active(event, observer->index, sighting->t_s)) {
             continue;
         }
         random = scene_random_stream(observer->seed, observer->run, STREAM_SPLIT,
                                      i * 64 + observer->index, (uint64_t)sighting->target_id,
                                      sighting->pass);
         if (random_uniform(&random) < event->share) {
-            struct scene_plot second = measure_sighting(sensor, sighting, &random);
+            struct scene_plot second = noisy_plot_of_sighting(sensor, sighting, &random);
 
             second.range_m += sensor->sigma_range_m * random_in_span(&random, event->range_sigmas) +
                               random_in_span(&random, event->range_m);
@@ -375,12 +392,12 @@ static void add_split_plots(struct observer *observer, const struct sighting *si
                 random_in_span(&random, event->azimuth_rad);
             second.x_m += sensor->sigma_m * random_in_span(&random, event->range_sigmas);
             second.y_m += sensor->sigma_m * random_in_span(&random, event->azimuth_sigmas);
-            keep_plot(observer, second);
+            store_plot(observer, second);
         }
     }
 }
 
-/* Images of what was seen, in the walls; they are plots of no target. */
+/* Adds the mirror images of a detected target in the reflectors, as plots of no target. */
 static void add_image_plots(struct observer *observer, const struct sighting *sighting)
 {
     const struct scene_sensor *sensor = observer->sensor;
@@ -394,13 +411,13 @@ static void add_image_plots(struct observer *observer, const struct sighting *si
 
         if (random_uniform(&random) >= wall->probability ||
             !scene_reflector_image(wall, sensor->x_m, sensor->y_m, &sighting->at, &image.at) ||
-            !sees_place(observer->scene, sensor, image.at.x_m, image.at.y_m)) {
+            !is_place_in_coverage(observer->scene, sensor, image.at.x_m, image.at.y_m)) {
             continue;
         }
         image.target_id = -1;
         image.range_m = portable_hypot(image.at.x_m - sensor->x_m, image.at.y_m - sensor->y_m);
         image.azimuth_rad = portable_atan2(image.at.y_m - sensor->y_m, image.at.x_m - sensor->x_m);
-        keep_plot(observer, measure_sighting(sensor, &image, &random));
+        store_plot(observer, noisy_plot_of_sighting(sensor, &image, &random));
     }
 }
 
@@ -428,8 +445,11 @@ static bool are_unresolved(const struct scene_sensor *sensor, const struct sight
            fabs(portable_wrap(one->azimuth_rad - other->azimuth_rad)) < sensor->resolution_rad;
 }
 
-/* Sightings in the order of time: those that are not resolved, one by one, get the same group. */
-static void find_unresolved_groups(struct observer *observer)
+/*
+ * Groups sightings, sorted by time, that the sensor does not resolve: pairwise unresolved ones get
+ * one group number.
+ */
+static void group_unresolved_sightings(struct observer *observer)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double window_s =
@@ -457,8 +477,10 @@ static void find_unresolved_groups(struct observer *observer)
     }
 }
 
-/* The middle of all in the group that begins with this one; seen where one of them is. */
-static struct sighting merged_sighting(const struct observer *observer, size_t first)
+/*
+ * Mean of the sightings in the group that begins with index first; detected where any of them is.
+ */
+static struct sighting merge_sighting_group(const struct observer *observer, size_t first)
 {
     struct sighting middle = observer->sightings[first];
     double dx_m = 0, dy_m = 0, vx_mps = 0, vy_mps = 0, range_m = 0, way_rad = 0, t_s = 0, n = 0;
@@ -502,9 +524,9 @@ static struct sighting merged_sighting(const struct observer *observer, size_t f
 
 /* ---- bodies ---- */
 
-#define TURNING_S 0.01 /* over which a heading's rate is taken */
+#define HEADING_RATE_S 0.01 /* interval over which the turn rate is computed from headings */
 
-static double heading_rad(const struct scene_path *path, double t_s)
+static double path_heading_rad(const struct scene_path *path, double t_s)
 {
     const struct motion at = path_motion_at(path, t_s);
 
@@ -513,13 +535,18 @@ static double heading_rad(const struct scene_path *path, double t_s)
                : path_leg_heading_rad(path_leg_at(path, t_s), t_s);
 }
 
-/* A place on the body, when its centre is looked at: it moves and turns with the body. */
-static struct sighting sighting_on(const struct scene_sensor *sensor, const struct sighting *centre,
-                                   const struct scene_path *path, const double place_m[2])
+/*
+ * Sighting of a point on the body when the beam passes the body's centre: the point moves and turns
+ * with the body.
+ */
+static struct sighting sighting_of_body_point(const struct scene_sensor *sensor,
+                                              const struct sighting *centre,
+                                              const struct scene_path *path,
+                                              const double place_m[2])
 {
-    const double t_s = centre->t_s, turn_rad = heading_rad(path, t_s);
+    const double t_s = centre->t_s, turn_rad = path_heading_rad(path, t_s);
     const double turn_radps =
-        portable_wrap(heading_rad(path, t_s + TURNING_S) - turn_rad) / TURNING_S;
+        portable_wrap(path_heading_rad(path, t_s + HEADING_RATE_S) - turn_rad) / HEADING_RATE_S;
     const double c = portable_cos(turn_rad), s = portable_sin(turn_rad);
     const double x_m = c * place_m[0] - s * place_m[1], y_m = s * place_m[0] + c * place_m[1];
     struct sighting on = *centre;
@@ -533,10 +560,10 @@ static struct sighting sighting_on(const struct scene_sensor *sensor, const stru
     return on;
 }
 
-/* Each scatterer gives a plot of its own, or none; a body's plots have no second ones. */
-static void observe_body(struct observer *observer, const struct scene_body *body,
-                         const struct scene_path *path, const struct sighting *centre,
-                         const struct target_fades *fades)
+/* Adds a plot for each detected scatterer of a body, and its images; no split plots. */
+static void add_body_plots(struct observer *observer, const struct scene_body *body,
+                           const struct scene_path *path, const struct sighting *centre,
+                           const struct target_fades *fades)
 {
     const struct scene_sensor *sensor = observer->sensor;
     const uint64_t target = (uint64_t)centre->target_id;
@@ -548,22 +575,22 @@ static void observe_body(struct observer *observer, const struct scene_body *bod
 
     scene_body_draw(body, body->is_anew ? &look : &stay, places_m);
     for (size_t i = 0; i < body->scatterers; i++) {
-        const struct sighting on = sighting_on(sensor, centre, path, places_m[i]);
+        const struct sighting on = sighting_of_body_point(sensor, centre, path, places_m[i]);
         const double pd = faded_pd(
             fades, observer->index, on.t_s,
             scene_notch_pd(&sensor->notch, range_rate_of(sensor, &on.at, on.range_m), body->seen));
 
         if (random_uniform(&look) < pd &&
-            sees_place(observer->scene, sensor, on.at.x_m, on.at.y_m)) {
-            keep_plot(observer, measure_sighting(sensor, &on, &look));
+            is_place_in_coverage(observer->scene, sensor, on.at.x_m, on.at.y_m)) {
+            store_plot(observer, noisy_plot_of_sighting(sensor, &on, &look));
             add_image_plots(observer, &on);
         }
     }
 }
 
-/* Bodies give their plots; points are left among the sightings. */
-static void observe_bodies(struct observer *observer, const struct scene_run *run,
-                           const struct target_fades *fades)
+/* Adds the plots of extended targets, and removes them from the sightings: point targets remain. */
+static void add_plots_of_all_bodies(struct observer *observer, const struct scene_run *run,
+                                    const struct target_fades *fades)
 {
     size_t points = 0;
 
@@ -573,7 +600,7 @@ static void observe_bodies(struct observer *observer, const struct scene_run *ru
         const struct scene_body *body = &run->scene->targets.items[path->item].body;
 
         if (body->scatterers > 0) {
-            observe_body(observer, body, path, &one, &fades[one.target_id]);
+            add_body_plots(observer, body, path, &one, &fades[one.target_id]);
         } else {
             observer->sightings[points++] = one;
         }
@@ -592,12 +619,12 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
                                           .pd = -1.0,
                                           .target_id = (int)i};
 
-        observe_mover(observer, &mover, keep_target_sighting, 0);
+        for_each_sighting(observer, &mover, store_target_sighting, 0);
     }
     if (observer->num_sightings > 0) {
         qsort(observer->sightings, observer->num_sightings, sizeof *observer->sightings, by_time);
     }
-    observe_bodies(observer, run, fades);
+    add_plots_of_all_bodies(observer, run, fades);
     for (size_t i = 0; i < observer->num_sightings; i++) {
         struct sighting *one = &observer->sightings[i];
         struct random random = pass_random_stream(observer, one);
@@ -608,15 +635,15 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
         one->is_seen = random_uniform(&random) <
                        faded_pd(&fades[one->target_id], observer->index, one->t_s, pd);
     }
-    find_unresolved_groups(observer);
+    group_unresolved_sightings(observer);
     for (size_t i = 0; i < observer->num_sightings; i++) {
         if (observer->sightings[i].group == i) {
-            struct sighting middle = merged_sighting(observer, i);
+            struct sighting middle = merge_sighting_group(observer, i);
             struct random random = pass_random_stream(observer, &observer->sightings[i]);
 
-            random_uniform(&random); /* which decided on its detection */
+            random_uniform(&random); /* skip the number that decided the detection */
             if (middle.is_seen) {
-                keep_plot(observer, measure_sighting(observer->sensor, &middle, &random));
+                store_plot(observer, noisy_plot_of_sighting(observer->sensor, &middle, &random));
                 add_split_plots(observer, &middle);
                 add_image_plots(observer, &middle);
             }
@@ -626,19 +653,20 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
 
 /* ---- clutter ---- */
 
-static void draw_echo_plot(struct observer *observer, const struct scene_mover *mover,
-                           struct sighting *sighting, uint64_t item)
+static void add_plot_of_clutter_mover(struct observer *observer, const struct scene_mover *mover,
+                                      struct sighting *sighting, uint64_t item)
 {
     struct random random =
         scene_random_stream(observer->seed, observer->run, STREAM_CLUTTER,
                             (item >> 32) * 64 + observer->index, item & UINT32_MAX, sighting->pass);
 
     if (random_uniform(&random) < mover->pd) {
-        keep_plot(observer, measure_sighting(observer->sensor, sighting, &random));
+        store_plot(observer, noisy_plot_of_sighting(observer->sensor, sighting, &random));
     }
 }
 
-static void observe_movers(struct observer *observer, const struct scene_run *run, size_t source)
+static void observe_clutter_movers(struct observer *observer, const struct scene_run *run,
+                                   size_t source)
 {
     struct scene_path *paths;
     size_t count, num_paths;
@@ -646,7 +674,8 @@ static void observe_movers(struct observer *observer, const struct scene_run *ru
         draw_clutter_movers(run->scene, source, run->seed, run->run, &count, &paths, &num_paths);
 
     for (size_t i = 0; i < count; i++) {
-        observe_mover(observer, &movers[i], draw_echo_plot, (uint64_t)source << 32 | i);
+        for_each_sighting(observer, &movers[i], add_plot_of_clutter_mover,
+                          (uint64_t)source << 32 | i);
     }
     for (size_t i = 0; i < num_paths; i++) {
         path_free(&paths[i]);
@@ -655,48 +684,54 @@ static void observe_movers(struct observer *observer, const struct scene_run *ru
     free(movers);
 }
 
-/* The plot at a place, when the antenna passes it in this turn. */
-static void keep_clutter(struct observer *observer, size_t turn, double range_m, double azimuth_rad,
-                         double x_m, double y_m, double rate_mps)
+/*
+ * Stores a clutter plot at the time at which the antenna passes it in this turn, unless hidden or
+ * out of coverage.
+ */
+static void store_clutter_plot(struct observer *observer, size_t turn, double range_m,
+                               double azimuth_rad, double x_m, double y_m, double rate_mps)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double turn_s = sensor->start_s + (double)turn * sensor->turn_s, t_s = turn_s;
 
     if (sensor->turns) {
-        t_s += turns_until(sensor, azimuth_rad + sensor->azimuth_bias_rad, sensor->start_s) *
+        t_s += turn_share_until_azimuth(sensor, azimuth_rad + sensor->azimuth_bias_rad,
+                                        sensor->start_s) *
                sensor->turn_s;
     }
-    if (range_m > 0.0 && can_see(observer->scene, observer->index, t_s, range_m, azimuth_rad) &&
+    if (range_m > 0.0 &&
+        is_free_of_outage_and_mask(observer->scene, observer->index, t_s, range_m, azimuth_rad) &&
         (sensor->is_cartesian || is_in_coverage(&sensor->coverage, range_m, azimuth_rad))) {
-        keep_plot(observer,
-                  (struct scene_plot){.t_s = t_s,
-                                      .target_id = -1,
-                                      .range_m = range_m + sensor->range_bias_m,
-                                      .azimuth_rad = azimuth_rad + sensor->azimuth_bias_rad,
-                                      .range_rate_mps = rate_mps,
-                                      .x_m = x_m,
-                                      .y_m = y_m});
+        store_plot(observer,
+                   (struct scene_plot){.t_s = t_s,
+                                       .target_id = -1,
+                                       .range_m = range_m + sensor->range_bias_m,
+                                       .azimuth_rad = azimuth_rad + sensor->azimuth_bias_rad,
+                                       .range_rate_mps = rate_mps,
+                                       .x_m = x_m,
+                                       .y_m = y_m});
     }
 }
 
-static void keep_clutter_at(struct observer *observer, size_t turn, double x_m, double y_m,
-                            double rate_mps)
+static void store_clutter_plot_at_xy(struct observer *observer, size_t turn, double x_m, double y_m,
+                                     double rate_mps)
 {
     double dx_m = x_m - observer->sensor->x_m, dy_m = y_m - observer->sensor->y_m;
 
-    keep_clutter(observer, turn, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m), x_m, y_m,
-                 rate_mps);
+    store_clutter_plot(observer, turn, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m), x_m,
+                       y_m, rate_mps);
 }
 
-static void draw_azimuths(const struct scene_coverage *coverage, double *from_rad, double *to_rad)
+/* Limits of the sector, or of the full circle; *to_rad is above *from_rad. */
+static void azimuth_limits(const struct scene_coverage *coverage, double *from_rad, double *to_rad)
 {
     *from_rad = coverage->has_sector ? coverage->from_rad : -PORTABLE_PI;
     *to_rad = coverage->has_sector ? coverage->to_rad : PORTABLE_PI;
     *to_rad += *to_rad <= *from_rad ? PORTABLE_TURN : 0.0;
 }
 
-static void draw_uniform_clutter(struct observer *observer, const struct scene_clutter *clutter,
-                                 size_t turn, struct random *random)
+static void add_uniform_clutter_plot(struct observer *observer, const struct scene_clutter *clutter,
+                                     size_t turn, struct random *random)
 {
     const struct scene_sensor *sensor = observer->sensor;
     const struct scene_coverage *coverage = &sensor->coverage;
@@ -710,20 +745,22 @@ static void draw_uniform_clutter(struct observer *observer, const struct scene_c
         const double *box_m = clutter->has_box ? clutter->box_m : observer->scene->area_m;
         double x_m = random_between(random, box_m[0], box_m[1]);
 
-        keep_clutter_at(observer, turn, x_m, random_between(random, box_m[2], box_m[3]), rate_mps);
+        store_clutter_plot_at_xy(observer, turn, x_m, random_between(random, box_m[2], box_m[3]),
+                                 rate_mps);
     } else {
         struct json_span range =
             clutter->within.range_m.lo < 0.0 ? coverage->range_m : clutter->within.range_m;
         double from_rad, to_rad, range_m = random_in_span(random, range);
 
-        draw_azimuths(clutter->within.has_sector ? &clutter->within : coverage, &from_rad, &to_rad);
-        keep_clutter(observer, turn, range_m, random_between(random, from_rad, to_rad), 0, 0,
-                     rate_mps);
+        azimuth_limits(clutter->within.has_sector ? &clutter->within : coverage, &from_rad,
+                       &to_rad);
+        store_clutter_plot(observer, turn, range_m, random_between(random, from_rad, to_rad), 0, 0,
+                           rate_mps);
     }
 }
 
-static void draw_clutter_cell(struct observer *observer, const struct scene_clutter *clutter,
-                              size_t turn, struct random *random)
+static void add_clutter_cell_plot(struct observer *observer, const struct scene_clutter *clutter,
+                                  size_t turn, struct random *random)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double t_s = sensor->start_s + ((double)turn + (sensor->turns ? 0.5 : 0.0)) * sensor->turn_s;
@@ -744,11 +781,11 @@ static void draw_clutter_cell(struct observer *observer, const struct scene_clut
     at = (struct motion){
         .x_m = x_m, .y_m = y_m, .vx_mps = clutter->vx_mps, .vy_mps = clutter->vy_mps};
     rate_mps += range_rate_of(sensor, &at, portable_hypot(x_m - sensor->x_m, y_m - sensor->y_m));
-    keep_clutter_at(observer, turn, x_m, y_m, rate_mps);
+    store_clutter_plot_at_xy(observer, turn, x_m, y_m, rate_mps);
 }
 
-static void draw_strobe_clutter(struct observer *observer, const struct scene_clutter *clutter,
-                                size_t turn, struct random *random)
+static void add_strobe_plot(struct observer *observer, const struct scene_clutter *clutter,
+                            size_t turn, struct random *random)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double t_s = sensor->start_s + (double)turn * sensor->turn_s;
@@ -761,17 +798,18 @@ static void draw_strobe_clutter(struct observer *observer, const struct scene_cl
         random_between(random, -observer->scene->v_max_mps, observer->scene->v_max_mps);
 
     azimuth_rad = portable_wrap(azimuth_rad);
-    keep_clutter(observer, turn, range_m, azimuth_rad,
-                 sensor->x_m + range_m * portable_cos(azimuth_rad),
-                 sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
+    store_clutter_plot(observer, turn, range_m, azimuth_rad,
+                       sensor->x_m + range_m * portable_cos(azimuth_rad),
+                       sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
 }
 
 /*
- * Even in the ball (without heights, the disc) about the target that fills the beam's width there.
+ * Adds clutter plots uniform in a ball (without heights: a disc) about the target, as wide as the
+ * beam there.
  */
-static void draw_clutter_about_target(struct observer *observer,
-                                      const struct scene_clutter *clutter, size_t turn,
-                                      const struct scene_path *path, struct random *random)
+static void add_clutter_about_target(struct observer *observer, const struct scene_clutter *clutter,
+                                     size_t turn, const struct scene_path *path,
+                                     struct random *random)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double t_s = sensor->start_s + ((double)turn + (sensor->turns ? 0.5 : 0.0)) * sensor->turn_s;
@@ -780,7 +818,7 @@ static void draw_clutter_about_target(struct observer *observer,
     double radius_m = portable_hypot(ground_m, at.z_m) * portable_sin(0.5 * clutter->width_rad);
     double x, y, z;
 
-    if (!sees_place(observer->scene, sensor, at.x_m, at.y_m)) {
+    if (!is_place_in_coverage(observer->scene, sensor, at.x_m, at.y_m)) {
         return;
     }
     for (uint64_t i = 0; i < clutter->count; i++) {
@@ -791,8 +829,8 @@ static void draw_clutter_about_target(struct observer *observer,
             y = random_between(random, -1.0, 1.0);
             z = observer->scene->has_heights ? random_between(random, -1.0, 1.0) : 0.0;
         } while (x * x + y * y + z * z > 1.0);
-        keep_clutter_at(observer, turn, at.x_m + radius_m * x, at.y_m + radius_m * y,
-                        range_rate_of(sensor, &at, ground_m));
+        store_clutter_plot_at_xy(observer, turn, at.x_m + radius_m * x, at.y_m + radius_m * y,
+                                 range_rate_of(sensor, &at, ground_m));
         if (observer->num_plots > before) {
             struct scene_plot *plot = &observer->plots[before];
 
@@ -819,7 +857,7 @@ static void observe_clutter_about_targets(struct observer *observer, const struc
                                     source * 64 + observer->index, turn, i);
 
             if (t_s >= run->paths[i].from_s && t_s < run->paths[i].until_s) {
-                draw_clutter_about_target(observer, clutter, turn, &run->paths[i], &random);
+                add_clutter_about_target(observer, clutter, turn, &run->paths[i], &random);
             }
         }
     }
@@ -833,8 +871,8 @@ static double mean_clutter_plots(const struct scene *scene, const struct scene_c
            clutter->plots_per_km2 * (box_m[1] - box_m[0]) * (box_m[3] - box_m[2]) * 1e-6;
 }
 
-/* Values drawn anew each scan. */
-static void observe_clutter(struct observer *observer, size_t source)
+/* Adds the plots of uniform, cell and strobe clutter, which are drawn anew each scan. */
+static void observe_scan_clutter(struct observer *observer, size_t source)
 {
     const struct scene_clutter *clutter = &observer->scene->clutter[source];
     double mean = mean_clutter_plots(observer->scene, clutter);
@@ -850,11 +888,11 @@ static void observe_clutter(struct observer *observer, size_t source)
         }
         for (uint64_t i = 0; i < count; i++) {
             if (clutter->kind == CLUTTER_UNIFORM) {
-                draw_uniform_clutter(observer, clutter, turn, &random);
+                add_uniform_clutter_plot(observer, clutter, turn, &random);
             } else if (clutter->kind == CLUTTER_CELL) {
-                draw_clutter_cell(observer, clutter, turn, &random);
+                add_clutter_cell_plot(observer, clutter, turn, &random);
             } else {
-                draw_strobe_clutter(observer, clutter, turn, &random);
+                add_strobe_plot(observer, clutter, turn, &random);
             }
         }
     }
@@ -870,7 +908,7 @@ static void observe_false_bearings(struct observer *observer)
         uint64_t count = random_poisson(&random, sensor->false_bearings);
 
         for (uint64_t i = 0; i < count; i++) {
-            keep_clutter(
+            store_clutter_plot(
                 observer, turn, 0.5 * (sensor->coverage.range_m.lo + sensor->coverage.range_m.hi),
                 random_between(&random, sensor->false_from_rad, sensor->false_to_rad), 0, 0, 0);
         }
@@ -879,7 +917,7 @@ static void observe_false_bearings(struct observer *observer)
 
 /* ---- all sensors ---- */
 
-static int by_scan(const void *a, const void *b)
+static int by_scan_and_time(const void *a, const void *b)
 {
     const struct scene_plot *one = a, *other = b;
     const double pairs[][2] = {
@@ -898,15 +936,18 @@ static int by_scan(const void *a, const void *b)
     return 0;
 }
 
-/* Where sector `index` of a turn begins, as the sensor says it: the same number every turn. */
+/*
+ * Azimuth at which sector `index` of a turn begins; wrapped, so that it is the same number in every
+ * turn.
+ */
 static double sector_border_rad(const struct scene_sensor *sensor, size_t index)
 {
     double share = (double)(index % sensor->sectors) / (double)sensor->sectors;
 
-    return portable_wrap(sensor->start_rad + turn_direction(sensor) * PORTABLE_TURN * share);
+    return portable_wrap(sensor->start_rad + antenna_turn_sign(sensor) * PORTABLE_TURN * share);
 }
 
-static struct scene_scan scan_of(const struct observer *observer, size_t number)
+static struct scene_scan make_scan(const struct observer *observer, size_t number)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double scan_s = sensor->turn_s / (double)sensor->sectors;
@@ -928,14 +969,19 @@ static struct scene_scan scan_of(const struct observer *observer, size_t number)
     return scan;
 }
 
-static void keep_scans(struct scene_run *run, const struct observer *observer, size_t *room)
+/*
+ * Makes the sensor's scans of its sorted plots, draws late arrivals, and stores scans that no
+ * outage silences.
+ */
+static void store_scans_of_sensor(struct scene_run *run, const struct observer *observer,
+                                  size_t *room)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double scan_s = sensor->turns ? sensor->turn_s / (double)sensor->sectors : 0.0;
     size_t taken = 0;
 
     for (size_t i = 0; i < observer->turns * sensor->sectors; i++) {
-        struct scene_scan scan = scan_of(observer, i);
+        struct scene_scan scan = make_scan(observer, i);
         struct random random = scene_random_stream(observer->seed, observer->run, STREAM_ARRIVAL,
                                                    observer->index, i, 0);
 
@@ -948,7 +994,7 @@ static void keep_scans(struct scene_run *run, const struct observer *observer, s
         if (random_uniform(&random) < sensor->late_share) {
             scan.received_s += sensor->late_s;
         }
-        if (!is_scan_silent(run->scene, observer->index, scan.end_s - scan_s, scan.end_s)) {
+        if (!is_scan_lost_in_outage(run->scene, observer->index, scan.end_s - scan_s, scan.end_s)) {
             run->scans = must_grow(run->scans, run->num_scans, room, sizeof *run->scans);
             run->scans[run->num_scans++] = scan;
         }
@@ -968,8 +1014,8 @@ static int by_arrival(const void *a, const void *b)
     return (one->number > other->number) - (one->number < other->number);
 }
 
-static void observe_everything(struct observer *observer, const struct scene_run *run,
-                               const struct target_fades *fades)
+static void observe_with_sensor(struct observer *observer, const struct scene_run *run,
+                                const struct target_fades *fades)
 {
     observe_targets(observer, run, fades);
     for (size_t i = 0; !observer->sensor->is_passive && i < run->scene->num_clutter; i++) {
@@ -979,18 +1025,18 @@ static void observe_everything(struct observer *observer, const struct scene_run
             continue;
         }
         if (kind == CLUTTER_UNIFORM || kind == CLUTTER_CELL || kind == CLUTTER_STROBE) {
-            observe_clutter(observer, i);
+            observe_scan_clutter(observer, i);
         } else if (kind == CLUTTER_ABOUT_TARGETS) {
             observe_clutter_about_targets(observer, run, i);
         } else {
-            observe_movers(observer, run, i);
+            observe_clutter_movers(observer, run, i);
         }
     }
     if (observer->sensor->is_passive) {
         observe_false_bearings(observer);
     }
     if (observer->num_plots > 0) {
-        qsort(observer->plots, observer->num_plots, sizeof *observer->plots, by_scan);
+        qsort(observer->plots, observer->num_plots, sizeof *observer->plots, by_scan_and_time);
     }
 }
 
@@ -1007,7 +1053,7 @@ struct scene_run *scene_observe(const struct scene *scene, uint64_t seed, uint64
                               &run->num_paths);
     fades = must_calloc(run->num_paths + 1, sizeof *fades);
     for (size_t i = 0; i < run->num_paths; i++) {
-        fades[i] = draw_fades(scene, &run->paths[i], i, seed, run_number);
+        fades[i] = draw_fades_of_target(scene, &run->paths[i], i, seed, run_number);
     }
     for (size_t i = 0; i < scene->num_sensors; i++) {
         struct scene_sensor sensor = scene->sensors[i];
@@ -1017,11 +1063,11 @@ struct scene_run *scene_observe(const struct scene *scene, uint64_t seed, uint64
 
         sensor.start_s = random_in_span(&random, sensor.starts_s);
         sensor.start_rad = random_in_span(&random, sensor.starts_rad);
-        observer.turns = num_turns(scene, &sensor);
+        observer.turns = count_turns(scene, &sensor);
         observer.end_s = sensor.start_s + (double)observer.turns * sensor.turn_s;
         if (observer.turns > 0) {
-            observe_everything(&observer, run, fades);
-            keep_scans(run, &observer, &room);
+            observe_with_sensor(&observer, run, fades);
+            store_scans_of_sensor(run, &observer, &room);
         }
         run->plots[i] = observer.plots;
         free(observer.sightings);

@@ -11,12 +11,14 @@
 
 /* ---- motion ---- */
 
-static bool has_fixed_acceleration(const struct path_leg *leg)
+static bool has_xy_acceleration(const struct path_leg *leg)
 {
     return fabs(leg->accel_mps2[0]) + fabs(leg->accel_mps2[1]) > 0.0;
 }
 
-static void pulled_velocity(const struct path_leg *leg, double dt_s, double *vx_mps, double *vy_mps)
+/* Velocity after dt_s on a leg with constant acceleration in x and y. */
+static void xy_accelerated_velocity(const struct path_leg *leg, double dt_s, double *vx_mps,
+                                    double *vy_mps)
 {
     *vx_mps = leg->speed_mps * portable_cos(leg->heading_rad) + leg->accel_mps2[0] * dt_s;
     *vy_mps = leg->speed_mps * portable_sin(leg->heading_rad) + leg->accel_mps2[1] * dt_s;
@@ -26,18 +28,18 @@ double path_leg_speed_mps(const struct path_leg *leg, double t_s)
 {
     double vx_mps, vy_mps;
 
-    pulled_velocity(leg, t_s - leg->t_s, &vx_mps, &vy_mps);
-    return has_fixed_acceleration(leg) ? portable_hypot(vx_mps, vy_mps)
-                                       : leg->speed_mps + leg->along_mps2 * (t_s - leg->t_s);
+    xy_accelerated_velocity(leg, t_s - leg->t_s, &vx_mps, &vy_mps);
+    return has_xy_acceleration(leg) ? portable_hypot(vx_mps, vy_mps)
+                                    : leg->speed_mps + leg->along_mps2 * (t_s - leg->t_s);
 }
 
 double path_leg_heading_rad(const struct path_leg *leg, double t_s)
 {
     double vx_mps, vy_mps;
 
-    pulled_velocity(leg, t_s - leg->t_s, &vx_mps, &vy_mps);
-    return has_fixed_acceleration(leg) ? portable_atan2(vy_mps, vx_mps)
-                                       : leg->heading_rad + leg->turn_radps * (t_s - leg->t_s);
+    xy_accelerated_velocity(leg, t_s - leg->t_s, &vx_mps, &vy_mps);
+    return has_xy_acceleration(leg) ? portable_atan2(vy_mps, vx_mps)
+                                    : leg->heading_rad + leg->turn_radps * (t_s - leg->t_s);
 }
 
 static struct motion leg_motion_at(const struct path_leg *leg, double t_s)
@@ -53,8 +55,8 @@ static struct motion leg_motion_at(const struct path_leg *leg, double t_s)
                         .z_m = leg->z_m + (leg->vz_mps + 0.5 * accel_mps2[2] * dt_s) * dt_s,
                         .vz_mps = leg->vz_mps + accel_mps2[2] * dt_s};
 
-    if (has_fixed_acceleration(leg)) {
-        pulled_velocity(leg, dt_s, &at.vx_mps, &at.vy_mps);
+    if (has_xy_acceleration(leg)) {
+        xy_accelerated_velocity(leg, dt_s, &at.vx_mps, &at.vy_mps);
         at.x_m += (at.vx_mps - 0.5 * accel_mps2[0] * dt_s) * dt_s;
         at.y_m += (at.vy_mps - 0.5 * accel_mps2[1] * dt_s) * dt_s;
     } else if (fabs(turn) < STRAIGHT_RADPS) {
@@ -88,8 +90,11 @@ const struct path_leg *path_leg_at(const struct scene_path *path, double t_s)
     return &path->legs[first];
 }
 
-/* A random acceleration, another one every shake_s, has led it so far off its legs. */
-static void add_shake(const struct scene_path *path, double t_s, struct motion *at)
+/*
+ * Adds the deviation from the legs that random accelerations, redrawn every shake_s, have caused by
+ * t_s.
+ */
+static void add_random_deviation(const struct scene_path *path, double t_s, struct motion *at)
 {
     double steps = fmax(0.0, floor((t_s - path->from_s) / path->shake_s));
     size_t last = path->num_shakes - 1, i = steps < (double)last ? (size_t)steps : last;
@@ -110,7 +115,7 @@ struct motion path_motion_at(const struct scene_path *path, double t_s)
     struct motion at = leg_motion_at(path_leg_at(path, t_s), t_s);
 
     if (path->num_shakes > 0) {
-        add_shake(path, t_s, &at);
+        add_random_deviation(path, t_s, &at);
     }
     return at;
 }

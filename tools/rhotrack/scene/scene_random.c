@@ -4,7 +4,7 @@
 struct random scene_random_stream(uint64_t seed, uint64_t run, enum stream_kind kind,
                                   uint64_t source, uint64_t item, uint64_t part)
 {
-    /* the C scenarios have small numbers where the kind stands */
+    /* kind is in the high bits: scenarios written in C use small numbers as this argument */
     struct random first = random_start(seed, ((uint64_t)kind << 48) + source, run);
 
     return random_start(random_bits(&first), item, part);

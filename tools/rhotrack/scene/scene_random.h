@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_random: a generator of random numbers of its own for each thing in a scene: one target's
- * path, what one radar sees of it in one turn, one source of clutter in one turn. What is drawn for
- * one thing does not depend on what else there is.
+ * scene_random: random numbers of simulated scenes: a separate stream for each target's path, each
+ * pass of a sensor over a target, each clutter source in each turn. The numbers of one stream do
+ * not depend on what else is in the scene.
  */
 #ifndef RHOTRACK_TOOL_SCENE_RANDOM_H
 #define RHOTRACK_TOOL_SCENE_RANDOM_H
@@ -11,25 +11,31 @@
 #include "scene/scene_json.h"
 
 enum stream_kind {
-    STREAM_PATH = 1, /* targets of which source, element of targets[], which of its paths */
-    STREAM_TARGET,   /* sensor, target, which pass of the antenna */
-    STREAM_SPLIT,    /* event and sensor, target, pass */
-    STREAM_MERGED,   /* sensor, first target, scan */
-    STREAM_FADES,    /* event, target */
-    STREAM_WORLD,    /* source of clutter: its places */
-    STREAM_CLUTTER,  /* source and sensor, scan, or thing and pass */
-    STREAM_BEARINGS, /* sensor, scan */
-    STREAM_ARRIVAL,  /* sensor, scan */
-    STREAM_START,    /* sensor: when it begins, and where its antenna points then */
-    STREAM_IMAGE,    /* reflector and sensor, target, pass */
-    STREAM_BODY,     /* target: where its scatterers stay */
-    STREAM_LOOK      /* sensor, target, pass: of the scatterers of a body */
+    /*
+     * random paths; arguments: source of targets (0: the scene's own), element of targets[], path
+     * within it
+     */
+    STREAM_PATH = 1,
+    /* detection and noise of a target; arguments: sensor, target, pass of the antenna */
+    STREAM_TARGET,
+    STREAM_SPLIT,  /* split plots; arguments: event and sensor, target, pass */
+    STREAM_MERGED, /* unused; keeps the numbers of the streams below */
+    STREAM_FADES,  /* times of fades; arguments: event, target */
+    STREAM_WORLD,  /* positions of persistent clutter; arguments: clutter source, object */
+    /* clutter plots; arguments: clutter source and sensor, then scan, or object and pass */
+    STREAM_CLUTTER,
+    STREAM_BEARINGS, /* false bearings; arguments: sensor, scan */
+    STREAM_ARRIVAL,  /* late arrival of scans; arguments: sensor, scan */
+    STREAM_START,    /* start time of a sensor, and its antenna's azimuth then; argument: sensor */
+    STREAM_IMAGE,    /* mirror images; arguments: reflector and sensor, target, pass */
+    STREAM_BODY,     /* fixed scatterer positions of a body; argument: target */
+    STREAM_LOOK      /* scatterers of a body at one look; arguments: sensor, target, pass */
 };
 
 struct random scene_random_stream(uint64_t seed, uint64_t run, enum stream_kind kind,
                                   uint64_t source, uint64_t item, uint64_t part);
 
-/* lo <= u < hi, or lo where they are the same. */
+/* A uniform random number, lo <= u < hi; lo where both are equal. */
 double random_in_span(struct random *random, struct json_span span);
 
 #endif

@@ -16,7 +16,7 @@
 #define DURATION_MAX_S 1e6
 #define PLOTS_MAX 1e5
 
-/* ---- parts that several things have ---- */
+/* ---- keys common to several objects ---- */
 
 static struct scene_coverage read_coverage(struct json_object *object,
                                            struct scene_coverage otherwise)
@@ -42,7 +42,7 @@ static void read_xy(struct json_object *object, const char *key, double max, dou
     *y = numbers[1];
 }
 
-static void read_times(struct json_object *object, double *from_s, double *until_s)
+static void read_from_and_until(struct json_object *object, double *from_s, double *until_s)
 {
     *from_s = json_read_number(object, "from_s", -DURATION_MAX_S, DURATION_MAX_S, -INFINITY);
     *until_s = json_read_number(object, "until_s", -DURATION_MAX_S, DURATION_MAX_S, INFINITY);
@@ -51,8 +51,8 @@ static void read_times(struct json_object *object, double *from_s, double *until
     }
 }
 
-/* "sensors": [1, 3]: a bit for each; all of them where it is not said. */
-static uint32_t read_sensors(struct json_object *object, const struct scene *scene)
+/* Reads "sensors": [1, 3] as a bit mask of sensor indices; all bits where the key is missing. */
+static uint32_t read_sensor_mask(struct json_object *object, const struct scene *scene)
 {
     struct json_list list = json_read_list(object, "sensors", 2 * SCENE_SENSORS_MAX);
     uint32_t sensors = 0;
@@ -72,8 +72,9 @@ static uint32_t read_sensors(struct json_object *object, const struct scene *sce
     return list.item ? sensors : UINT32_MAX;
 }
 
-/* A probability, or [[range, probability], ...] with growing ranges. */
-static struct scene_curve read_curve(struct json_object *object, const char *key, double otherwise)
+/* Reads a probability: a number, or a list [[range, probability], ...] with ascending ranges. */
+static struct scene_curve read_pd_curve(struct json_object *object, const char *key,
+                                        double otherwise)
 {
     struct scene_curve curve = {.count = 1, .value = {otherwise}};
 
@@ -105,8 +106,8 @@ static struct scene_curve read_curve(struct json_object *object, const char *key
 
 /* ---- sensors ---- */
 
-/* By default a tracker is told the truth about a sensor, but for its biases. */
-static void read_stated_values(struct json_object *object, struct scene_sensor *sensor)
+/* Reads "told", what a tracker is told about a sensor; by default the truth, except biases. */
+static void read_told_values(struct json_object *object, struct scene_sensor *sensor)
 {
     struct scene_stated *told = &sensor->told;
     struct json_object below;
@@ -150,8 +151,8 @@ static void read_stated_values(struct json_object *object, struct scene_sensor *
     json_refuse_unknown_keys(&below);
 }
 
-/* How the antenna goes round; or, with interval_s, looks everywhere at once. */
-static void read_antenna(struct json_object *object, struct scene_sensor *sensor)
+/* Reads how the antenna rotates (turn_s), or that it sees everything at once every interval_s. */
+static void read_antenna_motion(struct json_object *object, struct scene_sensor *sensor)
 {
     json_exclude_keys(object, "turn_s", "interval_s");
     sensor->turns = json_has_key(object, "turn_s");
@@ -232,7 +233,7 @@ static void read_passive_sensor(struct json_object *object, struct scene_sensor 
     }
 }
 
-static void read_sensor(struct scene *scene, struct json_object *object, bool is_passive)
+static void append_sensor(struct scene *scene, struct json_object *object, bool is_passive)
 {
     struct scene_sensor *sensor = &scene->sensors[scene->num_sensors];
     const struct scene_coverage everywhere = {.range_m = {0, is_passive ? RANGE_MAX_M : 100e3}};
@@ -246,7 +247,7 @@ static void read_sensor(struct scene *scene, struct json_object *object, bool is
         }
     }
     read_xy(object, "at_m", PLACE_MAX_M, &sensor->x_m, &sensor->y_m);
-    read_antenna(object, sensor);
+    read_antenna_motion(object, sensor);
     if (is_passive) {
         read_passive_sensor(object, sensor);
     } else {
@@ -257,8 +258,8 @@ static void read_sensor(struct scene *scene, struct json_object *object, bool is
     } else {
         sensor->coverage = (struct scene_coverage){.range_m = {0, 4 * RANGE_MAX_M}};
     }
-    sensor->pd = read_curve(object, "pd", 0.9);
-    read_stated_values(object, sensor);
+    sensor->pd = read_pd_curve(object, "pd", 0.9);
+    read_told_values(object, sensor);
     json_refuse_unknown_keys(object);
     if (!is_passive && scene->num_sensors > 0 &&
         scene->sensors[0].is_cartesian != sensor->is_cartesian) {
@@ -278,13 +279,13 @@ static void read_all_sensors(struct scene *scene, struct json_object *root)
     for (size_t i = 0; i < radars.count; i++) {
         struct json_object one = json_element(&radars, i);
 
-        read_sensor(scene, &one, false);
+        append_sensor(scene, &one, false);
     }
     scene->num_radars = scene->num_sensors;
     for (size_t i = 0; i < passive.count; i++) {
         struct json_object one = json_element(&passive, i);
 
-        read_sensor(scene, &one, true);
+        append_sensor(scene, &one, true);
     }
 }
 
@@ -353,7 +354,7 @@ static void read_standing_clutter(struct json_object *object, struct scene_clutt
     }
 }
 
-static void read_spikes(struct json_object *object, struct scene_clutter *clutter)
+static void read_sea_spikes(struct json_object *object, struct scene_clutter *clutter)
 {
     json_require_key(object, "born_per_s");
     json_require_key(object, "life_s");
@@ -391,7 +392,7 @@ static void read_flock(struct json_object *object, struct scene_clutter *clutter
     clutter->pd = json_read_number(object, "pd", 0, 1, 1);
 }
 
-static void read_second_time(struct json_object *object, struct scene_clutter *clutter)
+static void read_second_time_echoes(struct json_object *object, struct scene_clutter *clutter)
 {
     json_require_key(object, "unambiguous_range_m");
     clutter->unambiguous_m = json_read_number(object, "unambiguous_range_m", 1, RANGE_MAX_M, 0);
@@ -407,7 +408,10 @@ static void read_clutter_about_targets(struct json_object *object, struct scene_
     clutter->width_rad = json_read_number(object, "width_rad", 0, PORTABLE_PI, 0);
 }
 
-/* Where it is even, in the area it is told; and what a radar measures of it. */
+/*
+ * Checks that uniformly distributed clutter has an area, and that clutter drawn anew each scan is
+ * not seen by a radar that measures velocities, which it does not have.
+ */
 static void check_clutter(const struct scene *scene, const struct json_object *object,
                           const struct scene_clutter *clutter)
 {
@@ -429,22 +433,28 @@ static void check_clutter(const struct scene *scene, const struct json_object *o
     }
 }
 
-static void read_clutter(struct scene *scene, struct json_object *object)
+static void append_clutter(struct scene *scene, struct json_object *object)
 {
     static const char *const kinds[CLUTTER_KINDS] = {
         "uniform", "cell",  "standing",           "spikes",
         "strobe",  "flock", "second-time-around", "about-targets"};
     static void (*const readers[CLUTTER_KINDS])(struct json_object *, struct scene_clutter *) = {
-        read_uniform_clutter, read_clutter_cell, read_standing_clutter, read_spikes,
-        read_strobe,          read_flock,        read_second_time,      read_clutter_about_targets};
+        read_uniform_clutter,
+        read_clutter_cell,
+        read_standing_clutter,
+        read_sea_spikes,
+        read_strobe,
+        read_flock,
+        read_second_time_echoes,
+        read_clutter_about_targets};
     struct scene_clutter *clutter = &scene->clutter[scene->num_clutter];
 
     json_require_key(object, "kind");
     json_read_text(object, "text", NULL);
     clutter->kind = (enum clutter_kind)json_read_choice(object, "kind", kinds, CLUTTER_KINDS, 0);
-    clutter->sensors = read_sensors(object, scene);
+    clutter->sensors = read_sensor_mask(object, scene);
     clutter->within = anywhere;
-    read_times(object, &clutter->from_s, &clutter->until_s);
+    read_from_and_until(object, &clutter->from_s, &clutter->until_s);
     readers[clutter->kind](object, clutter);
     check_clutter(scene, object, clutter);
     json_refuse_unknown_keys(object);
@@ -498,7 +508,7 @@ static void read_split(struct json_object *object, struct scene_event *event)
     event->azimuth_rad = json_read_span(object, "azimuth_rad", -1, 1, none);
 }
 
-static void read_event(struct scene *scene, struct json_object *object)
+static void append_event(struct scene *scene, struct json_object *object)
 {
     static const char *const kinds[EVENT_KINDS] = {"outage", "fades", "mask", "split"};
     static void (*const readers[EVENT_KINDS])(struct json_object *, struct scene_event *) = {
@@ -508,16 +518,16 @@ static void read_event(struct scene *scene, struct json_object *object)
     json_require_key(object, "kind");
     json_read_text(object, "text", NULL);
     event->kind = (enum event_kind)json_read_choice(object, "kind", kinds, EVENT_KINDS, 0);
-    event->sensors = read_sensors(object, scene);
-    read_times(object, &event->from_s, &event->until_s);
+    event->sensors = read_sensor_mask(object, scene);
+    read_from_and_until(object, &event->from_s, &event->until_s);
     readers[event->kind](object, event);
     json_refuse_unknown_keys(object);
     scene->num_events++;
 }
 
-/* ---- what trackers are told, and what only the lab reads ---- */
+/* ---- tracker settings, and keys that only the lab reads ---- */
 
-/* Parameters by their names, as `rhotrack config` has them. */
+/* Reads "settings": tracker parameters by the names that `rhotrack config` lists. */
 static void read_settings(struct scene *scene, struct json_object *root)
 {
     struct json_object settings;
@@ -558,7 +568,9 @@ static void read_settings(struct scene *scene, struct json_object *root)
     }
 }
 
-/* The lab's bars and its oracle's: checked here, so that mistakes show. */
+/*
+ * Checks the keys "goal" and "oracle", which only the lab uses, so that mistakes in them are found.
+ */
 static void check_lab_keys(struct json_object *root)
 {
     static const char *const figures[] = {"completeness", "false_per_scan", "switches", "rms_m",
@@ -583,7 +595,7 @@ static void check_lab_keys(struct json_object *root)
     }
 }
 
-/* ---- the whole ---- */
+/* ---- the whole scene ---- */
 
 static void read_area(struct scene *scene, struct json_object *root)
 {
@@ -647,14 +659,14 @@ struct scene *scene_read(const char *name, char *text, size_t length, const char
     for (size_t i = 0; i < list.count; i++) {
         struct json_object one = json_element(&list, i);
 
-        read_clutter(scene, &one);
+        append_clutter(scene, &one);
     }
     scene->reflectors = scene_reflectors_read(&root);
     list = json_read_list(&root, "events", SCENE_ITEMS_MAX);
     for (size_t i = 0; i < list.count; i++) {
         struct json_object one = json_element(&list, i);
 
-        read_event(scene, &one);
+        append_event(scene, &one);
     }
     if (json_has_key(&root, "platforms") && json_read_list(&root, "platforms", 1000).count > 0) {
         json_fail_key(&root, "platforms", "sensors that move are not simulated yet");

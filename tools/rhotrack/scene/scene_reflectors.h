@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_reflectors: walls of a scene that show a target a second time, as far behind the wall as it
- * is before it.
+ * scene_reflectors: walls of a simulated scene that reflect: a sensor sees a mirror image of a
+ * target behind the wall.
  */
 #ifndef RHOTRACK_TOOL_SCENE_REFLECTORS_H
 #define RHOTRACK_TOOL_SCENE_REFLECTORS_H
@@ -15,8 +15,8 @@
 
 struct scene_reflector {
     double from_m[2], to_m[2];
-    double probability; /* that a plot of a target has an image */
-    bool is_told;       /* to the tracker */
+    double probability; /* probability that a plot of a target has an image */
+    bool is_told;       /* the wall is written to the tracker's settings */
 };
 
 struct scene_reflectors {
@@ -24,14 +24,17 @@ struct scene_reflectors {
     struct scene_reflector items[SCENE_REFLECTORS_MAX];
 };
 
-/* The list "reflectors" of a scene. */
+/* Reads the list "reflectors" of a scene file. */
 struct scene_reflectors scene_reflectors_read(struct json_object *root);
 
-/* The image that a sensor at a place sees of a target; false where the wall shows none. */
+/*
+ * Mirror image of a target's motion that a sensor sees; false where the sensor sees none: target
+ * and sensor are on different sides, or the path misses the wall.
+ */
 bool scene_reflector_image(const struct scene_reflector *reflector, double sensor_x_m,
                            double sensor_y_m, const struct motion *at, struct motion *image);
 
-/* The line of an INI file; none where none is told. */
+/* Writes the line "reflectors" of an INI file; nothing where no wall is told to the tracker. */
 void scene_reflectors_write_settings(const struct scene_reflectors *reflectors, FILE *file);
 
 #endif

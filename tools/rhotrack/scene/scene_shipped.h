@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_shipped: the files of tools/scenes, compiled into the program (the Makefile writes the
- * table from them).
+ * scene_shipped: table of the scene files of tools/scenes, compiled into the program by the
+ * Makefile.
  */
 #ifndef RHOTRACK_TOOL_SCENE_SHIPPED_H
 #define RHOTRACK_TOOL_SCENE_SHIPPED_H
@@ -10,7 +10,7 @@ struct shipped_scene {
     const char *name, *text;
 };
 
-/* By name; the last one's name is NULL. */
+/* The shipped scenes, sorted by name; the last entry's name is NULL. */
 extern const struct shipped_scene shipped_scenes[];
 
 #endif

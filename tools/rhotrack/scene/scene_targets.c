@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Targets of a scene: read from its file, and the paths of a run drawn of them. */
+/* scene_targets: reads the targets of a scene file, and draws the paths of a run. */
 #include <cjson/cJSON.h>
 #include <math.h>
 #include <stdlib.h>
@@ -16,11 +16,13 @@
 #define ITEMS_MAX 1000
 #define GROUP_MAX 10000
 #define DRAFTS_MAX 10000
-#define KEEP_STEP_S 1.0    /* between places that are looked at */
-#define TURN_BACK_SHARE .6 /* of the farthest range that is kept: from there on turns lead back */
+#define KEEP_STEP_S 1.0 /* interval at which a path is checked against its limits */
+/* share of the largest allowed range beyond which random turns lead back to the centre */
+#define TURN_BACK_SHARE .6
 
-/* Until the speed is another; returns when. */
-static double change_speed(struct scene_path *path, double t_s, double to_mps, double along_mps2)
+/* Adds legs that change the speed to to_mps at along_mps2 from t_s on; returns the end time. */
+static double add_speed_change_legs(struct scene_path *path, double t_s, double to_mps,
+                                    double along_mps2)
 {
     double change_mps = to_mps - path_speed_mps(path, t_s), for_s = fabs(change_mps) / along_mps2;
 
@@ -35,12 +37,13 @@ static double change_speed(struct scene_path *path, double t_s, double to_mps, d
 /* ---- described paths ---- */
 
 /*
- * A turn at so many m/s^2 while the speed changes: in parts, each of which turns as its middle
- * speed has it.
+ * Duration of the parts of a turn with constant lateral acceleration and changing speed: each part
+ * turns at the rate of its middle speed.
  */
 #define PART_S 1.0
 
-static double add_step_legs(struct scene_path *path, double t_s, const struct path_step *step)
+/* Adds the legs of one described step from t_s on; returns its end time. */
+static double add_legs_of_step(struct scene_path *path, double t_s, const struct path_step *step)
 {
     double speed_mps = path_speed_mps(path, t_s), turn_radps = step->turn_radps,
            for_s = step->for_s;
@@ -60,7 +63,7 @@ static double add_step_legs(struct scene_path *path, double t_s, const struct pa
         for_s = fabs(turn_radps) > 0.0 ? fabs(step->turn_rad / turn_radps) : 0.0;
     }
     if (along_mps2 < 0.0 && for_s > speed_mps / -along_mps2) {
-        for_s = speed_mps / -along_mps2; /* it stands then */
+        for_s = speed_mps / -along_mps2; /* the target has stopped by then */
     }
     if (fabs(step->across_mps2) > 0.0 && fabs(along_mps2) > 0.0) {
         size_t parts = (size_t)ceil(for_s / PART_S);
@@ -85,12 +88,12 @@ static double add_step_legs(struct scene_path *path, double t_s, const struct pa
     return t_s + for_s;
 }
 
-static void add_steps_legs(struct scene_path *path, const struct target_item *item)
+static void add_legs_of_all_steps(struct scene_path *path, const struct target_item *item)
 {
     double t_s = path->from_s;
 
     for (size_t i = 0; i < item->num_steps; i++) {
-        t_s = add_step_legs(path, t_s, &item->steps[i]);
+        t_s = add_legs_of_step(path, t_s, &item->steps[i]);
     }
 }
 
@@ -109,8 +112,8 @@ static void add_legs_through_points(struct scene_path *path, const struct target
     }
 }
 
-static void draw_shakes(struct scene_path *path, const struct target_item *item, double duration_s,
-                        struct random *random)
+static void draw_random_deviations(struct scene_path *path, const struct target_item *item,
+                                   double duration_s, struct random *random)
 {
     double last_s = fmin(path->until_s, duration_s), t_s = item->shake_s;
 
@@ -130,8 +133,8 @@ static void draw_shakes(struct scene_path *path, const struct target_item *item,
     }
 }
 
-static struct scene_path described_path(const struct target_item *item, size_t index,
-                                        const struct scene_path *parent)
+static struct scene_path path_from_description(const struct target_item *item, size_t index,
+                                               const struct scene_path *parent)
 {
     struct scene_path path = {.from_s = item->from_s, .until_s = item->until_s, .item = index};
 
@@ -154,14 +157,14 @@ static struct scene_path described_path(const struct target_item *item, size_t i
         path.legs[0].z_m = item->z_m;
         path.legs[0].vz_mps = item->vz_mps;
     }
-    add_steps_legs(&path, item);
+    add_legs_of_all_steps(&path, item);
     return path;
 }
 
 /* ---- random paths ---- */
 
-static void draw_start(const struct target_item *item, struct scene_path *path,
-                       struct random *random)
+static void draw_first_leg(const struct target_item *item, struct scene_path *path,
+                           struct random *random)
 {
     double x_m, y_m, heading_rad, speed_mps = random_in_span(random, item->speed);
 
@@ -169,7 +172,7 @@ static void draw_start(const struct target_item *item, struct scene_path *path,
         x_m = random_between(random, item->box_m[0], item->box_m[1]);
         y_m = random_between(random, item->box_m[2], item->box_m[3]);
     } else {
-        double lo = item->range.lo, hi = item->range.hi; /* even over the area */
+        double lo = item->range.lo, hi = item->range.hi; /* uniform over the area */
         double range_m = sqrt(random_between(random, lo * lo, hi * hi));
         double azimuth_rad = random_in_span(random, item->azimuth);
 
@@ -186,7 +189,7 @@ static void draw_start(const struct target_item *item, struct scene_path *path,
     path_begin_first_leg(path, x_m, y_m, speed_mps, portable_wrap(heading_rad));
 }
 
-/* To which side a turn goes: far out back to the centre, else to either. */
+/* Sign of a random turn: back to the centre where the target is far out, else either side. */
 static double draw_turn_side(const struct target_item *item, const struct scene_path *path,
                              double t_s, struct random *random)
 {
@@ -200,8 +203,8 @@ static double draw_turn_side(const struct target_item *item, const struct scene_
     return side;
 }
 
-static double draw_turn_legs(const struct target_item *item, struct scene_path *path, double t_s,
-                             struct random *random)
+static double add_random_turn_legs(const struct target_item *item, struct scene_path *path,
+                                   double t_s, struct random *random)
 {
     double across_mps2 = random_in_span(random, item->turn_across),
            speed_mps = path_speed_mps(path, t_s);
@@ -218,19 +221,23 @@ static double draw_turn_legs(const struct target_item *item, struct scene_path *
     return t_s + for_s;
 }
 
-static double draw_stop_legs(const struct target_item *item, struct scene_path *path, double t_s,
-                             struct random *random)
+static double add_random_stop_legs(const struct target_item *item, struct scene_path *path,
+                                   double t_s, struct random *random)
 {
     double speed_mps = path_speed_mps(path, t_s),
            along_mps2 = random_in_span(random, item->stop_along);
 
-    t_s = change_speed(path, t_s, 0.0, along_mps2) + random_in_span(random, item->stop_for);
-    return change_speed(path, t_s, speed_mps, along_mps2);
+    t_s =
+        add_speed_change_legs(path, t_s, 0.0, along_mps2) + random_in_span(random, item->stop_for);
+    return add_speed_change_legs(path, t_s, speed_mps, along_mps2);
 }
 
-/* Manoeuvres one after the other, each kind so long after the last one of its kind. */
-static void draw_manoeuvres(const struct target_item *item, struct scene_path *path, double end_s,
-                            struct random *random)
+/*
+ * Adds random manoeuvres one after the other until end_s; each kind comes a random interval after
+ * the end of its last one.
+ */
+static void add_random_manoeuvres(const struct target_item *item, struct scene_path *path,
+                                  double end_s, struct random *random)
 {
     double t_s = path->from_s;
     double turn_s = item->has_turns ? t_s + random_in_span(random, item->turn_every) : INFINITY;
@@ -246,27 +253,28 @@ static void draw_manoeuvres(const struct target_item *item, struct scene_path *p
             return;
         }
         if (turn_s <= next_s) {
-            t_s = draw_turn_legs(item, path, t_s, random);
+            t_s = add_random_turn_legs(item, path, t_s, random);
             turn_s = t_s + random_in_span(random, item->turn_every);
         } else if (change_s <= next_s) {
             double to_mps = random_in_span(random, item->change_speed);
 
-            t_s = change_speed(path, t_s, to_mps, random_in_span(random, item->change_along));
+            t_s = add_speed_change_legs(path, t_s, to_mps,
+                                        random_in_span(random, item->change_along));
             change_s = t_s + random_in_span(random, item->change_every);
         } else {
-            t_s = draw_stop_legs(item, path, t_s, random);
+            t_s = add_random_stop_legs(item, path, t_s, random);
             stop_s = t_s + random_in_span(random, item->stop_every);
         }
     }
 }
 
-static bool is_in_span(double number, double lo, double hi)
+static bool is_between(double number, double lo, double hi)
 {
     return number >= lo && number <= hi;
 }
 
-/* In how many of the rings a place is. */
-static size_t count_rings_at(const struct target_item *item, const struct motion *at)
+/* Number of the item's rings (keep_discs_m) that contain the place. */
+static size_t count_rings_containing(const struct target_item *item, const struct motion *at)
 {
     size_t count = 0;
 
@@ -274,22 +282,22 @@ static size_t count_rings_at(const struct target_item *item, const struct motion
         const double *disc_m = item->keep_discs_m[i];
         double range_m = portable_hypot(at->x_m - disc_m[0], at->y_m - disc_m[1]);
 
-        count += is_in_span(range_m, disc_m[2], disc_m[3]);
+        count += is_between(range_m, disc_m[2], disc_m[3]);
     }
     return count;
 }
 
-static bool keeps_limits_at(const struct target_item *item, const struct motion *at)
+static bool is_within_keep_limits(const struct target_item *item, const struct motion *at)
 {
     const double *box_m = item->keep_box_m;
     double range_m = portable_hypot(at->x_m - item->about_x_m, at->y_m - item->about_y_m);
 
-    return (!item->has_keep || is_in_span(range_m, item->keep.lo, item->keep.hi)) &&
+    return (!item->has_keep || is_between(range_m, item->keep.lo, item->keep.hi)) &&
            (!item->has_keep_box ||
-            (is_in_span(at->x_m, box_m[0], box_m[1]) && is_in_span(at->y_m, box_m[2], box_m[3])));
+            (is_between(at->x_m, box_m[0], box_m[1]) && is_between(at->y_m, box_m[2], box_m[3])));
 }
 
-/* Never nearer than spacing_m to those that are there already. */
+/* Whether the place is at least spacing_m from all other targets at the time. */
 static bool is_far_from_others(const struct target_item *item, const struct motion *at, double t_s,
                                const struct scene_paths *others)
 {
@@ -307,8 +315,8 @@ static bool is_far_from_others(const struct target_item *item, const struct moti
     return true;
 }
 
-static bool keeps_limits(const struct target_item *item, const struct scene_path *path,
-                         double end_s, const struct scene_paths *others)
+static bool path_keeps_limits(const struct target_item *item, const struct scene_path *path,
+                              double end_s, const struct scene_paths *others)
 {
     double first_s = fmax(0.0, path->from_s);
     bool is_kept =
@@ -319,9 +327,9 @@ static bool keeps_limits(const struct target_item *item, const struct scene_path
     for (size_t i = 0; i < count; i++) {
         double t_s = first_s + (double)i * KEEP_STEP_S;
         struct motion at = path_motion_at(path, t_s);
-        size_t discs = count_rings_at(item, &at);
+        size_t discs = count_rings_containing(item, &at);
 
-        if (!keeps_limits_at(item, &at) || (item->num_keep_discs > 0 && discs == 0) ||
+        if (!is_within_keep_limits(item, &at) || (item->num_keep_discs > 0 && discs == 0) ||
             !is_far_from_others(item, &at, t_s, others)) {
             return false;
         }
@@ -330,7 +338,7 @@ static bool keeps_limits(const struct target_item *item, const struct scene_path
     return (double)in_all >= item->keep_all_share * (double)count;
 }
 
-static const char *limit_names(const struct target_item *item)
+static const char *name_of_limit(const struct target_item *item)
 {
     return item->spacing_m > 0.0      ? "its place, spacing_m from others"
            : item->num_keep_discs > 0 ? "keep_discs_m"
@@ -338,18 +346,18 @@ static const char *limit_names(const struct target_item *item)
                                       : "keep_range_m";
 }
 
-static struct scene_path random_path(const struct target_draft *draft, double from_s,
-                                     double until_s, const struct scene_paths *others,
-                                     struct random *random)
+static struct scene_path draw_path_within_limits(const struct target_draft *draft, double from_s,
+                                                 double until_s, const struct scene_paths *others,
+                                                 struct random *random)
 {
     double end_s = fmin(until_s, draft->duration_s);
 
     for (int i = 0; i < DRAFTS_MAX; i++) {
         struct scene_path path = {.from_s = from_s, .until_s = until_s, .item = draft->index};
 
-        draw_start(draft->item, &path, random);
-        draw_manoeuvres(draft->item, &path, end_s, random);
-        if (keeps_limits(draft->item, &path, end_s, others)) {
+        draw_first_leg(draft->item, &path, random);
+        add_random_manoeuvres(draft->item, &path, end_s, random);
+        if (path_keeps_limits(draft->item, &path, end_s, others)) {
             return path;
         }
         path_free(&path);
@@ -357,14 +365,17 @@ static struct scene_path random_path(const struct target_draft *draft, double fr
     fail(EXIT_USAGE,
          "%s: targets[%zu]: none of %d random paths keeps within %s; take a shorter life_s, "
          "less speed, or turns, which lead back",
-         draft->file, draft->index, DRAFTS_MAX, limit_names(draft->item));
+         draft->file, draft->index, DRAFTS_MAX, name_of_limit(draft->item));
 }
 
 /* ---- all paths ---- */
 
-/* Where one ends, after a pause, the next one begins. The first one is somewhere in its life. */
-static void draw_successive_paths(struct scene_paths *paths, const struct target_draft *draft,
-                                  struct random *random)
+/*
+ * Draws the paths of one member of a group: a single one, or with is_replaced one after the other
+ * with pauses, the first beginning somewhere in its life.
+ */
+static void draw_paths_of_member(struct scene_paths *paths, const struct target_draft *draft,
+                                 struct random *random)
 {
     const struct target_item *item = draft->item;
     double life_s = item->has_life ? random_in_span(random, item->life) : INFINITY;
@@ -377,7 +388,7 @@ static void draw_successive_paths(struct scene_paths *paths, const struct target
         double until_s = from_s + life_s;
 
         if (until_s > 0.0) {
-            paths_add(paths, random_path(draft, from_s, until_s, paths, random));
+            paths_add(paths, draw_path_within_limits(draft, from_s, until_s, paths, random));
         }
         from_s = until_s;
         if (!item->is_replaced) {
@@ -410,18 +421,18 @@ struct scene_path *targets_draw(const struct scene_targets *targets, const char 
         } else if (item->count == 0) {
             const struct scene_path *parent =
                 item->has_parent ? &paths.paths[first[item->parent]] : NULL;
-            struct scene_path path = described_path(item, i, parent);
+            struct scene_path path = path_from_description(item, i, parent);
             struct random random = scene_random_stream(seed, run, STREAM_PATH, source, i, 0);
 
             if (item->shake_s > 0.0) {
-                draw_shakes(&path, item, duration_s, &random);
+                draw_random_deviations(&path, item, duration_s, &random);
             }
             paths_add(&paths, path);
         }
         for (size_t k = 0; k < item->count; k++) {
             struct random random = scene_random_stream(seed, run, STREAM_PATH, source, i, k);
 
-            draw_successive_paths(&paths, &draft, &random);
+            draw_paths_of_member(&paths, &draft, &random);
         }
         if (paths.count > 100000) {
             fail(EXIT_USAGE, "%s: targets: more than 100000 of them", file);
@@ -434,9 +445,9 @@ struct scene_path *targets_draw(const struct scene_targets *targets, const char 
 
 /* ---- reading ---- */
 
-/* x, y and, where there is a third number, z. */
-static bool read_vector(struct json_object *object, const char *key, double max, double vector[3],
-                        bool *has_height)
+/* Reads a list of two or three numbers as x, y and z; three set *has_height. */
+static bool read_xy_or_xyz(struct json_object *object, const char *key, double max,
+                           double vector[3], bool *has_height)
 {
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(object->item, key);
     size_t count = cJSON_GetArraySize(item) == 3 ? 3 : 2;
@@ -445,7 +456,7 @@ static bool read_vector(struct json_object *object, const char *key, double max,
     return json_read_numbers(object, key, count, -max, max, vector);
 }
 
-static void read_place(struct json_object *object, const char *key, double *x_m, double *y_m)
+static void read_xy(struct json_object *object, const char *key, double *x_m, double *y_m)
 {
     double place_m[2] = {*x_m, *y_m};
 
@@ -454,7 +465,7 @@ static void read_place(struct json_object *object, const char *key, double *x_m,
     *y_m = place_m[1];
 }
 
-static struct path_step read_step(struct json_object object, bool *has_height)
+static struct path_step read_leg(struct json_object object, bool *has_height)
 {
     static const char *const others[] = {"along_mps2", "across_mps2", "turn_degps", "turn_deg",
                                          "to_speed_mps"};
@@ -467,7 +478,7 @@ static struct path_step read_step(struct json_object object, bool *has_height)
     step.turn_rad = json_read_number(&object, "turn_deg", -36000, 36000, 0) * PORTABLE_PI / 180.0;
     step.has_speed = json_has_key(&object, "to_speed_mps");
     step.to_speed_mps = json_read_number(&object, "to_speed_mps", 0, SPEED_MAX_MPS, 0);
-    if (read_vector(&object, "accel_mps2", ACCEL_MAX_MPS2, step.accel_mps2, has_height)) {
+    if (read_xy_or_xyz(&object, "accel_mps2", ACCEL_MAX_MPS2, step.accel_mps2, has_height)) {
         for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
             json_exclude_keys(&object, "accel_mps2", others[i]);
         }
@@ -489,14 +500,14 @@ static struct path_step read_step(struct json_object object, bool *has_height)
     return step;
 }
 
-static void read_steps(struct json_object *object, struct target_item *item)
+static void read_legs(struct json_object *object, struct target_item *item)
 {
     struct json_list list = json_read_list(object, "legs", LEGS_MAX);
 
     item->num_steps = list.count;
     item->steps = must_calloc(list.count + 1, sizeof *item->steps);
     for (size_t i = 0; i < list.count; i++) {
-        item->steps[i] = read_step(json_element(&list, i), &item->has_height);
+        item->steps[i] = read_leg(json_element(&list, i), &item->has_height);
     }
 }
 
@@ -508,7 +519,7 @@ static void read_velocity(struct json_object *object, struct target_item *item)
     json_exclude_keys(object, "velocity_mps", "heading_rad");
     item->speed_mps = json_read_number(object, "speed_mps", 0, SPEED_MAX_MPS, 0);
     item->heading_rad = json_read_number(object, "heading_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
-    if (read_vector(object, "velocity_mps", SPEED_MAX_MPS, velocity_mps, &item->has_height)) {
+    if (read_xy_or_xyz(object, "velocity_mps", SPEED_MAX_MPS, velocity_mps, &item->has_height)) {
         item->vz_mps = velocity_mps[2];
         item->speed_mps = portable_hypot(velocity_mps[0], velocity_mps[1]);
         item->heading_rad = portable_atan2(velocity_mps[1], velocity_mps[0]);
@@ -597,13 +608,13 @@ static void read_path(struct json_object *object, struct target_item *item,
         read_parent(object, item, before);
     } else {
         json_require_key(object, "at_m");
-        read_vector(object, "at_m", PLACE_MAX_M, place_m, &item->has_height);
+        read_xy_or_xyz(object, "at_m", PLACE_MAX_M, place_m, &item->has_height);
         item->x_m = place_m[0];
         item->y_m = place_m[1];
         item->z_m = place_m[2];
         read_velocity(object, item);
     }
-    read_steps(object, item);
+    read_legs(object, item);
 }
 
 static void read_turns(struct json_object *object, struct target_item *item)
@@ -627,7 +638,7 @@ static void read_turns(struct json_object *object, struct target_item *item)
     }
 }
 
-static void read_changes(struct json_object *object, struct target_item *item)
+static void read_speed_changes(struct json_object *object, struct target_item *item)
 {
     struct json_object changes;
 
@@ -661,7 +672,7 @@ static void read_stops(struct json_object *object, struct target_item *item)
     }
 }
 
-static void read_lives(struct json_object *object, struct target_item *item)
+static void read_life_times(struct json_object *object, struct target_item *item)
 {
     item->from = json_read_span(object, "from_s", -1e6, 1e6, (struct json_span){0, 0});
     item->has_life = json_has_key(object, "life_s");
@@ -686,7 +697,7 @@ static void read_box(struct json_object *object, struct target_item *item)
     }
 }
 
-static void read_discs(struct json_object *object, struct target_item *item)
+static void read_keep_discs(struct json_object *object, struct target_item *item)
 {
     struct json_list list = json_read_list(object, "keep_discs_m", KEEP_DISCS_MAX);
 
@@ -710,8 +721,8 @@ static void read_group(struct json_object *object, struct target_item *item)
     static const struct json_span all_round = {-PORTABLE_PI, PORTABLE_PI};
 
     item->count = json_read_count(object, "count", 1, GROUP_MAX, 0);
-    read_lives(object, item);
-    read_place(object, "about_m", &item->about_x_m, &item->about_y_m);
+    read_life_times(object, item);
+    read_xy(object, "about_m", &item->about_x_m, &item->about_y_m);
     read_box(object, item);
     item->range = json_read_span(object, "range_m", 0, PLACE_MAX_M, (struct json_span){0});
     item->azimuth = json_read_span(object, "azimuth_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);
@@ -730,10 +741,10 @@ static void read_group(struct json_object *object, struct target_item *item)
     item->keep = json_read_span(object, "keep_range_m", 0, PLACE_MAX_M, (struct json_span){0});
     item->has_keep_box =
         json_read_numbers(object, "keep_box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->keep_box_m);
-    read_discs(object, item);
+    read_keep_discs(object, item);
     item->spacing_m = json_read_number(object, "spacing_m", 0, PLACE_MAX_M, 0);
     read_turns(object, item);
-    read_changes(object, item);
+    read_speed_changes(object, item);
     read_stops(object, item);
 }
 

@@ -8,7 +8,7 @@
 
 /* ---- plots and bearings ---- */
 
-static bool measures_range_rate(const struct scene *scene)
+static bool any_radar_measures_range_rate(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->num_radars; i++) {
         if (scene->sensors[i].has_range_rate) {
@@ -18,7 +18,7 @@ static bool measures_range_rate(const struct scene *scene)
     return false;
 }
 
-static bool measures_velocity(const struct scene *scene)
+static bool any_radar_measures_velocity(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->num_radars; i++) {
         if (scene->sensors[i].sigma_mps > 0.0) {
@@ -28,7 +28,10 @@ static bool measures_velocity(const struct scene *scene)
     return false;
 }
 
-static bool arrives_late(const struct scene *scene)
+/*
+ * Whether files need the column received_s: some scans arrive late, or a sensor's clock is biased.
+ */
+static bool needs_arrival_column(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->num_sensors; i++) {
         if (scene->sensors[i].late_share > 0.0 || scene->sensors[i].time_bias_s < 0.0 ||
@@ -39,11 +42,11 @@ static bool arrives_late(const struct scene *scene)
     return false;
 }
 
-/* The last cells of all rows of a scan, but for the target. */
+/* Writes the cells scan and received_s, which all rows of a scan share. */
 static void write_scan_cells(const struct scene_run *run, const struct scene_scan *scan, FILE *file)
 {
     fprintf(file, ",%zu", scan->number + 1);
-    if (arrives_late(run->scene)) {
+    if (needs_arrival_column(run->scene)) {
         fprintf(file, ",%.6f", scan->received_s);
     }
 }
@@ -56,7 +59,7 @@ static void write_target_cell(int target_id, FILE *file)
 static void write_polar_scan(const struct scene_run *run, const struct scene_scan *scan, FILE *file)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[scan->sensor];
-    const char *no_rate = measures_range_rate(run->scene) ? "," : "";
+    const char *no_rate = any_radar_measures_range_rate(run->scene) ? "," : "";
     char place[160];
 
     snprintf(place, sizeof place, ",%.3f,%.3f,%.7f,%.7f", sensor->told.x_m, sensor->told.y_m,
@@ -84,7 +87,8 @@ static void write_cartesian_scan(const struct scene_run *run, const struct scene
                                  FILE *file)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[scan->sensor];
-    bool has_height = run->scene->has_heights, has_velocity = measures_velocity(run->scene);
+    bool has_height = run->scene->has_heights,
+         has_velocity = any_radar_measures_velocity(run->scene);
 
     fprintf(file, "%.6f,%d,,%s,%s", scan->end_s, sensor->sensor_id, has_height ? "," : "",
             !has_velocity ? ""
@@ -121,18 +125,18 @@ static void write_plots(const struct scene_run *run, const char *folder)
     struct output output = output_open(path);
     char cartesian[64];
     const char *columns = scene->sensors[0].is_cartesian ? cartesian
-                          : measures_range_rate(scene)
+                          : any_radar_measures_range_rate(scene)
                               ? "range_m,azimuth_rad,range_rate_mps,sensor_x_m,"
                                 "sensor_y_m,sector_from_rad,sector_to_rad"
                               : "range_m,azimuth_rad,sensor_x_m,sensor_y_m,"
                                 "sector_from_rad,sector_to_rad";
 
     snprintf(cartesian, sizeof cartesian, "x_m,y_m%s,sigma_m%s", scene->has_heights ? ",z_m" : "",
-             !measures_velocity(scene) ? ""
-             : scene->has_heights      ? ",vx_mps,vy_mps,vz_mps,sigma_mps"
-                                       : ",vx_mps,vy_mps,sigma_mps");
+             !any_radar_measures_velocity(scene) ? ""
+             : scene->has_heights                ? ",vx_mps,vy_mps,vz_mps,sigma_mps"
+                                                 : ",vx_mps,vy_mps,sigma_mps");
     fprintf(output.file, "t_s,sensor_id,%s,scan%s,target_id\n", columns,
-            arrives_late(scene) ? ",received_s" : "");
+            needs_arrival_column(scene) ? ",received_s" : "");
     for (size_t i = 0; i < run->num_scans; i++) {
         const struct scene_scan *scan = &run->scans[i];
 
@@ -149,7 +153,7 @@ static void write_plots(const struct scene_run *run, const char *folder)
     free(path);
 }
 
-/* A look that saw nothing has a row without a bearing. */
+/* Writes the bearings of a scan; an empty scan is a row without a bearing. */
 static void write_bearing_scan(const struct scene_run *run, const struct scene_scan *scan,
                                FILE *file)
 {
@@ -177,7 +181,7 @@ static void write_bearings(const struct scene_run *run, const char *folder)
     struct output output = output_open(path);
 
     fprintf(output.file, "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,scan%s,target_id\n",
-            arrives_late(run->scene) ? ",received_s" : "");
+            needs_arrival_column(run->scene) ? ",received_s" : "");
     for (size_t i = 0; i < run->num_scans; i++) {
         if (run->scans[i].sensor >= run->scene->num_radars) {
             write_bearing_scan(run, &run->scans[i], output.file);
@@ -189,15 +193,18 @@ static void write_bearings(const struct scene_run *run, const char *folder)
 
 /* ---- truth ---- */
 
-static int by_number(const void *a, const void *b)
+static int by_int64(const void *a, const void *b)
 {
     const int64_t *one = a, *other = b;
 
     return (*one > *other) - (*one < *other);
 }
 
-/* The scans' ends in whole microseconds, each once, in new memory. */
-static int64_t *scan_times(const struct scene_run *run, size_t *count)
+/*
+ * Lists the end times of all scans in whole microseconds, sorted and without repetition, in new
+ * memory.
+ */
+static int64_t *list_scan_end_times(const struct scene_run *run, size_t *count)
 {
     int64_t *times_us = must_calloc(run->num_scans + 1, sizeof *times_us);
 
@@ -205,7 +212,7 @@ static int64_t *scan_times(const struct scene_run *run, size_t *count)
     for (size_t i = 0; i < run->num_scans; i++) {
         times_us[i] = llround(run->scans[i].end_s * 1e6);
     }
-    qsort(times_us, run->num_scans, sizeof *times_us, by_number);
+    qsort(times_us, run->num_scans, sizeof *times_us, by_int64);
     for (size_t i = 0; i < run->num_scans; i++) {
         if (*count == 0 || times_us[i] > times_us[*count - 1]) {
             times_us[(*count)++] = times_us[i];
@@ -224,13 +231,13 @@ static bool scene_has_bodies(const struct scene *scene)
     return false;
 }
 
-/* truth.csv has the targets that a sensor could see; paths.csv all of them. */
+/* Writes truth.csv with the targets in the coverage of a sensor, and paths.csv with all targets. */
 static void write_truth(const struct scene_run *run, const char *folder)
 {
     char *path = path_join(folder, "truth.csv"), *all_path = path_join(folder, "paths.csv");
     struct output truth = output_open(path), all = output_open(all_path);
     size_t num_times;
-    int64_t *times_us = scan_times(run, &num_times);
+    int64_t *times_us = list_scan_end_times(run, &num_times);
 
     const bool has_bodies = scene_has_bodies(run->scene);
     const char *columns = run->scene->has_heights ? "t_s,target_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps"
@@ -276,7 +283,7 @@ static void write_truth(const struct scene_run *run, const char *folder)
     free(all_path);
 }
 
-/* ---- what a tracker is told ---- */
+/* ---- settings for the tracker ---- */
 
 static void write_sensor_settings(const struct scene_sensor *sensor, FILE *file)
 {

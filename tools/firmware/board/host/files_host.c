@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* files_host: files.h by C's own library, for any machine that has one. */
+/* files_host: files.h implemented with the C library, for any hosted machine. */
 #include <stdio.h>
 
 #include "../files.h"

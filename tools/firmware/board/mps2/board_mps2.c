@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* board_mps2: the radar node's board (board.h) on an MPS2 with its own Ethernet. */
+/* board_mps2: the radar node's board functions (board.h) on an MPS2 board with Ethernet. */
 #include <string.h>
 
 #include "../board.h"
@@ -7,23 +7,24 @@
 #include "lan9118.h"
 #include "mps2.h"
 
-#define SYSTICK_RUN 7u /* on, with interrupts, at the processor's clock */
+#define SYSTICK_RUN 7u /* SysTick enabled, with interrupts, at the processor's clock */
 #define TICKS_PER_MS (MPS2_CLOCK_HZ / 1000u)
 #define TICKS_PER_US (MPS2_CLOCK_HZ / 1000000u)
 #define JOIN_INTERVAL_US 60000000
-#define FOREIGN_MAX 16    /* frames of others that are read at a time */
-#define SEND_TRIES 100000 /* some 10 ms: what the chip holds is on the line then */
+#define REJECTED_MAX 16   /* most frames read in one call that are no datagrams for the node */
+#define SEND_TRIES 100000 /* some 10 ms, in which the chip sends everything that it holds */
 #define UART_SENDS 1u
 #define UART_FULL 1u
 
-/* Where there are several nodes on a network, each needs its own. */
+/* The node's IPv4 address; each node on a network needs its own. */
 #ifndef BOARD_ADDRESS
 #define BOARD_ADDRESS 10, 9, 0, 100
 #endif
 static const struct udp_frame_host host = {.mac = {0x02, 0x52, 0x48, 0x4f, 0x00, 0x01},
                                            .address = {BOARD_ADDRESS}};
 
-static volatile uint32_t ticks_ms; /* since the start; wraps */
+/* milliseconds since the start, counted by the SysTick interrupt; wraps */
+static volatile uint32_t ticks_ms;
 static uint32_t last_ms;
 static int64_t time_ms;
 static int64_t join_due_us;
@@ -42,13 +43,16 @@ int64_t board_time_us(void)
     static int64_t newest_us;
     uint32_t now_ms, value;
     int64_t now_us;
-    do { /* both of the same millisecond */
+    do { /* read both in the same millisecond */
         now_ms = ticks_ms;
         value = SYSTICK_VALUE;
     } while (now_ms != ticks_ms);
     time_ms += (uint32_t)(now_ms - last_ms);
     last_ms = now_ms;
-    /* at 0 the new millisecond has been counted already; its interrupt may also come late */
+    /*
+     * at value 0 the new millisecond is already counted; its interrupt may also come late: time
+     * never goes back
+     */
     now_us = time_ms * 1000 + (value > 0 ? (TICKS_PER_MS - value) / TICKS_PER_US : 0);
     if (now_us > newest_us) {
         newest_us = now_us;
@@ -58,7 +62,10 @@ int64_t board_time_us(void)
 
 /* ---- Network ---- */
 
-/* The chip goes on asking until its frames are read: so the line is off until the next wait. */
+/*
+ * Interrupt of the chip: disabled until the next board_wait, as it stays active until the frames
+ * are read.
+ */
 void mps2_ethernet(void)
 {
     NVIC_DISABLE = 1u << MPS2_ETHERNET_IRQ;
@@ -74,8 +81,11 @@ int board_open(void)
     return lan9118_open(host.mac);
 }
 
-/* Switches forget the members of a multicast group that do not report again. */
-static void report_group_membership(void)
+/*
+ * Sends an IGMP report once a minute: switches drop members of a multicast group that do not
+ * report.
+ */
+static void send_group_report_if_due(void)
 {
     static uint8_t frame[UDP_FRAME_JOIN];
     int64_t now_us = board_time_us();
@@ -91,8 +101,8 @@ size_t board_receive(uint8_t *buffer, size_t capacity, uint32_t *source_ipv4)
     static uint8_t frame[UDP_FRAME_MAX];
     const uint8_t *payload;
     size_t size, length;
-    report_group_membership();
-    for (int i = 0; i < FOREIGN_MAX && (size = lan9118_receive(frame, sizeof frame)) > 0; i++) {
+    send_group_report_if_due();
+    for (int i = 0; i < REJECTED_MAX && (size = lan9118_receive(frame, sizeof frame)) > 0; i++) {
         length = udp_frame_open(frame, size, &payload);
         if (length > 0 && length <= capacity) {
             memcpy(buffer, payload, length);
@@ -126,13 +136,14 @@ void board_wait(int64_t until_us)
     if (board_time_us() < until_us) {
         NVIC_UNPEND = 1u << MPS2_ETHERNET_IRQ;
         NVIC_ENABLE = 1u << MPS2_ETHERNET_IRQ;
-        __asm__ volatile("wfi" ::: "memory"); /* a millisecond at most: the clock's own interrupt */
+        /* sleeps a millisecond at most: SysTick interrupts it */
+        __asm__ volatile("wfi" ::: "memory");
     }
 }
 
-/* ---- Words ---- */
+/* ---- Console ---- */
 
-static void put_character(char character)
+static void print_character(char character)
 {
     while (UART0_STATE & UART_FULL) {
     }
@@ -142,15 +153,15 @@ static void put_character(char character)
 void board_say(const char *text)
 {
     while (*text) {
-        put_character(*text++);
+        print_character(*text++);
     }
-    put_character('\r');
-    put_character('\n');
+    print_character('\r');
+    print_character('\n');
 }
 
 /* ---- Start and end ---- */
 
-/* The board has no such memory. */
+/* The board has no non-volatile memory to count starts in. */
 int32_t board_boot(void)
 {
     return 0;
@@ -171,6 +182,6 @@ void mps2_fault(unsigned exception)
     text[6] = (char)('0' + exception / 10 % 10);
     text[7] = (char)('0' + exception % 10);
     board_say(text);
-    for (;;) { /* a product's watchdog starts it again */
+    for (;;) { /* stop here; in a product the watchdog restarts the node */
     }
 }

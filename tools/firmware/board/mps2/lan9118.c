@@ -26,9 +26,10 @@
 #define HW_RESET 1u
 #define HW_TX_FIFO_5K (5u << 16 | 1u << 20)
 #define TX_ON 2u
-#define TX_WHOLE_FRAME (1u << 13 | 1u << 12) /* first and last of its pieces */
+/* the buffer is the first and last segment of a frame */
+#define TX_WHOLE_FRAME (1u << 13 | 1u << 12)
 #define RX_DAMAGED (1u << 15)
-#define IRQ_LINE_ON (1u << 8 | 1u << 4 | 1u) /* active high, pushed */
+#define IRQ_LINE_ON (1u << 8 | 1u << 4 | 1u) /* interrupt line enabled, active high, push-pull */
 #define IRQ_RX_LEVEL (1u << 3)
 #define MAC_BUSY (1u << 31)
 #define MAC_CONTROL 1u
@@ -37,7 +38,7 @@
 #define MAC_RX_TX_MULTICAST (1u << 2 | 1u << 3 | 1u << 19)
 #define TRIES 100000
 
-static int wait_while(volatile uint32_t *chip_register, uint32_t bits)
+static int wait_for_bits_clear(volatile uint32_t *chip_register, uint32_t bits)
 {
     for (int i = 0; i < TRIES; i++) {
         if ((*chip_register & bits) == 0) {
@@ -47,11 +48,11 @@ static int wait_while(volatile uint32_t *chip_register, uint32_t bits)
     return 0;
 }
 
-static int set_mac(uint32_t mac_register, uint32_t value)
+static int write_mac_register(uint32_t mac_register, uint32_t value)
 {
     MAC_VALUE = value;
     MAC_COMMAND = MAC_BUSY | mac_register;
-    return wait_while(&MAC_COMMAND, MAC_BUSY);
+    return wait_for_bits_clear(&MAC_COMMAND, MAC_BUSY);
 }
 
 int lan9118_open(const uint8_t mac[6])
@@ -60,22 +61,22 @@ int lan9118_open(const uint8_t mac[6])
         return 0;
     }
     HW_CONFIG = HW_RESET;
-    if (!wait_while(&HW_CONFIG, HW_RESET)) {
+    if (!wait_for_bits_clear(&HW_CONFIG, HW_RESET)) {
         return 0;
     }
     HW_CONFIG = HW_TX_FIFO_5K;
-    FIFO_LEVELS = 0; /* an interrupt from the first frame on */
+    FIFO_LEVELS = 0; /* interrupt from the first received frame on */
     IRQ_STATUS = 0xffffffffu;
     IRQ_ENABLE = IRQ_RX_LEVEL;
     IRQ_CONFIG = IRQ_LINE_ON;
     TX_CONFIG = TX_ON;
-    return set_mac(MAC_HIGH, (uint32_t)mac[5] << 8 | mac[4]) &&
-           set_mac(MAC_LOW, (uint32_t)mac[3] << 24 | (uint32_t)mac[2] << 16 |
-                                (uint32_t)mac[1] << 8 | mac[0]) &&
-           set_mac(MAC_CONTROL, MAC_RX_TX_MULTICAST);
+    return write_mac_register(MAC_HIGH, (uint32_t)mac[5] << 8 | mac[4]) &&
+           write_mac_register(MAC_LOW, (uint32_t)mac[3] << 24 | (uint32_t)mac[2] << 16 |
+                                           (uint32_t)mac[1] << 8 | mac[0]) &&
+           write_mac_register(MAC_CONTROL, MAC_RX_TX_MULTICAST);
 }
 
-static void discard_words(size_t words)
+static void discard_received_words(size_t words)
 {
     while (words-- > 0) {
         (void)RX_DATA;
@@ -87,10 +88,10 @@ size_t lan9118_receive(uint8_t *frame, size_t capacity)
     size_t size = 0;
     while (size == 0 && (RX_LEVEL >> 16 & 0xff) > 0) {
         uint32_t status = RX_STATUS;
-        /* with 4 bytes of checksum */
+        /* length includes the 4 bytes of the frame's checksum */
         size_t length = status >> 16 & 0x3fff, words = (length + 3) / 4;
         if ((status & RX_DAMAGED) || length <= 4 || length - 4 > capacity) {
-            discard_words(words);
+            discard_received_words(words);
             continue;
         }
         size = length - 4;
@@ -107,7 +108,7 @@ size_t lan9118_receive(uint8_t *frame, size_t capacity)
 
 int lan9118_send(const uint8_t *frame, size_t size)
 {
-    /* what became of frames sent before; full, it would stop the sender */
+    /* discard the states of sent frames: a full state FIFO would stop the transmitter */
     while (TX_LEVEL >> 16 & 0xff) {
         (void)TX_STATUS;
     }

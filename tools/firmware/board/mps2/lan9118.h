@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * lan9118: Ethernet frames through an SMSC LAN9118, by polling; its interrupt says that there are
- * some.
+ * lan9118: driver of the Ethernet chip SMSC LAN9118; frames are polled, its interrupt signals
+ * received ones.
  */
 #ifndef LAN9118_H
 #define LAN9118_H
@@ -9,16 +9,19 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Takes all multicast frames, and those to this address. Returns 0 where no such chip answers. */
+/*
+ * Starts the chip, which then receives all multicast frames and those to mac. Returns 0 where no
+ * LAN9118 answers.
+ */
 int lan9118_open(const uint8_t mac[6]);
 
 /*
- * A frame that has come, without its checksum; one longer than capacity, or damaged, is left out.
- * Returns its bytes.
+ * Copies a received frame, without its checksum, and returns its size; 0 where there is none.
+ * Frames that are damaged or longer than capacity are dropped.
  */
 size_t lan9118_receive(uint8_t *frame, size_t capacity);
 
-/* Returns 0 where the chip has no room for it. */
+/* Sends a frame; returns 0 where the chip's FIFO has no room for it. */
 int lan9118_send(const uint8_t *frame, size_t size);
 
 #endif

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * library_console: newlib's standard output through the debugger (rdimon), for the jobs of
- * tools/instructions.
+ * library_console: connects newlib's standard output to the debugger (rdimon), for the measuring
+ * programs of tools/instructions.
  */
 #include <stdio.h>
 
 #include "mps2.h"
 
-/* Of newlib's rdimon. */
+/* Defined in newlib's rdimon. */
 void initialise_monitor_handles(void);
 
-/* Asked for by newlib's exit, which these images do not end by. */
+/* Required by newlib's exit to link; these images never call it. */
 void _init(void);
 void _fini(void);
 void _init(void)

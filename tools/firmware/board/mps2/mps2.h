@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* mps2: registers of Arm's MPS2 boards with the images AN386 (Cortex-M4F) and AN500 (Cortex-M7). */
+/*
+ * mps2: registers of Arm's MPS2 boards with the FPGA images AN386 (Cortex-M4F) and AN500
+ * (Cortex-M7).
+ */
 #ifndef MPS2_H
 #define MPS2_H
 
@@ -9,7 +12,7 @@
 
 #define MPS2_REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
-/* Of the core. */
+/* Registers of the Cortex-M core: SysTick timer and interrupt controller. */
 #define SYSTICK_CONTROL MPS2_REGISTER(0xE000E010u)
 #define SYSTICK_RELOAD MPS2_REGISTER(0xE000E014u)
 #define SYSTICK_VALUE MPS2_REGISTER(0xE000E018u)
@@ -17,7 +20,7 @@
 #define NVIC_DISABLE MPS2_REGISTER(0xE000E180u)
 #define NVIC_UNPEND MPS2_REGISTER(0xE000E280u)
 
-/* A timer of 32 bits that counts down, at the clock's rate. */
+/* A 32-bit down-counting timer at the clock's rate. */
 #define TIMER0_CONTROL MPS2_REGISTER(0x40000000u)
 #define TIMER0_VALUE MPS2_REGISTER(0x40000004u)
 #define TIMER0_RELOAD MPS2_REGISTER(0x40000008u)
@@ -27,24 +30,24 @@
 #define UART0_CONTROL MPS2_REGISTER(0x40004008u)
 #define UART0_DIVIDER MPS2_REGISTER(0x40004010u)
 
-/* The LAN9118; its place depends on the image. */
+/* Address of the LAN9118, which depends on the FPGA image. */
 #ifndef MPS2_ETHERNET
 #error "MPS2_ETHERNET: 0x40200000 for AN386, 0xA0000000 for AN500"
 #endif
 #define MPS2_ETHERNET_IRQ 13u
 
-/* The end of start-up: runs the image's main. In board_mps2.c or semihosting.c. */
+/* Last step of the start-up: runs the image's main. In board_mps2.c or semihosting.c. */
 void mps2_run(void) __attribute__((noreturn));
 
-/* Called by the interrupts of the same names; an image that enables them has them. */
+/* Interrupt handlers of SysTick and Ethernet, defined by images that enable them. */
 void mps2_systick(void);
 void mps2_ethernet(void);
 
-/* For printf and the like in images that measure: library_console.c. */
+/* Open and flush the console of printf in images that measure. In library_console.c. */
 void mps2_open_console(void);
 void mps2_close_console(void);
 
-/* A fault of the processor; exception: its number. */
+/* Handles a fault of the processor; exception is its number. */
 void mps2_fault(unsigned exception) __attribute__((noreturn, used));
 
 #endif

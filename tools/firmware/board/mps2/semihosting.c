@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * semihosting: files.h, arguments and exit through the debugger or QEMU: a breakpoint with the
- * operation in r0 and its operands in r1. Without either a breakpoint is a fault, so no product has
- * this part.
+ * semihosting: files.h, program arguments and exit through a debugger or QEMU: a breakpoint
+ * instruction with the operation in r0 and its operands in r1. Without a debugger the breakpoint is
+ * a fault, so products do not link this file.
  */
 #include <stddef.h>
 #include <stdint.h>
@@ -25,8 +25,9 @@
 
 #define TIMER_RUN 1u
 #define ARGUMENTS_MAX 8
-#define EXIT_ARGUMENTS 119u /* more than that, or a line that is too long */
-#define EXIT_FAULT 120u     /* and the exception's number */
+/* exit code: more than ARGUMENTS_MAX arguments, or a command line that is too long */
+#define EXIT_ARGUMENTS 119u
+#define EXIT_FAULT 120u /* exit code of a fault, plus the exception's number */
 
 static uint32_t call_debugger(uint32_t operation, const void *operands)
 {
@@ -43,7 +44,7 @@ static uint32_t pointer_as_word(const void *pointer)
 
 /* ---- Files ---- */
 
-/* The machine's numbers are 0 and above, -1 where it did not work. */
+/* Semihosting handles are 0 and above, -1 on failure; files.h adds 1. */
 static int open_file(const char *path, uint32_t mode)
 {
     const uint32_t operands[3] = {pointer_as_word(path), mode, (uint32_t)strlen(path)};
@@ -60,7 +61,7 @@ int files_open_to_write(const char *path)
     return open_file(path, OPEN_WRITE_BINARY);
 }
 
-/* Both operations say how many bytes are missing. */
+/* SYS_READ and SYS_WRITE return the number of bytes not transferred. */
 size_t files_read(int file, uint8_t *bytes, size_t size)
 {
     const uint32_t operands[3] = {(uint32_t)file - 1, pointer_as_word(bytes), (uint32_t)size};
@@ -92,8 +93,8 @@ size_t files_stack_used(void)
 /* ---- Instructions ---- */
 
 /*
- * QEMU with -icount shift=6 takes 64 ns of its own time for each instruction; a tick of the timer
- * is 40 ns.
+ * Instructions are counted by QEMU's time: with -icount shift=6 an instruction takes 64 ns, a tick
+ * of the timer 40 ns.
  */
 uint32_t files_instructions(void)
 {
@@ -109,7 +110,7 @@ uint32_t files_instructions_between(uint32_t from, uint32_t to)
 
 int main(int argc, char **argv);
 
-/* For images with a C library whose console has to be opened and emptied: library_console.c. */
+/* Replaced in library_console.c for images whose C library has a console to open and flush. */
 __attribute__((weak)) void mps2_open_console(void)
 {
 }
@@ -131,7 +132,7 @@ void mps2_fault(unsigned exception)
     exit_program(EXIT_FAULT + exception);
 }
 
-/* Words of the command line, in place. */
+/* Splits the command line into words in place; returns their number. */
 static int split_command_line(char *line, char **words)
 {
     int count = 0;

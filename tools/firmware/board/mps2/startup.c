@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* startup: from reset to the image's main, and the table of interrupts. */
+/* startup: from reset to the image's main, and the vector table of interrupts. */
 #include <stdint.h>
 #include <string.h>
 
@@ -8,12 +8,15 @@
 
 #define STACK_PATTERN 0x5AA55AA5u
 
-/* Of the linker script. */
+/* Symbols of the linker script. */
 extern uint32_t link_data_from[], link_data[], link_data_end[], link_bss[], link_bss_end[];
 extern uint32_t link_stack[], link_stack_top[];
 
-/* A stack that is full has no room for what is said: from its top, then. */
-__attribute__((noreturn, naked)) static void fault(void)
+/*
+ * Fault entry: resets the stack pointer to the top, as an overflowed stack has no room for the
+ * report, and calls mps2_fault with the exception's number.
+ */
+__attribute__((noreturn, naked)) static void enter_fault_handler(void)
 {
     __asm__ volatile("movw r0, #:lower16:link_stack_top\n"
                      "movt r0, #:upper16:link_stack_top\n"
@@ -22,7 +25,7 @@ __attribute__((noreturn, naked)) static void fault(void)
                      "b mps2_fault\n");
 }
 
-/* Never called where an image enables neither. */
+/* Default handlers for images that enable neither interrupt. */
 __attribute__((weak)) void mps2_systick(void)
 {
 }
@@ -30,8 +33,8 @@ __attribute__((weak)) void mps2_ethernet(void)
 {
 }
 
-/* So that board_stack_used sees how far down it was ever written. */
-static inline void paint_stack(void)
+/* Fills the unused stack with a pattern, so that board_stack_used can find the largest depth. */
+static inline void fill_stack_with_pattern(void)
 {
     uint32_t *here;
     __asm__ volatile("mov %0, sp" : "=r"(here));
@@ -51,11 +54,11 @@ size_t board_stack_used(void)
     return words * sizeof *word;
 }
 
-/* The FPU has to be on before code that uses it is entered: nothing else happens here. */
+/* Reset entry: only enables the FPU, which must be on before any code that uses it is entered. */
 __attribute__((noreturn, naked)) void mps2_reset(void);
 __attribute__((naked)) void mps2_reset(void)
 {
-    __asm__ volatile("movw r0, #0xED88\n" /* 0xE000ED88: the coprocessors' access */
+    __asm__ volatile("movw r0, #0xED88\n" /* 0xE000ED88: CPACR, access to the FPU */
                      "movt r0, #0xE000\n"
                      "ldr r1, [r0]\n"
                      "orr r1, r1, #0xF00000\n"
@@ -68,7 +71,7 @@ __attribute__((naked)) void mps2_reset(void)
 __attribute__((noreturn, used)) void mps2_start(void);
 void mps2_start(void)
 {
-    paint_stack();
+    fill_stack_with_pattern();
     memcpy(link_data, link_data_from, (size_t)((uintptr_t)link_data_end - (uintptr_t)link_data));
     memset(link_bss, 0, (size_t)((uintptr_t)link_bss_end - (uintptr_t)link_bss));
     mps2_run();
@@ -82,8 +85,12 @@ __attribute__((section(".vectors"), used)) static const struct {
     handler interrupts[MPS2_ETHERNET_IRQ + 1];
 } vectors = {
     .stack_top = link_stack_top,
-    /* reset; then from 2 on: NMI, the faults, calls of the supervisor, and at 15 the clock */
-    .exceptions = {mps2_reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
-                   fault, fault, fault, mps2_systick},
-    .interrupts = {[0 ... MPS2_ETHERNET_IRQ - 1] = fault, [MPS2_ETHERNET_IRQ] = mps2_ethernet},
+    /* exceptions 1: reset; 2 .. 14: NMI, faults and supervisor calls; 15: SysTick */
+    .exceptions = {mps2_reset, enter_fault_handler, enter_fault_handler, enter_fault_handler,
+                   enter_fault_handler, enter_fault_handler, enter_fault_handler,
+                   enter_fault_handler, enter_fault_handler, enter_fault_handler,
+                   enter_fault_handler, enter_fault_handler, enter_fault_handler,
+                   enter_fault_handler, mps2_systick},
+    .interrupts =
+        {[0 ... MPS2_ETHERNET_IRQ - 1] = enter_fault_handler, [MPS2_ETHERNET_IRQ] = mps2_ethernet},
 };

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The page that `rhotrack plot -o NAME.html` writes: plots on a canvas, tracks as vectors above.
-// The arrays are those of tools/rhotrack/picture/page.c.
+// Script of the page that `rhotrack plot -o NAME.html` writes: plots on a canvas, with tracks as SVG
+// above it. tools/rhotrack/picture/page.c writes the arrays of data into the page.
 'use strict';
 
 const element = id => document.getElementById(id);
 
-function array(kind, id) {
+// Decodes the base64 array in the element with this id, and removes the element.
+function decodeArray(kind, id) {
     const text = atob(element(id).textContent);
     const bytes = new Uint8Array(text.length);
     for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i);
@@ -13,14 +14,14 @@ function array(kind, id) {
     return new kind(bytes.buffer);
 }
 
-const scanTime = array(Float64Array, 'scan_time'), scanFirst = array(Uint32Array, 'scan_first');
-const plotX = array(Float32Array, 'plot_x'), plotY = array(Float32Array, 'plot_y');
-const plotFate = array(Uint32Array, 'plot_fate');
-const trackId = array(Int32Array, 'track_id'), trackFirst = array(Uint32Array, 'track_first');
-const trackTime = array(Float64Array, 'track_time'), trackRow = array(Float32Array, 'track_row');
-const truthFirst = array(Uint32Array, 'truth_first'), truthPlace = array(Float32Array, 'truth_place');
-const rayTime = array(Float64Array, 'ray_time'), rayLine = array(Float32Array, 'ray_line');
-const sensors = array(Float32Array, 'sensors');
+const scanTime = decodeArray(Float64Array, 'scan_time'), scanFirst = decodeArray(Uint32Array, 'scan_first');
+const plotX = decodeArray(Float32Array, 'plot_x'), plotY = decodeArray(Float32Array, 'plot_y');
+const plotFate = decodeArray(Uint32Array, 'plot_fate');
+const trackId = decodeArray(Int32Array, 'track_id'), trackFirst = decodeArray(Uint32Array, 'track_first');
+const trackTime = decodeArray(Float64Array, 'track_time'), trackRow = decodeArray(Float32Array, 'track_row');
+const truthFirst = decodeArray(Uint32Array, 'truth_first'), truthPlace = decodeArray(Float32Array, 'truth_place');
+const rayTime = decodeArray(Float64Array, 'ray_time'), rayLine = decodeArray(Float32Array, 'ray_line');
+const sensors = decodeArray(Float32Array, 'sensors');
 const zero_s = Number(document.body.dataset.zeroS);
 
 const [X, Y, Z, VX, VY, MAJOR, MINOR, ANGLE, SIGMA_MPS, HITS, MISSES, SCORE, CONFIRMED, COLUMNS] = d3.range(14);
@@ -29,36 +30,36 @@ const numTracks = trackId.length;
 const palette = ['#0072b2', '#d55e00', '#009e73', '#000000', '#cc79a7', '#56b4e9', '#e69f00', '#7f7f7f'];
 const colour = track => palette[track % palette.length];
 
-// The times that the slider stops at: of scans, tracks and bearings, each once.
+// The times at which the slider stops: all times of scans, tracks and bearings, sorted, each once.
 const times = Float64Array.from(new Set([...scanTime, ...trackTime, ...rayTime])).sort();
 if (times.length === 0) throw new Error('nothing has a time');
 
-// ---- what is shown ----
+// ---- state of the view ----
 
 const state = {at: times.length - 1, chosen: -1, window: Infinity, playing: false};
 const shown = {none: true, tentative: true, track: true, bearings: true, tracks: true, ends: true,
     truth: true, sensors: true};
 const now = () => times[state.at];
 const before = () => times[Math.max(0, state.at - state.window)];
-// The rows of a track up to now: from its first one on, before the second number.
-const rowsUntil = track => d3.bisectRight(trackTime, now(), trackFirst[track], trackFirst[track + 1]);
+// Index one past the last row of a track up to the present time.
+const endOfRowsNow = track => d3.bisectRight(trackTime, now(), trackFirst[track], trackFirst[track + 1]);
 
 // ---- the map: metres about the middle, one scale for both axes ----
 
 const box = {x: [Infinity, -Infinity], y: [Infinity, -Infinity]};
-function include(x, y) {
+function includeInBox(x, y) {
     if (x < box.x[0]) box.x[0] = x;
     if (x > box.x[1]) box.x[1] = x;
     if (y < box.y[0]) box.y[0] = y;
     if (y > box.y[1]) box.y[1] = y;
 }
-for (let i = 0; i < plotX.length; i++) include(plotX[i], plotY[i]);
-for (let i = 0; i < trackTime.length; i++) include(value(i, X), value(i, Y));
-for (let i = 0; i < truthPlace.length; i += 2) include(truthPlace[i], truthPlace[i + 1]);
+for (let i = 0; i < plotX.length; i++) includeInBox(plotX[i], plotY[i]);
+for (let i = 0; i < trackTime.length; i++) includeInBox(value(i, X), value(i, Y));
+for (let i = 0; i < truthPlace.length; i += 2) includeInBox(truthPlace[i], truthPlace[i + 1]);
 if (plotX.length + trackTime.length + truthPlace.length === 0) {
-    for (let i = 0; i < rayLine.length; i += 2) include(rayLine[i], rayLine[i + 1]);
+    for (let i = 0; i < rayLine.length; i += 2) includeInBox(rayLine[i], rayLine[i + 1]);
 }
-for (let i = 0; i < sensors.length; i += 6) include(sensors[i + 1], sensors[i + 2]);
+for (let i = 0; i < sensors.length; i += 6) includeInBox(sensors[i + 1], sensors[i + 2]);
 const middle = {x: d3.mean(box.x), y: d3.mean(box.y)};
 
 const canvas = element('plots'), map = element('map'), over = d3.select('#over');
@@ -67,10 +68,10 @@ const context = canvas.getContext('2d');
 let width = 1, height = 1, pixelsPerM = 1, image, pixels;
 let view = d3.zoomIdentity;
 const scale = () => pixelsPerM * view.k;
-const toX = x => view.applyX(width / 2 + (x - middle.x) * pixelsPerM);
-const toY = y => view.applyY(height / 2 - (y - middle.y) * pixelsPerM);
-const fromX = x => (view.invertX(x) - width / 2) / pixelsPerM + middle.x;
-const fromY = y => middle.y - (view.invertY(y) - height / 2) / pixelsPerM;
+const toScreenX = x => view.applyX(width / 2 + (x - middle.x) * pixelsPerM);
+const toScreenY = y => view.applyY(height / 2 - (y - middle.y) * pixelsPerM);
+const toWorldX = x => (view.invertX(x) - width / 2) / pixelsPerM + middle.x;
+const toWorldY = y => middle.y - (view.invertY(y) - height / 2) / pixelsPerM;
 
 const zoom = d3.zoom().scaleExtent([0.3, 1e5]).on('zoom', event => {
     view = event.transform;
@@ -88,15 +89,15 @@ function resize() {
     canvas.height = Math.max(1, Math.round(height * ratio));
     image = context.createImageData(canvas.width, canvas.height);
     pixels = new Uint32Array(image.data.buffer);
-    draw(); // at once: the canvas is empty until then
+    draw(); // at once, as resizing clears the canvas
 }
 
-// ---- plots: squares in the canvas's own memory; those of tracks above the others ----
+// ---- plots: squares written into the canvas's pixels; plots of tracks are drawn last ----
 
 const FATES = ['none', 'tentative', 'track'];
-const FATE_COLOURS = [0xffb4aca6, 0xff2a8ce6, 0xff8a3c14]; // alpha, blue, green, red
+const FATE_COLOURS = [0xffb4aca6, 0xff2a8ce6, 0xff8a3c14]; // colours as alpha, blue, green, red
 
-// Indices of plots by fate, ascending.
+// For each fate, the ascending indices of its plots.
 const plotsOf = FATES.map((name, fate) => {
     const list = new Uint32Array(plotFate.length);
     let count = 0;
@@ -110,7 +111,7 @@ function drawPlots() {
     const from = scanFirst[d3.bisectLeft(scanTime, state.window === Infinity ? -Infinity : before())];
     const to = scanFirst[d3.bisectRight(scanTime, now())];
     const ratio = canvas.width / width, columns = canvas.width, rows = canvas.height;
-    const factor = scale() * ratio, left = toX(middle.x) * ratio, top = toY(middle.y) * ratio;
+    const factor = scale() * ratio, left = toScreenX(middle.x) * ratio, top = toScreenY(middle.y) * ratio;
     const size = Math.round(ratio * (to - from > 200000 ? 1 : to - from > 10000 ? 2 : 3));
     let drawn = 0;
     pixels.fill(0);
@@ -134,7 +135,7 @@ function drawPlots() {
     if (shown.bearings) drawBearings(ratio);
 }
 
-// Of the last scans alone: all of them would hide the rest.
+// Draws the bearings of the last scans only: all of them would hide the rest.
 const RAYS_SCANS = 20, RAYS_MAX = 5000;
 function drawBearings(ratio) {
     const from = d3.bisectLeft(rayTime, times[Math.max(0, state.at - Math.min(state.window, RAYS_SCANS))]), to = d3.bisectRight(rayTime, now());
@@ -143,18 +144,18 @@ function drawBearings(ratio) {
     context.lineWidth = ratio;
     context.beginPath();
     for (let i = from; i < to; i += step) {
-        context.moveTo(toX(rayLine[4 * i]) * ratio, toY(rayLine[4 * i + 1]) * ratio);
-        context.lineTo(toX(rayLine[4 * i + 2]) * ratio, toY(rayLine[4 * i + 3]) * ratio);
+        context.moveTo(toScreenX(rayLine[4 * i]) * ratio, toScreenY(rayLine[4 * i + 1]) * ratio);
+        context.lineTo(toScreenX(rayLine[4 * i + 2]) * ratio, toScreenY(rayLine[4 * i + 3]) * ratio);
     }
     context.stroke();
 }
 
-// ---- vectors ----
+// ---- sensors, truth and tracks as SVG ----
 
 const path = d3.line().x(place => place[0] - middle.x).y(place => place[1] - middle.y).digits(2);
-const lineOf = (from, to) => path(d3.range(from, to).map(row => [value(row, X), value(row, Y)]));
+const pathOfRows = (from, to) => path(d3.range(from, to).map(row => [value(row, X), value(row, Y)]));
 
-function putWorld() {
+function createWorld() {
     for (let i = 0; i < sensors.length; i += 6) {
         const [id, x, y, range, from, to] = sensors.slice(i, i + 6);
         const group = world.append('g').attr('class', 'sensors')
@@ -183,33 +184,33 @@ function putWorld() {
         .attr('id', track => `track-${trackId[track]}`);
     groups.append('path').attr('class', 'line').attr('stroke', colour);
     groups.append('path').attr('class', 'hit')
-        .on('mousemove', (event, track) => hover(event, track))
+        .on('mousemove', (event, track) => showTip(event, track))
         .on('mouseleave', () => { element('tip').hidden = true; })
-        .on('click', (event, track) => { event.stopPropagation(); choose(track); });
+        .on('click', (event, track) => { event.stopPropagation(); selectTrack(track); });
     return groups;
 }
 
-const cut = new Int32Array(numTracks).fill(-1); // rows of a track that its path shows
+const cut = new Int32Array(numTracks).fill(-1); // for each track, the row up to which its path is drawn
 function drawTracks() {
     groups.each(function (track) {
-        const until = rowsUntil(track);
+        const until = endOfRowsNow(track);
         if (until !== cut[track]) {
             cut[track] = until;
-            d3.select(this).selectAll('path').attr('d', until - trackFirst[track] < 1 ? null : lineOf(trackFirst[track], until));
+            d3.select(this).selectAll('path').attr('d', until - trackFirst[track] < 1 ? null : pathOfRows(trackFirst[track], until));
         }
-        d3.select(this).select('.line').classed('ended', hasEnded(track)).classed('chosen', track === state.chosen);
+        d3.select(this).select('.line').classed('ended', hasTrackEnded(track)).classed('chosen', track === state.chosen);
     });
 }
 
-// A track has ended where later scans have no row of it.
-const hasEnded = track => trackTime[trackFirst[track + 1] - 1] < now();
+// Whether the track's last row is before the present time.
+const hasTrackEnded = track => trackTime[trackFirst[track + 1] - 1] < now();
 const ENDS_MAX = 300;
 
-function drawEnds() {
+function drawTrackEnds() {
     const alive = !shown.ends ? [] : d3.range(numTracks).filter(track =>
-        rowsUntil(track) > trackFirst[track] && (!hasEnded(track) || track === state.chosen)).slice(0, ENDS_MAX);
-    const fastest = d3.max(alive, track => Math.hypot(value(rowsUntil(track) - 1, VX), value(rowsUntil(track) - 1, VY)));
-    const arrow_s = fastest > 0 ? 50 / fastest / pixelsPerM : 0; // the fastest is as long as 50 pixels
+        endOfRowsNow(track) > trackFirst[track] && (!hasTrackEnded(track) || track === state.chosen)).slice(0, ENDS_MAX);
+    const fastest = d3.max(alive, track => Math.hypot(value(endOfRowsNow(track) - 1, VX), value(endOfRowsNow(track) - 1, VY)));
+    const arrow_s = fastest > 0 ? 50 / fastest / pixelsPerM : 0; // the fastest track's arrow has 50 pixels at the initial zoom
     const group = ends.selectAll('g').data(alive, track => track).join(enter => {
         const added = enter.append('g');
         added.append('ellipse').attr('stroke', colour);
@@ -219,8 +220,8 @@ function drawEnds() {
         return added;
     });
     group.each(function (track) {
-        const row = rowsUntil(track) - 1, self = d3.select(this);
-        self.attr('transform', `translate(${toX(value(row, X))},${toY(value(row, Y))})`);
+        const row = endOfRowsNow(track) - 1, self = d3.select(this);
+        self.attr('transform', `translate(${toScreenX(value(row, X))},${toScreenY(value(row, Y))})`);
         self.select('line').attr('x2', value(row, VX) * arrow_s * pixelsPerM).attr('y2', -value(row, VY) * arrow_s * pixelsPerM);
         self.select('ellipse').attr('rx', 2 * (value(row, MAJOR) || 0) * scale()).attr('ry', 2 * (value(row, MINOR) || 0) * scale())
             .attr('transform', `rotate(${-(value(row, ANGLE) || 0) * 180 / Math.PI})`);
@@ -229,8 +230,8 @@ function drawEnds() {
 
 function drawAxes() {
     const unit = Math.max(width, height) / scale() > 4000 ? 1000 : 1, name = unit === 1 ? 'm' : 'km';
-    const x = d3.scaleLinear([fromX(0) / unit, fromX(width) / unit], [0, width]);
-    const y = d3.scaleLinear([fromY(height) / unit, fromY(0) / unit], [height, 0]);
+    const x = d3.scaleLinear([toWorldX(0) / unit, toWorldX(width) / unit], [0, width]);
+    const y = d3.scaleLinear([toWorldY(height) / unit, toWorldY(0) / unit], [height, 0]);
     axes.selectAll('*').remove();
     axes.append('g').attr('transform', `translate(0,${height - 20})`).call(d3.axisBottom(x).ticks(width / 110));
     axes.append('g').attr('transform', 'translate(46,0)').call(d3.axisLeft(y).ticks(height / 80));
@@ -240,55 +241,55 @@ function drawAxes() {
 
 // ---- one track ----
 
-const fixed = (digits, unit) => number => Number.isNaN(number) ? '' : `${number.toFixed(digits)} ${unit}`;
+const fixedDigits = (digits, unit) => number => Number.isNaN(number) ? '' : `${number.toFixed(digits)} ${unit}`;
 const speed = row => Math.hypot(value(row, VX), value(row, VY));
 const heading = row => (Math.atan2(value(row, VX), value(row, VY)) * 180 / Math.PI + 360) % 360;
 const facts = [
-    ['time', row => trackTime[row] + zero_s, fixed(1, 's')],
-    ['speed', speed, fixed(1, 'm/s')],
-    ['heading', heading, fixed(0, '\u00b0')],
-    ['height', row => value(row, Z) || NaN, fixed(0, 'm')],
-    ['sigma of the place', row => value(row, MAJOR), fixed(1, 'm')],
-    ['sigma of the velocity', row => value(row, SIGMA_MPS), fixed(1, 'm/s')],
-    ['score', row => value(row, SCORE) || NaN, fixed(1, 'nat')],
-    ['hits', row => value(row, HITS), fixed(0, '')],
-    ['misses', row => value(row, MISSES), fixed(0, '')],
+    ['time', row => trackTime[row] + zero_s, fixedDigits(1, 's')],
+    ['speed', speed, fixedDigits(1, 'm/s')],
+    ['heading', heading, fixedDigits(0, '\u00b0')],
+    ['height', row => value(row, Z) || NaN, fixedDigits(0, 'm')],
+    ['sigma of the place', row => value(row, MAJOR), fixedDigits(1, 'm')],
+    ['sigma of the velocity', row => value(row, SIGMA_MPS), fixedDigits(1, 'm/s')],
+    ['score', row => value(row, SCORE) || NaN, fixedDigits(1, 'nat')],
+    ['hits', row => value(row, HITS), fixedDigits(0, '')],
+    ['misses', row => value(row, MISSES), fixedDigits(0, '')],
 ];
-const told = row => facts.map(([name, of, text]) => [name, text(of(row))]).filter(fact => fact[1] !== '');
+const factsOf = row => facts.map(([name, of, text]) => [name, text(of(row))]).filter(fact => fact[1] !== '');
 const status = row => value(row, CONFIRMED) ? 'confirmed' : 'tentative';
 
-// The row next to the pointer is told: a track's history lies along its line.
-function hover(event, track) {
+// Shows the facts of the track's row that is nearest to the pointer.
+function showTip(event, track) {
     const [x, y] = d3.pointer(event, over.node());
-    const row = d3.least(d3.range(trackFirst[track], Math.max(rowsUntil(track), trackFirst[track] + 1)),
-        i => Math.hypot(toX(value(i, X)) - x, toY(value(i, Y)) - y));
+    const row = d3.least(d3.range(trackFirst[track], Math.max(endOfRowsNow(track), trackFirst[track] + 1)),
+        i => Math.hypot(toScreenX(value(i, X)) - x, toScreenY(value(i, Y)) - y));
     const tip = element('tip');
-    tip.textContent = `track ${trackId[track]}, ${status(row)}\n` + told(row).map(fact => fact.join(': ')).join('\n');
+    tip.textContent = `track ${trackId[track]}, ${status(row)}\n` + factsOf(row).map(fact => fact.join(': ')).join('\n');
     tip.style.left = `${Math.min(x + 14, width - 190)}px`;
     tip.style.top = `${Math.min(y + 14, height - 190)}px`;
     tip.hidden = false;
 }
 
-function choose(track) {
+function selectTrack(track) {
     state.chosen = track;
     redraw();
 }
-over.on('click', () => choose(-1));
+over.on('click', () => selectTrack(-1));
 
 const charts = [['speed (m/s)', speed], ['sigma of the place (m)', row => value(row, MAJOR)],
     ['score (nat)', row => value(row, SCORE) || NaN],
     ['plots taken of looks (%)', row => 100 * value(row, HITS) / (value(row, HITS) + value(row, MISSES))]];
 
-function drawTrack() {
+function drawTrackPanel() {
     const panel = d3.select('#track').attr('hidden', state.chosen < 0 ? '' : null);
     const track = state.chosen;
     panel.selectAll('*').remove();
     if (track < 0) return;
-    const first = trackFirst[track], until = Math.max(rowsUntil(track), first + 1), end = trackFirst[track + 1];
+    const first = trackFirst[track], until = Math.max(endOfRowsNow(track), first + 1), end = trackFirst[track + 1];
     panel.append('h2').text(`track ${trackId[track]}, ${status(until - 1)}`);
     panel.append('table').selectAll('tr').data([
         ['from, to', `${(trackTime[first] + zero_s).toFixed(1)}, ${(trackTime[end - 1] + zero_s).toFixed(1)} s`],
-        ...told(until - 1)]).join('tr').selectAll('td').data(fact => fact).join('td').text(text => text);
+        ...factsOf(until - 1)]).join('tr').selectAll('td').data(fact => fact).join('td').text(text => text);
     const rows = d3.range(first, end, Math.max(1, Math.floor((end - first) / 600)));
     for (const [name, of] of charts) {
         const values = rows.map(of);
@@ -296,7 +297,7 @@ function drawTrack() {
         const x = d3.scaleLinear([trackTime[first], trackTime[end - 1]], [38, 255]);
         const y = d3.scaleLinear([Math.min(0, d3.min(values)), d3.max(values) || 1], [72, 18]).nice(3);
         const chart = panel.append('svg').attr('viewBox', '0 0 262 80').on('click', event => {
-            goTo(d3.bisectLeft(times, x.invert(d3.pointer(event)[0])));
+            goToTime(d3.bisectLeft(times, x.invert(d3.pointer(event)[0])));
         });
         chart.append('text').attr('y', 11).text(name);
         chart.append('g').attr('transform', 'translate(36,0)').call(d3.axisLeft(y).ticks(3));
@@ -306,19 +307,19 @@ function drawTrack() {
     }
 }
 
-// ---- all of it, once a frame at most ----
+// ---- drawing, at most once a frame ----
 
 function draw() {
     const start = performance.now();
     drawPlots();
-    world.attr('transform', `translate(${toX(middle.x)},${toY(middle.y)}) scale(${scale()},${-scale()})`);
+    world.attr('transform', `translate(${toScreenX(middle.x)},${toScreenY(middle.y)}) scale(${scale()},${-scale()})`);
     world.selectAll('.sensors').attr('display', shown.sensors ? null : 'none');
     world.selectAll('.truth').attr('display', shown.truth ? null : 'none');
     world.selectAll('.track').attr('display', shown.tracks ? null : 'none');
     drawTracks();
-    drawEnds();
+    drawTrackEnds();
     drawAxes();
-    drawTrack();
+    drawTrackPanel();
     element('time').value = state.at;
     element('now').textContent = `${(now() + zero_s).toFixed(1)} s`;
     document.body.dataset.drawMs = (performance.now() - start).toFixed(1);
@@ -336,7 +337,7 @@ function redraw() {
 
 // ---- controls ----
 
-function goTo(at) {
+function goToTime(at) {
     state.at = Math.max(0, Math.min(times.length - 1, at));
     redraw();
 }
@@ -345,7 +346,7 @@ function play(isOn) {
     state.playing = isOn;
     element('play').textContent = isOn ? '\u275a\u275a' : '\u25b6';
     if (!isOn) return;
-    if (state.at === times.length - 1) goTo(0);
+    if (state.at === times.length - 1) goToTime(0);
     const start = performance.now(), first = state.at;
     const timer = d3.timer(() => {
         const at = first + Math.floor((performance.now() - start) / 1000 * Number(element('speed').value));
@@ -353,13 +354,13 @@ function play(isOn) {
             timer.stop();
             play(false);
         } else if (at !== state.at) {
-            goTo(at);
+            goToTime(at);
         }
     });
 }
 
 element('time').max = times.length - 1;
-element('time').addEventListener('input', event => { play(false); goTo(Number(event.target.value)); });
+element('time').addEventListener('input', event => { play(false); goToTime(Number(event.target.value)); });
 element('play').addEventListener('click', () => play(!state.playing));
 element('speed').addEventListener('change', () => play(false));
 element('window').addEventListener('change', event => { state.window = Number(event.target.value); redraw(); });
@@ -367,8 +368,8 @@ element('home').addEventListener('click', () => over.call(zoom.transform, d3.zoo
 document.addEventListener('keydown', event => {
     if (/INPUT|SELECT|BUTTON/.test(event.target.tagName)) return;
     if (event.key === ' ') play(!state.playing);
-    else if (event.key === 'ArrowRight') goTo(state.at + 1);
-    else if (event.key === 'ArrowLeft') goTo(state.at - 1);
+    else if (event.key === 'ArrowRight') goToTime(state.at + 1);
+    else if (event.key === 'ArrowLeft') goToTime(state.at - 1);
     else return;
     event.preventDefault();
 });
@@ -399,14 +400,14 @@ if (numTracks > LISTED_MAX) {
 d3.select('#list').selectAll('button').data(d3.range(Math.min(numTracks, LISTED_MAX))).join('button')
     .style('border-left-color', colour).text(track => trackId[track]).on('click', (event, track) => {
         const last = trackFirst[track + 1] - 1;
-        goTo(Math.max(state.at, d3.bisectLeft(times, trackTime[trackFirst[track]])));
-        choose(track);
+        goToTime(Math.max(state.at, d3.bisectLeft(times, trackTime[trackFirst[track]])));
+        selectTrack(track);
         over.call(zoom.translateTo, width / 2 + (value(last, X) - middle.x) * pixelsPerM, height / 2 - (value(last, Y) - middle.y) * pixelsPerM);
     });
 element('title').textContent = document.title;
 element('words').textContent = `${(times[times.length - 1] - times[0]).toFixed(1)} s from ${(times[0] + zero_s).toFixed(1)} s on. `
     + 'Wheel: zoom; drag: move; a track: its history; space: play.';
-const groups = putWorld();
+const groups = createWorld();
 new ResizeObserver(resize).observe(map);
 resize();
 requestAnimationFrame(() => requestAnimationFrame(() => {

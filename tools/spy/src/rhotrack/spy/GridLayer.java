@@ -6,9 +6,9 @@ import java.awt.Graphics2D;
 import java.awt.geom.Ellipse2D;
 import java.awt.geom.Line2D;
 
-/** Rings about the origin of the local frame, and its axes. */
+/** Range rings about the origin of the local frame, and the x and y axes. */
 final class GridLayer {
-    /** So many pixels are at least between two rings. */
+    /** Least distance of two rings in pixels. */
     private static final double MIN_GAP = 75;
 
     private GridLayer() {
@@ -21,7 +21,7 @@ final class GridLayer {
         g.setStroke(Palette.THIN);
         g.draw(new Line2D.Double(0, originY, width, originY));
         g.draw(new Line2D.Double(originX, 0, originX, height));
-        double step = Scale.roundStep(MIN_GAP * view.metresPerPixel());
+        double step = AxisScale.roundStep(MIN_GAP * view.metresPerPixel());
         double gap = step / view.metresPerPixel();
         double nearX = Math.max(0, Math.max(-originX, originX - width));
         double nearY = Math.max(0, Math.max(-originY, originY - height));
@@ -35,19 +35,23 @@ final class GridLayer {
             g.draw(new Ellipse2D.Double(originX - radius, originY - radius, 2 * radius, 2 * radius));
         }
         for (long ring = first; ring <= last; ring++) {
-            label(g, Scale.length(ring * step, step), originX, originY, ring * gap, width, height);
+            drawRingLabel(g, AxisScale.formatLength(ring * step, step), originX, originY, ring * gap, width, height);
         }
     }
 
-    /** On the ring, in the direction in which most of the picture lies as seen from the origin. */
-    private static void label(Graphics2D g, String text, double originX, double originY, double radius, int width,
+    /**
+     * Draws a ring's label on the ring, in the direction in which most of the picture lies as seen
+     * from the origin.
+     */
+    private static void drawRingLabel(Graphics2D g, String text, double originX, double originY, double radius,
+            int width,
             int height) {
         boolean originVisible = originX > 0 && originX < width && originY > 0 && originY < height;
         double right = width / 2.0 - originX;
         double down = height / 2.0 - originY;
         if (originVisible) {
-            // One of four diagonals, south-east while in doubt: labels must not wander with each
-            // little move.
+            // One of the four diagonals, south-east unless another is clearly better, so that labels
+            // do not move with every small pan.
             right = right < -0.15 * width ? -1 : 1;
             down = down < -0.15 * height ? -1 : 1;
         }

@@ -10,7 +10,10 @@ import java.util.stream.Collectors;
 
 import rhotrack.spy.scene.Scene;
 
-/** The selected track: bars of its motion models and its evidence, and its hypotheses as rows. */
+/**
+ * The selected track: bars of its motion models' probabilities and its evidence, and its hypotheses
+ * as rows.
+ */
 final class HypothesesTable {
     private static final int LEFT = 14;
     private static final int ROW = 19;
@@ -25,9 +28,9 @@ final class HypothesesTable {
         g.setFont(Palette.BOLD);
         g.setColor(Palette.TEXT);
         g.drawString(String.format(Locale.ROOT, "Track %d, score %.1f", of.trackId(), of.score()), LEFT, 20);
-        bar(g, 30, width, MODELS, of.calm(), of.steady(), of.maneuver());
+        drawShareBar(g, 30, width, MODELS, of.calm(), of.steady(), of.maneuver());
         if (of.evidence() > 0) {
-            bar(g, 62, width, EVIDENCE, of.support(), of.shared(), of.clutter());
+            drawShareBar(g, 62, width, EVIDENCE, of.support(), of.shared(), of.clutter());
         }
         g.setFont(Palette.SMALL);
         g.setColor(Palette.MUTED);
@@ -36,12 +39,12 @@ final class HypothesesTable {
         g.drawString("its last plots", LEFT + width * 0.53f, 112);
         int y = 112 + ROW;
         for (int i = 0; i < of.list().size(); i++) {
-            row(g, of.list().get(i), i, y, width);
+            drawHypothesisRow(g, of.list().get(i), i, y, width);
             y += ROW;
         }
     }
 
-    private static void bar(Graphics2D g, int y, int width, String[] names, double... shares) {
+    private static void drawShareBar(Graphics2D g, int y, int width, String[] names, double... shares) {
         double x = LEFT;
         g.setFont(Palette.SMALL);
         for (int i = 0; i < shares.length; i++) {
@@ -59,11 +62,11 @@ final class HypothesesTable {
         }
     }
 
-    private static void row(Graphics2D g, Scene.Hypothesis one, int index, int y, int width) {
+    private static void drawHypothesisRow(Graphics2D g, Scene.Hypothesis one, int index, int y, int width) {
         List<Integer> known = one.plots().stream().filter(plot -> plot >= -1).toList();
         String plots = known.stream().map(plot -> plot < 0 ? "miss" : Integer.toString(plot))
                 .collect(Collectors.joining(", "));
-        g.setColor(Palette.hypothesis(index));
+        g.setColor(Palette.ofHypothesis(index));
         g.fill(new Ellipse2D.Double(LEFT, y - 9, 9, 9));
         g.setFont(Palette.PLAIN);
         g.setColor(Palette.TEXT);

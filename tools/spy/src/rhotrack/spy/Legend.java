@@ -8,12 +8,12 @@ import java.util.Locale;
 import java.util.Map;
 import java.util.TreeMap;
 
+import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.Scene;
-import rhotrack.spy.scene.TrackMark;
 
 /**
- * One row at the foot of the plan view that says what its marks mean; of sensors, truth and clutter
- * those that there are.
+ * The row at the foot of the plan view that explains its marks; sensors, truth and clutter are
+ * listed only where there are any.
  */
 final class Legend {
     static final int HEIGHT = 26;
@@ -28,41 +28,41 @@ final class Legend {
     }
 
     static void paint(Graphics2D g, Scene scene, ViewOptions options, double vectorSeconds, int width, int height) {
-        g.setColor(Palette.faded(Palette.BACKGROUND, 0.85));
+        g.setColor(Palette.withAlpha(Palette.BACKGROUND, 0.85));
         g.fillRect(0, height - HEIGHT, width, HEIGHT);
         Legend legend = new Legend(g, height);
-        for (TrackMark.Status status : new TrackMark.Status[] {TrackMark.Status.CONFIRMED,
-            TrackMark.Status.TENTATIVE, TrackMark.Status.COASTING}) {
-            Symbols.track(g, status, legend.x, legend.y);
-            legend.text(status.name().toLowerCase(Locale.ROOT));
+        for (DisplayedTrack.Status status : new DisplayedTrack.Status[] {DisplayedTrack.Status.CONFIRMED,
+            DisplayedTrack.Status.TENTATIVE, DisplayedTrack.Status.COASTING}) {
+            Symbols.drawTrack(g, status, legend.x, legend.y);
+            legend.drawText(status.name().toLowerCase(Locale.ROOT));
         }
         if (vectorSeconds > 0) {
-            legend.line(Palette.TEXT);
-            legend.text("vector: " + seconds(vectorSeconds));
+            legend.drawLineSymbol(Palette.TEXT);
+            legend.drawText("vector: " + formatSeconds(vectorSeconds));
         }
-        legend.sensors(scene, options);
+        legend.drawSensors(scene, options);
         if (options.shows(ViewOptions.Layer.TRUTH) && !scene.truth().isEmpty()) {
-            Symbols.truth(g, legend.x, legend.y);
-            legend.text("truth");
+            Symbols.drawTruth(g, legend.x, legend.y);
+            legend.drawText("truth");
         }
-        if (options.shows(ViewOptions.Layer.GHOSTS) && !scene.thoughts().ghosts().isEmpty()) {
+        if (options.shows(ViewOptions.Layer.GHOSTS) && !scene.internals().ghosts().isEmpty()) {
             g.setStroke(Palette.THIN);
-            ThoughtLayer.paintCrossing(g, legend.x, legend.y, true);
-            legend.text("ghost");
+            InternalsLayer.paintCrossing(g, legend.x, legend.y, true);
+            legend.drawText("ghost");
         }
         if (options.shows(ViewOptions.Layer.CLUTTER) && !scene.echoes().isEmpty()) {
             g.setColor(Palette.MUTED);
             g.setStroke(Palette.THIN);
-            Symbols.echo(g, legend.x, legend.y);
-            legend.text("clutter that comes back");
+            Symbols.drawEcho(g, legend.x, legend.y);
+            legend.drawText("clutter that comes back");
         }
     }
 
-    private static String seconds(double seconds) {
+    private static String formatSeconds(double seconds) {
         return seconds < 1 ? seconds + " s" : Math.round(seconds) + " s";
     }
 
-    private void sensors(Scene scene, ViewOptions options) {
+    private void drawSensors(Scene scene, ViewOptions options) {
         Map<Integer, String> seen = new TreeMap<>();
         if (options.shows(ViewOptions.Layer.PLOTS)) {
             scene.plots().forEach(look -> seen.put(look.content().sensorId(), "plots"));
@@ -73,26 +73,26 @@ final class Legend {
         int shown = 0;
         for (Map.Entry<Integer, String> sensor : seen.entrySet()) {
             if (++shown > 4) {
-                return; // colours repeat from here on
+                return; // the colours of sensors repeat after four
             }
             if (sensor.getValue().equals("plots")) {
                 g.setColor(Palette.ofSensor(sensor.getKey()));
-                Symbols.plot(g, x, y, 4);
+                Symbols.drawPlot(g, x, y, 4);
             } else {
-                line(Palette.ofSensor(sensor.getKey()));
+                drawLineSymbol(Palette.ofSensor(sensor.getKey()));
             }
-            text(sensor.getValue() + " of S" + sensor.getKey());
+            drawText(sensor.getValue() + " of S" + sensor.getKey());
         }
     }
 
-    private void line(Color colour) {
+    private void drawLineSymbol(Color colour) {
         g.setColor(colour);
         g.setStroke(Palette.LINE);
         g.draw(new Line2D.Double(x - 4, y, x + 8, y));
         x += 4;
     }
 
-    private void text(String text) {
+    private void drawText(String text) {
         g.setFont(Palette.SMALL);
         g.setColor(Palette.MUTED);
         g.drawString(text, (float) x + 9, (float) y + 4);

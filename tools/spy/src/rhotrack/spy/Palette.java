@@ -8,11 +8,11 @@ import java.awt.Graphics2D;
 import java.awt.RenderingHints;
 import java.awt.Stroke;
 
-import rhotrack.spy.scene.TrackMark;
+import rhotrack.spy.scene.DisplayedTrack;
 
 /**
- * Colours, strokes and fonts: bright is what the tracker says, muted what it was told, faint what
- * helps to read.
+ * Colours, strokes and fonts: bright for the tracker's output, muted for its input, faint for grids
+ * and labels.
  */
 final class Palette {
     static final Color BACKGROUND = new Color(0x0c1117);
@@ -39,14 +39,14 @@ final class Palette {
     private static final Color COASTING = new Color(0xff7b63);
     private static final Color[] SENSORS =
             {new Color(0x6fb1f0), new Color(0xc09bf5), new Color(0x54cfc4), new Color(0xe88fbd)};
-    /** From a candidate that is hardly one to a sure one. */
+    /** Colours of a value from low to high. */
     private static final Color[] RAMP = {new Color(0x3b4a68), new Color(0x7a4f9a), new Color(0xd0567d),
         new Color(0xf79a5c), new Color(0xfbe27a)};
 
     private Palette() {
     }
 
-    static Color of(TrackMark.Status status) {
+    static Color ofStatus(DisplayedTrack.Status status) {
         return switch (status) {
             case CONFIRMED -> CONFIRMED;
             case TENTATIVE -> TENTATIVE;
@@ -58,17 +58,17 @@ final class Palette {
         return SENSORS[Math.floorMod(id - 1, SENSORS.length)];
     }
 
-    /** The best one first. */
-    static Color hypothesis(int index) {
-        return ramp(1 - index / 7.0);
+    /** Colour of hypothesis number `index`; 0 is the best one. */
+    static Color ofHypothesis(int index) {
+        return rampColour(1 - index / 7.0);
     }
 
-    static Color faded(Color colour, double strength) {
+    static Color withAlpha(Color colour, double strength) {
         int alpha = (int) Math.round(255 * Math.max(0, Math.min(1, strength)));
         return new Color(colour.getRed(), colour.getGreen(), colour.getBlue(), alpha);
     }
 
-    static Color ramp(double share) {
+    static Color rampColour(double share) {
         double place = Math.max(0, Math.min(1, share)) * (RAMP.length - 1);
         int below = Math.min((int) place, RAMP.length - 2);
         return mixed(RAMP[below], RAMP[below + 1], place - below);
@@ -80,7 +80,7 @@ final class Palette {
                 (int) (a.getBlue() + share * (b.getBlue() - a.getBlue())));
     }
 
-    static void smooth(Graphics2D g) {
+    static void enableAntialiasing(Graphics2D g) {
         g.setRenderingHint(RenderingHints.KEY_ANTIALIASING, RenderingHints.VALUE_ANTIALIAS_ON);
         g.setRenderingHint(RenderingHints.KEY_TEXT_ANTIALIASING, RenderingHints.VALUE_TEXT_ANTIALIAS_ON);
         g.setRenderingHint(RenderingHints.KEY_STROKE_CONTROL, RenderingHints.VALUE_STROKE_PURE);

@@ -12,13 +12,13 @@ import java.util.function.IntConsumer;
 import javax.swing.JComponent;
 
 import rhotrack.spy.scene.Bounds;
+import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.Geometry;
 import rhotrack.spy.scene.Place;
 import rhotrack.spy.scene.Scene;
-import rhotrack.spy.scene.TrackMark;
 
-/** The plan view: north is up, east is right. */
-@SuppressWarnings("serial") // nobody stores views
+/** The plan view of plots, tracks and sensors: north is up, east is right. */
+@SuppressWarnings("serial") // views are never serialised
 final class PlanView extends JComponent {
     private static final int FIT_MARGIN = 60;
     private static final double SELECT_PIXELS = 14;
@@ -42,7 +42,9 @@ final class PlanView extends JComponent {
         repaint();
     }
 
-    /** Shows everything, and keeps doing so until the user moves the view. */
+    /**
+     * Fits the view to everything, and again as the scene grows, until the user moves the view.
+     */
     void fit() {
         follows = true;
         fitted = null;
@@ -65,16 +67,16 @@ final class PlanView extends JComponent {
         repaint();
     }
 
-    /** Whoever wants to know the track that is clicked; 0: none. */
-    void whenSelected(IntConsumer listener) {
+    /** Sets the listener that is told the id of the clicked track; 0: none. */
+    void setSelectionListener(IntConsumer listener) {
         onSelect = listener;
     }
 
-    /** The nearest track within a few pixels; none: nothing is selected any more. */
+    /** Selects the nearest track within SELECT_PIXELS, or none, and tells the listener. */
     void selectAt(double x, double y) {
         selected = null;
         double nearest = SELECT_PIXELS;
-        for (TrackMark track : scene == null ? List.<TrackMark>of() : scene.tracks()) {
+        for (DisplayedTrack track : scene == null ? List.<DisplayedTrack>of() : scene.tracks()) {
             double away = Math.hypot(view.screenX(track.place().x()) - x, view.screenY(track.place().y()) - y);
             if (away <= nearest) {
                 nearest = away;
@@ -85,13 +87,16 @@ final class PlanView extends JComponent {
         repaint();
     }
 
-    /** Where a place is painted. */
-    Point at(Place place) {
+    /** The pixel at which a place is painted. */
+    Point pixelOf(Place place) {
         return new Point((int) Math.round(view.screenX(place.x())), (int) Math.round(view.screenY(place.y())));
     }
 
-    /** The pointer's place is written into the corner; null: it has left. */
-    void pointAt(Point point) {
+    /**
+     * Sets the pixel whose coordinates are written into the corner; null: the pointer has left the
+     * view.
+     */
+    void setPointer(Point point) {
         pointer = point;
         repaint();
     }
@@ -99,14 +104,14 @@ final class PlanView extends JComponent {
     @Override
     protected void paintComponent(Graphics graphics) {
         Graphics2D g = (Graphics2D) graphics.create();
-        Palette.smooth(g);
+        Palette.enableAntialiasing(g);
         int width = getWidth();
         int height = getHeight() - Legend.HEIGHT;
         view.resize(width, height);
         g.setColor(Palette.BACKGROUND);
         g.fillRect(0, 0, width, getHeight());
         if (scene != null) {
-            followScene();
+            fitIfNeeded();
             paintScene(g, width, height);
         }
         g.dispose();
@@ -115,14 +120,14 @@ final class PlanView extends JComponent {
     private void paintScene(Graphics2D g, int width, int height) {
         double seconds = TrackLayer.vectorSeconds(scene.tracks(), view.metresPerPixel());
         LabelPlacer labels = new LabelPlacer(width, height);
-        labels.block(width - 50, 0, 50, 60);
-        labels.block(0, 0, 290, 24);
+        labels.blockArea(width - 50, 0, 50, 60);
+        labels.blockArea(0, 0, 290, 24);
         GridLayer.paint(g, view, width, height);
         if (options.shows(ViewOptions.Layer.BEARINGS)) {
             SensorLayer.paintBearings(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.GHOSTS)) {
-            ThoughtLayer.paintGhosts(g, scene, view);
+            InternalsLayer.paintGhosts(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.CLUTTER)) {
             SensorLayer.paintEchoes(g, scene, view);
@@ -140,13 +145,13 @@ final class PlanView extends JComponent {
             TrackLayer.paintEllipses(g, scene, view);
             TrackLayer.paintBodies(g, scene, view);
         }
-        ThoughtLayer.paintHypotheses(g, scene, selected, view, seconds);
+        InternalsLayer.paintHypotheses(g, scene, selected, view, seconds);
         TrackLayer.paintTracks(g, scene, view, seconds, labels);
         SensorLayer.paintSensors(g, scene, view, labels);
         if (options.shows(ViewOptions.Layer.LABELS)) {
             TrackLayer.paintLabels(g, scene, view, labels);
         }
-        Symbols.north(g, width - 26, 26);
+        Symbols.drawNorth(g, width - 26, 26);
         paintPointer(g);
         Legend.paint(g, scene, options, seconds, width, getHeight());
     }
@@ -164,11 +169,11 @@ final class PlanView extends JComponent {
     }
 
     /**
-     * Fits anew only when something leaves the view or it has become much too large, so that it
-     * stands still.
+     * Fits the view, while it follows the scene, only when something leaves it or it has become
+     * much too large, so that it does not move all the time.
      */
-    private void followScene() {
-        Bounds wanted = follows ? extent() : null;
+    private void fitIfNeeded() {
+        Bounds wanted = follows ? sceneBounds() : null;
         if (wanted == null) {
             return;
         }
@@ -180,10 +185,10 @@ final class PlanView extends JComponent {
         } else if (!fitted.contains(wanted)) {
             fitted = fitted.union(wanted);
         }
-        view.fit(fitted, FIT_MARGIN); // each time, as the window may have another size by now
+        view.fit(fitted, FIT_MARGIN); // every time, as the window's size may have changed
     }
 
-    private Bounds extent() {
+    private Bounds sceneBounds() {
         List<Place> sure = new ArrayList<>(scene.sensors().values());
         scene.tracks().forEach(track -> sure.add(track.place()));
         scene.truth().forEach(target -> sure.add(target.place()));

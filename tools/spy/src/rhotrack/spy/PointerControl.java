@@ -6,7 +6,10 @@ import java.awt.event.MouseAdapter;
 import java.awt.event.MouseEvent;
 import java.awt.event.MouseWheelEvent;
 
-/** The wheel zooms about the pointer, dragging moves the plan view, a click selects a track, a double click fits. */
+/**
+ * Mouse control of the plan view: the wheel zooms about the pointer, dragging pans, a click selects
+ * a track, a double click fits.
+ */
 final class PointerControl extends MouseAdapter {
     private static final double ZOOM_A_NOTCH = 1.2;
 
@@ -45,7 +48,7 @@ final class PointerControl extends MouseAdapter {
             plan.pan(event.getX() - dragged.x, event.getY() - dragged.y);
         }
         dragged = event.getPoint();
-        plan.pointAt(event.getPoint());
+        plan.setPointer(event.getPoint());
     }
 
     @Override
@@ -59,11 +62,11 @@ final class PointerControl extends MouseAdapter {
 
     @Override
     public void mouseMoved(MouseEvent event) {
-        plan.pointAt(event.getPoint());
+        plan.setPointer(event.getPoint());
     }
 
     @Override
     public void mouseExited(MouseEvent event) {
-        plan.pointAt(null);
+        plan.setPointer(null);
     }
 }

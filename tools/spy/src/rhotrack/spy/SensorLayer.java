@@ -13,8 +13,7 @@ import rhotrack.spy.scene.Place;
 import rhotrack.spy.scene.Scene;
 
 /**
- * What the sensors saw: plots and bearings that fade, clutter that comes back, and where the
- * sensors stand.
+ * Plots and bearings, which fade with age, echoes of the clutter map, and the sensors' positions.
  */
 final class SensorLayer {
     private SensorLayer() {
@@ -24,31 +23,32 @@ final class SensorLayer {
         for (LookHistory.Faded<Scene.Plots> look : scene.plots()) {
             double strength = look.strength();
             double size = strength == 1 ? 4 : 3;
-            g.setColor(Palette.faded(Palette.ofSensor(look.content().sensorId()), 0.08 + 0.8 * strength * strength));
+            g.setColor(Palette.withAlpha(Palette.ofSensor(look.content().sensorId()),
+                    0.08 + 0.8 * strength * strength));
             for (Place place : look.content().places()) {
-                Symbols.plot(g, view.screenX(place.x()), view.screenY(place.y()), size);
+                Symbols.drawPlot(g, view.screenX(place.x()), view.screenY(place.y()), size);
             }
         }
     }
 
-    /** Hollow, so that plots in them can be seen. */
+    /** Paints echoes as hollow squares, so that plots within them remain visible. */
     static void paintEchoes(Graphics2D g, Scene scene, ViewTransform view) {
         g.setStroke(Palette.THIN);
         for (Scene.Echo echo : scene.echoes()) {
-            g.setColor(Palette.faded(Palette.MUTED, 0.35 + 0.5 * echo.chance()));
-            Symbols.echo(g, view.screenX(echo.place().x()), view.screenY(echo.place().y()));
+            g.setColor(Palette.withAlpha(Palette.MUTED, 0.35 + 0.5 * echo.chance()));
+            Symbols.drawEcho(g, view.screenX(echo.place().x()), view.screenY(echo.place().y()));
         }
     }
 
     static void paintBearings(Graphics2D g, Scene scene, ViewTransform view) {
-        Bounds visible = view.visible();
+        Bounds visible = view.visibleBounds();
         g.setStroke(Palette.THIN);
         for (LookHistory.Faded<Scene.Bearings> look : scene.bearings()) {
             Place sensor = look.content().sensor();
             double reach = visible.farthestFrom(sensor);
             double strength = look.strength();
             Color colour = Palette.ofSensor(look.content().sensorId());
-            g.setColor(Palette.faded(colour, 0.4 * strength * strength));
+            g.setColor(Palette.withAlpha(colour, 0.4 * strength * strength));
             for (double angle : look.content().angles()) {
                 g.draw(new Line2D.Double(view.screenX(sensor.x()), view.screenY(sensor.y()),
                         view.screenX(sensor.x() + reach * Math.cos(angle)),
@@ -62,11 +62,11 @@ final class SensorLayer {
             double x = view.screenX(sensor.getValue().x());
             double y = view.screenY(sensor.getValue().y());
             Color colour = Palette.ofSensor(sensor.getKey());
-            Symbols.sensor(g, colour, x, y);
-            labels.block(x - 8, y - 8, 16, 16);
+            Symbols.drawSensor(g, colour, x, y);
+            labels.blockArea(x - 8, y - 8, 16, 16);
             g.setFont(Palette.BOLD);
             String text = "S" + sensor.getKey();
-            Rectangle2D room = labels.place(x, y, 8, g.getFontMetrics().stringWidth(text), 13);
+            Rectangle2D room = labels.placeLabel(x, y, 8, g.getFontMetrics().stringWidth(text), 13);
             if (room != null) {
                 g.drawString(text, (float) room.getX(), (float) room.getMaxY() - 2);
             }

@@ -13,13 +13,15 @@ import java.util.List;
 import java.util.Locale;
 import javax.swing.JComponent;
 
+import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.Scene;
-import rhotrack.spy.scene.TrackMark;
 
-/** The foot of the window: how the tracker is doing, and how fresh what is shown is. */
-@SuppressWarnings("serial") // nobody stores views
+/**
+ * The status line at the foot of the window: the tracker's counters, and the age of the shown data.
+ */
+@SuppressWarnings("serial") // views are never serialised
 final class StatusLine extends JComponent {
-    /** A tracker sends its status once a second. */
+    /** Age from which the status is stale: a tracker sends it once a second. */
     private static final double STALE_S = 4;
     private static final int MAX_FAULTS = 6;
     private static final int ROW = 19;
@@ -30,7 +32,7 @@ final class StatusLine extends JComponent {
     private Scene scene;
     private boolean paused;
 
-    /** A text and the space behind it. */
+    /** A coloured text and the space behind it in pixels. */
     record Piece(Color colour, String text, int space) {
     }
 
@@ -41,7 +43,7 @@ final class StatusLine extends JComponent {
         addComponentListener(new ComponentAdapter() {
             @Override
             public void componentResized(ComponentEvent event) {
-                arrange();
+                arrangeRows();
             }
         });
     }
@@ -49,13 +51,13 @@ final class StatusLine extends JComponent {
     void show(Scene newScene, boolean isPaused) {
         scene = newScene;
         paused = isPaused;
-        arrange();
+        arrangeRows();
         repaint();
     }
 
-    /** Its pieces in as many rows as they need. */
-    private void arrange() {
-        rows = rows(scene == null ? List.of() : groups(scene.health()), getWidth() - 2 * MARGIN,
+    /** Distributes the pieces over as many rows as needed, and adapts the height. */
+    private void arrangeRows() {
+        rows = wrapIntoRows(scene == null ? List.of() : groupsOf(scene.health()), getWidth() - 2 * MARGIN,
                 getFontMetrics(Palette.PLAIN));
         int height = rows.size() * ROW + 9;
         if (height != getPreferredSize().height) {
@@ -64,8 +66,11 @@ final class StatusLine extends JComponent {
         }
     }
 
-    /** Groups stay together; one that does not fit begins the next row. At least one row. */
-    static List<List<Piece>> rows(List<List<Piece>> groups, int room, FontMetrics font) {
+    /**
+     * Wraps groups of pieces into rows of width `room`: a group that does not fit begins the next
+     * row. At least one row.
+     */
+    static List<List<Piece>> wrapIntoRows(List<List<Piece>> groups, int room, FontMetrics font) {
         List<List<Piece>> rows = new ArrayList<>();
         rows.add(new ArrayList<>());
         int free = room;
@@ -89,7 +94,7 @@ final class StatusLine extends JComponent {
     @Override
     protected void paintComponent(Graphics graphics) {
         Graphics2D g = (Graphics2D) graphics.create();
-        Palette.smooth(g);
+        Palette.enableAntialiasing(g);
         g.setColor(Palette.PANEL);
         g.fillRect(0, 0, getWidth(), getHeight());
         g.setFont(Palette.PLAIN);
@@ -104,78 +109,82 @@ final class StatusLine extends JComponent {
         g.dispose();
     }
 
-    private List<List<Piece>> groups(Scene.Health health) {
+    private List<List<Piece>> groupsOf(Scene.Health health) {
         List<List<Piece>> groups = new ArrayList<>();
         Scene.Status status = health.status();
-        groups.add(List.of(freshness(health)));
+        groups.add(List.of(freshnessPiece(health)));
         if (status == null) {
-            groups.add(List.of(piece(Palette.MUTED,
+            groups.add(List.of(spacedPiece(Palette.MUTED,
                     health.received() == 0 ? "waiting for RHO_ channels" : "no RHO_STATUS")));
             return groups;
         }
-        groups.add(List.of(piece(Palette.MUTED, "scans"), piece(Palette.TEXT, status.accepted() + " accepted"),
-                piece(fault(status.lost()), status.lost() + " lost"),
-                piece(status.late() > 0 ? Palette.TEXT : Palette.MUTED, status.late() + " late"),
-                piece(fault(status.bad()), status.bad() + " bad")));
-        addFaults(groups, health.sensorFaults());
-        groups.add(List.of(piece(Palette.MUTED, "tracks"),
-                piece(Palette.of(TrackMark.Status.CONFIRMED), status.confirmed() + " confirmed"),
-                piece(Palette.of(TrackMark.Status.TENTATIVE), status.tentative() + " tentative"),
-                piece(Palette.of(TrackMark.Status.COASTING), status.coasting() + " coasting")));
-        groups.add(List.of(piece(Palette.MUTED, "step"), piece(Palette.TEXT,
+        groups.add(List.of(spacedPiece(Palette.MUTED, "scans"), spacedPiece(Palette.TEXT,
+                status.accepted() + " accepted"),
+                spacedPiece(colourOfCount(status.lost()), status.lost() + " lost"),
+                spacedPiece(status.late() > 0 ? Palette.TEXT : Palette.MUTED, status.late() + " late"),
+                spacedPiece(colourOfCount(status.bad()), status.bad() + " bad")));
+        addSensorFaults(groups, health.sensorFaults());
+        groups.add(List.of(spacedPiece(Palette.MUTED, "tracks"),
+                spacedPiece(Palette.ofStatus(DisplayedTrack.Status.CONFIRMED), status.confirmed() + " confirmed"),
+                spacedPiece(Palette.ofStatus(DisplayedTrack.Status.TENTATIVE), status.tentative() + " tentative"),
+                spacedPiece(Palette.ofStatus(DisplayedTrack.Status.COASTING), status.coasting() + " coasting")));
+        groups.add(List.of(spacedPiece(Palette.MUTED, "step"), spacedPiece(Palette.TEXT,
                 String.format(Locale.ROOT, "%.0f \u00b5s, at most %.0f", status.stepUs(), status.stepMaxUs()))));
-        addWork(groups, health.work());
-        groups.add(List.of(piece(Palette.MUTED, "clutter"),
-                piece(Palette.TEXT, String.format(Locale.ROOT, "%.3g /km\u00b2", status.clutterPerKm2()))));
+        addWorkGroup(groups, health.work());
+        groups.add(List.of(spacedPiece(Palette.MUTED, "clutter"),
+                spacedPiece(Palette.TEXT, String.format(Locale.ROOT, "%.3g /km\u00b2", status.clutterPerKm2()))));
         return groups;
     }
 
-    /** Without a limit there is no share of it; what was not left out is not said. */
-    private static void addWork(List<List<Piece>> groups, Scene.Work work) {
+    /**
+     * Adds the share of the work limit where there is a limit, and counters of skipped work that
+     * are not 0.
+     */
+    private static void addWorkGroup(List<List<Piece>> groups, Scene.Work work) {
         List<Piece> group = new ArrayList<>();
         if (work != null && work.share() >= 0) {
-            group.add(piece(Palette.MUTED, "work"));
-            group.add(piece(Palette.TEXT, String.format(Locale.ROOT, "%.0f %%", 100 * work.share())));
+            group.add(spacedPiece(Palette.MUTED, "work"));
+            group.add(spacedPiece(Palette.TEXT, String.format(Locale.ROOT, "%.0f %%", 100 * work.share())));
         }
         if (work != null && work.partialSteps() > 0) {
-            group.add(piece(Palette.WARNING, work.partialSteps() + " partial"));
+            group.add(spacedPiece(Palette.WARNING, work.partialSteps() + " partial"));
         }
         if (work != null && work.notPrinted() > 0) {
-            group.add(piece(Palette.WARNING, work.notPrinted() + " not printed"));
+            group.add(spacedPiece(Palette.WARNING, work.notPrinted() + " not printed"));
         }
         if (work != null && work.notLogged() > 0) {
-            group.add(piece(Palette.WARNING, work.notLogged() + " not logged"));
+            group.add(spacedPiece(Palette.WARNING, work.notLogged() + " not logged"));
         }
         if (!group.isEmpty()) {
             groups.add(group);
         }
     }
 
-    private static void addFaults(List<List<Piece>> groups, List<String> faults) {
+    private static void addSensorFaults(List<List<Piece>> groups, List<String> faults) {
         for (String fault : faults.subList(0, Math.min(faults.size(), MAX_FAULTS))) {
-            groups.add(List.of(piece(Palette.WARNING, fault)));
+            groups.add(List.of(spacedPiece(Palette.WARNING, fault)));
         }
         if (faults.size() > MAX_FAULTS) {
-            groups.add(List.of(piece(Palette.WARNING, (faults.size() - MAX_FAULTS) + " more")));
+            groups.add(List.of(spacedPiece(Palette.WARNING, (faults.size() - MAX_FAULTS) + " more")));
         }
     }
 
-    private Piece freshness(Scene.Health health) {
+    private Piece freshnessPiece(Scene.Health health) {
         if (paused) {
-            return piece(Palette.WARNING, "PAUSED");
+            return spacedPiece(Palette.WARNING, "PAUSED");
         }
         if (health.statusAge() > STALE_S) {
-            return piece(Palette.WARNING, String.format(Locale.ROOT, "status %.0f s old", health.statusAge()));
+            return spacedPiece(Palette.WARNING, String.format(Locale.ROOT, "status %.0f s old", health.statusAge()));
         }
-        return piece(Palette.MUTED, health.received() + " messages"
+        return spacedPiece(Palette.MUTED, health.received() + " messages"
                 + (health.ignored() > 0 ? ", " + health.ignored() + " not understood" : ""));
     }
 
-    private static Color fault(int count) {
+    private static Color colourOfCount(int count) {
         return count > 0 ? Palette.WARNING : Palette.MUTED;
     }
 
-    private static Piece piece(Color colour, String text) {
+    private static Piece spacedPiece(Color colour, String text) {
         return new Piece(colour, text, PIECE_GAP);
     }
 }

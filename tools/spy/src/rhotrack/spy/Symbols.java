@@ -8,18 +8,15 @@ import java.awt.geom.Line2D;
 import java.awt.geom.Path2D;
 import java.awt.geom.Rectangle2D;
 
-import rhotrack.spy.scene.TrackMark;
+import rhotrack.spy.scene.DisplayedTrack;
 
-/**
- * The marks of the views, the same in pictures, tables and legends. Shapes differ too, not colours
- * alone.
- */
+/** The symbols in pictures, tables and legends. They differ in shape, not only in colour. */
 final class Symbols {
     private Symbols() {
     }
 
-    static void track(Graphics2D g, TrackMark.Status status, double x, double y) {
-        g.setColor(Palette.of(status));
+    static void drawTrack(Graphics2D g, DisplayedTrack.Status status, double x, double y) {
+        g.setColor(Palette.ofStatus(status));
         g.setStroke(Palette.LINE);
         switch (status) {
             case CONFIRMED -> g.fill(new Ellipse2D.Double(x - 4, y - 4, 8, 8));
@@ -28,22 +25,22 @@ final class Symbols {
         }
     }
 
-    static void plot(Graphics2D g, double x, double y, double size) {
+    static void drawPlot(Graphics2D g, double x, double y, double size) {
         g.fill(new Rectangle2D.Double(x - size / 2, y - size / 2, size, size));
     }
 
-    static void echo(Graphics2D g, double x, double y) {
+    static void drawEcho(Graphics2D g, double x, double y) {
         g.draw(new Rectangle2D.Double(x - 3.5, y - 3.5, 7, 7));
     }
 
-    static void truth(Graphics2D g, double x, double y) {
-        g.setColor(Palette.faded(Palette.TRUTH, 0.5));
+    static void drawTruth(Graphics2D g, double x, double y) {
+        g.setColor(Palette.withAlpha(Palette.TRUTH, 0.5));
         g.setStroke(Palette.THIN);
         g.draw(new Line2D.Double(x - 6, y, x + 6, y));
         g.draw(new Line2D.Double(x, y - 6, x, y + 6));
     }
 
-    static void sensor(Graphics2D g, Color colour, double x, double y) {
+    static void drawSensor(Graphics2D g, Color colour, double x, double y) {
         Path2D triangle = polygon(x, y - 7, x + 6.5, y + 5, x - 6.5, y + 5);
         g.setColor(Palette.BACKGROUND);
         g.fill(triangle);
@@ -52,7 +49,7 @@ final class Symbols {
         g.draw(triangle);
     }
 
-    static void north(Graphics2D g, double x, double y) {
+    static void drawNorth(Graphics2D g, double x, double y) {
         g.setColor(Palette.MUTED);
         g.fill(polygon(x, y - 14, x + 6, y + 8, x, y + 3, x - 6, y + 8));
         g.setFont(Palette.BOLD);

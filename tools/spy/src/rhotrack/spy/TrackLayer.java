@@ -13,17 +13,17 @@ import java.awt.geom.Rectangle2D;
 import java.util.List;
 import java.util.Locale;
 
+import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.Ellipse;
 import rhotrack.spy.scene.Place;
 import rhotrack.spy.scene.Scene;
-import rhotrack.spy.scene.TrackMark;
 
-/** The tracks, and the truth where there is one. */
+/** Tracks with trails, ellipses, bodies, vectors and labels, and the true targets where known. */
 final class TrackLayer {
     private static final double SIGMAS = 3;
-    /** The velocity vector of the median track is at least so long. */
+    /** Least length of the median track's velocity vector. */
     private static final double VECTOR_PIXELS = 22;
-    /** Ellipses of less than this are hidden by the track's own symbol. */
+    /** Smallest ellipse drawn: smaller ones are hidden by the track's symbol. */
     private static final double MIN_ELLIPSE_PIXELS = 4.5;
 
     private static final double LABEL_GAP = 6;
@@ -31,21 +31,21 @@ final class TrackLayer {
     private TrackLayer() {
     }
 
-    /** Vectors show the way of so many seconds, a round number; 0 where nothing moves. */
-    static double vectorSeconds(List<TrackMark> tracks, double metresPerPixel) {
-        double[] speeds = tracks.stream().mapToDouble(TrackMark::speed).filter(v -> v > 0).sorted().toArray();
+    /** Seconds of motion that velocity vectors show, a round number; 0 where nothing moves. */
+    static double vectorSeconds(List<DisplayedTrack> tracks, double metresPerPixel) {
+        double[] speeds = tracks.stream().mapToDouble(DisplayedTrack::speed).filter(v -> v > 0).sorted().toArray();
         if (speeds.length == 0) {
             return 0;
         }
-        return Scale.roundStep(VECTOR_PIXELS * metresPerPixel / speeds[speeds.length / 2]);
+        return AxisScale.roundStep(VECTOR_PIXELS * metresPerPixel / speeds[speeds.length / 2]);
     }
 
     static void paintTruth(Graphics2D g, Scene scene, ViewTransform view, double seconds) {
         for (Scene.Truth target : scene.truth()) {
             double x = view.screenX(target.place().x());
             double y = view.screenY(target.place().y());
-            Symbols.truth(g, x, y);
-            vector(g, target.place(), target.vx() * seconds, target.vy() * seconds, view);
+            Symbols.drawTruth(g, x, y);
+            drawVector(g, target.place(), target.vx() * seconds, target.vy() * seconds, view);
         }
     }
 
@@ -53,11 +53,11 @@ final class TrackLayer {
         g.setStroke(Palette.THIN);
         for (int i = 0; i < scene.tracks().size(); i++) {
             List<Place> trail = scene.trails().get(i);
-            Color colour = Palette.of(scene.tracks().get(i).status());
+            Color colour = Palette.ofStatus(scene.tracks().get(i).status());
             for (int k = 1; k < trail.size(); k++) {
                 Place from = trail.get(k - 1);
                 Place to = trail.get(k);
-                g.setColor(Palette.faded(colour, 0.1 + 0.5 * k / trail.size()));
+                g.setColor(Palette.withAlpha(colour, 0.1 + 0.5 * k / trail.size()));
                 g.draw(new Line2D.Double(view.screenX(from.x()), view.screenY(from.y()), view.screenX(to.x()),
                         view.screenY(to.y())));
             }
@@ -65,7 +65,7 @@ final class TrackLayer {
     }
 
     static void paintEllipses(Graphics2D g, Scene scene, ViewTransform view) {
-        for (TrackMark track : scene.tracks()) {
+        for (DisplayedTrack track : scene.tracks()) {
             Ellipse ellipse = track.ellipse();
             double scale = SIGMAS / view.metresPerPixel();
             if (ellipse == null || ellipse.major() * scale < MIN_ELLIPSE_PIXELS) {
@@ -75,11 +75,11 @@ final class TrackLayer {
             double b = ellipse.minor() * scale;
             AffineTransform place = AffineTransform.getTranslateInstance(view.screenX(track.place().x()),
                     view.screenY(track.place().y()));
-            place.rotate(-ellipse.angle()); // the screen's y points down
+            place.rotate(-ellipse.angle()); // the y axis of the screen points down
             Shape outline = place.createTransformedShape(new Ellipse2D.Double(-a, -b, 2 * a, 2 * b));
-            g.setColor(Palette.faded(Palette.of(track.status()), 0.1));
+            g.setColor(Palette.withAlpha(Palette.ofStatus(track.status()), 0.1));
             g.fill(outline);
-            g.setColor(Palette.faded(Palette.of(track.status()), 0.6));
+            g.setColor(Palette.withAlpha(Palette.ofStatus(track.status()), 0.6));
             g.setStroke(Palette.THIN);
             g.draw(outline);
         }
@@ -93,27 +93,27 @@ final class TrackLayer {
             double width = body.width() / view.metresPerPixel();
             AffineTransform place = AffineTransform.getTranslateInstance(view.screenX(body.centre().x()),
                     view.screenY(body.centre().y()));
-            place.rotate(-body.heading()); // the screen's y points down
+            place.rotate(-body.heading()); // the y axis of the screen points down
             g.draw(place.createTransformedShape(new Rectangle2D.Double(-length / 2, -width / 2, length, width)));
         }
     }
 
     static void paintTracks(Graphics2D g, Scene scene, ViewTransform view, double seconds, LabelPlacer labels) {
-        for (TrackMark track : scene.tracks()) {
-            g.setColor(Palette.of(track.status()));
+        for (DisplayedTrack track : scene.tracks()) {
+            g.setColor(Palette.ofStatus(track.status()));
             g.setStroke(Palette.LINE);
-            vector(g, track.place(), track.vx() * seconds, track.vy() * seconds, view);
+            drawVector(g, track.place(), track.vx() * seconds, track.vy() * seconds, view);
             double x = view.screenX(track.place().x());
             double y = view.screenY(track.place().y());
-            Symbols.track(g, track.status(), x, y);
-            labels.block(x - 5, y - 5, 10, 10);
+            Symbols.drawTrack(g, track.status(), x, y);
+            labels.blockArea(x - 5, y - 5, 10, 10);
         }
-        for (TrackMark track : scene.tracks()) {
-            blockVector(track, view, seconds, labels);
+        for (DisplayedTrack track : scene.tracks()) {
+            blockAreasOnVector(track, view, seconds, labels);
         }
     }
 
-    private static void vector(Graphics2D g, Place from, double east, double north, ViewTransform view) {
+    private static void drawVector(Graphics2D g, Place from, double east, double north, ViewTransform view) {
         Path2D line = new Path2D.Double();
         line.moveTo(view.screenX(from.x()), view.screenY(from.y()));
         line.lineTo(view.screenX(from.x() + east), view.screenY(from.y() + north));
@@ -121,37 +121,38 @@ final class TrackLayer {
     }
 
     /**
-     * A few small boxes along the vector: one box about all of a slanting line would take too much
-     * room.
+     * Keeps labels off the vector by a few small boxes along it: one box around a slanting line
+     * would take too much room.
      */
-    private static void blockVector(TrackMark track, ViewTransform view, double seconds, LabelPlacer labels) {
+    private static void blockAreasOnVector(DisplayedTrack track, ViewTransform view, double seconds,
+            LabelPlacer labels) {
         for (double share : new double[] {0.35, 0.65, 1}) {
             double x = view.screenX(track.place().x() + share * seconds * track.vx());
             double y = view.screenY(track.place().y() + share * seconds * track.vy());
-            labels.block(x - 3, y - 3, 6, 6);
+            labels.blockArea(x - 3, y - 3, 6, 6);
         }
     }
 
-    /** Confirmed tracks have the first choice of room. */
+    /** Paints id and speed of tracks; confirmed tracks get room first. */
     static void paintLabels(Graphics2D g, Scene scene, ViewTransform view, LabelPlacer labels) {
         FontMetrics bold = g.getFontMetrics(Palette.BOLD);
         FontMetrics small = g.getFontMetrics(Palette.SMALL);
-        for (TrackMark track : TrackMark.byImportance(scene.tracks())) {
+        for (DisplayedTrack track : DisplayedTrack.byImportance(scene.tracks())) {
             String id = Integer.toString(track.id());
             String speed = String.format(Locale.ROOT, "%.0f m/s", track.speed());
             double x = view.screenX(track.place().x());
             double y = view.screenY(track.place().y());
             int idWidth = bold.stringWidth(id) + 6;
-            Rectangle2D room = labels.place(x, y, LABEL_GAP, idWidth + small.stringWidth(speed), 14);
+            Rectangle2D room = labels.placeLabel(x, y, LABEL_GAP, idWidth + small.stringWidth(speed), 14);
             if (room == null) {
                 continue;
             }
-            LabelPlacer.paintLeader(g, x, y, LABEL_GAP, room, Palette.of(track.status()));
-            g.setColor(Palette.faded(Palette.BACKGROUND, 0.6));
+            LabelPlacer.paintLeader(g, x, y, LABEL_GAP, room, Palette.ofStatus(track.status()));
+            g.setColor(Palette.withAlpha(Palette.BACKGROUND, 0.6));
             g.fill(room);
             float left = (float) room.getX();
             float baseline = (float) room.getMaxY() - 3;
-            g.setColor(Palette.of(track.status()));
+            g.setColor(Palette.ofStatus(track.status()));
             g.setFont(Palette.BOLD);
             g.drawString(id, left, baseline);
             g.setColor(Palette.MUTED);

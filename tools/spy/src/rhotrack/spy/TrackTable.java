@@ -8,17 +8,20 @@ import java.util.List;
 import java.util.Locale;
 import javax.swing.JComponent;
 
+import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.Geometry;
 import rhotrack.spy.scene.Scene;
-import rhotrack.spy.scene.TrackMark;
 
-/** The tracks as rows, as many as there is room for: confirmed and coasting ones first. */
-@SuppressWarnings("serial") // nobody stores views
+/**
+ * The table of tracks, as many rows as fit, confirmed and coasting ones first; or the hypotheses of
+ * the selected track.
+ */
+@SuppressWarnings("serial") // views are never serialised
 final class TrackTable extends JComponent {
     private static final int ROW = 20;
     private static final String[] TITLES = {"track", "speed", "course", "height", "hits", "score"};
 
-    private static final int LEFT = 26; // of the first column: behind the symbols
+    private static final int LEFT = 26; // left edge of the first column, behind the symbols
     private static final int RIGHT = 16;
 
     private Scene scene;
@@ -33,8 +36,8 @@ final class TrackTable extends JComponent {
         repaint();
     }
 
-    /** 0: none. */
-    void select(int track) {
+    /** Selects the track whose hypotheses are shown in place of the table; 0: none. */
+    void selectTrack(int track) {
         selected = track;
         repaint();
     }
@@ -42,35 +45,35 @@ final class TrackTable extends JComponent {
     @Override
     protected void paintComponent(Graphics graphics) {
         Graphics2D g = (Graphics2D) graphics.create();
-        Palette.smooth(g);
+        Palette.enableAntialiasing(g);
         g.setColor(Palette.BACKGROUND);
         g.fillRect(0, 0, getWidth(), getHeight());
-        Scene.Hypotheses of = scene == null ? null : scene.thoughts().hypotheses().get(selected);
+        Scene.Hypotheses of = scene == null ? null : scene.internals().hypotheses().get(selected);
         if (of != null) {
             HypothesesTable.paint(g, of, getWidth());
             g.dispose();
             return;
         }
-        paintTable(g, scene == null ? List.of() : TrackMark.byImportance(scene.tracks()));
+        paintTable(g, scene == null ? List.of() : DisplayedTrack.byImportance(scene.tracks()));
         g.dispose();
     }
 
-    private void paintTable(Graphics2D g, List<TrackMark> tracks) {
+    private void paintTable(Graphics2D g, List<DisplayedTrack> tracks) {
         int room = Math.max(1, (getHeight() - 32) / ROW);
-        List<TrackMark> shown = tracks.subList(0, tracks.size() <= room ? tracks.size() : room - 1);
+        List<DisplayedTrack> shown = tracks.subList(0, tracks.size() <= room ? tracks.size() : room - 1);
         List<String[]> cells = shown.stream().map(TrackTable::cellsOf).toList();
-        double[] edges = Columns.rightEdges(widths(g, cells), getWidth() - LEFT - RIGHT);
+        double[] edges = ColumnLayout.rightEdges(columnWidths(g, cells), getWidth() - LEFT - RIGHT);
         g.setFont(Palette.SMALL);
         g.setColor(Palette.MUTED);
-        row(g, 18, edges, TITLES);
+        drawRow(g, 18, edges, TITLES);
         g.setColor(Palette.EDGE);
         g.drawLine(14, 26, getWidth() - RIGHT, 26);
         int y = 44;
         for (int i = 0; i < shown.size(); i++) {
-            Symbols.track(g, shown.get(i).status(), 20, y - 4);
+            Symbols.drawTrack(g, shown.get(i).status(), 20, y - 4);
             g.setColor(Palette.TEXT);
             g.setFont(Palette.PLAIN);
-            row(g, y, edges, cells.get(i));
+            drawRow(g, y, edges, cells.get(i));
             y += ROW;
         }
         if (shown.size() < tracks.size()) {
@@ -79,14 +82,14 @@ final class TrackTable extends JComponent {
         }
     }
 
-    static String[] cellsOf(TrackMark track) {
+    static String[] cellsOf(DisplayedTrack track) {
         return new String[] {Integer.toString(track.id()), String.format(Locale.ROOT, "%.0f m/s", track.speed()),
             String.format(Locale.ROOT, "%03.0f\u00b0", Geometry.compassDegrees(track.vx(), track.vy())),
             track.height() == 0 ? "\u2013" : String.format(Locale.ROOT, "%.0f m", track.height()),
             Integer.toString(track.hits()), String.format(Locale.ROOT, "%.1f", track.score())};
     }
 
-    static double[] widths(Graphics2D g, List<String[]> rows) {
+    static double[] columnWidths(Graphics2D g, List<String[]> rows) {
         double[] widths = new double[TITLES.length];
         for (int i = 0; i < TITLES.length; i++) {
             widths[i] = g.getFontMetrics(Palette.SMALL).stringWidth(TITLES[i]);
@@ -97,8 +100,8 @@ final class TrackTable extends JComponent {
         return widths;
     }
 
-    /** Cells are right-aligned. */
-    private static void row(Graphics2D g, int y, double[] edges, String... cells) {
+    /** Draws a row of right-aligned cells. */
+    private static void drawRow(Graphics2D g, int y, double[] edges, String... cells) {
         for (int i = 0; i < edges.length; i++) {
             g.drawString(cells[i], (float) (LEFT + edges[i] - g.getFontMetrics().stringWidth(cells[i])), y);
         }

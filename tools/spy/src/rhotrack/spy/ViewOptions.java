@@ -3,7 +3,7 @@ package rhotrack.spy;
 
 import java.util.EnumSet;
 
-/** What the user wants to see. */
+/** The layers that the user has switched on. */
 final class ViewOptions {
     enum Layer {
         PLOTS('P', "Plots"), BEARINGS('B', "Bearings"), TRAILS('H', "Trails"), ELLIPSES('E', "Ellipses"),

@@ -4,7 +4,8 @@ package rhotrack.spy;
 import rhotrack.spy.scene.Bounds;
 
 /**
- * Between the local frame (metres, y up) and the screen (pixels, y down); one scale for both axes.
+ * Transforms between the local frame (metres, y up) and the screen (pixels, y down), with one scale
+ * for both axes.
  */
 final class ViewTransform {
     private static final double MIN_METRES_PER_PIXEL = 0.01;
@@ -41,21 +42,23 @@ final class ViewTransform {
         return centreY - (screenY - height / 2.0) * metresPerPixel;
     }
 
-    /** What is on the screen. */
-    Bounds visible() {
+    /** The area of the local frame that is on the screen. */
+    Bounds visibleBounds() {
         return new Bounds(worldX(0), worldY(height), worldX(width), worldY(0));
     }
 
-    /** A factor above 1 comes nearer; the place under the pointer stays under it. */
+    /**
+     * Zooms in by a factor above 1, out by one below; the place at the given pixel stays there.
+     */
     void zoomAbout(double screenX, double screenY, double factor) {
         double x = worldX(screenX);
         double y = worldY(screenY);
-        metresPerPixel = limited(metresPerPixel / factor);
+        metresPerPixel = limitedScale(metresPerPixel / factor);
         centreX += x - worldX(screenX);
         centreY += y - worldY(screenY);
     }
 
-    /** Moves the picture by so many pixels. */
+    /** Moves the picture by a number of pixels. */
     void pan(double right, double down) {
         centreX -= right * metresPerPixel;
         centreY += down * metresPerPixel;
@@ -66,12 +69,12 @@ final class ViewTransform {
         double across = bounds.width() / Math.max(1, width - 2 * margin);
         double up = bounds.height() / Math.max(1, height - 2 * margin);
         double scale = Math.max(across, up);
-        metresPerPixel = limited(scale > 0 ? scale : 10); // a single place: a few kilometres about it
+        metresPerPixel = limitedScale(scale > 0 ? scale : 10); // a single place is shown with a few kilometres about it
         centreX = (bounds.west() + bounds.east()) / 2;
         centreY = (bounds.south() + bounds.north()) / 2;
     }
 
-    private static double limited(double scale) {
+    private static double limitedScale(double scale) {
         return Math.max(MIN_METRES_PER_PIXEL, Math.min(MAX_METRES_PER_PIXEL, scale));
     }
 }

@@ -11,11 +11,11 @@ import java.nio.file.Files;
 import javax.imageio.ImageIO;
 import javax.swing.SwingUtilities;
 
-import rhotrack.spy.scene.Feed;
-import rhotrack.spy.scene.LcmUrl;
+import rhotrack.spy.scene.LcmSubscription;
+import rhotrack.spy.scene.LcmUrlArgument;
 import rhotrack.spy.scene.Model;
 
-/** The same view without lcm-spy, in a window or as a picture. */
+/** The viewer as a program without lcm-spy, in a window or as a picture. */
 public final class Viewer {
     static final int WIDTH = 1280;
     static final int HEIGHT = 800;
@@ -39,11 +39,11 @@ public final class Viewer {
     private Viewer() {
     }
 
-    /** See USAGE. */
+    /** Runs the viewer with the arguments in USAGE. */
     public static void main(String[] arguments) throws InterruptedException, InvocationTargetException {
         Viewer viewer = new Viewer();
         try {
-            viewer.parse(arguments);
+            viewer.parseArguments(arguments);
         } catch (IllegalArgumentException e) {
             System.err.println(USAGE);
             System.exit(2);
@@ -59,13 +59,13 @@ public final class Viewer {
     private void run() throws IOException, InterruptedException, InvocationTargetException {
         if (png != null) {
             writePicture();
-            System.exit(0); // LCM's thread would go on
+            System.exit(0); // LCM's thread would keep the process running
         }
         if (GraphicsEnvironment.isHeadless()) {
             throw new IOException("no display (--png needs none)");
         }
         Model model = new Model();
-        Feed feed = new Feed(url, model);
+        LcmSubscription feed = new LcmSubscription(url, model);
         SwingUtilities.invokeAndWait(() -> {
             ViewerWindow window = new ViewerWindow(model, feed, width, height);
             window.whenClosed(() -> System.exit(0));
@@ -73,8 +73,8 @@ public final class Viewer {
         });
     }
 
-    private void parse(String[] arguments) {
-        url = LcmUrl.from(arguments);
+    private void parseArguments(String[] arguments) {
+        url = LcmUrlArgument.fromArguments(arguments);
         for (int i = 0; i < arguments.length; i++) {
             String name = arguments[i];
             if (name.startsWith("--lcm-url=")) {
@@ -110,15 +110,15 @@ public final class Viewer {
     private void writePicture() throws IOException, InterruptedException, InvocationTargetException {
         System.setProperty("java.awt.headless", "true");
         Model model = new Model();
-        new Feed(url, model); // never closed: the process ends, and LCM would complain about its socket
+        new LcmSubscription(url, model); // not closed: the process ends, and LCM would report an error on its socket
         Thread.sleep((long) (1000 * seconds));
         BufferedImage[] image = new BufferedImage[1];
         SwingUtilities.invokeAndWait(() -> {
             ViewerPanel panel = new ViewerPanel(model);
-            image[0] = panel.picture(width, height);
+            image[0] = panel.paintToImage(width, height);
             if (selected != null) {
-                panel.select(selected);
-                image[0] = panel.picture(width, height);
+                panel.selectTrack(selected);
+                image[0] = panel.paintToImage(width, height);
             }
         });
         ByteArrayOutputStream bytes = new ByteArrayOutputStream();

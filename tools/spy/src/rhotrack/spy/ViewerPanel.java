@@ -17,11 +17,11 @@ import javax.swing.plaf.basic.BasicSplitPaneUI;
 import rhotrack.spy.scene.Model;
 import rhotrack.spy.scene.Scene;
 
-/** All views of one model, with their buttons and keys. Needs no window to paint itself. */
-@SuppressWarnings("serial") // nobody stores views
+/** All views of one model, with their buttons and keys. It can paint itself without a window. */
+@SuppressWarnings("serial") // views are never serialised
 final class ViewerPanel extends JPanel {
     private static final int REFRESH_MS = 100;
-    /** The ages in the status line grow also when nothing comes. */
+    /** Longest time without a refresh: ages in the status line grow even without messages. */
     private static final long LONGEST_REST_NANOS = 1_000_000_000L;
     private static final double PAN_PIXELS = 60;
     private static final double ZOOM_A_KEY = 1.4;
@@ -29,7 +29,7 @@ final class ViewerPanel extends JPanel {
     private final Model model;
     private final ViewOptions options = new ViewOptions();
     private final PlanView plan = new PlanView(options);
-    private final PeaksView peaks = new PeaksView(options);
+    private final ParameterSpaceView peaks = new ParameterSpaceView(options);
     private final TrackTable table = new TrackTable();
     private final StatusLine status = new StatusLine();
     private final Timer timer = new Timer(REFRESH_MS, event -> refreshIfChanged());
@@ -43,12 +43,12 @@ final class ViewerPanel extends JPanel {
         this.model = model;
         setBackground(Palette.PANEL);
         setFocusable(true);
-        add(controls().row(), BorderLayout.NORTH);
-        JSplitPane side = split(JSplitPane.VERTICAL_SPLIT, peaks, table, 0.6);
-        add(split(JSplitPane.HORIZONTAL_SPLIT, plan, side, 0.72), BorderLayout.CENTER);
+        add(createControls().component(), BorderLayout.NORTH);
+        JSplitPane side = splitPane(JSplitPane.VERTICAL_SPLIT, peaks, table, 0.6);
+        add(splitPane(JSplitPane.HORIZONTAL_SPLIT, plan, side, 0.72), BorderLayout.CENTER);
         add(status, BorderLayout.SOUTH);
         PointerControl.attach(plan);
-        plan.whenSelected(table::select);
+        plan.setSelectionListener(table::selectTrack);
     }
 
     void start() {
@@ -59,30 +59,30 @@ final class ViewerPanel extends JPanel {
         timer.stop();
     }
 
-    private Controls controls() {
-        Controls controls = new Controls(this);
-        controls.button("Pause", "SPACE", () -> paused, this::togglePause);
-        controls.button("Fit", "F", () -> false, plan::fit);
-        controls.button("Clear", "C", () -> false, this::clear);
-        controls.gap();
+    private ButtonRow createControls() {
+        ButtonRow controls = new ButtonRow(this);
+        controls.addButton("Pause", "SPACE", () -> paused, this::togglePause);
+        controls.addButton("Fit", "F", () -> false, plan::fit);
+        controls.addButton("Clear", "C", () -> false, this::clear);
+        controls.addGap();
         for (ViewOptions.Layer layer : ViewOptions.Layer.values()) {
-            controls.button(layer.title, String.valueOf(layer.key), () -> options.shows(layer), () -> {
+            controls.addButton(layer.title, String.valueOf(layer.key), () -> options.shows(layer), () -> {
                 options.toggle(layer);
                 repaint();
             });
         }
-        controls.key("typed +", () -> plan.zoom(ZOOM_A_KEY));
-        controls.key("typed -", () -> plan.zoom(1 / ZOOM_A_KEY));
-        controls.key("LEFT", () -> plan.pan(PAN_PIXELS, 0));
-        controls.key("RIGHT", () -> plan.pan(-PAN_PIXELS, 0));
-        controls.key("UP", () -> plan.pan(0, PAN_PIXELS));
-        controls.key("DOWN", () -> plan.pan(0, -PAN_PIXELS));
+        controls.bindKey("typed +", () -> plan.zoom(ZOOM_A_KEY));
+        controls.bindKey("typed -", () -> plan.zoom(1 / ZOOM_A_KEY));
+        controls.bindKey("LEFT", () -> plan.pan(PAN_PIXELS, 0));
+        controls.bindKey("RIGHT", () -> plan.pan(-PAN_PIXELS, 0));
+        controls.bindKey("UP", () -> plan.pan(0, PAN_PIXELS));
+        controls.bindKey("DOWN", () -> plan.pan(0, -PAN_PIXELS));
         return controls;
     }
 
-    private static JSplitPane split(int orientation, Component first, Component second, double weight) {
+    private static JSplitPane splitPane(int orientation, Component first, Component second, double weight) {
         JSplitPane split = new JSplitPane(orientation, true, first, second);
-        BasicSplitPaneUI plain = new BasicSplitPaneUI(); // the usual one paints knobs and edges in light grey
+        BasicSplitPaneUI plain = new BasicSplitPaneUI(); // the default UI paints knobs and edges in light grey
         split.setUI(plain);
         plain.getDivider().setBorder(BorderFactory.createEmptyBorder());
         split.setBackground(Palette.EDGE);
@@ -92,7 +92,9 @@ final class ViewerPanel extends JPanel {
         return split;
     }
 
-    /** What is shown stands still; messages are still taken, and shown when the pause ends. */
+    /**
+     * Freezes the views or goes on; messages are received during the pause, and shown when it ends.
+     */
     private void togglePause() {
         paused = !paused;
         status.show(scene, paused);
@@ -120,21 +122,24 @@ final class ViewerPanel extends JPanel {
         status.show(scene, paused);
     }
 
-    /** Selects a track that was painted, as a click on it does; 0: that with the most hypotheses. */
-    void select(int id) {
-        int wanted = id != 0 ? id : scene.thoughts().hypotheses().values().stream()
+    /** Selects a painted track as a click on it does; 0: the track with the most hypotheses. */
+    void selectTrack(int id) {
+        int wanted = id != 0 ? id : scene.internals().hypotheses().values().stream()
                 .max(Comparator.comparingInt(of -> of.list().size()))
                 .map(Scene.Hypotheses::trackId).orElse(0);
         scene.tracks().stream().filter(track -> track.id() == wanted).findFirst()
-                .map(track -> plan.at(track.place())).ifPresent(at -> plan.selectAt(at.x, at.y));
+                .map(track -> plan.pixelOf(track.place())).ifPresent(at -> plan.selectAt(at.x, at.y));
     }
 
-    /** Paints what the model holds now. Without a window the layout must be asked for. */
-    BufferedImage picture(int width, int height) {
+    /**
+     * Paints the model's present state to an image. The layout is computed here, as there is no
+     * window.
+     */
+    BufferedImage paintToImage(int width, int height) {
         setSize(width, height);
-        layOut(this);
+        layOutRecursively(this);
         refresh();
-        layOut(this); // the status line may need more rows
+        layOutRecursively(this); // the status line may need more rows
         BufferedImage image = new BufferedImage(width, height, BufferedImage.TYPE_INT_RGB);
         Graphics2D g = image.createGraphics();
         g.setColor(Color.BLACK);
@@ -143,11 +148,11 @@ final class ViewerPanel extends JPanel {
         return image;
     }
 
-    private static void layOut(Container container) {
+    private static void layOutRecursively(Container container) {
         container.doLayout();
         for (Component child : container.getComponents()) {
             if (child instanceof Container inner) {
-                layOut(inner);
+                layOutRecursively(inner);
             }
         }
     }

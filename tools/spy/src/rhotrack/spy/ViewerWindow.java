@@ -11,15 +11,15 @@ import java.awt.event.WindowEvent;
 import javax.swing.JFrame;
 import javax.swing.WindowConstants;
 
-import rhotrack.spy.scene.Feed;
+import rhotrack.spy.scene.LcmSubscription;
 import rhotrack.spy.scene.Model;
 
-/** The window; the subscription that feeds it ends with it. */
+/** The viewer's window; closing it also closes its LCM subscription. */
 final class ViewerWindow {
     private final JFrame frame = new JFrame("rhotrack");
     private final ViewerPanel panel;
 
-    ViewerWindow(Model model, Feed feed, int width, int height) {
+    ViewerWindow(Model model, LcmSubscription feed, int width, int height) {
         panel = new ViewerPanel(model);
         frame.setDefaultCloseOperation(WindowConstants.DISPOSE_ON_CLOSE);
         frame.setContentPane(panel);
@@ -34,22 +34,25 @@ final class ViewerWindow {
         });
     }
 
-    /** The other one goes to the edge where the screen has room for both only so. */
+    /**
+     * Places the window beside the other one; moves the other one to the screen's edge only where
+     * both do not fit otherwise.
+     */
     void placeBeside(Window other) {
         GraphicsConfiguration where = other.getGraphicsConfiguration();
-        Insets edges = Toolkit.getDefaultToolkit().getScreenInsets(where); // of the desktop's bars
+        Insets edges = Toolkit.getDefaultToolkit().getScreenInsets(where); // area of the desktop's bars
         Rectangle screen = where.getBounds();
         screen.x += edges.left;
         screen.y += edges.top;
         screen.width -= edges.left + edges.right;
         screen.height -= edges.top + edges.bottom;
         Rectangle moved = new Rectangle(other.getLocationOnScreen(), other.getSize());
-        Rectangle place = Placement.beside(screen, moved, frame.getSize());
+        Rectangle place = WindowPlacement.beside(screen, moved, frame.getSize());
         if (place == null) {
             moved.x = screen.x;
-            place = Placement.beside(screen, moved, frame.getSize());
+            place = WindowPlacement.beside(screen, moved, frame.getSize());
         }
-        if (place != null) { // else where the desktop puts it
+        if (place != null) { // otherwise the desktop chooses the place
             other.setBounds(moved);
             frame.setLocationByPlatform(false);
             frame.setBounds(place);
@@ -59,7 +62,7 @@ final class ViewerWindow {
     void open() {
         panel.start();
         frame.setVisible(true);
-        panel.requestFocusInWindow(); // its keys work only while something in the window has the focus
+        panel.requestFocusInWindow(); // shortcuts work only while something in the window has the focus
     }
 
     boolean isOpen() {

@@ -35,11 +35,11 @@ import rhotrack.status_t;
 import rhotrack.track_list_t;
 import rhotrack.track_t;
 import rhotrack.work_t;
-import rhotrack.spy.scene.Decoder;
+import rhotrack.spy.scene.DisplayedTrack;
+import rhotrack.spy.scene.MessageDecoder;
 import rhotrack.spy.scene.Model;
 import rhotrack.spy.scene.Place;
 import rhotrack.spy.scene.Scene;
-import rhotrack.spy.scene.TrackMark;
 
 /** From messages, good and bad, to what is painted. */
 final class MessageTest {
@@ -56,8 +56,8 @@ final class MessageTest {
         check.group("bad thoughts", () -> badThoughts(check));
         check.group("pictures of thoughts", () -> thoughtsInPictures(check));
         check.group("fingerprints", () -> {
-            check.isTrue("tracks are known", Decoder.knows(track_list_t.LCM_FINGERPRINT));
-            check.isTrue("a part of a message is none", !Decoder.knows(track_t.LCM_FINGERPRINT));
+            check.isTrue("tracks are known", MessageDecoder.canDecode(track_list_t.LCM_FINGERPRINT));
+            check.isTrue("a part of a message is none", !MessageDecoder.canDecode(track_t.LCM_FINGERPRINT));
         });
     }
 
@@ -160,13 +160,13 @@ final class MessageTest {
     private static void bodies(Checks check) throws IOException {
         Model model = new Model();
         ViewerPanel panel = new ViewerPanel(model);
-        Decoder decoder = new Decoder(model);
+        MessageDecoder decoder = new MessageDecoder(model);
         decoder.decode("RHO_POLAR_3", bytes(polarScan()));
         decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
-        BufferedImage point = panel.picture(900, 600);
+        BufferedImage point = panel.paintToImage(900, 600);
         decoder.decode("RHO_BODIES", bytes(bodies(1, 400)));
         check.equal("a body", List.of(new Scene.Body(12, new Place(500, 0), 400, 100, 0.5)), model.scene().bodies());
-        check.isTrue("is an outline", differ(point, panel.picture(900, 600), 0, 40, 640, 560) > 50);
+        check.isTrue("is an outline", differ(point, panel.paintToImage(900, 600), 0, 40, 640, 560) > 50);
         decoder.decode("RHO_BODIES", bytes(bodies(2, -1)));
         body_list_t turned = bodies(3, 400);
         turned.bodies[0].heading_rad = Float.NaN;
@@ -278,43 +278,43 @@ final class MessageTest {
 
     private static void thoughts(Checks check) throws IOException {
         Model model = new Model();
-        Decoder decoder = new Decoder(model);
+        MessageDecoder decoder = new MessageDecoder(model);
         decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
         decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 0, 2, ghost_t.UNMATCHED)));
-        check.equal("half of a matrix", 0, model.scene().thoughts().ghosts().size());
+        check.equal("half of a matrix", 0, model.scene().internals().ghosts().size());
         decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 1, 2, ghost_t.APART)));
         check.equal("crossings of both parts that meet",
                 List.of(new Scene.Crossing(new Place(800, 0), false), new Scene.Crossing(new Place(200, 300), true),
                         new Scene.Crossing(new Place(800, 0), false)),
-                model.scene().thoughts().ghosts().get(0).crossings());
+                model.scene().internals().ghosts().get(0).crossings());
         decoder.decode("RHO_ACCUMULATOR", bytes(search(1, 7, 12)));
         decoder.decode("RHO_ACCUMULATOR", bytes(search(2, 5, 0)));
         check.equal("the last search", List.of(new Scene.Cell(-300, 1, 5, 3, 0)),
-                model.scene().thoughts().accumulators().get(0).cells());
+                model.scene().internals().accumulators().get(0).cells());
         for (int part = 0; part < 4; part++) {
-            check.equal("a plane needs all its parts", 0, model.scene().thoughts().planes().size());
+            check.equal("a plane needs all its parts", 0, model.scene().internals().planes().size());
             decoder.decode("RHO_PLANE", bytes(plane(2, part, 4, 30 * part)));
         }
-        check.equal("64 rows", 64, model.scene().thoughts().planes().get(0).rows().size());
-        check.equal("in their order", (byte) 90, model.scene().thoughts().planes().get(0).rows().get(63)[5]);
+        check.equal("64 rows", 64, model.scene().internals().planes().get(0).rows().size());
+        check.equal("in their order", (byte) 90, model.scene().internals().planes().get(0).rows().get(63)[5]);
         decoder.decode("RHO_HYPOTHESES", bytes(hypotheses(12, 0.75f)));
-        Scene.Hypotheses of = model.scene().thoughts().hypotheses().get(12);
+        Scene.Hypotheses of = model.scene().internals().hypotheses().get(12);
         check.equal("plots", List.of(4, -1, 7), of.list().get(0).plots());
         check.near("shares", 0.25, of.list().get(1).share());
         check.near("evidence", 0.75, of.support());
         check.equal("all taken", 0L, model.scene().health().ignored());
         decoder.decode("RHO_HYPOTHESES", bytes(hypotheses(13, 0.75f)));
-        check.equal("of a track that is not there", null, model.scene().thoughts().hypotheses().get(13));
+        check.equal("of a track that is not there", null, model.scene().internals().hypotheses().get(13));
         decoder.decode("RHO_GHOSTS", bytes(ghosts(30, 0, 1, ghost_t.ROW)));
-        check.equal("the newest matrix alone", 2, model.scene().thoughts().ghosts().get(0).crossings().size());
+        check.equal("the newest matrix alone", 2, model.scene().internals().ghosts().get(0).crossings().size());
         model.clear();
-        check.equal("forgotten", new Scene.Thoughts(List.of(), List.of(), List.of(), java.util.Map.of()),
-                model.scene().thoughts());
+        check.equal("forgotten", new Scene.Internals(List.of(), List.of(), List.of(), java.util.Map.of()),
+                model.scene().internals());
     }
 
     private static void badThoughts(Checks check) throws IOException {
         Model model = new Model();
-        Decoder decoder = new Decoder(model);
+        MessageDecoder decoder = new MessageDecoder(model);
         decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 0, 1, 7)));
         decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 1, 1, ghost_t.ROW)));
         ghost_matrix_t nowhere = ghosts(1, 0, 1, ghost_t.ROW);
@@ -330,8 +330,8 @@ final class MessageTest {
         more.calm = 1.5f;
         decoder.decode("RHO_HYPOTHESES", bytes(more));
         check.equal("all refused", 8L, model.scene().health().ignored());
-        check.equal("nothing is thought", new Scene.Thoughts(List.of(), List.of(), List.of(), java.util.Map.of()),
-                model.scene().thoughts());
+        check.equal("nothing is thought", new Scene.Internals(List.of(), List.of(), List.of(), java.util.Map.of()),
+                model.scene().internals());
         for (int i = 0; i < 300; i++) {
             ghost_matrix_t pair = ghosts(1, 0, 1, ghost_t.ROW);
             pair.sensor_a_id = (short) i;
@@ -341,38 +341,38 @@ final class MessageTest {
             of.sensor_a_id = (short) i;
             decoder.decode("RHO_ACCUMULATOR", bytes(of));
         }
-        check.equal("no more pairs than there can be", 64, model.scene().thoughts().ghosts().size());
-        check.equal("and no more searches", 64, model.scene().thoughts().accumulators().size());
+        check.equal("no more pairs than there can be", 64, model.scene().internals().ghosts().size());
+        check.equal("and no more searches", 64, model.scene().internals().accumulators().size());
     }
 
     private static void thoughtsInPictures(Checks check) throws IOException {
         Model model = new Model();
         ViewerPanel panel = new ViewerPanel(model);
-        Decoder decoder = new Decoder(model);
+        MessageDecoder decoder = new MessageDecoder(model);
         decoder.decode("RHO_POLAR_3", bytes(polarScan()));
         decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
-        BufferedImage before = panel.picture(900, 600);
+        BufferedImage before = panel.paintToImage(900, 600);
         decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 0, 1, ghost_t.ROW)));
-        BufferedImage ghosts = panel.picture(900, 600);
+        BufferedImage ghosts = panel.paintToImage(900, 600);
         check.isTrue("ghosts are struck out", differ(before, ghosts, 0, 40, 640, 560) > 20);
-        int calm = count(ghosts, Palette.ramp(1).getRGB());
+        int calm = count(ghosts, Palette.rampColour(1).getRGB());
         decoder.decode("RHO_ACCUMULATOR", bytes(search(1, 7, 12)));
         for (int part = 0; part < 4; part++) {
             decoder.decode("RHO_PLANE", bytes(plane(1, part, 4, 127)));
         }
-        BufferedImage votes = panel.picture(900, 600);
-        check.isTrue("a plane is an image", count(votes, Palette.ramp(1).getRGB()) > calm + 5000);
+        BufferedImage votes = panel.paintToImage(900, 600);
+        check.isTrue("a plane is an image", count(votes, Palette.rampColour(1).getRGB()) > calm + 5000);
         decoder.decode("RHO_HYPOTHESES", bytes(hypotheses(12, 0.75f)));
-        BufferedImage unselected = panel.picture(900, 600);
+        BufferedImage unselected = panel.paintToImage(900, 600);
         check.equal("nobody has asked for hypotheses", 0, differ(votes, unselected, 0, 40, 640, 560));
-        panel.select(12);
-        BufferedImage selected = panel.picture(900, 600);
+        panel.selectTrack(12);
+        BufferedImage selected = panel.paintToImage(900, 600);
         check.isTrue("they are in the plan", differ(unselected, selected, 0, 40, 640, 560) > 20);
         check.isTrue("and beside it", differ(unselected, selected, 660, 350, 900, 570) > 500);
         click(panel, 3, 3);
-        check.equal("a click elsewhere", 0, differ(unselected, panel.picture(900, 600), 0, 40, 900, 570));
-        panel.select(0);
-        check.equal("that with the most", 0, differ(selected, panel.picture(900, 600), 0, 40, 900, 570));
+        check.equal("a click elsewhere", 0, differ(unselected, panel.paintToImage(900, 600), 0, 40, 900, 570));
+        panel.selectTrack(0);
+        check.equal("that with the most", 0, differ(selected, panel.paintToImage(900, 600), 0, 40, 900, 570));
     }
 
     /** On the plan view, as the pointer does it. */
@@ -400,7 +400,7 @@ final class MessageTest {
 
     private static void good(Checks check) throws IOException {
         Model model = new Model();
-        Decoder decoder = new Decoder(model);
+        MessageDecoder decoder = new MessageDecoder(model);
         decoder.decode("RHO_POLAR_3", bytes(polarScan()));
         decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.COASTING)));
         decoder.decode("RHO_BEARINGS_2", bytes(bearings()));
@@ -412,7 +412,7 @@ final class MessageTest {
         Scene scene = model.scene();
         check.equal("plots", List.of(new Place(2100, 0)), scene.plots().get(0).content().places());
         check.equal("sensors", new Place(100, 0), scene.sensors().get(3));
-        check.equal("tracks", TrackMark.Status.COASTING, scene.tracks().get(0).status());
+        check.equal("tracks", DisplayedTrack.Status.COASTING, scene.tracks().get(0).status());
         check.near("ellipse", 30, scene.tracks().get(0).ellipse().major());
         check.equal("bearings", List.of(1.0, -2.0), scene.bearings().get(0).content().angles());
         check.near("peaks", -300, scene.peaks().get(0).content().peaks().get(0).rho());
@@ -459,7 +459,7 @@ final class MessageTest {
 
     private static void bad(Checks check) throws IOException {
         Model model = new Model();
-        Decoder decoder = new Decoder(model);
+        MessageDecoder decoder = new MessageDecoder(model);
         byte[] whole = bytes(trackList(1, track_t.CONFIRMED));
         decoder.decode("RHO_TRACKS", new byte[0]);
         decoder.decode("RHO_TRACKS", new byte[7]);
@@ -500,7 +500,7 @@ final class MessageTest {
     private static void mutated(Checks check) throws IOException {
         Random random = new Random(1);
         Model model = new Model();
-        Decoder decoder = new Decoder(model);
+        MessageDecoder decoder = new MessageDecoder(model);
         byte[][] originals = {bytes(polarScan()), bytes(trackList(1, track_t.CONFIRMED)), bytes(bearings()),
             bytes(peaks()), bytes(new status_t()),
             bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300)), bytes(work(1, 2, 3)),
@@ -521,21 +521,21 @@ final class MessageTest {
         }
         check.equal("all counted", rounds + 300L, model.scene().health().received());
         check.isTrue("no more sensors than a tracker takes", model.scene().sensors().size() == 64);
-        new ViewerPanel(model).picture(800, 600);
+        new ViewerPanel(model).paintToImage(800, 600);
         check.isTrue("and painted", true);
     }
 
     private static void picture(Checks check) throws IOException {
         Model model = new Model();
         ViewerPanel panel = new ViewerPanel(model);
-        BufferedImage before = panel.picture(900, 600);
-        Decoder decoder = new Decoder(model);
+        BufferedImage before = panel.paintToImage(900, 600);
+        MessageDecoder decoder = new MessageDecoder(model);
         decoder.decode("RHO_POLAR_3", bytes(polarScan()));
         decoder.decode("RHO_STATUS", bytes(new status_t()));
         decoder.decode("RHO_WORK", bytes(work(1, 2, 3)));
         decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
-        BufferedImage after = panel.picture(900, 600);
-        int confirmed = Palette.of(TrackMark.Status.CONFIRMED).getRGB();
+        BufferedImage after = panel.paintToImage(900, 600);
+        int confirmed = Palette.ofStatus(DisplayedTrack.Status.CONFIRMED).getRGB();
         check.isTrue("no track at first", count(before, confirmed) < count(after, confirmed));
     }
 

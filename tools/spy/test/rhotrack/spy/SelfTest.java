@@ -11,14 +11,14 @@ import java.util.ArrayList;
 import java.util.List;
 
 import rhotrack.spy.scene.Bounds;
+import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.Ellipse;
 import rhotrack.spy.scene.Geometry;
-import rhotrack.spy.scene.LcmUrl;
+import rhotrack.spy.scene.LcmUrlArgument;
 import rhotrack.spy.scene.ListAssembler;
 import rhotrack.spy.scene.LookHistory;
 import rhotrack.spy.scene.Place;
-import rhotrack.spy.scene.TrackMark;
-import rhotrack.spy.scene.TrackStore;
+import rhotrack.spy.scene.TracksWithTrails;
 
 /** The viewer's parts without a display or a network: `make spy-test`. */
 public final class SelfTest {
@@ -58,14 +58,14 @@ public final class SelfTest {
         for (double course = -3; course < 3.2; course += 0.1) {
             double vx = 200 * Math.cos(course);
             double vy = 200 * Math.sin(course);
-            Geometry.Line line = Geometry.lineOf(3000, -700, vx, vy);
+            Geometry.Line line = Geometry.lineThroughTrack(3000, -700, vx, vy);
             CHECK.isTrue("theta in [0, pi) for course " + course, line.theta() >= 0 && line.theta() < Math.PI);
             CHECK.near("the place is on the line", line.rho(),
                     3000 * Math.cos(line.theta()) - 700 * Math.sin(line.theta()));
             CHECK.near("so is a later one", line.rho(), (3000 + 9 * vx) * Math.cos(line.theta())
                     + (-700 + 9 * vy) * Math.sin(line.theta()));
         }
-        CHECK.isTrue("NaN is no place", !new Place(Double.NaN, 0).isSane());
+        CHECK.isTrue("NaN is no place", !new Place(Double.NaN, 0).isWithinLimits());
     }
 
     private static void ellipse() {
@@ -88,18 +88,18 @@ public final class SelfTest {
     }
 
     private static void scale() {
-        CHECK.near("1", 1, Scale.roundStep(1));
-        CHECK.near("2", 2, Scale.roundStep(1.01));
-        CHECK.near("5000", 5000, Scale.roundStep(2100));
-        CHECK.near("10000", 10000, Scale.roundStep(5001));
-        CHECK.near("0.2", 0.2, Scale.roundStep(0.11));
-        CHECK.near("of nothing", 1, Scale.roundStep(0));
-        CHECK.near("of NaN", 1, Scale.roundStep(Double.NaN));
-        CHECK.equal("km", "20 km", Scale.length(20000, 5000));
-        CHECK.equal("parts of a km", "1.5 km", Scale.length(1500, 500));
-        CHECK.equal("m", "50 m", Scale.length(50, 50));
-        CHECK.equal("small steps far out", "1.05 km", Scale.length(1050, 50));
-        CHECK.equal("negative", "\u22124 km", Scale.length(-4000, 2000));
+        CHECK.near("1", 1, AxisScale.roundStep(1));
+        CHECK.near("2", 2, AxisScale.roundStep(1.01));
+        CHECK.near("5000", 5000, AxisScale.roundStep(2100));
+        CHECK.near("10000", 10000, AxisScale.roundStep(5001));
+        CHECK.near("0.2", 0.2, AxisScale.roundStep(0.11));
+        CHECK.near("of nothing", 1, AxisScale.roundStep(0));
+        CHECK.near("of NaN", 1, AxisScale.roundStep(Double.NaN));
+        CHECK.equal("km", "20 km", AxisScale.formatLength(20000, 5000));
+        CHECK.equal("parts of a km", "1.5 km", AxisScale.formatLength(1500, 500));
+        CHECK.equal("m", "50 m", AxisScale.formatLength(50, 50));
+        CHECK.equal("small steps far out", "1.05 km", AxisScale.formatLength(1050, 50));
+        CHECK.equal("negative", "\u22124 km", AxisScale.formatLength(-4000, 2000));
     }
 
     private static void view() {
@@ -179,60 +179,61 @@ public final class SelfTest {
             history.add(0, scan, 1, "first of " + scan);
             history.add(0, scan, 1, "second of " + scan);
         }
-        List<LookHistory.Faded<String>> fading = history.fading();
+        List<LookHistory.Faded<String>> fading = history.contentsWithStrength();
         CHECK.equal("the last four looks", 8, fading.size());
         CHECK.equal("oldest first", "first of 2", fading.get(0).content());
         CHECK.near("the oldest is faint", 0.25, fading.get(1).strength());
         CHECK.near("the newest is not", 1, fading.get(7).strength());
         history.add(1, 0, 1, "anew");
-        CHECK.equal("a restart clears", 1, history.fading().size());
+        CHECK.equal("a restart clears", 1, history.contentsWithStrength().size());
     }
 
-    private static TrackMark mark(int id, TrackMark.Status status, double x) {
-        return new TrackMark(id, status, new Place(x, 0), 0, 1, 0, 1, 0, 1, null);
+    private static DisplayedTrack mark(int id, DisplayedTrack.Status status, double x) {
+        return new DisplayedTrack(id, status, new Place(x, 0), 0, 1, 0, 1, 0, 1, null);
     }
 
     private static void tracks() {
-        TrackStore store = new TrackStore();
-        TrackMark one = mark(1, TrackMark.Status.CONFIRMED, 10);
-        TrackMark two = mark(2, TrackMark.Status.TENTATIVE, 20);
-        store.apply(new ListAssembler.Assembled<>(1, 1, true, List.of(one, two)));
+        TracksWithTrails store = new TracksWithTrails();
+        DisplayedTrack one = mark(1, DisplayedTrack.Status.CONFIRMED, 10);
+        DisplayedTrack two = mark(2, DisplayedTrack.Status.TENTATIVE, 20);
+        store.applyList(new ListAssembler.Assembled<>(1, 1, true, List.of(one, two)));
         CHECK.equal("both", List.of(one, two), store.tracks());
-        store.apply(new ListAssembler.Assembled<>(1, 2, false, List.of(one)));
+        store.applyList(new ListAssembler.Assembled<>(1, 2, false, List.of(one)));
         CHECK.equal("a missing part takes none away", 2, store.tracks().size());
         CHECK.equal("trails go with their tracks", 2, store.trails().get(0).size());
         for (int scan = 3; scan < 20; scan++) {
-            store.apply(new ListAssembler.Assembled<>(1, scan, false, List.of(one)));
+            store.applyList(new ListAssembler.Assembled<>(1, scan, false, List.of(one)));
         }
         CHECK.equal("but not for ever", List.of(one), store.tracks());
-        store.apply(new ListAssembler.Assembled<>(1, 20, true, List.of(mark(1, TrackMark.Status.DELETED, 0))));
+        store.applyList(new ListAssembler.Assembled<>(1, 20, true, List.of(mark(1, DisplayedTrack.Status.DELETED, 0))));
         CHECK.equal("deleted", 0, store.tracks().size());
-        store.apply(new ListAssembler.Assembled<>(1, 21, true, List.of(one)));
-        store.apply(new ListAssembler.Assembled<>(2, 1, false, List.of(two)));
+        store.applyList(new ListAssembler.Assembled<>(1, 21, true, List.of(one)));
+        store.applyList(new ListAssembler.Assembled<>(2, 1, false, List.of(two)));
         CHECK.equal("another tracker begins with nothing", List.of(two), store.tracks());
-        CHECK.equal("tentative ones last", List.of(one, two), TrackMark.byImportance(List.of(two, one)));
-        TrackMark fast = new TrackMark(1, TrackMark.Status.CONFIRMED, new Place(0, 0), 0, 200, 0, 1, 0, 1, null);
+        CHECK.equal("tentative ones last", List.of(one, two), DisplayedTrack.byImportance(List.of(two, one)));
+        DisplayedTrack fast = new DisplayedTrack(1, DisplayedTrack.Status.CONFIRMED, new Place(0, 0), 0, 200, 0, 1, 0,
+                1, null);
         CHECK.near("vectors of a round time", 20, TrackLayer.vectorSeconds(List.of(fast), 100));
         CHECK.near("nothing moves", 0, TrackLayer.vectorSeconds(List.of(), 100));
     }
 
     private static void labels() {
         LabelPlacer placer = new LabelPlacer(400, 300);
-        Rectangle2D first = placer.place(200, 150, 6, 50, 14);
-        Rectangle2D second = placer.place(200, 150, 6, 50, 14);
+        Rectangle2D first = placer.placeLabel(200, 150, 6, 50, 14);
+        Rectangle2D second = placer.placeLabel(200, 150, 6, 50, 14);
         CHECK.isTrue("two labels of one place do not overlap", !first.intersects(second));
-        CHECK.equal("none outside", null, placer.place(-5, 100, 6, 50, 14));
-        CHECK.isTrue("at the edge it turns inwards", placer.place(396, 20, 6, 50, 14).getMaxX() <= 398);
-        placer.block(0, 0, 400, 300);
-        CHECK.equal("no room", null, placer.place(100, 100, 6, 50, 14));
+        CHECK.equal("none outside", null, placer.placeLabel(-5, 100, 6, 50, 14));
+        CHECK.isTrue("at the edge it turns inwards", placer.placeLabel(396, 20, 6, 50, 14).getMaxX() <= 398);
+        placer.blockArea(0, 0, 400, 300);
+        CHECK.equal("no room", null, placer.placeLabel(100, 100, 6, 50, 14));
     }
 
     private static void url() {
-        CHECK.equal("default", null, LcmUrl.from("-x"));
-        CHECK.equal("-l", "udpm://a", LcmUrl.from("-Dx", "-l", "udpm://a"));
-        CHECK.equal("--lcm-url", "udpm://b", LcmUrl.from("--lcm-url", "udpm://b"));
-        CHECK.equal("--lcm-url=", "udpm://c", LcmUrl.from("--lcm-url=udpm://c"));
-        CHECK.equal("-l without one", null, LcmUrl.from("-l"));
+        CHECK.equal("default", null, LcmUrlArgument.fromArguments("-x"));
+        CHECK.equal("-l", "udpm://a", LcmUrlArgument.fromArguments("-Dx", "-l", "udpm://a"));
+        CHECK.equal("--lcm-url", "udpm://b", LcmUrlArgument.fromArguments("--lcm-url", "udpm://b"));
+        CHECK.equal("--lcm-url=", "udpm://c", LcmUrlArgument.fromArguments("--lcm-url=udpm://c"));
+        CHECK.equal("-l without one", null, LcmUrlArgument.fromArguments("-l"));
     }
 
     private static void windows() {
@@ -241,38 +242,39 @@ public final class SelfTest {
         Rectangle[] others = {new Rectangle(100, 100, 600, 500), new Rectangle(1300, 200, 600, 500),
             new Rectangle(50, 40, 1800, 300), new Rectangle(50, 780, 1800, 300), new Rectangle(0, 30, 1920, 155)};
         for (Rectangle other : others) {
-            Rectangle place = Placement.beside(screen, other, wanted);
+            Rectangle place = WindowPlacement.beside(screen, other, wanted);
             CHECK.isTrue("beside " + other + ": " + place, place != null && !place.intersects(other)
                     && screen.contains(place));
         }
         CHECK.equal("as large as wanted where there is room", wanted,
-                Placement.beside(new Rectangle(0, 0, 3840, 2160), others[0], wanted).getSize());
+                WindowPlacement.beside(new Rectangle(0, 0, 3840, 2160), others[0], wanted).getSize());
         CHECK.equal("smaller where there is less", new Rectangle(700, 100, 1220, 800),
-                Placement.beside(screen, others[0], wanted));
-        CHECK.equal("nowhere", null, Placement.beside(screen, new Rectangle(200, 200, 1500, 800), wanted));
+                WindowPlacement.beside(screen, others[0], wanted));
+        CHECK.equal("nowhere", null, WindowPlacement.beside(screen, new Rectangle(200, 200, 1500, 800), wanted));
         Rectangle second = new Rectangle(1920, 0, 1920, 1080);
         CHECK.isTrue("on a second screen", second.contains(
-                Placement.beside(second, new Rectangle(2000, 100, 600, 500), wanted)));
+                WindowPlacement.beside(second, new Rectangle(2000, 100, 600, 500), wanted)));
     }
 
     private static void columns() {
         Graphics2D g = new BufferedImage(10, 10, BufferedImage.TYPE_INT_RGB).createGraphics();
-        TrackMark far = new TrackMark(65535, TrackMark.Status.CONFIRMED, new Place(0, 0), 123456, 19000, 0, 99999, 0,
+        DisplayedTrack far = new DisplayedTrack(65535, DisplayedTrack.Status.CONFIRMED, new Place(0, 0), 123456,
+                19000, 0, 99999, 0,
                 123456.7, null);
-        double[] widths = TrackTable.widths(g, List.<String[]>of(TrackTable.cellsOf(far)));
+        double[] widths = TrackTable.columnWidths(g, List.<String[]>of(TrackTable.cellsOf(far)));
         for (int room = 60; room < 900; room += 7) {
-            double[] edges = Columns.rightEdges(widths, room);
+            double[] edges = ColumnLayout.rightEdges(widths, room);
             double before = 0;
             for (int i = 0; i < edges.length; i++) {
                 CHECK.isTrue("cells do not touch in " + room, edges[i] - widths[i] >= before
-                        + (edges.length > 1 ? Columns.LEAST_GAP : 0));
+                        + (edges.length > 1 ? ColumnLayout.LEAST_GAP : 0));
                 before = edges[i];
             }
             CHECK.isTrue("nor leave the table", before <= room + 1e-9);
         }
-        CHECK.equal("all of them where there is room", 6, Columns.rightEdges(widths, 900).length);
-        CHECK.isTrue("the last ones go first", Columns.rightEdges(widths, 200).length < 6);
-        CHECK.near("up to the edge", 900, Columns.rightEdges(widths, 900)[5]);
+        CHECK.equal("all of them where there is room", 6, ColumnLayout.rightEdges(widths, 900).length);
+        CHECK.isTrue("the last ones go first", ColumnLayout.rightEdges(widths, 200).length < 6);
+        CHECK.near("up to the edge", 900, ColumnLayout.rightEdges(widths, 900)[5]);
     }
 
     private static void statusLine() {
@@ -283,16 +285,16 @@ public final class SelfTest {
             groups.add(List.of(new StatusLine.Piece(Palette.TEXT, "group " + i, 12),
                     new StatusLine.Piece(Palette.TEXT, "of two", 12)));
         }
-        CHECK.equal("one row where there is room", 1, StatusLine.rows(groups, 5000, font).size());
-        CHECK.equal("one row of nothing", 1, StatusLine.rows(List.of(), 100, font).size());
+        CHECK.equal("one row where there is room", 1, StatusLine.wrapIntoRows(groups, 5000, font).size());
+        CHECK.equal("one row of nothing", 1, StatusLine.wrapIntoRows(List.of(), 100, font).size());
         for (int room = 200; room < 2000; room += 50) {
-            List<List<StatusLine.Piece>> rows = StatusLine.rows(groups, room, font);
+            List<List<StatusLine.Piece>> rows = StatusLine.wrapIntoRows(groups, room, font);
             for (List<StatusLine.Piece> row : rows) {
                 CHECK.isTrue("a row fits in " + room, StatusLine.widthOf(row, font) <= room + 26);
                 CHECK.isTrue("groups stay together", row.get(0).text().startsWith("group"));
             }
             CHECK.equal("nothing is missing", 36, rows.stream().mapToInt(List::size).sum());
         }
-        CHECK.isTrue("a narrow window has more rows", StatusLine.rows(groups, 300, font).size() > 3);
+        CHECK.isTrue("a narrow window has more rows", StatusLine.wrapIntoRows(groups, 300, font).size() > 3);
     }
 }

@@ -4,9 +4,9 @@ package rhotrack.spy.scene;
 import java.util.Arrays;
 import java.util.List;
 
-/** A rectangle of the local frame. */
+/** A rectangle of the local frame, in metres. */
 public record Bounds(double west, double south, double east, double north) {
-    /** So many places that single stray ones can be left out. */
+    /** Number of places from which the outermost ones are left out. */
     private static final int ENOUGH_TO_TRIM = 60;
 
     public static Bounds of(List<Place> places) {
@@ -14,7 +14,8 @@ public record Bounds(double west, double south, double east, double north) {
     }
 
     /**
-     * Without the outermost 2 % on each side: one wild plot must not shrink all others to a dot.
+     * Bounds of the places without the outermost 2 % on each side, so that one wild plot does not
+     * shrink the view of the others.
      */
     public static Bounds ofMost(List<Place> places) {
         return of(places, places.size() < ENOUGH_TO_TRIM ? 0 : places.size() / 50);
@@ -41,7 +42,7 @@ public record Bounds(double west, double south, double east, double north) {
         return west <= other.west && south <= other.south && east >= other.east && north >= other.north;
     }
 
-    /** How far the farthest corner is. */
+    /** Distance of the farthest corner from the place. */
     public double farthestFrom(Place place) {
         return Math.hypot(Math.max(Math.abs(west - place.x()), Math.abs(east - place.x())),
                 Math.max(Math.abs(south - place.y()), Math.abs(north - place.y())));

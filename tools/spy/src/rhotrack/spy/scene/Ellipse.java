@@ -2,13 +2,14 @@
 package rhotrack.spy.scene;
 
 /**
- * The ellipse of a two-dimensional covariance: semi-axes of one sigma, and where the long one
- * points.
+ * The one-sigma ellipse of a two-dimensional covariance: semi-axes, and direction of the major
+ * axis.
  */
 public record Ellipse(double major, double minor, double angle) {
     /**
-     * Of the lower triangle xx, yx, yy. Null where that is no covariance, beyond what rounding to
-     * float does to one: a tracker of another make must not make the view draw nonsense.
+     * Ellipse of the covariance with lower triangle xx, yx, yy; null where this is not positive
+     * semidefinite, except for rounding to float: a faulty tracker must not make the view draw
+     * nonsense.
      */
     public static Ellipse of(double xx, double yx, double yy) {
         double mean = (xx + yy) / 2;

@@ -2,8 +2,7 @@
 package rhotrack.spy.scene;
 
 /**
- * The little geometry that the views share. Angles are counter-clockwise from east unless they say
- * otherwise.
+ * Geometry that the views share. Angles are counter-clockwise from east unless stated otherwise.
  */
 public final class Geometry {
     /**
@@ -16,19 +15,22 @@ public final class Geometry {
     private Geometry() {
     }
 
-    /** A slant range counts as ground range where there is no elevation (0). */
+    /**
+     * The place at a range and azimuth from the sensor; with elevation 0 the range is taken as
+     * ground range.
+     */
     public static Place fromPolar(Place sensor, double range, double azimuth, double elevation) {
         double ground = range * Math.cos(elevation);
         return new Place(sensor.x() + ground * Math.cos(azimuth), sensor.y() + ground * Math.sin(azimuth));
     }
 
-    /** Clockwise from north, 0 to 360, as people read it. */
+    /** Direction in degrees clockwise from north, 0 to 360. */
     public static double compassDegrees(double east, double north) {
         double degrees = Math.toDegrees(Math.atan2(east, north));
         return degrees < 0 ? degrees + 360 : degrees;
     }
 
-    public static Line lineOf(double x, double y, double vx, double vy) {
+    public static Line lineThroughTrack(double x, double y, double vx, double vy) {
         double theta = Math.atan2(vx, -vy); // the direction of (-vy, vx), the line's normal
         double sign = 1;
         if (theta < 0) {

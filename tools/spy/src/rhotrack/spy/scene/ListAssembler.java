@@ -6,9 +6,11 @@ import java.util.ArrayList;
 import java.util.Deque;
 import java.util.List;
 
-/** Puts the parts of lists together. Parts may come in any order, twice, or never. */
+/**
+ * Assembles lists that are sent in several messages. Parts may come in any order, twice, or never.
+ */
 public final class ListAssembler<T> {
-    /** A list: `complete` is false where parts are missing. */
+    /** An assembled list; `complete` is false where parts are missing. */
     public record Assembled<T>(int epoch, int scan, boolean complete, List<T> items) {
     }
 
@@ -16,13 +18,11 @@ public final class ListAssembler<T> {
     }
 
     /**
-     * So many lists back a late part is known as such. A log that is played in a loop must count as
-     * new.
+     * Number of finished lists whose late parts are recognised and dropped; small, as a log that is
+     * played in a loop repeats its numbers.
      */
     private static final int REMEMBERED = 2;
-    /**
-     * As many items as a list may have by its own count; a sender of endless parts fills no memory.
-     */
+    /** Most items of a list, so that a sender of endless parts cannot fill the memory. */
     private static final int MAX_ITEMS = 32767;
 
     private final Deque<Key> done = new ArrayDeque<>();
@@ -32,8 +32,8 @@ public final class ListAssembler<T> {
     private int items;
 
     /**
-     * Takes a part. Returns the lists that are now to be shown, oldest first: the one before
-     * without what is missing, when a new one begins; and the new one once it is whole.
+     * Adds a part, and returns the lists that are finished by it, oldest first: the previous list,
+     * incomplete, where a new one begins; and the new one where it is complete.
      */
     public List<Assembled<T>> add(int epoch, int scan, int part, int numParts, List<T> content) {
         List<Assembled<T>> ready = new ArrayList<>();
@@ -43,9 +43,9 @@ public final class ListAssembler<T> {
         }
         if (!key.equals(current)) {
             if (current != null) {
-                ready.add(finish());
+                ready.add(finishList());
             }
-            begin(key, numParts);
+            beginList(key, numParts);
         }
         if (parts.size() != numParts || parts.get(part) != null || items + content.size() > MAX_ITEMS) {
             return ready;
@@ -54,12 +54,12 @@ public final class ListAssembler<T> {
         items += content.size();
         missing--;
         if (missing == 0) {
-            ready.add(finish());
+            ready.add(finishList());
         }
         return ready;
     }
 
-    private void begin(Key key, int numParts) {
+    private void beginList(Key key, int numParts) {
         current = key;
         missing = numParts;
         items = 0;
@@ -69,7 +69,7 @@ public final class ListAssembler<T> {
         }
     }
 
-    private Assembled<T> finish() {
+    private Assembled<T> finishList() {
         List<T> all = new ArrayList<>();
         for (List<T> part : parts) {
             if (part != null) {

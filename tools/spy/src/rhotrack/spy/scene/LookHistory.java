@@ -7,9 +7,12 @@ import java.util.Deque;
 import java.util.Iterator;
 import java.util.List;
 
-/** The last looks of one sensor, newest last, each of one or several parts. */
+/** The last looks of one sensor, newest last; a look may come in several parts. */
 public final class LookHistory<T> {
-    /** A part of a look; `strength` fades from 1 (newest) towards 0. */
+    /**
+     * The content of a part of a look; `strength` falls with the look's age from 1 (newest) towards
+     * 0.
+     */
     public record Faded<T>(double strength, T content) {
     }
 
@@ -22,9 +25,9 @@ public final class LookHistory<T> {
         }
     }
 
-    /** Against a sender that puts no end to the parts of one look. */
+    /** Most parts of a look, so that a faulty sender cannot fill the memory. */
     private static final int MAX_PARTS = 512;
-    /** A sector of less than this is taken as this wide when looks are counted. */
+    /** Least width of a sector in the number of looks a turn. */
     private static final double MIN_SECTOR_RAD = Math.toRadians(5);
 
     private final int turns;
@@ -32,13 +35,16 @@ public final class LookHistory<T> {
     private int keep;
     private Integer epoch;
 
-    /** Keeps so many looks; where a look is a sector only, so many whole turns of them. */
+    /** Keeps the looks of the last `turns` turns of the antenna. */
     public LookHistory(int turns) {
         this.turns = turns;
         keep = turns;
     }
 
-    /** How many looks go round: 1 for a whole circle, which is what two zeros say. */
+    /**
+     * Number of looks in a turn by the width of their sector; 1 for a full circle, as which equal
+     * limits count.
+     */
     public static int looksPerTurn(double fromRad, double toRad) {
         double width = toRad - fromRad;
         if (width < 0) {
@@ -50,11 +56,11 @@ public final class LookHistory<T> {
 
     public void add(int newEpoch, int scan, int looksPerTurn, T content) {
         if (epoch != null && epoch != newEpoch) {
-            looks.clear(); // the sensor has started again, its numbers too
+            looks.clear(); // the sensor was restarted, and its scan numbers begin anew
         }
         epoch = newEpoch;
         keep = turns * looksPerTurn;
-        Look<T> look = find(scan);
+        Look<T> look = findOrAddLook(scan);
         if (look.contents.size() < MAX_PARTS) {
             look.contents.add(content);
         }
@@ -64,10 +70,10 @@ public final class LookHistory<T> {
     }
 
     /**
-     * A number that is not here is a new look, whatever it is: the view has no quarrel with a
-     * sensor's counting.
+     * The look of this scan number; a number that is not in the history begins a new look, even if
+     * it is lower than the last one.
      */
-    private Look<T> find(int scan) {
+    private Look<T> findOrAddLook(int scan) {
         Iterator<Look<T>> newestFirst = looks.descendingIterator();
         while (newestFirst.hasNext()) {
             Look<T> look = newestFirst.next();
@@ -80,8 +86,11 @@ public final class LookHistory<T> {
         return look;
     }
 
-    /** Oldest first, so that the newest is painted on top. */
-    public List<Faded<T>> fading() {
+    /**
+     * The contents of all looks with their strength, oldest first, so that the newest is painted on
+     * top.
+     */
+    public List<Faded<T>> contentsWithStrength() {
         List<Faded<T>> all = new ArrayList<>();
         int age = looks.size();
         for (Look<T> look : looks) {

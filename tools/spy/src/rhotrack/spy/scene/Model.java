@@ -8,31 +8,34 @@ import java.util.Map;
 import java.util.TreeMap;
 import java.util.function.Consumer;
 
-/** What the messages have said so far. Messages come in one thread, painting asks from another. */
+/**
+ * The state of sensors and tracker according to the messages received so far. Thread-safe: LCM's
+ * thread stores messages, the painting thread takes copies.
+ */
 public final class Model {
     private static final int PLOT_TURNS = 12;
     private static final int BEARING_TURNS = 3;
     private static final int PEAK_LISTS = 6;
-    /** The tracker itself takes no more sensors than this. */
+    /** Most sensors, as many as a tracker accepts. */
     private static final int MAX_CHANNELS = 64;
 
     private final Map<String, LookHistory<Scene.Plots>> plots = new LinkedHashMap<>();
     private final Map<String, LookHistory<Scene.Bearings>> bearings = new LinkedHashMap<>();
     private LookHistory<Scene.Peaks> peaks = new LookHistory<>(PEAK_LISTS);
-    private ListAssembler<TrackMark> trackParts = new ListAssembler<>();
+    private ListAssembler<DisplayedTrack> trackParts = new ListAssembler<>();
     private ListAssembler<Scene.Truth> truthParts = new ListAssembler<>();
     private ListAssembler<Scene.Echo> echoParts = new ListAssembler<>();
     private ListAssembler<Scene.Body> bodyParts = new ListAssembler<>();
-    private TrackStore tracks = new TrackStore();
+    private TracksWithTrails tracks = new TracksWithTrails();
     private List<Scene.Truth> truth = List.of();
     private List<Scene.Echo> echoes = List.of();
     private List<Scene.Body> bodies = List.of();
     private final Map<Integer, Place> sensors = new TreeMap<>();
-    /** RHO_SENSORS: what is wrong with sensors, of each part of the list. */
+    /** Sensor faults in RHO_SENSORS, by part of the list. */
     private final TreeMap<Integer, List<String>> sensorFaults = new TreeMap<>();
-    /** RHO_LEARNED: what of a sensor is not as stated. */
+    /** Deviations from the stated noise and pd in RHO_LEARNED, by sensor. */
     private final TreeMap<Integer, List<String>> learned = new TreeMap<>();
-    private final Thinking thinking = new Thinking();
+    private final TrackerInternals internals = new TrackerInternals();
     private Scene.Status status;
     private Scene.Work work;
     private long statusNanos;
@@ -42,15 +45,16 @@ public final class Model {
     private long changes;
 
     public synchronized void addPlots(String channel, int epoch, int scan, int looksPerTurn, Scene.Plots look) {
-        add(plots, PLOT_TURNS, channel, epoch, scan, looksPerTurn, look);
+        addLook(plots, PLOT_TURNS, channel, epoch, scan, looksPerTurn, look);
     }
 
     public synchronized void addBearings(String channel, int epoch, int scan, Scene.Bearings look) {
-        add(bearings, BEARING_TURNS, channel, epoch, scan, 1, look);
+        addLook(bearings, BEARING_TURNS, channel, epoch, scan, 1, look);
         addSensor(look.sensorId(), look.sensor());
     }
 
-    private static <T> void add(Map<String, LookHistory<T>> channels, int turns, String channel, int epoch, int scan,
+    private static <T> void addLook(Map<String, LookHistory<T>> channels, int turns, String channel, int epoch,
+            int scan,
             int looksPerTurn, T look) {
         if (channels.containsKey(channel) || channels.size() < MAX_CHANNELS) {
             channels.computeIfAbsent(channel, name -> new LookHistory<>(turns)).add(epoch, scan, looksPerTurn, look);
@@ -67,8 +71,8 @@ public final class Model {
         peaks.add(0, scan, 1, list);
     }
 
-    public synchronized void addTracks(int epoch, int scan, int part, int numParts, List<TrackMark> marks) {
-        trackParts.add(epoch, scan, part, numParts, marks).forEach(tracks::apply);
+    public synchronized void addTracks(int epoch, int scan, int part, int numParts, List<DisplayedTrack> marks) {
+        trackParts.add(epoch, scan, part, numParts, marks).forEach(tracks::applyList);
         tracksNanos = System.nanoTime();
     }
 
@@ -84,9 +88,9 @@ public final class Model {
         bodyParts.add(epoch, scan, part, numParts, known).forEach(list -> bodies = List.copyOf(list.items()));
     }
 
-    /** Messages of what the tracker thought, one after the other. */
-    public synchronized void think(Consumer<Thinking> message) {
-        message.accept(thinking);
+    /** Stores a message about the tracker's internals. */
+    public synchronized void storeInternals(Consumer<TrackerInternals> message) {
+        message.accept(internals);
     }
 
     public synchronized void setStatus(Scene.Status newStatus) {
@@ -98,7 +102,7 @@ public final class Model {
         work = newWork;
     }
 
-    /** Of a list with more parts than there are sensors, those beyond are not kept. */
+    /** Sets the faults in one part of the sensor list; parts beyond MAX_CHANNELS are dropped. */
     public synchronized void setSensorFaults(int part, int numParts, List<String> faults) {
         if (part < MAX_CHANNELS) {
             sensorFaults.put(part, List.copyOf(faults));
@@ -118,12 +122,14 @@ public final class Model {
         changes++;
     }
 
-    /** Grows with each message: whoever has seen this number has nothing new to paint. */
+    /**
+     * A number that grows with each message: while it stays equal there is nothing new to paint.
+     */
     public synchronized long changes() {
         return changes;
     }
 
-    /** Forgets all but the counts of messages. */
+    /** Clears everything except the counts of messages. */
     public synchronized void clear() {
         plots.clear();
         bearings.clear();
@@ -135,29 +141,31 @@ public final class Model {
         truthParts = new ListAssembler<>();
         echoParts = new ListAssembler<>();
         bodyParts = new ListAssembler<>();
-        tracks = new TrackStore();
+        tracks = new TracksWithTrails();
         truth = List.of();
         echoes = List.of();
         bodies = List.of();
-        thinking.clear();
+        internals.clear();
         changes++;
     }
 
+    /** An immutable copy of the present state, for painting. */
     public synchronized Scene scene() {
         List<LookHistory.Faded<Scene.Plots>> allPlots = new ArrayList<>();
-        plots.values().forEach(history -> allPlots.addAll(history.fading()));
+        plots.values().forEach(history -> allPlots.addAll(history.contentsWithStrength()));
         List<LookHistory.Faded<Scene.Bearings>> allBearings = new ArrayList<>();
-        bearings.values().forEach(history -> allBearings.addAll(history.fading()));
+        bearings.values().forEach(history -> allBearings.addAll(history.contentsWithStrength()));
         List<String> faults = new ArrayList<>();
         sensorFaults.values().forEach(faults::addAll);
         learned.values().forEach(faults::addAll);
         Scene.Health health =
-                new Scene.Health(status, work, faults, age(statusNanos), age(tracksNanos), received, ignored);
-        return new Scene(allPlots, allBearings, peaks.fading(), tracks.tracks(), tracks.trails(), truth,
-                echoes, bodies, new TreeMap<>(sensors), thinking.thoughts(tracks.tracks()), health);
+                new Scene.Health(status, work, faults, secondsSince(statusNanos), secondsSince(tracksNanos), received,
+                ignored);
+        return new Scene(allPlots, allBearings, peaks.contentsWithStrength(), tracks.tracks(), tracks.trails(), truth,
+                echoes, bodies, new TreeMap<>(sensors), internals.copyFor(tracks.tracks()), health);
     }
 
-    private static double age(long nanos) {
+    private static double secondsSince(long nanos) {
         return nanos == 0 ? -1 : (System.nanoTime() - nanos) / 1e9;
     }
 }

@@ -3,10 +3,10 @@ package rhotrack.spy.scene;
 
 /** A point of the local frame: metres east and north. */
 public record Place(double x, double y) {
-    /** Beyond this the messages' own limits are broken: such a place is nobody's. */
+    /** Largest coordinate that messages may contain. */
     private static final double LIMIT_M = 4e6;
 
-    public boolean isSane() {
+    public boolean isWithinLimits() {
         return Math.abs(x) <= LIMIT_M && Math.abs(y) <= LIMIT_M; // false for NaN
     }
 }

@@ -5,13 +5,13 @@ import java.util.List;
 import java.util.Map;
 
 /**
- * What is to be drawn: an immutable copy of the model, so that painting needs no lock and a pause
- * is to keep one.
+ * What the views draw: an immutable copy of the model, so that painting needs no lock; a pause
+ * keeps one copy.
  */
 public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearings>> bearings,
-        List<LookHistory.Faded<Peaks>> peaks, List<TrackMark> tracks, List<List<Place>> trails, List<Truth> truth,
-        List<Echo> echoes, List<Body> bodies, Map<Integer, Place> sensors, Thoughts thoughts, Health health) {
-    /** Plots of (a part of) one look. */
+        List<LookHistory.Faded<Peaks>> peaks, List<DisplayedTrack> tracks, List<List<Place>> trails, List<Truth> truth,
+        List<Echo> echoes, List<Body> bodies, Map<Integer, Place> sensors, Internals internals, Health health) {
+    /** Plots of one look of a sensor, or of a part of the look. */
     public record Plots(int sensorId, List<Place> places) {
     }
 
@@ -19,7 +19,7 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
     public record Bearings(int sensorId, Place sensor, List<Double> angles) {
     }
 
-    /** The candidates of one search. */
+    /** The candidate lines of one search. */
     public record Peaks(List<Peak> peaks) {
     }
 
@@ -29,45 +29,54 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
     public record Truth(int id, Place place, double vx, double vy) {
     }
 
-    /** Clutter that the tracker knows: it comes back to its place. */
+    /** A clutter-map entry: a place that returns clutter again and again. */
     public record Echo(Place place, int sensorId, int hits, double chance) {
     }
 
-    /** The rectangle of a track with a body, its length along the heading. */
+    /** The estimated rectangle of an extended target, its length along the heading. */
     public record Body(int trackId, Place centre, double length, double width, double heading) {
     }
 
-    /** What the tracker thought, where it was asked to show it. */
-    public record Thoughts(List<Ghosts> ghosts, List<Accumulator> accumulators, List<Plane> planes,
+    /** The tracker's internals, where it was asked to publish them (--show). */
+    public record Internals(List<Ghosts> ghosts, List<Accumulator> accumulators, List<Plane> planes,
             Map<Integer, Hypotheses> hypotheses) {
     }
 
-    /** RHO_GHOSTS: the crossings of two sensors' bearings that meet. */
+    /** RHO_GHOSTS: the crossings of two sensors' bearings. */
     public record Ghosts(int scan, List<Crossing> crossings) {
     }
 
-    /** Pruned: another one is the target of one of its bearings. */
+    /**
+     * A crossing of two bearings; pruned: it is a ghost, as another crossing of one of its bearings
+     * is the target.
+     */
     public record Crossing(Place place, boolean pruned) {
     }
 
-    /** Which of a search's accumulators: of all pairs of sensors, or of one. */
+    /** Identity of an accumulator: of one pair of sensors, or of all pairs of a search. */
     public record Which(int method, boolean hasPair, int sensorA, int sensorB) {
     }
 
-    /** RHO_ACCUMULATOR: the fullest cells; rho of the plane is measured from the origin. */
+    /** RHO_ACCUMULATOR: the fullest cells of an accumulator; rho is measured from the origin. */
     public record Accumulator(Which which, int scan, Place origin, double rhoMin, double rhoMax,
             List<Cell> cells) {
     }
 
-    /** trackId: of the track that the line started, 0: none. */
+    /** A cell of an accumulator; trackId: the track that its line started, 0: none. */
     public record Cell(double rho, double theta, double votes, int scans, int trackId) {
     }
 
-    /** RHO_PLANE: rows of theta from 0 to pi, in each the votes over rho, 0 .. 127. */
+    /**
+     * RHO_PLANE: the votes of an accumulator, 0 .. 127: rows of theta from 0 to pi, in each the
+     * votes over rho.
+     */
     public record Plane(Which which, int scan, List<byte[]> rows) {
     }
 
-    /** RHO_HYPOTHESES of one track; evidence: 0 none, 1 of plots, 2 of the line that started it. */
+    /**
+     * RHO_HYPOTHESES of one track; evidence: 0 none, 1 from plots, 2 from the line that started the
+     * track.
+     */
     public record Hypotheses(int trackId, int scan, double score, double calm, double steady, double maneuver,
             int evidence, double support, double shared, double clutter, List<Hypothesis> list) {
     }
@@ -76,21 +85,24 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
     }
 
     /**
-     * RHO_STATUS, the few figures that a status line has room for. Late scans came behind newer ones of
-     * their sensor; lost ones have not come at all.
+     * RHO_STATUS: the figures of the status line. Late scans arrived after newer ones of their
+     * sensor; lost ones never arrived.
      */
-    public record Status(int accepted, int lost, int late, int bad, int tentative, int confirmed, int coasting, double stepUs,
+    public record Status(int accepted, int lost, int late, int bad, int tentative, int confirmed, int coasting,
+            double stepUs,
             double stepMaxUs, double clutterPerKm2) {
     }
 
     /**
-     * RHO_WORK: work of the last step as a share of what it may be, negative where any is allowed;
-     * what was left out.
+     * RHO_WORK: work of the last step as a share of its limit, negative without a limit; counts of
+     * skipped work.
      */
     public record Work(double share, long partialSteps, long notPrinted, long notLogged) {
     }
 
-    /** How the messages themselves are doing; ages in seconds, negative where nothing came yet. */
+    /**
+     * State of tracker and connection; ages in seconds, negative where nothing has been received.
+     */
     public record Health(Status status, Work work, List<String> sensorFaults, double statusAge, double tracksAge,
             long received, long ignored) {
     }

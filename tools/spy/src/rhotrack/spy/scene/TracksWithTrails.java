@@ -11,15 +11,15 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 
-/** The tracks of the last list, and where they came from. */
-public final class TrackStore {
+/** The tracks of the last list, with their trails of past positions. */
+public final class TracksWithTrails {
     private static final int TRAIL = 80;
-    /** So many lists in a row that lack parts may not name a track before it goes. */
+    /** Number of successive incomplete lists without a track after which the track is removed. */
     private static final int PATIENCE = 5;
 
     private static final class Entry {
         final Deque<Place> trail = new ArrayDeque<>();
-        TrackMark mark;
+        DisplayedTrack mark;
         int unseen;
     }
 
@@ -27,28 +27,28 @@ public final class TrackStore {
     private Integer epoch;
 
     /**
-     * A list with parts missing says nothing of the tracks that it does not name: these stay, so
-     * nothing flickers.
+     * Takes over a list. Tracks that an incomplete list does not name are kept, so that nothing
+     * flickers.
      */
-    public void apply(ListAssembler.Assembled<TrackMark> list) {
+    public void applyList(ListAssembler.Assembled<DisplayedTrack> list) {
         if (epoch != null && epoch != list.epoch()) {
-            entries.clear(); // another tracker, or it was restarted: its numbers mean other tracks
+            entries.clear(); // another or restarted tracker: its ids mean other tracks
         }
         epoch = list.epoch();
         Set<Integer> named = new HashSet<>();
-        for (TrackMark mark : list.items()) {
+        for (DisplayedTrack mark : list.items()) {
             named.add(mark.id());
-            if (mark.status() == TrackMark.Status.DELETED) {
+            if (mark.status() == DisplayedTrack.Status.DELETED) {
                 entries.remove(mark.id());
             } else {
-                update(mark);
+                updateTrack(mark);
             }
         }
         int patience = list.complete() ? 0 : PATIENCE;
         entries.entrySet().removeIf(e -> !named.contains(e.getKey()) && ++e.getValue().unseen > patience);
     }
 
-    private void update(TrackMark mark) {
+    private void updateTrack(DisplayedTrack mark) {
         Entry entry = entries.computeIfAbsent(mark.id(), id -> new Entry());
         entry.mark = mark;
         entry.unseen = 0;
@@ -58,13 +58,13 @@ public final class TrackStore {
         }
     }
 
-    public List<TrackMark> tracks() {
-        List<TrackMark> marks = new ArrayList<>();
+    public List<DisplayedTrack> tracks() {
+        List<DisplayedTrack> marks = new ArrayList<>();
         entries.values().forEach(entry -> marks.add(entry.mark));
         return marks;
     }
 
-    /** Oldest place first; one trail a track, in the order of tracks(). */
+    /** The trail of each track, oldest position first, in the order of tracks(). */
     public List<List<Place>> trails() {
         Collection<Entry> all = entries.values();
         List<List<Place>> trails = new ArrayList<>();

@@ -34,19 +34,19 @@ import rhotrack.truth_list_t;
 import rhotrack.work_t;
 
 /**
- * Messages into the model. A message that is not one of ours to the last byte (another version's
- * fingerprint, counts or numbers out of bounds, bytes missing or left over) is counted as ignored
- * and changes nothing.
+ * Decodes LCM messages, checks them, and stores their content in the model. A message that is not
+ * exactly valid (unknown fingerprint, counts or numbers out of bounds, bytes missing or left over)
+ * is counted as ignored and changes nothing.
  */
-public final class Decoder {
+public final class MessageDecoder {
     private final Model model;
 
-    public Decoder(Model model) {
+    public MessageDecoder(Model model) {
         this.model = model;
     }
 
     /** Whether messages of this fingerprint can be shown. */
-    public static boolean knows(long fingerprint) {
+    public static boolean canDecode(long fingerprint) {
         return fingerprint == plot_scan_t.LCM_FINGERPRINT || fingerprint == polar_scan_t.LCM_FINGERPRINT
                 || fingerprint == bearing_scan_t.LCM_FINGERPRINT || fingerprint == track_list_t.LCM_FINGERPRINT
                 || fingerprint == truth_list_t.LCM_FINGERPRINT || fingerprint == peak_list_t.LCM_FINGERPRINT
@@ -60,75 +60,75 @@ public final class Decoder {
     public void decode(String channel, byte[] data) {
         boolean good = false;
         try {
-            good = data.length >= Long.BYTES && dispatch(channel, data, ByteBuffer.wrap(data).getLong());
+            good = data.length >= Long.BYTES && decodeByFingerprint(channel, data, ByteBuffer.wrap(data).getLong());
         } catch (IOException | RuntimeException e) {
-            // Whatever came was not ours, or was cut; RuntimeException is what generated code makes
-            // of a bad count.
+            // The message is foreign or truncated; generated code throws RuntimeException for a bad
+            // count.
             good = false;
         }
         model.countMessage(good);
     }
 
-    private boolean dispatch(String channel, byte[] data, long fingerprint) throws IOException {
+    private boolean decodeByFingerprint(String channel, byte[] data, long fingerprint) throws IOException {
         DataInputStream in = new DataInputStream(new ByteArrayInputStream(data));
         if (fingerprint == plot_scan_t.LCM_FINGERPRINT) {
-            return take(channel, new plot_scan_t(in), in);
+            return storeIfValid(channel, new plot_scan_t(in), in);
         }
         if (fingerprint == polar_scan_t.LCM_FINGERPRINT) {
-            return take(channel, new polar_scan_t(in), in);
+            return storeIfValid(channel, new polar_scan_t(in), in);
         }
         if (fingerprint == bearing_scan_t.LCM_FINGERPRINT) {
-            return take(channel, new bearing_scan_t(in), in);
+            return storeIfValid(channel, new bearing_scan_t(in), in);
         }
         if (fingerprint == track_list_t.LCM_FINGERPRINT) {
-            return take(new track_list_t(in), in);
+            return storeIfValid(new track_list_t(in), in);
         }
         if (fingerprint == truth_list_t.LCM_FINGERPRINT) {
-            return take(new truth_list_t(in), in);
+            return storeIfValid(new truth_list_t(in), in);
         }
         if (fingerprint == peak_list_t.LCM_FINGERPRINT) {
-            return take(new peak_list_t(in), in);
+            return storeIfValid(new peak_list_t(in), in);
         }
         if (fingerprint == sensor_list_t.LCM_FINGERPRINT) {
-            return take(new sensor_list_t(in), in);
+            return storeIfValid(new sensor_list_t(in), in);
         }
         if (fingerprint == learned_t.LCM_FINGERPRINT) {
-            return take(new learned_t(in), in);
+            return storeIfValid(new learned_t(in), in);
         }
         if (fingerprint == clutter_map_t.LCM_FINGERPRINT) {
-            return take(new clutter_map_t(in), in);
+            return storeIfValid(new clutter_map_t(in), in);
         }
         if (fingerprint == body_list_t.LCM_FINGERPRINT) {
-            return take(new body_list_t(in), in);
+            return storeIfValid(new body_list_t(in), in);
         }
         if (fingerprint == work_t.LCM_FINGERPRINT) {
-            return take(new work_t(in), in);
+            return storeIfValid(new work_t(in), in);
         }
         if (fingerprint == ghost_matrix_t.LCM_FINGERPRINT) {
-            return take(new ghost_matrix_t(in), in);
+            return storeIfValid(new ghost_matrix_t(in), in);
         }
         if (fingerprint == accumulator_t.LCM_FINGERPRINT) {
-            return take(new accumulator_t(in), in);
+            return storeIfValid(new accumulator_t(in), in);
         }
         if (fingerprint == plane_t.LCM_FINGERPRINT) {
-            return take(new plane_t(in), in);
+            return storeIfValid(new plane_t(in), in);
         }
         if (fingerprint == hypotheses_t.LCM_FINGERPRINT) {
-            return take(new hypotheses_t(in), in);
+            return storeIfValid(new hypotheses_t(in), in);
         }
-        return fingerprint == status_t.LCM_FINGERPRINT && take(new status_t(in), in);
+        return fingerprint == status_t.LCM_FINGERPRINT && storeIfValid(new status_t(in), in);
     }
 
-    private boolean take(String channel, plot_scan_t scan, DataInputStream in) throws IOException {
-        if (in.available() > 0 || scan.num_plots > plot_scan_t.MAX_PLOTS || !isPart(scan.part, scan.num_parts)
-                || !isOf(scan.sensor_id, channel)) {
+    private boolean storeIfValid(String channel, plot_scan_t scan, DataInputStream in) throws IOException {
+        if (in.available() > 0 || scan.num_plots > plot_scan_t.MAX_PLOTS || !isValidPart(scan.part, scan.num_parts)
+                || !endsWithSensorId(scan.sensor_id, channel)) {
             return false;
         }
         List<Place> places = new ArrayList<>();
         for (rhotrack.plot_t plot : scan.plots) {
             places.add(new Place(plot.x_m, plot.y_m));
         }
-        if (!areSane(places)) {
+        if (!areWithinLimits(places)) {
             return false;
         }
         int looks = LookHistory.looksPerTurn(scan.sector_from_rad, scan.sector_to_rad);
@@ -136,10 +136,10 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(String channel, polar_scan_t scan, DataInputStream in) throws IOException {
+    private boolean storeIfValid(String channel, polar_scan_t scan, DataInputStream in) throws IOException {
         Place sensor = new Place(scan.sensor_x_m, scan.sensor_y_m);
-        if (in.available() > 0 || scan.num_polar_plots > polar_scan_t.MAX_POLAR_PLOTS || !sensor.isSane()
-                || !isPart(scan.part, scan.num_parts) || !isOf(scan.sensor_id, channel)) {
+        if (in.available() > 0 || scan.num_polar_plots > polar_scan_t.MAX_POLAR_PLOTS || !sensor.isWithinLimits()
+                || !isValidPart(scan.part, scan.num_parts) || !endsWithSensorId(scan.sensor_id, channel)) {
             return false;
         }
         List<Place> places = new ArrayList<>();
@@ -147,7 +147,7 @@ public final class Decoder {
             double elevation = scan.has_elevation == 1 ? plot.elevation_rad : 0;
             places.add(Geometry.fromPolar(sensor, plot.range_m, plot.azimuth_rad, elevation));
         }
-        if (!areSane(places)) {
+        if (!areWithinLimits(places)) {
             return false;
         }
         int looks = LookHistory.looksPerTurn(scan.sector_from_rad, scan.sector_to_rad);
@@ -156,10 +156,10 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(String channel, bearing_scan_t scan, DataInputStream in) throws IOException {
+    private boolean storeIfValid(String channel, bearing_scan_t scan, DataInputStream in) throws IOException {
         Place sensor = new Place(scan.sensor_x_m, scan.sensor_y_m);
-        if (in.available() > 0 || scan.num_bearings > bearing_scan_t.MAX_BEARING_RAD || !sensor.isSane()
-                || !isOf(scan.sensor_id, channel)) {
+        if (in.available() > 0 || scan.num_bearings > bearing_scan_t.MAX_BEARING_RAD || !sensor.isWithinLimits()
+                || !endsWithSensorId(scan.sensor_id, channel)) {
             return false;
         }
         List<Double> angles = new ArrayList<>();
@@ -173,13 +173,14 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(track_list_t list, DataInputStream in) throws IOException {
-        if (in.available() > 0 || list.num_tracks > track_list_t.MAX_TRACKS || !isPart(list.part, list.num_parts)) {
+    private boolean storeIfValid(track_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_tracks > track_list_t.MAX_TRACKS || !isValidPart(list.part,
+                list.num_parts)) {
             return false;
         }
-        List<TrackMark> marks = new ArrayList<>();
+        List<DisplayedTrack> marks = new ArrayList<>();
         for (track_t track : list.tracks) {
-            TrackMark mark = mark(track);
+            DisplayedTrack mark = trackMarkOf(track);
             if (mark == null) {
                 return false;
             }
@@ -189,27 +190,28 @@ public final class Decoder {
         return true;
     }
 
-    private static TrackMark mark(track_t track) {
+    private static DisplayedTrack trackMarkOf(track_t track) {
         Place place = new Place(track.x_m, track.y_m);
-        TrackMark.Status[] states = TrackMark.Status.values();
+        DisplayedTrack.Status[] states = DisplayedTrack.Status.values();
         boolean known = track.status >= track_t.TENTATIVE && track.status <= track_t.DELETED;
-        if (!known || !place.isSane() || !isFinite(track.z_m, track.vx_mps, track.vy_mps, track.score_nat)) {
+        if (!known || !place.isWithinLimits() || !areFinite(track.z_m, track.vx_mps, track.vy_mps, track.score_nat)) {
             return null;
         }
         Ellipse ellipse = Ellipse.of(track.covariance[0], track.covariance[1], track.covariance[2]);
-        return new TrackMark(track.track_id, states[track.status - track_t.TENTATIVE], place, track.z_m, track.vx_mps,
+        return new DisplayedTrack(track.track_id, states[track.status - track_t.TENTATIVE], place, track.z_m,
+                track.vx_mps,
                 track.vy_mps, track.hits, track.misses, track.score_nat, ellipse);
     }
 
-    private boolean take(body_list_t list, DataInputStream in) throws IOException {
-        if (in.available() > 0 || list.num_bodies > body_list_t.MAX_BODIES || !isPart(list.part, list.num_parts)) {
+    private boolean storeIfValid(body_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_bodies > body_list_t.MAX_BODIES || !isValidPart(list.part, list.num_parts)) {
             return false;
         }
         List<Scene.Body> bodies = new ArrayList<>();
         for (body_t body : list.bodies) {
             Place centre = new Place(body.x_m, body.y_m);
             boolean within = body.length_m >= 0 && body.length_m <= 1e5 && body.width_m >= 0 && body.width_m <= 1e5;
-            if (!centre.isSane() || !within || !(Math.abs(body.heading_rad) <= 4)) {
+            if (!centre.isWithinLimits() || !within || !(Math.abs(body.heading_rad) <= 4)) {
                 return false;
             }
             bodies.add(new Scene.Body(body.track_id, centre, body.length_m, body.width_m, body.heading_rad));
@@ -218,15 +220,15 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(truth_list_t list, DataInputStream in) throws IOException {
+    private boolean storeIfValid(truth_list_t list, DataInputStream in) throws IOException {
         if (in.available() > 0 || list.num_targets > truth_list_t.MAX_TARGETS
-                || !isPart(list.part, list.num_parts)) {
+                || !isValidPart(list.part, list.num_parts)) {
             return false;
         }
         List<Scene.Truth> targets = new ArrayList<>();
         for (rhotrack.truth_t target : list.targets) {
             Place place = new Place(target.x_m, target.y_m);
-            if (!place.isSane() || !isFinite(target.vx_mps, target.vy_mps)) {
+            if (!place.isWithinLimits() || !areFinite(target.vx_mps, target.vy_mps)) {
                 return false;
             }
             targets.add(new Scene.Truth(target.target_id, place, target.vx_mps, target.vy_mps));
@@ -235,14 +237,14 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(peak_list_t list, DataInputStream in) throws IOException {
+    private boolean storeIfValid(peak_list_t list, DataInputStream in) throws IOException {
         if (in.available() > 0 || list.num_peaks > peak_list_t.MAX_PEAKS) {
             return false;
         }
         List<Scene.Peak> peaks = new ArrayList<>();
         for (rhotrack.peak_t peak : list.peaks) {
             boolean within = peak.theta_rad >= 0 && peak.theta_rad < 3.15 && Math.abs(peak.rho_m) <= 4e6;
-            if (!within || !isFinite(peak.speed_mps, peak.score_nat)) {
+            if (!within || !areFinite(peak.speed_mps, peak.score_nat)) {
                 return false;
             }
             peaks.add(new Scene.Peak(peak.rho_m, peak.theta_rad, peak.speed_mps, peak.score_nat, peak.scans_hit,
@@ -252,15 +254,15 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(ghost_matrix_t matrix, DataInputStream in) throws IOException {
+    private boolean storeIfValid(ghost_matrix_t matrix, DataInputStream in) throws IOException {
         if (in.available() > 0 || matrix.num_elements > ghost_matrix_t.MAX_ELEMENTS
-                || !isPart(matrix.part, matrix.num_parts)) {
+                || !isValidPart(matrix.part, matrix.num_parts)) {
             return false;
         }
         List<Scene.Crossing> crossings = new ArrayList<>();
         for (ghost_t element : matrix.elements) {
             Place place = new Place(element.x_m, element.y_m);
-            if (!place.isSane() || element.reason < ghost_t.KEPT || element.reason > ghost_t.UNMATCHED) {
+            if (!place.isWithinLimits() || element.reason < ghost_t.KEPT || element.reason > ghost_t.UNMATCHED) {
                 return false;
             }
             boolean meets = element.reason == ghost_t.KEPT || element.reason > ghost_t.RANGE;
@@ -268,21 +270,22 @@ public final class Decoder {
                 crossings.add(new Scene.Crossing(place, element.reason != ghost_t.KEPT));
             }
         }
-        model.think(thinking -> thinking.addGhosts(matrix.sensor_a_id, matrix.sensor_b_id, matrix.epoch, matrix.scan,
+        model.storeInternals(internals -> internals.addGhosts(matrix.sensor_a_id, matrix.sensor_b_id, matrix.epoch,
+                matrix.scan,
                 matrix.part, matrix.num_parts, crossings));
         return true;
     }
 
-    private boolean take(accumulator_t search, DataInputStream in) throws IOException {
+    private boolean storeIfValid(accumulator_t search, DataInputStream in) throws IOException {
         Place origin = new Place(search.origin_x_m, search.origin_y_m);
         boolean within = search.rho_min_m >= -1e7 && search.rho_min_m < search.rho_max_m && search.rho_max_m <= 1e7;
-        if (in.available() > 0 || search.num_cells > accumulator_t.MAX_CELLS || !origin.isSane() || !within
-                || !isFinite(search.votes_max)) {
+        if (in.available() > 0 || search.num_cells > accumulator_t.MAX_CELLS || !origin.isWithinLimits() || !within
+                || !areFinite(search.votes_max)) {
             return false;
         }
         List<Scene.Cell> cells = new ArrayList<>();
         for (accumulator_cell_t cell : search.cells) {
-            if (!(cell.theta_rad >= 0 && cell.theta_rad <= 6.3) || !isFinite(cell.rho_m, cell.votes)) {
+            if (!(cell.theta_rad >= 0 && cell.theta_rad <= 6.3) || !areFinite(cell.rho_m, cell.votes)) {
                 return false;
             }
             cells.add(new Scene.Cell(cell.rho_m, cell.theta_rad, cell.votes, Integer.bitCount(cell.scan_mask),
@@ -290,13 +293,13 @@ public final class Decoder {
         }
         Scene.Which which =
                 new Scene.Which(search.method, search.has_pair != 0, search.sensor_a_id, search.sensor_b_id);
-        model.think(thinking -> thinking.addAccumulator(new Scene.Accumulator(which, search.scan, origin,
+        model.storeInternals(internals -> internals.addAccumulator(new Scene.Accumulator(which, search.scan, origin,
                 search.rho_min_m, search.rho_max_m, cells)));
         return true;
     }
 
-    private boolean take(plane_t plane, DataInputStream in) throws IOException {
-        if (in.available() > 0 || plane.num_rows > plane_t.MAX_ROWS || !isPart(plane.part, plane.num_parts)) {
+    private boolean storeIfValid(plane_t plane, DataInputStream in) throws IOException {
+        if (in.available() > 0 || plane.num_rows > plane_t.MAX_ROWS || !isValidPart(plane.part, plane.num_parts)) {
             return false;
         }
         List<byte[]> rows = new ArrayList<>();
@@ -310,19 +313,20 @@ public final class Decoder {
         }
         Scene.Which which =
                 new Scene.Which(plane.method, plane.has_pair != 0, plane.sensor_a_id, plane.sensor_b_id);
-        model.think(thinking -> thinking.addPlane(which, plane.epoch, plane.scan, plane.part, plane.num_parts, rows));
+        model.storeInternals(internals -> internals.addPlane(which, plane.epoch, plane.scan, plane.part,
+                plane.num_parts, rows));
         return true;
     }
 
-    private boolean take(hypotheses_t of, DataInputStream in) throws IOException {
-        if (in.available() > 0 || of.num_hypotheses > hypotheses_t.MAX_HYPOTHESES || !isFinite(of.score_nat)
-                || !areShares(of.calm, of.steady, of.maneuver, of.support, of.shared, of.clutter)) {
+    private boolean storeIfValid(hypotheses_t of, DataInputStream in) throws IOException {
+        if (in.available() > 0 || of.num_hypotheses > hypotheses_t.MAX_HYPOTHESES || !areFinite(of.score_nat)
+                || !areWithin0And1(of.calm, of.steady, of.maneuver, of.support, of.shared, of.clutter)) {
             return false;
         }
         List<Scene.Hypothesis> list = new ArrayList<>();
         for (hypothesis_t one : of.hypotheses) {
             Place place = new Place(one.x_m, one.y_m);
-            if (!place.isSane() || !areShares(one.share) || !isFinite(one.vx_mps, one.vy_mps)) {
+            if (!place.isWithinLimits() || !areWithin0And1(one.share) || !areFinite(one.vx_mps, one.vy_mps)) {
                 return false;
             }
             List<Integer> plots = new ArrayList<>();
@@ -331,12 +335,13 @@ public final class Decoder {
             }
             list.add(new Scene.Hypothesis(one.share, place, one.vx_mps, one.vy_mps, plots));
         }
-        model.think(thinking -> thinking.addHypotheses(new Scene.Hypotheses(of.track_id, of.scan, of.score_nat,
+        model.storeInternals(internals -> internals.addHypotheses(new Scene.Hypotheses(of.track_id, of.scan,
+                of.score_nat,
                 of.calm, of.steady, of.maneuver, of.evidence, of.support, of.shared, of.clutter, list)));
         return true;
     }
 
-    private static boolean areShares(float... values) {
+    private static boolean areWithin0And1(float... values) {
         for (float value : values) {
             if (!(value >= 0 && value <= 1)) {
                 return false;
@@ -345,11 +350,11 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(status_t status, DataInputStream in) throws IOException {
-        if (in.available() > 0 || !isFinite(status.step_us, status.step_max_us, status.clutter_per_km2)) {
+    private boolean storeIfValid(status_t status, DataInputStream in) throws IOException {
+        if (in.available() > 0 || !areFinite(status.step_us, status.step_max_us, status.clutter_per_km2)) {
             return false;
         }
-        // a number that was skipped counts as lost on the wire, also where its scan came late
+        // scans_lost counts every skipped scan number, including scans that arrived late
         int lost = Math.max(0, status.scans_lost - status.scans_late);
         model.setStatus(new Scene.Status(status.scans_accepted, lost, status.scans_late,
                 saturatedSum(status.scans_bad, status.messages_bad), status.tracks_tentative, status.tracks_confirmed,
@@ -357,7 +362,7 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(work_t work, DataInputStream in) throws IOException {
+    private boolean storeIfValid(work_t work, DataInputStream in) throws IOException {
         if (in.available() > 0 || work.work < 0 || work.work_max < 0 || work.partial_steps < 0
                 || work.reports_not_printed < 0 || work.events_not_logged < 0) {
             return false;
@@ -367,9 +372,9 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(sensor_list_t list, DataInputStream in) throws IOException {
+    private boolean storeIfValid(sensor_list_t list, DataInputStream in) throws IOException {
         if (in.available() > 0 || list.num_sensors > sensor_list_t.MAX_SENSORS
-                || !isPart(list.part, list.num_parts)) {
+                || !isValidPart(list.part, list.num_parts)) {
             return false;
         }
         List<String> faults = new ArrayList<>();
@@ -387,7 +392,7 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(learned_t learned, DataInputStream in) throws IOException {
+    private boolean storeIfValid(learned_t learned, DataInputStream in) throws IOException {
         double range = learned.sigma_range_factor, cross = learned.sigma_cross_factor, least = learned.pd_stated;
         if (in.available() > 0 || !(range >= 0 && range <= 100) || !(cross >= 0 && cross <= 100)) {
             return false;
@@ -400,7 +405,8 @@ public final class Decoder {
         }
         List<String> notes = new ArrayList<>();
         if (range != 1 || cross != 1) {
-            notes.add(String.format(Locale.ROOT, "S%d noise %.1f, across %.1f times as stated", learned.sensor_id, range,
+            notes.add(String.format(Locale.ROOT, "S%d noise %.1f, across %.1f times as stated", learned.sensor_id,
+                    range,
                     cross));
         }
         if (least < learned.pd_stated) {
@@ -410,14 +416,15 @@ public final class Decoder {
         return true;
     }
 
-    private boolean take(clutter_map_t list, DataInputStream in) throws IOException {
-        if (in.available() > 0 || list.num_echoes > clutter_map_t.MAX_ECHOES || !isPart(list.part, list.num_parts)) {
+    private boolean storeIfValid(clutter_map_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_echoes > clutter_map_t.MAX_ECHOES || !isValidPart(list.part,
+                list.num_parts)) {
             return false;
         }
         List<Scene.Echo> echoes = new ArrayList<>();
         for (echo_t echo : list.echoes) {
             Place place = new Place(echo.x_m, echo.y_m);
-            if (!place.isSane() || echo.hits < 1 || !(echo.chance >= 0 && echo.chance <= 1)) {
+            if (!place.isWithinLimits() || echo.hits < 1 || !(echo.chance >= 0 && echo.chance <= 1)) {
                 return false;
             }
             echoes.add(new Scene.Echo(place, echo.sensor_id, echo.hits, echo.chance));
@@ -430,23 +437,23 @@ public final class Decoder {
         return (int) Math.min(Integer.MAX_VALUE, (long) a + b);
     }
 
-    private static boolean isPart(int part, int numParts) {
+    private static boolean isValidPart(int part, int numParts) {
         return part >= 0 && part < numParts;
     }
 
     /**
-     * A sensor has its number in its channel's name; anything else would be drawn in another one's
-     * colour.
+     * Whether the channel's name ends with the sensor's id: otherwise its data would be drawn in
+     * another sensor's colour.
      */
-    private static boolean isOf(int sensorId, String channel) {
+    private static boolean endsWithSensorId(int sensorId, String channel) {
         return channel.endsWith("_" + sensorId);
     }
 
-    private static boolean areSane(List<Place> places) {
-        return places.stream().allMatch(Place::isSane);
+    private static boolean areWithinLimits(List<Place> places) {
+        return places.stream().allMatch(Place::isWithinLimits);
     }
 
-    private static boolean isFinite(float... numbers) {
+    private static boolean areFinite(float... numbers) {
         for (float number : numbers) {
             if (!Float.isFinite(number)) {
                 return false;

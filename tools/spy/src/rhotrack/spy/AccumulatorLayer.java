@@ -10,11 +10,14 @@ import java.util.List;
 import java.util.Locale;
 import java.util.function.DoubleUnaryOperator;
 
+import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.Scene;
-import rhotrack.spy.scene.TrackMark;
 
-/** An accumulator in the parameter space: its plane as an image, its peaks, the confirmed line. */
-final class VotesLayer {
+/**
+ * An accumulator in the parameter space: its votes as an image, its peaks, and the lines that
+ * started tracks.
+ */
+final class AccumulatorLayer {
     private static final double FULL = 127;
     private static final double PAIR_STRENGTH = 0.5;
     private static final double RADIUS = 5;
@@ -22,7 +25,7 @@ final class VotesLayer {
     private static final double LABEL_GAP = 9;
     private static final String[] METHODS = {"", "HT", "MHT", "IHT", "NHT", "passive paper"};
 
-    private VotesLayer() {
+    private AccumulatorLayer() {
     }
 
     static String title(Scene.Accumulator search) {
@@ -31,12 +34,12 @@ final class VotesLayer {
     }
 
     /**
-     * Empty blocks stay dark, as the background. Pairs of sensors are faint: what they agree on is
-     * bright above them.
+     * Paints the planes of votes. Empty blocks stay dark; planes of single pairs of sensors are
+     * faint, and the plane of all pairs is painted over them.
      */
     static void paintPlane(Graphics2D g, Scene scene, Scene.Accumulator search, DoubleUnaryOperator screenX,
             DoubleUnaryOperator screenY) {
-        scene.thoughts().planes().stream()
+        scene.internals().planes().stream()
                 .filter(plane -> plane.which().method() == search.which().method() && plane.scan() == search.scan())
                 .sorted(Comparator.comparing((Scene.Plane plane) -> !plane.which().hasPair()))
                 .forEach(plane -> paintPlane(g, plane, search, screenX, screenY));
@@ -56,14 +59,17 @@ final class VotesLayer {
                     double step = (search.rhoMax() - search.rhoMin()) / row.length;
                     double bottom = screenY.applyAsDouble(search.rhoMin() + i * step);
                     double top = screenY.applyAsDouble(search.rhoMin() + (i + 1) * step);
-                    g.setColor(Palette.faded(Palette.ramp(share), strength * (0.25 + 0.75 * share)));
+                    g.setColor(Palette.withAlpha(Palette.rampColour(share), strength * (0.25 + 0.75 * share)));
                     g.fill(new Rectangle2D.Double(left, top, right - left + 0.5, bottom - top + 0.5));
                 }
             }
         }
     }
 
-    /** Peaks are rings; a line that has started a track is filled, with the track's number. */
+    /**
+     * Paints the fullest cells as rings; a cell whose line has started a track is filled, with the
+     * track's id.
+     */
     static void paintCells(Graphics2D g, Scene.Accumulator search, DoubleUnaryOperator screenX,
             DoubleUnaryOperator screenY, LabelPlacer labels) {
         g.setStroke(Palette.LINE);
@@ -71,7 +77,7 @@ final class VotesLayer {
         for (Scene.Cell cell : cells) {
             double x = screenX.applyAsDouble(cell.theta());
             double y = screenY.applyAsDouble(cell.rho());
-            Color colour = cell.trackId() > 0 ? Palette.of(TrackMark.Status.CONFIRMED) : Palette.TEXT;
+            Color colour = cell.trackId() > 0 ? Palette.ofStatus(DisplayedTrack.Status.CONFIRMED) : Palette.TEXT;
             Ellipse2D ring = new Ellipse2D.Double(x - RADIUS, y - RADIUS, 2 * RADIUS, 2 * RADIUS);
             g.setColor(colour);
             if (cell.trackId() > 0) {
@@ -79,21 +85,21 @@ final class VotesLayer {
             } else {
                 g.draw(ring);
             }
-            labels.block(x - RADIUS, y - RADIUS, 2 * RADIUS, 2 * RADIUS);
+            labels.blockArea(x - RADIUS, y - RADIUS, 2 * RADIUS, 2 * RADIUS);
         }
         g.setFont(Palette.SMALL);
         for (Scene.Cell cell : cells.subList(0, Math.min(MAX_LABELS, cells.size()))) {
-            label(g, cell, screenX.applyAsDouble(cell.theta()), screenY.applyAsDouble(cell.rho()), labels);
+            drawCellLabel(g, cell, screenX.applyAsDouble(cell.theta()), screenY.applyAsDouble(cell.rho()), labels);
         }
     }
 
-    private static void label(Graphics2D g, Scene.Cell cell, double x, double y, LabelPlacer labels) {
+    private static void drawCellLabel(Graphics2D g, Scene.Cell cell, double x, double y, LabelPlacer labels) {
         String text = String.format(Locale.ROOT, "%.1f%s", cell.votes(),
                 cell.trackId() > 0 ? " \u2192 track " + cell.trackId() : "");
-        Rectangle2D room = labels.place(x, y, LABEL_GAP, g.getFontMetrics().stringWidth(text), 13);
+        Rectangle2D room = labels.placeLabel(x, y, LABEL_GAP, g.getFontMetrics().stringWidth(text), 13);
         if (room != null) {
             LabelPlacer.paintLeader(g, x, y, LABEL_GAP, room, Palette.MUTED);
-            g.setColor(Palette.faded(Palette.BACKGROUND, 0.7));
+            g.setColor(Palette.withAlpha(Palette.BACKGROUND, 0.7));
             g.fill(room);
             g.setColor(Palette.TEXT);
             g.drawString(text, (float) room.getX(), (float) room.getMaxY() - 3);

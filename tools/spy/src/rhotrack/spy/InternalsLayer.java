@@ -9,17 +9,20 @@ import java.awt.geom.Line2D;
 import rhotrack.spy.scene.Place;
 import rhotrack.spy.scene.Scene;
 
-/** What the tracker thought, in the plan view: ghosts struck out, and a track's hypotheses. */
-final class ThoughtLayer {
+/**
+ * The tracker's internals in the plan view: crossings of bearings with ghosts struck out, and a
+ * track's hypotheses.
+ */
+final class InternalsLayer {
     private static final double RADIUS = 4.5;
     private static final double STROKE = 6.5;
 
-    private ThoughtLayer() {
+    private InternalsLayer() {
     }
 
     static void paintGhosts(Graphics2D g, Scene scene, ViewTransform view) {
         g.setStroke(Palette.THIN);
-        for (Scene.Ghosts matrix : scene.thoughts().ghosts()) {
+        for (Scene.Ghosts matrix : scene.internals().ghosts()) {
             for (Scene.Crossing crossing : matrix.crossings()) {
                 paintCrossing(g, view.screenX(crossing.place().x()), view.screenY(crossing.place().y()),
                         crossing.pruned());
@@ -27,25 +30,28 @@ final class ThoughtLayer {
         }
     }
 
-    /** A circle where bearings cross; struck out where it is a ghost. */
+    /** Paints a circle where bearings cross, struck out where the crossing is a ghost. */
     static void paintCrossing(Graphics2D g, double x, double y, boolean pruned) {
-        g.setColor(Palette.faded(pruned ? Palette.WARNING : Palette.TEXT, pruned ? 0.75 : 0.9));
+        g.setColor(Palette.withAlpha(pruned ? Palette.WARNING : Palette.TEXT, pruned ? 0.75 : 0.9));
         g.draw(new Ellipse2D.Double(x - RADIUS, y - RADIUS, 2 * RADIUS, 2 * RADIUS));
         if (pruned) {
             g.draw(new Line2D.Double(x - STROKE, y + STROKE, x + STROKE, y - STROKE));
         }
     }
 
-    /** Of the selected track: where each hypothesis has the target, the likelier the brighter. */
+    /**
+     * Paints the position and velocity of each hypothesis of the selected track, likelier ones
+     * brighter.
+     */
     static void paintHypotheses(Graphics2D g, Scene scene, Integer track, ViewTransform view, double seconds) {
-        Scene.Hypotheses of = track == null ? null : scene.thoughts().hypotheses().get(track);
+        Scene.Hypotheses of = track == null ? null : scene.internals().hypotheses().get(track);
         if (of == null) {
             return;
         }
         g.setStroke(Palette.LINE);
         for (int i = of.list().size() - 1; i >= 0; i--) {
             Scene.Hypothesis one = of.list().get(i);
-            Color colour = Palette.faded(Palette.hypothesis(i), 0.35 + 0.65 * one.share());
+            Color colour = Palette.withAlpha(Palette.ofHypothesis(i), 0.35 + 0.65 * one.share());
             Place to = new Place(one.place().x() + seconds * one.vx(), one.place().y() + seconds * one.vy());
             double x = view.screenX(one.place().x());
             double y = view.screenY(one.place().y());

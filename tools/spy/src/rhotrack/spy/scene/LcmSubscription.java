@@ -6,22 +6,22 @@ import lcm.lcm.LCM;
 import lcm.lcm.LCMDataInputStream;
 import lcm.lcm.LCMSubscriber;
 
-/** Listens to all RHO_ channels. */
-public final class Feed implements LCMSubscriber {
+/** Subscription to all RHO_ channels of an LCM network; passes their messages to a decoder. */
+public final class LcmSubscription implements LCMSubscriber {
     private final LCM lcm;
-    private final Decoder decoder;
+    private final MessageDecoder decoder;
 
     /**
-     * A URL of null is LCM's default: the environment's LCM_DEFAULT_URL, or its usual multicast
-     * group.
+     * Subscribes on the network of the URL; null: LCM's default, which is LCM_DEFAULT_URL or its
+     * usual multicast group.
      */
-    public Feed(String url, Model model) throws IOException {
-        decoder = new Decoder(model);
+    public LcmSubscription(String url, Model model) throws IOException {
+        decoder = new MessageDecoder(model);
         try {
             lcm = url == null ? new LCM() : new LCM(url);
             lcm.subscribe("RHO_.*", this);
         } catch (IOException | RuntimeException e) {
-            // LCM throws either for a network that it cannot open.
+            // LCM throws either of them where it cannot open the network.
             throw new IOException("no connection to LCM: " + e.getMessage(), e);
         }
     }
@@ -33,7 +33,7 @@ public final class Feed implements LCMSubscriber {
             in.readFully(data);
             decoder.decode(channel, data);
         } catch (IOException | RuntimeException e) {
-            // LCM's thread would end with it, and the view with the thread.
+            // an exception would end LCM's thread, and no more messages would arrive
             System.err.println("rhotrack: " + channel + ": " + e);
         }
     }

@@ -5,14 +5,17 @@ import java.awt.Dimension;
 import java.awt.Rectangle;
 import java.util.List;
 
-/** Where a window goes so that it does not cover another one. */
-final class Placement {
+/** Placement of a window beside another one, without covering it. */
+final class WindowPlacement {
     static final Dimension LEAST = new Dimension(640, 420);
 
-    private Placement() {
+    private WindowPlacement() {
     }
 
-    /** Beside the other one where most of it fits, smaller if it must be; null: nowhere. */
+    /**
+     * Bounds for the window beside the other one, where most of the wanted size fits; null where
+     * not even LEAST fits.
+     */
     static Rectangle beside(Rectangle screen, Rectangle other, Dimension wanted) {
         int right = other.x + other.width;
         int below = other.y + other.height;
@@ -22,7 +25,7 @@ final class Placement {
                 new Rectangle(screen.x, screen.y, other.x - screen.x, screen.height),
                 new Rectangle(screen.x, below, screen.width, screen.y + screen.height - below),
                 new Rectangle(screen.x, screen.y, screen.width, other.y - screen.y))) {
-            Rectangle fitted = within(free, other, wanted);
+            Rectangle fitted = cutToFreeArea(free, other, wanted);
             if (fitted.width >= LEAST.width && fitted.height >= LEAST.height
                     && (best == null || area(fitted) > area(best))) {
                 best = fitted;
@@ -31,8 +34,8 @@ final class Placement {
         return best;
     }
 
-    /** As near to the other one as there is room. */
-    private static Rectangle within(Rectangle free, Rectangle other, Dimension wanted) {
+    /** The wanted size, cut to the free area, as near to the other window as possible. */
+    private static Rectangle cutToFreeArea(Rectangle free, Rectangle other, Dimension wanted) {
         int width = Math.min(free.width, wanted.width);
         int height = Math.min(free.height, wanted.height);
         return new Rectangle(clamp(other.x, free.x, free.x + free.width - width),

@@ -13,22 +13,22 @@ import java.util.List;
 import java.util.Locale;
 import javax.swing.JComponent;
 
+import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.Geometry;
 import rhotrack.spy.scene.LookHistory;
 import rhotrack.spy.scene.Scene;
-import rhotrack.spy.scene.TrackMark;
 
 /**
- * The parameter space: the candidates of the last searches, theta against rho, and the lines of the
- * tracks.
+ * The parameter space of theta and rho: the candidates of the last searches, or an accumulator's
+ * votes, and the lines of the tracks.
  */
-@SuppressWarnings("serial") // nobody stores views
-final class PeaksView extends JComponent {
+@SuppressWarnings("serial") // views are never serialised
+final class ParameterSpaceView extends JComponent {
     private static final int LEFT = 66;
     private static final int RIGHT = 16;
     private static final int TOP = 34;
     private static final int BOTTOM = 40;
-    /** The best ones: the others are many, and mostly clutter. */
+    /** Most labels, for the best candidates: the others are many and mostly clutter. */
     private static final int MAX_LABELS = 12;
     private static final double LABEL_GAP = 9;
     private static final double RING = 8;
@@ -38,7 +38,7 @@ final class PeaksView extends JComponent {
     private Scene scene;
     private double rhoLimit;
 
-    PeaksView(ViewOptions options) {
+    ParameterSpaceView(ViewOptions options) {
         this.options = options;
         setPreferredSize(new Dimension(420, 400));
     }
@@ -51,29 +51,29 @@ final class PeaksView extends JComponent {
     @Override
     protected void paintComponent(Graphics graphics) {
         Graphics2D g = (Graphics2D) graphics.create();
-        Palette.smooth(g);
+        Palette.enableAntialiasing(g);
         g.setColor(Palette.BACKGROUND);
         g.fillRect(0, 0, getWidth(), getHeight());
         g.setFont(Palette.BOLD);
         g.setColor(Palette.TEXT);
         Scene.Accumulator search = scene != null && options.shows(ViewOptions.Layer.VOTES) ? newestSearch() : null;
-        g.drawString(search != null ? VotesLayer.title(search) : "Parameter space", 14, 21);
+        g.drawString(search != null ? AccumulatorLayer.title(search) : "Parameter space", 14, 21);
         String note = search != null ? "\u25cb peak \u2002 \u25cf new track" : "speed \u00b7 scans hit \u2002 \u25cb track";
         g.setFont(Palette.SMALL);
         g.setColor(Palette.MUTED);
         g.drawString(note, getWidth() - RIGHT - g.getFontMetrics().stringWidth(note), 21);
         if (scene != null) {
-            updateLimit();
+            updateRhoLimit();
             if (search != null) {
                 rhoLimit = Math.max(-search.rhoMin(), search.rhoMax());
-                VotesLayer.paintPlane(g, scene, search, this::screenX, this::screenY);
+                AccumulatorLayer.paintPlane(g, scene, search, this::screenX, this::screenY);
             }
             paintAxes(g);
             LabelPlacer labels = new LabelPlacer(getWidth(), getHeight() - BOTTOM);
-            labels.block(0, 0, LEFT, getHeight());
-            labels.block(0, 0, getWidth(), TOP);
+            labels.blockArea(0, 0, LEFT, getHeight());
+            labels.blockArea(0, 0, getWidth(), TOP);
             if (search != null) {
-                VotesLayer.paintCells(g, search, this::screenX, this::screenY, labels);
+                AccumulatorLayer.paintCells(g, search, this::screenX, this::screenY, labels);
             } else {
                 paintTracks(g, labels);
                 paintPeaks(g, labels);
@@ -82,23 +82,26 @@ final class PeaksView extends JComponent {
         g.dispose();
     }
 
-    /** Of all pairs of sensors together; null: no search is shown. */
+    /** The newest accumulator of all pairs of sensors together; null where none is shown. */
     private Scene.Accumulator newestSearch() {
-        return scene.thoughts().accumulators().stream()
+        return scene.internals().accumulators().stream()
                 .filter(search -> !search.which().hasPair())
                 .max(Comparator.comparingInt(Scene.Accumulator::scan))
                 .orElse(null);
     }
 
-    /** Grows at once, shrinks late: the axis must not breathe with every scan. */
-    private void updateLimit() {
+    /**
+     * Adapts the rho axis to the data: it grows at once, but shrinks only to a third, so that it
+     * does not change with every scan.
+     */
+    private void updateRhoLimit() {
         double largest = 100;
         for (LookHistory.Faded<Scene.Peaks> list : scene.peaks()) {
             for (Scene.Peak peak : list.content().peaks()) {
                 largest = Math.max(largest, Math.abs(peak.rho()));
             }
         }
-        for (TrackMark track : scene.tracks()) {
+        for (DisplayedTrack track : scene.tracks()) {
             largest = Math.max(largest, Math.hypot(track.place().x(), track.place().y()));
         }
         if (largest > rhoLimit || largest < rhoLimit / 3) {
@@ -123,15 +126,15 @@ final class PeaksView extends JComponent {
             double x = screenX(i * Math.PI / 4);
             g.setColor(Palette.GRID);
             g.draw(new Line2D.Double(x, TOP, x, bottom));
-            centred(g, THETAS[i], x, bottom + 15);
+            drawCentred(g, THETAS[i], x, bottom + 15);
         }
-        centred(g, "\u03b8, rad", (LEFT + getWidth() - RIGHT) / 2.0, bottom + 32);
-        double step = Scale.roundStep(rhoLimit / (getHeight() - TOP - BOTTOM) * 2 * 50);
+        drawCentred(g, "\u03b8, rad", (LEFT + getWidth() - RIGHT) / 2.0, bottom + 32);
+        double step = AxisScale.roundStep(rhoLimit / (getHeight() - TOP - BOTTOM) * 2 * 50);
         for (long k = (long) -Math.floor(rhoLimit / step); k * step <= rhoLimit; k++) {
             double y = screenY(k * step);
             g.setColor(k == 0 ? Palette.EDGE : Palette.GRID);
             g.draw(new Line2D.Double(LEFT, y, getWidth() - RIGHT, y));
-            String text = Scale.length(k * step, step);
+            String text = AxisScale.formatLength(k * step, step);
             g.setColor(Palette.GRID_TEXT);
             g.drawString(text, LEFT - 8 - g.getFontMetrics().stringWidth(text), (float) y + 4);
         }
@@ -139,21 +142,22 @@ final class PeaksView extends JComponent {
         g.drawString("\u03c1", 12, (float) screenY(0) + 4);
     }
 
-    private static void centred(Graphics2D g, String text, double x, double y) {
+    private static void drawCentred(Graphics2D g, String text, double x, double y) {
         g.setColor(Palette.GRID_TEXT);
         g.drawString(text, (float) (x - g.getFontMetrics().stringWidth(text) / 2.0), (float) y);
     }
 
     private void paintTracks(Graphics2D g, LabelPlacer labels) {
         g.setStroke(Palette.LINE);
-        for (TrackMark track : scene.tracks()) {
+        for (DisplayedTrack track : scene.tracks()) {
             if (track.speed() > 0) {
-                Geometry.Line line = Geometry.lineOf(track.place().x(), track.place().y(), track.vx(), track.vy());
-                g.setColor(Palette.faded(Palette.of(track.status()), 0.75));
+                Geometry.Line line = Geometry.lineThroughTrack(track.place().x(), track.place().y(), track.vx(),
+                        track.vy());
+                g.setColor(Palette.withAlpha(Palette.ofStatus(track.status()), 0.75));
                 double x = screenX(line.theta());
                 double y = screenY(line.rho());
                 g.draw(new Ellipse2D.Double(x - RING, y - RING, 2 * RING, 2 * RING));
-                labels.block(x - RING, y - RING, 2 * RING, 2 * RING);
+                labels.blockArea(x - RING, y - RING, 2 * RING, 2 * RING);
             }
         }
     }
@@ -171,14 +175,14 @@ final class PeaksView extends JComponent {
             boolean newest = list.strength() == 1;
             for (Scene.Peak peak : list.content().peaks()) {
                 double share = most > least ? (peak.score() - least) / (most - least) : 1;
-                Color colour = Palette.faded(Palette.ramp(share), newest ? 0.95 : 0.3 * list.strength());
+                Color colour = Palette.withAlpha(Palette.rampColour(share), newest ? 0.95 : 0.3 * list.strength());
                 double radius = 2.5 + 4 * share;
                 double x = screenX(peak.theta());
                 double y = screenY(peak.rho());
                 g.setColor(colour);
                 g.fill(new Ellipse2D.Double(x - radius, y - radius, 2 * radius, 2 * radius));
                 if (newest) {
-                    labels.block(x - radius, y - radius, 2 * radius, 2 * radius);
+                    labels.blockArea(x - radius, y - radius, 2 * radius, 2 * radius);
                 }
             }
             if (newest) {
@@ -197,7 +201,7 @@ final class PeaksView extends JComponent {
             String text = String.format(Locale.ROOT, "%.0f m/s \u00b7 %d", peak.speed(), peak.scansHit());
             double x = screenX(peak.theta());
             double y = screenY(peak.rho());
-            Rectangle2D room = labels.place(x, y, LABEL_GAP, g.getFontMetrics().stringWidth(text), 13);
+            Rectangle2D room = labels.placeLabel(x, y, LABEL_GAP, g.getFontMetrics().stringWidth(text), 13);
             if (room != null) {
                 LabelPlacer.paintLeader(g, x, y, LABEL_GAP, room, Palette.MUTED);
                 g.setColor(Palette.TEXT);

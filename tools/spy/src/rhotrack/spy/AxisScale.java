@@ -3,9 +3,9 @@ package rhotrack.spy;
 
 import java.util.Locale;
 
-/** Round steps for rings and axes, and how lengths are written. */
-final class Scale {
-    private Scale() {
+/** Round steps of rings and axes, and lengths as text. */
+final class AxisScale {
+    private AxisScale() {
     }
 
     /** The smallest 1, 2 or 5 times a power of ten that is not below `least`. */
@@ -22,15 +22,15 @@ final class Scale {
         return 10 * power;
     }
 
-    /** A length that is a multiple of a step, in m or km, with the digits that the step needs. */
-    static String length(double metres, double step) {
+    /** A length as text in m or km, with the digits that multiples of `step` need. */
+    static String formatLength(double metres, double step) {
         if (step < 100 && Math.abs(metres) < 1000) {
-            return number(metres, step) + " m";
+            return formatNumber(metres, step) + " m";
         }
-        return number(metres / 1000, step / 1000) + " km";
+        return formatNumber(metres / 1000, step / 1000) + " km";
     }
 
-    private static String number(double value, double step) {
+    private static String formatNumber(double value, double step) {
         int digits = (int) Math.max(0, Math.min(6, Math.ceil(-Math.log10(step) - 1e-9)));
         String text = String.format(Locale.ROOT, "%." + digits + "f", value);
         return text.startsWith("-") ? "\u2212" + text.substring(1) : text;

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
 package rhotrack.spy;
 
-/** Columns as wide as their cells, with equal gaps; where they do not fit, the last ones go. */
-final class Columns {
+/**
+ * Layout of a table's columns: each as wide as its cells, with equal gaps; the last columns are
+ * left out where they do not fit.
+ */
+final class ColumnLayout {
     static final double LEAST_GAP = 10;
 
-    private Columns() {
+    private ColumnLayout() {
     }
 
-    /** Right edges of the columns that there is room for, the first one in any case. */
+    /** Right edges of the columns that fit into the width `room`; at least the first column. */
     static double[] rightEdges(double[] widths, double room) {
         int count = widths.length;
-        while (count > 1 && total(widths, count) + count * LEAST_GAP > room) {
+        while (count > 1 && totalWidth(widths, count) + count * LEAST_GAP > room) {
             count--;
         }
-        double gap = Math.max(0, (room - total(widths, count)) / count);
+        double gap = Math.max(0, (room - totalWidth(widths, count)) / count);
         double[] edges = new double[count];
         double at = 0;
         for (int i = 0; i < count; i++) {
@@ -24,7 +27,7 @@ final class Columns {
         return edges;
     }
 
-    private static double total(double[] widths, int count) {
+    private static double totalWidth(double[] widths, int count) {
         double sum = 0;
         for (int i = 0; i < count; i++) {
             sum += widths[i];

@@ -16,63 +16,66 @@ import javax.swing.JComponent;
 import javax.swing.JPanel;
 import javax.swing.KeyStroke;
 
-/** The row of buttons, each with its key. A button is lit while what it stands for is on. */
-final class Controls {
+/**
+ * The row of buttons above the views, each with a keyboard shortcut. A button is lit while its
+ * option is on.
+ */
+final class ButtonRow {
     private final JComponent keyOwner;
     private final JPanel row = new JPanel(new FlowLayout(FlowLayout.LEFT, 6, 6));
     private final Map<JButton, BooleanSupplier> states = new HashMap<>();
 
-    /** Keys work wherever the focus is in the window of `keyOwner`. */
-    Controls(JComponent keyOwner) {
+    /** Shortcuts work wherever the focus is in the window of `keyOwner`. */
+    ButtonRow(JComponent keyOwner) {
         this.keyOwner = keyOwner;
         row.setBackground(Palette.PANEL);
     }
 
-    JComponent row() {
+    JComponent component() {
         return row;
     }
 
-    void button(String title, String key, BooleanSupplier isOn, Runnable job) {
+    void addButton(String title, String key, BooleanSupplier isOn, Runnable job) {
         JButton button = new JButton(title);
         button.setToolTipText("key " + key.toLowerCase(Locale.ROOT));
-        button.setFocusable(false); // so that space pauses and does not press the last button again
+        button.setFocusable(false); // the space key then pauses instead of pressing the last button again
         button.setContentAreaFilled(false);
         button.setOpaque(true);
         button.setFont(Palette.PLAIN);
         button.setBorder(BorderFactory.createCompoundBorder(BorderFactory.createLineBorder(Palette.EDGE),
                 BorderFactory.createEmptyBorder(3, 10, 3, 10)));
-        button.addActionListener(event -> run(job));
+        button.addActionListener(event -> runAndRefresh(job));
         states.put(button, isOn);
         row.add(button);
-        key(key, job);
-        refresh();
+        bindKey(key, job);
+        refreshButtons();
     }
 
-    void gap() {
+    void addGap() {
         JPanel space = new JPanel();
         space.setOpaque(false);
         space.setPreferredSize(new Dimension(10, 1));
         row.add(space);
     }
 
-    /** A key as KeyStroke reads it: "P", "SPACE", "typed +". */
-    @SuppressWarnings("serial") // nobody stores actions
-    void key(String key, Runnable job) {
+    /** Binds a key, in KeyStroke's notation ("P", "SPACE", "typed +"), to a job. */
+    @SuppressWarnings("serial") // actions are never serialised
+    void bindKey(String key, Runnable job) {
         keyOwner.getInputMap(JComponent.WHEN_IN_FOCUSED_WINDOW).put(KeyStroke.getKeyStroke(key), key);
         keyOwner.getActionMap().put(key, new AbstractAction() {
             @Override
             public void actionPerformed(ActionEvent event) {
-                run(job);
+                runAndRefresh(job);
             }
         });
     }
 
-    private void run(Runnable job) {
+    private void runAndRefresh(Runnable job) {
         job.run();
-        refresh();
+        refreshButtons();
     }
 
-    private void refresh() {
+    private void refreshButtons() {
         states.forEach((button, isOn) -> {
             Color lit = isOn.getAsBoolean() ? Palette.EDGE : Palette.PANEL;
             button.setBackground(lit);

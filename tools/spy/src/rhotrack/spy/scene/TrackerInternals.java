@@ -9,13 +9,19 @@ import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
 
-/** What the tracker was asked to show of its last steps: ghosts, accumulators, hypotheses. */
-public final class Thinking {
-    /** As many pairs of sensors as a search may have, with room for two methods. */
+/**
+ * The tracker's internals that it publishes on request: ghosts, accumulators, planes and hypotheses
+ * of its last steps.
+ */
+public final class TrackerInternals {
+    /**
+     * Most accumulators or ghost matrices: the pairs of sensors of a search, with room for two
+     * methods.
+     */
     private static final int MAX_PICTURES = 64;
-    /** As many tracks as a tracker has at most. */
+    /** Most tracks with hypotheses: the most that a tracker has. */
     private static final int MAX_TRACKS = 8192;
-    /** Ghosts of so many steps back are of sensors that have gone. */
+    /** Steps after which a ghost matrix is dropped: its sensors have gone. */
     private static final int GHOST_STEPS = 20;
 
     private record Pair(int a, int b) {
@@ -74,14 +80,16 @@ public final class Thinking {
         hypotheses.clear();
     }
 
-    /** Of tracks that are there. */
-    Scene.Thoughts thoughts(List<TrackMark> tracks) {
+    /**
+     * A copy of the internals, without hypotheses of tracks that have ended and without old ghosts.
+     */
+    Scene.Internals copyFor(List<DisplayedTrack> tracks) {
         Set<Integer> ids = new HashSet<>();
         tracks.forEach(track -> ids.add(track.id()));
         hypotheses.keySet().removeIf(id -> !ids.contains(id) && !ids.isEmpty());
         List<Scene.Ghosts> newest = new ArrayList<>(ghosts.values());
         newest.removeIf(matrix -> Math.abs(newestScan - matrix.scan()) > GHOST_STEPS);
-        return new Scene.Thoughts(newest, List.copyOf(accumulators.values()), List.copyOf(planes.values()),
+        return new Scene.Internals(newest, List.copyOf(accumulators.values()), List.copyOf(planes.values()),
                 new TreeMap<>(hypotheses));
     }
 }
