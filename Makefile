@@ -301,14 +301,14 @@ uninstall:
 # golden files, and the checks of the sources that take seconds. test-all runs everything else behind it.
 quick_scripts := $(addprefix tests/integration/,claims.sh command_line.sh documents.sh examples.sh headers.sh layers.sh security.sh)
 quick_scripts := $(wildcard $(quick_scripts)) $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \
-                 $(addprefix tools/gates/,layers.py tested.py poison.sh extract_example.sh)
+                 $(addprefix tools/gates/,layers.py tested.py forbidden_words.sh extract_example.sh)
 # What the embedded profile leaves out is tested in the other one.
-left_out := tracker/test_evidence bodies/test_body_extents bodies/test_plot_groups step/test_split_bodies
+left_out := tracker/test_plot_ownership bodies/test_body_extents bodies/test_plot_groups step/test_split_bodies
 quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) $(filter-out $(BUILD)/tests/lab/%,$(tool_programs)) \
                   $(left_out:%=$(BUILD)/tests/workstation/unit/%)
 other_programs := $(filter-out $(quick_programs),$(unit_programs) $(tool_programs))
 other_scripts := $(filter-out $(quick_scripts),$(sort $(wildcard tests/integration/*.sh tests/lab/test_*.py)) \
-                   tools/gates/gates.py tools/gates/determinism.sh)
+                   tools/gates/object_restrictions.py tools/gates/determinism.sh)
 
 # A test that does not build counts as failed, so the build goes on past it (-k) and its runner decides.
 run_tests = @$(MAKE) --no-print-directory -k $(jobs) all $(1) || echo "  ...  the build has failures"; \
@@ -468,11 +468,11 @@ layers: $(library) $(program) $(lab)
 
 ## Check that the library has no heap, no stdio, no double, no mutable globals
 poison: $(library)
-	@BUILD=$(BUILD) tools/gates/poison.sh
+	@BUILD=$(BUILD) tools/gates/forbidden_words.sh
 
 ## The same in the objects for Cortex-M, Cortex-R and RISC-V, and no recursion, growing frame or call by a pointer
 gates:
-	@BUILD=$(BUILD) tools/gates/gates.py
+	@BUILD=$(BUILD) tools/gates/object_restrictions.py
 
 ## Build with gcc and clang, -O0 and -O3, and compare what the programs write, byte by byte
 determinism:

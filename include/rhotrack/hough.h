@@ -36,7 +36,7 @@
 
 #include "rhotrack/config.h"
 #include "rhotrack/detail/accumulator.h"
-#include "rhotrack/detail/plane.h"
+#include "rhotrack/detail/parameter_plane.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus
@@ -237,7 +237,7 @@ RHO_MUST_CHECK enum rho_status rho_hough_init(struct rho_hough *hough, size_t si
  * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, more than 65535 plots in a
  * scan, a place not finite or beyond RHO_LIMIT_POSITION_M, a time not finite or beyond 1e9 s);
  * nothing but *hough's scratch is changed.
- * Cost: HT as rho_accumulator_find. Others: the pairs, once a pass; NHT_C (2 reach + 1)^2
+ * Cost: HT as rho_accumulator_find_peaks. Others: the pairs, once a pass; NHT_C (2 reach + 1)^2
  * additions a vote. Then the cells above the thresholds, n log n. Stack: 1 KB, HT 1.9 KB, NHT_C
  * 2.8 KB.
  */
@@ -263,7 +263,7 @@ RHO_MUST_CHECK enum rho_status rho_hough_track(struct rho_hough *hough,
  *   plane  the window and its picture, in the caller's memory
  * Sums are over all candidate pairs, eq. (20), of the third scan and later, spread like votes with
  * reading C. The sums of RHO_HOUGH_VOTES are the votes that rho_hough_find compares.
- * Errors: as rho_hough_find, those of rho_plane_open, and VALUE (no such component, or
+ * Errors: as rho_hough_find, those of rho_plane_init_picture, and VALUE (no such component, or
  * memberships of a method other than NHT); nothing but *hough's scratch and the picture is changed.
  * Cost: that of rho_hough_find. Stack: 2.9 KB.
  */

@@ -17,7 +17,7 @@
  *   5 repeat    steps 1 to 3 with the bearings that no track has claimed, with fewer votes and
  *               without the third sensor; then one selection from all candidates
  *
- * Source: the passive Hough transform paper (see crossing.h) for steps 1 and 2, in which lines of
+ * Source: the passive Hough transform paper (see bearing_crossing.h) for steps 1 and 2, in which lines of
  * crossings are the tracks. A line has no time, and ghosts form lines too: src/DESIGN.md derives
  * steps 3 to 5.
  *
@@ -30,8 +30,8 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
-#include "rhotrack/detail/batch.h"
-#include "rhotrack/detail/ghost.h"
+#include "rhotrack/detail/bearing_batch.h"
+#include "rhotrack/detail/ghost_matrix.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

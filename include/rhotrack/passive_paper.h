@@ -22,7 +22,7 @@
  * A line has no time. Its position and velocity are a least-squares fit through the crossings that
  * voted for it, ghosts among them.
  *
- * Source: passive Hough transform paper (see crossing.h), sections 3 and 4; src/DESIGN.md says how
+ * Source: passive Hough transform paper (see bearing_crossing.h), sections 3 and 4; src/DESIGN.md says how
  * it is read.
  *
  * Stack: 32 bytes at most where nothing else is said.
@@ -35,9 +35,9 @@
 
 #include "rhotrack/config.h"
 #include "rhotrack/detail/accumulator.h"
-#include "rhotrack/detail/batch.h"
-#include "rhotrack/detail/ghost.h"
-#include "rhotrack/detail/plane.h"
+#include "rhotrack/detail/bearing_batch.h"
+#include "rhotrack/detail/ghost_matrix.h"
+#include "rhotrack/detail/parameter_plane.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus
@@ -215,7 +215,7 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_ghosts(const struct rho_passive
  * of the votes of all pairs, in the cells that every pair confirms, and 0 in the others. The votes
  * are those of the last search until the next frame is pushed; the lines stay as they are.
  * Errors: NULL (paper), STATE (not initialised, or too little in the batch to search), VALUE (no
- * such pair), and those of rho_plane_open. Cost: the voting of rho_passive_paper_search.
+ * such pair), and those of rho_plane_init_picture. Cost: the voting of rho_passive_paper_search.
  * Stack: 1.6 KB with 8 bearings a scan, 4 KB with 16.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,

@@ -58,7 +58,7 @@
 #include "rhotrack/detail/clutter_map.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/hypotheses.h"
-#include "rhotrack/detail/input.h"
+#include "rhotrack/detail/input_estimation.h"
 #include "rhotrack/detail/split_plots.h"
 #include "rhotrack/detail/track.h"
 #include "rhotrack/detail/window.h"

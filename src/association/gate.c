@@ -14,7 +14,8 @@ static void predict_range_rate(const struct rho_kalman *at, const struct rho_sen
                                int has_z, struct rho_gate_rate *rate)
 {
     float row[RHO_KALMAN_STATES], projected[RHO_KALMAN_STATES];
-    rate->is_known = rho_measurement_range_rate(at->state, sensor, has_z, row, &rate->rate_mps);
+    rate->is_known =
+        rho_measurement_predict_range_rate(at->state, sensor, has_z, row, &rate->rate_mps);
     if (rate->is_known) {
         rate->variance = rho_linalg_project6(at->covariance, row, projected);
         for (int i = 0; i < 3; i++) {
@@ -29,7 +30,7 @@ void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, fl
     gate->predicted = *predicted;
     gate->noise_density = noise_density;
     gate->sensor = sensor;
-    gate->has_z = rho_kalman_is_open(predicted, 2);
+    gate->has_z = rho_kalman_is_axis_open(predicted, 2);
     gate->measures = measures;
     if (measures & RHO_MEASURES_RANGE_RATE) {
         predict_range_rate(predicted, sensor, gate->has_z, &gate->rate);
@@ -135,10 +136,10 @@ static int is_innovation_in_gate(struct innovation *innovation, struct rho_gate_
         return test_four_dimensions(innovation, result);
     }
     if (innovation->num == 3) {
-        return rho_linalg_gate3(s, d, &result->distance2, &result->log_det) == RHO_OK &&
+        return rho_linalg_nis3(s, d, &result->distance2, &result->log_det) == RHO_OK &&
                result->distance2 <= RHO_GATE_CHI2_3D;
     }
-    return rho_linalg_gate2(s, d, &result->distance2, &result->log_det) == RHO_OK &&
+    return rho_linalg_nis2(s, d, &result->distance2, &result->log_det) == RHO_OK &&
            result->distance2 <= RHO_GATE_CHI2_2D;
 }
 
@@ -148,7 +149,7 @@ static int test_all_dimensions(const struct rho_gate *gate, const struct rho_kal
 {
     struct rho_measurement seen;
     struct innovation innovation;
-    rho_measurement_open(plot, gate->measures, gate->sensor, &seen);
+    rho_measurement_from_plot(plot, gate->measures, gate->sensor, &seen);
     result->has_z = gate->has_z && seen.has_z;
     set_position_innovation(at, &seen, result->has_z ? 3 : 2, &innovation);
     result->has_range_rate = (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 &&
@@ -187,7 +188,7 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
     if ((gate->measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m;
     }
-    sigma_m *= rho_measurement_widest_factor(gate->sensor);
+    sigma_m *= rho_measurement_largest_sigma_factor(gate->sensor);
     if (is_outside_on_axis(gate, 0, plot->x_m, offset_s, sigma_m * sigma_m) ||
         is_outside_on_axis(gate, 1, plot->y_m, offset_s, sigma_m * sigma_m)) {
         return 0;

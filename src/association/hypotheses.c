@@ -89,7 +89,7 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
     for (unsigned i = 0; i < RHO_MAX_HYPOTHESES; i++) {
         pool->spare[i] = (uint16_t)(RHO_MAX_HYPOTHESES - 1u - i);
     }
-    rho_imm_step_open(&pool->step, model, 0.0f);
+    rho_imm_prepare_step(&pool->step, model, 0.0f);
     pool->magic = RHO_HYPOTHESES_MAGIC;
     return RHO_OK;
 }
@@ -106,15 +106,15 @@ enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
         return RHO_ERROR_CONFIG;
     }
     pool->model = kept;
-    rho_imm_step_open(&pool->step, &pool->model, pool->step.dt_s);
+    rho_imm_prepare_step(&pool->step, &pool->model, pool->step.dt_s);
     return RHO_OK;
 }
 
-void rho_hypotheses_set_calm(struct rho_hypotheses *pool, float calm_s)
+void rho_hypotheses_set_calm_interval(struct rho_hypotheses *pool, float calm_s)
 {
     if (pool->model.calm_s > 0.0f && (calm_s < pool->model.calm_s || calm_s > pool->model.calm_s)) {
         pool->model.calm_s = calm_s;
-        rho_imm_step_open(&pool->step, &pool->model, pool->step.dt_s);
+        rho_imm_prepare_step(&pool->step, &pool->model, pool->step.dt_s);
     }
 }
 
@@ -189,13 +189,13 @@ static const struct rho_imm_step *cached_step_of_interval(struct rho_hypotheses 
 {
     float dt_s = rho_seconds_between(from_us, to_us);
     if (dt_s < pool->step.dt_s || dt_s > pool->step.dt_s) {
-        rho_imm_step_open(&pool->step, &pool->model, dt_s);
+        rho_imm_prepare_step(&pool->step, &pool->model, dt_s);
     }
     return &pool->step;
 }
 
-enum rho_status rho_hypotheses_move_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
-                                           int64_t from_us, int64_t to_us)
+enum rho_status rho_hypotheses_predict_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
+                                              int64_t from_us, int64_t to_us)
 {
     return from_us == to_us
                ? RHO_OK
@@ -209,7 +209,7 @@ const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
         return &at->imm;
     }
     pool->scratch = at->imm;
-    return rho_hypotheses_move_filter(pool, &pool->scratch, at->time_us, time_us) == RHO_OK
+    return rho_hypotheses_predict_filter(pool, &pool->scratch, at->time_us, time_us) == RHO_OK
                ? &pool->scratch
                : 0;
 }
@@ -273,7 +273,8 @@ enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slo
     return move_all_hypotheses(pool, slot, time_us, 0);
 }
 
-enum rho_status rho_hypotheses_return(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
+enum rho_status rho_hypotheses_predict_noiseless(struct rho_hypotheses *pool, uint16_t slot,
+                                                 int64_t time_us)
 {
     return move_all_hypotheses(pool, slot, time_us, 1);
 }

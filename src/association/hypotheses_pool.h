@@ -24,8 +24,8 @@ void rho_hypotheses_release_node(struct rho_hypotheses *pool, uint16_t node);
 unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted);
 
 /* Predicts one filter to another time without mixing its models: to a plot's own time, or back. */
-enum rho_status rho_hypotheses_move_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
-                                           int64_t from_us, int64_t to_us);
+enum rho_status rho_hypotheses_predict_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
+                                              int64_t from_us, int64_t to_us);
 
 /*
  * Filter of a hypothesis at a given time: its own, or a copy in the pool's scratch that was

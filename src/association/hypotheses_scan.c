@@ -66,8 +66,8 @@ static void predict_range_rates(struct rho_hypotheses *pool, uint16_t slot,
     pool->gate_variance_m2 = 0.0f;
     pool->gate_slot = slot;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        rho_imm_predict_rates(&pool->opened.rates[i], &pool->nodes[pool->node_of[slot][i]].imm,
-                              sensor);
+        rho_imm_predict_range_rates(&pool->opened.rates[i],
+                                    &pool->nodes[pool->node_of[slot][i]].imm, sensor);
     }
 }
 
@@ -128,7 +128,7 @@ static void prepare_gates(struct rho_hypotheses *pool, uint16_t slot, float vari
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         pool->gate_is_usable =
             pool->gate_is_usable && at->time_us == time_us &&
-            rho_imm_open_gate(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
+            rho_imm_prepare_gate(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
     }
 }
 
@@ -170,8 +170,8 @@ static inline float score_in_one_gate(struct rho_hypothesis *at, const struct rh
                                       const float place_m[3], int16_t row, float base, float best)
 {
     float log_likelihood, probability;
-    if (!rho_imm_score_in_gate(gate, place_m, least_useful_gain(at, best) - base, &log_likelihood,
-                               &probability)) {
+    if (!rho_imm_score_position_in_gate(gate, place_m, least_useful_gain(at, best) - base,
+                                        &log_likelihood, &probability)) {
         return best;
     }
     const float made = insert_candidate(at, base + log_likelihood, probability, row);
@@ -337,7 +337,7 @@ static int16_t update_with_plot_or_miss(struct rho_hypotheses *pool, struct rho_
                                         const struct rho_imm_plot *seen, int64_t time_us,
                                         const struct rho_imm_match *match, int16_t row)
 {
-    if (rho_hypotheses_move_filter(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
+    if (rho_hypotheses_predict_filter(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
         rho_imm_update(&at->imm, &pool->model, seen, match) == RHO_OK) {
         at->time_us = time_us;
         return row;
@@ -397,7 +397,7 @@ static void advance_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesi
     if (row >= 0) {
         at->weight_nat -= excess_speed_loss_nat(&at->imm, pool->model.speed_max_mps);
     } else if (RHO_DOPPLER_NOTCH && scan->look && scan->log_miss < 0.0f) {
-        rho_imm_miss(&at->imm, scan->sensor, scan->look);
+        rho_imm_update_by_miss(&at->imm, scan->sensor, scan->look);
     }
 }
 
@@ -449,7 +449,7 @@ static void replace_parents_by_children(struct rho_hypotheses *pool, uint16_t sl
         /* consecutive children often have the same plot */
         if (child->row >= 0 && child->row != opened) {
             opened = child->row;
-            rho_imm_open_plot(&seen, &scan->plots[opened], scan->measures, scan->sensor);
+            rho_imm_prepare_plot(&seen, &scan->plots[opened], scan->measures, scan->sensor);
         }
         nodes[i] =
             advance_child(pool, pool->node_of[slot][child->parent], is_last, scan, child, &seen);
@@ -507,7 +507,7 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
 static int move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
 {
     pool->scratch = at->imm;
-    if (rho_hypotheses_move_filter(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (rho_hypotheses_predict_filter(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
         at->imm = pool->scratch;
         return 0;
     }

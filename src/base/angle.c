@@ -90,8 +90,8 @@ static int zero_gap_of_small_overlap(float *gap_rad, float free_rad, float toler
     return 1;
 }
 
-unsigned rho_angle_sector_continues(float from_rad, float to_rad, float next_from_rad,
-                                    float next_to_rad, float gap_max_rad)
+unsigned rho_angle_continued_ends(float from_rad, float to_rad, float next_from_rad,
+                                  float next_to_rad, float gap_max_rad)
 {
     const float width_rad = rho_angle_sector_width(from_rad, to_rad);
     const float next_rad = rho_angle_sector_width(next_from_rad, next_to_rad);

@@ -164,8 +164,8 @@ float rho_linalg_log_determinant(int n, const float *l)
  * NIS by S = L D L^T with a unit L: pivots instead of a determinant, which cancels where the errors
  * are correlated.
  */
-enum rho_status rho_linalg_gate2(const float s[3], const float d[2], float *distance2,
-                                 float *log_det)
+enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *distance2,
+                                float *log_det)
 {
     float l10, pivot1, y1, distance, logarithm;
 
@@ -188,8 +188,8 @@ enum rho_status rho_linalg_gate2(const float s[3], const float d[2], float *dist
     return RHO_OK;
 }
 
-enum rho_status rho_linalg_gate3(const float s[6], const float d[3], float *distance2,
-                                 float *log_det)
+enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *distance2,
+                                float *log_det)
 {
     float l10, l20, l21, c21, pivot1, pivot2, y1, y2, distance, logarithm;
 
@@ -331,8 +331,8 @@ static int update_all_axes(float x[6], float p[21], const uint8_t place[6],
     return 1;
 }
 
-enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float innovation,
-                                   float variance, float *nis)
+enum rho_status rho_linalg_update6_element(float x[6], float p[21], int index, float innovation,
+                                           float variance, float *nis)
 {
     float predicted, sum;
     struct scalar_measurement seen;
@@ -409,7 +409,7 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
     return RHO_OK;
 }
 
-void rho_linalg_turn6(float p[21], int a, int b, float c, float s)
+void rho_linalg_rotate6(float p[21], int a, int b, float c, float s)
 {
     const uint8_t *row_a = row_places[a], *row_b = row_places[b];
     const float aa = p[row_a[a]], ab = p[row_a[b]], bb = p[row_b[b]];

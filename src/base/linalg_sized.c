@@ -82,8 +82,8 @@ static void copy_row(int n, const float *p, int index, float *row)
     }
 }
 
-enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index, float innovation,
-                                     float variance)
+enum rho_status rho_linalg_update_element(int n, float *x, float *p, int index, float innovation,
+                                          float variance)
 {
     float row[RHO_LINALG_MAX], inverse, kept;
     int i;
@@ -144,8 +144,8 @@ static float project_covariance(int n, const float *p, int num, const float *row
     return variance;
 }
 
-enum rho_status rho_linalg_update_along(int n, float *x, float *p, int num, const float *row,
-                                        float innovation, float variance)
+enum rho_status rho_linalg_update_row(int n, float *x, float *p, int num, const float *row,
+                                      float innovation, float variance)
 {
     float spread[RHO_LINALG_MAX], inverse;
 
@@ -209,8 +209,8 @@ static float log_pivot_product(int n, const float *s)
     return sum;
 }
 
-int rho_linalg_match(int n, float *s, float *d, float distance2_max, float *distance2,
-                     float *log_det)
+int rho_linalg_gated_nis(int n, float *s, float *d, float distance2_max, float *distance2,
+                         float *log_det)
 {
     float distance = 0.0f, logarithm;
     int k;

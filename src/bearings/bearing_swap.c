@@ -98,7 +98,7 @@ static void offer_swapped_candidates(struct rho_passive_search *search, const st
     }
 }
 
-void rho_passive_swap_bearings(struct rho_passive_search *search)
+void rho_passive_offer_swapped_candidates(struct rho_passive_search *search)
 {
     struct claims claims;
     copy_claims_of_best(search->passive, &claims);

@@ -10,7 +10,7 @@
 #define SECOND_US INT64_C(1000000)
 #define TOLERANCE_MAX_US (10 * SECOND_US)
 #define JUMP_MAX_US (3600 * SECOND_US)
-/* bearings of sensors nearer to each other than this do not cross (crossing.h) */
+/* bearings of sensors nearer to each other than this do not cross (bearing_crossing.h) */
 #define APART_MIN_M 1.0f
 
 /* ---- setting up ------------------------------------------------------------------------------ */

@@ -149,7 +149,8 @@ static void find_line_candidates(struct rho_passive_search *search, float votes_
     votes_min = votes_min > VOTES_MIN ? votes_min : VOTES_MIN;
     rho_passive_find_crossings(search);
     rho_passive_vote_for_lines(search);
-    for (unsigned i = 0; i < LINES_MAX && rho_passive_next_line(search, votes_min, &line); i++) {
+    for (unsigned i = 0; i < LINES_MAX && rho_passive_take_best_line(search, votes_min, &line);
+         i++) {
         search->passive->work.peaks = rho_count(search->passive->work.peaks, 1);
         rho_passive_fit_hypotheses(search, &line);
     }
@@ -195,7 +196,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     clear_claims(passive);
 
     /* the final selection is from the candidates of both passes */
-    rho_passive_swap_bearings(&search);
+    rho_passive_offer_swapped_candidates(&search);
     rho_passive_select_tracks(&search);
     return RHO_OK;
 }

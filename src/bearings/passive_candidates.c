@@ -10,9 +10,9 @@
 
 #define DUPLICATE_SHARE 0.8f
 
-unsigned rho_passive_count_shared(const struct rho_passive_search *search,
-                                  const struct rho_passive_candidate *a,
-                                  const struct rho_passive_candidate *b)
+unsigned rho_passive_count_shared_bearings(const struct rho_passive_search *search,
+                                           const struct rho_passive_candidate *a,
+                                           const struct rho_passive_candidate *b)
 {
     unsigned shared = 0;
     for (unsigned k = 0; k < search->passive->batch.num_scans; k++) {
@@ -28,7 +28,8 @@ static int is_duplicate(const struct rho_passive_search *search,
                         const struct rho_passive_candidate *of,
                         const struct rho_passive_candidate *other)
 {
-    return (float)rho_passive_count_shared(search, of, other) >= DUPLICATE_SHARE * (float)of->hits;
+    return (float)rho_passive_count_shared_bearings(search, of, other) >=
+           DUPLICATE_SHARE * (float)of->hits;
 }
 
 static int has_better_duplicate(const struct rho_passive_search *search,

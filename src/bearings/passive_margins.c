@@ -35,7 +35,7 @@ static void compute_alternative_totals(const struct rho_passive *passive,
         if (i == choice->count ||
             (!alternatives->without.is_out[i] && passive->shared[which][i] > 0)) {
             struct rho_passive_choice tried = alternatives->without;
-            rho_passive_include_candidate(&tried, i);
+            rho_passive_include_and_extend(&tried, i);
             rho_passive_improve_choice(&tried);
             alternatives->total_nat[i] = tried.total_nat;
         }
@@ -72,7 +72,7 @@ static float best_total_without_target(const struct rho_passive_search *search,
             break;
         }
         struct rho_passive_choice tried = alternatives.without;
-        rho_passive_include_candidate(&tried, best);
+        rho_passive_include_and_extend(&tried, best);
         rho_passive_improve_choice(&tried);
         rho_passive_fit_jointly(search, &tried, &passive->other);
         alternatives.total_nat[best] = NONE_NAT;

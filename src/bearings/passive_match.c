@@ -70,7 +70,7 @@ static void mark_bearing_directions(const struct rho_batch_bearing *bearing, flo
     bins[last / 32u] |= 1u << last % 32u;
 }
 
-void rho_passive_mark_directions(struct rho_passive_search *search)
+void rho_passive_mark_bearing_directions(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
     memset(passive->directions, 0, sizeof passive->directions);

@@ -101,7 +101,7 @@ void rho_passive_prepare(struct rho_passive_search *search)
     set_likelihood_ratios(search);
     set_sigma_floor(search);
     set_theta_rows(search);
-    rho_passive_mark_directions(search);
+    rho_passive_mark_bearing_directions(search);
 }
 
 /*

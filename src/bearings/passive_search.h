@@ -6,13 +6,13 @@
  *   passive_match.c        the bearings that match a state
  *   passive_fit.c          Gauss-Newton fit, score and covariance of a state
  *   passive_candidates.c   the list of candidates for tracks
- *   passive_choice.c       the subset of candidates with the highest total score
+ *   passive_best_subset.c       the subset of candidates with the highest total score
  *   passive_joint_fit.c    one-to-one assignment of bearings to the chosen tracks, and their fits
  *   passive_margins.c      margins of the tracks against the best other sets
  *
  *   passive_prepare.c      geometry, times, likelihood ratios
  *   passive_crossings.c    phase 1: crossings of all pairs of sensors
- *   passive_lines.c        phase 2: votes, and the lines with the most votes
+ *   passive_line_votes.c        phase 2: votes, and the lines with the most votes
  *   passive_hypotheses.c   phase 3: constant velocities through pairs of a line's crossings
  *   passive_selection.c    phases 4 and 5: the best set of candidates, and the tracks
  *   bearing_swap.c         candidates from bearings swapped between two candidates
@@ -106,8 +106,8 @@ struct rho_passive_line {
  * Takes the line with the most votes, if it has votes_min, and clears the votes of the line and its
  * neighbours. Returns 0 where no line has so many.
  */
-int rho_passive_next_line(struct rho_passive_search *search, unsigned votes_min,
-                          struct rho_passive_line *line);
+int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes_min,
+                               struct rho_passive_line *line);
 
 /* ---- phase 3: hypotheses ---- */
 
@@ -162,7 +162,7 @@ float rho_passive_normalised_residual(const struct rho_passive_match *match);
  * Marks, for each look, the directions within nine sigmas of a bearing, for a quick test. Needed
  * before states are matched with nearest bearings.
  */
-void rho_passive_mark_directions(struct rho_passive_search *search);
+void rho_passive_mark_bearing_directions(struct rho_passive_search *search);
 
 /*
  * Agreement of a state with the bearings: sum over all looks of 1 - (residual / 9 sigmas)^2 of the
@@ -239,15 +239,15 @@ int rho_passive_offer_candidate(struct rho_passive_search *search,
                                 const float state_m[RHO_PASSIVE_STATES]);
 
 /* Number of bearings that two candidates both claim. */
-unsigned rho_passive_count_shared(const struct rho_passive_search *search,
-                                  const struct rho_passive_candidate *a,
-                                  const struct rho_passive_candidate *b);
+unsigned rho_passive_count_shared_bearings(const struct rho_passive_search *search,
+                                           const struct rho_passive_candidate *a,
+                                           const struct rho_passive_candidate *b);
 
 /*
  * Offers candidates for targets whose bearings two ghost candidates share: one sensor's bearings of
  * one candidate with another sensor's bearings of the other (bearing_swap.c).
  */
-void rho_passive_swap_bearings(struct rho_passive_search *search);
+void rho_passive_offer_swapped_candidates(struct rho_passive_search *search);
 
 /* ---- the choice of candidates ---- */
 
@@ -274,7 +274,7 @@ void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned whic
  * Adds a candidate to a choice (which = count: none), then further candidates while the total
  * grows.
  */
-void rho_passive_include_candidate(struct rho_passive_choice *choice, unsigned which);
+void rho_passive_include_and_extend(struct rho_passive_choice *choice, unsigned which);
 
 /* Replaces candidates of a choice, one at a time, by others, as long as the total grows. */
 void rho_passive_improve_choice(struct rho_passive_choice *choice);

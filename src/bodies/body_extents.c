@@ -6,7 +6,7 @@
 
 #include "../tracker/step.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/body_filter.h"
+#include "rhotrack/detail/body_extent_filter.h"
 #include "rhotrack/detail/measurement.h"
 
 /* Prior length of a body of unknown extent, on each axis, as a share of the longest body. */
@@ -16,7 +16,7 @@
 /* Least variance of a place on a body in a sound tracker, far below that of the least prior. */
 #define LEAST_M2 1e-7f
 
-float rho_tracker_body_prior_m2(const struct rho_tracker *tracker)
+float rho_tracker_body_prior_variance_m2(const struct rho_tracker *tracker)
 {
     const float length_m = rho_larger(PRIOR_SHARE * tracker->bodies.length_max_m, PRIOR_LEAST_M);
     return length_m * length_m / 12.0f;
@@ -41,7 +41,7 @@ enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker, float leng
 }
 
 /* Moves bodies to the rows of their tracks, drops those of ended tracks, and starts new ones. */
-void rho_tracker_align_bodies(struct step *step)
+void rho_tracker_align_bodies_with_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_bodies *bodies = &tracker->bodies;
@@ -54,32 +54,34 @@ void rho_tracker_align_bodies(struct step *step)
         if (from < bodies->count) {
             bodies->of[row] = bodies->of[from++];
         } else {
-            rho_body_start(&bodies->of[row], track->track_id, rho_tracker_body_prior_m2(tracker));
+            rho_body_filter_init(&bodies->of[row], track->track_id,
+                                 rho_tracker_body_prior_variance_m2(tracker));
         }
     }
     bodies->count = tracker->num_tracks;
 }
 
-int rho_tracker_rate_off(const struct step *step, const struct rho_scan *scan,
-                         const struct rho_track *track, const struct rho_plot *plot, float line[2],
-                         float *off_mps)
+int rho_tracker_range_rate_residual(const struct step *step, const struct rho_scan *scan,
+                                    const struct rho_track *track, const struct rho_plot *plot,
+                                    float line[2], float *off_mps)
 {
     float row[6], rate_mps;
     const float *velocity = &track->kalman.state[RHO_VX];
     const float state[6] = {plot->x_m, plot->y_m, plot->z_m, velocity[0], velocity[1], velocity[2]};
     if (!(scan->measures & RHO_MEASURES_RANGE_RATE) ||
-        !rho_measurement_range_rate(state, step->sensor, (scan->measures & RHO_MEASURES_Z) != 0,
-                                    row, &rate_mps)) {
+        !rho_measurement_predict_range_rate(
+            state, step->sensor, (scan->measures & RHO_MEASURES_Z) != 0, row, &rate_mps)) {
         return 0;
     }
     line[0] = row[3];
     line[1] = row[4];
-    *off_mps = rho_measurement_range_rate_error_mps(step->sensor, plot->range_rate_mps, rate_mps);
+    *off_mps =
+        rho_measurement_range_rate_innovation_mps(step->sensor, plot->range_rate_mps, rate_mps);
     return 1;
 }
 
-int rho_tracker_place_on_body(const struct step *step, const struct rho_scan *scan, unsigned row,
-                              unsigned plot, struct body_plot *at)
+int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_scan *scan,
+                                    unsigned row, unsigned plot, struct body_plot *at)
 {
     const struct rho_body_filter *body = &step->tracker->bodies.of[row];
     const struct rho_track *track = &step->tracker->tracks[row];
@@ -90,17 +92,17 @@ int rho_tracker_place_on_body(const struct step *step, const struct rho_scan *sc
                              .dy_m = seen->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
     at->along_m = body->cos_heading * at->dx_m + body->sin_heading * at->dy_m;
     at->across_m = body->cos_heading * at->dy_m - body->sin_heading * at->dx_m;
-    return rho_tracker_rate_off(step, scan, track, seen, at->line, &at->rate_mps);
+    return rho_tracker_range_rate_residual(step, scan, track, seen, at->line, &at->rate_mps);
 }
 
-void rho_tracker_noise_on_body(const struct step *step, const struct rho_body_filter *body,
-                               const struct rho_plot *plot, float axes[3])
+void rho_tracker_plot_noise_on_body(const struct step *step, const struct rho_body_filter *body,
+                                    const struct rho_plot *plot, float axes[3])
 {
     struct rho_measurement seen;
     float noise[6];
-    rho_measurement_open(plot, 0, step->sensor, &seen);
+    rho_measurement_from_plot(plot, 0, step->sensor, &seen);
     rho_measurement_covariance(&seen, noise);
-    rho_body_to_axes(body, noise, axes);
+    rho_body_rotate_covariance(body, noise, axes);
 }
 
 /* Sums squared places of a track's plots and the variances of their noise, in the body's axes. */
@@ -112,8 +114,8 @@ static void sum_plots_of_body(const struct step *step, const struct rho_scan *sc
     float axes[3];
     for (unsigned i = bodies->groups.first[step->tracker->tracks[row].plot]; i != RHO_NO_ROW;
          i = bodies->groups.next[i]) {
-        (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
-        rho_tracker_noise_on_body(step, &bodies->of[row], &scan->plots[i], axes);
+        (void)!rho_tracker_locate_plot_on_body(step, scan, row, i, &at);
+        rho_tracker_plot_noise_on_body(step, &bodies->of[row], &scan->plots[i], axes);
         look->num_plots++;
         look->along_m2 += at.along_m * at.along_m;
         look->across_m2 += at.across_m * at.across_m;
@@ -123,19 +125,19 @@ static void sum_plots_of_body(const struct step *step, const struct rho_scan *sc
     }
 }
 
-void rho_tracker_turn_body(struct rho_tracker *tracker, unsigned row)
+void rho_tracker_set_body_heading(struct rho_tracker *tracker, unsigned row)
 {
     const struct rho_kalman *kalman = &tracker->tracks[row].kalman;
     const float *p = kalman->covariance;
     const float velocity[3] = {p[RHO_AT(RHO_VX, RHO_VX)], p[RHO_AT(RHO_VX, RHO_VY)],
                                p[RHO_AT(RHO_VY, RHO_VY)]};
-    rho_body_turn(&tracker->bodies.of[row], &kalman->state[RHO_VX], velocity);
+    rho_body_set_heading(&tracker->bodies.of[row], &kalman->state[RHO_VX], velocity);
 }
 
 void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
-    rho_tracker_align_bodies(step);
+    rho_tracker_align_bodies_with_tracks(step);
     if (step->is_late) {
         return; /* tracks have returned to the newest time, with another heading than at the scan */
     }
@@ -145,9 +147,9 @@ void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
         if (track->plot < 0) {
             continue;
         }
-        rho_tracker_turn_body(tracker, row);
+        rho_tracker_set_body_heading(tracker, row);
         sum_plots_of_body(step, scan, row, &look);
-        rho_body_add(&tracker->bodies.of[row], &look);
+        rho_body_add_plots(&tracker->bodies.of[row], &look);
     }
 }
 

@@ -9,7 +9,7 @@
  */
 #include "../tracker/step.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/body_filter.h"
+#include "rhotrack/detail/body_extent_filter.h"
 #include "rhotrack/detail/measurement.h"
 
 /* Largest distance of a plot from its track, standard deviations on each axis of the body. */
@@ -59,8 +59,8 @@ static int have_range_rates_of_one_body(const struct step *step, const struct rh
         rho_smaller((side_m < 0.0f ? -side_m : side_m) + one->sigma_cross_m + other->sigma_cross_m,
                     APART_SHARE * longest_body_m(step));
     const float across_radps = step->tracker->config.v_max_mps / (3.0f * range_m);
-    const float off_mps = rho_measurement_range_rate_error_mps(step->sensor, one->range_rate_mps,
-                                                               other->range_rate_mps);
+    const float off_mps = rho_measurement_range_rate_innovation_mps(
+        step->sensor, one->range_rate_mps, other->range_rate_mps);
     const float variance =
         one->sigma_range_rate_mps * one->sigma_range_rate_mps +
         other->sigma_range_rate_mps * other->sigma_range_rate_mps +
@@ -75,7 +75,7 @@ static int may_be_plots_of_one_body(struct step *step, uint32_t one, uint32_t ot
     const float dx_m = a->x_m - b->x_m, dy_m = a->y_m - b->y_m;
     const float most_m =
         longest_body_m(step) + APART_SIGMAS * (rho_plot_sigma_m(a) + rho_plot_sigma_m(b));
-    rho_tracker_spend(step, PAIR_UNITS);
+    rho_tracker_spend_work(step, PAIR_UNITS);
     return dx_m * dx_m + dy_m * dy_m <= most_m * most_m && have_range_rates_of_one_body(step, a, b);
 }
 
@@ -97,12 +97,12 @@ static struct predicted_body predict_body(const struct step *step, unsigned row)
     struct predicted_body outline = {.body = &step->tracker->bodies.of[row],
                                      .track = track,
                                      .rate_sigma_mps = rho_track_sigma_mps(track)};
-    rho_body_to_axes(outline.body, place_m2, outline.place_m2);
+    rho_body_rotate_covariance(outline.body, place_m2, outline.place_m2);
     /* the square of a half length is 3 times the variance of a place on the body */
     const float turned = outline.body->has_heading ? 3.0f * outline.body->heading_sigma_rad *
                                                          outline.body->heading_sigma_rad
                                                    : 0.0f;
-    outline.place_m2[0] += rho_body_most_along_m2(outline.body) + turned * outline.body->across_m2;
+    outline.place_m2[0] += rho_body_along_bound_m2(outline.body) + turned * outline.body->across_m2;
     outline.place_m2[2] += outline.body->across_m2 + turned * outline.body->along_m2;
     return outline;
 }
@@ -133,7 +133,7 @@ static int range_rate_agrees_add_misfit(const struct step *step,
                                         const struct rho_plot *plot, float apart_m, float *misfit)
 {
     float off_mps, line[2];
-    if (!rho_tracker_rate_off(step, step->scan, outline->track, plot, line, &off_mps)) {
+    if (!rho_tracker_range_rate_residual(step, step->scan, outline->track, plot, line, &off_mps)) {
         return 1;
     }
     const float slack_mps =
@@ -156,7 +156,7 @@ static int body_explains_plot(const struct step *step, const struct predicted_bo
     const float dx_m = plot->x_m - state[0] - after_s * state[3],
                 dy_m = plot->y_m - state[1] - after_s * state[4];
     const float along_m = c * dx_m + s * dy_m, across_m = c * dy_m - s * dx_m;
-    rho_tracker_noise_on_body(step, outline->body, plot, axes);
+    rho_tracker_plot_noise_on_body(step, outline->body, plot, axes);
     const float along_m2 = outline->place_m2[0] + axes[0],
                 across_m2 = outline->place_m2[2] + axes[2];
     const float far = along_m * along_m / along_m2, wide = across_m * across_m / across_m2;
@@ -204,19 +204,20 @@ static void find_owners_and_end_duplicates(struct step *step)
         }
         const struct predicted_body outline = predict_body(step, row);
         struct plots_near near = plots_near_body(step, &outline, half_search_box_m(step, &outline));
-        for (uint32_t i;
-             !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
+        for (uint32_t i; !rho_tracker_is_work_share_spent(step) &&
+                         rho_tracker_next_plot_near(step, &near, &i);) {
             const struct rho_plot *plot = &step->scan->plots[i];
-            if (step->report->fates[i] != RHO_FATE_HELD || !rho_tracker_is_within(&near, plot)) {
+            if (step->report->fates[i] != RHO_FATE_HELD ||
+                !rho_tracker_is_plot_within(&near, plot)) {
                 continue;
             }
-            rho_tracker_spend(step, TEST_UNITS);
+            rho_tracker_spend_work(step, TEST_UNITS);
             if (body_explains_plot(step, &outline, plot, &misfit)) {
                 assign_plot_to_better_body(groups, row, i, misfit);
             }
         }
     }
-    rho_tracker_end_doubled(step);
+    rho_tracker_end_duplicate_tracks(step);
 }
 
 /* ---- groups ---------------------------------------------------------------------------------- */
@@ -258,10 +259,11 @@ static void add_near_plots_to_group(struct step *step, unsigned group)
     const float most_m = longest_body_m(step) + 2.0f * APART_SIGMAS * step->sigma_max_m;
     struct plots_near near = rho_tracker_plots_near(step, plot->x_m - most_m, plot->x_m + most_m,
                                                     plot->y_m - most_m, plot->y_m + most_m);
-    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
-        rho_tracker_spend(step, PASS_UNITS);
+    for (uint32_t i;
+         !rho_tracker_is_work_share_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
+        rho_tracker_spend_work(step, PASS_UNITS);
         if (step->report->fates[i] == RHO_FATE_HELD && groups->of[i] == RHO_NO_ROW &&
-            groups->owner[i] == RHO_NO_ROW && !rho_tracker_is_excluded(step, i) &&
+            groups->owner[i] == RHO_NO_ROW && !rho_tracker_is_plot_excluded(step, i) &&
             fits_all_in_group(step, group, i)) {
             add_plot_to_group(groups, group, i);
         }
@@ -288,7 +290,8 @@ static void form_groups(struct step *step)
         begin_group(groups, i);
         if (owner != RHO_NO_ROW) {
             of_track[owner] = groups->of[i];
-        } else if (step->report->fates[i] == RHO_FATE_HELD && !rho_tracker_is_excluded(step, i)) {
+        } else if (step->report->fates[i] == RHO_FATE_HELD &&
+                   !rho_tracker_is_plot_excluded(step, i)) {
             add_near_plots_to_group(step, groups->of[i]);
         }
     }
@@ -303,7 +306,7 @@ static float sum_of_squared_rate_errors(const struct step *step, unsigned group,
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     float sum = 0.0f;
     for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
-        const float off_mps = rho_measurement_range_rate_error_mps(
+        const float off_mps = rho_measurement_range_rate_innovation_mps(
             step->sensor, step->scan->plots[i].range_rate_mps, mean->range_rate_mps);
         sum += off_mps * off_mps;
     }
@@ -327,7 +330,7 @@ static struct rho_plot mean_plot_of_group(const struct step *step, unsigned grou
         sum.vx_mps += plot->vx_mps - first->vx_mps;
         sum.vy_mps += plot->vy_mps - first->vy_mps;
         sum.vz_mps += plot->vz_mps - first->vz_mps;
-        sum.range_rate_mps += rho_measurement_range_rate_error_mps(
+        sum.range_rate_mps += rho_measurement_range_rate_innovation_mps(
             step->sensor, plot->range_rate_mps, first->range_rate_mps);
         n += 1.0f;
         ++*count;
@@ -357,14 +360,14 @@ static void variance_missed_by_mean(const struct step *step, unsigned group,
     if (owner != RHO_NO_ROW) {
         const float share = bodies->of[owner].plots < RHO_BODY_NEW_PLOTS
                                 ? 1.0f
-                                : rho_body_missed_share(&bodies->of[owner], count);
-        rho_body_spread(&bodies->of[owner], xx_yx_yy);
+                                : rho_body_mean_variance_share(&bodies->of[owner], count);
+        rho_body_place_covariance(&bodies->of[owner], xx_yx_yy);
         for (int i = 0; i < 3; i++) {
             xx_yx_yy[i] *= share;
         }
         return;
     }
-    xx_yx_yy[0] = xx_yx_yy[2] = rho_tracker_body_prior_m2(step->tracker);
+    xx_yx_yy[0] = xx_yx_yy[2] = rho_tracker_body_prior_variance_m2(step->tracker);
     xx_yx_yy[1] = 0.0f;
     for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
         const float dx_m = step->scan->plots[i].x_m - mean->x_m,
@@ -396,7 +399,7 @@ static void make_group_plot(const struct step *step, unsigned group, struct rho_
     }
     const float n = (float)count;
     variance_missed_by_mean(step, group, out, count, spread);
-    rho_measurement_open(out, 0, step->sensor, &seen);
+    rho_measurement_from_plot(out, 0, step->sensor, &seen);
     const float c = seen.cos_azimuth, s = seen.sin_azimuth;
     const float along_m2 = c * c * spread[0] + 2.0f * c * s * spread[1] + s * s * spread[2];
     const float across_m2 = s * s * spread[0] - 2.0f * c * s * spread[1] + c * c * spread[2];
@@ -424,7 +427,7 @@ static void init_groups_and_fates(struct step *step)
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const struct rho_plot *plot = &step->scan->plots[i];
         const float offset_s = (float)plot->offset_us * 1e-6f;
-        const int is_valid = rho_measurement_is_valid(plot, step->scan->measures);
+        const int is_valid = rho_measurement_is_valid_plot(plot, step->scan->measures);
         groups->of[i] = groups->next[i] = groups->owner[i] = RHO_NO_ROW;
         groups->contender[i] = RHO_NO_ROW;
         step->report->fates[i] = (uint8_t)(is_valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
@@ -439,13 +442,13 @@ static void init_groups_and_fates(struct step *step)
 void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
-    rho_tracker_align_bodies(step);
+    rho_tracker_align_bodies_with_tracks(step);
     init_groups_and_fates(step);
-    rho_tracker_sort_plots(step);
-    rho_tracker_begin_share(step, RHO_WORK_GROUPS_SHARE);
+    rho_tracker_index_plots(step);
+    rho_tracker_begin_work_share(step, RHO_WORK_GROUPS_SHARE);
     find_owners_and_end_duplicates(step);
     form_groups(step);
-    step->is_partial |= rho_tracker_is_spent(step);
+    step->is_partial |= rho_tracker_is_work_share_spent(step);
     for (unsigned group = 0; group < groups->count; group++) {
         make_group_plot(step, group, &groups->plots[group]);
     }

@@ -203,7 +203,7 @@ static void set_transition_probabilities(struct rho_imm_step *step,
     }
 }
 
-void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s)
+void rho_imm_prepare_step(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s)
 {
     int doublings = 0;
     step->dt_s = dt_s;
@@ -236,7 +236,7 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
     memcpy(imm->state, estimate->state, sizeof estimate->state);
     memcpy(imm->covariance, estimate->covariance, sizeof estimate->covariance);
     for (int axis = 0; axis < NUM_AXES; axis++) {
-        if (rho_kalman_is_open(estimate, axis)) {
+        if (rho_kalman_is_axis_open(estimate, axis)) {
             imm->covariance[COVARIANCE_AT(axis, 2, axis, 2)] =
                 model->accel_sigma_mps2 * model->accel_sigma_mps2 + RHO_KALMAN_VARIANCE_MIN;
         }

@@ -63,8 +63,8 @@ static int prepare_isotropic_plot(struct rho_measurement *out, float covariance[
     return 1;
 }
 
-void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, uint32_t measures,
-                       const struct rho_sensor *sensor)
+void rho_imm_prepare_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, uint32_t measures,
+                          const struct rho_sensor *sensor)
 {
     seen->measures = measures;
     seen->plot = plot;
@@ -72,7 +72,7 @@ void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, u
     if (prepare_isotropic_plot(&seen->position, seen->covariance, plot, measures, sensor)) {
         return;
     }
-    rho_measurement_open(plot, measures, sensor, &seen->position);
+    rho_measurement_from_plot(plot, measures, sensor, &seen->position);
     rho_measurement_covariance(&seen->position, seen->covariance);
 }
 
@@ -170,8 +170,8 @@ static float range_rate_noise_variance(const struct rho_imm_plot *seen)
 
 static float range_rate_innovation(const struct model_view *view, const struct rho_imm_plot *seen)
 {
-    return rho_measurement_range_rate_error_mps(seen->sensor, seen->plot->range_rate_mps,
-                                                view->expected_mps);
+    return rho_measurement_range_rate_innovation_mps(seen->sensor, seen->plot->range_rate_mps,
+                                                     view->expected_mps);
 }
 
 /* Appends the range rate to the innovation of positions and velocities. */
@@ -211,8 +211,8 @@ static void position_velocity_rate_nis(struct model_view *view, const struct rho
                            !rho_measurement_unfold_range_rate(seen->sensor, innovation.num,
                                                               innovation.s, innovation.d);
     innovation.num -= is_unclear;
-    view->counts = view->counts && rho_linalg_match(innovation.num, innovation.s, innovation.d,
-                                                    NIS_COUNTS_MAX, &view->nis, &log_det);
+    view->counts = view->counts && rho_linalg_gated_nis(innovation.num, innovation.s, innovation.d,
+                                                        NIS_COUNTS_MAX, &view->nis, &log_det);
     view->root = rho_exp(-0.5f * log_det);
     if (is_unclear) {
         view->root *= ROOT_TWO_PI / seen->sensor->range_rate_span_mps;
@@ -230,13 +230,14 @@ static inline float range_rate_nis(const struct model_view *view, const struct r
     const float variance = view->rate_variance + range_rate_noise_variance(seen) - explained;
     float off = seen->plot->range_rate_mps - view->expected_mps;
     *det = variance;
-    if (rho_measurement_has_span(seen->sensor)) {
+    if (rho_measurement_has_ambiguous_range_rates(seen->sensor)) {
         const float span_mps = seen->sensor->range_rate_span_mps;
-        if (!rho_measurement_is_range_rate_clear(seen->sensor, variance)) {
+        if (!rho_measurement_can_unfold_range_rate(seen->sensor, variance)) {
             *det = variance > 0.0f ? span_mps * span_mps * (1.0f / RHO_TWO_PI) : variance;
             return 0.0f;
         }
-        off = expected_off + rho_measurement_range_rate_error_mps(seen->sensor, off, expected_off);
+        off = expected_off +
+              rho_measurement_range_rate_innovation_mps(seen->sensor, off, expected_off);
     }
     off -= expected_off;
     return off * off / variance;
@@ -414,12 +415,12 @@ static int predict_range_rate_2d(const float *state, const float *covariance,
 {
     struct plane_rate rate;
     float spread[RHO_PLANE_MANOEUVRE];
-    if (!rho_imm_plane_predict_rate(state, covariance, sensor, &rate)) {
+    if (!rho_imm_plane_predict_range_rate(state, covariance, sensor, &rate)) {
         return 0;
     }
     *expected_mps = rate.expected_mps;
     *variance = rate.nonlinearity +
-                rho_imm_plane_project_rate(RHO_PLANE_STEADY, covariance, rate.row, spread);
+                rho_imm_plane_project_range_rate(RHO_PLANE_STEADY, covariance, rate.row, spread);
     projected[RHO_X] = spread[0];
     projected[RHO_Y] = spread[1];
     projected[RHO_Z] = 0.0f;
@@ -429,8 +430,8 @@ static int predict_range_rate_2d(const float *state, const float *covariance,
     return 1;
 }
 
-void rho_imm_predict_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
-                           const struct rho_sensor *sensor)
+void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
+                                 const struct rho_sensor *sensor)
 {
     const float *states[2] = {imm->steady.state, imm->state};
     const float *covariances[2] = {imm->steady.covariance, imm->covariance};
@@ -454,7 +455,7 @@ int rho_imm_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *see
 {
     struct rho_imm_rates rates = {.expected_mps = {0.0f, 0.0f}};
     if (seen->measures & RHO_MEASURES_RANGE_RATE) {
-        rho_imm_predict_rates(&rates, imm, seen->sensor);
+        rho_imm_predict_range_rates(&rates, imm, seen->sensor);
     }
     return rho_imm_score_plot_with_rates(imm, &rates, seen, match);
 }
@@ -554,8 +555,8 @@ static void fill_gate_of_model(struct rho_imm_gate *gate, int model, const float
         rho_log(share * rho_inverse_sqrt(det)) - 0.5f * LOG_TWO_PI * (float)gate->num_axes;
 }
 
-int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
-                      int has_z)
+int rho_imm_prepare_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
+                         int has_z)
 {
     if (imm->is_coupled) {
         return 0;
@@ -591,8 +592,8 @@ static inline float log_density_of_model(float log_factor, float half)
  * Scores a position of the gate's noise. ln(e^s + e^m) lies between max(s, m) and max(s, m) + ln 2:
  * `enough` is compared with the upper bound.
  */
-int rho_imm_score_in_gate(const struct rho_imm_gate *gate, const float place_m[3], float enough,
-                          float *log_likelihood, float *probability)
+int rho_imm_score_position_in_gate(const struct rho_imm_gate *gate, const float place_m[3],
+                                   float enough, float *log_likelihood, float *probability)
 {
     const float to_s = half_nis(gate->centre_m[0], gate->half_inverse[0], place_m);
     const float to_m = half_nis(gate->centre_m[1], gate->half_inverse[1], place_m);

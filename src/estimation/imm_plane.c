@@ -24,8 +24,8 @@
 /* Indices of x y vx vy ax ay in `row` and `spread`. */
 enum { PLANE_X, PLANE_Y, PLANE_VX, PLANE_VY, PLANE_AX, PLANE_AY };
 
-int rho_imm_plane_predict_rate(const float *state, const float *covariance,
-                               const struct rho_sensor *sensor, struct plane_rate *rate)
+int rho_imm_plane_predict_range_rate(const float *state, const float *covariance,
+                                     const struct rho_sensor *sensor, struct plane_rate *rate)
 {
     const float dx_m = state[RHO_X] - (sensor ? sensor->x_m : 0.0f);
     const float dy_m = state[RHO_Y] - (sensor ? sensor->y_m : 0.0f);
@@ -46,8 +46,8 @@ int rho_imm_plane_predict_rate(const float *state, const float *covariance,
     return 1;
 }
 
-float rho_imm_plane_project(int num_states, const float *restrict p, float x, float y,
-                            float *restrict spread)
+float rho_imm_plane_project_position(int num_states, const float *restrict p, float x, float y,
+                                     float *restrict spread)
 {
     spread[PLANE_X] = p[RHO_XX] * x + p[RHO_YX] * y;
     spread[PLANE_Y] = p[RHO_YX] * x + p[RHO_YY] * y;
@@ -60,8 +60,8 @@ float rho_imm_plane_project(int num_states, const float *restrict p, float x, fl
     return spread[PLANE_X] * x + spread[PLANE_Y] * y;
 }
 
-float rho_imm_plane_project_rate(int num_states, const float *restrict p, const float *restrict row,
-                                 float *restrict spread)
+float rho_imm_plane_project_range_rate(int num_states, const float *restrict p,
+                                       const float *restrict row, float *restrict spread)
 {
     const float x = row[PLANE_X], y = row[PLANE_Y], vx = row[PLANE_VX], vy = row[PLANE_VY];
     spread[PLANE_X] =
@@ -158,7 +158,7 @@ static inline void raise_to_floor(float *variance)
     }
 }
 
-void rho_imm_plane_keep_floors(int num_states, float *covariance)
+void rho_imm_plane_floor_variances(int num_states, float *covariance)
 {
     raise_to_floor(&covariance[RHO_XX]);
     raise_to_floor(&covariance[RHO_YY]);

@@ -26,28 +26,28 @@ struct plane_rate {
  * Predicts the range rate of an estimate into *rate. Returns 0 where the position is the sensor's,
  * and no range rate is defined.
  */
-int rho_imm_plane_predict_rate(const float *state, const float *covariance,
-                               const struct rho_sensor *sensor, struct plane_rate *rate);
+int rho_imm_plane_predict_range_rate(const float *state, const float *covariance,
+                                     const struct rho_sensor *sensor, struct plane_rate *rate);
 
 /*
  * spread := covariances of the states with the position along the direction (x, y), or with a range
  * rate. Returns the variance of the position or the range rate.
  */
-float rho_imm_plane_project(int num_states, const float *restrict p, float x, float y,
-                            float *restrict spread);
-float rho_imm_plane_project_rate(int num_states, const float *restrict p, const float *restrict row,
-                                 float *restrict spread);
+float rho_imm_plane_project_position(int num_states, const float *restrict p, float x, float y,
+                                     float *restrict spread);
+float rho_imm_plane_project_range_rate(int num_states, const float *restrict p,
+                                       const float *restrict row, float *restrict spread);
 
 /*
  * Updates an estimate with a scalar whose covariances `spread` and variance `predicted` a
  * projection gave. The noise variance is RHO_KALMAN_VARIANCE_MIN at least. Errors: SINGULAR, VALUE,
- * as rho_linalg_update_along; then the estimate must not be used any more.
+ * as rho_linalg_update_row; then the estimate must not be used any more.
  */
 enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
                                      float *restrict covariance, const float *restrict spread,
                                      float predicted, float innovation, float variance);
 
 /* Raises variances to the floor after an update: an axis with less would look closed. */
-void rho_imm_plane_keep_floors(int num_states, float *covariance);
+void rho_imm_plane_floor_variances(int num_states, float *covariance);
 
 #endif

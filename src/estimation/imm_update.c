@@ -190,8 +190,8 @@ static enum rho_status update_position_along(struct rho_imm *imm, const float di
     for (int i = 0; i < 3; i++) {
         innovation_m[i] = place_m[i] - imm->state[i];
     }
-    return rho_linalg_update_along(RHO_IMM_STATES, imm->state, imm->covariance, 3, row,
-                                   dot_position(direction, innovation_m), noise);
+    return rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 3, row,
+                                 dot_position(direction, innovation_m), noise);
 }
 
 /* Updates both models by one element of the state. */
@@ -199,8 +199,8 @@ static enum rho_status update_element(struct rho_imm *imm, int element, float va
 {
     float noise = at_least_floor(variance);
     enum rho_status status = rho_kalman_update(&imm->steady, element, value, noise, 0);
-    return status == RHO_OK ? rho_linalg_update_at(RHO_IMM_STATES, imm->state, imm->covariance,
-                                                   element, value - imm->state[element], noise)
+    return status == RHO_OK ? rho_linalg_update_element(RHO_IMM_STATES, imm->state, imm->covariance,
+                                                        element, value - imm->state[element], noise)
                             : status;
 }
 
@@ -257,11 +257,11 @@ static enum rho_status update_range_rate(struct rho_imm *imm, const struct rho_i
         rho_kalman_update_range_rate(&imm->steady, seen->sensor, rate_mps, variance);
     if (status != RHO_OK ||
         !rho_kalman_linearise_range_rate(&at, seen->sensor, rate_mps, variance, &rate) ||
-        !rho_kalman_is_range_rate_clear(&at, seen->sensor, &rate)) {
+        !rho_kalman_can_unfold_range_rate(&at, seen->sensor, &rate)) {
         return status;
     }
-    return rho_linalg_update_along(RHO_IMM_STATES, imm->state, imm->covariance, RHO_KALMAN_STATES,
-                                   rate.row, rate.innovation, rate.variance);
+    return rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, RHO_KALMAN_STATES,
+                                 rate.row, rate.innovation, rate.variance);
 }
 
 static enum rho_status update_coupled_axes(struct rho_imm *imm, int num_axes,
@@ -293,14 +293,15 @@ static enum rho_status update_plane_position_along(struct rho_imm *imm, float x,
 {
     const float noise = at_least_floor(variance);
     float *steady = imm->steady.state, *state = imm->state, spread[RHO_PLANE_MANOEUVRE];
-    float predicted = rho_imm_plane_project(RHO_PLANE_STEADY, imm->steady.covariance, x, y, spread);
+    float predicted =
+        rho_imm_plane_project_position(RHO_PLANE_STEADY, imm->steady.covariance, x, y, spread);
     enum rho_status status = rho_imm_plane_update(
         RHO_PLANE_STEADY, steady, imm->steady.covariance, spread, predicted,
         x * (place_m[0] - steady[RHO_X]) + y * (place_m[1] - steady[RHO_Y]), noise);
     if (status != RHO_OK) {
         return status;
     }
-    predicted = rho_imm_plane_project(RHO_PLANE_MANOEUVRE, imm->covariance, x, y, spread);
+    predicted = rho_imm_plane_project_position(RHO_PLANE_MANOEUVRE, imm->covariance, x, y, spread);
     return rho_imm_plane_update(RHO_PLANE_MANOEUVRE, state, imm->covariance, spread, predicted,
                                 x * (place_m[0] - state[RHO_X]) + y * (place_m[1] - state[RHO_Y]),
                                 noise);
@@ -313,18 +314,19 @@ static enum rho_status update_plane_range_rate(int num_states, float *state, flo
     const float sigma_mps = seen->plot->sigma_range_rate_mps;
     float spread[RHO_PLANE_MANOEUVRE];
     struct plane_rate rate;
-    if (!rho_imm_plane_predict_rate(state, covariance, seen->sensor, &rate)) {
+    if (!rho_imm_plane_predict_range_rate(state, covariance, seen->sensor, &rate)) {
         return RHO_OK;
     }
-    const float predicted = rho_imm_plane_project_rate(num_states, covariance, rate.row, spread);
+    const float predicted =
+        rho_imm_plane_project_range_rate(num_states, covariance, rate.row, spread);
     const float variance = at_least_floor(sigma_mps * sigma_mps) + rate.nonlinearity;
     float off_mps = seen->plot->range_rate_mps - rate.expected_mps;
-    if (rho_measurement_has_span(seen->sensor)) {
-        if (!rho_measurement_is_range_rate_clear(seen->sensor, predicted + variance)) {
+    if (rho_measurement_has_ambiguous_range_rates(seen->sensor)) {
+        if (!rho_measurement_can_unfold_range_rate(seen->sensor, predicted + variance)) {
             return RHO_OK;
         }
-        off_mps = rho_measurement_range_rate_error_mps(seen->sensor, seen->plot->range_rate_mps,
-                                                       rate.expected_mps);
+        off_mps = rho_measurement_range_rate_innovation_mps(
+            seen->sensor, seen->plot->range_rate_mps, rate.expected_mps);
     }
     return rho_imm_plane_update(num_states, state, covariance, spread, predicted, off_mps,
                                 variance);
@@ -351,8 +353,8 @@ static enum rho_status update_in_plane(struct rho_imm *imm, const struct rho_imm
                 update_plane_range_rate(RHO_PLANE_MANOEUVRE, imm->state, imm->covariance, seen);
         }
     }
-    rho_imm_plane_keep_floors(RHO_PLANE_STEADY, imm->steady.covariance);
-    rho_imm_plane_keep_floors(RHO_PLANE_MANOEUVRE, imm->covariance);
+    rho_imm_plane_floor_variances(RHO_PLANE_STEADY, imm->steady.covariance);
+    rho_imm_plane_floor_variances(RHO_PLANE_MANOEUVRE, imm->covariance);
     return status;
 }
 
@@ -427,9 +429,8 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
     enum rho_status status = rho_kalman_update_row(&imm->steady, bearings[0].row, bearings[0].off_m,
                                                    bearings[0].variance_m2, 0);
     if (status == RHO_OK) {
-        status =
-            rho_linalg_update_along(RHO_IMM_STATES, imm->state, imm->covariance, 2, bearings[1].row,
-                                    bearings[1].off_m, bearings[1].variance_m2);
+        status = rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 2,
+                                       bearings[1].row, bearings[1].off_m, bearings[1].variance_m2);
     }
     raise_variances_to_floor(imm);
     if (status == RHO_OK) {

@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "input_estimation_columns.h"
-#include "rhotrack/detail/input.h"
+#include "input_estimation_sensitivity.h"
+#include "rhotrack/detail/input_estimation.h"
 
 /* Indices of the elements of row i of a packed symmetric 3 x 3 matrix. */
 static const uint8_t places[NUM_AXES][NUM_AXES] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
@@ -147,7 +147,7 @@ static uint32_t decide_independent_inputs(struct rho_input *input, float limit2,
     return left;
 }
 
-void rho_input_decide(struct rho_input *input, const struct rho_input_config *config)
+void rho_input_decide_presence(struct rho_input *input, const struct rho_input_config *config)
 {
     if (input == NULL || config == NULL || !config->is_estimated) {
         return;

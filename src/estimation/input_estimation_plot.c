@@ -6,8 +6,8 @@
 #include <float.h>
 #include <stddef.h>
 
-#include "input_estimation_columns.h"
-#include "rhotrack/detail/input.h"
+#include "input_estimation_sensitivity.h"
+#include "rhotrack/detail/input_estimation.h"
 
 /* True for a finite number; false for NaN. */
 static int is_finite(float v)
@@ -19,7 +19,7 @@ static enum rho_status open_or_update_axis(struct rho_input *input,
                                            const struct rho_input_config *config, int axis,
                                            float place_m, float variance)
 {
-    if (!rho_kalman_is_open(&input->bare, axis)) {
+    if (!rho_kalman_is_axis_open(&input->bare, axis)) {
         return rho_kalman_open_axis(&input->bare, axis, place_m, variance,
                                     config->velocity_variance);
     }
@@ -58,7 +58,7 @@ static enum rho_status open_or_update_axes(struct rho_input *input,
                                            const struct rho_input_config *config,
                                            const struct rho_measurement *seen, int num_axes)
 {
-    if (!rho_kalman_is_open(&input->bare, RHO_X)) {
+    if (!rho_kalman_is_axis_open(&input->bare, RHO_X)) {
         return rho_kalman_update_position(&input->bare, seen, config->velocity_variance);
     }
     return update_along_noise_axes(input, config, seen, num_axes);
@@ -92,7 +92,7 @@ static enum rho_status update_position(struct rho_input *input,
                                        const struct rho_measurement *seen)
 {
     const int num_axes = seen->has_z ? NUM_AXES : 2;
-    const int is_open = rho_kalman_is_open(&input->bare, RHO_X);
+    const int is_open = rho_kalman_is_axis_open(&input->bare, RHO_X);
     enum rho_status status = RHO_OK;
 
     for (int axis = 0; axis < num_axes; axis++) {
@@ -107,10 +107,10 @@ static enum rho_status update_position(struct rho_input *input,
         }
         return status;
     }
-    if (is_open != rho_kalman_is_open(&input->bare, RHO_Y)) {
+    if (is_open != rho_kalman_is_axis_open(&input->bare, RHO_Y)) {
         return RHO_ERROR_VALUE;
     }
-    if (seen->has_z && is_open != rho_kalman_is_open(&input->bare, RHO_Z)) {
+    if (seen->has_z && is_open != rho_kalman_is_axis_open(&input->bare, RHO_Z)) {
         return update_height_separately(input, config, seen);
     }
     return open_or_update_axes(input, config, seen, num_axes);
@@ -163,7 +163,7 @@ enum rho_status rho_input_update_range_rate(struct rho_input *input,
     }
     rho_input_estimate(input, &corrected);
     if (!rho_kalman_linearise_range_rate(&corrected, sensor, rate_mps, variance, &seen) ||
-        !rho_kalman_is_range_rate_clear(&corrected, sensor, &seen)) {
+        !rho_kalman_can_unfold_range_rate(&corrected, sensor, &seen)) {
         return RHO_OK;
     }
     const float innovation_mps =

@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "input_estimation_columns.h"
-#include "rhotrack/detail/input.h"
+#include "input_estimation_sensitivity.h"
+#include "rhotrack/detail/input_estimation.h"
 
 /*
  * Factor by which a variance is raised before it is reduced: sixteen units of rounding, as in

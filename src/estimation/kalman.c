@@ -147,12 +147,12 @@ enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis, float 
     return RHO_OK;
 }
 
-void rho_kalman_set_covariance(struct rho_kalman *kalman, float variance)
+void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance)
 {
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
         for (int j = 0; j <= i; j++) {
             kalman->covariance[RHO_AT(i, j)] =
-                i == j && rho_kalman_is_open(kalman, i % 3) ? variance : 0.0f;
+                i == j && rho_kalman_is_axis_open(kalman, i % 3) ? variance : 0.0f;
         }
     }
 }
@@ -216,7 +216,7 @@ enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_v
         }
     }
     for (axis = 0; axis < NUM_AXES; ++axis) {
-        if (rho_kalman_is_open(kalman, axis)) {
+        if (rho_kalman_is_axis_open(kalman, axis)) {
             kalman->covariance[DIAGONAL(axis)] += position_variance;
             kalman->covariance[DIAGONAL(NUM_AXES + axis)] += velocity_variance;
         }
@@ -239,8 +239,8 @@ enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float 
     }
     /* noise below the floor could make the variance 0, which marks a closed axis */
     noise = variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
-    status = rho_linalg_update6(kalman->state, kalman->covariance, element,
-                                value - kalman->state[element], noise, nis);
+    status = rho_linalg_update6_element(kalman->state, kalman->covariance, element,
+                                        value - kalman->state[element], noise, nis);
     if (status == RHO_OK) {
         raise_variances_to_floor(kalman);
     }
@@ -282,15 +282,15 @@ static void rotate_estimate(struct rho_kalman *kalman, int a, int b, float c, fl
 {
     rotate_vector(&kalman->state[0], a, b, c, s);
     rotate_vector(&kalman->state[NUM_AXES], a, b, c, s);
-    rho_linalg_turn6(kalman->covariance, a, b, c, s);
-    rho_linalg_turn6(kalman->covariance, NUM_AXES + a, NUM_AXES + b, c, s);
+    rho_linalg_rotate6(kalman->covariance, a, b, c, s);
+    rho_linalg_rotate6(kalman->covariance, NUM_AXES + a, NUM_AXES + b, c, s);
 }
 
 /* Updates one axis with a position, or opens it. */
 static enum rho_status open_or_update_axis(struct rho_kalman *kalman, int axis, float place_m,
                                            float variance, float velocity_variance)
 {
-    if (!rho_kalman_is_open(kalman, axis)) {
+    if (!rho_kalman_is_axis_open(kalman, axis)) {
         return rho_kalman_open_axis(kalman, axis, place_m, variance, velocity_variance);
     }
     return rho_kalman_update(kalman, axis, place_m, variance, NULL);
@@ -388,11 +388,11 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
         return open_or_update_axes(kalman, num_axes, measurement->place_m, measurement->variance_m2,
                                    velocity_variance);
     }
-    if (rho_kalman_is_open(kalman, RHO_X) != rho_kalman_is_open(kalman, RHO_Y)) {
+    if (rho_kalman_is_axis_open(kalman, RHO_X) != rho_kalman_is_axis_open(kalman, RHO_Y)) {
         return RHO_ERROR_VALUE;
     }
     if (measurement->has_z &&
-        rho_kalman_is_open(kalman, RHO_X) != rho_kalman_is_open(kalman, RHO_Z)) {
+        rho_kalman_is_axis_open(kalman, RHO_X) != rho_kalman_is_axis_open(kalman, RHO_Z)) {
         return update_height_separately(kalman, measurement, velocity_variance);
     }
     return update_in_noise_frame(kalman, num_axes, measurement, velocity_variance);
@@ -411,7 +411,7 @@ static float range_rate_nonlinearity(const struct rho_kalman *kalman,
     const float place_m[NUM_AXES] = {sensor ? sensor->x_m : 0.0f, sensor ? sensor->y_m : 0.0f,
                                      sensor ? sensor->z_m : 0.0f};
     for (int axis = 0; axis < NUM_AXES; axis++) {
-        if (rho_kalman_is_open(kalman, axis)) {
+        if (rho_kalman_is_axis_open(kalman, axis)) {
             float off_m = state[axis] - place_m[axis];
             range2_m2 += off_m * off_m;
             spread_m2 += kalman->covariance[DIAGONAL(axis)];
@@ -428,12 +428,13 @@ int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
 {
     float predicted_mps;
 
-    if (!rho_measurement_range_rate(kalman->state, sensor, rho_kalman_is_open(kalman, RHO_Z),
-                                    seen->row, &predicted_mps)) {
+    if (!rho_measurement_predict_range_rate(kalman->state, sensor,
+                                            rho_kalman_is_axis_open(kalman, RHO_Z), seen->row,
+                                            &predicted_mps)) {
         return 0;
     }
     const float nonlinearity = range_rate_nonlinearity(kalman, sensor);
-    seen->innovation = rho_measurement_range_rate_error_mps(sensor, rate_mps, predicted_mps);
+    seen->innovation = rho_measurement_range_rate_innovation_mps(sensor, rate_mps, predicted_mps);
     seen->variance = variance;
     if (variance > 0.0f && nonlinearity <= FLT_MAX) { /* else the update refuses the variance */
         seen->variance += nonlinearity;
@@ -441,13 +442,14 @@ int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
     return 1;
 }
 
-int rho_kalman_is_range_rate_clear(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
-                                   const struct rho_kalman_row *seen)
+int rho_kalman_can_unfold_range_rate(const struct rho_kalman *kalman,
+                                     const struct rho_sensor *sensor,
+                                     const struct rho_kalman_row *seen)
 {
     float projected[RHO_KALMAN_STATES];
 
-    return !rho_measurement_has_span(sensor) ||
-           rho_measurement_is_range_rate_clear(
+    return !rho_measurement_has_ambiguous_range_rates(sensor) ||
+           rho_measurement_can_unfold_range_rate(
                sensor,
                rho_linalg_project6(kalman->covariance, seen->row, projected) + seen->variance);
 }
@@ -462,7 +464,7 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
         return RHO_ERROR_NULL;
     }
     if (!rho_kalman_linearise_range_rate(kalman, sensor, rate_mps, variance, &seen) ||
-        !rho_kalman_is_range_rate_clear(kalman, sensor, &seen)) {
+        !rho_kalman_can_unfold_range_rate(kalman, sensor, &seen)) {
         return RHO_OK;
     }
     return rho_kalman_update_row(kalman, seen.row, seen.innovation, seen.variance, NULL);
@@ -488,8 +490,8 @@ int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, flo
                                  float bearing_rad, float sigma_rad,
                                  struct rho_kalman_bearing *seen)
 {
-    if (!rho_measurement_bearing(kalman->state, x_m, y_m, bearing_rad, seen->row, &seen->off_m,
-                                 &seen->range_m)) {
+    if (!rho_measurement_bearing_innovation(kalman->state, x_m, y_m, bearing_rad, seen->row,
+                                            &seen->off_m, &seen->range_m)) {
         return 0;
     }
     const float sigma_m = sigma_rad * seen->range_m;
@@ -515,7 +517,7 @@ enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m, 
     return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2, NULL);
 }
 
-int rho_kalman_is_open(const struct rho_kalman *kalman, int axis)
+int rho_kalman_is_axis_open(const struct rho_kalman *kalman, int axis)
 {
     return kalman != NULL && axis >= 0 && axis < NUM_AXES &&
            kalman->covariance[DIAGONAL(axis)] > 0.0f;

@@ -86,7 +86,7 @@ static int decorrelate_noise(const struct rho_kalman *kalman, int num, const int
 
     *decorrelated = (struct decorrelated_rows){.num = 0};
     for (int i = 0; i < num; i++) {
-        if (rho_kalman_is_open(kalman, elements[i] % 3)) {
+        if (rho_kalman_is_axis_open(kalman, elements[i] % 3)) {
             const int n = decorrelated->num++;
             source[n] = i;
             decorrelated->row[n][elements[i]] = 1.0f;

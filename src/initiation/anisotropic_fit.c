@@ -20,8 +20,8 @@
  * Index of the plot of scan m nearest to the fitted track, or -1 where the gate has none. `factor`
  * widens the gate's covariance.
  */
-int rho_initiator_nearest_anisotropic(struct search *search, const struct line_fit *fit,
-                                      float factor, unsigned m)
+int rho_initiator_nearest_plot_anisotropic(struct search *search, const struct line_fit *fit,
+                                           float factor, unsigned m)
 {
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
     float t_s = search->time_s[m], bend_m2 = factor * search->fit_process_m2;
@@ -41,7 +41,7 @@ int rho_initiator_nearest_anisotropic(struct search *search, const struct line_f
                                   (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
-    return rho_window_nearest_to(scan, &place, &search->initiator->work.window);
+    return rho_window_nearest_anisotropic(scan, &place, &search->initiator->work.window);
 }
 
 /* ---- regression ------------------------------------------------------------------------------ */
@@ -104,9 +104,9 @@ static int make_position_equations(const struct regression *of, unsigned m,
                                    struct equation *equations)
 {
     const struct rho_window_scan *scan = scan_of_regression(of, m);
-    struct rho_plot plot = rho_window_plot_of(scan, of->set->plot[m]);
+    struct rho_plot plot = rho_window_unpack_plot(scan, of->set->plot[m]);
     struct rho_measurement seen;
-    rho_measurement_open(&plot, of->axes == 3 ? scan->measures : 0u, &scan->sensor, &seen);
+    rho_measurement_from_plot(&plot, of->axes == 3 ? scan->measures : 0u, &scan->sensor, &seen);
     float ca = seen.cos_azimuth, sa = seen.sin_azimuth;
     float ce = seen.cos_elevation, se = seen.sin_elevation;
     const float axes[3][3] = {{ce * ca, ce * sa, se}, {-sa, ca, 0.0f}, {-se * ca, -se * sa, ce}};
@@ -133,11 +133,12 @@ static int make_range_rate_equation(const struct regression *of, unsigned m,
         state[i] = of->origin_m[i] + of->unknown[i] + time * (v[i] + 0.5f * time * a);
         state[i + 3] = (v[i] + time * a) / of->unit_s;
     }
-    if (!rho_measurement_range_rate(state, &scan->sensor, of->axes == 3, derivative, &rate_mps)) {
+    if (!rho_measurement_predict_range_rate(state, &scan->sensor, of->axes == 3, derivative,
+                                            &rate_mps)) {
         return 0;
     }
     equation->value =
-        rho_measurement_range_rate_error_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
+        rho_measurement_range_rate_innovation_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
     for (int i = 0; i < of->axes; i++) {
         equation->row[i] = derivative[i];
         equation->row[of->axes + i] = time * derivative[i] + derivative[i + 3] / of->unit_s;
@@ -190,7 +191,7 @@ static float acceleration_prior_variance(const struct regression *of)
  */
 static int solve_unknowns(struct regression *of)
 {
-    rho_initiator_charge(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
+    rho_initiator_charge_work(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
     float *normal = of->factor, right[UNKNOWNS_MAX] = {0.0f}; /* `normal` is factorised in place */
     const int unknowns = of->unknowns;
     for (int i = 0; i < RHO_TRIANGLE(UNKNOWNS_MAX); i++) {
@@ -288,7 +289,7 @@ static unsigned scan_with_widest_ambiguity_span(const struct regression *of)
         if (!(of->set->mask >> m & 1u) || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue;
         }
-        int has_span = rho_measurement_has_span(&scan->sensor);
+        int has_span = rho_measurement_has_ambiguous_range_rates(&scan->sensor);
         float span_mps = has_span ? scan->sensor.range_rate_span_mps : RHO_LIMIT_SPAN_MAX_MPS;
         is_ambiguous = is_ambiguous || has_span;
         if (span_mps > most_mps) {
@@ -317,8 +318,9 @@ static int predict_range_rate_innovation(const struct regression *of, unsigned m
         return 0;
     }
     const struct rho_sensor *sensor = &scan_of_regression(of, m)->sensor;
-    first->span_mps =
-        rho_measurement_has_span(sensor) ? sensor->range_rate_span_mps : RHO_LIMIT_SPAN_MAX_MPS;
+    first->span_mps = rho_measurement_has_ambiguous_range_rates(sensor)
+                          ? sensor->range_rate_span_mps
+                          : RHO_LIMIT_SPAN_MAX_MPS;
     first->error_mps = equation.value;
     first->variance = equation.variance;
     for (int i = 0; i < unknowns; i++) {
@@ -494,10 +496,10 @@ int rho_initiator_likelihood_anisotropic(const struct search *search, const stru
             of.axes == 3 && (scan_of_regression(&of, m)->measures & RHO_MEASURES_Z) ? 1u : 0u;
         heights += has_z;
         range_rates += count - 2u - has_z;
-        if (rho_measurement_has_span(&scan_of_regression(&of, m)->sensor)) {
+        if (rho_measurement_has_ambiguous_range_rates(&scan_of_regression(&of, m)->sensor)) {
             log_aliases += (float)(count - 2u - has_z) *
-                           rho_measurement_log_aliases(&scan_of_regression(&of, m)->sensor,
-                                                       search->initiator->config.v_max_mps);
+                           rho_measurement_log_num_aliases(&scan_of_regression(&of, m)->sensor,
+                                                           search->initiator->config.v_max_mps);
         }
     }
     unsigned unknowns = 2u * (unsigned)of.axes;
@@ -505,6 +507,7 @@ int rho_initiator_likelihood_anisotropic(const struct search *search, const stru
         rho_linalg_log_determinant(of.unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
     score->dimensions = rows - unknowns;
     *nat = -0.5f * ((float)score->dimensions * LOG_TWO_PI + log_noise + log_fisher + score->chi2) +
-           rho_initiator_log_volume(search, of.axes == 3, heights, range_rates) - log_aliases;
+           rho_initiator_log_height_rate_volume(search, of.axes == 3, heights, range_rates) -
+           log_aliases;
     return 1;
 }

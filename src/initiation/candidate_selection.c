@@ -78,7 +78,7 @@ static int associate_with_untaken_plots(struct search *search, struct rho_candid
     struct line_fit fit;
     struct plot_set set;
     uint16_t skip = search->skip_flags;
-    if (!rho_initiator_open_candidate(search, candidate, &set, &fit)) {
+    if (!rho_initiator_unpack_candidate(search, candidate, &set, &fit)) {
         return 0;
     }
     search->skip_flags = (uint16_t)(skip | RHO_WINDOW_TAKEN);
@@ -125,16 +125,16 @@ static void sort_candidates_by_score(struct rho_initiator *initiator)
 static int charge_choice_or_drop_rest(struct search *search, unsigned accepted)
 {
     struct rho_initiator *initiator = search->initiator;
-    if (rho_initiator_is_spent(search)) {
+    if (rho_initiator_is_work_spent(search)) {
         initiator->work.candidates_dropped =
             rho_count(initiator->work.candidates_dropped, initiator->num_candidates - accepted);
         initiator->num_candidates = (uint16_t)accepted;
         search->is_partial = 1;
         return 0;
     }
-    rho_initiator_charge(search, RESCORED_UNITS + accepted / SORTED_IN_UNIT +
-                                     accepted / COMPARED_IN_UNIT +
-                                     (initiator->num_candidates - accepted) / PASSED_IN_UNIT);
+    rho_initiator_charge_work(search, RESCORED_UNITS + accepted / SORTED_IN_UNIT +
+                                          accepted / COMPARED_IN_UNIT +
+                                          (initiator->num_candidates - accepted) / PASSED_IN_UNIT);
     return 1;
 }
 
@@ -191,12 +191,12 @@ static int rescore_candidate(struct search *search, struct rho_candidate *candid
     struct line_fit fit;
     struct set_score score;
     search->is_left_out = candidate->score_mnat >= LIKELY_MNAT;
-    if (!rho_initiator_open_candidate(search, candidate, &set, &fit) ||
+    if (!rho_initiator_unpack_candidate(search, candidate, &set, &fit) ||
         set.hits < search->min_scans || !rho_initiator_score_set(search, &set, &fit, &score)) {
         return 0;
     }
     candidate->score_mnat = score.mnat;
-    return rho_initiator_is_good_enough(search, &score);
+    return rho_initiator_passes_thresholds(search, &score);
 }
 
 /*

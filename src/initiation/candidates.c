@@ -8,7 +8,7 @@
 static int merge_into_listed_twin(struct search *search, const struct rho_candidate *candidate)
 {
     struct rho_initiator *initiator = search->initiator;
-    rho_initiator_charge(search, initiator->num_candidates / COMPARED_IN_UNIT);
+    rho_initiator_charge_work(search, initiator->num_candidates / COMPARED_IN_UNIT);
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         struct rho_candidate *other = &initiator->candidates[i];
         unsigned m = 0;
@@ -28,7 +28,7 @@ static int merge_into_listed_twin(struct search *search, const struct rho_candid
     return 0;
 }
 
-int rho_initiator_is_good_enough(const struct search *search, const struct set_score *score)
+int rho_initiator_passes_thresholds(const struct search *search, const struct set_score *score)
 {
     return (float)score->mnat >= search->score_min_nat * 1000.0f &&
            (!search->keeps_rate ||
@@ -46,7 +46,7 @@ int rho_initiator_make_candidate(struct search *search, struct plot_set *set,
     struct set_score score;
     if (!rho_initiator_refine_set(search, set, &fit) ||
         !rho_initiator_score_set(search, set, &fit, &score) ||
-        !rho_initiator_is_good_enough(search, &score)) {
+        !rho_initiator_passes_thresholds(search, &score)) {
         return 0;
     }
     *candidate = (struct rho_candidate){
@@ -92,7 +92,7 @@ void rho_initiator_add_candidate(struct search *search, struct plot_set *set)
     }
     initiator->work.candidates_dropped = rho_count(initiator->work.candidates_dropped, 1);
     unsigned low = lowest_score_candidate(initiator);
-    rho_initiator_charge(search, initiator->num_candidates / PASSED_IN_UNIT);
+    rho_initiator_charge_work(search, initiator->num_candidates / PASSED_IN_UNIT);
     if (initiator->candidates[low].score_mnat < candidate.score_mnat) {
         initiator->candidates[low] = candidate;
     }
@@ -102,8 +102,8 @@ void rho_initiator_add_candidate(struct search *search, struct plot_set *set)
  * Unpacks the plots and the track of a candidate. The search then assumes turning targets where the
  * candidate turns, and straight ones where not. Returns 0 where the plots do not determine a track.
  */
-int rho_initiator_open_candidate(struct search *search, const struct rho_candidate *candidate,
-                                 struct plot_set *set, struct line_fit *fit)
+int rho_initiator_unpack_candidate(struct search *search, const struct rho_candidate *candidate,
+                                   struct plot_set *set, struct line_fit *fit)
 {
     *set = (struct plot_set){.mask = candidate->mask, .hits = candidate->hits};
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -117,5 +117,5 @@ int rho_initiator_open_candidate(struct search *search, const struct rho_candida
                              .z_m = candidate->z_m,
                              .vz_mps = candidate->vz_mps};
     rho_initiator_assume_turns(search, candidate->is_turning);
-    return !candidate->is_turning || rho_initiator_fit(search, set, fit);
+    return !candidate->is_turning || rho_initiator_fit_track(search, set, fit);
 }

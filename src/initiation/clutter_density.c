@@ -483,8 +483,8 @@ static float density_of_held_scans(const struct rho_initiator *initiator, float 
 
 float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m)
 {
-    return rho_initiator_memory_density(initiator, x_m, y_m,
-                                        density_of_held_scans(initiator, x_m, y_m));
+    return rho_initiator_density_with_memory(initiator, x_m, y_m,
+                                             density_of_held_scans(initiator, x_m, y_m));
 }
 
 /*
@@ -496,7 +496,7 @@ static float map_density_with_memory(const struct rho_initiator *initiator, floa
 {
     const float held_per_m2 = density_of_held_scans(initiator, x_m, y_m);
     return density_per_m2 *
-           (rho_initiator_memory_density(initiator, x_m, y_m, held_per_m2) / held_per_m2);
+           (rho_initiator_density_with_memory(initiator, x_m, y_m, held_per_m2) / held_per_m2);
 }
 
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
@@ -537,7 +537,7 @@ static unsigned count_set_plots_in_cell(const struct search *search, const struc
         const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, k);
         if ((set->mask >> k & 1u) && is_scan_in_map(search, k) &&
             map_of_sensor(search->initiator, scan->sensor.sensor_id) == map) {
-            const struct rho_window_plot *other = rho_initiator_plot(search, set, k);
+            const struct rho_window_plot *other = rho_initiator_plot_of_set(search, set, k);
             float per_m2;
             own += map_cell_at(map, other->x_m, other->y_m, &per_m2) == cell;
         }
@@ -549,11 +549,12 @@ static unsigned count_set_plots_in_cell(const struct search *search, const struc
  * ln of the clutter density that hit m of a set is compared with: the set's own plots are taken out
  * of the cell, and the clutter map's echoes are added.
  */
-float rho_initiator_log_density(const struct search *search, const struct plot_set *set, unsigned m)
+float rho_initiator_log_density_of_hit(const struct search *search, const struct plot_set *set,
+                                       unsigned m)
 {
     struct rho_initiator *initiator = search->initiator;
     const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
-    const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
+    const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, m);
     const struct rho_density_map *map = map_of_sensor(initiator, scan->sensor.sensor_id);
     float per_m2;
     unsigned cell = map_cell_at(map, plot->x_m, plot->y_m, &per_m2), count = map->count[cell];
@@ -561,7 +562,7 @@ float rho_initiator_log_density(const struct search *search, const struct plot_s
     float density = density_of_cell_count(map, (float)(count > own ? count - own : 0u)) * per_m2;
     density = has_map_per_radar(initiator)
                   ? map_density_with_memory(initiator, plot->x_m, plot->y_m, density)
-                  : rho_initiator_memory_density(initiator, plot->x_m, plot->y_m, density);
+                  : rho_initiator_density_with_memory(initiator, plot->x_m, plot->y_m, density);
     float log_density = rho_log(density) + search->log_ratio[m];
     if (RHO_MAX_ECHOES > 0) {
         log_density += (float)scan->repeats[set->plot[m]] / RHO_WINDOW_REPEATS_PER_NAT;

@@ -3,7 +3,7 @@
  * clutter_map: the table of echoes, places that return clutter again and again: their estimated
  * places, the probabilities of their return, and which of them a full table drops.
  */
-#include "rhotrack/detail/clutter_map_cells.h"
+#include "rhotrack/detail/clutter_map_echoes.h"
 
 #include <string.h>
 
@@ -119,7 +119,7 @@ void rho_clutter_map_remove_returns(struct rho_clutter_map *map, unsigned region
     }
 }
 
-float rho_clutter_map_remaining(float share)
+float rho_clutter_map_decay_factor(float share)
 {
     return 1.0f - share / TURNS_REMEMBERED;
 }
@@ -145,11 +145,11 @@ static void advance_count_blocks(struct rho_clutter_map *map)
     memset(map->tables[1], 0, sizeof map->tables[1]);
 }
 
-void rho_clutter_map_age(struct rho_clutter_map *map, float share)
+void rho_clutter_map_age_counts(struct rho_clutter_map *map, float share)
 {
     static const struct rho_echo_returns none;
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        decay_and_add_table(&map->tables[0][r], rho_clutter_map_remaining(share), &none);
+        decay_and_add_table(&map->tables[0][r], rho_clutter_map_decay_factor(share), &none);
     }
     map->scans_to_blocks -= share;
     if (!(map->scans_to_blocks > 0.0f)) {
@@ -163,7 +163,8 @@ void rho_clutter_map_age(struct rho_clutter_map *map, float share)
 
 /* ---- echoes ---------------------------------------------------------------------------------- */
 
-struct echo_view rho_clutter_map_view(const struct rho_sensor *sensor, float x_m, float y_m)
+struct echo_view rho_clutter_map_view_from_sensor(const struct rho_sensor *sensor, float x_m,
+                                                  float y_m)
 {
     const float dx_m = x_m - (sensor ? sensor->x_m : 0.0f);
     const float dy_m = y_m - (sensor ? sensor->y_m : 0.0f);
@@ -174,7 +175,7 @@ struct echo_view rho_clutter_map_view(const struct rho_sensor *sensor, float x_m
     return (struct echo_view){dx_m / range_m, dy_m / range_m, range_m};
 }
 
-float rho_clutter_map_direction(const struct echo_view *view)
+float rho_clutter_map_azimuth_share(const struct echo_view *view)
 {
     return (rho_atan2(view->along_y, view->along_x) + RHO_PI) / RHO_TWO_PI;
 }
@@ -186,11 +187,11 @@ static unsigned region_index(float share)
                        : 0;
 }
 
-uint8_t rho_clutter_map_region(const struct rho_sensor *sensor, float range_max_m, float x_m,
-                               float y_m)
+uint8_t rho_clutter_map_region_of_place(const struct rho_sensor *sensor, float range_max_m,
+                                        float x_m, float y_m)
 {
-    const struct echo_view view = rho_clutter_map_view(sensor, x_m, y_m);
-    return (uint8_t)(region_index(rho_clutter_map_direction(&view)) * RHO_ECHO_REGIONS +
+    const struct echo_view view = rho_clutter_map_view_from_sensor(sensor, x_m, y_m);
+    return (uint8_t)(region_index(rho_clutter_map_azimuth_share(&view)) * RHO_ECHO_REGIONS +
                      region_index(rho_sqrt(view.range_m / range_max_m)));
 }
 
@@ -229,7 +230,7 @@ static void update_axis(float axis[3], float variance_m2, float off_m, float mov
 void rho_clutter_map_update_echo(struct rho_echo *echo, const struct rho_sensor *sensor,
                                  const struct rho_plot *plot)
 {
-    const struct echo_view view = rho_clutter_map_view(sensor, echo->x_m, echo->y_m);
+    const struct echo_view view = rho_clutter_map_view_from_sensor(sensor, echo->x_m, echo->y_m);
     const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
     float along[2], across[2];
     update_axis(echo->along, plot->sigma_range_m * plot->sigma_range_m,
@@ -297,7 +298,7 @@ static int may_drop_echo(const struct rho_echo *echo)
     return echo->hits > 0 && (echo->unseen > 0 || !echo->was_looked_at);
 }
 
-void rho_clutter_map_make_room(struct rho_clutter_map *map, uint32_t num, int64_t time_us)
+void rho_clutter_map_free_places(struct rho_clutter_map *map, uint32_t num, int64_t time_us)
 {
     uint16_t of_rank[RANKS] = {0};
     uint32_t is_free = 0;
@@ -346,7 +347,7 @@ enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map, int32_t senso
         !rho_is_within(sigma_cross_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX) || hits == 0) {
         return RHO_ERROR_VALUE;
     }
-    rho_clutter_map_make_room(map, 1, map->time_us);
+    rho_clutter_map_free_places(map, 1, map->time_us);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
         if (map->echoes[i].hits == 0) {
             map->echoes[i] = (struct rho_echo){
@@ -371,7 +372,8 @@ enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map, int32_t senso
     return RHO_OK;
 }
 
-const struct rho_echo *rho_clutter_map_next(const struct rho_clutter_map *map, uint32_t *place)
+const struct rho_echo *rho_clutter_map_next_known(const struct rho_clutter_map *map,
+                                                  uint32_t *place)
 {
     while (map && place && *place < RHO_ECHO_PLACES) {
         const struct rho_echo *echo = &map->echoes[(*place)++];
@@ -382,14 +384,14 @@ const struct rho_echo *rho_clutter_map_next(const struct rho_clutter_map *map, u
     return NULL;
 }
 
-int rho_clutter_map_stands(const struct rho_echo *echo)
+int rho_clutter_map_is_echo_standing(const struct rho_echo *echo)
 {
     return echo && !(echo->vx_mps * echo->vx_mps + echo->vy_mps * echo->vy_mps >
                      MOVES_SIGMAS2 * (echo->along[2] + echo->across[2]));
 }
 
-void rho_clutter_map_learned(const struct rho_clutter_map *map, unsigned region, unsigned hits,
-                             unsigned unseen, float *looks, float *returns)
+void rho_clutter_map_learned_returns(const struct rho_clutter_map *map, unsigned region,
+                                     unsigned hits, unsigned unseen, float *looks, float *returns)
 {
     const unsigned c = rho_clutter_map_hit_class(hits), g = gap_class(unseen);
     float sum_looks = 0.0f, sum_returns = 0.0f;

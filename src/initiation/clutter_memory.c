@@ -72,7 +72,7 @@ static void halve_counts(struct rho_clutter_memory *memory)
     memory->num_scans /= 2;
 }
 
-void rho_initiator_add_to_memory(struct rho_initiator *initiator)
+void rho_initiator_remember_oldest_scan(struct rho_initiator *initiator)
 {
     struct rho_clutter_memory *memory = &initiator->memory;
     const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, 0);
@@ -96,8 +96,8 @@ void rho_initiator_add_to_memory(struct rho_initiator *initiator)
     }
 }
 
-float rho_initiator_memory_density(const struct rho_initiator *initiator, float x_m, float y_m,
-                                   float density_per_m2)
+float rho_initiator_density_with_memory(const struct rho_initiator *initiator, float x_m, float y_m,
+                                        float density_per_m2)
 {
     const struct rho_clutter_memory *memory = &initiator->memory;
     if (RHO_MAX_CLUTTER_CELLS == 0 || memory->num_scans == 0) {

@@ -250,8 +250,8 @@ static float best_score_of_pattern(const struct false_tracks *model,
     return search->log_prior + log_hit_pattern_probability(search, first, hits) -
            h * place->log_density - half_residual_dimensions(model, hits) * LOG_TWO_PI -
            h * log_noise_of_hit(model, place) - 0.5f * fisher +
-           rho_initiator_log_volume(search, model->has_z, model->has_z ? hits : 0u,
-                                    model->has_range_rate ? hits : 0u) -
+           rho_initiator_log_height_rate_volume(search, model->has_z, model->has_z ? hits : 0u,
+                                                model->has_range_rate ? hits : 0u) -
            log_aliases_of_hits(model, h);
 }
 
@@ -362,7 +362,7 @@ static void list_and_score_patterns(struct false_tracks *model)
     model->least_hits = 3;
     for (unsigned first = 0; first + 3u <= num_scans; first++) {
         if (model->search->fit_process_m2 > 0.0f) {
-            (void)rho_initiator_bend_m2(model->search, first, &model->bend_m2[first]);
+            (void)rho_initiator_bend_variance_m2(model->search, first, &model->bend_m2[first]);
         }
         for (unsigned hits = 3; hits <= num_scans - first; hits++) {
             add_pattern(model, first, hits);
@@ -381,9 +381,9 @@ static float mean_log_aliases(const struct search *search)
 {
     float sum = 0.0f;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        sum +=
-            rho_measurement_log_aliases(&rho_window_scan_at(&search->initiator->window, m)->sensor,
-                                        search->initiator->config.v_max_mps);
+        sum += rho_measurement_log_num_aliases(
+            &rho_window_scan_at(&search->initiator->window, m)->sensor,
+            search->initiator->config.v_max_mps);
     }
     return sum / (float)search->num_scans;
 }
@@ -511,11 +511,12 @@ float rho_initiator_gain_of_hit(const struct false_tracks *model)
     for (unsigned i = 0; i < model->num_classes; i++) {
         const struct place_class wide =
             noise_widened_by_bend(model, &model->classes[i], search->num_scans - 3u, 3);
-        float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
-                     0.5f * dimensions_of_hit(model) * LOG_TWO_PI - log_noise_of_hit(model, &wide) -
-                     rho_log(PREDICTION_SPREAD) +
-                     rho_initiator_log_volume(search, 0, 0, model->has_range_rate ? 1u : 0u) -
-                     log_aliases_of_hits(model, 1.0f);
+        float gain =
+            search->log_pd[search->num_scans - 1u] - wide.log_density -
+            0.5f * dimensions_of_hit(model) * LOG_TWO_PI - log_noise_of_hit(model, &wide) -
+            rho_log(PREDICTION_SPREAD) +
+            rho_initiator_log_height_rate_volume(search, 0, 0, model->has_range_rate ? 1u : 0u) -
+            log_aliases_of_hits(model, 1.0f);
         least = gain < least ? gain : least;
     }
     return least;

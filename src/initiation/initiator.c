@@ -36,7 +36,7 @@ void rho_initiator_config_default(struct rho_initiator_config *config)
     };
 }
 
-int rho_initiator_is_usable(const struct rho_initiator_config *config)
+int rho_initiator_is_usable_config(const struct rho_initiator_config *config)
 {
     return config->scans >= 3 && config->scans <= RHO_MAX_SCANS &&
            (config->min_scans == 0 ||
@@ -60,7 +60,7 @@ enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
     if (size != sizeof *initiator) {
         return RHO_ERROR_SIZE;
     }
-    if (!rho_initiator_is_usable(config)) {
+    if (!rho_initiator_is_usable_config(config)) {
         return RHO_ERROR_CONFIG;
     }
     const struct rho_extent *area = config->area_is_fixed ? &config->area : 0;
@@ -101,7 +101,7 @@ enum rho_status rho_initiator_reconfigure(struct rho_initiator *initiator,
     if (initiator->magic != INITIATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    if (!rho_initiator_is_usable(config)) {
+    if (!rho_initiator_is_usable_config(config)) {
         return RHO_ERROR_CONFIG;
     }
     if (needs_new_window(config, &initiator->config)) {
@@ -140,7 +140,7 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     if (RHO_MAX_CLUTTER_CELLS > 0 && initiator->window.num_scans == initiator->config.scans &&
         rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK &&
         !rho_window_continues(&initiator->window, scan, sensor)) {
-        rho_initiator_add_to_memory(initiator);
+        rho_initiator_remember_oldest_scan(initiator);
     }
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);
     if (status == RHO_OK) {
@@ -328,7 +328,7 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
             rho_initiator_rescore_candidates(&search);
         }
     }
-    rho_initiator_close_budget(&search);
+    rho_initiator_record_work(&search);
     return RHO_OK;
 }
 

@@ -91,7 +91,7 @@ static int has_sound_revolution(const struct rho_initiator *initiator)
 int rho_initiator_is_sound(const struct rho_initiator *initiator)
 {
     const struct rho_initiator_config *config = &initiator->config;
-    if (!rho_initiator_is_usable(config) || !rho_window_is_sound(&initiator->window) ||
+    if (!rho_initiator_is_usable_config(config) || !rho_window_is_sound(&initiator->window) ||
         initiator->window.scans_max != config->scans ||
         (initiator->window.area_is_fixed != 0) != (config->area_is_fixed != 0) ||
         !rho_initiator_accepts(initiator, INT64_MAX)) {

@@ -10,7 +10,7 @@
 
 static float plot_variance_m2(const struct rho_window_plot *plot)
 {
-    float sigma_m = rho_window_sigma_m(plot);
+    float sigma_m = rho_window_larger_sigma_m(plot);
     return sigma_m * sigma_m;
 }
 
@@ -28,7 +28,7 @@ static struct moments moments_of_set(const struct search *search, const struct p
     struct moments sum = {0};
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
-            const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
+            const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, m);
             float w = 1.0f / plot_variance_m2(plot);
             sum.weight += w;
             sum.time_s += w * rho_initiator_plot_time_s(search, set, m);
@@ -41,7 +41,7 @@ static struct moments moments_of_set(const struct search *search, const struct p
     sum.y_m /= sum.weight;
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
-            const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
+            const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, m);
             float w = 1.0f / plot_variance_m2(plot);
             float t_s = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
             sum.tt += w * t_s * t_s;
@@ -67,8 +67,8 @@ int rho_initiator_fit_isotropic(const struct search *search, const struct plot_s
 }
 
 /* Index of the plot of scan m nearest to the fitted track, or -1 where the gate has none. */
-int rho_initiator_nearest_isotropic(struct search *search, const struct line_fit *fit, float factor,
-                                    unsigned m)
+int rho_initiator_nearest_plot_isotropic(struct search *search, const struct line_fit *fit,
+                                         float factor, unsigned m)
 {
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
     float bend_m2 = factor * search->fit_process_m2;
@@ -84,7 +84,7 @@ int rho_initiator_nearest_isotropic(struct search *search, const struct line_fit
             rho_sqrt(RHO_GATE_CHI2_2D * (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
-    return rho_window_nearest(scan, &query, &search->initiator->work.window);
+    return rho_window_nearest_isotropic(scan, &query, &search->initiator->work.window);
 }
 
 /* ---- likelihood ------------------------------------------------------------------------------ */
@@ -108,7 +108,7 @@ static struct likelihood_terms likelihood_without_process_noise(const struct sea
     struct likelihood_terms terms = {.log_det_fisher = rho_log(sum.weight * sum.tt)};
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
-            const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
+            const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, m);
             float t_s = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
             float rx_m = plot->x_m - sum.x_m - vx_mps * t_s;
             float ry_m = plot->y_m - sum.y_m - vy_mps * t_s;
@@ -164,7 +164,7 @@ static unsigned fill_regression_columns(const struct search *search, const struc
     unsigned scan[RHO_MAX_SCANS], n = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
-            const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
+            const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, m);
             columns->one[n] = 1.0f;
             columns->t[n] = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
             columns->x[n] = plot->x_m - sum.x_m;

@@ -140,7 +140,7 @@ static int has_spans_with_more_votes(struct search *search, const struct span_li
  * Lists the spans of kernels that end in scan b: a kernel of M votes spans at least M scans. Scans
  * of one time make no span.
  */
-void rho_initiator_open_fan(struct search *search, unsigned b, struct span_list *list)
+void rho_initiator_list_spans(struct search *search, unsigned b, struct span_list *list)
 {
     struct voter *voters = list->voters;
     list->num_spans = list->ordered = 0;
@@ -182,7 +182,7 @@ static struct rho_window_bins charge_bins_under_box(struct search *search,
 {
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box->x0_m, box->x1_m, box->y0_m, box->y1_m);
-    rho_initiator_charge(search, (uint32_t)(bins.row_last - bins.row_first) + 1u);
+    rho_initiator_charge_work(search, (uint32_t)(bins.row_last - bins.row_first) + 1u);
     return bins;
 }
 
@@ -225,7 +225,7 @@ static void try_kernels_of_pair(struct search *search, const struct span *span,
     struct plot_set set;
     int next = 0;
     do {
-        if (rho_initiator_vote_for_kernel(search, span, ending, first, i, &next, &set)) {
+        if (rho_initiator_collect_kernel_votes(search, span, ending, first, i, &next, &set)) {
             rho_initiator_add_candidate(search, &set);
         }
     } while (next > 0);
@@ -242,11 +242,11 @@ static int try_all_pairs(struct search *search, const struct span *span,
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];
-        rho_initiator_charge(search, end - start[bins.column_first]);
+        rho_initiator_charge_work(search, end - start[bins.column_first]);
         for (unsigned i = start[bins.column_first]; i < end; i++) {
             try_kernels_of_pair(search, span, ending, &any, i);
         }
-        if (rho_initiator_is_spent(search)) {
+        if (rho_initiator_is_work_spent(search)) {
             return 0;
         }
     }
@@ -506,16 +506,16 @@ static int try_third_plots(struct search *search, const struct span_list *list,
                 }
             }
             if (passed >= CHARGED_UNITS) {
-                rho_initiator_charge(search, passed);
+                rho_initiator_charge_work(search, passed);
                 passed = 0;
-                if (rho_initiator_is_spent(search)) {
+                if (rho_initiator_is_work_spent(search)) {
                     return 0;
                 }
             }
         }
     }
-    rho_initiator_charge(search, passed);
-    return !rho_initiator_is_spent(search);
+    rho_initiator_charge_work(search, passed);
+    return !rho_initiator_is_work_spent(search);
 }
 
 /* ---- which way ------------------------------------------------------------------------------- */
@@ -559,8 +559,8 @@ static int is_cheaper_by_third_plots(struct search *search, const struct span *s
  * Where the box has many rows of bins all plots of these rows count, as their number is known at
  * once.
  */
-unsigned rho_initiator_count_plots_near(struct search *search, const struct span_list *list,
-                                        unsigned j)
+unsigned rho_initiator_count_near_in_previous(struct search *search, const struct span_list *list,
+                                              unsigned j)
 {
     const struct span *widest = &list->spans[0];
     const struct ending ending = {.plot = &widest->scan_b->plots[j]};
@@ -574,7 +574,7 @@ unsigned rho_initiator_count_plots_near(struct search *search, const struct span
     if (bins.row_last - bins.row_first < NEAR_ROWS) {
         return count_plots_under_box(search, scan, &box);
     }
-    rho_initiator_charge(search, 1);
+    rho_initiator_charge_work(search, 1);
     return (unsigned)(scan->bin_start[(bins.row_last + 1) * scan->bins_x] -
                       scan->bin_start[bins.row_first * scan->bins_x]);
 }
@@ -605,12 +605,13 @@ static int is_in_thin_clutter(const struct search *search, const struct rho_wind
            initiator->thin_clutter;
 }
 
-int rho_initiator_try_kernels_to(struct search *search, const struct span_list *list, unsigned j)
+int rho_initiator_try_kernels_ending_at(struct search *search, const struct span_list *list,
+                                        unsigned j)
 {
     const struct span *widest = &list->spans[0];
     struct ending ending = {.plot = &widest->scan_b->plots[j]};
     unsigned counts[RHO_MAX_SCANS] = {0}, by_votes = 0;
-    if (rho_initiator_is_spent(search)) {
+    if (rho_initiator_is_work_spent(search)) {
         return 0;
     }
     float far_m = target_travel_max_m(search, &ending, widest->b, widest->a);
@@ -619,8 +620,8 @@ int rho_initiator_try_kernels_to(struct search *search, const struct span_list *
     if (!rho_initiator_is_isotropic(search)) {
         ending.noise = rho_window_noise(widest->scan_b, ending.plot);
     }
-    rho_initiator_find_vote_gate(search, far_m + widest->slack_m + widest->voters[0].gate_radius_m,
-                                 &ending);
+    rho_initiator_narrow_vote_gate(
+        search, far_m + widest->slack_m + widest->voters[0].gate_radius_m, &ending);
     ending.gate_rounded = GATE_ROUNDING * ending.gate_share;
     ending.is_clear =
         !HAS_SPAN_HITS || !list->has_span_hits || is_in_thin_clutter(search, ending.plot);

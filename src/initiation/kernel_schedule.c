@@ -69,7 +69,7 @@ static unsigned set_cost_classes(struct search *search, const struct span_list *
         unsigned class = CLASSES;
         if (!(scan->marks[j] & search->skip_flags) &&
             is_of_newest_sector(search, &scan->plots[j])) {
-            class = cost_class_by_near_plots(rho_initiator_count_plots_near(search, list, j));
+            class = cost_class_by_near_plots(rho_initiator_count_near_in_previous(search, list, j));
             count++;
         }
         search->initiator->cost_class[j] = (uint8_t) class;
@@ -85,7 +85,7 @@ static unsigned set_cost_classes(struct search *search, const struct span_list *
 static void try_kernels_of_plot(struct search *search, const struct span_list *list, unsigned j,
                                 struct pass *pass)
 {
-    int is_done = rho_initiator_try_kernels_to(search, list, j);
+    int is_done = rho_initiator_try_kernels_ending_at(search, list, j);
     if (!is_done) {
         struct rho_initiator *initiator = search->initiator;
         initiator->budget.plots_not_tried = rho_count(initiator->budget.plots_not_tried, 1);
@@ -110,7 +110,7 @@ static uint32_t work_limit_after_plot(const struct search *search, const struct 
         return UINT32_MAX; /* UINT32_MAX: no limit */
     }
     uint32_t ceiling = end_units - pass->kept_units * pass->waiting;
-    uint32_t own = rho_count(rho_initiator_spent(search), pass->kept_units);
+    uint32_t own = rho_count(rho_initiator_work_spent(search), pass->kept_units);
     unsigned others = pass->waiting < FREE_PARTS - 1u ? pass->waiting : FREE_PARTS - 1u;
     return own < ceiling ? own + (ceiling - own) / (others + 1u) : ceiling;
 }
@@ -138,7 +138,7 @@ static void try_kernels_of_scan(struct search *search, unsigned b, uint32_t unit
                                 const struct rho_initiator_resume *begin)
 {
     struct span_list list;
-    rho_initiator_open_fan(search, b, &list);
+    rho_initiator_list_spans(search, b, &list);
     if (list.num_spans == 0) {
         return;
     }
@@ -186,7 +186,7 @@ void rho_initiator_try_turning_kernels(struct search *search)
     struct rho_initiator_budget *budget = &search->initiator->budget;
     const struct rho_initiator_resume next = search->next;
     const uint32_t plots_not_tried = budget->plots_not_tried, work_max = search->work_max;
-    const uint32_t spent = rho_initiator_spent(search), end_units = search->limit_units;
+    const uint32_t spent = rho_initiator_work_spent(search), end_units = search->limit_units;
     uint32_t units = work_max - work_max / CHOICE_SHARE;
     units = work_max == 0 ? UINT32_MAX : units > spent ? units - spent : 0u;
     const uint32_t share = search->has_more ? spent : spent / TURN_SHARE_OF_PLACES;

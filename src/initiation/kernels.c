@@ -63,7 +63,7 @@ static int is_range_rate_in_gate(const struct rho_window_scan *scan,
                                  const struct rho_window_place *place)
 {
     return !(scan->measures & RHO_MEASURES_RANGE_RATE) ||
-           rho_window_range_rate_distance2(scan, plot, place) <= RHO_GATE_CHI2_1D;
+           rho_window_range_rate_nis(scan, plot, place) <= RHO_GATE_CHI2_1D;
 }
 
 static int climbs_too_fast(const struct search *search, const struct rho_window_place *place)
@@ -105,8 +105,8 @@ static int find_vote_anisotropic(struct search *search, const struct span *span,
         from * a->xx_m2 + to * b->xx_m2 + process_m2, from * a->xy_m2 + to * b->xy_m2,
         from * a->yy_m2 + to * b->yy_m2 + process_m2, from * a->zz_m2 + to * b->zz_m2 + process_m2};
     place->gate_radius_m = kernel->gate_share * voter->gate_radius_m;
-    return rho_window_nearest_to(rho_window_scan_at(&search->initiator->window, m), place,
-                                 &search->initiator->work.window);
+    return rho_window_nearest_anisotropic(rho_window_scan_at(&search->initiator->window, m), place,
+                                          &search->initiator->work.window);
 }
 
 /* ---- votes ----------------------------------------------------------------------------------- */
@@ -130,8 +130,8 @@ static int find_vote_in_scan(struct search *search, const struct span *span, uns
     query->variance_m2 =
         (1.0f - al) * (1.0f - al) * kernel->from_m2 + al * al * kernel->to_m2 + voter->process_m2;
     query->gate_radius_m = kernel->gate_share * voter->gate_radius_m;
-    return rho_window_nearest(rho_window_scan_at(&search->initiator->window, m), query,
-                              &search->initiator->work.window);
+    return rho_window_nearest_isotropic(rho_window_scan_at(&search->initiator->window, m), query,
+                                        &search->initiator->work.window);
 }
 
 static void add_vote(struct plot_set *set, unsigned m, int plot)
@@ -215,11 +215,11 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
 {
     search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
     if (!rho_initiator_is_isotropic(search)) {
-        rho_initiator_charge(search, search->has_more ? MORE_UNITS : OWN_UNITS);
+        rho_initiator_charge_work(search, search->has_more ? MORE_UNITS : OWN_UNITS);
         return set_up_anisotropic_kernel(search, span, kernel);
     }
-    kernel->from_m2 = squared(rho_window_sigma_m(kernel->from));
-    kernel->to_m2 = squared(rho_window_sigma_m(kernel->to));
+    kernel->from_m2 = squared(rho_window_larger_sigma_m(kernel->from));
+    kernel->to_m2 = squared(rho_window_larger_sigma_m(kernel->to));
     kernel->query = (struct rho_window_query){
         .vx_mps = kernel->dx_m / kernel->duration_s,
         .vy_mps = kernel->dy_m / kernel->duration_s,
@@ -243,19 +243,19 @@ static int collect_votes_by_alias(struct search *search, const struct span *span
     int number = *next;
     *next = 0;
     if (!RHO_AMBIGUOUS_RANGE_RATES || rho_initiator_is_isotropic(search) ||
-        !rho_initiator_open_aliases(span->scan_a, kernel->from, &kernel->place, &aliases)) {
+        !rho_initiator_find_aliases(span->scan_a, kernel->from, &kernel->place, &aliases)) {
         return collect_votes(search, span, first, kernel, set);
     }
     struct rho_window_place place = kernel->place;
     for (int i = aliases.first + number; i <= aliases.last; i++) {
-        rho_initiator_charge(search, ALIAS_UNITS);
+        rho_initiator_charge_work(search, ALIAS_UNITS);
         rho_initiator_apply_alias(&aliases, i, &place, &kernel->place);
         if (is_range_rate_in_gate(span->scan_b, kernel->to, &kernel->place) &&
             collect_votes(search, span, first, kernel, set)) {
             *next = i + 1 - aliases.first;
             return 1;
         }
-        if (i < aliases.last && rho_initiator_is_spent(search)) {
+        if (i < aliases.last && rho_initiator_is_work_spent(search)) {
             search->is_partial = 1;
             return 0;
         }
@@ -300,9 +300,9 @@ static int is_first_vote_in_widest_gate(const struct search *search, const struc
            along_m * along_m <= along_max_m * along_max_m;
 }
 
-int rho_initiator_vote_for_kernel(struct search *search, const struct span *span,
-                                  const struct ending *ending, const struct first_vote *first,
-                                  unsigned i, int *next, struct plot_set *set)
+int rho_initiator_collect_kernel_votes(struct search *search, const struct span *span,
+                                       const struct ending *ending, const struct first_vote *first,
+                                       unsigned i, int *next, struct plot_set *set)
 {
     const struct rho_window_plot *from = &span->scan_a->plots[i], *to = ending->plot;
     struct kernel kernel;
@@ -316,7 +316,7 @@ int rho_initiator_vote_for_kernel(struct search *search, const struct span *span
     kernel.noise_b = ending->noise;
     if ((span->scan_a->marks[i] & search->skip_flags) || !has_target_speed(search, span, &kernel) ||
         !is_first_vote_in_widest_gate(search, span, ending, first, &kernel) ||
-        rho_initiator_is_spent(search) || !set_up_kernel(search, span, &kernel)) {
+        rho_initiator_is_work_spent(search) || !set_up_kernel(search, span, &kernel)) {
         *next = 0;
         return 0;
     }

@@ -21,7 +21,7 @@ static float displacement_per_acceleration_s2(const struct search *search, unsig
  * the diagonal of H K H, K the covariance of process noise, H the projection off straight lines.
  * Returns the largest; *sum_m2: their sum.
  */
-float rho_initiator_bend_m2(const struct search *search, unsigned first, float *sum_m2)
+float rho_initiator_bend_variance_m2(const struct search *search, unsigned first, float *sum_m2)
 {
     unsigned end = search->num_scans;
     float n = (float)(end - first), mean_s = 0.0f, spread_s2 = 0.0f, largest_m2 = 0.0f;
@@ -65,7 +65,7 @@ void rho_initiator_prepare_process_noise(struct search *search)
         }
     }
     search->fit_process_m2 =
-        variance > 0.0f ? rho_initiator_bend_m2(search, 0, &(float){0.0f}) : 0.0f;
+        variance > 0.0f ? rho_initiator_bend_variance_m2(search, 0, &(float){0.0f}) : 0.0f;
 }
 
 float rho_initiator_process_variance_m2(const struct search *search, unsigned a, unsigned m,

@@ -19,12 +19,13 @@ static int limited_whole_spans(float spans)
     return spans < (float)ALIASES_MAX ? (int)spans : ALIASES_MAX;
 }
 
-int rho_initiator_open_aliases(const struct rho_window_scan *scan,
+int rho_initiator_find_aliases(const struct rho_window_scan *scan,
                                const struct rho_window_plot *plot,
                                const struct rho_window_place *place, struct aliases *aliases)
 {
-    if (!(scan->measures & RHO_MEASURES_RANGE_RATE) || !rho_measurement_has_span(&scan->sensor) ||
-        !rho_window_see_range_rate(scan, plot, place, &aliases->seen)) {
+    if (!(scan->measures & RHO_MEASURES_RANGE_RATE) ||
+        !rho_measurement_has_ambiguous_range_rates(&scan->sensor) ||
+        !rho_window_compare_range_rate(scan, plot, place, &aliases->seen)) {
         return 0;
     }
     aliases->span_mps = scan->sensor.range_rate_span_mps;

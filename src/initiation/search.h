@@ -121,7 +121,7 @@ struct plot_set {
 
 /* The plot of a set in scan m. */
 static inline const struct rho_window_plot *
-rho_initiator_plot(const struct search *search, const struct plot_set *set, unsigned m)
+rho_initiator_plot_of_set(const struct search *search, const struct plot_set *set, unsigned m)
 {
     return &rho_window_scan_at(&search->initiator->window, m)->plots[set->plot[m]];
 }
@@ -129,7 +129,7 @@ rho_initiator_plot(const struct search *search, const struct plot_set *set, unsi
 static inline float rho_initiator_plot_time_s(const struct search *search,
                                               const struct plot_set *set, unsigned m)
 {
-    return search->time_s[m] + rho_initiator_plot(search, set, m)->offset_s;
+    return search->time_s[m] + rho_initiator_plot_of_set(search, set, m)->offset_s;
 }
 
 /* ---- before the search ----------------------------------------------------------------------- */
@@ -142,21 +142,21 @@ void rho_initiator_prepare_density(struct search *search);
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots);
 float rho_initiator_area_m2(const struct rho_initiator *initiator);
 float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m);
-float rho_initiator_log_density(const struct search *search, const struct plot_set *set,
-                                unsigned m);
+float rho_initiator_log_density_of_hit(const struct search *search, const struct plot_set *set,
+                                       unsigned m);
 
 /* Adds the window's oldest scan to the clutter memory before it leaves (clutter_memory.c). */
-void rho_initiator_add_to_memory(struct rho_initiator *initiator);
+void rho_initiator_remember_oldest_scan(struct rho_initiator *initiator);
 /*
  * Clutter density at a place: density_per_m2, or the remembered density where that is significantly
  * higher.
  */
-float rho_initiator_memory_density(const struct rho_initiator *initiator, float x_m, float y_m,
-                                   float density_per_m2);
+float rho_initiator_density_with_memory(const struct rho_initiator *initiator, float x_m, float y_m,
+                                        float density_per_m2);
 
 /* Sets the covariance of displacements by process noise (process_noise.c). */
 void rho_initiator_prepare_process_noise(struct search *search);
-float rho_initiator_bend_m2(const struct search *search, unsigned first, float *sum_m2);
+float rho_initiator_bend_variance_m2(const struct search *search, unsigned first, float *sum_m2);
 /*
  * Variance by process noise of the place in scan m about the line between the places in scans a and
  * b.
@@ -166,8 +166,8 @@ float rho_initiator_process_variance_m2(const struct search *search, unsigned a,
 
 /* Sets the detection probabilities and the density of births (prior.c). */
 void rho_initiator_prepare_prior(struct search *search);
-float rho_initiator_log_volume(const struct search *search, int has_z, unsigned heights,
-                               unsigned range_rates);
+float rho_initiator_log_height_rate_volume(const struct search *search, int has_z, unsigned heights,
+                                           unsigned range_rates);
 
 /* Quantile of chi-square at a normal deviate of `sigmas` (distributions.c). */
 float rho_initiator_chi2_limit(unsigned dimensions, float sigmas);
@@ -184,12 +184,12 @@ void rho_initiator_assume_turns(struct search *search, int turns);
 /* ---- work ------------------------------------------------------------------------------------ */
 
 /* Units of work that the search has done so far (search_budget.c). */
-uint32_t rho_initiator_spent(const struct search *search);
+uint32_t rho_initiator_work_spent(const struct search *search);
 /* True where the work exceeds its current limit. */
-int rho_initiator_is_spent(const struct search *search);
+int rho_initiator_is_work_spent(const struct search *search);
 /* Adds units to the work done. */
-void rho_initiator_charge(const struct search *search, uint32_t units);
-void rho_initiator_close_budget(struct search *search);
+void rho_initiator_charge_work(const struct search *search, uint32_t units);
+void rho_initiator_record_work(struct search *search);
 
 /* ---- kernels --------------------------------------------------------------------------------- */
 
@@ -265,7 +265,8 @@ struct span_list {
 
 /* Bounds the noise of a single radar by range, for narrower gates (vote_gate.c). */
 void rho_initiator_prepare_vote_gates(struct search *search);
-void rho_initiator_find_vote_gate(const struct search *search, float far_m, struct ending *ending);
+void rho_initiator_narrow_vote_gate(const struct search *search, float far_m,
+                                    struct ending *ending);
 
 /*
  * Aliases of an ambiguous range rate: its error is seen.error_mps + i span_mps, i from first to
@@ -281,7 +282,7 @@ struct aliases {
  * Lists the aliases of a plot's range rate that agree with the velocity of a place. Returns 0 where
  * the range rate is not ambiguous (range_rate_ambiguity.c).
  */
-int rho_initiator_open_aliases(const struct rho_window_scan *scan,
+int rho_initiator_find_aliases(const struct rho_window_scan *scan,
                                const struct rho_window_plot *plot,
                                const struct rho_window_place *place, struct aliases *aliases);
 /* Sets *known to the place with its velocity corrected by alias i of the range rate. */
@@ -294,20 +295,21 @@ void rho_initiator_apply_alias(const struct aliases *aliases, int i,
  * where they are too few. An ambiguous range rate makes several kernels of one pair: *next, 0 at
  * first, tells with which alias to continue, and is 0 after the last (kernels.c).
  */
-int rho_initiator_vote_for_kernel(struct search *search, const struct span *span,
-                                  const struct ending *ending, const struct first_vote *first,
-                                  unsigned i, int *next, struct plot_set *set);
+int rho_initiator_collect_kernel_votes(struct search *search, const struct span *span,
+                                       const struct ending *ending, const struct first_vote *first,
+                                       unsigned i, int *next, struct plot_set *set);
 
 /* Lists the spans of kernels that end in scan b (kernel_enumeration.c). */
-void rho_initiator_open_fan(struct search *search, unsigned b, struct span_list *list);
+void rho_initiator_list_spans(struct search *search, unsigned b, struct span_list *list);
 /*
  * Number of plots, in the scan before the last, that a target in plot j may have come from: a
  * measure of the cost of the kernels that end there.
  */
-unsigned rho_initiator_count_plots_near(struct search *search, const struct span_list *list,
-                                        unsigned j);
+unsigned rho_initiator_count_near_in_previous(struct search *search, const struct span_list *list,
+                                              unsigned j);
 /* Tries all kernels that end in plot j. Returns 0 where the work is spent. */
-int rho_initiator_try_kernels_to(struct search *search, const struct span_list *list, unsigned j);
+int rho_initiator_try_kernels_ending_at(struct search *search, const struct span_list *list,
+                                        unsigned j);
 
 /* Tries all kernels of straight targets within the limit of work (kernel_schedule.c). */
 void rho_initiator_try_kernels(struct search *search);
@@ -316,9 +318,9 @@ void rho_initiator_try_turning_kernels(struct search *search);
 /* ---- candidates ------------------------------------------------------------------------------ */
 
 /* Converts nats to integer thousandths, limited to a million nats (track_fit.c). */
-int32_t rho_initiator_mnat(float nat);
-int rho_initiator_fit(const struct search *search, const struct plot_set *set,
-                      struct line_fit *fit);
+int32_t rho_initiator_nat_to_mnat(float nat);
+int rho_initiator_fit_track(const struct search *search, const struct plot_set *set,
+                            struct line_fit *fit);
 void rho_initiator_associate_plots(struct search *search, const struct line_fit *fit, float factor,
                                    struct plot_set *set);
 int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct line_fit *fit);
@@ -331,14 +333,14 @@ int rho_initiator_score_set(const struct search *search, const struct plot_set *
  */
 int rho_initiator_fit_isotropic(const struct search *search, const struct plot_set *set,
                                 struct line_fit *fit);
-int rho_initiator_nearest_isotropic(struct search *search, const struct line_fit *fit, float factor,
-                                    unsigned m);
+int rho_initiator_nearest_plot_isotropic(struct search *search, const struct line_fit *fit,
+                                         float factor, unsigned m);
 int rho_initiator_likelihood_isotropic(const struct search *search, const struct plot_set *set,
                                        struct set_score *score, float *nat);
 int rho_initiator_fit_anisotropic(const struct search *search, const struct plot_set *set,
                                   struct line_fit *fit);
-int rho_initiator_nearest_anisotropic(struct search *search, const struct line_fit *fit,
-                                      float factor, unsigned m);
+int rho_initiator_nearest_plot_anisotropic(struct search *search, const struct line_fit *fit,
+                                           float factor, unsigned m);
 int rho_initiator_likelihood_anisotropic(const struct search *search, const struct plot_set *set,
                                          struct set_score *score, float *nat);
 
@@ -354,15 +356,15 @@ int rho_initiator_make_candidate(struct search *search, struct plot_set *set,
 /* Makes a candidate of a set and lists it; a full list drops the lowest score (candidates.c). */
 void rho_initiator_add_candidate(struct search *search, struct plot_set *set);
 /* True where a score reaches the start threshold and, if a rate is kept, chi-square is small. */
-int rho_initiator_is_good_enough(const struct search *search, const struct set_score *score);
-int rho_initiator_open_candidate(struct search *search, const struct rho_candidate *candidate,
-                                 struct plot_set *set, struct line_fit *fit);
+int rho_initiator_passes_thresholds(const struct search *search, const struct set_score *score);
+int rho_initiator_unpack_candidate(struct search *search, const struct rho_candidate *candidate,
+                                   struct plot_set *set, struct line_fit *fit);
 
 /* Choice among the candidates listed, in candidate_selection.c. */
 void rho_initiator_select_candidates(struct search *search);
 void rho_initiator_rescore_candidates(struct search *search);
 
 /* True where every field of a configuration is within its range (initiator.c). */
-int rho_initiator_is_usable(const struct rho_initiator_config *config);
+int rho_initiator_is_usable_config(const struct rho_initiator_config *config);
 
 #endif

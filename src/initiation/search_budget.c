@@ -9,7 +9,7 @@
 #define LOOKUP_UNITS 3u
 #define FIT_UNITS 400u
 
-uint32_t rho_initiator_spent(const struct search *search)
+uint32_t rho_initiator_work_spent(const struct search *search)
 {
     const struct rho_initiator_work *work = &search->initiator->work;
     uint64_t units = (uint64_t)work->window.passed + work->window.distances +
@@ -18,22 +18,22 @@ uint32_t rho_initiator_spent(const struct search *search)
     return units < UINT32_MAX ? (uint32_t)units : UINT32_MAX;
 }
 
-int rho_initiator_is_spent(const struct search *search)
+int rho_initiator_is_work_spent(const struct search *search)
 {
-    return rho_initiator_spent(search) > search->limit_units;
+    return rho_initiator_work_spent(search) > search->limit_units;
 }
 
-void rho_initiator_charge(const struct search *search, uint32_t units)
+void rho_initiator_charge_work(const struct search *search, uint32_t units)
 {
     struct rho_window_work *work = &search->initiator->work.window;
     work->passed = rho_count(work->passed, units);
 }
 
 /* Records the work of a search, whether it was partial, and where the next search begins. */
-void rho_initiator_close_budget(struct search *search)
+void rho_initiator_record_work(struct search *search)
 {
     struct rho_initiator_budget *budget = &search->initiator->budget;
-    budget->work = rho_initiator_spent(search);
+    budget->work = rho_initiator_work_spent(search);
     budget->work_worst = budget->work > budget->work_worst ? budget->work : budget->work_worst;
     budget->partial_steps = rho_count(budget->partial_steps, search->is_partial ? 1u : 0u);
     if (search->kind == RHO_SEARCH_NEWEST) {

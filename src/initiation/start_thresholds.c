@@ -310,8 +310,8 @@ static void use_thresholds(struct search *search, const struct thresholds *thres
     struct rho_initiator *initiator = search->initiator;
     search->min_scans = thresholds->min_scans;
     search->score_min_nat = thresholds->start_nat;
-    initiator->start_mnat = rho_initiator_mnat(thresholds->start_nat);
-    initiator->confirm_mnat = rho_initiator_mnat(thresholds->confirm_nat);
+    initiator->start_mnat = rho_initiator_nat_to_mnat(thresholds->start_nat);
+    initiator->confirm_mnat = rho_initiator_nat_to_mnat(thresholds->confirm_nat);
 }
 
 /*

@@ -26,7 +26,8 @@
 /* ---- fit ------------------------------------------------------------------------------------- */
 
 /* Fits a track to a set of plots. Returns 0 where the plots do not determine a track. */
-int rho_initiator_fit(const struct search *search, const struct plot_set *set, struct line_fit *fit)
+int rho_initiator_fit_track(const struct search *search, const struct plot_set *set,
+                            struct line_fit *fit)
 {
     return rho_initiator_is_isotropic(search) ? rho_initiator_fit_isotropic(search, set, fit)
                                               : rho_initiator_fit_anisotropic(search, set, fit);
@@ -42,8 +43,8 @@ void rho_initiator_associate_plots(struct search *search, const struct line_fit 
     set->mask = set->hits = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
         int plot = rho_initiator_is_isotropic(search)
-                       ? rho_initiator_nearest_isotropic(search, fit, factor, m)
-                       : rho_initiator_nearest_anisotropic(search, fit, factor, m);
+                       ? rho_initiator_nearest_plot_isotropic(search, fit, factor, m)
+                       : rho_initiator_nearest_plot_anisotropic(search, fit, factor, m);
         set->plot[m] = (uint16_t)(plot < 0 ? 0 : plot);
         if (plot >= 0) {
             set->mask |= 1u << m;
@@ -89,7 +90,7 @@ int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct
 {
     const float factor = search->turn_mps2 > 0.0f ? TURN_GATE_FACTOR : FIT_GATE_FACTOR;
     search->initiator->work.fits = rho_count(search->initiator->work.fits, 1);
-    if (!rho_initiator_fit(search, set, fit)) {
+    if (!rho_initiator_fit_track(search, set, fit)) {
         return 0;
     }
     for (int round = 0; round < FIT_ROUNDS; round++) {
@@ -101,7 +102,7 @@ int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct
         if (is_same_set(search, &before, set)) {
             break;
         }
-        if (!rho_initiator_fit(search, set, fit)) {
+        if (!rho_initiator_fit_track(search, set, fit)) {
             return 0;
         }
     }
@@ -110,7 +111,7 @@ int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct
 
 /* ---- score ----------------------------------------------------------------------------------- */
 
-int32_t rho_initiator_mnat(float nat)
+int32_t rho_initiator_nat_to_mnat(float nat)
 {
     float mnat = nat * 1000.0f;
     if (!(mnat > -1.0e9f)) {
@@ -142,7 +143,7 @@ static float log_detection_ratio(const struct search *search, const struct plot_
     int is_born = search->kind == RHO_SEARCH_BATCH;
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
-            sum += search->log_pd[m] - rho_initiator_log_density(search, set, m);
+            sum += search->log_pd[m] - rho_initiator_log_density_of_hit(search, set, m);
             is_born = 1;
         } else if (is_born && did_scan_cover_track(search, fit, m)) {
             sum += search->log_miss[m];
@@ -165,7 +166,7 @@ int rho_initiator_score_set(const struct search *search, const struct plot_set *
     if (!is_line) {
         return 0;
     }
-    score->mnat = rho_initiator_mnat(search->log_prior + search->log_turn +
-                                     log_detection_ratio(search, set, fit) + nat);
+    score->mnat = rho_initiator_nat_to_mnat(search->log_prior + search->log_turn +
+                                            log_detection_ratio(search, set, fit) + nat);
     return 1;
 }

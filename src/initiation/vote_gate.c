@@ -29,7 +29,7 @@ static void raise_sigma_per_range(struct search *search, const struct rho_window
     float per2 = search->sigma_per_m * search->sigma_per_m;
     for (unsigned i = 0; i < scan->num_plots; i++) {
         const struct rho_window_plot *plot = &scan->plots[i];
-        float sigma_m = rho_window_sigma_m(plot);
+        float sigma_m = rho_window_larger_sigma_m(plot);
         float x_m = plot->x_m - scan->sensor.x_m, y_m = plot->y_m - scan->sensor.y_m;
         float range2_m2 = x_m * x_m + y_m * y_m, sigma2_m2 = sigma_m * sigma_m;
         if (sigma_m > search->sigma_near_m && sigma2_m2 > per2 * range2_m2) {
@@ -73,7 +73,7 @@ void rho_initiator_prepare_vote_gates(struct search *search)
  * is at most far_m over their range, so that no more than sigma_per_m far_m of their noise across
  * lies along the latter.
  */
-void rho_initiator_find_vote_gate(const struct search *search, float far_m, struct ending *ending)
+void rho_initiator_narrow_vote_gate(const struct search *search, float far_m, struct ending *ending)
 {
     ending->gate_share = ending->along_share = 1.0f;
     ending->along_x = ending->along_y = 0.0f;

@@ -41,7 +41,7 @@ static int is_valid_velocity(const struct rho_plot *plot, uint32_t measures)
            (!(measures & RHO_MEASURES_Z) || is_speed(plot->vz_mps)) && is_sigma(plot->sigma_mps);
 }
 
-int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures)
+int rho_measurement_is_valid_plot(const struct rho_plot *plot, uint32_t measures)
 {
     if (!is_offset(plot->offset_us) || !rho_is_coordinate(plot->x_m) ||
         !rho_is_coordinate(plot->y_m) || !is_sigma(plot->sigma_range_m) ||
@@ -70,7 +70,7 @@ static int is_ambiguity_span(float span_mps)
             rho_is_within(span_mps, RHO_LIMIT_SPAN_MIN_MPS, RHO_LIMIT_SPAN_MAX_MPS));
 }
 
-int rho_measurement_is_sensor(const struct rho_sensor *sensor)
+int rho_measurement_is_valid_sensor(const struct rho_sensor *sensor)
 {
     return is_ambiguity_span(sensor->range_rate_span_mps) && rho_is_coordinate(sensor->x_m) &&
            rho_is_coordinate(sensor->y_m) && rho_is_coordinate(sensor->z_m) &&
@@ -192,7 +192,8 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
     if (!polar || !plot) {
         return RHO_ERROR_NULL;
     }
-    if (!is_valid_polar_plot(polar, measures) || (sensor && !rho_measurement_is_sensor(sensor))) {
+    if (!is_valid_polar_plot(polar, measures) ||
+        (sensor && !rho_measurement_is_valid_sensor(sensor))) {
         return RHO_ERROR_VALUE;
     }
     struct unbiased_polar seen = remove_biases(polar, measures, sensor);
@@ -200,7 +201,7 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
         return RHO_ERROR_VALUE;
     }
     unbiased_polar_to_plot(&seen, polar, measures, &converted);
-    if (!rho_measurement_is_valid(&converted, measures & ~RHO_MEASURES_VELOCITY)) {
+    if (!rho_measurement_is_valid_plot(&converted, measures & ~RHO_MEASURES_VELOCITY)) {
         return RHO_ERROR_VALUE;
     }
     *plot = converted;
@@ -268,20 +269,20 @@ struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *
     return factors;
 }
 
-float rho_measurement_widest_factor(const struct rho_sensor *sensor)
+float rho_measurement_largest_sigma_factor(const struct rho_sensor *sensor)
 {
     const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
     return rho_larger(rho_larger(factors.range, factors.cross), 1.0f);
 }
 
-int rho_measurement_is_bearing(const struct rho_bearing *bearing)
+int rho_measurement_is_valid_bearing(const struct rho_bearing *bearing)
 {
     return rho_is_within(bearing->bearing_rad, -RHO_PI, RHO_PI) &&
            rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
 }
 
-void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
-                          const struct rho_sensor *sensor, struct rho_measurement *out)
+void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
+                               const struct rho_sensor *sensor, struct rho_measurement *out)
 {
     float dx_m = plot->x_m - (sensor ? sensor->x_m : 0.0f);
     float dy_m = plot->y_m - (sensor ? sensor->y_m : 0.0f);
@@ -339,8 +340,8 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
 
 /* ---- range rate ------------------------------------------------------------------------------ */
 
-int rho_measurement_range_rate(const float state[6], const struct rho_sensor *sensor, int use_z,
-                               float row[6], float *rate_mps)
+int rho_measurement_predict_range_rate(const float state[6], const struct rho_sensor *sensor,
+                                       int use_z, float row[6], float *rate_mps)
 {
     float along[3] = {state[0] - (sensor ? sensor->x_m : 0.0f),
                       state[1] - (sensor ? sensor->y_m : 0.0f),
@@ -373,11 +374,11 @@ int rho_measurement_range_rate(const float state[6], const struct rho_sensor *se
 /* Standard deviations of the expected range rate that half the span must hold. */
 #define CLEAR_SIGMAS 3.0f
 
-float rho_measurement_range_rate_error_mps(const struct rho_sensor *sensor, float measured_mps,
-                                           float expected_mps)
+float rho_measurement_range_rate_innovation_mps(const struct rho_sensor *sensor, float measured_mps,
+                                                float expected_mps)
 {
     float error_mps = measured_mps - expected_mps;
-    if (!rho_measurement_has_span(sensor)) {
+    if (!rho_measurement_has_ambiguous_range_rates(sensor)) {
         return error_mps;
     }
     float turns = error_mps / sensor->range_rate_span_mps;
@@ -388,9 +389,9 @@ float rho_measurement_range_rate_error_mps(const struct rho_sensor *sensor, floa
     return error_mps - (float)whole * sensor->range_rate_span_mps;
 }
 
-int rho_measurement_is_range_rate_clear(const struct rho_sensor *sensor, float variance)
+int rho_measurement_can_unfold_range_rate(const struct rho_sensor *sensor, float variance)
 {
-    if (!rho_measurement_has_span(sensor)) {
+    if (!rho_measurement_has_ambiguous_range_rates(sensor)) {
         return 1;
     }
     float half_mps = 0.5f * sensor->range_rate_span_mps;
@@ -424,7 +425,7 @@ int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
     float factor[RHO_TRIANGLE(INNOVATIONS_MAX)] = {0.0f}, whitened[INNOVATIONS_MAX] = {0.0f};
     float expected_mps = 0.0f;
     const int last = num - 1;
-    if (!rho_measurement_has_span(sensor)) {
+    if (!rho_measurement_has_ambiguous_range_rates(sensor)) {
         return 1;
     }
     for (int k = 0; k < RHO_TRIANGLE(num); k++) {
@@ -441,17 +442,18 @@ int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
         expected_mps += factor[RHO_AT(last, i)] * whitened[i];
     }
     const float sd_mps = factor[RHO_AT(last, last)];
-    if (!rho_measurement_is_range_rate_clear(sensor, sd_mps * sd_mps)) {
+    if (!rho_measurement_can_unfold_range_rate(sensor, sd_mps * sd_mps)) {
         return 0;
     }
-    innovation[last] =
-        expected_mps + rho_measurement_range_rate_error_mps(sensor, innovation[last], expected_mps);
+    innovation[last] = expected_mps + rho_measurement_range_rate_innovation_mps(
+                                          sensor, innovation[last], expected_mps);
     return 1;
 }
 
-float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_mps)
+float rho_measurement_log_num_aliases(const struct rho_sensor *sensor, float v_max_mps)
 {
-    if (!rho_measurement_has_span(sensor) || !(sensor->range_rate_span_mps < 2.0f * v_max_mps)) {
+    if (!rho_measurement_has_ambiguous_range_rates(sensor) ||
+        !(sensor->range_rate_span_mps < 2.0f * v_max_mps)) {
         return 0.0f;
     }
     return rho_log(2.0f * v_max_mps / sensor->range_rate_span_mps);
@@ -459,8 +461,9 @@ float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_m
 
 /* ---- bearings and coverage ------------------------------------------------------------------- */
 
-int rho_measurement_bearing(const float state[6], float x_m, float y_m, float bearing_rad,
-                            float row[6], float *off_m, float *range_m)
+int rho_measurement_bearing_innovation(const float state[6], float x_m, float y_m,
+                                       float bearing_rad, float row[6], float *off_m,
+                                       float *range_m)
 {
     float dx_m = state[0] - x_m, dy_m = state[1] - y_m;
     float range2_m2 = dx_m * dx_m + dy_m * dy_m;

@@ -39,7 +39,7 @@ enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t
     if (size != sizeof *accumulator) {
         return RHO_ERROR_SIZE;
     }
-    if (rho_accumulator_plane(config, &accumulator->theta_cells, &accumulator->rho_cells) !=
+    if (rho_accumulator_count_cells(config, &accumulator->theta_cells, &accumulator->rho_cells) !=
         RHO_OK) {
         return RHO_ERROR_CONFIG;
     }
@@ -78,7 +78,7 @@ static unsigned count_points(const struct rho_accumulator_points *points)
     return points->num_scans > 0 ? points->scan_end[points->num_scans - 1u] : 0u;
 }
 
-enum rho_status rho_accumulator_check(const struct rho_accumulator_points *points)
+enum rho_status rho_accumulator_check_points(const struct rho_accumulator_points *points)
 {
     if (!points || (points->num_scans > 0 && !points->scan_end)) {
         return RHO_ERROR_NULL;
@@ -148,10 +148,10 @@ static void clear_rows(struct rho_accumulator_pass *pass)
     }
 }
 
-enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
-                                     const struct rho_accumulator_points *points,
-                                     struct rho_accumulator_peak *peaks, uint32_t max_peaks,
-                                     struct rho_accumulator_result *result)
+enum rho_status rho_accumulator_find_peaks(struct rho_accumulator *accumulator,
+                                           const struct rho_accumulator_points *points,
+                                           struct rho_accumulator_peak *peaks, uint32_t max_peaks,
+                                           struct rho_accumulator_result *result)
 {
     if (!accumulator || !points || !result || (max_peaks > 0 && !peaks)) {
         return RHO_ERROR_NULL;
@@ -159,7 +159,7 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
     if (accumulator->magic != ACCUMULATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    enum rho_status status = rho_accumulator_check(points);
+    enum rho_status status = rho_accumulator_check_points(points);
     if (status != RHO_OK) {
         return status;
     }

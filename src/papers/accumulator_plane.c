@@ -27,8 +27,8 @@ static int is_usable(const struct rho_accumulator_config *config)
            (config->neighbours == 0 || config->neighbours == 4 || config->neighbours == 8);
 }
 
-enum rho_status rho_accumulator_plane(const struct rho_accumulator_config *config,
-                                      uint16_t *theta_cells, uint16_t *rho_cells)
+enum rho_status rho_accumulator_count_cells(const struct rho_accumulator_config *config,
+                                            uint16_t *theta_cells, uint16_t *rho_cells)
 {
     if (!is_usable(config)) {
         return RHO_ERROR_CONFIG;
@@ -69,9 +69,9 @@ void rho_accumulator_project(const float *restrict x_m, const float *restrict y_
     }
 }
 
-unsigned rho_accumulator_project_within(const float *restrict x_m, const float *restrict y_m,
-                                        unsigned n, struct rho_accumulator_projection place,
-                                        float last, int32_t *restrict cells)
+unsigned rho_accumulator_project_clamped(const float *restrict x_m, const float *restrict y_m,
+                                         unsigned n, struct rho_accumulator_projection place,
+                                         float last, int32_t *restrict cells)
 {
     unsigned outside = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -84,12 +84,12 @@ unsigned rho_accumulator_project_within(const float *restrict x_m, const float *
     return outside;
 }
 
-int rho_accumulator_cell(const struct rho_accumulator *accumulator, unsigned theta_cell, float x_m,
-                         float y_m)
+int rho_accumulator_cell_of_point(const struct rho_accumulator *accumulator, unsigned theta_cell,
+                                  float x_m, float y_m)
 {
     int32_t cell;
     float last = (float)(accumulator->rho_cells + 1u);
-    unsigned outside = rho_accumulator_project_within(
+    unsigned outside = rho_accumulator_project_clamped(
         &x_m, &y_m, 1, rho_accumulator_projection(accumulator, theta_cell), last, &cell);
     return outside ? -1 : cell - 1;
 }

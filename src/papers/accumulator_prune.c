@@ -47,12 +47,12 @@
 
 #define CELL uint8_t
 #define NAME(f) f##_narrow
-#include "accumulator_bins.h"
+#include "accumulator_prune_bins.h"
 #undef CELL
 #undef NAME
 #define CELL uint16_t
 #define NAME(f) f##_wide
-#include "accumulator_bins.h"
+#include "accumulator_prune_bins.h"
 #undef CELL
 #undef NAME
 

@@ -78,12 +78,12 @@ static int may_reach_min_scans_wide(const uint16_t *row, unsigned n, unsigned mi
 
 #define CELL uint8_t
 #define NAME(f) f##_narrow
-#include "accumulator_cells.h"
+#include "accumulator_row_loops.h"
 #undef CELL
 #undef NAME
 #define CELL uint16_t
 #define NAME(f) f##_wide
-#include "accumulator_cells.h"
+#include "accumulator_row_loops.h"
 #undef CELL
 #undef NAME
 
@@ -98,7 +98,7 @@ static void project_points(struct rho_accumulator_pass *pass, unsigned scans, un
     unsigned outside = 0;
     if (pass->scans_outside & scans) {
         float last = (float)(pass->accumulator->rho_cells + 1u);
-        outside = rho_accumulator_project_within(x_m, y_m, n, place, last, cells);
+        outside = rho_accumulator_project_clamped(x_m, y_m, n, place, last, cells);
     } else {
         rho_accumulator_project(x_m, y_m, n, place, cells);
     }

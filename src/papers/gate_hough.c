@@ -90,7 +90,7 @@ static float theta_of_least_rho_change(float da, float db, float theta_cell_rad,
                            theta_cell_rad);
 }
 
-enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes,
+enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough, uint8_t planes,
                                     float theta_cell_rad, const float before_mps[3],
                                     const float newest_mps[3])
 {

@@ -90,7 +90,8 @@ enum rho_status rho_hough_init(struct rho_hough *hough, size_t size,
     }
     struct rho_accumulator_config plane = accumulator_config_of(config);
     uint16_t theta_cells, rho_cells;
-    if (rho_accumulator_plane(&plane, &theta_cells, &rho_cells) != RHO_OK || !is_usable(config)) {
+    if (rho_accumulator_count_cells(&plane, &theta_cells, &rho_cells) != RHO_OK ||
+        !is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
     hough->config = *config;
@@ -118,7 +119,7 @@ static enum rho_status check_points(const struct rho_hough *hough,
     if (hough->magic != HOUGH_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    enum rho_status status = rho_accumulator_check(&points->at);
+    enum rho_status status = rho_accumulator_check_points(&points->at);
     if (status != RHO_OK) {
         return status;
     }
@@ -160,8 +161,8 @@ void rho_hough_count_pairs(const struct rho_hough *hough, const struct rho_hough
         for (uint32_t i = rho_hough_scan_start(points, scan - 1u); i < from; i++) {
             for (uint32_t j = from; j < end; j++) {
                 struct rho_hough_pair pair = {i, j};
-                *candidates = rho_count(*candidates,
-                                        rho_hough_speed(hough, points, pair) == RHO_SPEED_WITHIN);
+                *candidates = rho_count(*candidates, rho_hough_speed_check(hough, points, pair) ==
+                                                         RHO_SPEED_WITHIN);
             }
         }
     }
@@ -193,7 +194,7 @@ static enum rho_status find_ht_peaks(struct rho_hough *hough, const struct rho_h
     struct rho_accumulator_result found;
     enum rho_status status = init_accumulator(hough);
     if (status == RHO_OK) {
-        status = rho_accumulator_find(accumulator, &points->at, peaks, max_peaks, &found);
+        status = rho_accumulator_find_peaks(accumulator, &points->at, peaks, max_peaks, &found);
     }
     if (status != RHO_OK) {
         return status;
@@ -375,8 +376,8 @@ static void fill_ht_row(const struct rho_hough *hough, const struct rho_hough_po
     memset(row, 0, hough->rho_cells * sizeof row[0]);
     for (unsigned scan = 0; scan < points->at.num_scans; scan++) {
         for (uint32_t i = rho_hough_scan_start(points, scan); i < points->at.scan_end[scan]; i++) {
-            const int cell = rho_accumulator_cell(&hough->work.accumulator, theta,
-                                                  points->at.x_m[i], points->at.y_m[i]);
+            const int cell = rho_accumulator_cell_of_point(&hough->work.accumulator, theta,
+                                                           points->at.x_m[i], points->at.y_m[i]);
             if (cell >= 0) {
                 row[cell] = (uint16_t)(has_scans ? row[cell] | 1u << scan
                                                  : row[cell] + (row[cell] < UINT16_MAX ? 1u : 0u));
@@ -396,7 +397,7 @@ static enum rho_status note_ht_votes(struct rho_hough *hough, const struct rho_h
         for (unsigned cell = 0; cell < hough->rho_cells; cell++) {
             const uint32_t votes =
                 hough->config.votes == RHO_VOTES_SCANS ? rho_count_bits(row[cell]) : row[cell];
-            rho_plane_note(plane, theta, cell, votes * RHO_HOUGH_VOTE);
+            rho_plane_note_votes(plane, theta, cell, votes * RHO_HOUGH_VOTE);
         }
     }
     return status;
@@ -414,7 +415,7 @@ enum rho_status rho_hough_plane(struct rho_hough *hough, const struct rho_hough_
         (component != RHO_HOUGH_VOTES && !rho_hough_uses_kernels(hough))) {
         return RHO_ERROR_VALUE;
     }
-    status = rho_plane_open(plane, hough->theta_cells, hough->rho_cells);
+    status = rho_plane_init_picture(plane, hough->theta_cells, hough->rho_cells);
     if (status == RHO_OK && hough->config.method == RHO_HOUGH_HT) {
         status = note_ht_votes(hough, points, plane);
     } else if (status == RHO_OK) {
@@ -472,7 +473,7 @@ enum rho_status rho_hough_track(struct rho_hough *hough, const struct rho_hough_
         status = init_accumulator(hough);
     }
     if (status == RHO_OK) {
-        rho_hough_find_voters(hough, points, theta_cell, rho_cell, at_s, track);
+        rho_hough_fit_track_to_voters(hough, points, theta_cell, rho_cell, at_s, track);
     }
     return status;
 }

@@ -62,8 +62,8 @@ static uint32_t count_spread_cells(const struct rho_hough_pass *pass, int32_t ro
 void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint32_t votes)
 {
     const struct rho_hough *hough = pass->hough;
-    int32_t row = rho_hough_row(hough, line.theta_rad);
-    int32_t column = rho_hough_column(hough, line.rho_m);
+    int32_t row = rho_hough_row_of_theta(hough, line.theta_rad);
+    int32_t column = rho_hough_column_of_rho(hough, line.rho_m);
     if (column < 0) {
         return;
     }
@@ -217,7 +217,7 @@ static void list_or_note_cell(const struct rho_hough_pass *pass, struct rho_peak
                               int32_t row, int32_t column, uint32_t votes)
 {
     if (!list) {
-        rho_plane_note(pass->plane, (unsigned)row, (unsigned)column, votes);
+        rho_plane_note_votes(pass->plane, (unsigned)row, (unsigned)column, votes);
     } else if (votes >= list->min_votes) {
         rho_peak_list_add(list, (struct rho_accumulator_peak){.votes = votes,
                                                               .theta_cell = (uint16_t)row,

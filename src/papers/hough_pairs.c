@@ -17,9 +17,9 @@ int rho_hough_uses_kernels(const struct rho_hough *hough)
     return hough->config.method == RHO_HOUGH_NHT_A || hough->config.method == RHO_HOUGH_NHT_C;
 }
 
-enum rho_hough_speed rho_hough_speed(const struct rho_hough *hough,
-                                     const struct rho_hough_points *points,
-                                     struct rho_hough_pair pair)
+enum rho_hough_speed_check rho_hough_speed_check(const struct rho_hough *hough,
+                                                 const struct rho_hough_points *points,
+                                                 struct rho_hough_pair pair)
 {
     float dx_m = points->at.x_m[pair.second] - points->at.x_m[pair.first];
     float dy_m = points->at.y_m[pair.second] - points->at.y_m[pair.first];
@@ -34,7 +34,8 @@ enum rho_hough_speed rho_hough_speed(const struct rho_hough *hough,
                : RHO_SPEED_OUTSIDE;
 }
 
-struct rho_line rho_hough_line(const struct rho_hough_points *points, struct rho_hough_pair pair)
+struct rho_line rho_hough_line_through_pair(const struct rho_hough_points *points,
+                                            struct rho_hough_pair pair)
 {
     float x_m = points->at.x_m[pair.first], y_m = points->at.y_m[pair.first];
     return rho_angle_line(x_m, y_m, points->at.x_m[pair.second] - x_m,
@@ -73,7 +74,7 @@ static int is_nearer_pair(float distance2, struct rho_hough_pair pair, float oth
     return pair.first != other.first ? pair.first < other.first : pair.second < other.second;
 }
 
-void rho_hough_compare_kernel(const struct rho_hough *hough, struct rho_line line,
+void rho_hough_update_nearest(const struct rho_hough *hough, struct rho_line line,
                               struct rho_line kernel, struct rho_hough_pair pair,
                               struct rho_hough_nearest *nearest)
 {
@@ -128,10 +129,10 @@ static float falsity(const struct rho_hough *hough)
     return hough->config.lambda_k * hough->config.p_false * hough->config.p_false;
 }
 
-struct rho_hough_memberships rho_hough_memberships_of(const struct rho_hough *hough,
-                                                      const struct rho_hough_points *points,
-                                                      struct rho_line line,
-                                                      const struct rho_hough_nearest *nearest)
+struct rho_hough_memberships rho_hough_memberships_of_line(const struct rho_hough *hough,
+                                                           const struct rho_hough_points *points,
+                                                           struct rho_line line,
+                                                           const struct rho_hough_nearest *nearest)
 {
     const float f = falsity(hough);
     return (struct rho_hough_memberships){
@@ -244,7 +245,7 @@ static void compare_kernels_in_bin(const struct rho_hough_pass *pass, unsigned s
         struct bin in = bin_of_line(hough, at);
         if (in.theta == bin.theta && in.rho == bin.rho) {
             struct rho_hough_pair pair = {first + kernel->first, second + kernel->second};
-            rho_hough_compare_kernel(hough, line, at, pair, nearest);
+            rho_hough_update_nearest(hough, line, at, pair, nearest);
         }
     }
 }
@@ -291,7 +292,7 @@ static uint32_t component_of_vote(const struct rho_hough_pass *pass, struct rho_
         return rho_hough_vote_weight(pass->hough, pass->points, line, nearest);
     }
     const struct rho_hough_memberships of =
-        rho_hough_memberships_of(pass->hough, pass->points, line, nearest);
+        rho_hough_memberships_of_line(pass->hough, pass->points, line, nearest);
     return pass->component == RHO_HOUGH_TRUTH           ? of.truth
            : pass->component == RHO_HOUGH_INDETERMINACY ? of.indeterminacy
            : pass->component == RHO_HOUGH_FALSITY
@@ -303,7 +304,7 @@ static void vote_pair_by_kernels(struct rho_hough_pass *pass, unsigned scan, str
                                  struct rho_hough_pair pair)
 {
     const struct rho_hough *hough = pass->hough;
-    int32_t row = rho_hough_row(hough, line.theta_rad);
+    int32_t row = rho_hough_row_of_theta(hough, line.theta_rad);
     if (scan > 1 && rho_hough_has_row(hough, pass->voting, row)) {
         struct rho_hough_nearest nearest = find_nearest_kernels(pass, scan, line);
         uint32_t votes = component_of_vote(pass, line, &nearest);
@@ -324,11 +325,11 @@ static void vote_pair(struct rho_hough_pass *pass, unsigned scan, struct rho_hou
     if (!may_line_be_in_held_rows(pass, dx_m, dy_m)) {
         return;
     }
-    struct rho_line line = rho_hough_line(points, pair);
+    struct rho_line line = rho_hough_line_through_pair(points, pair);
     if (rho_hough_uses_kernels(pass->hough)) {
         vote_pair_by_kernels(pass, scan, line, pair);
     } else if (rho_hough_has_row(pass->hough, pass->wanted,
-                                 rho_hough_row(pass->hough, line.theta_rad))) {
+                                 rho_hough_row_of_theta(pass->hough, line.theta_rad))) {
         rho_hough_add_votes(pass, line, RHO_HOUGH_VOTE);
     }
 }
@@ -345,7 +346,7 @@ static void vote_pairs_of_plot(struct rho_hough_pass *pass, unsigned scan, uint3
     int takes_all = hough->config.method == RHO_HOUGH_MHT;
     for (uint32_t second = start; second < end; second++) {
         struct rho_hough_pair pair = {first, second};
-        enum rho_hough_speed speed = rho_hough_speed(hough, pass->points, pair);
+        enum rho_hough_speed_check speed = rho_hough_speed_check(hough, pass->points, pair);
         pass->found.candidates = rho_count(pass->found.candidates, speed == RHO_SPEED_WITHIN);
         if (speed == RHO_SPEED_WITHIN || (takes_all && speed == RHO_SPEED_OUTSIDE)) {
             vote_pair(pass, scan, pair);

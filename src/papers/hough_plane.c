@@ -16,13 +16,13 @@ int rho_hough_has_row(const struct rho_hough *hough, struct rho_hough_rows rows,
     return (behind < 0 ? behind + hough->theta_cells : behind) < rows.count;
 }
 
-int32_t rho_hough_row(const struct rho_hough *hough, float theta_rad)
+int32_t rho_hough_row_of_theta(const struct rho_hough *hough, float theta_rad)
 {
     int32_t row = (int32_t)(theta_rad / hough->config.theta_cell_rad);
     return row < hough->theta_cells ? row : hough->theta_cells - 1;
 }
 
-int32_t rho_hough_column(const struct rho_hough *hough, float rho_m)
+int32_t rho_hough_column_of_rho(const struct rho_hough *hough, float rho_m)
 {
     float column = (rho_m + hough->config.rho_max_m) / hough->config.rho_cell_m;
     return column >= 0.0f && column < (float)hough->rho_cells ? (int32_t)column : -1;

@@ -56,8 +56,9 @@ static struct rho_hough_nearest find_nearest_kernels(const struct rho_hough *hou
              j++) {
             struct rho_hough_pair pair = {i, j};
             if (may_be_on_line(points, j, line, rho_m, theta_rad) &&
-                rho_hough_speed(hough, points, pair) == RHO_SPEED_WITHIN) {
-                rho_hough_compare_kernel(hough, line, rho_hough_line(points, pair), pair, &nearest);
+                rho_hough_speed_check(hough, points, pair) == RHO_SPEED_WITHIN) {
+                rho_hough_update_nearest(hough, line, rho_hough_line_through_pair(points, pair),
+                                         pair, &nearest);
             }
         }
     }
@@ -79,7 +80,7 @@ static struct vote vote_of_line(const struct cell_query *query, unsigned scan, s
         struct rho_hough_nearest nearest =
             find_nearest_kernels(query->hough, query->points, scan, line);
         vote.weight = rho_hough_vote_weight(query->hough, query->points, line, &nearest);
-        vote.of = rho_hough_memberships_of(query->hough, query->points, line, &nearest);
+        vote.of = rho_hough_memberships_of_line(query->hough, query->points, line, &nearest);
     }
     return vote;
 }
@@ -89,12 +90,12 @@ struct rho_hough_memberships rho_hough_pair_memberships(const struct rho_hough *
                                                         unsigned scan, struct rho_hough_pair pair)
 {
     if (scan < 2 || !rho_hough_uses_kernels(hough) ||
-        rho_hough_speed(hough, points, pair) != RHO_SPEED_WITHIN) {
+        rho_hough_speed_check(hough, points, pair) != RHO_SPEED_WITHIN) {
         return (struct rho_hough_memberships){0};
     }
-    struct rho_line line = rho_hough_line(points, pair);
+    struct rho_line line = rho_hough_line_through_pair(points, pair);
     struct rho_hough_nearest nearest = find_nearest_kernels(hough, points, scan, line);
-    return rho_hough_memberships_of(hough, points, line, &nearest);
+    return rho_hough_memberships_of_line(hough, points, line, &nearest);
 }
 
 /*
@@ -128,18 +129,19 @@ static struct vote pair_vote_for_cell(const struct cell_query *query, unsigned s
 {
     const struct rho_hough *hough = query->hough;
     const struct vote none = {.weight = 0};
-    enum rho_hough_speed speed = rho_hough_speed(hough, query->points, pair);
+    enum rho_hough_speed_check speed = rho_hough_speed_check(hough, query->points, pair);
     int takes_all = hough->config.method == RHO_HOUGH_MHT;
     if (speed == RHO_SPEED_NO_LINE || (speed == RHO_SPEED_OUTSIDE && !takes_all)) {
         return none;
     }
-    struct rho_line line = rho_hough_line(query->points, pair);
-    int32_t column = rho_hough_column(hough, line.rho_m);
+    struct rho_line line = rho_hough_line_through_pair(query->points, pair);
+    int32_t column = rho_hough_column_of_rho(hough, line.rho_m);
     int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
     if (column < 0) {
         return none;
     }
-    int32_t rows = row_distance_to_cell(query, rho_hough_row(hough, line.theta_rad), &column);
+    int32_t rows =
+        row_distance_to_cell(query, rho_hough_row_of_theta(hough, line.theta_rad), &column);
     int32_t columns = column < query->column ? query->column - column : column - query->column;
     if (rows > (is_spread ? hough->theta_reach : 0) ||
         columns > (is_spread ? hough->rho_reach : 0)) {
@@ -232,8 +234,8 @@ static int add_ht_vote_of_plot(const struct cell_query *query, unsigned scan, ui
 {
     const struct rho_hough *hough = query->hough;
     const struct rho_accumulator_points *at = &query->points->at;
-    int column = rho_accumulator_cell(&hough->work.accumulator, (unsigned)query->row, at->x_m[i],
-                                      at->y_m[i]);
+    int column = rho_accumulator_cell_of_point(&hough->work.accumulator, (unsigned)query->row,
+                                               at->x_m[i], at->y_m[i]);
     int is_again = hough->config.votes == RHO_VOTES_SCANS && (track->mask >> scan & 1u);
     if (column != query->column) {
         return 0;
@@ -278,9 +280,9 @@ static void fit_track_to_voting_plots(const struct cell_query *query, float at_s
     fit_motion(&sums, at_s, track);
 }
 
-void rho_hough_find_voters(struct rho_hough *hough, const struct rho_hough_points *points,
-                           unsigned theta_cell, unsigned rho_cell, float at_s,
-                           struct rho_hough_track *track)
+void rho_hough_fit_track_to_voters(struct rho_hough *hough, const struct rho_hough_points *points,
+                                   unsigned theta_cell, unsigned rho_cell, float at_s,
+                                   struct rho_hough_track *track)
 {
     const struct rho_hough_config *config = &hough->config;
     int is_spread = config->method == RHO_HOUGH_NHT_C;

@@ -52,24 +52,25 @@ struct rho_hough_pair {
 /* ---- the plane ---- */
 
 int rho_hough_has_row(const struct rho_hough *hough, struct rho_hough_rows rows, int32_t row);
-int32_t rho_hough_row(const struct rho_hough *hough, float theta_rad);
+int32_t rho_hough_row_of_theta(const struct rho_hough *hough, float theta_rad);
 /* Column of the cell at rho_m; -1: beyond rho_max_m. */
-int32_t rho_hough_column(const struct rho_hough *hough, float rho_m);
+int32_t rho_hough_column_of_rho(const struct rho_hough *hough, float rho_m);
 uint32_t rho_hough_scan_start(const struct rho_hough_points *points, unsigned scan);
 
 /* ---- pairs ---- */
 
-enum rho_hough_speed { RHO_SPEED_NO_LINE, RHO_SPEED_OUTSIDE, RHO_SPEED_WITHIN };
+enum rho_hough_speed_check { RHO_SPEED_NO_LINE, RHO_SPEED_OUTSIDE, RHO_SPEED_WITHIN };
 
 /*
  * Whether the speed from the first plot of a pair to the second is within the limits; NO_LINE: both
  * are at the same position.
  */
-enum rho_hough_speed rho_hough_speed(const struct rho_hough *hough,
-                                     const struct rho_hough_points *points,
-                                     struct rho_hough_pair pair);
+enum rho_hough_speed_check rho_hough_speed_check(const struct rho_hough *hough,
+                                                 const struct rho_hough_points *points,
+                                                 struct rho_hough_pair pair);
 int rho_hough_uses_kernels(const struct rho_hough *hough);
-struct rho_line rho_hough_line(const struct rho_hough_points *points, struct rho_hough_pair pair);
+struct rho_line rho_hough_line_through_pair(const struct rho_hough_points *points,
+                                            struct rho_hough_pair pair);
 
 /* The two kernels nearest to a line, by the squared distance (drho / eps)^2 + (dtheta / eps)^2. */
 struct rho_hough_nearest {
@@ -82,7 +83,7 @@ struct rho_hough_nearest {
  * Enters a kernel into the two nearest of a line if it is within 2 eps and nearer. Among equally
  * near kernels the one with the lower plots counts.
  */
-void rho_hough_compare_kernel(const struct rho_hough *hough, struct rho_line line,
+void rho_hough_update_nearest(const struct rho_hough *hough, struct rho_line line,
                               struct rho_line kernel, struct rho_hough_pair pair,
                               struct rho_hough_nearest *nearest);
 
@@ -92,10 +93,10 @@ void rho_hough_compare_kernel(const struct rho_hough *hough, struct rho_line lin
  */
 uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
                                struct rho_line line, const struct rho_hough_nearest *nearest);
-struct rho_hough_memberships rho_hough_memberships_of(const struct rho_hough *hough,
-                                                      const struct rho_hough_points *points,
-                                                      struct rho_line line,
-                                                      const struct rho_hough_nearest *nearest);
+struct rho_hough_memberships rho_hough_memberships_of_line(const struct rho_hough *hough,
+                                                           const struct rho_hough_points *points,
+                                                           struct rho_line line,
+                                                           const struct rho_hough_nearest *nearest);
 
 /* Lets all pairs of plots vote, for the rows of a pass. */
 void rho_hough_vote_pairs(struct rho_hough_pass *pass);
@@ -130,8 +131,8 @@ struct rho_hough_memberships rho_hough_pair_memberships(const struct rho_hough *
  * Fits *track through the plots that voted for a cell: rho_hough_track with checked arguments; with
  * HT the accumulator must be set up.
  */
-void rho_hough_find_voters(struct rho_hough *hough, const struct rho_hough_points *points,
-                           unsigned theta_cell, unsigned rho_cell, float at_s,
-                           struct rho_hough_track *track);
+void rho_hough_fit_track_to_voters(struct rho_hough *hough, const struct rho_hough_points *points,
+                                   unsigned theta_cell, unsigned rho_cell, float at_s,
+                                   struct rho_hough_track *track);
 
 #endif

@@ -30,7 +30,7 @@ void rho_passive_paper_config_default(struct rho_passive_paper_config *config)
                                                 .rule = RHO_GHOST_LITERAL};
 }
 
-unsigned rho_passive_paper_rows(const struct rho_passive_paper_config *config)
+unsigned rho_passive_paper_count_rows(const struct rho_passive_paper_config *config)
 {
     return (unsigned)(RHO_PI / config->theta_cell_rad + 0.5f);
 }
@@ -43,7 +43,7 @@ static int is_usable(const struct rho_passive_paper_config *config)
            rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) &&
            2.0f * config->range_max_m <= config->rho_cell_m * (float)RHO_PAPER_RHO_CELLS &&
            rho_is_within(config->theta_cell_rad, 1.0e-4f, 0.5f) &&
-           rho_passive_paper_rows(config) <= RHO_PAPER_THETA_CELLS &&
+           rho_passive_paper_count_rows(config) <= RHO_PAPER_THETA_CELLS &&
            (unsigned)config->votes <= RHO_VOTES_POINTS && (unsigned)config->rule <= RHO_GHOST_SAFE;
 }
 
@@ -136,7 +136,7 @@ static void set_scan_times(struct rho_passive_paper_search *search)
 int rho_passive_paper_set_cells(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
-    search->rows = (int)rho_passive_paper_rows(&paper->config);
+    search->rows = (int)rho_passive_paper_count_rows(&paper->config);
     search->columns = RHO_PAPER_RHO_CELLS;
     paper->votes_min = paper->config.votes_min > 0
                            ? paper->config.votes_min

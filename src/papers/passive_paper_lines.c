@@ -171,10 +171,10 @@ static unsigned find_most_voted_neighbour(const struct rho_passive_paper_search 
 {
     uint8_t *counts = search->paper->rows[0];
     *best = (struct cell){fit->row, fit->column};
-    rho_passive_paper_vote_row(search, fit->row, counts);
+    rho_passive_paper_count_row_votes(search, fit->row, counts);
     unsigned most = counts[fit->column];
     for (int row = fit->row - search->near; row <= fit->row + search->near; row++) {
-        rho_passive_paper_vote_row(search, row, counts);
+        rho_passive_paper_count_row_votes(search, row, counts);
         for (int column = fit->column - search->near; column <= fit->column + search->near;
              column++) {
             if (column >= 0 && column < search->columns && counts[column] > most) {
@@ -196,7 +196,8 @@ static void add_pair_crossings_to_fit(struct rho_passive_paper_search *search, u
     line->votes = votes < line->votes ? (uint16_t)votes : line->votes;
     for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
         for (; i < paper->scan_end[scan]; i++) {
-            if (rho_passive_paper_column(search, direction, &paper->points[i]) == cell.column) {
+            if (rho_passive_paper_column_of_point(search, direction, &paper->points[i]) ==
+                cell.column) {
                 add_crossing_to_fit(search, number, scan, &paper->points[i]);
             }
         }

@@ -53,7 +53,7 @@ void rho_passive_paper_set_sensors(const struct rho_batch *batch,
  * few scans or sensors to search.
  */
 int rho_passive_paper_set_cells(struct rho_passive_paper_search *search);
-unsigned rho_passive_paper_rows(const struct rho_passive_paper_config *config);
+unsigned rho_passive_paper_count_rows(const struct rho_passive_paper_config *config);
 
 /* Sets the baseline of two sensors, relative to the centroid. Returns 0 where they are too near. */
 int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
@@ -68,12 +68,12 @@ struct rho_passive_paper_bearings {
  * Collects the bearings of two sensors in a scan, fills their ghost matrix and prunes it. Returns 0
  * on an error.
  */
-int rho_passive_paper_prune_ghosts(const struct rho_passive_paper_config *config,
-                                   const struct rho_batch *batch,
-                                   const struct rho_crossing_base *base, unsigned scan,
-                                   struct rho_passive_paper_pair pair,
-                                   struct rho_passive_paper_bearings *bearings,
-                                   struct rho_ghost_matrix *matrix);
+int rho_passive_paper_make_ghost_matrix(const struct rho_passive_paper_config *config,
+                                        const struct rho_batch *batch,
+                                        const struct rho_crossing_base *base, unsigned scan,
+                                        struct rho_passive_paper_pair pair,
+                                        struct rho_passive_paper_bearings *bearings,
+                                        struct rho_ghost_matrix *matrix);
 
 /*
  * Crosses the bearings of two sensors in all scans, prunes ghosts, and stores the rest in
@@ -83,13 +83,13 @@ void rho_passive_paper_cross_sensors(struct rho_passive_paper_search *search, un
                                      unsigned b);
 
 /* Column (cell of rho) in which a crossing votes for lines of a direction; -1: outside. */
-int rho_passive_paper_column(const struct rho_passive_paper_search *search,
-                             struct rho_passive_paper_direction direction,
-                             const struct rho_passive_paper_point *point);
+int rho_passive_paper_column_of_point(const struct rho_passive_paper_search *search,
+                                      struct rho_passive_paper_direction direction,
+                                      const struct rho_passive_paper_point *point);
 
 /* Counts the votes of the stored crossings for each cell of a row of theta. */
-void rho_passive_paper_vote_row(const struct rho_passive_paper_search *search, int row,
-                                uint8_t counts[RHO_PAPER_RHO_CELLS]);
+void rho_passive_paper_count_row_votes(const struct rho_passive_paper_search *search, int row,
+                                       uint8_t counts[RHO_PAPER_RHO_CELLS]);
 
 /*
  * Crosses and votes with all pairs of sensors: sums of votes into paper->cells, 0 where not all

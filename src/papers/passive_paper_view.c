@@ -65,8 +65,8 @@ enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
     }
     rho_passive_paper_set_sensors(&paper->batch, &search);
     return rho_passive_paper_set_base(&search, &paper->batch, pair->a, pair->b, &base) &&
-                   rho_passive_paper_prune_ghosts(&paper->config, &paper->batch, &base, scan, *pair,
-                                                  &bearings, matrix)
+                   rho_passive_paper_make_ghost_matrix(&paper->config, &paper->batch, &base, scan,
+                                                       *pair, &bearings, matrix)
                ? RHO_OK
                : RHO_ERROR_VALUE;
 }
@@ -90,7 +90,7 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
         .origin_x_m = search.middle_x_m,
         .origin_y_m = search.middle_y_m,
         .rho_max_m = 0.5f * paper->config.rho_cell_m * (float)RHO_PAPER_RHO_CELLS,
-        .theta_cells = (uint16_t)rho_passive_paper_rows(&paper->config),
+        .theta_cells = (uint16_t)rho_passive_paper_count_rows(&paper->config),
         .rho_cells = RHO_PAPER_RHO_CELLS};
     return RHO_OK;
 }
@@ -104,7 +104,7 @@ static void note_row_votes(const struct rho_passive_paper_search *search, int ro
 {
     for (int column = 0; column < search->columns; column++) {
         if (cells[column] > first) {
-            rho_plane_note(plane, (unsigned)row, (unsigned)column, cells[column] - first);
+            rho_plane_note_votes(plane, (unsigned)row, (unsigned)column, cells[column] - first);
         }
     }
 }
@@ -115,7 +115,7 @@ static void note_pair_votes(struct rho_passive_paper_search *search,
     uint8_t *counts = search->paper->rows[0];
     rho_passive_paper_cross_sensors(search, pair->a, pair->b);
     for (int row = 0; row < search->rows; row++) {
-        rho_passive_paper_vote_row(search, row, counts);
+        rho_passive_paper_count_row_votes(search, row, counts);
         note_row_votes(search, row, counts, 0, plane);
     }
 }
@@ -160,7 +160,7 @@ enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
     }
     enum rho_status status = prepare_search(paper, pair, &search);
     if (status == RHO_OK) {
-        status = rho_plane_open(plane, (unsigned)search.rows, (unsigned)search.columns);
+        status = rho_plane_init_picture(plane, (unsigned)search.rows, (unsigned)search.columns);
     }
     if (status == RHO_OK && pair) {
         note_pair_votes(&search, pair, plane);
@@ -181,7 +181,7 @@ static uint32_t scans_voting_for_cell(const struct rho_passive_paper_search *sea
     uint32_t mask = 0;
     for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
         for (; i < paper->scan_end[scan]; i++) {
-            if (rho_passive_paper_column(search, direction, &paper->points[i]) == column) {
+            if (rho_passive_paper_column_of_point(search, direction, &paper->points[i]) == column) {
                 mask |= 1u << scan;
             }
         }
@@ -194,7 +194,7 @@ static void list_pair_cells(const struct rho_passive_paper_search *search,
 {
     uint8_t *counts = search->paper->rows[0];
     for (int row = 0; row < search->rows; row++) {
-        rho_passive_paper_vote_row(search, row, counts);
+        rho_passive_paper_count_row_votes(search, row, counts);
         for (int column = 0; column < search->columns; column++) {
             rho_peak_list_add(list, (struct rho_accumulator_peak){.votes = counts[column],
                                                                   .theta_cell = (uint16_t)row,

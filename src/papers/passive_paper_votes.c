@@ -33,12 +33,12 @@ static void store_crossing(struct rho_passive_paper_search *search, unsigned sca
         (struct rho_passive_paper_point){.x_m = crossing->x_m, .y_m = crossing->y_m};
 }
 
-int rho_passive_paper_prune_ghosts(const struct rho_passive_paper_config *config,
-                                   const struct rho_batch *batch,
-                                   const struct rho_crossing_base *base, unsigned scan,
-                                   struct rho_passive_paper_pair pair,
-                                   struct rho_passive_paper_bearings *bearings,
-                                   struct rho_ghost_matrix *matrix)
+int rho_passive_paper_make_ghost_matrix(const struct rho_passive_paper_config *config,
+                                        const struct rho_batch *batch,
+                                        const struct rho_crossing_base *base, unsigned scan,
+                                        struct rho_passive_paper_pair pair,
+                                        struct rho_passive_paper_bearings *bearings,
+                                        struct rho_ghost_matrix *matrix)
 {
     memset(bearings, 0, sizeof *bearings);
     unsigned num_a = collect_bearings(batch, scan, pair.a, bearings->a_rad);
@@ -58,8 +58,8 @@ static void cross_scan(struct rho_passive_paper_search *search,
     const struct rho_passive_paper *paper = search->paper;
     struct rho_ghost_matrix matrix;
     struct rho_passive_paper_bearings bearings;
-    if (!rho_passive_paper_prune_ghosts(&paper->config, &paper->batch, base, scan, pair, &bearings,
-                                        &matrix)) {
+    if (!rho_passive_paper_make_ghost_matrix(&paper->config, &paper->batch, base, scan, pair,
+                                             &bearings, &matrix)) {
         return;
     }
     for (unsigned i = 0; i < matrix.rows; i++) {
@@ -126,9 +126,9 @@ rho_passive_paper_direction(const struct rho_passive_paper_search *search, int r
  * Eq. (3) for a crossing with known position: multiplied out it is rho = x cos(theta) + y
  * sin(theta).
  */
-int rho_passive_paper_column(const struct rho_passive_paper_search *search,
-                             struct rho_passive_paper_direction direction,
-                             const struct rho_passive_paper_point *point)
+int rho_passive_paper_column_of_point(const struct rho_passive_paper_search *search,
+                                      struct rho_passive_paper_direction direction,
+                                      const struct rho_passive_paper_point *point)
 {
     float rho_m = point->x_m * direction.cosine + point->y_m * direction.sine;
     float cell = rho_m / search->paper->config.rho_cell_m + 0.5f * (float)search->columns;
@@ -137,8 +137,8 @@ int rho_passive_paper_column(const struct rho_passive_paper_search *search,
 
 /* ---- votes ----------------------------------------------------------------------------------- */
 
-void rho_passive_paper_vote_row(const struct rho_passive_paper_search *search, int row,
-                                uint8_t counts[RHO_PAPER_RHO_CELLS])
+void rho_passive_paper_count_row_votes(const struct rho_passive_paper_search *search, int row,
+                                       uint8_t counts[RHO_PAPER_RHO_CELLS])
 {
     const struct rho_passive_paper *paper = search->paper;
     struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, row);
@@ -146,7 +146,7 @@ void rho_passive_paper_vote_row(const struct rho_passive_paper_search *search, i
     memset(counts, 0, RHO_PAPER_RHO_CELLS);
     for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
         for (; i < paper->scan_end[scan]; i++) {
-            int column = rho_passive_paper_column(search, direction, &paper->points[i]);
+            int column = rho_passive_paper_column_of_point(search, direction, &paper->points[i]);
             if (column >= 0 && counts[column] < UINT8_MAX &&
                 (paper->config.votes == RHO_VOTES_POINTS || voted[column] != scan + 1u)) {
                 counts[column]++;
@@ -191,11 +191,11 @@ static void confirm_cells_of_row(struct rho_passive_paper_search *search, int ro
 static void vote_pair(struct rho_passive_paper_search *search, int is_first)
 {
     uint8_t(*kept)[RHO_PAPER_RHO_CELLS] = search->paper->rows;
-    rho_passive_paper_vote_row(search, -1, kept[0]);
-    rho_passive_paper_vote_row(search, 0, kept[1]);
+    rho_passive_paper_count_row_votes(search, -1, kept[0]);
+    rho_passive_paper_count_row_votes(search, 0, kept[1]);
     for (int row = 0; row < search->rows; row++) {
         const uint8_t *const rows[3] = {kept[row % 3], kept[(row + 1) % 3], kept[(row + 2) % 3]};
-        rho_passive_paper_vote_row(search, row + 1, kept[(row + 2) % 3]);
+        rho_passive_paper_count_row_votes(search, row + 1, kept[(row + 2) % 3]);
         confirm_cells_of_row(search, row, rows, is_first);
     }
 }

@@ -47,8 +47,8 @@ void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track
                                       const struct rho_track_limits *limits)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
-    const int is_unseen = rho_tracker_is_long_unobserved(step, track, is_missed, limits) ||
-                          rho_tracker_is_place_unknown(step, track);
+    const int is_unseen = rho_tracker_update_and_test_unobserved(step, track, is_missed, limits) ||
+                          rho_tracker_is_place_too_uncertain(step, track);
     const int is_fast = count_fast_updates(step, track);
     rho_tracker_apply_thresholds(step, track, limits);
     if (track->status != RHO_TRACK_FREE && (is_unseen || is_fast || is_too_slow(step, track))) {
@@ -62,37 +62,38 @@ void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track
 /* Counts a miss and lowers the score; hypotheses have taken the miss from their score already. */
 static void apply_miss_to_track(const struct step *step, struct rho_track *track)
 {
-    rho_track_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
-                              ? 0
-                              : rho_tracker_mnat(-rho_tracker_detection(step, track).log_miss));
+    rho_track_count_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
+                                    ? 0
+                                    : rho_tracker_nat_to_mnat(
+                                          -rho_tracker_detection_of_track(step, track).log_miss));
 }
 
 void rho_tracker_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_expect_second_plots(step);
+        rho_tracker_score_second_plots(step);
     }
-    const struct rho_track_limits limits = rho_tracker_limits(step);
-    rho_tracker_find_evidence_needed(step);
+    const struct rho_track_limits limits = rho_tracker_track_limits(step);
+    rho_tracker_update_evidence_needed(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->status == RHO_TRACK_FREE || rho_tracker_is_frozen(track)) {
+        if (track->status == RHO_TRACK_FREE || rho_tracker_is_track_frozen(track)) {
             continue;
         }
-        int is_missed = track->plot < 0 && rho_tracker_is_in_view(step, row) &&
-                        rho_tracker_scan_looked_at(step, track);
-        if (is_missed && rho_tracker_is_blind(track) && track->was_confirmed) {
+        int is_missed = track->plot < 0 && rho_tracker_is_track_in_view(step, row) &&
+                        rho_tracker_may_count_miss(step, track);
+        if (is_missed && rho_tracker_is_mostly_blind_to(track) && track->was_confirmed) {
             is_missed = 0;
-            rho_tracker_note_blind_look(step, track);
+            rho_tracker_coast_blind_track(step, track);
         }
         if (is_missed) {
             apply_miss_to_track(step, track);
         }
         if (RHO_SECTORS) {
-            rho_tracker_note_sight(step, track);
+            rho_tracker_record_seeing_sensor(step, track);
         }
         rho_tracker_confirm_or_end_track(step, track, is_missed, &limits);
     }
-    rho_tracker_remove_ended(tracker);
+    rho_tracker_remove_ended_tracks(tracker);
 }

@@ -66,8 +66,8 @@ static int is_covered_else_count(struct step *step, const struct look *look, uin
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     const struct rho_bearing *bearing = &look->scan->bearings[i];
-    if (rho_tracker_covers_bearing(&look->sensor, bearing->bearing_rad,
-                                   BEARING_SIGMAS * bearing->sigma_rad)) {
+    if (rho_tracker_coverage_holds_bearing(&look->sensor, bearing->bearing_rad,
+                                           BEARING_SIGMAS * bearing->sigma_rad)) {
         return 1;
     }
     counters->plots_outside = rho_count(counters->plots_outside, 1);
@@ -98,7 +98,7 @@ static struct look prepare_look(struct step *step, const struct rho_bearing_scan
 /* 1 for a live track; 0 for a frozen one, which bearings do not change. */
 static int may_be_updated(const struct rho_track *track)
 {
-    return track->status != RHO_TRACK_FREE && !rho_tracker_is_frozen(track);
+    return track->status != RHO_TRACK_FREE && !rho_tracker_is_track_frozen(track);
 }
 
 /* ---- claim and update ------------------------------------------------------------------------ */
@@ -120,7 +120,7 @@ static int gate_and_score_bearing(const struct step *step, const struct look *lo
     struct rho_bearing bearing = look->scan->bearings[i];
     /* the update by an earlier look of the frame may have moved the track from the frame's time */
     bearing.offset_us = (int32_t)(bearing_time_us(look, i) - track->time_us);
-    rho_tracker_open_gate(step, track, 0, &gate);
+    rho_tracker_open_track_gate(step, track, 0, &gate);
     if (!rho_gate_test_bearing(&gate, &bearing, look->scan->x_m, look->scan->y_m, &result)) {
         return 0;
     }
@@ -136,7 +136,7 @@ static void offer_gated_bearings(struct step *step, const struct look *look, uns
     for (uint32_t i = 0; i < look->num; i++) {
         if (look->fates[i] == RHO_FATE_HELD &&
             gate_and_score_bearing(step, look, &tracker->tracks[row], i, &gain_nat)) {
-            rho_tracker_offer(step, row, i, gain_nat - step->log_miss);
+            rho_tracker_add_assignment_pair(step, row, i, gain_nat - step->log_miss);
         }
     }
 }
@@ -151,7 +151,7 @@ static void assign_bearings_of_look(struct step *step, const struct look *look)
             offer_gated_bearings(step, look, row);
         }
     }
-    rho_tracker_assign(step);
+    rho_tracker_solve_assignment(step);
 }
 
 static int update_track_by_bearing(struct step *step, const struct look *look,
@@ -169,7 +169,7 @@ static int update_track_by_bearing(struct step *step, const struct look *look,
         .row = (int16_t)i,
     };
     if (!gate_and_score_bearing(step, look, track, i, &gain_nat) ||
-        rho_track_update_bearing(track, &seen, &step->model, rho_tracker_mnat(gain_nat)) !=
+        rho_track_update_bearing(track, &seen, &step->model, rho_tracker_nat_to_mnat(gain_nat)) !=
             RHO_OK) {
         step->tracker->counters.updates_refused =
             rho_count(step->tracker->counters.updates_refused, 1);
@@ -192,9 +192,9 @@ static void update_or_penalise_tracks(struct step *step, const struct look *look
              update_track_by_bearing(step, look, track, (uint32_t)bearing))) {
             continue;
         }
-        if (rho_tracker_looked_at(step, look->scan->sector_from_rad, look->scan->sector_to_rad,
-                                  track)) {
-            rho_track_lower_score(track, rho_tracker_mnat(-step->log_miss));
+        if (rho_tracker_sector_covers_track(step, look->scan->sector_from_rad,
+                                            look->scan->sector_to_rad, track)) {
+            rho_track_lower_score(track, rho_tracker_nat_to_mnat(-step->log_miss));
         }
     }
 }
@@ -214,7 +214,7 @@ static void learn_unclaimed_bearing_count(struct step *step, const struct look *
 static void merge_estimates_per_track(struct step *step)
 {
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
-        if (!rho_tracker_is_frozen(&step->tracker->tracks[i])) {
+        if (!rho_tracker_is_track_frozen(&step->tracker->tracks[i])) {
             rho_track_merge_estimates(&step->tracker->tracks[i], step->time_us, &step->model);
         }
     }
@@ -226,9 +226,9 @@ static void predict_tracks(struct step *step)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         tracker->tracks[i].plot = -1;
         if (RHO_SECTORS) {
-            rho_tracker_note_time_ahead(&tracker->tracks[i]);
+            rho_tracker_store_track_time(&tracker->tracks[i]);
         }
-        if (!rho_tracker_is_frozen(&tracker->tracks[i])) {
+        if (!rho_tracker_is_track_frozen(&tracker->tracks[i])) {
             rho_tracker_predict_or_end_track(step, &tracker->tracks[i]);
         }
     }
@@ -242,8 +242,8 @@ static void claim_and_update_look_by_look(struct step *step)
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &frame->scans[i];
         struct look look = prepare_look(step, scan, first);
-        rho_tracker_note_pace(step->tracker, scan->sensor_id, &look.sensor, step->time_us,
-                              scan->sector_from_rad, scan->sector_to_rad);
+        rho_tracker_update_scan_interval(step->tracker, scan->sensor_id, &look.sensor,
+                                         step->time_us, scan->sector_from_rad, scan->sector_to_rad);
         step->sensor = &look.sensor;
         rho_tracker_set_pd(step);
         assign_bearings_of_look(step, &look);
@@ -261,7 +261,8 @@ static int is_looked_at_by_any_sensor(struct step *step, const struct rho_track 
         const struct rho_bearing_scan *scan = &step->frame->scans[i];
         struct rho_sensor sensor = sensor_of_bearing_scan(step, scan);
         step->sensor = &sensor;
-        is_seen = rho_tracker_looked_at(step, scan->sector_from_rad, scan->sector_to_rad, track);
+        is_seen = rho_tracker_sector_covers_track(step, scan->sector_from_rad, scan->sector_to_rad,
+                                                  track);
     }
     step->sensor = 0;
     return is_seen;
@@ -277,11 +278,11 @@ static void count_misses_and_end_tracks(struct step *step)
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (may_be_updated(track) && track->plot < 0 && is_looked_at_by_any_sensor(step, track)) {
-            rho_track_miss(track, 0);
+            rho_track_count_miss(track, 0);
         }
     }
-    const struct rho_track_limits limits = rho_tracker_limits(step);
-    rho_tracker_find_evidence_needed(step);
+    const struct rho_track_limits limits = rho_tracker_track_limits(step);
+    rho_tracker_update_evidence_needed(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (may_be_updated(track)) {
@@ -289,7 +290,7 @@ static void count_misses_and_end_tracks(struct step *step)
                                              track->plot < 0 && track->misses_in_row > 0, &limits);
         }
     }
-    rho_tracker_remove_ended(tracker);
+    rho_tracker_remove_ended_tracks(tracker);
 }
 
 /* ---- the step -------------------------------------------------------------------------------- */
@@ -378,7 +379,7 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
         count_misses_and_end_tracks(&step);
         rho_tracker_initiate_passive(&step);
         merge_estimates_per_track(&step);
-        rho_tracker_end_work(&step);
+        rho_tracker_record_work(&step);
     }
     rho_tracker_report(&step);
     return RHO_OK;

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "bearing_frame.h"
-#include "rhotrack/detail/crossing.h"
+#include "rhotrack/detail/bearing_crossing.h"
 
 /* Least margin of a found track over rival tracks of its bearings: ln of odds of 100 to 1. */
 #define MARGIN_MIN_MNAT 4605
@@ -185,7 +185,7 @@ void rho_tracker_initiate_passive(struct step *step)
     (void)!rho_passive_search(passive);
     step->tracker->counters.candidates_dropped =
         rho_count(step->tracker->counters.candidates_dropped, passive->work.candidates_dropped);
-    struct rho_track_limits limits = rho_tracker_limits(step);
+    struct rho_track_limits limits = rho_tracker_track_limits(step);
     limits.confirm_mnat = passive->start_mnat;
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *found = &passive->tracks[i];

@@ -23,7 +23,7 @@
 static void widen_noise_and_time_bounds(struct step *step, const struct rho_plot *plot)
 {
     float offset_s = (float)plot->offset_us * 1e-6f;
-    const float factor = rho_measurement_widest_factor(step->sensor);
+    const float factor = rho_measurement_largest_sigma_factor(step->sensor);
     step->sigma_max_m = rho_larger(step->sigma_max_m, factor * rho_plot_sigma_m(plot));
     step->offset_max_s = rho_larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
     if (step->scan->measures & RHO_MEASURES_Z) {
@@ -37,8 +37,8 @@ static void validate_plots(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const struct rho_plot *plot = &step->scan->plots[i];
-        int valid = rho_measurement_is_valid(plot, step->scan->measures);
-        if (valid && !rho_tracker_covers(step->sensor, plot, step->scan->measures)) {
+        int valid = rho_measurement_is_valid_plot(plot, step->scan->measures);
+        if (valid && !rho_tracker_coverage_holds_plot(step->sensor, plot, step->scan->measures)) {
             valid = 0;
             tracker->counters.plots_outside = rho_count(tracker->counters.plots_outside, 1);
         }
@@ -58,13 +58,13 @@ static int open_hough_gate(const struct step *step, const struct rho_track *trac
 {
     const struct rho_tracker_config *config = &step->tracker->config;
     uint8_t planes = config->planes;
-    if (!rho_kalman_is_open(&track->kalman, 2)) {
+    if (!rho_kalman_is_axis_open(&track->kalman, 2)) {
         planes = RHO_GATE_PLANE_XY;
     }
     return RHO_HAS_FILTER(RHO_TRACK_INPUT) && config->gate == RHO_TRACKER_HOUGH &&
            !RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) &&
            track->num_velocities >= HOUGH_VELOCITIES_MIN &&
-           rho_gate_hough_open(hough, planes, config->theta_cell_rad, track->before_mps,
+           rho_gate_hough_init(hough, planes, config->theta_cell_rad, track->before_mps,
                                track->newest_mps) == RHO_OK;
 }
 
@@ -139,11 +139,11 @@ static void offer_gated_plots(struct step *step, unsigned row)
     struct rho_gate_hough hough;
     struct rho_gate_result result;
     float half_m[2];
-    const float log_miss = rho_tracker_detection(step, track).log_miss;
-    const float log_density = rho_tracker_log_clutter_density(step, track);
+    const float log_miss = rho_tracker_detection_of_track(step, track).log_miss;
+    const float log_density = rho_tracker_log_clutter_density_at_track(step, track);
     const int by_hough = open_hough_gate(step, track, &hough);
     const int has_window = by_hough && (step->scan->measures & RHO_MEASURES_VELOCITY);
-    rho_tracker_open_gate(step, track, step->scan->measures, &gate);
+    rho_tracker_open_track_gate(step, track, step->scan->measures, &gate);
     rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
     if (has_window) {
         widen_box_for_hough_gate(step, track, half_m);
@@ -152,20 +152,20 @@ static void offer_gated_plots(struct step *step, unsigned row)
         step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
         gate.predicted.state[1] - half_m[1], gate.predicted.state[1] + half_m[1]);
     struct plots_near counted = near;
-    struct plot_choice choice = rho_tracker_choose_plots(step, track);
-    for (uint32_t i; choice.most < rho_tracker_max_plots_near(step, &near) &&
+    struct plot_choice choice = rho_tracker_begin_plot_choice(step, track);
+    for (uint32_t i; choice.most < rho_tracker_max_num_plots_near(step, &near) &&
                      rho_tracker_next_plot_near(step, &counted, &i);) {
         if (is_held_plot_in_box(step, &gate, half_m, i)) {
-            rho_tracker_note_choice(&choice, track, &step->scan->plots[i]);
+            rho_tracker_count_plot_for_choice(&choice, track, &step->scan->plots[i]);
         }
     }
-    rho_tracker_end_choice(step, &choice);
+    rho_tracker_end_plot_choice(step, &choice);
     for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         if (is_held_plot_in_box(step, &gate, half_m, i) &&
-            rho_tracker_is_chosen(step, &choice, track, plot) &&
+            rho_tracker_spend_if_plot_chosen(step, &choice, track, plot) &&
             (has_window || rho_gate_test(&gate, plot, &result))) {
-            rho_tracker_offer(
+            rho_tracker_add_assignment_pair(
                 step, row, i,
                 by_hough ? gain_by_hough_residual(step, track, &hough, plot)
                          : rho_tracker_score_plot(step, track, &result, log_density, i) - log_miss);
@@ -177,14 +177,14 @@ static void offer_gated_plots(struct step *step, unsigned row)
 
 static void offer_plots_scored_by_hypotheses(struct step *step, unsigned row)
 {
-    const float log_miss = rho_tracker_log_miss(step, &step->tracker->tracks[row]);
+    const float log_miss = rho_tracker_log_miss_probability(step, &step->tracker->tracks[row]);
     struct plot_scores scores;
     uint32_t plot;
     float gain_nat;
-    rho_tracker_begin_scores(step, row, &scores);
-    while (rho_tracker_next_score(step, &scores, &plot, &gain_nat)) {
+    rho_tracker_begin_plot_scores(step, row, &scores);
+    while (rho_tracker_next_plot_score(step, &scores, &plot, &gain_nat)) {
         if (gain_nat > log_miss) {
-            rho_tracker_offer(step, row, plot, gain_nat - log_miss);
+            rho_tracker_add_assignment_pair(step, row, plot, gain_nat - log_miss);
         }
     }
 }
@@ -195,17 +195,18 @@ void rho_tracker_claim(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     validate_plots(step);
-    rho_tracker_sort_plots(step);
+    rho_tracker_index_plots(step);
     if (RHO_CLAIMS_BEYOND && step->first_row > 0) {
         rho_tracker_measure_part_density(step);
     } else if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_look_at_clutter(step);
+        rho_tracker_find_clutter_at_plots(step);
     }
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
-    rho_tracker_begin_work(step);
+    rho_tracker_begin_tracks_work(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_tracker_is_in_view(step, row)) {
+        if (tracker->tracks[row].status == RHO_TRACK_FREE ||
+            !rho_tracker_is_track_in_view(step, row)) {
             continue;
         }
         if (RHO_TRACK_IS_BY(&tracker->tracks[row], RHO_TRACK_HYPOTHESES)) {
@@ -214,5 +215,5 @@ void rho_tracker_claim(struct step *step)
             offer_gated_plots(step, row);
         }
     }
-    rho_tracker_assign(step);
+    rho_tracker_solve_assignment(step);
 }

@@ -27,16 +27,16 @@ static void start_track_from_candidate(struct step *step, const struct rho_candi
         return;
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_note_start_echoes(step, candidate, &track);
+        rho_tracker_sum_echo_returns_at_start(step, candidate, &track);
     }
     if (RHO_SECTORS) {
-        rho_tracker_note_sight(step, &track);
+        rho_tracker_record_seeing_sensor(step, &track);
     }
     if (rho_tracker_admit_track(step, &track, limits)) {
         tracker->counters.plots_initiated = rho_count(
             tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
         if (RHO_MAX_ECHOES > 0) {
-            rho_tracker_expect_earlier_second_plots(step, candidate);
+            rho_tracker_raise_density_near_start_plots(step, candidate);
         }
     }
 }
@@ -46,7 +46,8 @@ static void search_newest_scan(struct step *step)
 {
     struct rho_initiator *initiator = step->initiator;
     const struct rho_initiator_budget before = initiator->budget;
-    (void)!rho_initiator_search_within(initiator, RHO_SEARCH_NEWEST, rho_tracker_work_left(step));
+    (void)!rho_initiator_search_within(initiator, RHO_SEARCH_NEWEST,
+                                       rho_tracker_work_left_for_search(step));
     step->work = rho_count(step->work, initiator->budget.work);
     step->plots_not_tried = rho_count(step->plots_not_tried,
                                       initiator->budget.plots_not_tried - before.plots_not_tried);
@@ -64,7 +65,7 @@ static void push_scan_into_window(struct step *step)
     held.num_plots = step->num_gated;
     if (step->sensor) {
         sensor = *step->sensor;
-        sensor.pd = rho_tracker_mean_pd(step);
+        sensor.pd = rho_tracker_pd_over_all_ranges(step);
     }
     (void)!rho_initiator_push(step->initiator, &held, step->sensor ? &sensor : 0,
                               step->report->fates, &step->tracker->counters.plots_clutter);
@@ -76,7 +77,7 @@ static void search_and_start_tracks(struct step *step)
     struct rho_initiator *initiator = step->initiator;
     push_scan_into_window(step);
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_keep_repeats(step);
+        rho_tracker_store_echo_ratios_in_window(step);
     }
     search_newest_scan(step);
     tracker->counters.candidates_dropped =
@@ -84,10 +85,10 @@ static void search_and_start_tracks(struct step *step)
     tracker->start_mnat = initiator->start_mnat;
     tracker->confirm_mnat = initiator->confirm_mnat;
     if (RHO_SECTORS) {
-        rho_tracker_note_thresholds(step);
+        rho_tracker_merge_sensor_thresholds(step);
     }
-    const struct rho_track_limits limits = rho_tracker_limits(step);
-    rho_tracker_begin_share(step, RHO_WORK_STARTS_SHARE);
+    const struct rho_track_limits limits = rho_tracker_track_limits(step);
+    rho_tracker_begin_work_share(step, RHO_WORK_STARTS_SHARE);
     /* a suspect sensor starts no tracks: plots of it alone are no evidence of a target */
     for (unsigned i = 0; i < initiator->num_candidates && !step->is_suspect; i++) {
         if (!is_newest_plot_used(initiator, &initiator->candidates[i])) {
@@ -104,7 +105,7 @@ void rho_tracker_initiate(struct step *step)
         rho_tracker_mark_unclaimed_no_room(step);
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_learn_clutter(step);
+        rho_tracker_update_clutter_map(step);
     }
-    rho_tracker_learn_unclaimed(step);
+    rho_tracker_smooth_unclaimed_count(step);
 }

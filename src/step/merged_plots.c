@@ -90,17 +90,18 @@ static int find_track_to_share_with(const struct step *step, unsigned row, struc
             pair->plot = offer->column;
             pair->first = &tracker->tracks[owner];
             pair->gain_nat = 0.0f;
-            (void)rho_tracker_gain_offered(step, (unsigned)owner, offer->column, &pair->gain_nat);
+            (void)rho_tracker_find_pair_gain(step, (unsigned)owner, offer->column, &pair->gain_nat);
         }
     }
     if (least == 0) {
         return 0;
     }
-    rho_measurement_open(&step->scan->plots[pair->plot], 0, step->sensor, &pair->seen);
+    rho_measurement_from_plot(&step->scan->plots[pair->plot], 0, step->sensor, &pair->seen);
     const float *from = pair->first->kalman.state, *to = pair->second->kalman.state;
     const float half_m[2] = {0.5f * (to[0] - from[0]), 0.5f * (to[1] - from[1])};
     rotate_to_line_of_sight(&pair->seen, half_m, pair->half_m);
-    rho_tracker_cell_at(step, &step->scan->plots[pair->plot], &pair->seen, pair->near_m2);
+    rho_tracker_resolution_cell_at_plot(step, &step->scan->plots[pair->plot], &pair->seen,
+                                        pair->near_m2);
     return 1;
 }
 
@@ -110,10 +111,10 @@ static float range_rate_difference_mps(const struct step *step, const struct tra
     const int use_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
     float row[6], first_mps, second_mps;
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE) ||
-        !rho_measurement_range_rate(pair->first->kalman.state, step->sensor, use_z, row,
-                                    &first_mps) ||
-        !rho_measurement_range_rate(pair->second->kalman.state, step->sensor, use_z, row,
-                                    &second_mps)) {
+        !rho_measurement_predict_range_rate(pair->first->kalman.state, step->sensor, use_z, row,
+                                            &first_mps) ||
+        !rho_measurement_predict_range_rate(pair->second->kalman.state, step->sensor, use_z, row,
+                                            &second_mps)) {
         return 0.0f;
     }
     return second_mps - first_mps;
@@ -143,7 +144,7 @@ static float unresolved_probability_on_axis(float near2, float apart, float vari
 static float unresolved_probability_by_range_rate(const struct step *step,
                                                   const struct track_pair *pair)
 {
-    const float near_mps2 = rho_tracker_rate_cell_mps2(step->sensor);
+    const float near_mps2 = rho_tracker_range_rate_cell_variance(step->sensor);
     const float first_mps = rho_track_sigma_mps(pair->first),
                 second_mps = rho_track_sigma_mps(pair->second);
     return near_mps2 > 0.0f
@@ -165,7 +166,7 @@ static void learn_resolution_cell_from_pair(struct step *step, const struct trac
         apart.of_one_m2[axis] = kept * (kept * apart_m * apart_m + both_m2[axis]);
         apart.of_two_m2[axis] = apart_m * apart_m + both_m2[axis];
     }
-    rho_tracker_learn_cell(step, &apart);
+    rho_tracker_learn_resolution_cell(step, &apart);
 }
 
 /*
@@ -188,7 +189,7 @@ static int test_merged_plot_and_learn_cell(struct step *step, const struct track
         ratio_nat += half_m * (from_m[axis] - 0.5f * half_m) /
                      (pair->seen.variance_m2[axis] + first_m2[axis]);
     }
-    const float log_miss = rho_tracker_detection(step, pair->second).log_miss;
+    const float log_miss = rho_tracker_detection_of_track(step, pair->second).log_miss;
     *gain_nat = rho_larger(log_miss, rho_smaller(ratio_nat, GAIN_MAX_NAT));
     const float one = merged * rho_exp(ratio_nat), two = (1.0f - merged) * rho_exp(log_miss);
     learn_resolution_cell_from_pair(step, pair, both_m2, one / (one + two));
@@ -200,7 +201,7 @@ static struct rho_track_plot own_plot_from_merged(const struct step *step,
                                                   const struct track_pair *pair,
                                                   const struct rho_track *other)
 {
-    struct rho_track_plot part = rho_tracker_plot_of(step, pair->plot);
+    struct rho_track_plot part = rho_tracker_make_track_plot(step, pair->plot);
     const float c = pair->seen.cos_azimuth, s = pair->seen.sin_azimuth;
     const float half_mps = 0.5f * range_rate_difference_mps(step, pair);
     float from_m[2], other_m2[2], farther_m[2], wider[2];
@@ -227,7 +228,7 @@ static struct rho_track_plot own_plot_from_merged(const struct step *step,
 static int update_by_own_plot(struct step *step, struct rho_track *track,
                               const struct rho_track_plot *part, float gain_nat)
 {
-    if (rho_track_update(track, part, &step->model, rho_tracker_mnat(gain_nat)) != RHO_OK) {
+    if (rho_track_update(track, part, &step->model, rho_tracker_nat_to_mnat(gain_nat)) != RHO_OK) {
         return 0;
     }
     /* hypotheses are at the plot's own time: bring the track's estimate to the step's */
@@ -268,9 +269,9 @@ static void learn_cell_from_resolved_pairs(struct step *step, unsigned row)
         const float none_m2[2] = {0.0f, 0.0f};
         struct track_pair pair = {.first = &tracker->tracks[row],
                                   .second = &tracker->tracks[other]};
-        rho_measurement_open(from, 0, step->sensor, &pair.seen);
+        rho_measurement_from_plot(from, 0, step->sensor, &pair.seen);
         rotate_to_line_of_sight(&pair.seen, half_m, pair.half_m);
-        rho_tracker_cell_at(step, from, &pair.seen, pair.near_m2);
+        rho_tracker_resolution_cell_at_plot(step, from, &pair.seen, pair.near_m2);
         learn_resolution_cell_from_pair(step, &pair, none_m2, 0.0f);
     }
 }

@@ -91,9 +91,9 @@ enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker, uint32_t tra
         return RHO_ERROR_CAPACITY;
     }
     rho_tracker_end_track(&step, track);
-    rho_tracker_remove_ended(tracker);
+    rho_tracker_remove_ended_tracks(tracker);
     if (rho_tracker_has_bodies(tracker)) {
-        rho_tracker_align_bodies(&step);
+        rho_tracker_align_bodies_with_tracks(&step);
     }
     tracker->counters.tracks_dropped = rho_count(tracker->counters.tracks_dropped, 1);
     rho_tracker_report_tracks(&step);
@@ -166,7 +166,7 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
         report->ended[report->num_ended++] = track_id;
     }
     if (rho_tracker_has_bodies(tracker)) {
-        rho_tracker_align_bodies(&step);
+        rho_tracker_align_bodies_with_tracks(&step);
         tracker->bodies.of[track - tracker->tracks].track_id = new_id;
     }
     track->track_id = new_id;
@@ -198,7 +198,7 @@ enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker, uint32_t t
     if (track->status == RHO_TRACK_TENTATIVE) {
         return RHO_ERROR_STATE;
     }
-    if (rho_tracker_is_frozen(track) == (is_frozen != 0)) {
+    if (rho_tracker_is_track_frozen(track) == (is_frozen != 0)) {
         return RHO_OK;
     }
     track->is_frozen = is_frozen != 0;

@@ -22,9 +22,9 @@ void rho_tracker_predict(struct step *step)
         struct rho_track *track = &tracker->tracks[i];
         track->plot = -1;
         if (RHO_SECTORS) {
-            rho_tracker_note_time_ahead(track);
+            rho_tracker_store_track_time(track);
         }
-        if (!rho_tracker_is_frozen(track) && rho_tracker_may_see(step, track) &&
+        if (!rho_tracker_is_track_frozen(track) && rho_tracker_may_see_track(step, track) &&
             !(RHO_SECTORS && rho_tracker_was_seen_in_last_sector(step, track)) &&
             !rho_tracker_is_only_seen_by_suspect_sensor(step, track)) {
             step->in_view[i / 32] |= 1u << i % 32;

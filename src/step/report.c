@@ -12,7 +12,7 @@ void rho_tracker_merge_estimates_per_track(struct step *step)
 {
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         struct rho_track *track = &step->tracker->tracks[i];
-        if (track->time_us == step->time_us && !rho_tracker_is_frozen(track)) {
+        if (track->time_us == step->time_us && !rho_tracker_is_track_frozen(track)) {
             rho_track_merge_estimates(track, step->time_us, &step->model);
         }
     }

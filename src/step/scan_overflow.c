@@ -36,7 +36,7 @@ static void exclude_assigned_tracks(struct step *step)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         const int had = rho_assignment_column(&tracker->assignment, i) != RHO_ASSIGNMENT_NONE;
-        if (rho_tracker_is_in_view(step, i) && (track->plot >= 0 || had)) {
+        if (rho_tracker_is_track_in_view(step, i) && (track->plot >= 0 || had)) {
             track->plot = (int16_t)(track->plot < 0 ? -1 : track->plot + (int32_t)step->first_row);
             step->in_view[i / 32] &= ~(1u << i % 32);
         }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * split_bodies: splits the track of a body that is two targets: its width surely exceeds that of
- * any target, or body_doubt.c finds in its length or range rates that it is two.
+ * any target, or body_split_evidence.c finds in its length or range rates that it is two.
  *
  * Cars abreast of each other are one group of plots from afar, and have one track. Nearer to the
  * sensor their body is seen to be as wide as two lanes; where one car is faster, range rates show
@@ -11,7 +11,7 @@
  */
 #include "phases.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/body_filter.h"
+#include "rhotrack/detail/body_extent_filter.h"
 
 #define WIDEST_SHARE 0.3f /* largest width of one body, over the length of the longest body */
 #define WIDER_SIGMAS 2.0f /* standard deviations by which a body of two targets is wider */
@@ -66,10 +66,10 @@ static int find_dividing_value(const struct step *step, const struct rho_scan *s
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     float least = 1e30f, most = -1e30f, rate_sigma_mps = 0.0f;
     struct body_plot at;
-    for (unsigned i =
-             rho_tracker_uncontested(groups, groups->first[step->tracker->tracks[row].plot]);
-         i != RHO_NO_ROW; i = rho_tracker_uncontested(groups, groups->next[i])) {
-        (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
+    for (unsigned i = rho_tracker_first_uncontested_plot(
+             groups, groups->first[step->tracker->tracks[row].plot]);
+         i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
+        (void)!rho_tracker_locate_plot_on_body(step, scan, row, i, &at);
         least = rho_smaller(least, separating_value(why, &at));
         most = rho_larger(most, separating_value(why, &at));
         rate_sigma_mps = rho_larger(rate_sigma_mps, scan->plots[i].sigma_range_rate_mps);
@@ -88,10 +88,10 @@ static int divide_plots_into_sides(const struct step *step, const struct rho_sca
     if (!find_dividing_value(step, scan, row, why, &middle)) {
         return 0;
     }
-    for (unsigned i =
-             rho_tracker_uncontested(groups, groups->first[step->tracker->tracks[row].plot]);
-         i != RHO_NO_ROW; i = rho_tracker_uncontested(groups, groups->next[i])) {
-        (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
+    for (unsigned i = rho_tracker_first_uncontested_plot(
+             groups, groups->first[step->tracker->tracks[row].plot]);
+         i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
+        (void)!rho_tracker_locate_plot_on_body(step, scan, row, i, &at);
         struct body_side *side = &sides[separating_value(why, &at) < middle];
         side->plots++;
         side->x_m += at.dx_m;
@@ -114,7 +114,7 @@ static enum rho_status start_track_from_side(const struct step *step, const stru
                                              uint32_t track_id, const struct body_side *side,
                                              struct rho_track *out)
 {
-    const float mean_m2 = rho_tracker_body_prior_m2(step->tracker) / (float)side->plots;
+    const float mean_m2 = rho_tracker_body_prior_variance_m2(step->tracker) / (float)side->plots;
     struct rho_kalman there = track->kalman;
     there.state[RHO_X] += side->x_m;
     there.state[RHO_Y] += side->y_m;
@@ -132,8 +132,9 @@ static void start_body_of_track(const struct step *step, unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_body_filter *body = &tracker->bodies.of[row];
-    rho_body_start(body, tracker->tracks[row].track_id, rho_tracker_body_prior_m2(tracker));
-    rho_tracker_turn_body(tracker, row);
+    rho_body_filter_init(body, tracker->tracks[row].track_id,
+                         rho_tracker_body_prior_variance_m2(tracker));
+    rho_tracker_set_body_heading(tracker, row);
 }
 
 /* Splits a track into its own, at side 0, and a new one, at side 1. 0: there is no room for it. */
@@ -147,13 +148,13 @@ static int split_track_in_two(struct step *step, unsigned row, const struct body
         return 0;
     }
     const struct rho_track was = *track;
-    rho_track_end(track, &step->model);
+    rho_track_free_hypotheses(track, &step->model);
     *track = was;
     track->slot = stays.slot;
     track->kalman = stays.kalman;
     track->input = stays.input;
     if (start_track_from_side(step, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
-        const struct rho_track_limits limits = rho_tracker_limits(step);
+        const struct rho_track_limits limits = rho_tracker_track_limits(step);
         /* the new track is not established: it may still be an image in a wall (reflectors.h) */
         if (leaves.hits >= RHO_ESTABLISHED_HITS) {
             leaves.hits = RHO_ESTABLISHED_HITS - 1;
@@ -174,14 +175,15 @@ void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan)
         if (tracker->tracks[row].plot < 0) {
             continue;
         }
-        rho_tracker_doubt_body(step, scan, row);
-        const enum rho_body_split why =
-            is_body_too_wide(step, row) ? RHO_BODY_TOO_WIDE : rho_tracker_why_two(step, row);
+        rho_tracker_add_body_split_evidence(step, scan, row);
+        const enum rho_body_split why = is_body_too_wide(step, row)
+                                            ? RHO_BODY_TOO_WIDE
+                                            : rho_tracker_find_body_split_reason(step, row);
         if (why != RHO_BODY_ONE && divide_plots_into_sides(step, scan, row, why, sides) &&
             split_track_in_two(step, row, sides)) {
             start_body_of_track(step, row);
             if (tracker->num_tracks > num_tracks) {
-                rho_tracker_align_bodies(step);
+                rho_tracker_align_bodies_with_tracks(step);
                 start_body_of_track(step, num_tracks);
             }
         }

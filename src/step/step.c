@@ -44,18 +44,20 @@ static void apply_sensor_to_step(struct step *step)
     }
     rho_tracker_set_pd(step);
     if (RHO_SECTORS) {
-        rho_tracker_note_look(step);
+        rho_tracker_record_scan_and_turning(step);
     }
     if (!step->is_late) {
-        rho_tracker_note_pace(step->tracker, step->scan->sensor_id, step->sensor, step->time_us,
-                              step->scan->sector_from_rad, step->scan->sector_to_rad);
+        rho_tracker_update_scan_interval(step->tracker, step->scan->sensor_id, step->sensor,
+                                         step->time_us, step->scan->sector_from_rad,
+                                         step->scan->sector_to_rad);
     }
     if (RHO_DOPPLER_NOTCH) {
-        rho_tracker_use_notch(step);
+        rho_tracker_apply_learned_notch(step);
     }
-    rho_tracker_set_noise(step, RHO_SECTORS ? rho_tracker_find_suspect(step) : 1.0f);
+    rho_tracker_apply_learned_noise(
+        step, RHO_SECTORS ? rho_tracker_update_suspect_and_sigma_factor(step) : 1.0f);
     step->log_range_rates -=
-        rho_measurement_log_aliases(step->sensor, step->tracker->config.v_max_mps);
+        rho_measurement_log_num_aliases(step->sensor, step->tracker->config.v_max_mps);
     step->range_rates_mps = rho_exp(step->log_range_rates);
 }
 
@@ -83,8 +85,8 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
     if (rho_tracker_begin_step(&step)) {
         apply_sensor_to_step(&step);
         rho_tracker_predict(&step);
-        if (rho_notch_has(step.sensor)) {
-            rho_tracker_find_blind(&step);
+        if (rho_notch_sensor_has_notch(step.sensor)) {
+            rho_tracker_set_blind_percents(&step);
         }
         struct rho_scan grouped;
         if (rho_tracker_has_bodies(tracker)) {
@@ -97,26 +99,26 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
             rho_tracker_update(&step);
         }
         rho_tracker_age(&step);
-        if (rho_notch_has(step.sensor)) {
-            rho_tracker_forget_blind(&step);
+        if (rho_notch_sensor_has_notch(step.sensor)) {
+            rho_tracker_clear_blind_percents(&step);
         }
         const int has_images = RHO_MAX_REFLECTORS > 0 && tracker->num_reflectors > 0;
         if (has_images) {
-            rho_tracker_mark_images(&step);
+            rho_tracker_mark_image_plots_as_ghosts(&step);
         }
         if (RHO_MAX_EXCLUDED_AREAS > 0 && tracker->num_excluded > 0) {
-            rho_tracker_mark_excluded(&step);
+            rho_tracker_mark_excluded_plots_as_ghosts(&step);
         }
         if (may_start_tracks(&step)) {
             rho_tracker_initiate(&step);
         } else if (RHO_SECTORS) {
-            rho_tracker_refuse_stale_plots(&step);
+            rho_tracker_mark_held_plots_stale(&step);
         }
         if (has_images && !step.is_late) {
-            rho_tracker_end_images(&step);
+            rho_tracker_end_image_tracks(&step);
         }
         if (RHO_SECTORS && step.is_late) {
-            rho_tracker_end_late_scan(&step);
+            rho_tracker_return_tracks_to_newest_time(&step);
         } else {
             rho_tracker_merge_estimates_per_track(&step);
         }
@@ -125,7 +127,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
             rho_tracker_split_bodies(&step, scan);
             rho_tracker_ungroup_plots(&step, scan);
         }
-        rho_tracker_end_work(&step);
+        rho_tracker_record_work(&step);
     }
     rho_tracker_report(&step);
     return RHO_OK;

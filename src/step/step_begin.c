@@ -37,7 +37,7 @@ void rho_tracker_set_motion_model(struct step *step)
     step->log_range_rates = step->log_rates;
     step->model.speed_sigma_mps = tracker->config.v_max_mps;
     step->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
-    if (rho_tracker_filter_of(&tracker->config) == RHO_TRACK_HYPOTHESES) {
+    if (rho_tracker_filter_of_config(&tracker->config) == RHO_TRACK_HYPOTHESES) {
         step->model.hypotheses = &tracker->hypotheses;
     } else if (tracker->config.input.is_estimated) {
         step->model.input = &tracker->config.input;
@@ -61,7 +61,7 @@ int rho_tracker_begin_step(struct step *step)
     report->num_plots = step->num_inputs;
     rho_tracker_set_motion_model(step);
     step->is_late = rho_tracker_is_late(tracker, step->time_us);
-    if (step->is_late && !(RHO_SECTORS && rho_tracker_takes_late_scan(step))) {
+    if (step->is_late && !(RHO_SECTORS && rho_tracker_accepts_late_scan(step))) {
         refuse_late_scan(step);
         return 0;
     }
@@ -70,7 +70,7 @@ int rho_tracker_begin_step(struct step *step)
         rho_tracker_count_late_scan(step);
         return 1;
     }
-    rho_tracker_reset_manoeuvre_interval(tracker, step->time_us);
+    rho_tracker_reset_manoeuvre_interval_after_silence(tracker, step->time_us);
     tracker->time_us = step->time_us;
     tracker->has_time = 1;
     return 1;

@@ -13,7 +13,7 @@ static int16_t row_of_window_plot(const struct rho_window *window,
                                   const struct rho_window_scan *scan, unsigned m, unsigned plot)
 {
     if (RHO_SECTORS && m + 1u == window->num_scans &&
-        rho_tracker_is_of_earlier_sector(window, scan, plot)) {
+        rho_tracker_is_plot_of_earlier_sector(window, scan, plot)) {
         return -1;
     }
     return (int16_t)(scan->marks[plot] & RHO_WINDOW_ROW);
@@ -27,7 +27,7 @@ unsigned rho_tracker_copy_candidate_plots(struct rho_window *window,
     for (unsigned m = 0; m < window->num_scans; m++) {
         if ((unsigned)candidate->mask >> m & 1u) {
             const struct rho_window_scan *scan = rho_window_scan_at(window, m);
-            struct rho_plot plot = rho_window_plot_of(scan, candidate->plot[m]);
+            struct rho_plot plot = rho_window_unpack_plot(scan, candidate->plot[m]);
             plots[n++] = (struct rho_track_plot){
                 .time_us = scan->time_us + plot.offset_us,
                 .measures = scan->measures & ~RHO_MEASURES_VELOCITY, /* not in the window */
@@ -74,7 +74,7 @@ static int make_room_for_track(struct step *step, int32_t score_mnat)
     memmove(&tracker->tracks[lowest], &tracker->tracks[lowest + 1],
             (tracker->num_tracks - lowest) * sizeof tracker->tracks[0]);
     if (RHO_KEEPS_OFFERS) {
-        rho_tracker_remove_offer_row(tracker, lowest);
+        rho_tracker_remove_assignment_row(tracker, lowest);
     }
     return 1;
 }
@@ -84,14 +84,14 @@ int rho_tracker_admit_track(struct step *step, struct rho_track *track,
 {
     struct rho_tracker *tracker = step->tracker;
     if (!make_room_for_track(step, track->score_mnat)) {
-        rho_track_end(track, &step->model);
+        rho_track_free_hypotheses(track, &step->model);
         return 0;
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_note_start_place(track);
+        rho_tracker_store_start_place(track);
     }
     if (RHO_SECTORS) {
-        rho_tracker_note_time_ahead(track);
+        rho_tracker_store_track_time(track);
     }
     track->seen_us = step->time_us;
     rho_tracker_apply_thresholds(step, track, limits);
@@ -109,8 +109,8 @@ static int are_usable_plots(const struct rho_tracker *tracker, const struct rho_
         if (!rho_is_stored_time(plots[i].time_us) ||
             plots[i].time_us - tracker->time_us > RHO_LIMIT_OFFSET_US || plots[i].row < -1 ||
             plots[i].row >= (int32_t)report->num_plots ||
-            !rho_measurement_is_valid(&plots[i].plot, plots[i].measures) ||
-            (plots[i].sensor && !rho_measurement_is_sensor(plots[i].sensor))) {
+            !rho_measurement_is_valid_plot(&plots[i].plot, plots[i].measures) ||
+            (plots[i].sensor && !rho_measurement_is_valid_sensor(plots[i].sensor))) {
             return 0;
         }
     }
@@ -138,19 +138,20 @@ static enum rho_status resume_step_for_start(struct rho_tracker *tracker, struct
         return status;
     }
     rho_tracker_set_pd(step);
-    return rho_tracker_is_score(score_mnat) && score_mnat >= rho_tracker_limits(step).tentative_mnat
+    return rho_tracker_is_score(score_mnat) &&
+                   score_mnat >= rho_tracker_track_limits(step).tentative_mnat
                ? RHO_OK
                : RHO_ERROR_VALUE;
 }
 
 static enum rho_status admit_track_between_steps(struct step *step, struct rho_track *track)
 {
-    const struct rho_track_limits limits = rho_tracker_limits(step);
+    const struct rho_track_limits limits = rho_tracker_track_limits(step);
     /* a full tracker ends another track, which needs a place in the report's list of ended ones */
     const int has_room =
         step->tracker->num_tracks < RHO_MAX_TRACKS || step->report->num_ended < RHO_MAX_TRACKS;
     if (!has_room) {
-        rho_track_end(track, &step->model);
+        rho_track_free_hypotheses(track, &step->model);
     }
     if (!has_room || !rho_tracker_admit_track(step, track, &limits)) {
         return RHO_ERROR_CAPACITY;
@@ -185,9 +186,9 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
         return status;
     }
     if (RHO_SECTORS) {
-        const struct rho_tracker_look *look = rho_tracker_own_look(&step);
+        const struct rho_tracker_look *look = rho_tracker_look_of_scan_sensor(&step);
         step.look = look ? look->count : 0;
-        rho_tracker_note_sight(&step, &track);
+        rho_tracker_record_seeing_sensor(&step, &track);
     }
     return admit_track_between_steps(&step, &track);
 }

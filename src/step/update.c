@@ -13,19 +13,19 @@ static int32_t score_plot_in_gate(const struct step *step, const struct rho_trac
 {
     struct rho_gate gate;
     struct rho_gate_result result;
-    rho_tracker_open_gate(step, track, step->scan->measures, &gate);
+    rho_tracker_open_track_gate(step, track, step->scan->measures, &gate);
     if (!rho_gate_test(&gate, &step->scan->plots[plot], &result)) {
         return 0;
     }
-    return rho_tracker_mnat(rho_tracker_score_plot(
-        step, track, &result, rho_tracker_log_clutter_density(step, track), plot));
+    return rho_tracker_nat_to_mnat(rho_tracker_score_plot(
+        step, track, &result, rho_tracker_log_clutter_density_at_track(step, track), plot));
 }
 
 static void update_track_by_plot(struct step *step, struct rho_track *track, int plot)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     const int32_t gain = score_plot_in_gate(step, track, (uint32_t)plot);
-    const struct rho_track_plot seen = rho_tracker_plot_of(step, plot);
+    const struct rho_track_plot seen = rho_tracker_make_track_plot(step, plot);
     if (rho_track_update(track, &seen, &step->model, gain) == RHO_OK) {
         step->report->fates[plot] = RHO_FATE_CLAIMED;
     } else {
@@ -63,8 +63,8 @@ static void rescore_unassigned_plots(struct step *step, unsigned row)
     struct plot_scores scores;
     uint32_t plot;
     float gain_nat;
-    rho_tracker_begin_scores(step, row, &scores);
-    while (rho_tracker_next_score(step, &scores, &plot, &gain_nat)) {
+    rho_tracker_begin_plot_scores(step, row, &scores);
+    while (rho_tracker_next_plot_score(step, &scores, &plot, &gain_nat)) {
     }
 }
 
@@ -78,7 +78,7 @@ static void update_hypotheses_of_track(struct step *step, unsigned row)
     struct rho_track *track = &tracker->tracks[row];
     struct rho_assignment *assignment = &tracker->assignment;
     uint32_t refused = tracker->hypotheses.updates_refused;
-    const float log_miss = rho_tracker_log_miss(step, track);
+    const float log_miss = rho_tracker_log_miss_probability(step, track);
     const int assigned = rho_assignment_column(assignment, row);
     const struct rho_hypotheses_scan scan = {
         .time_us = step->time_us,
@@ -96,10 +96,10 @@ static void update_hypotheses_of_track(struct step *step, unsigned row)
     if (were_listed_plots_taken(step, row)) {
         rescore_unassigned_plots(step, row);
     } else {
-        rho_tracker_release_share(step);
+        rho_tracker_release_reserved_work(step);
     }
     /* cannot fail: the track has hypotheses */
-    (void)!rho_track_commit(track, &scan, step->scan->sensor_id, &step->model);
+    (void)!rho_track_commit_scan(track, &scan, step->scan->sensor_id, &step->model);
     refused = tracker->hypotheses.updates_refused - refused;
     tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, refused);
     if (assigned != RHO_ASSIGNMENT_NONE && assigned != track->plot) {
@@ -121,7 +121,7 @@ void rho_tracker_update(struct step *step)
         rho_tracker_update_sensor_health(step);
     }
     rho_tracker_learn_sensor(step);
-    rho_tracker_begin_work(step);
+    rho_tracker_begin_tracks_work(step);
     if (RHO_SHARES_PLOTS) {
         rho_tracker_share_merged_plots(step);
     }
@@ -131,7 +131,7 @@ void rho_tracker_update(struct step *step)
         const int may_wait =
             RHO_CLAIMS_BEYOND && step->has_more_parts && plot == RHO_ASSIGNMENT_NONE;
         if (track->status == RHO_TRACK_FREE || track->plot >= 0 || may_wait ||
-            !rho_tracker_is_in_view(step, row)) {
+            !rho_tracker_is_track_in_view(step, row)) {
             continue;
         }
         if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {

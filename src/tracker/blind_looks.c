@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * blind_looks: tracks in the Doppler notch of a sensor (rhotrack/detail/notch.h).
+ * blind_looks: tracks in the Doppler notch of a sensor (rhotrack/detail/doppler_notch.h).
  *
  * The share of looks that are blind follows from the range rate that a track's estimate expects.
  * Where most looks are blind, a scan without a plot is no miss: a confirmed track coasts, with its
@@ -35,12 +35,13 @@ static float share_of_blind_looks(const struct step *step, const struct rho_trac
     const struct rho_hypotheses *pool = &step->tracker->hypotheses;
     float sum = 0.0f, shares = 0.0f;
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        return rho_notch_share(step->sensor, track->kalman.state, track->kalman.covariance);
+        return rho_notch_blind_probability(step->sensor, track->kalman.state,
+                                           track->kalman.covariance);
     }
     for (unsigned i = 0; i < rho_hypotheses_count(pool, track->slot); i++) {
         const struct rho_hypothesis *at = rho_hypotheses_at(pool, track->slot, i);
         shares += at->share;
-        sum += at->share * rho_imm_notch_share(&at->imm, step->sensor);
+        sum += at->share * rho_imm_blind_probability(&at->imm, step->sensor);
     }
     return shares > 0.0f ? sum / shares : 0.0f;
 }
@@ -48,14 +49,14 @@ static float share_of_blind_looks(const struct step *step, const struct rho_trac
 static uint8_t percent_of_blind_looks(const struct step *step, const struct rho_track *track)
 {
     if (rho_seconds_between(track->updated_us, step->time_us) > BLIND_MAX_S ||
-        rho_tracker_clutter_in_gate(step, track) > BLIND_CLUTTER_MAX) {
+        rho_tracker_expected_clutter_in_gate(step, track) > BLIND_CLUTTER_MAX) {
         return 0;
     }
     const float percent = 100.0f * share_of_blind_looks(step, track);
     return (uint8_t)(percent < BLIND_PERCENT_MOST ? percent : BLIND_PERCENT_MOST);
 }
 
-void rho_tracker_find_blind(struct step *step)
+void rho_tracker_set_blind_percents(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     step->notch_look = (struct rho_notch_look){
@@ -64,13 +65,13 @@ void rho_tracker_find_blind(struct step *step)
     };
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->status != RHO_TRACK_FREE && rho_tracker_is_in_view(step, row)) {
+        if (track->status != RHO_TRACK_FREE && rho_tracker_is_track_in_view(step, row)) {
             track->blind_percent = percent_of_blind_looks(step, track);
         }
     }
 }
 
-void rho_tracker_forget_blind(struct step *step)
+void rho_tracker_clear_blind_percents(struct step *step)
 {
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
         step->tracker->tracks[row].blind_percent = 0;
@@ -81,22 +82,23 @@ static int may_stand_in_notch(const struct step *step, const struct rho_track *t
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float most_mps = RHO_NOTCH_STAND_WIDTHS * step->sensor->notch_mps;
-    return rho_tracker_is_blind(track) &&
+    return rho_tracker_is_mostly_blind_to(track) &&
            velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] <=
                most_mps * most_mps;
 }
 
-struct detection rho_tracker_detection_beside_notch(const struct step *step,
-                                                    const struct rho_track *track)
+struct detection rho_tracker_detection_with_notch(const struct step *step,
+                                                  const struct rho_track *track)
 {
     const float blind = 0.01f * (float)track->blind_percent;
-    const float seen = rho_exp(rho_tracker_usual_detection(step, track).log_pd) * (1.0f - blind);
+    const float seen =
+        rho_exp(rho_tracker_detection_without_notch(step, track).log_pd) * (1.0f - blind);
     return (struct detection){rho_log(seen + NOTCH_PD * blind), may_stand_in_notch(step, track)
                                                                     ? STAND_MISS_NAT
                                                                     : rho_log(1.0f - seen)};
 }
 
-void rho_tracker_note_blind_look(const struct step *step, struct rho_track *track)
+void rho_tracker_coast_blind_track(const struct step *step, struct rho_track *track)
 {
     track->status =
         (uint8_t)rho_track_next_status((enum rho_track_status)track->status, RHO_TRACK_MISS);

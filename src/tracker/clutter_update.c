@@ -17,7 +17,7 @@
 
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/clutter_map_cells.h"
+#include "rhotrack/detail/clutter_map_echoes.h"
 #include "rhotrack/detail/measurement.h"
 #include "step.h"
 
@@ -92,7 +92,7 @@ static float normal_over_uniform_rate(const struct step *step, float off_mps, fl
                         : 0.0f; /* most plots: exp() has underflowed */
 }
 
-float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance)
+float rho_tracker_range_rate_ratio(const struct step *step, float off_mps, float variance)
 {
     return 1.0f - RATE_SHARE +
            RATE_SHARE *
@@ -108,7 +108,7 @@ static struct echo_range_rate_ratios echo_range_rate_ratios(const struct step *s
     const float off_mps =
         plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
     return (struct echo_range_rate_ratios){normal_over_uniform_rate(step, off_mps, variance),
-                                           rho_tracker_rate_ratio(step, off_mps, variance)};
+                                           rho_tracker_range_rate_ratio(step, off_mps, variance)};
 }
 
 /* Learned share of echoes' plots that have exactly the range rate of the echo's own speed. */
@@ -137,7 +137,8 @@ static void learn_exact_rate_share(struct step *step, const struct rho_echo *ech
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return;
     }
-    const struct echo_view view = rho_clutter_map_view(step->sensor, echo->x_m, echo->y_m);
+    const struct echo_view view =
+        rho_clutter_map_view_from_sensor(step->sensor, echo->x_m, echo->y_m);
     const struct echo_range_rate_ratios ratios = echo_range_rate_ratios(step, echo, &view, plot);
     const float share = share_of_exact_rates(map);
     const float exact = share * ratios.exact;
@@ -188,11 +189,11 @@ static void add_echo_density_at_plots(struct step *step, unsigned place)
             continue;
         }
         if (probability < 0.0f) {
-            view = rho_clutter_map_view(step->sensor, echo->x_m, echo->y_m);
+            view = rho_clutter_map_view_from_sensor(step->sensor, echo->x_m, echo->y_m);
             probability =
                 rho_clutter_map_return_probability(map, echo->region, echo->hits, echo->unseen);
         }
-        rho_tracker_spend(step, units);
+        rho_tracker_spend_work(step, units);
         const float density = probability * echo_density_at(step, echo, &view, plot);
         if (!(density > 0.0f)) {
             continue;
@@ -203,7 +204,7 @@ static void add_echo_density_at_plots(struct step *step, unsigned place)
             map->best_echo[i] = (uint16_t)place;
         }
     }
-    rho_tracker_spend(step, passed / RHO_WORK_PASSED_A_UNIT);
+    rho_tracker_spend_work(step, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
 /* Clears the echo's results of the last scan. Returns 1 where the new scan covers the echo. */
@@ -228,7 +229,8 @@ static int predict_or_drop_echo(struct step *step, struct rho_echo *echo, float 
         return 0;
     }
     if (echo->region == UINT8_MAX || echo->unseen == 1) {
-        echo->region = rho_clutter_map_region(step->sensor, range_max_m, echo->x_m, echo->y_m);
+        echo->region =
+            rho_clutter_map_region_of_place(step->sensor, range_max_m, echo->x_m, echo->y_m);
     }
     rho_clutter_map_predict_echo(echo, step->time_us);
     if (!(echo->along[0] + echo->across[0] < UNKNOWN_SHARE * range_max_m * range_max_m)) {
@@ -246,12 +248,12 @@ static void predict_echoes_and_add_densities(struct step *step, float range_max_
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     unsigned place = map->first_echo, left_out = 0;
-    rho_tracker_begin_share(step, RHO_WORK_ECHOES_SHARE);
+    rho_tracker_begin_work_share(step, RHO_WORK_ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
         if (!clear_echo_and_is_covered(step, &map->echoes[place])) {
             continue;
         }
-        if (rho_tracker_is_spent(step)) {
+        if (rho_tracker_is_work_share_spent(step)) {
             map->first_echo = (uint16_t)(left_out == 0 ? place : map->first_echo);
             left_out++;
         } else if (predict_or_drop_echo(step, &map->echoes[place], range_max_m)) {
@@ -273,8 +275,9 @@ struct direction {
 static struct direction direction_of_plot(const struct step *step, uint32_t row)
 {
     const struct rho_plot *plot = &step->scan->plots[row];
-    const struct echo_view view = rho_clutter_map_view(step->sensor, plot->x_m, plot->y_m);
-    const unsigned bin = (unsigned)(rho_clutter_map_direction(&view) * (float)RHO_ECHO_STROBES);
+    const struct echo_view view =
+        rho_clutter_map_view_from_sensor(step->sensor, plot->x_m, plot->y_m);
+    const unsigned bin = (unsigned)(rho_clutter_map_azimuth_share(&view) * (float)RHO_ECHO_STROBES);
     return (struct direction){bin < RHO_ECHO_STROBES ? bin : 0, view.range_m};
 }
 
@@ -349,7 +352,8 @@ static int may_have_strobes(const struct step *step, float range_max_m)
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD) {
             const struct rho_plot *plot = &step->scan->plots[i];
-            const struct echo_view view = rho_clutter_map_view(step->sensor, plot->x_m, plot->y_m);
+            const struct echo_view view =
+                rho_clutter_map_view_from_sensor(step->sensor, plot->x_m, plot->y_m);
             ranges |= 1u << eighth_of_range(view.range_m, range_max_m);
             plots += 1.0f;
         }
@@ -399,7 +403,7 @@ static void match_echoes_and_take_log_ratios(struct step *step)
             continue;
         }
         const struct rho_plot *plot = &step->scan->plots[i];
-        const float density = rho_tracker_density_at_plot(step, plot);
+        const float density = rho_tracker_background_density_at_plot(step, plot);
         if (map->best_per_m2[i] > 0.0f) {
             struct rho_echo *echo = &map->echoes[map->best_echo[i]];
             const float weight = map->best_per_m2[i] / (density + map->denser[i]);
@@ -412,7 +416,7 @@ static void match_echoes_and_take_log_ratios(struct step *step)
     }
 }
 
-void rho_tracker_look_at_clutter(struct step *step)
+void rho_tracker_find_clutter_at_plots(struct step *step)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     map->is_looked = !step->is_late;
@@ -428,7 +432,7 @@ void rho_tracker_look_at_clutter(struct step *step)
     match_echoes_and_take_log_ratios(step);
 }
 
-float rho_tracker_repeats_nat(const struct step *step, uint32_t row)
+float rho_tracker_log_echo_density_ratio(const struct step *step, uint32_t row)
 {
     const struct rho_clutter_map *map = &step->tracker->clutter_map;
     return map->is_looked && step->first_row == 0 ? map->denser[row] : 0.0f;
@@ -436,7 +440,7 @@ float rho_tracker_repeats_nat(const struct step *step, uint32_t row)
 
 /* ---- keep ------------------------------------------------------------------------------------ */
 
-void rho_tracker_keep_repeats(struct step *step)
+void rho_tracker_store_echo_ratios_in_window(struct step *step)
 {
     struct rho_window *window = &step->initiator->window;
     const struct rho_clutter_map *map = &step->tracker->clutter_map;
@@ -444,7 +448,7 @@ void rho_tracker_keep_repeats(struct step *step)
     for (unsigned i = 0; i < scan->num_plots && map->is_looked; i++) {
         const unsigned row = scan->marks[i] & RHO_WINDOW_ROW;
         if (row >= step->num_gated ||
-            (RHO_SECTORS && rho_tracker_is_of_earlier_sector(window, scan, i))) {
+            (RHO_SECTORS && rho_tracker_is_plot_of_earlier_sector(window, scan, i))) {
             continue; /* a plot of an earlier sector has its density ratio already */
         }
         const float repeats = RHO_WINDOW_REPEATS_PER_NAT * map->denser[row] + 0.5f;
@@ -454,8 +458,8 @@ void rho_tracker_keep_repeats(struct step *step)
 
 /* ---- plots of targets ------------------------------------------------------------------------ */
 
-void rho_tracker_note_start_echoes(struct step *step, const struct rho_candidate *candidate,
-                                   struct rho_track *track)
+void rho_tracker_sum_echo_returns_at_start(struct step *step, const struct rho_candidate *candidate,
+                                           struct rho_track *track)
 {
     struct rho_window *window = &step->initiator->window;
     unsigned hits = 0;
@@ -473,7 +477,7 @@ void rho_tracker_note_start_echoes(struct step *step, const struct rho_candidate
     }
 }
 
-void rho_tracker_note_start_place(struct rho_track *track)
+void rho_tracker_store_start_place(struct rho_track *track)
 {
     track->start_m[0] = track->kalman.state[0];
     track->start_m[1] = track->kalman.state[1];
@@ -511,11 +515,11 @@ static void remove_track_returns_from_map(struct step *step, struct rho_track *t
     if (track->has_taken_back) {
         return;
     }
-    rho_clutter_map_remove_returns(&step->tracker->clutter_map,
-                                   rho_clutter_map_region(step->sensor, range_max_of_sensor(step),
-                                                          track->kalman.state[0],
-                                                          track->kalman.state[1]),
-                                   track->returns);
+    rho_clutter_map_remove_returns(
+        &step->tracker->clutter_map,
+        rho_clutter_map_region_of_place(step->sensor, range_max_of_sensor(step),
+                                        track->kalman.state[0], track->kalman.state[1]),
+        track->returns);
     track->has_taken_back = 1;
 }
 
@@ -548,7 +552,7 @@ static void update_returns_and_find_target_plots(struct step *step, uint32_t *ta
         struct rho_track *track = &tracker->tracks[i];
         for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
             track->returns[c] *=
-                rho_clutter_map_remaining(share); /* as the map's sums fade with time */
+                rho_clutter_map_decay_factor(share); /* as the map's sums fade with time */
         }
         if (track->plot < 0 || (uint32_t)track->plot >= step->num_gated) {
             continue;
@@ -614,7 +618,7 @@ static void add_echoes(struct step *step, const uint32_t *targets, const uint32_
     for (uint32_t i = 0; i < step->num_gated; i++) {
         num += plot_becomes_echo(step, targets, taken, i) ? 1u : 0u;
     }
-    rho_clutter_map_make_room(map, num, step->time_us);
+    rho_clutter_map_free_places(map, num, step->time_us);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (!plot_becomes_echo(step, targets, taken, i)) {
             continue;
@@ -630,7 +634,8 @@ static void add_echoes(struct step *step, const uint32_t *targets, const uint32_
         struct rho_echo *echo = &map->echoes[place];
         rho_clutter_map_start_echo(map, echo, step->scan->sensor_id, step->time_us, plot);
         echo->is_target = (uint8_t)is_row_in_set(targets, i);
-        echo->region = rho_clutter_map_region(step->sensor, range_max_m, plot->x_m, plot->y_m);
+        echo->region =
+            rho_clutter_map_region_of_place(step->sensor, range_max_m, plot->x_m, plot->y_m);
     }
 }
 
@@ -643,11 +648,11 @@ static float share_of_turn(const struct step *step)
         const float silent_s = rho_seconds_between(tracker->paces[i].time_us, step->time_us);
         sensors += silent_s < SILENT_S ? 1.0f : 0.0f;
     }
-    return 1.0f / ((RHO_SECTORS ? rho_tracker_scans_a_turn(step) : 1.0f) *
+    return 1.0f / ((RHO_SECTORS ? rho_tracker_scans_per_turn(step) : 1.0f) *
                    (sensors > 1.0f ? sensors : 1.0f));
 }
 
-void rho_tracker_learn_clutter(struct step *step)
+void rho_tracker_update_clutter_map(struct step *step)
 {
     uint32_t targets[(RHO_MAX_PLOTS + 31) / 32] = {0}, taken[(RHO_MAX_PLOTS + 31) / 32] = {0};
     if (!step->tracker->clutter_map.is_looked) {
@@ -657,17 +662,17 @@ void rho_tracker_learn_clutter(struct step *step)
     update_returns_and_find_target_plots(step, targets, share);
     update_echoes(step, targets, taken);
     add_echoes(step, targets, taken);
-    rho_clutter_map_age(&step->tracker->clutter_map, share);
+    rho_clutter_map_age_counts(&step->tracker->clutter_map, share);
 }
 
 /* ---- the object ------------------------------------------------------------------------------ */
 
-void rho_tracker_open_clutter_map(struct rho_tracker *tracker)
+void rho_tracker_init_clutter_map(struct rho_tracker *tracker)
 {
     rho_clutter_map_init(&tracker->clutter_map, tracker->config.v_min_mps);
 }
 
-int rho_tracker_has_moved(const struct rho_track *track)
+int rho_tracker_is_known_moving_target(const struct rho_track *track)
 {
     return track->has_taken_back;
 }
@@ -677,7 +682,7 @@ int rho_tracker_has_sound_clutter_map(const struct rho_tracker *tracker)
     return rho_clutter_map_is_sound(&tracker->clutter_map);
 }
 
-int rho_tracker_has_sound_returns(const struct rho_track *track)
+int rho_tracker_has_sound_echo_returns(const struct rho_track *track)
 {
     return rho_are_finite(track->returns, RHO_ECHO_HIT_CLASSES) &&
            rho_are_finite(track->start_m, 2) && rho_are_finite(&track->start_sigma_m, 1);

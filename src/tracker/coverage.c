@@ -33,8 +33,8 @@ static int is_near_sector(float azimuth_rad, float from_rad, float to_rad, float
 /* Standard deviations of its noise that a plot may lie outside of the sensor's stated coverage. */
 #define PLOT_SIGMAS 4.0f
 
-int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *plot,
-                       uint32_t measures)
+int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
+                                    uint32_t measures)
 {
     if (!sensor) {
         return 1;
@@ -51,7 +51,8 @@ int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *p
     }
     return !(cross_sigma_m < ground_m) ||
            rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad) ||
-           rho_tracker_covers_bearing(sensor, rho_atan2(dy_m, dx_m), cross_sigma_m / ground_m);
+           rho_tracker_coverage_holds_bearing(sensor, rho_atan2(dy_m, dx_m),
+                                              cross_sigma_m / ground_m);
 }
 
 /* True where the scan or the sensor covers a sector instead of the full circle. */
@@ -74,12 +75,13 @@ static int is_near_both_sectors(const struct step *step, float azimuth_rad, floa
                                       margin_rad));
 }
 
-int rho_tracker_covers_bearing(const struct rho_sensor *sensor, float bearing_rad, float margin_rad)
+int rho_tracker_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_rad,
+                                       float margin_rad)
 {
     return is_near_sector(bearing_rad, sensor->sector_from_rad, sensor->sector_to_rad, margin_rad);
 }
 
-int rho_tracker_may_see(const struct step *step, const struct rho_track *track)
+int rho_tracker_may_see_track(const struct step *step, const struct rho_track *track)
 {
     const struct rho_sensor *sensor = step->sensor;
     const float *state = track->kalman.state;
@@ -110,23 +112,23 @@ int rho_tracker_may_see(const struct step *step, const struct rho_track *track)
     return is_near_both_sectors(step, rho_atan2(dy_m, dx_m), margin_m / range_m * (0.5f * RHO_PI));
 }
 
-int rho_tracker_is_in_view(const struct step *step, unsigned row)
+int rho_tracker_is_track_in_view(const struct step *step, unsigned row)
 {
     return (step->in_view[row / 32] >> row % 32 & 1u) != 0;
 }
 
-int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float sector_to_rad,
-                          const struct rho_track *track)
+int rho_tracker_sector_covers_track(const struct step *step, float sector_from_rad,
+                                    float sector_to_rad, const struct rho_track *track)
 {
     return rho_measurement_covers(step->sensor, sector_from_rad, sector_to_rad,
                                   track->kalman.state[0], track->kalman.state[1]);
 }
 
-int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *track)
+int rho_tracker_may_count_miss(const struct step *step, const struct rho_track *track)
 {
     if (RHO_SECTORS) {
         return !step->is_suspect && rho_tracker_has_passed_gate(step, track);
     }
-    return rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
-                                 track);
+    return rho_tracker_sector_covers_track(step, step->scan->sector_from_rad,
+                                           step->scan->sector_to_rad, track);
 }

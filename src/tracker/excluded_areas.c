@@ -65,7 +65,7 @@ enum rho_status rho_tracker_include_place(struct rho_tracker *tracker, float x_m
     return RHO_OK;
 }
 
-int rho_tracker_has_sound_excluded(const struct rho_tracker *tracker)
+int rho_tracker_has_sound_excluded_areas(const struct rho_tracker *tracker)
 {
     const int num = tracker->num_excluded;
     int i = 0;
@@ -75,7 +75,7 @@ int rho_tracker_has_sound_excluded(const struct rho_tracker *tracker)
     return i == num;
 }
 
-int rho_tracker_lies_excluded(const struct step *step, uint32_t plot)
+int rho_tracker_is_in_excluded_area(const struct step *step, uint32_t plot)
 {
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_plot *at = &step->scan->plots[plot];
@@ -86,12 +86,12 @@ int rho_tracker_lies_excluded(const struct step *step, uint32_t plot)
     return k < tracker->num_excluded;
 }
 
-void rho_tracker_mark_excluded(struct step *step)
+void rho_tracker_mark_excluded_plots_as_ghosts(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    rho_tracker_spend(step, step->num_gated * tracker->num_excluded / COMPARED_A_UNIT);
+    rho_tracker_spend_work(step, step->num_gated * tracker->num_excluded / COMPARED_A_UNIT);
     for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] == RHO_FATE_HELD && rho_tracker_lies_excluded(step, i)) {
+        if (step->report->fates[i] == RHO_FATE_HELD && rho_tracker_is_in_excluded_area(step, i)) {
             step->report->fates[i] = RHO_FATE_GHOST;
             tracker->counters.plots_excluded = rho_count(tracker->counters.plots_excluded, 1);
         }

@@ -18,7 +18,7 @@
 /* Radius of the circle that stands for a track's gate, standard deviations of the track's place. */
 #define GATE_SIGMAS 3.0f
 
-float rho_tracker_usual_density(const struct step *step, float x_m, float y_m)
+float rho_tracker_background_density(const struct step *step, float x_m, float y_m)
 {
     const struct rho_tracker *tracker = step->tracker;
     if (step->initiator) {
@@ -31,15 +31,15 @@ float rho_tracker_usual_density(const struct step *step, float x_m, float y_m)
     return (tracker->unclaimed_plots > 1.0f ? tracker->unclaimed_plots : 1.0f) / area_m2;
 }
 
-float rho_tracker_density_at_plot(const struct step *step, const struct rho_plot *plot)
+float rho_tracker_background_density_at_plot(const struct step *step, const struct rho_plot *plot)
 {
-    const float density = rho_tracker_usual_density(step, plot->x_m, plot->y_m);
+    const float density = rho_tracker_background_density(step, plot->x_m, plot->y_m);
     return density > DENSITY_MIN ? density : DENSITY_MIN;
 }
 
 static float background_density_in_part(const struct step *step, float x_m, float y_m)
 {
-    float density = rho_tracker_usual_density(step, x_m, y_m);
+    float density = rho_tracker_background_density(step, x_m, y_m);
     if (RHO_CLAIMS_BEYOND && step->part_share > 0.0f) {
         density *= step->part_share;
         density = step->part_per_m2 > density ? step->part_per_m2 : density;
@@ -47,13 +47,14 @@ static float background_density_in_part(const struct step *step, float x_m, floa
     return density;
 }
 
-float rho_tracker_log_clutter_density(const struct step *step, const struct rho_track *track)
+float rho_tracker_log_clutter_density_at_track(const struct step *step,
+                                               const struct rho_track *track)
 {
     return rho_log(
         background_density_in_part(step, track->kalman.state[0], track->kalman.state[1]));
 }
 
-float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_track *track)
+float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct rho_track *track)
 {
     if (step->frame) {
         return 0.0f;
@@ -91,7 +92,7 @@ void rho_tracker_smooth_mean(float *mean, float newest)
     *mean += CLUTTER_SMOOTHING * (newest - *mean);
 }
 
-void rho_tracker_learn_unclaimed(struct step *step)
+void rho_tracker_smooth_unclaimed_count(struct step *step)
 {
     float unclaimed = 0.0f;
     for (uint32_t i = 0; i < step->num_gated; i++) {
@@ -99,5 +100,5 @@ void rho_tracker_learn_unclaimed(struct step *step)
         unclaimed += fate == RHO_FATE_HELD || fate == RHO_FATE_NO_ROOM ? 1.0f : 0.0f;
     }
     rho_tracker_smooth_mean(&step->tracker->unclaimed_plots,
-                            unclaimed * (RHO_SECTORS ? rho_tracker_scans_a_turn(step) : 1.0f));
+                            unclaimed * (RHO_SECTORS ? rho_tracker_scans_per_turn(step) : 1.0f));
 }

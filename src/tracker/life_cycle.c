@@ -29,12 +29,12 @@ void rho_tracker_end_track(struct step *step, struct rho_track *track)
     if (track->was_confirmed) {
         report->ended[report->num_ended++] = track->track_id;
     }
-    rho_track_end(track, &step->model);
+    rho_track_free_hypotheses(track, &step->model);
     track->status = RHO_TRACK_FREE;
     step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
 }
 
-void rho_tracker_remove_ended(struct rho_tracker *tracker)
+void rho_tracker_remove_ended_tracks(struct rho_tracker *tracker)
 {
     unsigned live = 0;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -65,16 +65,16 @@ static float largest_miss_loss_of_sensors(const struct step *step)
     return loss;
 }
 
-struct rho_track_limits rho_tracker_limits(const struct step *step)
+struct rho_track_limits rho_tracker_track_limits(const struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     struct rho_track_limits limits = {
         .confirm_mnat = tracker->confirm_mnat,
         .doubt_mnat = LIFETIME_MNAT * (int32_t)tracker->looks_max,
         .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
-        .fall_mnat =
-            rho_tracker_mnat(largest_miss_loss_of_sensors(step) *
-                             (float)tracker->config.coast_scans_max * (float)tracker->looks_max),
+        .fall_mnat = rho_tracker_nat_to_mnat(largest_miss_loss_of_sensors(step) *
+                                             (float)tracker->config.coast_scans_max *
+                                             (float)tracker->looks_max),
         .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
     };
     return limits;
@@ -83,8 +83,8 @@ struct rho_track_limits rho_tracker_limits(const struct step *step)
 static int may_be_hidden_target(const struct step *step, const struct rho_track *track)
 {
     return rho_tracker_is_established(track) &&
-           (RHO_MAX_ECHOES == 0 || rho_tracker_has_moved(track)) &&
-           rho_tracker_clutter_in_gate(step, track) <= HIDE_CLUTTER_MAX;
+           (RHO_MAX_ECHOES == 0 || rho_tracker_is_known_moving_target(track)) &&
+           rho_tracker_expected_clutter_in_gate(step, track) <= HIDE_CLUTTER_MAX;
 }
 
 /*
@@ -114,9 +114,9 @@ void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
     if (is_late || rho_tracker_lacks_evidence(step, track)) {
         own.doubt_mnat = 0;
     }
-    rho_tracker_note_established(step, track);
+    rho_tracker_count_if_established(step, track);
     if (rho_track_apply_thresholds(track, &own) == RHO_TRACK_FREE) {
-        rho_tracker_note_early_end(step, track);
+        rho_tracker_count_if_ended_early(step, track);
         rho_tracker_end_track(step, track);
     } else if (track->was_confirmed != was_confirmed) {
         step->tracker->counters.tracks_confirmed =

@@ -29,11 +29,12 @@
 /* Longest time between two steps that is counted. */
 #define LOOKED_S 60.0f
 
-void rho_tracker_reset_manoeuvre_interval(struct rho_tracker *tracker, int64_t time_us)
+void rho_tracker_reset_manoeuvre_interval_after_silence(struct rho_tracker *tracker,
+                                                        int64_t time_us)
 {
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) &&
         rho_seconds_between(tracker->time_us, time_us) > LOOKED_S) {
-        rho_hypotheses_set_calm(&tracker->hypotheses, RHO_IMM_CALM_S);
+        rho_hypotheses_set_calm_interval(&tracker->hypotheses, RHO_IMM_CALM_S);
         tracker->straight_s = tracker->turning_s = 0.0f;
     }
 }
@@ -55,8 +56,8 @@ void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s)
     const float calm_s = (PRIOR * RHO_IMM_CALM_S + tracker->straight_s) /
                          (PRIOR + tracker->turning_s / model->maneuver_s);
     if (calm_s >= 2.0f * model->calm_s && model->calm_s < LONGEST_S) {
-        rho_hypotheses_set_calm(&tracker->hypotheses, 2.0f * model->calm_s);
+        rho_hypotheses_set_calm_interval(&tracker->hypotheses, 2.0f * model->calm_s);
     } else if (calm_s < 0.75f * model->calm_s && model->calm_s > RHO_IMM_CALM_S) {
-        rho_hypotheses_set_calm(&tracker->hypotheses, 0.5f * model->calm_s);
+        rho_hypotheses_set_calm_interval(&tracker->hypotheses, 0.5f * model->calm_s);
     }
 }

@@ -8,7 +8,7 @@
 
 #define LATE_LIMIT_S 60.0f
 
-void rho_tracker_set_late_default(struct rho_tracker_config *config)
+void rho_tracker_set_late_max_default(struct rho_tracker_config *config)
 {
     config->late_max_s = 20.0f;
 }
@@ -18,7 +18,7 @@ int rho_tracker_is_late_max_usable(const struct rho_tracker_config *config)
     return rho_is_within(config->late_max_s, 0.0f, LATE_LIMIT_S);
 }
 
-int rho_tracker_takes_late_scan(const struct step *step)
+int rho_tracker_accepts_late_scan(const struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_tracker_look *look =
@@ -34,12 +34,12 @@ void rho_tracker_count_late_scan(struct step *step)
     counters->scans_retrodicted = rho_count(counters->scans_retrodicted, 1);
 }
 
-void rho_tracker_note_time_ahead(struct rho_track *track)
+void rho_tracker_store_track_time(struct rho_track *track)
 {
     track->ahead_us = track->time_us;
 }
 
-int rho_tracker_is_sound_ahead(const struct rho_track *track)
+int rho_tracker_is_sound_stored_track_time(const struct rho_track *track)
 {
     return rho_is_stored_time(track->ahead_us);
 }
@@ -54,16 +54,16 @@ static int return_track_to_newest_time(struct step *step, struct rho_track *trac
     if (!was_ahead && track->time_us != step->time_us) {
         return 1;
     }
-    if (was_ahead && rho_track_return(track, track->ahead_us, &step->model) != RHO_OK) {
+    if (was_ahead && rho_track_return_to_time(track, track->ahead_us, &step->model) != RHO_OK) {
         return 0;
     }
-    if (!rho_tracker_is_frozen(track)) {
+    if (!rho_tracker_is_track_frozen(track)) {
         rho_track_merge_estimates(track, track->time_us, &step->model);
     }
     return 1;
 }
 
-void rho_tracker_refuse_stale_plots(struct step *step)
+void rho_tracker_mark_held_plots_stale(struct step *step)
 {
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD) {
@@ -73,7 +73,7 @@ void rho_tracker_refuse_stale_plots(struct step *step)
 }
 
 /* Tracks return to the newest time, which the report then has; tracks that cannot return end. */
-void rho_tracker_end_late_scan(struct step *step)
+void rho_tracker_return_tracks_to_newest_time(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -82,7 +82,7 @@ void rho_tracker_end_late_scan(struct step *step)
             rho_tracker_end_track(step, &tracker->tracks[i]);
         }
     }
-    rho_tracker_remove_ended(tracker);
+    rho_tracker_remove_ended_tracks(tracker);
     step->time_us = tracker->time_us;
     step->report->time_us = step->time_us;
 }

@@ -83,7 +83,7 @@ static void bound_plot_boxes(struct step *step)
     }
 }
 
-void rho_tracker_sort_plots(struct step *step)
+void rho_tracker_index_plots(struct step *step)
 {
     if (RHO_PLOT_STRIPS > 1) {
         sort_plots_by_strip(step);

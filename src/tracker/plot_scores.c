@@ -8,7 +8,7 @@
 
 /* ---- offers ---------------------------------------------------------------------------------- */
 
-int32_t rho_tracker_mnat(float nat)
+int32_t rho_tracker_nat_to_mnat(float nat)
 {
     float mnat = nat * 1000.0f;
     if (!(mnat > -(float)RHO_ASSIGNMENT_COST_MAX)) {
@@ -17,29 +17,30 @@ int32_t rho_tracker_mnat(float nat)
     return mnat < (float)RHO_ASSIGNMENT_COST_MAX ? (int32_t)mnat : RHO_ASSIGNMENT_COST_MAX;
 }
 
-void rho_tracker_open_gate(const struct step *step, const struct rho_track *track,
-                           uint32_t measures, struct rho_gate *gate)
+void rho_tracker_open_track_gate(const struct step *step, const struct rho_track *track,
+                                 uint32_t measures, struct rho_gate *gate)
 {
     struct rho_kalman expected;
-    rho_track_expect(track, &expected);
+    rho_track_expect_for_gate(track, &expected);
     rho_gate_open(gate, &expected,
                   RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? step->model.input->noise_density
                                                           : step->model.noise_density,
                   step->sensor, measures);
 }
 
-void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat)
+void rho_tracker_add_assignment_pair(struct step *step, unsigned row, uint32_t column,
+                                     float gain_nat)
 {
-    int32_t gain = rho_tracker_mnat(gain_nat);
+    int32_t gain = rho_tracker_nat_to_mnat(gain_nat);
     (void)!rho_assignment_add(&step->tracker->assignment, row, column, gain > 1 ? -gain : -1);
 }
 
-int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, float *gain_nat)
+int rho_tracker_find_pair_gain(const struct step *step, unsigned row, int column, float *gain_nat)
 {
     const struct rho_assignment *assignment = &step->tracker->assignment;
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
         if (assignment->pairs[row][i].column == column) {
-            *gain_nat = rho_tracker_detection(step, &step->tracker->tracks[row]).log_miss -
+            *gain_nat = rho_tracker_detection_of_track(step, &step->tracker->tracks[row]).log_miss -
                         0.001f * (float)assignment->pairs[row][i].cost;
             return 1;
         }
@@ -47,7 +48,7 @@ int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, 
     return 0;
 }
 
-void rho_tracker_assign(struct step *step)
+void rho_tracker_solve_assignment(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     rho_assignment_solve(&tracker->assignment);
@@ -78,23 +79,24 @@ static float log_likelihood_ratio(const struct step *step, const struct rho_gate
 
 static float log_echo_density_ratio(const struct step *step, uint32_t row)
 {
-    return RHO_MAX_ECHOES > 0 ? rho_tracker_repeats_nat(step, row) : 0.0f;
+    return RHO_MAX_ECHOES > 0 ? rho_tracker_log_echo_density_ratio(step, row) : 0.0f;
 }
 
 float rho_tracker_score_plot(const struct step *step, const struct rho_track *track,
                              const struct rho_gate_result *result, float log_density, uint32_t row)
 {
-    return rho_tracker_detection(step, track).log_pd +
+    return rho_tracker_detection_of_track(step, track).log_pd +
            log_likelihood_ratio(step, result, log_density + log_echo_density_ratio(step, row));
 }
 
-float rho_tracker_log_miss(const struct step *step, const struct rho_track *track)
+float rho_tracker_log_miss_probability(const struct step *step, const struct rho_track *track)
 {
-    return rho_tracker_scan_looked_at(step, track) ? rho_tracker_detection(step, track).log_miss
-                                                   : 0.0f;
+    return rho_tracker_may_count_miss(step, track)
+               ? rho_tracker_detection_of_track(step, track).log_miss
+               : 0.0f;
 }
 
-struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row)
+struct rho_track_plot rho_tracker_make_track_plot(const struct step *step, int row)
 {
     const struct rho_plot *plot = &step->scan->plots[row];
     return (struct rho_track_plot){
@@ -137,7 +139,7 @@ static int is_unassigned_and_near(const struct step *step, struct plot_scores *s
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_plot *plot = &step->scan->plots[i];
     const int owner = tracker->assignment.column_row[i];
-    return (has_box_per_plot(step) || rho_tracker_is_within(&scores->near, plot)) &&
+    return (has_box_per_plot(step) || rho_tracker_is_plot_within(&scores->near, plot)) &&
            step->report->fates[i] == RHO_FATE_HELD &&
            !(owner >= 0 && owner != (int)scores->track_row) &&
            rho_hypotheses_is_in_box(&tracker->hypotheses, tracker->tracks[scores->track_row].slot,
@@ -148,36 +150,36 @@ static void choose_plots_to_score(struct step *step, const struct rho_track *tra
                                   struct plot_scores *scores)
 {
     struct plots_near counted = scores->near;
-    scores->choice = rho_tracker_choose_plots(step, track);
-    for (uint32_t i; scores->choice.most < rho_tracker_max_plots_near(step, &scores->near) &&
+    scores->choice = rho_tracker_begin_plot_choice(step, track);
+    for (uint32_t i; scores->choice.most < rho_tracker_max_num_plots_near(step, &scores->near) &&
                      rho_tracker_next_plot_near(step, &counted, &i);) {
         if (is_unassigned_and_near(step, scores, i)) {
-            rho_tracker_note_choice(&scores->choice, track, &step->scan->plots[i]);
+            rho_tracker_count_plot_for_choice(&scores->choice, track, &step->scan->plots[i]);
         }
     }
-    rho_tracker_end_choice(step, &scores->choice);
+    rho_tracker_end_plot_choice(step, &scores->choice);
 }
 
-void rho_tracker_begin_scores(struct step *step, unsigned row, struct plot_scores *scores)
+void rho_tracker_begin_plot_scores(struct step *step, unsigned row, struct plot_scores *scores)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
     scores->track_row = row;
-    scores->log_pd = rho_tracker_detection(step, track).log_pd;
+    scores->log_pd = rho_tracker_detection_of_track(step, track).log_pd;
     scores->clutter = (struct rho_hypotheses_clutter){
-        .log_per_m2 = rho_tracker_log_clutter_density(step, track),
+        .log_per_m2 = rho_tracker_log_clutter_density_at_track(step, track),
         .log_per_m = -step->log_height,
         .log_per_mps = -step->log_rates,
         .log_per_range_rate = -step->log_range_rates,
     };
     rho_hypotheses_begin_scan(&tracker->hypotheses, track->slot, &scores->box);
-    scores->box.sigma_factor = rho_measurement_widest_factor(step->sensor);
+    scores->box.sigma_factor = rho_measurement_largest_sigma_factor(step->sensor);
     scores->near = plots_near_track(step, track, &scores->box);
     choose_plots_to_score(step, track, scores);
 }
 
-int rho_tracker_next_score(struct step *step, struct plot_scores *scores, uint32_t *plot,
-                           float *gain_nat)
+int rho_tracker_next_plot_score(struct step *step, struct plot_scores *scores, uint32_t *plot,
+                                float *gain_nat)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[scores->track_row];
@@ -185,10 +187,10 @@ int rho_tracker_next_score(struct step *step, struct plot_scores *scores, uint32
     while (rho_tracker_next_plot_near(step, &scores->near, plot)) {
         const struct rho_plot *at = &step->scan->plots[*plot];
         if (!is_unassigned_and_near(step, scores, *plot) ||
-            !rho_tracker_is_chosen(step, &scores->choice, track, at)) {
+            !rho_tracker_spend_if_plot_chosen(step, &scores->choice, track, at)) {
             continue;
         }
-        rho_imm_open_plot(&seen, at, step->scan->measures, step->sensor);
+        rho_imm_prepare_plot(&seen, at, step->scan->measures, step->sensor);
         struct rho_hypotheses_clutter clutter = scores->clutter;
         clutter.log_per_m2 += log_echo_density_ratio(step, *plot);
         if (rho_hypotheses_score_plot(&tracker->hypotheses, track->slot, &seen,

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "images.h"
+#include "reflector_image.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "step.h"
@@ -121,8 +121,8 @@ static void reflect_components(const struct wall *wall, float *x, float *y)
 static void reflect_covariance(const struct wall *wall, float p[21])
 {
     const float c = wall->along_x, s = wall->along_y;
-    rho_linalg_turn6(p, RHO_X, RHO_Y, c, s);
-    rho_linalg_turn6(p, RHO_VX, RHO_VY, c, s);
+    rho_linalg_rotate6(p, RHO_X, RHO_Y, c, s);
+    rho_linalg_rotate6(p, RHO_VX, RHO_VY, c, s);
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
         if (i != RHO_Y && i != RHO_VY) {
             float *y = &p[i > RHO_Y ? RHO_AT(i, RHO_Y) : RHO_AT(RHO_Y, i)];
@@ -131,13 +131,14 @@ static void reflect_covariance(const struct wall *wall, float p[21])
             *vy = -*vy;
         }
     }
-    rho_linalg_turn6(p, RHO_X, RHO_Y, c, -s);
-    rho_linalg_turn6(p, RHO_VX, RHO_VY, c, -s);
+    rho_linalg_rotate6(p, RHO_X, RHO_Y, c, -s);
+    rho_linalg_rotate6(p, RHO_VX, RHO_VY, c, -s);
 }
 
-int rho_reflector_image(const struct rho_reflector *reflector, const struct rho_sensor *sensor,
-                        float slack_m, const struct rho_kalman *of, struct rho_kalman *image,
-                        float *crossing_m)
+int rho_reflector_mirror_state(const struct rho_reflector *reflector,
+                               const struct rho_sensor *sensor, float slack_m,
+                               const struct rho_kalman *of, struct rho_kalman *image,
+                               float *crossing_m)
 {
     const struct wall wall = wall_of(reflector);
     float sensor_along_m, image_along_m;
@@ -169,10 +170,10 @@ static int make_image_of_track(struct step *step, unsigned reflector, const stru
                                struct rho_kalman *image)
 {
     float crossing_m;
-    rho_tracker_spend(step, IMAGE_UNITS);
-    return rho_reflector_image(&step->tracker->reflectors[reflector], step->sensor,
-                               BESIDE_SIGMAS * rho_track_sigma_m(track), &track->kalman, image,
-                               &crossing_m);
+    rho_tracker_spend_work(step, IMAGE_UNITS);
+    return rho_reflector_mirror_state(&step->tracker->reflectors[reflector], step->sensor,
+                                      BESIDE_SIGMAS * rho_track_sigma_m(track), &track->kalman,
+                                      image, &crossing_m);
 }
 
 /* True of a live track at the step's time with enough hits: the scan may also show its images. */
@@ -195,12 +196,13 @@ static void mark_plots_at_image_as_ghosts(struct step *step, const struct rho_ka
     struct plots_near near = rho_tracker_plots_near(
         step, image->state[RHO_X] - half_m[0], image->state[RHO_X] + half_m[0],
         image->state[RHO_Y] - half_m[1], image->state[RHO_Y] + half_m[1]);
-    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i) && !rho_tracker_is_spent(step);) {
+    for (uint32_t i;
+         rho_tracker_next_plot_near(step, &near, &i) && !rho_tracker_is_work_share_spent(step);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         const float dx_m = plot->x_m - image->state[RHO_X], dy_m = plot->y_m - image->state[RHO_Y];
         if (step->report->fates[i] == RHO_FATE_HELD && dx_m <= half_m[0] && dx_m >= -half_m[0] &&
             dy_m <= half_m[1] && dy_m >= -half_m[1]) {
-            rho_tracker_spend(step, TEST_UNITS);
+            rho_tracker_spend_work(step, TEST_UNITS);
             if (rho_gate_test(&gate, plot, &result)) {
                 step->report->fates[i] = RHO_FATE_GHOST;
             }
@@ -208,13 +210,13 @@ static void mark_plots_at_image_as_ghosts(struct step *step, const struct rho_ka
     }
 }
 
-void rho_tracker_mark_images(struct step *step)
+void rho_tracker_mark_image_plots_as_ghosts(struct step *step)
 {
     struct rho_kalman image;
-    rho_tracker_begin_share(step, RHO_WORK_IMAGES_SHARE);
+    rho_tracker_begin_work_share(step, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
         for (unsigned i = 0; may_have_images(step, row) && i < step->tracker->num_reflectors; i++) {
-            if (rho_tracker_is_spent(step)) {
+            if (rho_tracker_is_work_share_spent(step)) {
                 step->is_partial = 1;
                 return;
             }
@@ -247,7 +249,7 @@ static int is_at_image(const struct rho_track *track, const struct rho_kalman *i
                        image->covariance[RHO_AT(of[i], of[j])];
         }
     }
-    return rho_linalg_match(4, s, off, IMAGE_CHI2, &chi2, &log_det);
+    return rho_linalg_gated_nis(4, s, off, IMAGE_CHI2, &chi2, &log_det);
 }
 
 static int is_image_of_other_track(struct step *step, unsigned row)
@@ -258,7 +260,7 @@ static int is_image_of_other_track(struct step *step, unsigned row)
         const struct rho_track *of = &tracker->tracks[other];
         for (unsigned i = 0;
              other != row && may_have_images(step, other) && i < tracker->num_reflectors; i++) {
-            if (rho_tracker_is_spent(step)) {
+            if (rho_tracker_is_work_share_spent(step)) {
                 step->is_partial = 1;
                 return 0;
             }
@@ -271,15 +273,15 @@ static int is_image_of_other_track(struct step *step, unsigned row)
     return 0;
 }
 
-void rho_tracker_end_images(struct step *step)
+void rho_tracker_end_image_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    rho_tracker_begin_share(step, RHO_WORK_IMAGES_SHARE);
+    rho_tracker_begin_work_share(step, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (may_be_image_track(step, track) && is_image_of_other_track(step, row)) {
             rho_tracker_end_track(step, track);
         }
     }
-    rho_tracker_remove_ended(tracker);
+    rho_tracker_remove_ended_tracks(tracker);
 }

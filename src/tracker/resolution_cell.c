@@ -51,8 +51,8 @@ static float stated_cell_m(const struct rho_sensor *sensor, const struct rho_plo
                      : sensor->resolution_azimuth_rad * rho_sqrt(x_m * x_m + y_m * y_m);
 }
 
-void rho_tracker_cell_at(const struct step *step, const struct rho_plot *plot,
-                         const struct rho_measurement *seen, float near_m2[2])
+void rho_tracker_resolution_cell_at_plot(const struct step *step, const struct rho_plot *plot,
+                                         const struct rho_measurement *seen, float near_m2[2])
 {
     for (int axis = 0; axis < 2; axis++) {
         if (is_cell_stated(step->sensor, axis)) {
@@ -64,13 +64,13 @@ void rho_tracker_cell_at(const struct step *step, const struct rho_plot *plot,
     }
 }
 
-float rho_tracker_rate_cell_mps2(const struct rho_sensor *sensor)
+float rho_tracker_range_rate_cell_variance(const struct rho_sensor *sensor)
 {
     const float cell_mps = sensor ? sensor->resolution_range_rate_mps : 0.0f;
     return NEAR_OF_CELL * cell_mps * cell_mps;
 }
 
-int rho_tracker_is_usable_cell(const struct rho_sensor *sensor)
+int rho_tracker_is_usable_resolution_cell(const struct rho_sensor *sensor)
 {
     return rho_is_within(sensor->resolution_range_m, 0.0f, RHO_LIMIT_POSITION_M) &&
            rho_is_within(sensor->resolution_azimuth_rad, 0.0f, 7.0f) &&
@@ -79,7 +79,7 @@ int rho_tracker_is_usable_cell(const struct rho_sensor *sensor)
 
 /* ---- what pairs say -------------------------------------------------------------------------- */
 
-void rho_tracker_learn_cell(struct step *step, const struct apart *apart)
+void rho_tracker_learn_resolution_cell(struct step *step, const struct apart *apart)
 {
     struct rho_tracker_learned *learned = step->learned;
     float of_one[2], of_two[2], distance = 0.0f;
@@ -106,7 +106,7 @@ void rho_tracker_learn_cell(struct step *step, const struct apart *apart)
     }
 }
 
-float rho_tracker_cell_sigmas(const struct rho_tracker_learned *learned, int axis)
+float rho_tracker_learned_cell_sigmas(const struct rho_tracker_learned *learned, int axis)
 {
     /* cell = sqrt(n / NEAR_OF_CELL) with n = e^l (2 sigma)^2 */
     return learned->cell_weight[axis] >= WEIGHT_FIRST
@@ -114,7 +114,7 @@ float rho_tracker_cell_sigmas(const struct rho_tracker_learned *learned, int axi
                : 0.0f;
 }
 
-int rho_tracker_has_sound_cell(const struct rho_tracker_learned *learned)
+int rho_tracker_is_sound_learned_cell(const struct rho_tracker_learned *learned)
 {
     for (int axis = 0; axis < 2; axis++) {
         if (!rho_is_within(learned->log_cell[axis], -LOG_MAX, LOG_MAX) ||

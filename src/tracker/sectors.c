@@ -72,12 +72,12 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
     return tracker && place < tracker->num_looks ? &tracker->looks[place] : 0;
 }
 
-struct rho_tracker_look *rho_tracker_own_look(struct step *step)
+struct rho_tracker_look *rho_tracker_look_of_scan_sensor(struct step *step)
 {
     return find_look_of_sensor(step->tracker, step->scan->sensor_id);
 }
 
-void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id)
+void rho_tracker_remove_look_of_sensor(struct rho_tracker *tracker, int32_t sensor_id)
 {
     struct rho_tracker_look *look = find_look_of_sensor(tracker, sensor_id);
     if (look) {
@@ -86,18 +86,18 @@ void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id)
     }
 }
 
-void rho_tracker_note_look(struct step *step)
+void rho_tracker_record_scan_and_turning(struct step *step)
 {
     const struct rho_scan *scan = step->scan;
-    struct rho_tracker_look *look = rho_tracker_own_look(step);
+    struct rho_tracker_look *look = rho_tracker_look_of_scan_sensor(step);
     if (step->is_late) {
         return;
     }
     look = look ? look : add_look_or_replace_oldest(step->tracker, scan->sensor_id);
     if (look->count > 0) {
         const unsigned ends =
-            rho_angle_sector_continues(look->sector_from_rad, look->sector_to_rad,
-                                       scan->sector_from_rad, scan->sector_to_rad, 0.0f);
+            rho_angle_continued_ends(look->sector_from_rad, look->sector_to_rad,
+                                     scan->sector_from_rad, scan->sector_to_rad, 0.0f);
         /* sectors that meet at both ends, as two halves of a turn do, do not tell the direction */
         step->turning = ends == RHO_ANGLE_CONTINUES_LEFT    ? 1.0f
                         : ends == RHO_ANGLE_CONTINUES_RIGHT ? -1.0f
@@ -114,10 +114,10 @@ void rho_tracker_note_look(struct step *step)
  * Takes the lowest start threshold and the highest confirm threshold of all sensors' initiators:
  * the tracks of one radar are tested at the scans of another radar, too.
  */
-void rho_tracker_note_thresholds(struct step *step)
+void rho_tracker_merge_sensor_thresholds(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_tracker_look *own = rho_tracker_own_look(step);
+    struct rho_tracker_look *own = rho_tracker_look_of_scan_sensor(step);
     if (own) {
         own->start_mnat = step->initiator->start_mnat;
         own->confirm_mnat = step->initiator->confirm_mnat;
@@ -151,7 +151,7 @@ int rho_tracker_was_seen_in_last_sector(const struct step *step, const struct rh
             (track->look_sensor_id[1] == sensor_id && track->look[1] == before));
 }
 
-void rho_tracker_note_sight(const struct step *step, struct rho_track *track)
+void rho_tracker_record_seeing_sensor(const struct step *step, struct rho_track *track)
 {
     if (track->plot < 0 || step->is_late) {
         return;
@@ -203,7 +203,7 @@ int rho_tracker_has_passed_gate(const struct step *step, const struct rho_track 
                                   track->kalman.state[0], track->kalman.state[1]);
 }
 
-float rho_tracker_scans_a_turn(const struct step *step)
+float rho_tracker_scans_per_turn(const struct step *step)
 {
     return is_antenna_turning(step)
                ? RHO_TWO_PI /
@@ -211,14 +211,14 @@ float rho_tracker_scans_a_turn(const struct step *step)
                : 1.0f;
 }
 
-int rho_tracker_saw_last(const struct rho_track *track, int32_t sensor_id)
+int rho_tracker_is_last_seeing_sensor(const struct rho_track *track, int32_t sensor_id)
 {
     return (track->look[0] > 0 && track->look_sensor_id[0] == sensor_id) ||
            (track->look[1] > 0 && track->look_sensor_id[1] == sensor_id);
 }
 
-int rho_tracker_is_of_earlier_sector(const struct rho_window *window,
-                                     const struct rho_window_scan *scan, unsigned plot)
+int rho_tracker_is_plot_of_earlier_sector(const struct rho_window *window,
+                                          const struct rho_window_scan *scan, unsigned plot)
 {
     return scan->plots[plot].offset_s < window->newest.offset_min_s;
 }

@@ -50,11 +50,11 @@ static float nis_per_dimension_of_plot(const struct step *step, const struct rho
     struct rho_gate gate;
     struct rho_gate_result result;
     struct rho_sensor sensor;
-    rho_tracker_open_gate(step, track, step->scan->measures, &gate);
+    rho_tracker_open_track_gate(step, track, step->scan->measures, &gate);
     if (gate.sensor && step->is_suspect) {
         /* the NIS with the learned noise, without the factor for a suspect sensor */
         sensor = *gate.sensor;
-        rho_tracker_use_noise(step, 1.0f, &sensor);
+        rho_tracker_write_noise_factors(step, 1.0f, &sensor);
         gate.sensor = &sensor;
     }
     if (!rho_gate_test(&gate, &step->scan->plots[plot], &result)) {
@@ -75,7 +75,7 @@ static void add_track_to_sensor_means(const struct step *step, struct rho_tracke
         look->sigma_m = rho_plot_sigma_m(&step->scan->plots[plot]);
         add_to_running_mean(&look->distance2, nis_per_dimension_of_plot(step, track, plot),
                             &look->watched_hits);
-    } else if (!step->has_more_parts && !rho_tracker_is_blind(track) &&
+    } else if (!step->has_more_parts && !rho_tracker_is_mostly_blind_to(track) &&
                rho_tracker_has_passed_gate(step, track)) {
         add_to_running_mean(&look->seen_share, 0.0f, &look->watched);
     }
@@ -202,13 +202,13 @@ static int can_track_show_bias(const struct step *step, unsigned row)
     const struct rho_tracker_look *last = rho_tracker_look_of(step->tracker, track->sensor_id);
     return track->status != RHO_TRACK_FREE && track->was_confirmed && track->is_shared &&
            track->sensor_id != step->scan->sensor_id && !(last && last->is_suspect) &&
-           rho_tracker_is_in_view(step, row);
+           rho_tracker_is_track_in_view(step, row);
 }
 
 void rho_tracker_update_sensor_health(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_tracker_look *look = rho_tracker_own_look(step);
+    struct rho_tracker_look *look = rho_tracker_look_of_scan_sensor(step);
     if (!look) {
         return;
     }
@@ -223,9 +223,9 @@ void rho_tracker_update_sensor_health(struct step *step)
     }
 }
 
-float rho_tracker_find_suspect(struct step *step)
+float rho_tracker_update_suspect_and_sigma_factor(struct step *step)
 {
-    struct rho_tracker_look *look = rho_tracker_own_look(step);
+    struct rho_tracker_look *look = rho_tracker_look_of_scan_sensor(step);
     if (look) {
         suspect_or_trust_sensor(step, look); /* the witnesses may be silent by now */
     }

@@ -121,7 +121,8 @@ static uint16_t percent_of_factor(float factor)
     return (uint16_t)(100.0f * factor + 0.5f);
 }
 
-void rho_tracker_use_noise(const struct step *step, float suspicion, struct rho_sensor *sensor)
+void rho_tracker_write_noise_factors(const struct step *step, float suspicion,
+                                     struct rho_sensor *sensor)
 {
     if (step->learned) {
         sensor->sigma_range_percent =
@@ -131,11 +132,11 @@ void rho_tracker_use_noise(const struct step *step, float suspicion, struct rho_
     }
 }
 
-void rho_tracker_set_noise(struct step *step, float suspicion)
+void rho_tracker_apply_learned_noise(struct step *step, float suspicion)
 {
     if (RHO_SIGMAS_VARY && step->learned) {
-        rho_tracker_use_noise(step, suspicion,
-                              &step->tracker->sensors[step->learned - step->tracker->learned]);
+        rho_tracker_write_noise_factors(
+            step, suspicion, &step->tracker->sensors[step->learned - step->tracker->learned]);
     }
 }
 
@@ -328,7 +329,7 @@ static int is_notch_learning_on(const struct step *step)
            is_notch_unstated(step->sensor, step->learned);
 }
 
-void rho_tracker_use_notch(struct step *step)
+void rho_tracker_apply_learned_notch(struct step *step)
 {
     struct rho_tracker_learned *learned = step->learned;
     if (learned && is_sensor_learning_on(&step->tracker->config) && is_notch_learning_on(step)) {
@@ -343,9 +344,9 @@ static unsigned range_rate_interval_of_track(const struct rho_sensor *sensor,
                                              const struct rho_track *track)
 {
     float row[6], rate_mps;
-    if (!rho_measurement_range_rate(track->kalman.state, sensor,
-                                    track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
-                                    &rate_mps)) {
+    if (!rho_measurement_predict_range_rate(track->kalman.state, sensor,
+                                            track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
+                                            &rate_mps)) {
         return RHO_LEARN_RATES - 1u;
     }
     /* the squares of the intervals' limits double, so that the float's exponent is the index */
@@ -445,7 +446,8 @@ static int is_pd_lowered_in_any_ring(const struct step *step)
            step->learned->is_lowered;
 }
 
-struct detection rho_tracker_usual_detection(const struct step *step, const struct rho_track *track)
+struct detection rho_tracker_detection_without_notch(const struct step *step,
+                                                     const struct rho_track *track)
 {
     const struct detection stated = {step->log_pd, step->log_miss};
     if (!is_pd_lowered_in_any_ring(step)) {
@@ -460,7 +462,7 @@ struct detection rho_tracker_usual_detection(const struct step *step, const stru
     return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
 }
 
-float rho_tracker_mean_pd(const struct step *step)
+float rho_tracker_pd_over_all_ranges(const struct step *step)
 {
     const float stated = step->sensor->pd;
     if (!is_pd_lowered_in_any_ring(step)) {
@@ -523,7 +525,7 @@ static int can_teach_sensor(const struct step *step, unsigned row)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
     return track->status != RHO_TRACK_FREE && track->was_confirmed &&
-           rho_tracker_is_established(track) && rho_tracker_is_in_view(step, row);
+           rho_tracker_is_established(track) && rho_tracker_is_track_in_view(step, row);
 }
 
 static int can_teach_noise(const struct rho_track *track)
@@ -560,7 +562,7 @@ void rho_tracker_learn_sensor(struct step *step)
             learn_noise_from_plot(step, track, &step->scan->plots[plot], factors);
         }
         if (plot != RHO_ASSIGNMENT_NONE ||
-            (!step->has_more_parts && rho_tracker_scan_looked_at(step, track))) {
+            (!step->has_more_parts && rho_tracker_may_count_miss(step, track))) {
             learn_pd_from_look(step, track, plot != RHO_ASSIGNMENT_NONE);
         }
     }
@@ -586,7 +588,7 @@ int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned)
     }
     return (!RHO_DOPPLER_NOTCH ||
             (learned->blind_rates <= RHO_LEARN_RATES && learned->used_rates <= RHO_LEARN_RATES)) &&
-           (!RHO_SHARES_PLOTS || rho_tracker_has_sound_cell(learned)) &&
+           (!RHO_SHARES_PLOTS || rho_tracker_is_sound_learned_cell(learned)) &&
            rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&
@@ -612,8 +614,10 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
         .range_factor = usable_sigma_factor(tracker, learned, 0),
         .cross_factor = usable_sigma_factor(tracker, learned, 1),
         .innovations = learned->innovations,
-        .resolution_range_sigmas = RHO_SHARES_PLOTS ? rho_tracker_cell_sigmas(learned, 0) : 0.0f,
-        .resolution_cross_sigmas = RHO_SHARES_PLOTS ? rho_tracker_cell_sigmas(learned, 1) : 0.0f,
+        .resolution_range_sigmas =
+            RHO_SHARES_PLOTS ? rho_tracker_learned_cell_sigmas(learned, 0) : 0.0f,
+        .resolution_cross_sigmas =
+            RHO_SHARES_PLOTS ? rho_tracker_learned_cell_sigmas(learned, 1) : 0.0f,
     };
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
         known->pd[ring] = learned->is_lowered >> ring & 1u

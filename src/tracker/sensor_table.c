@@ -3,8 +3,8 @@
  * sensor_table: looks up the descriptions of sensors (rho_tracker_set_sensor), and tests them.
  */
 #include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/doppler_notch.h"
 #include "rhotrack/detail/measurement.h"
-#include "rhotrack/detail/notch.h"
 #include "step.h"
 
 unsigned rho_tracker_place_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
@@ -27,11 +27,11 @@ const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *track
 
 int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor)
 {
-    return rho_measurement_is_sensor(sensor) && rho_is_within(sensor->pd, 0.01f, 0.999f) &&
+    return rho_measurement_is_valid_sensor(sensor) && rho_is_within(sensor->pd, 0.01f, 0.999f) &&
            rho_is_within(sensor->range_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            sensor->range_min_m < sensor->range_max_m &&
-           (!RHO_DOPPLER_NOTCH || rho_notch_is_usable(sensor)) &&
-           (!RHO_SHARES_PLOTS || rho_tracker_is_usable_cell(sensor)) &&
+           (!RHO_DOPPLER_NOTCH || rho_notch_is_valid(sensor)) &&
+           (!RHO_SHARES_PLOTS || rho_tracker_is_usable_resolution_cell(sensor)) &&
            rho_angle_is_sector(sensor->sector_from_rad, sensor->sector_to_rad);
 }

@@ -86,7 +86,7 @@ static float count_almost_established_tracks(const struct step *step)
     return count;
 }
 
-void rho_tracker_find_evidence_needed(struct step *step)
+void rho_tracker_update_evidence_needed(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (!(tracker->ended_early + tracker->established > 0.0f)) {
@@ -124,14 +124,14 @@ int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *
            evidence_of_target(step, track) < step->needed_nat;
 }
 
-void rho_tracker_note_established(struct step *step, const struct rho_track *track)
+void rho_tracker_count_if_established(struct step *step, const struct rho_track *track)
 {
     if (track->hits == RHO_ESTABLISHED_HITS && track->plot >= 0) {
         step->tracker->established += 1.0f;
     }
 }
 
-void rho_tracker_note_early_end(struct step *step, const struct rho_track *track)
+void rho_tracker_count_if_ended_early(struct step *step, const struct rho_track *track)
 {
     if (!rho_tracker_is_established(track) && evidence_of_target(step, track) < 0.0f &&
         track->score_max_mnat >= step->tracker->confirm_mnat) {

@@ -7,7 +7,7 @@
 
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/clutter_map_cells.h"
+#include "rhotrack/detail/clutter_map_echoes.h"
 #include "step.h"
 
 /*
@@ -71,7 +71,7 @@ static struct rho_second_plots *find_or_claim_table(struct rho_tracker *tracker,
 }
 
 /* Frees a sensor's table of second plots; the last table in use takes its place. */
-void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor_id)
+void rho_tracker_remove_second_plots_of_sensor(struct rho_tracker *tracker, int32_t sensor_id)
 {
     struct rho_second_plots *tables = tracker->second_plots;
     unsigned num = 0, place = RHO_MAX_SENSORS;
@@ -126,7 +126,7 @@ static struct bin_offset bin_offset_of_plots(const struct rho_sensor *sensor,
                                              const struct rho_plot *first,
                                              const struct rho_plot *second)
 {
-    const struct echo_view view = rho_clutter_map_view(sensor, first->x_m, first->y_m);
+    const struct echo_view view = rho_clutter_map_view_from_sensor(sensor, first->x_m, first->y_m);
     const float dx_m = second->x_m - first->x_m, dy_m = second->y_m - first->y_m;
     const float along_m = dx_m * view.along_x + dy_m * view.along_y;
     const float across_m = dy_m * view.along_x - dx_m * view.along_y;
@@ -152,9 +152,10 @@ static float range_rate_ratio_of_plots(const struct step *step, uint32_t measure
     if (!(measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
     }
-    return rho_tracker_rate_ratio(step, second->range_rate_mps - first->range_rate_mps,
-                                  first->sigma_range_rate_mps * first->sigma_range_rate_mps +
-                                      second->sigma_range_rate_mps * second->sigma_range_rate_mps);
+    return rho_tracker_range_rate_ratio(step, second->range_rate_mps - first->range_rate_mps,
+                                        first->sigma_range_rate_mps * first->sigma_range_rate_mps +
+                                            second->sigma_range_rate_mps *
+                                                second->sigma_range_rate_mps);
 }
 
 /* Adds a density ratio to a window plot's stored one, both coded as ln in steps of `repeats`. */
@@ -202,25 +203,25 @@ static float evidence_of_two_plots(const struct step *step, const struct rho_sec
     const struct rho_plot *second = &step->scan->plots[track->plot];
     const struct bin_offset offset = bin_offset_of_plots(step->sensor, first, second);
     float gain_nat = 0.0f, ratio = 0.0f, swap_nat = 0.0f, own_nat = 0.0f;
-    (void)rho_tracker_gain_offered(step, row, track->plot, &gain_nat);
+    (void)rho_tracker_find_pair_gain(step, row, track->plot, &gain_nat);
     /*
      * the two plots may also be swapped: the younger track's plot is the first one of the only
      * target, or, with two targets, each made the other's plot
      */
     float ways = 1.0f, older_ways = 1.0f;
-    if (rho_tracker_gain_offered(step, older_row, older->plot, &own_nat) &&
-        rho_tracker_gain_offered(step, older_row, track->plot, &swap_nat)) {
+    if (rho_tracker_find_pair_gain(step, older_row, older->plot, &own_nat) &&
+        rho_tracker_find_pair_gain(step, older_row, track->plot, &swap_nat)) {
         float other_nat;
         older_ways += rho_exp(swap_nat - own_nat);
-        if (rho_tracker_gain_offered(step, row, older->plot, &other_nat)) {
+        if (rho_tracker_find_pair_gain(step, row, older->plot, &other_nat)) {
             ways += rho_exp(swap_nat - own_nat + other_nat - gain_nat);
         }
     }
     if (is_within_bins(offset)) {
         ratio = second_plot_rate(table, older) * second_plot_density(table, offset, first) *
                 range_rate_ratio_of_plots(step, step->scan->measures, first, second) /
-                rho_tracker_density_at_plot(step, second) *
-                rho_exp(-rho_tracker_repeats_nat(step, (uint32_t)track->plot));
+                rho_tracker_background_density_at_plot(step, second) *
+                rho_exp(-rho_tracker_log_echo_density_ratio(step, (uint32_t)track->plot));
     }
     return rho_log(1.0f + ratio) + rho_log(older_ways / ways) - gain_nat;
 }
@@ -239,8 +240,9 @@ static float evidence_of_one_plot(const struct step *step, const struct rho_seco
     if (older->plot == track->plot) {
         return SHARED_NAT;
     }
-    const int is_in_gate = rho_tracker_gain_offered(step, row, plot, &gain_nat);
-    const int is_in_olders_gate = rho_tracker_gain_offered(step, older_row, plot, &older_gain_nat);
+    const int is_in_gate = rho_tracker_find_pair_gain(step, row, plot, &gain_nat);
+    const int is_in_olders_gate =
+        rho_tracker_find_pair_gain(step, older_row, plot, &older_gain_nat);
     if (older->plot < 0) {
         if (!is_in_olders_gate) {
             /*
@@ -260,7 +262,8 @@ static float evidence_of_one_plot(const struct step *step, const struct rho_seco
     if (!is_in_gate) {
         return MISS_NAT;
     }
-    return nat - rho_tracker_detection(step, track).log_miss - (is_in_olders_gate ? LOG_TWO : 0.0f);
+    return nat - rho_tracker_detection_of_track(step, track).log_miss -
+           (is_in_olders_gate ? LOG_TWO : 0.0f);
 }
 
 static void add_evidence_of_one_target(struct rho_track *track, float nat)
@@ -285,8 +288,9 @@ static void test_and_end_younger_track(struct step *step, const struct rho_secon
     const unsigned older_row = (unsigned)(older - tracker->tracks);
     const float share = probability_of_one_target(track);
     older->second_share = share < older->second_share ? share : older->second_share;
-    if (!rho_tracker_is_in_view(step, row) || !rho_tracker_is_in_view(step, older_row) ||
-        !rho_tracker_scan_looked_at(step, track) || !rho_tracker_scan_looked_at(step, older) ||
+    if (!rho_tracker_is_track_in_view(step, row) ||
+        !rho_tracker_is_track_in_view(step, older_row) ||
+        !rho_tracker_may_count_miss(step, track) || !rho_tracker_may_count_miss(step, older) ||
         (track->plot < 0 && older->plot < 0)) {
         return;
     }
@@ -344,7 +348,7 @@ static float score_plot_near_claimed(struct step *step, const struct rho_second_
     }
     const float ratio = second_plot_rate(table, track) * second_plot_density(table, offset, first) *
                         range_rate_ratio_of_plots(step, step->scan->measures, first, second) /
-                        rho_tracker_density_at_plot(step, second);
+                        rho_tracker_background_density_at_plot(step, second);
     float *denser = &tracker->clutter_map.denser[other];
     const float known = rho_exp(*denser);
     if (step->report->fates[other] == RHO_FATE_HELD) {
@@ -370,7 +374,7 @@ static void score_plots_near_claimed(struct step *step, const struct rho_second_
             continue;
         }
         const struct bin_offset offset = bin_offset_of_plots(step->sensor, first, plot);
-        rho_tracker_spend(step, PAIR_UNITS);
+        rho_tracker_spend_work(step, PAIR_UNITS);
         if (is_within_bins(offset)) {
             const float share = score_plot_near_claimed(step, table, row, i, offset);
             found->plots += share;
@@ -378,7 +382,7 @@ static void score_plots_near_claimed(struct step *step, const struct rho_second_
             found->across[offset.across] += share;
         }
     }
-    rho_tracker_spend(step, passed / RHO_WORK_PASSED_A_UNIT);
+    rho_tracker_spend_work(step, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
 static void add_second_plots_to_track(struct rho_track *track, float plots, float share)
@@ -410,7 +414,7 @@ static void count_plot_not_tried(struct step *step)
     step->plots_not_tried = rho_count(step->plots_not_tried, 1);
 }
 
-void rho_tracker_expect_second_plots(struct step *step)
+void rho_tracker_score_second_plots(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_second_plots *table = find_or_claim_table(tracker, step->scan->sensor_id);
@@ -429,13 +433,13 @@ void rho_tracker_expect_second_plots(struct step *step)
             test_and_end_younger_track(step, table, row);
         }
     }
-    rho_tracker_begin_share(step, RHO_WORK_SECOND_SHARE);
+    rho_tracker_begin_work_share(step, RHO_WORK_SECOND_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || track->plot < 0) {
             continue;
         }
-        if (rho_tracker_is_spent(step)) {
+        if (rho_tracker_is_work_share_spent(step)) {
             count_plot_not_tried(step);
             continue;
         }
@@ -462,7 +466,7 @@ void rho_tracker_expect_second_plots(struct step *step)
 static void raise_density_near_window_plot(struct step *step, const struct rho_second_plots *table,
                                            struct rho_window_scan *scan, unsigned own)
 {
-    const struct rho_plot first = rho_window_plot_of(scan, own);
+    const struct rho_plot first = rho_window_unpack_plot(scan, own);
     const struct rho_sensor *sensor = rho_window_sensor(scan);
     const float half_m = NEAR_SIGMAS * 1.4142136f * rho_plot_sigma_m(&first);
     for (unsigned i = 0; i < scan->num_plots; i++) {
@@ -471,31 +475,32 @@ static void raise_density_near_window_plot(struct step *step, const struct rho_s
             (scan->marks[i] & RHO_WINDOW_INITIATED)) {
             continue;
         }
-        const struct rho_plot plot = rho_window_plot_of(scan, i);
+        const struct rho_plot plot = rho_window_unpack_plot(scan, i);
         const struct bin_offset offset = bin_offset_of_plots(sensor, &first, &plot);
-        rho_tracker_spend(step, PAIR_UNITS);
+        rho_tracker_spend_work(step, PAIR_UNITS);
         if (is_within_bins(offset)) {
             const float ratio = second_plot_rate(table, 0) *
                                 second_plot_density(table, offset, &first) *
                                 range_rate_ratio_of_plots(step, scan->measures, &first, &plot) /
-                                rho_tracker_density_at_plot(step, &plot);
+                                rho_tracker_background_density_at_plot(step, &plot);
             scan->repeats[i] = add_ratio_to_repeats(scan->repeats[i], ratio);
         }
     }
 }
 
-void rho_tracker_expect_earlier_second_plots(struct step *step,
-                                             const struct rho_candidate *candidate)
+void rho_tracker_raise_density_near_start_plots(struct step *step,
+                                                const struct rho_candidate *candidate)
 {
     struct rho_window *window = &step->initiator->window;
     for (unsigned m = 0; m < window->num_scans; m++) {
         struct rho_window_scan *scan = rho_window_scan_at(window, m);
         const struct rho_second_plots *table =
             find_or_claim_table(step->tracker, scan->sensor.sensor_id);
-        if (((unsigned)candidate->mask >> m & 1u) && table && rho_tracker_is_spent(step)) {
+        if (((unsigned)candidate->mask >> m & 1u) && table &&
+            rho_tracker_is_work_share_spent(step)) {
             count_plot_not_tried(step);
         } else if (((unsigned)candidate->mask >> m & 1u) && table) {
-            rho_tracker_spend(step, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
+            rho_tracker_spend_work(step, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
             raise_density_near_window_plot(step, table, scan, candidate->plot[m]);
         }
     }
@@ -503,7 +508,7 @@ void rho_tracker_expect_earlier_second_plots(struct step *step,
 
 /* ---- snapshots ------------------------------------------------------------------------------- */
 
-int rho_tracker_has_sound_older_track(const struct rho_track *track)
+int rho_tracker_has_sound_track_second_plots(const struct rho_track *track)
 {
     return rho_is_within(track->second_looks, 0.0f, 1e6f) &&
            rho_is_within(track->second_plots, 0.0f, 1e6f) &&

@@ -98,18 +98,18 @@ static inline int rho_tracker_is_score(int32_t mnat)
 /* ---- scans ----------------------------------------------------------------------------------- */
 
 /* out_of_sequence.c (RHO_SECTORS): scans older than the newest step that may still update tracks */
-void rho_tracker_set_late_default(struct rho_tracker_config *config);
+void rho_tracker_set_late_max_default(struct rho_tracker_config *config);
 int rho_tracker_is_late_max_usable(const struct rho_tracker_config *config);
 /* True of an out-of-sequence scan within late_max_s that is not its sensor's newest one again. */
-int rho_tracker_takes_late_scan(const struct step *step);
+int rho_tracker_accepts_late_scan(const struct step *step);
 void rho_tracker_count_late_scan(struct step *step);
 /* Stores the track's time before an out-of-sequence scan moves the track back. */
-void rho_tracker_note_time_ahead(struct rho_track *track);
-int rho_tracker_is_sound_ahead(const struct rho_track *track);
+void rho_tracker_store_track_time(struct rho_track *track);
+int rho_tracker_is_sound_stored_track_time(const struct rho_track *track);
 /* Gives the held plots of an out-of-sequence scan the fate STALE. */
-void rho_tracker_refuse_stale_plots(struct step *step);
+void rho_tracker_mark_held_plots_stale(struct step *step);
 /* After an out-of-sequence scan: tracks, step and report return to the newest time. */
-void rho_tracker_end_late_scan(struct step *step);
+void rho_tracker_return_tracks_to_newest_time(struct step *step);
 
 /*
  * plot_index.c: iterates over rows of plots, a superset of the held plots in a rectangle:
@@ -123,7 +123,7 @@ struct plots_near {
 };
 
 /* Sorts the scan's held plots into strips, or bounds their boxes. */
-void rho_tracker_sort_plots(struct step *step);
+void rho_tracker_index_plots(struct step *step);
 struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
                                          float y_min_m, float y_max_m);
 int rho_tracker_next_box_near(const struct step *step, struct plots_near *near);
@@ -141,15 +141,16 @@ static inline int rho_tracker_next_plot_near(const struct step *step, struct plo
 }
 
 /* True where a plot is in the iterator's rectangle, sides included. */
-static inline int rho_tracker_is_within(const struct plots_near *near, const struct rho_plot *plot)
+static inline int rho_tracker_is_plot_within(const struct plots_near *near,
+                                             const struct rho_plot *plot)
 {
     return plot->x_m >= near->within.x_min_m && plot->x_m <= near->within.x_max_m &&
            plot->y_m >= near->within.y_min_m && plot->y_m <= near->within.y_max_m;
 }
 
 /* Upper bound of the number of plots that the iterator has still to give. */
-static inline uint32_t rho_tracker_max_plots_near(const struct step *step,
-                                                  const struct plots_near *near)
+static inline uint32_t rho_tracker_max_num_plots_near(const struct step *step,
+                                                      const struct plots_near *near)
 {
     return RHO_PLOT_STRIPS > 1 ? near->end - near->next : step->num_gated;
 }
@@ -166,35 +167,35 @@ int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor);
  * coverage.c: true where a plot, within its noise, is in the sensor's stated coverage. sensor NULL:
  * it covers all
  */
-int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *plot,
-                       uint32_t measures);
+int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
+                                    uint32_t measures);
 /* True where a bearing is in the sensor's stated sector, or nearer to it than the margin. */
-int rho_tracker_covers_bearing(const struct rho_sensor *sensor, float bearing_rad,
-                               float margin_rad);
+int rho_tracker_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_rad,
+                                       float margin_rad);
 /* True where the scan may see a track, by sector and range, with a margin. */
-int rho_tracker_may_see(const struct step *step, const struct rho_track *track);
+int rho_tracker_may_see_track(const struct step *step, const struct rho_track *track);
 /* True where the scan may see the track of this row, as found when tracks were predicted. */
-int rho_tracker_is_in_view(const struct step *step, unsigned row);
+int rho_tracker_is_track_in_view(const struct step *step, unsigned row);
 /* True where the sensor, looking at this sector, covers the track's place. */
-int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float sector_to_rad,
-                          const struct rho_track *track);
+int rho_tracker_sector_covers_track(const struct step *step, float sector_from_rad,
+                                    float sector_to_rad, const struct rho_track *track);
 /* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
-int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *track);
+int rho_tracker_may_count_miss(const struct step *step, const struct rho_track *track);
 
 /* sectors.c (RHO_SECTORS): how the sectors of one turn follow each other */
 #define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
 /* The record (tracker->looks) of the scan's sensor; NULL where there is none. */
-struct rho_tracker_look *rho_tracker_own_look(struct step *step);
-void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id);
+struct rho_tracker_look *rho_tracker_look_of_scan_sensor(struct step *step);
+void rho_tracker_remove_look_of_sensor(struct rho_tracker *tracker, int32_t sensor_id);
 int rho_tracker_has_sound_looks(const struct rho_tracker *tracker);
 /* Records the scan's sector and time for its sensor, and finds which way the antenna turns. */
-void rho_tracker_note_look(struct step *step);
+void rho_tracker_record_scan_and_turning(struct step *step);
 /* Stores in a track with a plot of this scan that the scan's sensor saw it last. */
-void rho_tracker_note_sight(const struct step *step, struct rho_track *track);
+void rho_tracker_record_seeing_sensor(const struct step *step, struct rho_track *track);
 /* True of the two sensors that saw the track last. */
-int rho_tracker_saw_last(const struct rho_track *track, int32_t sensor_id);
+int rho_tracker_is_last_seeing_sensor(const struct rho_track *track, int32_t sensor_id);
 /* Sets the tracker's thresholds: lowest start and highest confirm threshold of all sensors. */
-void rho_tracker_note_thresholds(struct step *step);
+void rho_tracker_merge_sensor_thresholds(struct step *step);
 /* True where the track claimed a plot in the previous sector of the same turn of the antenna. */
 int rho_tracker_was_seen_in_last_sector(const struct step *step, const struct rho_track *track);
 /*
@@ -203,14 +204,14 @@ int rho_tracker_was_seen_in_last_sector(const struct step *step, const struct rh
  */
 int rho_tracker_has_passed_gate(const struct step *step, const struct rho_track *track);
 /* Number of scans of this sector's width in one turn of the antenna; 1 where it does not turn. */
-float rho_tracker_scans_a_turn(const struct step *step);
+float rho_tracker_scans_per_turn(const struct step *step);
 /* True of a plot of the window's newest scan that came with an earlier sector of the same turn. */
-int rho_tracker_is_of_earlier_sector(const struct rho_window *window,
-                                     const struct rho_window_scan *scan, unsigned plot);
+int rho_tracker_is_plot_of_earlier_sector(const struct rho_window *window,
+                                          const struct rho_window_scan *scan, unsigned plot);
 
 /* sensor_health.c (RHO_SECTORS): finds sensors that contradict the others */
 /* Decides whether the scan's sensor is suspect. Returns the factor on its plots' sigmas. */
-float rho_tracker_find_suspect(struct step *step);
+float rho_tracker_update_suspect_and_sigma_factor(struct step *step);
 /* Compares the assigned plots with the tracks' predictions, before tracks are updated. */
 void rho_tracker_update_sensor_health(struct step *step);
 /* True where the scan's sensor is suspect and no other sensor has seen the track. */
@@ -225,16 +226,17 @@ static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct step *
  * set before plots are gated, and learned between assignment and update. suspicion: factor of
  * sensor_health on the sigmas of a suspect sensor, else 1
  */
-void rho_tracker_set_noise(struct step *step, float suspicion);
+void rho_tracker_apply_learned_noise(struct step *step, float suspicion);
 /* Writes the learned noise factors, times suspicion, into this description of the sensor. */
-void rho_tracker_use_noise(const struct step *step, float suspicion, struct rho_sensor *sensor);
+void rho_tracker_write_noise_factors(const struct step *step, float suspicion,
+                                     struct rho_sensor *sensor);
 /* (RHO_DOPPLER_NOTCH) Writes the learned notch into a description that states none. */
-void rho_tracker_use_notch(struct step *step);
+void rho_tracker_apply_learned_notch(struct step *step);
 /* Learns noise, pd and notch of the scan's sensor from this scan's plots and misses. */
 void rho_tracker_learn_sensor(struct step *step);
 int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
 /* Detection probability of the scan's sensor over all ranges, for its initiator. */
-float rho_tracker_mean_pd(const struct step *step);
+float rho_tracker_pd_over_all_ranges(const struct step *step);
 /*
  * ln of the probabilities that the sensor detects a target at the track's place and that it misses
  * it, outside of the Doppler notch
@@ -242,33 +244,33 @@ float rho_tracker_mean_pd(const struct step *step);
 struct detection {
     float log_pd, log_miss;
 };
-struct detection rho_tracker_usual_detection(const struct step *step,
-                                             const struct rho_track *track);
+struct detection rho_tracker_detection_without_notch(const struct step *step,
+                                                     const struct rho_track *track);
 
 /*
  * blind_looks.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Sets blind_percent of the
  * tracks in view, before plots are scored
  */
-void rho_tracker_find_blind(struct step *step);
+void rho_tracker_set_blind_percents(struct step *step);
 /* Sets blind_percent of all tracks to 0, at the end of a step. */
-void rho_tracker_forget_blind(struct step *step);
+void rho_tracker_clear_blind_percents(struct step *step);
 /* Probabilities, ln, of detection and miss of a track that may be in the sensor's notch. */
-struct detection rho_tracker_detection_beside_notch(const struct step *step,
-                                                    const struct rho_track *track);
-static inline struct detection rho_tracker_detection(const struct step *step,
-                                                     const struct rho_track *track)
+struct detection rho_tracker_detection_with_notch(const struct step *step,
+                                                  const struct rho_track *track);
+static inline struct detection rho_tracker_detection_of_track(const struct step *step,
+                                                              const struct rho_track *track)
 {
     return RHO_DOPPLER_NOTCH && track->blind_percent > 0
-               ? rho_tracker_detection_beside_notch(step, track)
-               : rho_tracker_usual_detection(step, track);
+               ? rho_tracker_detection_with_notch(step, track)
+               : rho_tracker_detection_without_notch(step, track);
 }
 /* True where at least half of the looks at the track are blind: no plot is no miss then. */
-static inline int rho_tracker_is_blind(const struct rho_track *track)
+static inline int rho_tracker_is_mostly_blind_to(const struct rho_track *track)
 {
     return RHO_DOPPLER_NOTCH && track->blind_percent >= 50;
 }
 /* After a blind look without a plot: the track coasts, and counts as seen, not as missed. */
-void rho_tracker_note_blind_look(const struct step *step, struct rho_track *track);
+void rho_tracker_coast_blind_track(const struct step *step, struct rho_track *track);
 
 /* ---- images ---------------------------------------------------------------------------------- */
 
@@ -276,24 +278,24 @@ void rho_tracker_note_blind_look(const struct step *step, struct rho_track *trac
  * reflectors.c (RHO_MAX_REFLECTORS): gives unclaimed plots at the mirror images of tracks the fate
  * GHOST, before new tracks start
  */
-void rho_tracker_mark_images(struct step *step);
+void rho_tracker_mark_image_plots_as_ghosts(struct step *step);
 /* Ends tracks that move as the mirror image of another track, after new tracks have started. */
-void rho_tracker_end_images(struct step *step);
+void rho_tracker_end_image_tracks(struct step *step);
 int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker);
 
 /* ---- an operator ---------------------------------------------------------------------------- */
 
 /* excluded_areas.c (RHO_MAX_EXCLUDED_AREAS): gives unclaimed plots in excluded areas the fate GHOST
  */
-void rho_tracker_mark_excluded(struct step *step);
-int rho_tracker_lies_excluded(const struct step *step, uint32_t plot);
-static inline int rho_tracker_is_excluded(const struct step *step, uint32_t plot)
+void rho_tracker_mark_excluded_plots_as_ghosts(struct step *step);
+int rho_tracker_is_in_excluded_area(const struct step *step, uint32_t plot);
+static inline int rho_tracker_is_plot_excluded(const struct step *step, uint32_t plot)
 {
-    return RHO_MAX_EXCLUDED_AREAS > 0 && rho_tracker_lies_excluded(step, plot);
+    return RHO_MAX_EXCLUDED_AREAS > 0 && rho_tracker_is_in_excluded_area(step, plot);
 }
-int rho_tracker_has_sound_excluded(const struct rho_tracker *tracker);
+int rho_tracker_has_sound_excluded_areas(const struct rho_tracker *tracker);
 /* True of a track that an operator has frozen: it is in no scan's view, and does not age. */
-static inline int rho_tracker_is_frozen(const struct rho_track *track)
+static inline int rho_tracker_is_track_frozen(const struct rho_track *track)
 {
     return RHO_MAX_EXCLUDED_AREAS > 0 && track->is_frozen;
 }
@@ -301,23 +303,23 @@ static inline int rho_tracker_is_frozen(const struct rho_track *track)
 /* ---- resolution ------------------------------------------------------------------------------ */
 
 /* resolution_cell.c (RHO_SHARES_PLOTS): distances at which a sensor does not resolve two targets */
-int rho_tracker_is_usable_cell(const struct rho_sensor *sensor);
+int rho_tracker_is_usable_resolution_cell(const struct rho_sensor *sensor);
 /* Variances of such distances at a plot's place, along the line of sight and across it. */
-void rho_tracker_cell_at(const struct step *step, const struct rho_plot *plot,
-                         const struct rho_measurement *seen, float near_m2[2]);
+void rho_tracker_resolution_cell_at_plot(const struct step *step, const struct rho_plot *plot,
+                                         const struct rho_measurement *seen, float near_m2[2]);
 /* Variance of differences of range rate that are not resolved, (m/s)^2; 0: the rate is not used. */
-float rho_tracker_rate_cell_mps2(const struct rho_sensor *sensor);
+float rho_tracker_range_rate_cell_variance(const struct rho_sensor *sensor);
 /* A pair of near tracks that the resolution cell is learned from; [2]: along, across. */
 struct apart {
     float is_one;       /* probability that a plot is merged, of both targets */
     float of_one_m2[2]; /* expected squared distance of the targets if it is merged */
     float of_two_m2[2]; /* expected squared distance of the targets if it is of one of them */
-    float near_m2[2];   /* variances by rho_tracker_cell_at */
+    float near_m2[2];   /* variances by rho_tracker_resolution_cell_at_plot */
 };
-void rho_tracker_learn_cell(struct step *step, const struct apart *apart);
+void rho_tracker_learn_resolution_cell(struct step *step, const struct apart *apart);
 /* Learned resolution cell on an axis, in sigmas of a plot; 0: not learned yet. */
-float rho_tracker_cell_sigmas(const struct rho_tracker_learned *learned, int axis);
-int rho_tracker_has_sound_cell(const struct rho_tracker_learned *learned);
+float rho_tracker_learned_cell_sigmas(const struct rho_tracker_learned *learned, int axis);
+int rho_tracker_is_sound_learned_cell(const struct rho_tracker_learned *learned);
 
 /* ---- bodies ---------------------------------------------------------------------------------- */
 
@@ -339,33 +341,34 @@ void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped);
 /* Before the report: restores the scan, and turns fates and rows of groups into those of plots. */
 void rho_tracker_ungroup_plots(struct step *step, const struct rho_scan *scan);
 /* body_extents.c (RHO_BODIES): puts the bodies in the order of the tracks, with new ones added */
-void rho_tracker_align_bodies(struct step *step);
+void rho_tracker_align_bodies_with_tracks(struct step *step);
 /* Sets the heading of a track's body to that of the track's velocity. */
-void rho_tracker_turn_body(struct rho_tracker *tracker, unsigned row);
+void rho_tracker_set_body_heading(struct rho_tracker *tracker, unsigned row);
 /* Updates each track's body with the plots of its group, before rho_tracker_ungroup_plots. */
 void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
 /*
  * A plot's range rate less that of a target there with the track's velocity, and the unit vector of
  * the line of sight. Returns 0 where no range rate was measured, or the plot is at the sensor.
  */
-int rho_tracker_rate_off(const struct step *step, const struct rho_scan *scan,
-                         const struct rho_track *track, const struct rho_plot *plot, float line[2],
-                         float *off_mps);
+int rho_tracker_range_rate_residual(const struct step *step, const struct rho_scan *scan,
+                                    const struct rho_track *track, const struct rho_plot *plot,
+                                    float line[2], float *off_mps);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
- * rate and line of sight by rho_tracker_rate_off, whose result rho_tracker_place_on_body returns.
+ * rate and line of sight by rho_tracker_range_rate_residual, whose result rho_tracker_locate_plot_on_body returns.
  */
 struct body_plot {
     float dx_m, dy_m, along_m, across_m, rate_mps, line[2];
 };
-int rho_tracker_place_on_body(const struct step *step, const struct rho_scan *scan, unsigned row,
-                              unsigned plot, struct body_plot *at);
+int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_scan *scan,
+                                    unsigned row, unsigned plot, struct body_plot *at);
 
 /* Variances of a plot's own noise in the axes of a body: along, cross, across. */
-void rho_tracker_noise_on_body(const struct step *step, const struct rho_body_filter *body,
-                               const struct rho_plot *plot, float axes[3]);
+void rho_tracker_plot_noise_on_body(const struct step *step, const struct rho_body_filter *body,
+                                    const struct rho_plot *plot, float axes[3]);
 /* The first plot, from this one of a group on, that no other track contends for; or RHO_NO_ROW. */
-static inline unsigned rho_tracker_uncontested(const struct rho_groups *groups, unsigned plot)
+static inline unsigned rho_tracker_first_uncontested_plot(const struct rho_groups *groups,
+                                                          unsigned plot)
 {
     while (plot != RHO_NO_ROW && groups->contender[plot] != RHO_NO_ROW) {
         plot = groups->next[plot];
@@ -373,7 +376,7 @@ static inline unsigned rho_tracker_uncontested(const struct rho_groups *groups, 
     return plot;
 }
 
-/* body_doubt.c: reasons for which a body is taken to be two targets */
+/* body_split_evidence.c: reasons for which a body is taken to be two targets */
 enum rho_body_split {
     RHO_BODY_ONE, /* no reason: one target */
     RHO_BODY_TOO_WIDE,
@@ -381,19 +384,21 @@ enum rho_body_split {
     RHO_BODY_MOVES_APART /* range rates differ from part to part by more than a turn explains */
 };
 /* Adds this scan's plots of a track to the evidence that its body is two targets. */
-void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan, unsigned row);
+void rho_tracker_add_body_split_evidence(const struct step *step, const struct rho_scan *scan,
+                                         unsigned row);
 /* The reason, by that evidence, for which a track's body is two targets; or RHO_BODY_ONE. */
-enum rho_body_split rho_tracker_why_two(const struct step *step, unsigned row);
+enum rho_body_split rho_tracker_find_body_split_reason(const struct step *step, unsigned row);
 /* True of a live track in view within RHO_BODY_TRACKS: plots may be grouped for it. */
 static inline int rho_tracker_may_own_plots(const struct step *step, unsigned row)
 {
     return RHO_BODIES && row < RHO_BODY_TRACKS &&
-           step->tracker->tracks[row].status != RHO_TRACK_FREE && rho_tracker_is_in_view(step, row);
+           step->tracker->tracks[row].status != RHO_TRACK_FREE &&
+           rho_tracker_is_track_in_view(step, row);
 }
-/* doubled_bodies.c: ends one of two tracks of one target; the other track gets its plots */
-void rho_tracker_end_doubled(struct step *step);
+/* duplicate_tracks.c: ends one of two tracks of one target; the other track gets its plots */
+void rho_tracker_end_duplicate_tracks(struct step *step);
 /* Prior variance of a place on a body, on each axis. */
-float rho_tracker_body_prior_m2(const struct rho_tracker *tracker);
+float rho_tracker_body_prior_variance_m2(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker);
 
 /* ---- work ------------------------------------------------------------------------------------ */
@@ -426,132 +431,134 @@ struct plot_choice {
     uint16_t in_octave[RHO_WORK_OCTAVES]; /* plots counted in each octave */
 };
 /* Begins a phase in which tracks score plots, with a reserved share for each track in view. */
-void rho_tracker_begin_work(struct step *step);
+void rho_tracker_begin_tracks_work(struct step *step);
 /* Begins a phase that may do work_max / part units of work. */
-void rho_tracker_begin_share(struct step *step, uint32_t part);
-static inline void rho_tracker_spend(struct step *step, uint32_t units)
+void rho_tracker_begin_work_share(struct step *step, uint32_t part);
+static inline void rho_tracker_spend_work(struct step *step, uint32_t units)
 {
     step->work = rho_count(step->work, units);
 }
 
 /* Releases the reserved share of one waiting track. */
-static inline void rho_tracker_release_share(struct step *step)
+static inline void rho_tracker_release_reserved_work(struct step *step)
 {
     step->share.waiting -= step->share.waiting > 0 ? 1u : 0u;
 }
 
-static inline int rho_tracker_is_spent(const struct step *step)
+static inline int rho_tracker_is_work_share_spent(const struct step *step)
 {
     return step->work > step->share.end;
 }
 
-struct plot_choice rho_tracker_choose_plots(struct step *step, const struct rho_track *track);
-void rho_tracker_note_choice(struct plot_choice *choice, const struct rho_track *track,
-                             const struct rho_plot *plot);
-void rho_tracker_end_choice(struct step *step, struct plot_choice *choice);
+struct plot_choice rho_tracker_begin_plot_choice(struct step *step, const struct rho_track *track);
+void rho_tracker_count_plot_for_choice(struct plot_choice *choice, const struct rho_track *track,
+                                       const struct rho_plot *plot);
+void rho_tracker_end_plot_choice(struct step *step, struct plot_choice *choice);
 /* True where a plot is chosen; its units of work are spent. */
-int rho_tracker_is_chosen(struct step *step, struct plot_choice *choice,
-                          const struct rho_track *track, const struct rho_plot *plot);
+int rho_tracker_spend_if_plot_chosen(struct step *step, struct plot_choice *choice,
+                                     const struct rho_track *track, const struct rho_plot *plot);
 /* Units of work that are left for the initiator's search; 0: no limit. */
-uint32_t rho_tracker_work_left(const struct step *step);
-void rho_tracker_end_work(struct step *step);
+uint32_t rho_tracker_work_left_for_search(const struct step *step);
+void rho_tracker_record_work(struct step *step);
 
 /* ---- clutter --------------------------------------------------------------------------------- */
 
 /* expected_clutter.c: density of clutter plots at a place, without echoes and strobes, 1/m^2 */
-float rho_tracker_usual_density(const struct step *step, float x_m, float y_m);
+float rho_tracker_background_density(const struct step *step, float x_m, float y_m);
 /* Density of clutter at a plot's place, without echoes and strobes, 1/m^2; above 0. */
-float rho_tracker_density_at_plot(const struct step *step, const struct rho_plot *plot);
+float rho_tracker_background_density_at_plot(const struct step *step, const struct rho_plot *plot);
 /* ln of the density of clutter at the track's place, in the part of the scan that is claimed. */
-float rho_tracker_log_clutter_density(const struct step *step, const struct rho_track *track);
+float rho_tracker_log_clutter_density_at_track(const struct step *step,
+                                               const struct rho_track *track);
 /* Clutter plots expected within three standard deviations of the track's place; 0 in a frame. */
-float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_track *track);
+float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct rho_track *track);
 /* Measures the clutter density of a later part of the scan, from its held plots. */
 void rho_tracker_measure_part_density(struct step *step);
 /* Smooths the number of unclaimed plots, after new tracks have started. */
-void rho_tracker_learn_unclaimed(struct step *step);
+void rho_tracker_smooth_unclaimed_count(struct step *step);
 /* Moves a mean of ten scans by a tenth of its difference to the newest value. */
 void rho_tracker_smooth_mean(float *mean, float newest);
 
 /* clutter_update.c (RHO_MAX_ECHOES): the clutter map in a step */
-void rho_tracker_open_clutter_map(struct rho_tracker *tracker);
+void rho_tracker_init_clutter_map(struct rho_tracker *tracker);
 int rho_tracker_has_sound_clutter_map(const struct rho_tracker *tracker);
-int rho_tracker_has_sound_returns(const struct rho_track *track);
+int rho_tracker_has_sound_echo_returns(const struct rho_track *track);
 /* Computes the density of echoes and strobes at the plots of a scan (first part), before claims. */
-void rho_tracker_look_at_clutter(struct step *step);
+void rho_tracker_find_clutter_at_plots(struct step *step);
 /*
  * ln of the clutter density at a plot with echoes, strobes and second plots, over that without; 0
  * in later parts of a scan.
  */
-float rho_tracker_repeats_nat(const struct step *step, uint32_t row);
-/* Stores rho_tracker_repeats_nat of the scan's plots with the held plots in the window. */
-void rho_tracker_keep_repeats(struct step *step);
+float rho_tracker_log_echo_density_ratio(const struct step *step, uint32_t row);
+/* Stores rho_tracker_log_echo_density_ratio of the scan's plots with the held plots in the window. */
+void rho_tracker_store_echo_ratios_in_window(struct step *step);
 /* Updates the clutter map with the scan's plots, after new tracks have started. */
-void rho_tracker_learn_clutter(struct step *step);
+void rho_tracker_update_clutter_map(struct step *step);
 /*
  * Likelihood ratio of a range rate that is off_mps from the expected one, against clutter that is
  * uniform in all range rates. Half of such rates are taken to be as expected, with the variance and
  * that of 1 m/s, and half to be uniform, too.
  */
-float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance);
+float rho_tracker_range_rate_ratio(const struct step *step, float off_mps, float variance);
 /* Stores the place where a track starts, to tell later whether it has moved. */
-void rho_tracker_note_start_place(struct rho_track *track);
+void rho_tracker_store_start_place(struct rho_track *track);
 /* Sums into a new track the probabilities that its candidate's plots were returns of echoes. */
-void rho_tracker_note_start_echoes(struct step *step, const struct rho_candidate *candidate,
-                                   struct rho_track *track);
+void rho_tracker_sum_echo_returns_at_start(struct step *step, const struct rho_candidate *candidate,
+                                           struct rho_track *track);
 /* True where a track was found to be of a moving target, and its returns left the clutter map. */
-int rho_tracker_has_moved(const struct rho_track *track);
+int rho_tracker_is_known_moving_target(const struct rho_track *track);
 
 /*
  * split_plots.c (RHO_MAX_ECHOES): near claimed plots, before tracks age, learns how often second
  * plots of a target come, raises the clutter density there, and ends the younger of two tracks of
  * one target
  */
-void rho_tracker_expect_second_plots(struct step *step);
-void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor_id);
+void rho_tracker_score_second_plots(struct step *step);
+void rho_tracker_remove_second_plots_of_sensor(struct rho_tracker *tracker, int32_t sensor_id);
 int rho_tracker_has_sound_second_plots(const struct rho_tracker *tracker);
-int rho_tracker_has_sound_older_track(const struct rho_track *track);
+int rho_tracker_has_sound_track_second_plots(const struct rho_track *track);
 /*
  * After a start: raises the clutter density at the window's plots near the candidate's plots, as
  * they may be second plots of the same target.
  */
-void rho_tracker_expect_earlier_second_plots(struct step *step,
-                                             const struct rho_candidate *candidate);
+void rho_tracker_raise_density_near_start_plots(struct step *step,
+                                                const struct rho_candidate *candidate);
 
 /* ---- plots and tracks ------------------------------------------------------------------------ */
 
 /* plot_scores.c: scores of pairs of a track and a plot or bearing, for the assignment */
 /* Converts nats to integer thousandths, within the range of the assignment's costs. */
-int32_t rho_tracker_mnat(float nat);
+int32_t rho_tracker_nat_to_mnat(float nat);
 /* Makes the gate of a track about its merged estimate. measures: of the scan; 0 for bearings. */
-void rho_tracker_open_gate(const struct step *step, const struct rho_track *track,
-                           uint32_t measures, struct rho_gate *gate);
+void rho_tracker_open_track_gate(const struct step *step, const struct rho_track *track,
+                                 uint32_t measures, struct rho_gate *gate);
 /*
  * Adds a track (row) and an input (column) as a pair to the assignment. gain_nat: score over that
  * of a miss; a pair always costs less than a miss.
  */
-void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat);
+void rho_tracker_add_assignment_pair(struct step *step, unsigned row, uint32_t column,
+                                     float gain_nat);
 /* Score of a pair over clutter. Returns 0 where the pair was not added; *gain_nat stays. */
-int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, float *gain_nat);
+int rho_tracker_find_pair_gain(const struct step *step, unsigned row, int column, float *gain_nat);
 /* Removes an ended track's row from the assignment, and moves later rows up by one. */
-void rho_tracker_remove_offer_row(struct rho_tracker *tracker, unsigned row);
+void rho_tracker_remove_assignment_row(struct rho_tracker *tracker, unsigned row);
 
 /* Solves the assignment, and counts plots that were dropped for lack of room in gates. */
-void rho_tracker_assign(struct step *step);
+void rho_tracker_solve_assignment(struct step *step);
 
 /*
  * Log-likelihood ratio of a plot in a track's Kalman gate, against clutter. log_density:
- * rho_tracker_log_clutter_density of the track
+ * rho_tracker_log_clutter_density_at_track of the track
  */
 float rho_tracker_score_plot(const struct step *step, const struct rho_track *track,
                              const struct rho_gate_result *result, float log_density, uint32_t row);
 /* ln of the probability of a miss; 0 where the scan counts no miss of the track. */
-float rho_tracker_log_miss(const struct step *step, const struct rho_track *track);
+float rho_tracker_log_miss_probability(const struct step *step, const struct rho_track *track);
 /*
  * Iterates over the plots near a track with hypotheses that are not assigned to another track, each
  * scored by every hypothesis; gain_nat is the score over clutter:
- *     rho_tracker_begin_scores(step, row, &scores);
- *     while (rho_tracker_next_score(step, &scores, &plot, &gain_nat))
+ *     rho_tracker_begin_plot_scores(step, row, &scores);
+ *     while (rho_tracker_next_plot_score(step, &scores, &plot, &gain_nat))
  */
 struct plot_scores {
     unsigned track_row;
@@ -561,23 +568,23 @@ struct plot_scores {
     struct plots_near near;
     struct plot_choice choice;
 };
-void rho_tracker_begin_scores(struct step *step, unsigned row, struct plot_scores *scores);
-int rho_tracker_next_score(struct step *step, struct plot_scores *scores, uint32_t *plot,
-                           float *gain_nat);
+void rho_tracker_begin_plot_scores(struct step *step, unsigned row, struct plot_scores *scores);
+int rho_tracker_next_plot_score(struct step *step, struct plot_scores *scores, uint32_t *plot,
+                                float *gain_nat);
 /* A plot of the scan with its time, sensor and row, as rho_track_update takes it. */
-struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row);
+struct rho_track_plot rho_tracker_make_track_plot(const struct step *step, int row);
 
 /* ---- life cycle ------------------------------------------------------------------------------ */
 
 /* life_cycle.c: limits of score and misses that confirm and end the tracks of a step */
-struct rho_track_limits rho_tracker_limits(const struct step *step);
+struct rho_track_limits rho_tracker_track_limits(const struct step *step);
 /* Confirms a track, makes it tentative or ends it, and counts it. */
 void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
                                   const struct rho_track_limits *limits);
-/* Ends a track: it stays in the table as FREE until rho_tracker_remove_ended. */
+/* Ends a track: it stays in the table as FREE until rho_tracker_remove_ended_tracks. */
 void rho_tracker_end_track(struct step *step, struct rho_track *track);
 /* Removes the FREE tracks from the table, with their rows of the assignment. */
-void rho_tracker_remove_ended(struct rho_tracker *tracker);
+void rho_tracker_remove_ended_tracks(struct rho_tracker *tracker);
 
 /* short_lived_tracks.c: more evidence for new tracks where many end early */
 #define RHO_ESTABLISHED_HITS 16
@@ -586,36 +593,37 @@ static inline int rho_tracker_is_established(const struct rho_track *track)
     return track->hits >= RHO_ESTABLISHED_HITS;
 }
 /* Fades the counts of tracks, learns the manoeuvre interval, and sets needed_nat and miss_nat. */
-void rho_tracker_find_evidence_needed(struct step *step);
+void rho_tracker_update_evidence_needed(struct step *step);
 /* True of a track that is not established and has less evidence than needed_nat. */
 int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track);
 /* Counts a track that becomes established in this step. */
-void rho_tracker_note_established(struct step *step, const struct rho_track *track);
+void rho_tracker_count_if_established(struct step *step, const struct rho_track *track);
 /* Counts an ended track if it ended early. */
-void rho_tracker_note_early_end(struct step *step, const struct rho_track *track);
+void rho_tracker_count_if_ended_early(struct step *step, const struct rho_track *track);
 
 /* manoeuvre_interval.c: mean time between manoeuvres; learned from established tracks over dt_s */
 void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s);
 /* Sets the mean time between manoeuvres to its default where no scan came for long. */
-void rho_tracker_reset_manoeuvre_interval(struct rho_tracker *tracker, int64_t time_us);
+void rho_tracker_reset_manoeuvre_interval_after_silence(struct rho_tracker *tracker,
+                                                        int64_t time_us);
 
 /* unobserved_tracks.c: scan intervals of sensors, and tracks that no sensor looks at */
-void rho_tracker_forget_pace(struct rho_tracker *tracker, int32_t sensor_id);
+void rho_tracker_remove_scan_interval(struct rho_tracker *tracker, int32_t sensor_id);
 /* Measures the scan interval of a sensor, which is at the origin if NULL. */
-void rho_tracker_note_pace(struct rho_tracker *tracker, int32_t sensor_id,
-                           const struct rho_sensor *sensor, int64_t time_us, float sector_from_rad,
-                           float sector_to_rad);
+void rho_tracker_update_scan_interval(struct rho_tracker *tracker, int32_t sensor_id,
+                                      const struct rho_sensor *sensor, int64_t time_us,
+                                      float sector_from_rad, float sector_to_rad);
 /*
  * Returns 1 where a track is to end, as it was not observed for too long. Also smooths the time
  * between the track's hits, and lowers its score where it is doubtful after a long silence.
  */
-int rho_tracker_is_long_unobserved(const struct step *step, struct rho_track *track, int is_missed,
-                                   const struct rho_track_limits *limits);
+int rho_tracker_update_and_test_unobserved(const struct step *step, struct rho_track *track,
+                                           int is_missed, const struct rho_track_limits *limits);
 /* True where sigma of the track's place exceeds the maximum range of its last sensor. */
-int rho_tracker_is_place_unknown(const struct step *step, const struct rho_track *track);
+int rho_tracker_is_place_too_uncertain(const struct step *step, const struct rho_track *track);
 
 /* tracker.c: the filter that a configuration gives to tracks of plots */
-enum rho_track_filter rho_tracker_filter_of(const struct rho_tracker_config *config);
-int rho_tracker_is_usable(const struct rho_tracker_config *config);
+enum rho_track_filter rho_tracker_filter_of_config(const struct rho_tracker_config *config);
+int rho_tracker_is_usable_config(const struct rho_tracker_config *config);
 
 #endif

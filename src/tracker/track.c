@@ -72,7 +72,7 @@ static void count_hit(struct rho_track *track)
     track->misses_in_row = 0;
 }
 
-void rho_track_miss(struct rho_track *track, int32_t loss_mnat)
+void rho_track_count_miss(struct rho_track *track, int32_t loss_mnat)
 {
     track->misses = (uint16_t)(track->misses < UINT16_MAX ? track->misses + 1 : UINT16_MAX);
     track->misses_in_row =
@@ -122,7 +122,7 @@ static float root_mean_variance(const struct rho_kalman *kalman, int first)
     float sum = 0.0f;
     int axes = 0;
     for (int axis = 0; axis < 3; axis++) {
-        if (rho_kalman_is_open(kalman, axis)) {
+        if (rho_kalman_is_axis_open(kalman, axis)) {
             sum += kalman->covariance[RHO_AT(first + axis, first + axis)];
             axes++;
         }
@@ -166,7 +166,7 @@ static enum rho_status update_state_by_plot(struct rho_kalman *kalman,
 {
     const struct rho_plot *plot = &seen->plot;
     struct rho_measurement measurement;
-    rho_measurement_open(plot, seen->measures, seen->sensor, &measurement);
+    rho_measurement_from_plot(plot, seen->measures, seen->sensor, &measurement);
     enum rho_status status = rho_kalman_update_position(
         kalman, &measurement, model->speed_sigma_mps * model->speed_sigma_mps);
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_VELOCITY)) {
@@ -216,7 +216,7 @@ static enum rho_status update_input_by_plot(struct rho_input *input,
     const struct rho_plot *plot = &seen->plot;
     const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
     struct rho_measurement measurement;
-    rho_measurement_open(plot, seen->measures, seen->sensor, &measurement);
+    rho_measurement_from_plot(plot, seen->measures, seen->sensor, &measurement);
     enum rho_status status = rho_input_update_position(input, config, &measurement);
     int num_velocities = !(seen->measures & RHO_MEASURES_VELOCITY) ? 0 : measurement.has_z ? 3 : 2;
     for (int axis = 0; axis < num_velocities && status == RHO_OK; axis++) {
@@ -242,7 +242,7 @@ static enum rho_status predict_and_update_input(struct rho_track *track,
         status = update_input_by_plot(&input, seen, model->input);
     }
     if (status == RHO_OK) {
-        rho_input_decide(&input, model->input);
+        rho_input_decide_presence(&input, model->input);
         track->input = input;
         track->is_undecided = 0;
         copy_input_estimate_to_track(track);
@@ -257,7 +257,7 @@ static enum rho_status predict_and_update_input(struct rho_track *track,
 static void decide_inputs_by_bearings(struct rho_track *track, const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
-        rho_input_decide(&track->input, model->input);
+        rho_input_decide_presence(&track->input, model->input);
         copy_input_estimate_to_track(track);
         track->is_undecided = 0;
     }
@@ -272,7 +272,7 @@ static enum rho_status predict_and_update_hypotheses(struct rho_track *track,
     struct rho_imm_plot plot;
     enum rho_status status = rho_hypotheses_predict(model->hypotheses, track->slot, seen->time_us);
     if (status == RHO_OK) {
-        rho_imm_open_plot(&plot, &seen->plot, seen->measures, seen->sensor);
+        rho_imm_prepare_plot(&plot, &seen->plot, seen->measures, seen->sensor);
         status = rho_hypotheses_update(model->hypotheses, track->slot, &plot, seen->time_us);
     }
     return status;
@@ -295,10 +295,10 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
     track->maneuver_probability = estimate.maneuver_probability;
 }
 
-void rho_track_expect(const struct rho_track *track, struct rho_kalman *expected)
+void rho_track_expect_for_gate(const struct rho_track *track, struct rho_kalman *expected)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
-        rho_input_expect(&track->input, expected);
+        rho_input_estimate_for_gate(&track->input, expected);
     } else {
         *expected = track->kalman;
     }
@@ -378,7 +378,7 @@ static enum rho_status restart_input_with_initial_variance(struct rho_track *tra
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) || !(model->input->initial_variance > 0.0f)) {
         return RHO_OK;
     }
-    rho_kalman_set_covariance(&track->kalman, model->input->initial_variance);
+    rho_kalman_set_equal_variances(&track->kalman, model->input->initial_variance);
     return rho_input_start(&track->input, model->input, &track->kalman);
 }
 
@@ -423,7 +423,7 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
         status = restart_input_with_initial_variance(&start, model);
     }
     if (status != RHO_OK) {
-        rho_track_end(&start, model);
+        rho_track_free_hypotheses(&start, model);
         return status;
     }
     for (unsigned i = 0; RHO_SECTORS && i + 1 < num_plots; i++) {
@@ -442,7 +442,8 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     if (!track || !estimate || !model) {
         return RHO_ERROR_NULL;
     }
-    if (hits < 1 || !rho_kalman_is_open(estimate, 0) || !rho_kalman_is_open(estimate, 1)) {
+    if (hits < 1 || !rho_kalman_is_axis_open(estimate, 0) ||
+        !rho_kalman_is_axis_open(estimate, 1)) {
         return RHO_ERROR_VALUE;
     }
     struct rho_track start;
@@ -467,7 +468,7 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     return RHO_OK;
 }
 
-void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
+void rho_track_free_hypotheses(struct rho_track *track, const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         rho_hypotheses_close(model->hypotheses, track->slot);
@@ -512,8 +513,8 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     return status;
 }
 
-enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
-                                 const struct rho_track_model *model)
+enum rho_status rho_track_return_to_time(struct rho_track *track, int64_t time_us,
+                                         const struct rho_track_model *model)
 {
     if (!track || !model) {
         return RHO_ERROR_NULL;
@@ -523,8 +524,9 @@ enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
     }
     enum rho_status status =
         RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
-            ? move_merged_estimate(track, time_us,
-                                   rho_hypotheses_return(model->hypotheses, track->slot, time_us))
+            ? move_merged_estimate(
+                  track, time_us,
+                  rho_hypotheses_predict_noiseless(model->hypotheses, track->slot, time_us))
             : rho_kalman_predict(&track->kalman, rho_seconds_between(track->time_us, time_us),
                                  0.0f);
     if (status == RHO_OK) {
@@ -570,8 +572,9 @@ enum rho_status rho_track_update(struct rho_track *track, const struct rho_track
     return RHO_OK;
 }
 
-enum rho_status rho_track_commit(struct rho_track *track, const struct rho_hypotheses_scan *scan,
-                                 int32_t sensor_id, const struct rho_track_model *model)
+enum rho_status rho_track_commit_scan(struct rho_track *track,
+                                      const struct rho_hypotheses_scan *scan, int32_t sensor_id,
+                                      const struct rho_track_model *model)
 {
     struct rho_hypotheses_outcome outcome;
     if (!track || !scan || !model) {

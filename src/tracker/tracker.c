@@ -16,7 +16,7 @@
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */
 typedef char rho_assert_tracker_ram[sizeof(struct rho_tracker) <= RHO_RAM_TRACKER_BYTES ? 1 : -1];
 
-enum rho_track_filter rho_tracker_filter_of(const struct rho_tracker_config *config)
+enum rho_track_filter rho_tracker_filter_of_config(const struct rho_tracker_config *config)
 {
     if (config->gate == RHO_TRACKER_BEST) {
         return RHO_TRACK_HYPOTHESES;
@@ -40,13 +40,13 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
         .theta_cell_rad = 5.0f * (RHO_PI / 180.0f),
     };
     if (RHO_SECTORS) {
-        rho_tracker_set_late_default(config);
+        rho_tracker_set_late_max_default(config);
     }
     rho_input_config_default(&config->input);
     config->input.is_estimated = (RHO_FILTERS) == 1 << RHO_TRACK_INPUT;
 }
 
-int rho_tracker_is_usable(const struct rho_tracker_config *config)
+int rho_tracker_is_usable_config(const struct rho_tracker_config *config)
 {
     return rho_is_within(config->pd, 0.01f, 0.999f) &&
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
@@ -58,7 +58,7 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            rho_is_within(config->learn_noise_max, 1.0f, 10.0f) &&
            rho_is_within(config->learn_pd_min, 0.1f, 1.0f) && config->coast_scans_max >= 1 &&
            config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
-           RHO_HAS_FILTER(rho_tracker_filter_of(config)) &&
+           RHO_HAS_FILTER(rho_tracker_filter_of_config(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
            (config->gate != RHO_TRACKER_HOUGH || RHO_HAS_FILTER(RHO_TRACK_INPUT)) &&
            (!RHO_HAS_FILTER(RHO_TRACK_INPUT) || rho_input_is_usable(&config->input)) &&
@@ -94,7 +94,7 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     if (size != sizeof *tracker) {
         return RHO_ERROR_SIZE;
     }
-    if (!rho_tracker_is_usable(config)) {
+    if (!rho_tracker_is_usable_config(config)) {
         return RHO_ERROR_CONFIG;
     }
     enum rho_status status;
@@ -105,7 +105,7 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     tracker->looks_max = 1;
     tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_open_clutter_map(tracker);
+        rho_tracker_init_clutter_map(tracker);
     }
     status = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? init_hypotheses(tracker) : RHO_OK;
     if (status != RHO_OK) {
@@ -124,11 +124,11 @@ enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
     if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    if (!rho_tracker_is_usable(config)) {
+    if (!rho_tracker_is_usable_config(config)) {
         return RHO_ERROR_CONFIG;
     }
     if (tracker->num_tracks > 0 &&
-        rho_tracker_filter_of(config) != rho_tracker_filter_of(&tracker->config)) {
+        rho_tracker_filter_of_config(config) != rho_tracker_filter_of_config(&tracker->config)) {
         return RHO_ERROR_STATE;
     }
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
@@ -186,12 +186,12 @@ enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t s
     memset(&tracker->sensors[tracker->num_sensors], 0, sizeof tracker->sensors[0]);
     tracker->learned[place] = tracker->learned[tracker->num_sensors];
     memset(&tracker->learned[tracker->num_sensors], 0, sizeof tracker->learned[0]);
-    rho_tracker_forget_pace(tracker, sensor_id);
+    rho_tracker_remove_scan_interval(tracker, sensor_id);
     if (RHO_SECTORS) {
-        rho_tracker_forget_look(tracker, sensor_id);
+        rho_tracker_remove_look_of_sensor(tracker, sensor_id);
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_forget_second_plots(tracker, sensor_id);
+        rho_tracker_remove_second_plots_of_sensor(tracker, sensor_id);
     }
     return RHO_OK;
 }

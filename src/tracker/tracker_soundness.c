@@ -15,7 +15,7 @@
  */
 static int is_sound_filter(const struct rho_tracker *tracker, const struct rho_track *track)
 {
-    const unsigned own = (unsigned)rho_tracker_filter_of(&tracker->config);
+    const unsigned own = (unsigned)rho_tracker_filter_of_config(&tracker->config);
     return (track->filter == own || track->filter == RHO_TRACK_KALMAN) &&
            RHO_HAS_FILTER(track->filter) &&
            (track->filter != RHO_TRACK_HYPOTHESES || track->slot < RHO_HYPOTHESES_SLOTS);
@@ -41,9 +41,9 @@ static int is_sound_input(const struct rho_track *track)
 
 static int is_sound_track(const struct rho_tracker *tracker, const struct rho_track *track)
 {
-    return (!RHO_SECTORS || rho_tracker_is_sound_ahead(track)) &&
-           (RHO_MAX_ECHOES == 0 ||
-            (rho_tracker_has_sound_returns(track) && rho_tracker_has_sound_older_track(track))) &&
+    return (!RHO_SECTORS || rho_tracker_is_sound_stored_track_time(track)) &&
+           (RHO_MAX_ECHOES == 0 || (rho_tracker_has_sound_echo_returns(track) &&
+                                    rho_tracker_has_sound_track_second_plots(track))) &&
            (!RHO_DOPPLER_NOTCH || track->blind_percent == 0) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || track->is_frozen <= 1) &&
            track->status > RHO_TRACK_FREE && track->status < RHO_NUM_TRACK_STATUS &&
@@ -133,7 +133,7 @@ static int is_sound_extent(const struct rho_extent *extent)
 
 int rho_tracker_is_sound(const struct rho_tracker *tracker)
 {
-    return rho_tracker_is_ready(tracker) && rho_tracker_is_usable(&tracker->config) &&
+    return rho_tracker_is_ready(tracker) && rho_tracker_is_usable_config(&tracker->config) &&
            rho_assignment_is_ready(&tracker->assignment) && tracker->next_track_id > 0 &&
            rho_is_stored_time(tracker->time_us) && rho_tracker_is_score(tracker->start_mnat) &&
            rho_tracker_is_score(tracker->confirm_mnat) && tracker->looks_max > 0 &&
@@ -148,7 +148,7 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            has_sound_sensors(tracker) && has_sound_paces(tracker) &&
            (!RHO_SECTORS || rho_tracker_has_sound_looks(tracker)) &&
            (RHO_MAX_REFLECTORS == 0 || rho_tracker_has_sound_reflectors(tracker)) &&
-           (RHO_MAX_EXCLUDED_AREAS == 0 || rho_tracker_has_sound_excluded(tracker)) &&
+           (RHO_MAX_EXCLUDED_AREAS == 0 || rho_tracker_has_sound_excluded_areas(tracker)) &&
            (!RHO_BODIES || rho_tracker_has_sound_bodies(tracker)) &&
            (RHO_MAX_ECHOES == 0 || (rho_tracker_has_sound_clutter_map(tracker) &&
                                     rho_tracker_has_sound_second_plots(tracker))) &&

@@ -81,7 +81,7 @@ static struct rho_tracker_pace *add_pace_or_replace_oldest(struct rho_tracker *t
     return oldest;
 }
 
-void rho_tracker_forget_pace(struct rho_tracker *tracker, int32_t sensor_id)
+void rho_tracker_remove_scan_interval(struct rho_tracker *tracker, int32_t sensor_id)
 {
     struct rho_tracker_pace *pace = find_pace_of_sensor(tracker, sensor_id);
     if (pace) {
@@ -100,9 +100,9 @@ static void smooth_scan_interval(struct rho_tracker_pace *pace, float gap_s)
     pace->interval_s += INTERVAL_SMOOTHING * ((gap_s < most_s ? gap_s : most_s) - pace->interval_s);
 }
 
-void rho_tracker_note_pace(struct rho_tracker *tracker, int32_t sensor_id,
-                           const struct rho_sensor *sensor, int64_t time_us, float sector_from_rad,
-                           float sector_to_rad)
+void rho_tracker_update_scan_interval(struct rho_tracker *tracker, int32_t sensor_id,
+                                      const struct rho_sensor *sensor, int64_t time_us,
+                                      float sector_from_rad, float sector_to_rad)
 {
     const float middle_rad = rho_angle_wrap(
         sector_from_rad + 0.5f * rho_angle_sector_width(sector_from_rad, sector_to_rad));
@@ -152,7 +152,8 @@ static int may_sensor_see_place(const struct rho_tracker *tracker,
 /* True of the sensor that saw the track last; with RHO_SECTORS also of the one before it. */
 static int is_last_seeing_sensor(const struct rho_track *track, int32_t sensor_id)
 {
-    return track->sensor_id == sensor_id || (RHO_SECTORS && rho_tracker_saw_last(track, sensor_id));
+    return track->sensor_id == sensor_id ||
+           (RHO_SECTORS && rho_tracker_is_last_seeing_sensor(track, sensor_id));
 }
 
 static struct expected_looks expect_looks_at_track(const struct step *step,
@@ -216,8 +217,8 @@ static void lower_score_to_tentative(struct rho_track *track, const struct rho_t
     }
 }
 
-int rho_tracker_is_long_unobserved(const struct step *step, struct rho_track *track, int is_missed,
-                                   const struct rho_track_limits *limits)
+int rho_tracker_update_and_test_unobserved(const struct step *step, struct rho_track *track,
+                                           int is_missed, const struct rho_track_limits *limits)
 {
     if (step->is_late) {
         if (track->plot >= 0 && step->time_us > track->seen_us) {
@@ -231,7 +232,8 @@ int rho_tracker_is_long_unobserved(const struct step *step, struct rho_track *tr
     const int is_overdue =
         wait.interval_s > 0.0f && unseen_s >= (coast + OVERDUE) * wait.interval_s;
     if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
-        (track->plot < 0 ? is_missed : rho_tracker_clutter_in_gate(step, track) > DOUBTFUL_PLOTS)) {
+        (track->plot < 0 ? is_missed
+                         : rho_tracker_expected_clutter_in_gate(step, track) > DOUBTFUL_PLOTS)) {
         lower_score_to_tentative(track, limits);
     }
     if (track->plot >= 0) {
@@ -250,7 +252,7 @@ int rho_tracker_is_long_unobserved(const struct step *step, struct rho_track *tr
 
 /* ---- places ---------------------------------------------------------------------------------- */
 
-int rho_tracker_is_place_unknown(const struct step *step, const struct rho_track *track)
+int rho_tracker_is_place_too_uncertain(const struct step *step, const struct rho_track *track)
 {
     const struct rho_sensor *sensor = rho_tracker_find_sensor(step->tracker, track->sensor_id);
     return sensor && rho_track_sigma_m(track) > UNKNOWN_SHARE * sensor->range_max_m;

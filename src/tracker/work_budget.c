@@ -37,22 +37,22 @@ static uint32_t num_parts_of_scan(const struct step *step)
                                             : RHO_TRACKER_PARTS_MAX;
 }
 
-void rho_tracker_begin_share(struct step *step, uint32_t part)
+void rho_tracker_begin_work_share(struct step *step, uint32_t part)
 {
     const uint32_t work_max = step->tracker->config.work_max;
     step->share.end = work_max > 0 ? rho_count(step->work, work_max / part) : UINT32_MAX;
 }
 
-void rho_tracker_begin_work(struct step *step)
+void rho_tracker_begin_tracks_work(struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts_of_scan(step);
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        waiting +=
-            tracker->tracks[row].status != RHO_TRACK_FREE && rho_tracker_is_in_view(step, row);
+        waiting += tracker->tracks[row].status != RHO_TRACK_FREE &&
+                   rho_tracker_is_track_in_view(step, row);
     }
-    rho_tracker_begin_share(step, part);
+    rho_tracker_begin_work_share(step, part);
     step->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
     step->share.waiting = waiting;
 }
@@ -77,13 +77,13 @@ static uint32_t take_share_of_next_track(struct step *step)
     if (share->end == UINT32_MAX) {
         return UINT32_MAX;
     }
-    rho_tracker_release_share(step);
+    rho_tracker_release_reserved_work(step);
     const uint32_t used = step->work + share->kept * (share->waiting + 1u);
     const unsigned others = share->waiting < FREE_PARTS - 1u ? share->waiting : FREE_PARTS - 1u;
     return share->kept + (used < share->end ? (share->end - used) / (others + 1u) : 0u);
 }
 
-struct plot_choice rho_tracker_choose_plots(struct step *step, const struct rho_track *track)
+struct plot_choice rho_tracker_begin_plot_choice(struct step *step, const struct rho_track *track)
 {
     struct plot_choice choice = {.units = units_to_score_plot(step, track)};
     choice.most = take_share_of_next_track(step) / choice.units;
@@ -104,14 +104,14 @@ static unsigned distance_octave_of_plot(const struct rho_track *track, const str
     return octave;
 }
 
-void rho_tracker_note_choice(struct plot_choice *choice, const struct rho_track *track,
-                             const struct rho_plot *plot)
+void rho_tracker_count_plot_for_choice(struct plot_choice *choice, const struct rho_track *track,
+                                       const struct rho_plot *plot)
 {
     choice->in_octave[distance_octave_of_plot(track, plot)]++;
     choice->num_near++;
 }
 
-void rho_tracker_end_choice(struct step *step, struct plot_choice *choice)
+void rho_tracker_end_plot_choice(struct step *step, struct plot_choice *choice)
 {
     uint32_t left = choice->most;
     if (choice->num_near <= choice->most) {
@@ -126,8 +126,8 @@ void rho_tracker_end_choice(struct step *step, struct plot_choice *choice)
     step->plots_not_tried = rho_count(step->plots_not_tried, choice->num_near - choice->most);
 }
 
-int rho_tracker_is_chosen(struct step *step, struct plot_choice *choice,
-                          const struct rho_track *track, const struct rho_plot *plot)
+int rho_tracker_spend_if_plot_chosen(struct step *step, struct plot_choice *choice,
+                                     const struct rho_track *track, const struct rho_plot *plot)
 {
     if (choice->is_partial) {
         const unsigned octave = distance_octave_of_plot(track, plot);
@@ -136,11 +136,11 @@ int rho_tracker_is_chosen(struct step *step, struct plot_choice *choice,
         }
         choice->of_last -= octave == choice->last ? 1u : 0u;
     }
-    rho_tracker_spend(step, choice->units);
+    rho_tracker_spend_work(step, choice->units);
     return 1;
 }
 
-uint32_t rho_tracker_work_left(const struct step *step)
+uint32_t rho_tracker_work_left_for_search(const struct step *step)
 {
     const uint32_t most = step->initiator->config.work_max, all = step->tracker->config.work_max;
     if (all == 0) {
@@ -154,7 +154,7 @@ uint32_t rho_tracker_work_left(const struct step *step)
     return most > 0 && most < left ? most : left;
 }
 
-void rho_tracker_end_work(struct step *step)
+void rho_tracker_record_work(struct step *step)
 {
     struct rho_tracker_work *work = &step->tracker->work;
     work->work = step->work;

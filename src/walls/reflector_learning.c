@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "../tracker/images.h"
+#include "../tracker/reflector_image.h"
 #include "../tracker/step.h"
 #include "learned_line.h"
 #include "rhotrack/detail/angle.h"
@@ -115,7 +115,7 @@ static int did_scan_cover_image(const struct observation *observation,
         .x_m = image->state[RHO_X], .y_m = image->state[RHO_Y], .z_m = image->state[RHO_Z]};
     const float from_x_m = observation->sensor ? observation->sensor->x_m : 0.0f,
                 from_y_m = observation->sensor ? observation->sensor->y_m : 0.0f;
-    return rho_tracker_covers(observation->sensor, &at, observation->scan->measures) &&
+    return rho_tracker_coverage_holds_plot(observation->sensor, &at, observation->scan->measures) &&
            rho_angle_in_sector(rho_atan2(at.y_m - from_y_m, at.x_m - from_x_m),
                                observation->scan->sector_from_rad,
                                observation->scan->sector_to_rad);
@@ -145,7 +145,7 @@ static int32_t nearest_other_plot_in_gate(const struct observation *observation,
     for (uint32_t i = 0; i < observation->scan->num_plots; i++) {
         const struct rho_plot *plot = &observation->scan->plots[i];
         if (!is_plot_of_target(observation, target, i) &&
-            rho_measurement_is_valid(plot, observation->scan->measures) &&
+            rho_measurement_is_valid_plot(plot, observation->scan->measures) &&
             rho_gate_test(&gate, plot, &result) && (nearest < 0 || result.distance2 < least)) {
             least = result.distance2;
             nearest = (int32_t)i;
@@ -179,7 +179,7 @@ static float refine_line_by_image_plot(struct rho_learned_reflector *line,
 {
     struct rho_measurement seen;
     float noise[6], along_m, across_m;
-    rho_measurement_open(plot, 0, observation->sensor, &seen);
+    rho_measurement_from_plot(plot, 0, observation->sensor, &seen);
     rho_measurement_covariance(&seen, noise);
     const float after_s = (float)plot->offset_us * 1e-6f;
     to_line_frame(line, 0.5f * (target->state[RHO_X] + after_s * target->state[RHO_VX] + plot->x_m),
@@ -355,7 +355,8 @@ static void observe_image(struct rho_reflector_learning *learning,
     memcpy(of.state, target->state, sizeof of.state);
     memcpy(of.covariance, target->covariance, sizeof of.covariance);
     const float slack_m = line->is_used ? 0.1f * (line->to_m - line->from_m) : 0.0f;
-    if (!rho_reflector_image(&wall, observation->sensor, slack_m, &of, &image, &crossing_m) ||
+    if (!rho_reflector_mirror_state(&wall, observation->sensor, slack_m, &of, &image,
+                                    &crossing_m) ||
         !did_scan_cover_image(observation, &image)) {
         return;
     }

@@ -6,8 +6,8 @@
 
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
+#include "sigma_code.h"
 #include "window_extent.h"
-#include "window_sigma.h"
 
 #define WINDOW_MAGIC 0x57494e44u /* "WIND" */
 
@@ -172,7 +172,7 @@ static void find_bin_starts(const struct entry *entry)
     for (uint32_t i = 0; i < entry->scan->num_plots; i++) {
         const struct rho_plot *plot = &entry->scan->plots[i];
         if (entry->fates[i] == RHO_FATE_HELD) {
-            start[rho_window_bin_of(slot, plot->x_m, plot->y_m) + 1]++;
+            start[rho_window_bin_at(slot, plot->x_m, plot->y_m) + 1]++;
         }
     }
     for (unsigned c = 0; c < bins; c++) {
@@ -188,9 +188,9 @@ static void move_held_plots_to_bins(struct rho_window_scan *slot)
 {
     unsigned end = slot->num_plots;
     while (end > 0) {
-        unsigned bin = rho_window_bin_of(slot, slot->plots[end - 1].x_m, slot->plots[end - 1].y_m);
+        unsigned bin = rho_window_bin_at(slot, slot->plots[end - 1].x_m, slot->plots[end - 1].y_m);
         unsigned first = end - 1;
-        while (first > 0 && rho_window_bin_of(slot, slot->plots[first - 1].x_m,
+        while (first > 0 && rho_window_bin_at(slot, slot->plots[first - 1].x_m,
                                               slot->plots[first - 1].y_m) == bin) {
             first--;
         }
@@ -221,7 +221,7 @@ static void copy_plots_into_bins(struct rho_window *window, const struct entry *
     for (uint32_t i = 0; i < entry->scan->num_plots; i++) {
         if (entry->fates[i] == RHO_FATE_HELD) {
             struct rho_window_plot plot = make_window_plot(entry, i);
-            unsigned place = start[rho_window_bin_of(slot, plot.x_m, plot.y_m)]++;
+            unsigned place = start[rho_window_bin_at(slot, plot.x_m, plot.y_m)]++;
             slot->plots[place] = plot;
             slot->marks[place] = (uint16_t)i;
             if (RHO_MAX_ECHOES > 0) {
@@ -285,9 +285,9 @@ int rho_window_continues(const struct rho_window *window, const struct rho_scan 
     return held->sensor.sensor_id == scan->sensor_id && !is_sensor_changed(held, sensor) &&
            window->newest.time_us <= scan->time_us &&
            scan->time_us - held->time_us <= RHO_LIMIT_OFFSET_US &&
-           rho_angle_sector_continues(held->sector_from_rad, held->sector_to_rad,
-                                      scan->sector_from_rad, scan->sector_to_rad,
-                                      SECTOR_GAP_RAD) != 0;
+           rho_angle_continued_ends(held->sector_from_rad, held->sector_to_rad,
+                                    scan->sector_from_rad, scan->sector_to_rad,
+                                    SECTOR_GAP_RAD) != 0;
 }
 
 /*
@@ -317,8 +317,8 @@ static void begin_newest_sector(struct rho_window *window, const struct rho_scan
 static void widen_covered_sector(struct rho_window_scan *slot, const struct rho_scan *scan)
 {
     const unsigned ends =
-        rho_angle_sector_continues(slot->sector_from_rad, slot->sector_to_rad,
-                                   scan->sector_from_rad, scan->sector_to_rad, SECTOR_GAP_RAD);
+        rho_angle_continued_ends(slot->sector_from_rad, slot->sector_to_rad, scan->sector_from_rad,
+                                 scan->sector_to_rad, SECTOR_GAP_RAD);
     if (ends & RHO_ANGLE_CONTINUES_RIGHT) {
         slot->sector_from_rad = scan->sector_from_rad;
     } else {

@@ -7,7 +7,7 @@
 
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
-#include "window_sigma.h"
+#include "sigma_code.h"
 
 /* ---- what is held ---------------------------------------------------------------------------- */
 
@@ -16,7 +16,7 @@ float rho_window_sigma(uint16_t code)
     return sigma_of_code(code);
 }
 
-float rho_window_sigma_m(const struct rho_window_plot *plot)
+float rho_window_larger_sigma_m(const struct rho_window_plot *plot)
 {
     return sigma_of_code(larger_sigma_code(plot));
 }
@@ -42,7 +42,7 @@ static int bin_coordinate(float v_m, float origin_m, float cells_per_m, int n)
     return cell < (float)n ? (int)cell : n - 1;
 }
 
-unsigned rho_window_bin_of(const struct rho_window_scan *scan, float x_m, float y_m)
+unsigned rho_window_bin_at(const struct rho_window_scan *scan, float x_m, float y_m)
 {
     int column = bin_coordinate(x_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x);
     int row = bin_coordinate(y_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y);
@@ -78,7 +78,7 @@ static void update_nearest_plot(struct nearest *best, const struct rho_window_sc
         float dx_m = plot->x_m - query->x_m - query->vx_mps * plot->offset_s;
         float dy_m = plot->y_m - query->y_m - query->vy_mps * plot->offset_s;
         float distance2_m2 = dx_m * dx_m + dy_m * dy_m;
-        float sigma_m = rho_window_sigma_m(plot);
+        float sigma_m = rho_window_larger_sigma_m(plot);
         float variance_m2 = query->variance_m2 + query->sigma_factor * sigma_m * sigma_m;
         if (distance2_m2 * best->variance_m2 < best->distance2_m2 * variance_m2 &&
             !(scan->marks[i] & query->skip_flags)) {
@@ -112,8 +112,8 @@ static struct rho_window_bins bins_around_gate(const struct rho_window_scan *sca
                                  y_m + gate_radius_m + largest_shift_m(scan, vy_mps));
 }
 
-int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_window_query *query,
-                       struct rho_window_work *work)
+int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
+                                 const struct rho_window_query *query, struct rho_window_work *work)
 {
     struct rho_window_bins bins = bins_around_gate(scan, query->x_m, query->y_m, query->vx_mps,
                                                    query->vy_mps, query->gate_radius_m);
@@ -142,7 +142,7 @@ const struct rho_sensor *rho_window_sensor(const struct rho_window_scan *scan)
     return scan->sensor.pd > 0.0f ? &scan->sensor : 0;
 }
 
-struct rho_plot rho_window_plot_of(const struct rho_window_scan *scan, unsigned index)
+struct rho_plot rho_window_unpack_plot(const struct rho_window_scan *scan, unsigned index)
 {
     const struct rho_window_plot *held = &scan->plots[index];
     struct rho_plot plot = {
@@ -193,10 +193,10 @@ struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
     return noise;
 }
 
-int rho_window_see_range_rate(const struct rho_window_scan *scan,
-                              const struct rho_window_plot *plot,
-                              const struct rho_window_place *place,
-                              struct rho_window_range_rate *seen)
+int rho_window_compare_range_rate(const struct rho_window_scan *scan,
+                                  const struct rho_window_plot *plot,
+                                  const struct rho_window_place *place,
+                                  struct rho_window_range_rate *seen)
 {
     /* scans without heights: the height of the place gives the elevation of the line of sight */
     float z_m =
@@ -212,13 +212,13 @@ int rho_window_see_range_rate(const struct rho_window_scan *scan,
     for (int i = 0; i < 3 && RHO_AMBIGUOUS_RANGE_RATES; i++) {
         state[i + 3] += place->more_mps[i];
     }
-    if (!rho_measurement_range_rate(state, &scan->sensor, place->has_z, row, &rate_mps)) {
+    if (!rho_measurement_predict_range_rate(state, &scan->sensor, place->has_z, row, &rate_mps)) {
         return 0;
     }
     /* derivatives of the range rate by position, and by velocity */
     const float *turn = row, *u = row + 3;
     seen->error_mps =
-        rho_measurement_range_rate_error_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
+        rho_measurement_range_rate_innovation_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
     float turned2 = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2];
     seen->variance = place->factor * (squared_sigma_of_code(plot->sigma_range_rate) +
                                       turned2 * squared_sigma_of_code(larger_sigma_code(plot))) +
@@ -230,12 +230,12 @@ int rho_window_see_range_rate(const struct rho_window_scan *scan,
     return 1;
 }
 
-float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
-                                      const struct rho_window_plot *plot,
-                                      const struct rho_window_place *place)
+float rho_window_range_rate_nis(const struct rho_window_scan *scan,
+                                const struct rho_window_plot *plot,
+                                const struct rho_window_place *place)
 {
     struct rho_window_range_rate seen;
-    if (!rho_window_see_range_rate(scan, plot, place, &seen)) {
+    if (!rho_window_compare_range_rate(scan, plot, place, &seen)) {
         return 0.0f;
     }
     return seen.error_mps * seen.error_mps / seen.variance;
@@ -269,7 +269,7 @@ static float nis_of_plot(const struct rho_window_scan *scan, const struct rho_wi
         distance2 += dz_m * dz_m / (place->noise.zz_m2 + place->factor * noise.zz_m2);
     }
     if ((scan->measures & RHO_MEASURES_RANGE_RATE) && distance2 < limit) {
-        distance2 += rho_window_range_rate_distance2(scan, plot, place);
+        distance2 += rho_window_range_rate_nis(scan, plot, place);
     }
     return distance2;
 }
@@ -285,8 +285,9 @@ static float gate_chi2_of_scan(const struct rho_window_scan *scan,
 /* Units of work of comparing a plot by its own covariance, beyond those of a simple comparison. */
 #define OWN_NOISE_UNITS 2u
 
-int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
-                          struct rho_window_work *work)
+int rho_window_nearest_anisotropic(const struct rho_window_scan *scan,
+                                   const struct rho_window_place *place,
+                                   struct rho_window_work *work)
 {
     struct rho_window_bins bins = bins_around_gate(scan, place->x_m, place->y_m, place->vx_mps,
                                                    place->vy_mps, place->gate_radius_m);

@@ -42,7 +42,7 @@ static int has_sound_bins(const struct rho_window_scan *scan)
         }
         for (unsigned i = scan->bin_start[bin]; i < scan->bin_start[bin + 1]; i++) {
             const struct rho_window_plot *plot = &scan->plots[i];
-            if (rho_window_bin_of(scan, plot->x_m, plot->y_m) != bin) {
+            if (rho_window_bin_at(scan, plot->x_m, plot->y_m) != bin) {
                 return 0;
             }
         }
@@ -70,10 +70,10 @@ static int is_sound_scan(const struct rho_window_scan *scan)
 {
     if (!rho_is_stored_time(scan->time_us) ||
         !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
-        !rho_measurement_is_sensor(&scan->sensor) || !rho_is_within(scan->sensor.pd, 0.0f, 1.0f) ||
-        scan->num_plots > RHO_MAX_PLOTS || scan->num_unused > scan->num_plots ||
-        !is_finite(scan->bin_x0_m) || !is_finite(scan->bin_y0_m) ||
-        !rho_is_within(scan->bins_per_m_x, 0.0f, 1e6f) ||
+        !rho_measurement_is_valid_sensor(&scan->sensor) ||
+        !rho_is_within(scan->sensor.pd, 0.0f, 1.0f) || scan->num_plots > RHO_MAX_PLOTS ||
+        scan->num_unused > scan->num_plots || !is_finite(scan->bin_x0_m) ||
+        !is_finite(scan->bin_y0_m) || !rho_is_within(scan->bins_per_m_x, 0.0f, 1e6f) ||
         !rho_is_within(scan->bins_per_m_y, 0.0f, 1e6f) ||
         !rho_is_within(scan->sigma_max_m, 0.0f, 1e7f) || !is_finite(scan->offset_min_s) ||
         !is_finite(scan->offset_max_s)) {

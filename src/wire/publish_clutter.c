@@ -39,7 +39,7 @@ static unsigned count_echoes(const struct rho_tracker *tracker)
     uint32_t place = 0;
     unsigned count = 0;
 
-    while (rho_clutter_map_next(&tracker->clutter_map, &place)) {
+    while (rho_clutter_map_next_known(&tracker->clutter_map, &place)) {
         count++;
     }
     return count;
@@ -52,7 +52,7 @@ static void add_echoes_of_part(const struct rho_tracker *tracker,
     uint32_t place = 0;
     unsigned at = 0;
 
-    while ((echo = rho_clutter_map_next(&tracker->clutter_map, &place))) {
+    while ((echo = rho_clutter_map_next_known(&tracker->clutter_map, &place))) {
         if (at++ / PART_ECHOES == (unsigned)list->part) {
             list->echoes[list->num_echoes++] = echo_message_of(&tracker->clutter_map, echo);
         }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "scan_assembler_parts.h"
+#include "scan_assembler_internal.h"
 
 #define SECOND_US 1000000
 #define SEEN_SCANS 32   /* scan numbers that source.seen remembers: its bits */

@@ -5,7 +5,7 @@
 
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
-#include "scan_assembler_parts.h"
+#include "scan_assembler_internal.h"
 
 #define MAGIC 0x66656564u
 #define HOLD_MAX_US 10000000
@@ -49,7 +49,7 @@ static int is_usable_noise(const struct rho_scan_assembler_noise *noise)
 
 static int is_usable_sensor(const struct rho_scan_assembler_sensor *known)
 {
-    return is_usable_noise(&known->noise) && rho_measurement_is_sensor(&known->sensor);
+    return is_usable_noise(&known->noise) && rho_measurement_is_valid_sensor(&known->sensor);
 }
 
 static int is_usable_config(const struct rho_scan_assembler_config *config)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* show_hypotheses: a message of one track's hypotheses, model probabilities and evidence. */
-#include "show_parts.h"
+#include "show_writers.h"
 
 #define PLOT_NONE (-1)    /* the hypothesis took no plot of the scan */
 #define PLOT_UNKNOWN (-2) /* a track of one filter does not store its older plots */

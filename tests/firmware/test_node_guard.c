@@ -92,7 +92,7 @@ static void start(const uint32_t *sources, uint16_t num_sources,
     config.num_sources = num_sources;
     config.is_authentic = hook;
     assert_int_equal(node_start(&config), RHO_OK);
-    assert_int_equal(node_guard()->refused_source, 0);
+    assert_int_equal(node_sender_filter()->refused_source, 0);
 }
 
 /* The next scan, an empty one, as a datagram, with or without a code. Returns its bytes. */
@@ -147,8 +147,8 @@ static void everybody_is_heard_where_nothing_is_said(void **state)
     start(NULL, 0, NULL);
     assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 10);
     assert_int_equal(count_taken(STRANGER, 0, SIZE_MAX), 10);
-    assert_int_equal(node_guard()->refused_source, 0);
-    assert_int_equal(node_guard()->refused_mac, 0);
+    assert_int_equal(node_sender_filter()->refused_source, 0);
+    assert_int_equal(node_sender_filter()->refused_mac, 0);
 }
 
 static void a_stranger_is_not_heard_and_counted(void **state)
@@ -160,11 +160,11 @@ static void a_stranger_is_not_heard_and_counted(void **state)
     node_flush();
     refused = status.fragments_refused;
     assert_int_equal(count_taken(STRANGER, 0, SIZE_MAX), 0);
-    assert_int_equal(node_guard()->refused_source, 10);
+    assert_int_equal(node_sender_filter()->refused_source, 10);
     assert_int_equal(status.fragments_refused - refused, 10);
     assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 10);
     assert_int_equal(count_taken(OTHER_RADAR, 0, SIZE_MAX), 10);
-    assert_int_equal(node_guard()->refused_source, 10);
+    assert_int_equal(node_sender_filter()->refused_source, 10);
 }
 
 /* Each byte of a datagram, its code's too, is protected: none that is changed gets in. */
@@ -177,16 +177,16 @@ static void without_the_code_nothing_is_heard(void **state)
     start(NULL, 0, is_authentic);
     assert_int_equal(count_taken(STRANGER, 1, SIZE_MAX), 10);
     assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 0);
-    assert_int_equal(node_guard()->refused_mac, refused += 10);
+    assert_int_equal(node_sender_filter()->refused_mac, refused += 10);
     for (size_t i = 0; i < size; i++) {
         assert_int_equal(count_taken(RADAR, 1, i), 0);
-        assert_int_equal(node_guard()->refused_mac, refused += 10);
+        assert_int_equal(node_sender_filter()->refused_mac, refused += 10);
     }
     for (size_t i = 0; i < TOY_BYTES; i++) {
         node_receive(bytes, i, RADAR, now_us);
-        assert_int_equal(node_guard()->refused_mac, ++refused);
+        assert_int_equal(node_sender_filter()->refused_mac, ++refused);
     }
-    assert_int_equal(node_guard()->refused_source, 0);
+    assert_int_equal(node_sender_filter()->refused_source, 0);
 }
 
 static void the_address_comes_first(void **state)
@@ -195,8 +195,8 @@ static void the_address_comes_first(void **state)
     (void)state;
     start(&source, 1, is_authentic);
     assert_int_equal(count_taken(STRANGER, 1, SIZE_MAX), 0);
-    assert_int_equal(node_guard()->refused_source, 10);
-    assert_int_equal(node_guard()->refused_mac, 0);
+    assert_int_equal(node_sender_filter()->refused_source, 10);
+    assert_int_equal(node_sender_filter()->refused_mac, 0);
     assert_int_equal(count_taken(RADAR, 1, SIZE_MAX), 10);
 }
 
@@ -205,7 +205,7 @@ static void a_hook_cannot_make_a_datagram_longer(void **state)
     (void)state;
     start(NULL, 0, makes_longer);
     assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 0);
-    assert_int_equal(node_guard()->refused_mac, 10);
+    assert_int_equal(node_sender_filter()->refused_mac, 10);
 }
 
 static void no_more_addresses_than_there_is_room_for(void **state)

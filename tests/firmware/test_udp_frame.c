@@ -44,7 +44,7 @@ static const uint8_t *payload;
 static size_t open_frame(size_t size)
 {
     payload = NULL;
-    return udp_frame_open(frame, size, &payload);
+    return udp_frame_parse(frame, size, &payload);
 }
 
 static void set_liblcm(void)
@@ -73,7 +73,7 @@ static void a_frame_of_liblcm_opens(void **state)
     assert_int_equal(open_frame(sizeof of_liblcm), 12);
     assert_ptr_equal(payload, frame + UDP_FRAME_HEAD);
     assert_memory_equal(payload, "LC02\0\0\0\0A\0hi", 12);
-    assert_int_equal(udp_frame_source(frame), 0x0a090001);
+    assert_int_equal(udp_frame_source_ipv4(frame), 0x0a090001);
     frame[AT_UDP_CHECKSUM] = frame[AT_UDP_CHECKSUM + 1] = 0; /* none was made */
     assert_int_equal(open_frame(sizeof of_liblcm), 12);
     memset(frame + sizeof of_liblcm, 0xee, 6); /* short frames are padded */
@@ -203,7 +203,7 @@ static void switches_are_told(void **state)
                                        0xad, 0xbc, 0xef, 0xff, 0x4c, 0x43};
     (void)state;
     memset(frame, 0xee, sizeof frame);
-    udp_frame_join(frame, &host);
+    udp_frame_build_igmp_report(frame, &host);
     assert_memory_equal(frame, expected, sizeof expected);
     for (size_t i = sizeof expected; i < UDP_FRAME_JOIN; i++) {
         assert_int_equal(frame[i], 0);

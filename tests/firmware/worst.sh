@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# What a step of each shipped configuration of the node costs at most (tools/firmware/promises.bash)
+# What a step of each shipped configuration of the node costs at most (tools/firmware/step_cost_limits.bash)
 # holds for the worst scans that were found (worst_skies.txt), and for a few that are drawn now; the
 # limit on work is why. The smallest node also runs here on a record, and fits. LOAD=update writes
 # the worst steps into tools/lab/MEASUREMENTS.md.
@@ -8,8 +8,8 @@
 . "$(dirname "$0")/records.bash"
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/../integration/checks.bash"
-# shellcheck source=tools/firmware/promises.bash
-. "$root/tools/firmware/promises.bash"
+# shellcheck source=tools/firmware/step_cost_limits.bash
+. "$root/tools/firmware/step_cost_limits.bash"
 export EMULATE_SECONDS=300
 smallest_flash=$((56 * 1024)) smallest_ram=$((64 * 1024))
 
@@ -20,7 +20,7 @@ keeps() { # the promise, and what the processor has time for
 
 declare -A worst promised time_for
 keeps_under() { # name, sky
-    promise_of "$1" && worst_of "$1" sky "$2" && keeps "$1" || return 1
+    step_cost_limits_of "$1" && worst_of "$1" sky "$2" && keeps "$1" || return 1
     promised[$1]=$((a + b * work_max)) time_for[$1]=$most
     [ "$instructions" -le "${worst[$1]:-0}" ] || worst[$1]=$instructions
 }
@@ -52,13 +52,13 @@ section() {
 }
 
 keeps_drawn() { # name
-    promise_of "$1" && worst_of "$1" search 7 3 && keeps "$1"
+    step_cost_limits_of "$1" && worst_of "$1" search 7 3 && keeps "$1"
 }
 
 # The smallest node follows eight targets among 40 clutter plots, in the emulator, and no step costs
 # more than it may.
 runs_on_a_record() {
-    promise_of smallest &&
+    step_cost_limits_of smallest &&
         record small polar plots --set targets.0.count=8 --set duration_s=120 \
             --set clutter.0.plots=40 &&
         "$root/tools/firmware/emulate.sh" m4 "$images/m4/nodes/smallest-replay.elf" small.lcm \

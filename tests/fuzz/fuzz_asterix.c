@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/asterix/asterix_records.h"
+#include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_udp.h"
 
 static void must(bool holds)
@@ -26,9 +26,9 @@ static void must(bool holds)
 static void check_rows(const struct asterix_scan *scan)
 {
     const struct asterix_columns columns = {.has_place = true, .has_scan = true};
-    struct table *table = asterix_records_empty_table("", &columns);
+    struct table *table = asterix_plot_rows_empty_table("", &columns);
 
-    asterix_records_add_scan(table, scan);
+    asterix_plot_rows_add_scan(table, scan);
     must(table->num_columns == 12 && table->num_rows == scan->count + 1);
     for (size_t i = 0; i < table->num_rows * table->num_columns; i++) {
         must(isnan(table->numbers[i]) || isfinite((float)table->numbers[i]));
@@ -43,7 +43,7 @@ static void check_scan(const struct asterix_scan *scan, int64_t settled_128)
     must(scan->look.end_128 >= scan->look.start_128 && (scan->is_numbered || scan->count == 1));
     check_rows(scan);
     for (size_t i = 0; i < scan->count; i++) {
-        const struct asterix_mark *mark = &scan->marks[i];
+        const struct asterix_scan_plot *mark = &scan->marks[i];
 
         must(mark->time_128 >= settled_128 && mark->range > 0);
         must(i == 0 || mark->time_128 >= mark[-1].time_128);
@@ -110,7 +110,7 @@ static int count_radars(const uint8_t *data, size_t size)
 
 /* As datagrams of one block each, as far as they go. */
 static size_t take(struct asterix_scans *scans, const uint8_t *data, size_t size,
-                   struct asterix_heard *heard)
+                   struct asterix_datagram_counts *heard)
 {
     bool has_one_radar = count_radars(data, size) <= 1; /* another one's clock may be behind */
     struct asterix_block block;
@@ -118,7 +118,7 @@ static size_t take(struct asterix_scans *scans, const uint8_t *data, size_t size
     size_t count = 0, bytes;
 
     for (size_t at = 0; at < size; at += bytes) {
-        int64_t settled_128 = has_one_radar ? asterix_scans_settled_128(scans) : INT64_MIN;
+        int64_t settled_128 = has_one_radar ? asterix_scans_settled_time_128(scans) : INT64_MIN;
 
         settled_128 =
             settled_128 == INT64_MAX ? INT64_MIN : settled_128; /* nothing was heard yet */
@@ -135,7 +135,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct asterix_rules rules = {.hold_s = 1, .wait_s = 30};
-    struct asterix_heard heard = {.datagrams = 0};
+    struct asterix_datagram_counts heard = {.datagrams = 0};
     const struct asterix_counts *counts;
     struct asterix_scans *scans;
     size_t placed;
@@ -157,7 +157,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     must(counts->plots == counts->placed + counts->not_real + counts->no_detection +
                               counts->incomplete + counts->bad_times + counts->late +
                               counts->unplaced + counts->no_room);
-    must(asterix_scans_settled_128(scans) == INT64_MAX);
+    must(asterix_scans_settled_time_128(scans) == INT64_MAX);
     asterix_scans_close(scans);
     return 0;
 }

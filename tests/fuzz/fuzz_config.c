@@ -106,7 +106,7 @@ static void warm_up(void)
 {
     CHECK(setenv("PROJ_DATA", "/nonexistent", 1) == 0);
     parameters_set_defaults(&parameters);
-    local_frame_close(parameters_open_origin(&parameters));
+    local_frame_close(parameters_open_local_frame(&parameters));
     nowhere = fopen("/dev/null", "w");
     CHECK(nowhere);
     refusal_begin();

@@ -90,7 +90,7 @@ static void draw_paths(const struct scene *scene)
     if (count > PATHS_MAX) {
         return;
     }
-    paths = targets_draw(&scene->targets, scene->name, duration_s, 1, 0, 0, &count);
+    paths = targets_draw_paths(&scene->targets, scene->name, duration_s, 1, 0, 0, &count);
     for (size_t i = 0; i < count; i++) {
         CHECK(isfinite(path_motion_at(&paths[i], paths[i].from_s).x_m));
         path_free(&paths[i]);
@@ -101,7 +101,7 @@ static void draw_paths(const struct scene *scene)
 static void read_scene(void *context)
 {
     const struct reading *reading = context;
-    struct scene *scene = scene_find(reading->path, reading->sets, reading->num_sets);
+    struct scene *scene = scene_load_by_name(reading->path, reading->sets, reading->num_sets);
 
     CHECK(scene);
     check_scene(scene);

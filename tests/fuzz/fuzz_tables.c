@@ -176,7 +176,7 @@ static void warm_up(struct parameters *parameters)
 {
     must(setenv("PROJ_DATA", "/nonexistent", 1) == 0);
     set_origin(parameters, true);
-    local_frame_close(parameters_open_origin(parameters));
+    local_frame_close(parameters_open_local_frame(parameters));
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

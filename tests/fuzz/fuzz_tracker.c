@@ -467,7 +467,7 @@ static void check_claims(const struct rho_scan *scan)
               plot < 0 || plot >= RHO_MAX_PLOTS ||
                   chain.report.fates[plot] == (is_new ? RHO_FATE_HELD : RHO_FATE_CLAIMED));
         HOLDS("a plot that a track claimed is valid",
-              plot < 0 || rho_measurement_is_valid(&scan->plots[plot], scan->measures));
+              plot < 0 || rho_measurement_is_valid_plot(&scan->plots[plot], scan->measures));
     }
 }
 
@@ -1015,7 +1015,7 @@ static void push_lone(struct script *script)
         scan.time_us = world.time_us; /* pushes take valid scans */
     }
     for (uint32_t i = 0; i < scan.num_plots; i++) {
-        const int is_held = rho_measurement_is_valid(&scan.plots[i], scan.measures);
+        const int is_held = rho_measurement_is_valid_plot(&scan.plots[i], scan.measures);
 
         fates[i] = fates_before[i] = (uint8_t)(is_held ? RHO_FATE_HELD : RHO_FATE_INVALID);
     }

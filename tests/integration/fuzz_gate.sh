@@ -140,8 +140,8 @@ tracker_must_find src/tracker/life_cycle.c 'an end that is not told' \
 tracker_must_find src/step/track_starts.c 'an identity that comes again' \
     's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
 tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
-    's/return rho_initiator_spent\(search\) > search->limit_units;/return 0;/'
-tracker_must_find src/bearings/batch_soundness.c 'a batch that is unsound for its times' \
+    's/return rho_initiator_work_spent\(search\) > search->limit_units;/return 0;/'
+tracker_must_find src/bearings/bearing_batch_soundness.c 'a batch that is unsound for its times' \
     's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
 must_pass fuzz_tracker_small src/step/report.c
 

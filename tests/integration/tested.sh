@@ -25,6 +25,6 @@ forget() { # function, room, files whose tests forget it
 forget rho_angle_is_sector base tests/unit/base/test_angle.c
 forget rho_window_continues window tests/unit/window/test_window.c
 forget rho_tracker_step step tests/unit/*/*.[ch] tests/unit/*.h
-grep -q rho_measurement_is_bearing tests/unit/estimation/*.c # another room's
-forget rho_measurement_is_bearing measurement tests/unit/measurement/*.c
+grep -q rho_measurement_is_valid_bearing tests/unit/estimation/*.c # another room's
+forget rho_measurement_is_valid_bearing measurement tests/unit/measurement/*.c
 echo 'tested.py sees what it must'

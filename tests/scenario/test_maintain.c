@@ -190,7 +190,7 @@ static void nearest_takes_the_least_distance_and_follows_the_double_filter(void 
         for (int i = 0; i < PLOTS; i++) {
             double expected = distance2(axes, &plots[i]);
 
-            assert_near(maintainer_nis(maintainer, &plots[i], ALL), expected / 6.0,
+            assert_near(maintainer_nis_per_dimension(maintainer, &plots[i], ALL), expected / 6.0,
                         2e-3 * (1.0 + expected / 6.0));
             nearest = expected < distance2(axes, &plots[nearest]) ? i : nearest;
         }
@@ -236,11 +236,12 @@ static void distances_know_the_ellipse_of_the_noise(void **state)
     plot.y_m = (float)(range_m * s + 100.0 * s + 300.0 * c);
     expected = 100.0 * 100.0 / along2 + 300.0 * 300.0 / across2;
     /* the line of sight has turned by 5 mrad */
-    assert_near(maintainer_nis(maintainer, &plot, 0), expected / 2.0, 0.01 * expected);
+    assert_near(maintainer_nis_per_dimension(maintainer, &plot, 0), expected / 2.0,
+                0.01 * expected);
     plot.range_rate_mps = -30.0f;
     expected = (rate2 * 1e4 + 2.0 * both * 3000.0 + along2 * 900.0) / det + 300.0 * 300.0 / across2;
-    assert_near(maintainer_nis(maintainer, &plot, RHO_MEASURES_RANGE_RATE), expected / 3.0,
-                0.01 * expected);
+    assert_near(maintainer_nis_per_dimension(maintainer, &plot, RHO_MEASURES_RANGE_RATE),
+                expected / 3.0, 0.01 * expected);
     maintainer_free(maintainer);
 }
 
@@ -263,7 +264,7 @@ static void check_first_gate(const char *model, double d_m)
         axes[k].vv += d_mps * d_mps * v0;
     }
     maintainer_predict(maintainer, DT_US);
-    assert_near(maintainer_nis(maintainer, &plot, ALL), distance2(axes, &plot) / 6.0,
+    assert_near(maintainer_nis_per_dimension(maintainer, &plot, ALL), distance2(axes, &plot) / 6.0,
                 1e-4 * distance2(axes, &plot));
     maintainer_free(maintainer);
 }
@@ -513,7 +514,7 @@ static void plots_count_at_their_own_times(void **state)
         plot = plot_at(place_m, start_mps);
         plot.offset_us = offset_us;
         maintainer_predict(maintainer, scan.time_us);
-        assert_near(maintainer_nis(maintainer, &plot, ALL), 0.0, 1e-3);
+        assert_near(maintainer_nis_per_dimension(maintainer, &plot, ALL), 0.0, 1e-3);
         assert_int_equal(maintainer_update(maintainer, &scan, NULL, NAN, 0.9, NULL), 0);
         maintainer_estimate(maintainer, &estimate);
         for (int k = 0; k < 3; k++) {
@@ -619,7 +620,7 @@ static double density_error(const struct region *region, int scans)
             plots[count++] = plot_at(place_m, start_mps);
         }
         scan = scan_of(step, plots, count, measures);
-        double found = scan_clutter_density_log(density, &scan, place_m, region->pd);
+        double found = scan_clutter_density_add_scan(density, &scan, place_m, region->pd);
         sum += step >= scans / 2 ? found - expected : 0.0;
     }
     scan_clutter_density_free(density);
@@ -669,7 +670,7 @@ static void a_strip_is_no_square(void **state)
 
             plots[i] = plot_at(p, start_mps);
         }
-        sum += scan_clutter_density_log(density, &scan, start_m, 0.9) - log(39.1 / 4e6);
+        sum += scan_clutter_density_add_scan(density, &scan, start_m, 0.9) - log(39.1 / 4e6);
     }
     assert_near(sum / 100.0, 0.0, 0.25);
     scan_clutter_density_free(density);
@@ -696,7 +697,7 @@ static void a_change_of_density_is_seen(void **state)
             p[1] += random_between(&random, -half_m, half_m);
             plots[i] = plot_at(p, start_mps);
         }
-        found = scan_clutter_density_log(density, &scan, start_m, 0.9);
+        found = scan_clutter_density_add_scan(density, &scan, start_m, 0.9);
         if (step == 199) {
             assert_near(found, log(9.1 / 1e6), 0.3);
         }
@@ -719,7 +720,7 @@ static void without_clutter_the_density_is_low(void **state)
     for (int step = 0; step < 20; step++) {
         struct rho_scan scan = scan_of(step, &plot, step % 3 ? 1 : 0, ALL);
 
-        assert_near(scan_clutter_density_log(density, &scan, start_m, 0.9),
+        assert_near(scan_clutter_density_add_scan(density, &scan, start_m, 0.9),
                     log(0.1) - 2.0 * (log_ball + 3.0 * log(1000.0)), 1e-9);
     }
     scan_clutter_density_free(density);
@@ -737,7 +738,7 @@ static void plots_in_one_place_fill_a_volume(void **state)
     for (int i = 0; i < 4; i++) {
         plots[i] = plot_at(start_m, start_mps);
     }
-    assert_near(scan_clutter_density_log(density, &scan, start_m, 0.9),
+    assert_near(scan_clutter_density_add_scan(density, &scan, start_m, 0.9),
                 log(3.1) - 2.0 * log_ball - 3.0 * log(10.0) - 3.0 * log(3.0), 1e-6);
     scan_clutter_density_free(density);
 }
@@ -757,12 +758,12 @@ static void each_sensor_has_a_density_of_its_own(void **state)
         double expected;
 
         fill_scan(plots, start_m, start_mps, &random);
-        expected = scan_clutter_density_log(alone, &scan, start_m, 0.9);
-        assert_near(scan_clutter_density_log(both, &scan, start_m, 0.9), expected, 0.0);
+        expected = scan_clutter_density_add_scan(alone, &scan, start_m, 0.9);
+        assert_near(scan_clutter_density_add_scan(both, &scan, start_m, 0.9), expected, 0.0);
         fill_scan(plots, far_m, start_mps, &random);
         scan.sensor_id = 1;
         scan.num_plots = 3;
-        (void)scan_clutter_density_log(both, &scan, far_m, 0.9);
+        (void)scan_clutter_density_add_scan(both, &scan, far_m, 0.9);
     }
     scan_clutter_density_free(both);
     scan_clutter_density_free(alone);
@@ -787,9 +788,9 @@ static void range_rates_count(void **state)
             plots[i].range_rate_mps = (float)random_between(&random, -200.0, 200.0);
             plots[i].sigma_range_rate_mps = 1.0f;
         }
-        double plain = scan_clutter_density_log(without, &scan, start_m, 0.9);
+        double plain = scan_clutter_density_add_scan(without, &scan, start_m, 0.9);
         scan.measures = RHO_MEASURES_RANGE_RATE;
-        sum += scan_clutter_density_log(with, &scan, start_m, 0.9) - plain;
+        sum += scan_clutter_density_add_scan(with, &scan, start_m, 0.9) - plain;
     }
     assert_near(sum / 40.0, -log(400.0), 0.05);
     scan_clutter_density_free(with);

@@ -170,7 +170,7 @@ static struct outcome follow_seeds(const char *name, const struct parameters *pa
 static struct outcome follow_scene(const char *name, const char *duration,
                                    const struct parameters *parameters, uint64_t seed, size_t from)
 {
-    struct scene *scene = scene_find(name, &duration, 1);
+    struct scene *scene = scene_load_by_name(name, &duration, 1);
     struct scene_run *run = scene_observe(scene, seed, 0);
     struct following following = {.outcome.targets = run->num_paths};
 

@@ -113,7 +113,7 @@ $(foreach name,$(replay_names),$(eval $(call replay_of,$(name))))
 
 ## Search for the scans that cost each shipped configuration of the node most (WORST_SKIES=400 WORST_SEED=1); minutes
 worst: $(worst_images)
-	@BUILD=$(BUILD) tools/gates/worst.sh
+	@BUILD=$(BUILD) tools/gates/worst_steps.sh
 
 # --- jobs of tools/instructions: build/firmware/CORE/jobs/NAME.elf ---------------------------
 

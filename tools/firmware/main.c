@@ -28,7 +28,7 @@ static enum rho_status start_node(void)
     node_config_default(&config);
     config.sensors = radars;
     config.num_sensors = sizeof radars / sizeof *radars;
-    config.boot = board_boot();
+    config.boot = board_count_start();
     config.send = send_datagram;
     config.clock_us = clock_us;
     return node_start(&config);
@@ -53,7 +53,7 @@ static void print_if_grown(struct growing_number *growing_number, uint32_t numbe
     for (; number > 0; number /= 10) {
         growing_number->text[last--] = (char)('0' + number % 10);
     }
-    board_say(growing_number->text);
+    board_print_line(growing_number->text);
 }
 
 static void print_grown_counters(void)
@@ -62,8 +62,9 @@ static void print_grown_counters(void)
                                  unsent = {.text = "unsent          "},
                                  strange = {.text = "strange         "};
     print_if_grown(&stack, (uint32_t)board_stack_used());
-    print_if_grown(&unsent, board_unsent());
-    print_if_grown(&strange, rho_count(node_guard()->refused_source, node_guard()->refused_mac));
+    print_if_grown(&unsent, board_num_unsent());
+    print_if_grown(&strange, rho_count(node_sender_filter()->refused_source,
+                                       node_sender_filter()->refused_mac));
 }
 
 int main(void)
@@ -71,14 +72,14 @@ int main(void)
     static uint8_t datagram[RHO_UDPM_MAX_DATAGRAM];
     int64_t report_us = 0;
     if (!board_open()) {
-        board_say("the network does not answer");
+        board_print_line("the network does not answer");
         return 1;
     }
     if (start_node() != RHO_OK) {
-        board_say("the node's settings are not taken");
+        board_print_line("the node's settings are not taken");
         return 1;
     }
-    board_say("the node listens");
+    board_print_line("the node listens");
     for (;;) {
         int64_t now_us = board_time_us();
         uint32_t source_ipv4 = 0;

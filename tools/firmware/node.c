@@ -106,7 +106,7 @@ static enum rho_status init_tracker_keeping_counters(void)
     if (status == RHO_OK) {
         tracker.counters = counters;
         tracker.work = work;
-        status = track_starts_open(&settings);
+        status = track_starts_init(&settings);
     }
     if (RHO_BODIES && NODE_BODY_MAX_M > 0.0f && status == RHO_OK) {
         status = rho_tracker_set_body_max(&tracker, NODE_BODY_MAX_M);
@@ -148,7 +148,7 @@ static void step_all_due(int64_t now_us)
 
 /* ---- Received datagrams ---- */
 
-const struct rho_udpm_guard *node_guard(void)
+const struct rho_udpm_guard *node_sender_filter(void)
 {
     return &guard;
 }
@@ -244,7 +244,7 @@ static enum rho_status init_library_node(void)
         status = rho_frames_init(&frames, sizeof frames, &gather);
         config.frames = &frames;
     }
-    track_starts_of_bearings(&config);
+    track_starts_configure_bearings(&config);
     return status == RHO_OK ? rho_node_init(&node, sizeof node, &config) : status;
 }
 

@@ -75,7 +75,7 @@ void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64
  * The sender filter with its counts of refused datagrams; RHO_STATUS has these in
  * fragments_refused, together with datagrams that are not LCM.
  */
-const struct rho_udpm_guard *node_guard(void);
+const struct rho_udpm_guard *node_sender_filter(void);
 
 /* Steps scans that have become due without a new datagram, and sends the status once a second. */
 void node_tick(int64_t now_us);

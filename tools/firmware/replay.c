@@ -87,7 +87,7 @@ static size_t read_event_as_datagram(int input, uint8_t datagram[RHO_UDPM_MAX_DA
         files_read(input, (uint8_t *)channel, length) < length ||
         rho_udpm_begin(datagram, RHO_UDPM_MAX_DATAGRAM, sequence++, channel, &head) != RHO_OK ||
         size > RHO_UDPM_MAX_DATAGRAM - head || files_read(input, datagram + head, size) < size) {
-        files_say("replay: the input is no log of rhotrack's messages\n");
+        files_print("replay: the input is no log of rhotrack's messages\n");
         has_failed = 1;
         return 0;
     }
@@ -100,26 +100,26 @@ static size_t read_event_as_datagram(int input, uint8_t datagram[RHO_UDPM_MAX_DA
 static void send_datagram(void *context, const uint8_t *bytes, size_t size)
 {
     struct rho_udpm_datagram datagram;
-    uint32_t from = files_instructions();
+    uint32_t from = files_read_instruction_counter();
     (void)context;
     if (rho_udpm_parse(bytes, size, &datagram) == RHO_OK) {
         write_event(datagram.channel, datagram.payload, datagram.payload_size);
     } else {
         has_failed = 1;
     }
-    tally.instructions_aside += files_instructions_between(from, files_instructions());
+    tally.instructions_aside += files_instructions_elapsed(from, files_read_instruction_counter());
 }
 
 static void tally_step(void *context, const struct rho_report *report)
 {
-    uint32_t from = files_instructions();
+    uint32_t from = files_read_instruction_counter();
     (void)context;
     tally.steps++;
     tally.track_reports += report->num_tracks;
     tally.partial_steps += report->is_partial;
     write_event("FATES", report->fates,
                 report->num_plots < RHO_MAX_PLOTS ? report->num_plots : RHO_MAX_PLOTS);
-    tally.instructions_aside += files_instructions_between(from, files_instructions());
+    tally.instructions_aside += files_instructions_elapsed(from, files_read_instruction_counter());
 }
 
 /* Clock of the node's step times: always 0, as they would differ from machine to machine. */
@@ -202,9 +202,10 @@ static void receive_and_measure(const uint8_t *datagram, size_t size)
     const uint32_t before = tally.steps;
     uint32_t from;
     tally.instructions_aside = 0;
-    from = files_instructions();
+    from = files_read_instruction_counter();
     node_receive(datagram, size, 0, now_us);
-    since_step += files_instructions_between(from, files_instructions()) - tally.instructions_aside;
+    since_step += files_instructions_elapsed(from, files_read_instruction_counter()) -
+                  tally.instructions_aside;
     if (tally.steps == before) {
         return;
     }
@@ -227,8 +228,8 @@ static void print_number(const char *text, uint32_t number)
         *--first = (char)('0' + number % 10);
         number /= 10;
     } while (number > 0);
-    files_say(text);
-    files_say(first);
+    files_print(text);
+    files_print(first);
 }
 
 static void print_tally(void)
@@ -244,7 +245,7 @@ static void print_tally(void)
     if (files_stack_used() > 0) {
         print_number(" stack ", (uint32_t)files_stack_used());
     }
-    files_say("\n");
+    files_print("\n");
 }
 
 int main(int argc, char **argv)
@@ -254,11 +255,11 @@ int main(int argc, char **argv)
     size_t size;
     output = input ? files_open_to_write(argv[2]) : 0;
     if (!output) {
-        files_say("usage: replay IN.lcm OUT.lcm [NAME=VALUE ...]; or a file does not open\n");
+        files_print("usage: replay IN.lcm OUT.lcm [NAME=VALUE ...]; or a file does not open\n");
         return 2;
     }
     if (!start_node_with_options(argc - 3, argv + 3)) {
-        files_say("replay: a setting is not known, or not taken\n");
+        files_print("replay: a setting is not known, or not taken\n");
         return 2;
     }
     while ((size = read_event_as_datagram(input, datagram)) > 0) {

@@ -20,10 +20,10 @@
  * Initialises the initiators; called together with the tracker's init at the start and at restarts.
  * Errors are those of the init functions.
  */
-RHO_MUST_CHECK enum rho_status track_starts_open(const struct node_config *config);
+RHO_MUST_CHECK enum rho_status track_starts_init(const struct node_config *config);
 
 /* Sets in the node's config how frames of bearings start tracks. */
-void track_starts_of_bearings(struct rho_node_config *config);
+void track_starts_configure_bearings(struct rho_node_config *config);
 
 /* Calls rho_node_step, and starts tracks from its scan or frame. */
 RHO_MUST_CHECK enum rho_status track_starts_step(struct rho_node *node);

@@ -5,7 +5,7 @@
 static struct rho_initiator initiator;
 static struct rho_passive passive;
 
-enum rho_status track_starts_open(const struct node_config *config)
+enum rho_status track_starts_init(const struct node_config *config)
 {
     enum rho_status status = rho_initiator_init(&initiator, sizeof initiator, &config->initiator);
     if (status == RHO_OK && NODE_HAS_BEARINGS) {
@@ -16,7 +16,7 @@ enum rho_status track_starts_open(const struct node_config *config)
     return status;
 }
 
-void track_starts_of_bearings(struct rho_node_config *config)
+void track_starts_configure_bearings(struct rho_node_config *config)
 {
     if (NODE_HAS_BEARINGS) {
         config->passive = &passive;

@@ -24,7 +24,7 @@ static enum rho_status init_passive_paper(void)
     return rho_passive_paper_init(&paper, sizeof paper, &search);
 }
 
-enum rho_status track_starts_open(const struct node_config *config)
+enum rho_status track_starts_init(const struct node_config *config)
 {
     struct rho_paper_starts_config own;
     enum rho_status status;
@@ -36,7 +36,7 @@ enum rho_status track_starts_open(const struct node_config *config)
     return status == RHO_OK ? init_passive_paper() : status;
 }
 
-void track_starts_of_bearings(struct rho_node_config *config)
+void track_starts_configure_bearings(struct rho_node_config *config)
 {
     config->apart_max_m = paper.batch.apart_max_m;
 }

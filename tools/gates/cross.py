@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Cross-compiles the library for its target processors and reads sizes and symbols of the objects;
-used by size.py, stack.py, gates.py and budget.py.
+used by size.py, stack.py, object_restrictions.py and budget.py.
 
 Objects are in $BUILD/cross/<target>-<profile><optimisation>/ and are kept until a source, a header,
 the compiler or a flag changes. The flags in SIZE_FLAGS are added to every compilation.

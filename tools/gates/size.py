@@ -37,14 +37,14 @@ ROWS = [
      "estimation/* association/* tracker/* bodies/* step/* settings/* "
      "-*_soundness -settings/snapshot -step/bearing_* -step/paper_starts", "tracker"),
     ("of these kalman, input and gate, by themselves; RAM of one track",
-     "estimation/kalman* estimation/input* association/gate", "input"),
+     "estimation/kalman* estimation/input_estimation* association/gate", "input"),
     ("walls that are learned, linked only where they are called", "walls/*", ""),
-    ("base and measurement", "base/* measurement/* -measurement/crossing", ""),
+    ("base and measurement", "base/* measurement/* -measurement/bearing_crossing", ""),
     ("passive sensors: crossing, bearings, tracker's part, linked only where they are called",
-     "measurement/crossing bearings/* step/bearing_* -*_soundness -bearings/frames", "passive"),
+     "measurement/bearing_crossing bearings/* step/bearing_* -*_soundness -bearings/frames", "passive"),
     ("frames of bearing scans as they arrive, likewise", "bearings/frames", "frames"),
     ("papers: accumulator, likewise", "papers/accumulator*", "accumulator"),
-    ("papers: HT, MHT, IHT, NHT, likewise", "papers/hough* papers/plane step/paper_starts", "hough"),
+    ("papers: HT, MHT, IHT, NHT, likewise", "papers/hough* papers/parameter_plane step/paper_starts", "hough"),
     ("papers: passive Hough transform, likewise", "papers/passive_paper*", "passive_paper"),
     ("papers: Hough gate, likewise", "papers/gate_hough", ""),
     ("snapshot, and the validation of images, likewise", IMAGES, ""),
@@ -54,7 +54,7 @@ ROWS = [
     ("names of messages and their fields, likewise", "wire/message_names", ""),
     ("scan assembly from messages, two scans open at a time, likewise", "wire/scan_*",
      "scan_assembler"),
-    ("what a step thought, as messages (show), likewise", "wire/show*", "show"),
+    ("what a step thought, as messages (show), likewise", "wire/show_messages*", "show"),
     ("report of a step", "", "report"),
 ]
 
@@ -63,8 +63,8 @@ ROWS = [
 AIMS = [
     ("a radar node: all but passive sensors, papers, images and names",
      "base/* measurement/* estimation/* association/* window/* initiation/* tracker/* bodies/* "
-     "step/* settings/* wire/* -measurement/crossing -step/bearing_* -step/paper_starts "
-     "-*_soundness -settings/snapshot -wire/message_names -wire/show*",
+     "step/* settings/* wire/* -measurement/bearing_crossing -step/bearing_* -step/paper_starts "
+     "-*_soundness -settings/snapshot -wire/message_names -wire/show_messages*",
      96 * 1024, "initiator tracker scan_assembler report", 176 * 1024, 4096),
 ]
 

@@ -5,7 +5,7 @@
 
 A function's stack is its frame plus the largest stack of its callees. Functions of the compiler's
 library and of the C library are charged the bytes in CHARGES. Recursion, calls by a pointer and
-frames of variable size have no figure; gates.py forbids them. Exception frames come on top.
+frames of variable size have no figure; object_restrictions.py forbids them. Exception frames come on top.
 
 Usage: stack.py [--target m0plus|m4f|m7|r5f|rv32] [--workstation] [--path FUNCTION | --headers
 [FOLDER]] --path prints the frames on the worst path of a function. --headers compares the figures

@@ -23,15 +23,16 @@ static uint64_t count_sum;
 static inline void count_begin(void)
 {
     if (count_calls == 0) { /* what counting itself takes */
-        count_from = files_instructions();
-        count_empty = files_instructions_between(count_from, files_instructions());
+        count_from = files_read_instruction_counter();
+        count_empty = files_instructions_elapsed(count_from, files_read_instruction_counter());
     }
-    count_from = files_instructions();
+    count_from = files_read_instruction_counter();
 }
 
 static inline void count_end(void)
 {
-    uint32_t count = files_instructions_between(count_from, files_instructions()) - count_empty;
+    uint32_t count =
+        files_instructions_elapsed(count_from, files_read_instruction_counter()) - count_empty;
     count_calls++;
     count_sum += count;
     if (count > count_max) {
@@ -42,12 +43,12 @@ static inline void count_end(void)
 /* For who looks at single calls. */
 static inline uint32_t count_instructions_now(void)
 {
-    return files_instructions();
+    return files_read_instruction_counter();
 }
 
 static inline uint32_t count_instructions_between(uint32_t from, uint32_t to)
 {
-    return files_instructions_between(from, to);
+    return files_instructions_elapsed(from, to);
 }
 
 static inline void count_report(void)

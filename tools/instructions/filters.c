@@ -10,7 +10,7 @@
 #include "count.h"
 #include "random_draws.h"
 #include "rhotrack/detail/gate.h"
-#include "rhotrack/detail/input.h"
+#include "rhotrack/detail/input_estimation.h"
 #include "rhotrack/detail/kalman.h"
 #include "rhotrack/detail/measurement.h"
 
@@ -43,7 +43,7 @@ static void open_filter(float variance)
     for (int axis = 0; axis < 3; axis++) {
         must_be_ok(rho_kalman_open_axis(&kalman, axis, 100.0f, variance, 1e4f));
     }
-    rho_measurement_open(&plot, RHO_MEASURES_Z, NULL, &measurement);
+    rho_measurement_from_plot(&plot, RHO_MEASURES_Z, NULL, &measurement);
 }
 
 static void update_axes(int updates)
@@ -71,7 +71,7 @@ static float seen[PLOTS][RHO_KALMAN_STATES];
 static void estimate_input(void)
 {
     struct rho_kalman estimate;
-    rho_input_decide(&input, &config);
+    rho_input_decide_presence(&input, &config);
     rho_input_estimate(&input, &estimate);
     memcpy(before_mps, newest_mps, sizeof before_mps);
     memcpy(newest_mps, &estimate.state[3], sizeof newest_mps);
@@ -89,7 +89,7 @@ static void step_input(void)
     struct rho_gate_hough hough;
     int best = 0;
     must_be_ok(rho_input_predict(&input, &config, 0.25f));
-    must_be_ok(rho_gate_hough_open(&hough,
+    must_be_ok(rho_gate_hough_init(&hough,
                                    RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
                                    0.0872664626f, before_mps, newest_mps));
     float least = rho_gate_hough_residual_mps(&hough, &seen[0][3]);

@@ -50,7 +50,7 @@ int main(int argc, char **argv)
     enum rho_status status = rho_accumulator_init(&accumulator, sizeof accumulator, &config);
     count_begin();
     status = status == RHO_OK
-                 ? rho_accumulator_find(&accumulator, &points, peaks, PEAKS_MAX, &result)
+                 ? rho_accumulator_find_peaks(&accumulator, &points, peaks, PEAKS_MAX, &result)
                  : status;
     count_end();
     if (status != RHO_OK) {

@@ -78,7 +78,7 @@ static int step_hypotheses(int64_t time_us)
     rho_hypotheses_begin_scan(&pool, slot, &reach);
     for (int i = 0; i < num_plots; i++) {
         if (rho_hypotheses_is_in_box(&pool, slot, &reach, &plots[i], RHO_MEASURES_Z)) {
-            rho_imm_open_plot(&seen, &plots[i], RHO_MEASURES_Z, NULL);
+            rho_imm_prepare_plot(&seen, &plots[i], RHO_MEASURES_Z, NULL);
             num_in_gate += rho_hypotheses_score_plot(&pool, slot, &seen, time_us, (int16_t)i,
                                                      log_pd, &clutter, &gain_nat);
         }

@@ -51,12 +51,12 @@ static int choose_plot(int by_hough)
     struct rho_gate_result result;
     float least = 1e9f;
     int best = 0;
-    rho_track_expect(&track, &expected);
+    rho_track_expect_for_gate(&track, &expected);
     rho_gate_open(&gate, &expected, model.input ? input.noise_density : NOISE_DENSITY, &sensor,
                   plots[0].measures);
     if (by_hough) {
         failed |=
-            rho_gate_hough_open(&hough, RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
+            rho_gate_hough_init(&hough, RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
                                 0.0872664626f, track.before_mps, track.newest_mps) != RHO_OK;
     }
     for (int i = 0; i < num_plots; i++) {

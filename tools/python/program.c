@@ -12,7 +12,7 @@
 
 #include "base/common.h"
 #include "io/asterix/asterix_file.h"
-#include "io/asterix/asterix_records.h"
+#include "io/asterix/asterix_plot_rows.h"
 #include "io/log/lcm_log.h"
 #include "io/log/log_table.h"
 #include "io/rows/rows_read.h"
@@ -213,7 +213,7 @@ static struct parameters *ready(const struct parameters *settings, char *const *
          i++) {
         place = asterix_file_radar_place(paths[i]);
         if (place.is_given) {
-            asterix_records_suggest_origin(paths[i], &place, copy);
+            asterix_plot_rows_suggest_origin(paths[i], &place, copy);
         }
     }
     parameters_locate_sensors(copy);
@@ -636,7 +636,7 @@ static void cartesian_plot(const struct making *making, const struct program_row
                isnan(row->x_m) ? "x_m is missing or not a number"
                                : "y_m is missing or not a number");
     }
-    if (!rho_measurement_is_valid(plot, measures_of(row))) {
+    if (!rho_measurement_is_valid_plot(plot, measures_of(row))) {
         refuse_plot(making, row, "x_m, y_m, z_m, a velocity or a sigma is out of range");
     }
 }
@@ -660,7 +660,7 @@ static void make_scan(const struct making *making, const struct program_row *row
     scan->measures = measured ? measures_of(measured) : 0;
     made->has_sensor = parameters_to_sensor(making->settings, rows->sensor_id, &made->sensor) ||
                        !isnan(rows->sensor_x_m) || !isnan(rows->sensor_z_m);
-    parameters_to_any_sensor(making->settings, rows->sensor_id, &made->sensor);
+    parameters_to_sensor_or_defaults(making->settings, rows->sensor_id, &made->sensor);
     made->sensor.x_m = said(rows->sensor_x_m, (double)made->sensor.x_m);
     made->sensor.y_m = said(rows->sensor_y_m, (double)made->sensor.y_m);
     made->sensor.z_m = said(rows->sensor_z_m, (double)made->sensor.z_m);
@@ -709,7 +709,7 @@ static void make_look(const struct making *making, const struct program_row *row
                                             .bearing_rad = rows[i].bearing_rad,
                                             .sigma_rad = said(rows[i].sigma_rad, sigma_rad),
                                             .snr_db = said(rows[i].snr_db, 0.0)};
-            if (!rho_measurement_is_bearing(bearing)) {
+            if (!rho_measurement_is_valid_bearing(bearing)) {
                 refuse(making, &rows[i], "bearing_rad or sigma_rad is out of range");
             }
         }
@@ -814,7 +814,7 @@ struct program_table *program_table(const char *path, const char *kind_name,
         memcpy(&made->cells[i * (size_t)kind->num_columns], rows_cells(&file.rows, row),
                (size_t)kind->num_columns * sizeof(double));
     }
-    rows_read_end(&file);
+    rows_file_free(&file);
     table_free(table);
     free(parameters);
     return made;
@@ -905,12 +905,12 @@ struct program_pipeline *program_pipeline(const struct parameters *settings, boo
 {
     RETURN_ON_FAILURE(NULL)
     parameters_check_together(settings);
-    pipeline_set_options((struct parameters *)settings, &(struct pipeline_options){NULL});
+    pipeline_options_to_parameters((struct parameters *)settings, &(struct pipeline_options){NULL});
     struct program_pipeline *made = must_calloc(1, sizeof *made);
 
     made->settings = ready(settings, NULL, 0);
     made->pipeline = must_alloc(sizeof *made->pipeline);
-    *made->pipeline = pipeline_start();
+    *made->pipeline = pipeline_allocate();
     made->tracker = made->pipeline->tracker;
     made->report = made->pipeline->report;
     made->tracks.has_covariances = has_covariances;
@@ -1048,7 +1048,7 @@ struct program_maintainers *program_maintainers(const struct parameters *setting
 
         made->list[i] = (struct program_maintainer){
             .maintainer = i == first ? maintainer_new(gate, has_input_estimation, settings)
-                                     : maintainer_new_beside(made->list[first].maintainer),
+                                     : maintainer_new_sharing_pool(made->list[first].maintainer),
             .random = random_start(seed, 0, i)};
     }
     return made;
@@ -1144,9 +1144,9 @@ bool program_hough_config(const struct parameters *settings, const char *method,
                           struct rho_hough_config *config)
 {
     RETURN_ON_FAILURE(false)
-    const struct parameters copy = customary(settings, method_find(method));
+    const struct parameters copy = customary(settings, method_must_find(method));
 
-    *config = method_hough_config(method_find(method), &copy, range_m);
+    *config = method_hough_config(method_must_find(method), &copy, range_m);
     return true;
 }
 

@@ -28,11 +28,11 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
         if (input.sensor) {
             sensor = *input.sensor;
         } else {
-            parameters_to_any_sensor(&line->parameters, input.scan->sensor_id, &sensor);
+            parameters_to_sensor_or_defaults(&line->parameters, input.scan->sensor_id, &sensor);
         }
-        register_add_any_scan(data, input.scan, &sensor);
-        progress_show_bytes(&progress, ++done, inputs_bytes_read(inputs),
-                            inputs_total_bytes(inputs));
+        register_add_unchecked_scan(data, input.scan, &sensor);
+        progress_show_by_bytes(&progress, ++done, inputs_bytes_read(inputs),
+                               inputs_total_bytes(inputs));
     }
     progress_end(&progress);
     skipped = inputs_counts(inputs).rows_skipped;
@@ -54,31 +54,32 @@ static void print_calibration(const struct command_line *line,
         calibrate_print(result, output.file);
         output_close(&output);
     }
-    say_rows_skipped(rows_skipped);
+    print_rows_skipped(rows_skipped);
 }
 
 int command_calibrate(struct command_line *line)
 {
     struct register_data *data = register_start(&line->parameters);
-    struct pipeline pipeline = pipeline_start();
+    struct pipeline pipeline = pipeline_allocate();
     struct calibrate_result result;
     uint64_t rows_skipped;
 
     command_line_check_ini_output(line, "calibrate");
-    pipeline_set_options(&line->parameters, &(struct pipeline_options){.gate = line->gate});
+    pipeline_options_to_parameters(&line->parameters,
+                                   &(struct pipeline_options){.gate = line->gate});
     rows_skipped = read_scans_counting_bad_rows(line, data);
     if (register_num_radars(data) == 0) {
         fail(EXIT_USAGE, "calibrate: the input has no plots");
     }
     result = calibrate(data, &pipeline);
     print_calibration(line, &result, rows_skipped);
-    if (!calibrate_knows_any_figure(&result)) {
+    if (!calibrate_knows_noise_or_pd(&result)) {
         fail(EXIT_RUNTIME, "calibrate: too little was tracked to tell noise or pd of any radar");
     }
     if (line->output) {
         calibrate_write_ini(&result, line->output);
     }
-    calibrate_free(&result);
+    calibrate_result_free(&result);
     register_free(data);
     pipeline_free(&pipeline);
     return 0;

@@ -99,7 +99,7 @@ static void print_parameters_json(const struct parameters *parameters)
         snprintf(name, sizeof name, "sensor.%d.name", (int)named->sensor_id);
         cJSON_AddItemToObject(object, name, sensor_name_json(named));
     }
-    json_print(object);
+    json_print_and_delete(object);
 }
 
 int command_config(struct command_line *line)
@@ -107,7 +107,7 @@ int command_config(struct command_line *line)
     struct output output;
 
     if (line->method) {
-        method_suggest_parameters(method_find(line->method), &line->parameters);
+        method_suggest_parameters(method_must_find(line->method), &line->parameters);
     }
     parameters_check_together(&line->parameters);
     if (line->json) {

@@ -12,9 +12,9 @@
 #include "base/common.h"
 #include "commands.h"
 #include "io/asterix/asterix_file.h"
-#include "io/asterix/asterix_records.h"
+#include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_track_table.h"
-#include "io/asterix/asterix_tracks.h"
+#include "io/asterix/asterix_track_writer.h"
 #include "io/csv/table.h"
 #include "io/log/lcm_log.h"
 #include "io/log/message_source.h"
@@ -93,7 +93,7 @@ static void convert_table_to_log(const struct command_line *line)
              line->arguments[0]);
     }
     write_messages_to_log(source, line);
-    message_source_report(source);
+    message_source_report_skipped(source);
     message_source_close(source);
 }
 
@@ -102,23 +102,23 @@ static void convert_table_to_log(const struct command_line *line)
 static void convert_asterix_plots_to_csv(const struct command_line *line)
 {
     const char *path = line->arguments[0];
-    struct asterix_records *records =
-        asterix_records_open(path, &line->parameters, line->keep_going);
-    struct table *table = asterix_records_empty_table(path, asterix_records_columns(records));
+    struct asterix_plot_rows *records =
+        asterix_plot_rows_open(path, &line->parameters, line->keep_going);
+    struct table *table = asterix_plot_rows_empty_table(path, asterix_plot_rows_columns(records));
     struct output output = output_open(line->arguments[1]);
     struct progress progress = progress_start("rows", 0);
     uint64_t bytes = plain_file_size(path), rows = 0;
 
     table_write_header(output.file, table);
-    while (asterix_records_next_row(records, table)) {
+    while (asterix_plot_rows_next(records, table)) {
         table_write_row(output.file, table, 0);
         table->num_rows = 0;
-        progress_show_bytes(&progress, ++rows, asterix_records_position(records), bytes);
+        progress_show_by_bytes(&progress, ++rows, asterix_plot_rows_position(records), bytes);
     }
     progress_end(&progress);
     output_close(&output);
     table_free(table);
-    asterix_records_close(records);
+    asterix_plot_rows_close(records);
 }
 
 static void convert_asterix_tracks_to_csv(const struct command_line *line)
@@ -144,7 +144,7 @@ static void convert_tracks_to_asterix(const struct command_line *line)
     struct message_source *source =
         message_source_open(line->arguments, 1, &line->parameters, line->keep_going);
     struct output output = output_open(line->arguments[1]);
-    struct asterix_tracks *tracks = asterix_tracks_open(output.file, &line->parameters);
+    struct asterix_track_writer *tracks = asterix_track_writer_open(output.file, &line->parameters);
     struct message_event event;
     struct rho_message_track_list message;
     uint64_t lists = 0, others = 0;
@@ -152,7 +152,7 @@ static void convert_tracks_to_asterix(const struct command_line *line)
     while (message_source_next(source, &event)) {
         if (strcmp(event.channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 &&
             rho_message_track_list_decode(event.data, event.size, &message) == RHO_OK) {
-            asterix_tracks_add(tracks, &message);
+            asterix_track_writer_add_list(tracks, &message);
             lists++;
         } else {
             others++;
@@ -161,12 +161,12 @@ static void convert_tracks_to_asterix(const struct command_line *line)
     if (lists == 0) {
         fail(EXIT_USAGE, "%s: not one list of tracks in it, and CAT062 holds tracks", input);
     }
-    asterix_tracks_close(tracks);
+    asterix_track_writer_close(tracks);
     output_close(&output);
     if (others > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " other messages left out\n", input, others);
     }
-    message_source_report(source);
+    message_source_report_skipped(source);
     message_source_close(source);
 }
 
@@ -337,8 +337,8 @@ static void convert_tracks_to_geojson(const struct command_line *line)
     output = output_open(line->arguments[1]);
     geojson_write_rows(output.file, &file.rows, &line->parameters);
     output_close(&output);
-    say_rows_skipped(file.rows_skipped);
-    rows_read_end(&file);
+    print_rows_skipped(file.rows_skipped);
+    rows_file_free(&file);
 }
 
 /* Only tracks can be written as GeoJSON: other kinds and --covariance exit 2; selects the kind. */
@@ -353,13 +353,13 @@ static void select_tracks_for_geojson(struct command_line *line)
     line->kind = rows_kind_tracks.name;
 }
 
-void command_convert_refuse_radars(const struct command_line *line)
+void command_convert_refuse_radar_recording(const struct command_line *line)
 {
     const char *input = line->arguments[0], *output = line->arguments[1];
     bool to_map = geojson_path_is_geojson(output);
 
-    if ((to_map || asterix_tracks_path_is_asterix(output)) && asterix_file_is_asterix(input) &&
-        !asterix_file_has_only_tracks(input)) {
+    if ((to_map || asterix_track_writer_path_is_asterix(output)) &&
+        asterix_file_is_asterix(input) && !asterix_file_has_only_tracks(input)) {
         check_input_is_table(input);
         fail(EXIT_USAGE, "%s: a recording of radars, and no list of tracks; %s is made of tracks",
              input, to_map ? "GeoJSON" : "CAT062");
@@ -372,8 +372,8 @@ int command_convert(struct command_line *line)
     bool to_map = geojson_path_is_geojson(line->arguments[1]);
 
     parameters_check_together(&line->parameters);
-    if (asterix_tracks_path_is_asterix(line->arguments[1])) {
-        asterix_tracks_refuse_covariance(line->arguments[1], line->covariance);
+    if (asterix_track_writer_path_is_asterix(line->arguments[1])) {
+        asterix_track_writer_refuse_covariance(line->arguments[1], line->covariance);
         convert_tracks_to_asterix(line);
         return 0;
     }

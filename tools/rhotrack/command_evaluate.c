@@ -38,10 +38,10 @@ static struct evaluation *evaluate_files(const struct command_line *line)
 static void suggest_next_command(const struct command_line *line)
 {
     char *files[2] = {line->arguments[0],
-                      next_command_find_beside(line->arguments[0], "plots.csv")};
+                      next_command_find_file_beside(line->arguments[0], "plots.csv")};
 
     if (path_ends_with(line->arguments[1], ".csv")) {
-        next_command_say_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
+        next_command_suggest_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
     }
     free(files[1]);
 }
@@ -49,7 +49,7 @@ static void suggest_next_command(const struct command_line *line)
 int command_evaluate(struct command_line *line)
 {
     check_output_ending(line->output);
-    refuse_output_as_input(line);
+    refuse_output_that_is_an_input(line);
     struct evaluation *e = evaluate_files(line);
     if (line->output != NULL && path_ends_with(line->output, ".svg")) {
         evaluation_draw(e, line->output);

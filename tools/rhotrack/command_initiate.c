@@ -103,7 +103,7 @@ static void write_found_tracks(const struct batch *batch, const char *path)
 
     for (unsigned i = 0; i < batch->initiator->num_candidates; i++) {
         struct initiated row =
-            initiated_from(i + 1, batch->time_us, &batch->initiator->candidates[i]);
+            initiated_from_candidate(i + 1, batch->time_us, &batch->initiator->candidates[i]);
 
         initiated_output_add_row(found, &row);
     }
@@ -151,7 +151,7 @@ static void print_found_json(const struct batch *batch)
                                              .partial_steps = initiator->budget.partial_steps,
                                              .plots_not_tried = initiator->budget.plots_not_tried});
     cJSON_AddNumberToObject(object, "plots_no_room", (double)batch->plots_no_room);
-    json_print(object);
+    json_print_and_delete(object);
 }
 
 static void initiate_kernel(const struct command_line *line)
@@ -176,7 +176,7 @@ static enum method choose_method(const struct command_line *line)
     if (!line->method) {
         return has_bearings ? METHOD_PASSIVE : METHOD_KERNEL;
     }
-    enum method method = method_find(line->method);
+    enum method method = method_must_find(line->method);
     if (has_bearings && !method_takes_bearings(method)) {
         fail(EXIT_USAGE, "%s: holds bearings, and method %s takes plots; try --method passive",
              line->arguments[0], line->method);

@@ -102,7 +102,7 @@ static _Noreturn void run_bench(char **argv)
          argv[1], strerror(errno));
 }
 
-void command_lab(char **argv)
+void command_lab_execute(char **argv)
 {
     if (strcmp(argv[1], "experiment") == 0) {
         run_experiment(argv);

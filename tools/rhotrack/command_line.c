@@ -9,8 +9,8 @@
 #include "base/common.h"
 #include "base/name_hint.h"
 #include "io/asterix/asterix_file.h"
-#include "io/asterix/asterix_records.h"
-#include "io/csv/origin_and_turn.h"
+#include "io/asterix/asterix_plot_rows.h"
+#include "io/csv/origin_and_azimuth_sense.h"
 #include "io/csv/table_dialect.h"
 #include "settings/method.h"
 
@@ -73,7 +73,7 @@ static const char *option_name_at(size_t index)
 
 /* ---- Help ---- */
 
-void command_line_help(const struct command *command, FILE *file)
+void command_line_print_help(const struct command *command, FILE *file)
 {
     fprintf(file, "Usage: rhotrack %s %s\n\n%s\nOptions:\n", command->name, command->usage,
             command->text);
@@ -97,7 +97,7 @@ static _Noreturn void print_help_and_exit(const struct command *command)
 {
     struct output output = output_open(NULL);
 
-    command_line_help(command, output.file);
+    command_line_print_help(command, output.file);
     output_close(&output);
     exit(0);
 }
@@ -354,13 +354,13 @@ static bool lacks_origin(const struct parameters *parameters)
 static void suggest_origin(struct command_line *line, const char *path, struct asterix_place place)
 {
     if (place.is_given && lacks_origin(&line->parameters)) {
-        asterix_records_suggest_origin(path, &place, &line->parameters);
+        asterix_plot_rows_suggest_origin(path, &place, &line->parameters);
     }
 }
 
 static void suggest_origin_and_check_azimuths(struct command_line *line, const char *path)
 {
-    const struct origin_and_turn look = origin_and_turn_of(path);
+    const struct origin_and_azimuth_sense look = origin_and_azimuth_sense_of(path);
 
     suggest_origin(line, path,
                    (struct asterix_place){look.has_place, look.lat_deg, look.lon_deg, look.alt_m});
@@ -408,7 +408,7 @@ void command_line_read(struct command_line *line, const struct command *command,
     select_plot_files(line, command);
 }
 
-void refuse_output_as_input(const struct command_line *line)
+void refuse_output_that_is_an_input(const struct command_line *line)
 {
     for (int i = 0; line->output && i < line->num_arguments; i++) {
         if (is_same_file(line->output, line->arguments[i])) {
@@ -449,7 +449,7 @@ bool is_output_to_stdout(const struct command_line *line)
 
 void command_line_check_ini_output(const struct command_line *line, const char *command)
 {
-    refuse_output_as_input(line);
+    refuse_output_that_is_an_input(line);
     refuse_inputs_given_twice(line, command);
     refuse_ending_of_other_format(line, command);
     if (line->json && is_output_to_stdout(line)) {
@@ -468,7 +468,7 @@ static bool are_plot_files_regular(const struct command_line *line)
     return true;
 }
 
-void command_line_find_origin(struct command_line *line)
+void command_line_set_origin_and_places(struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments && lacks_origin(&line->parameters); i++) {
         suggest_origin(line, line->arguments[i], asterix_file_radar_place(line->arguments[i]));

@@ -33,13 +33,13 @@ void command_line_read(struct command_line *line, const struct command *command,
  * set, converts sensors' latitudes and longitudes to local places, and warns on standard error of
  * azimuths that look clockwise.
  */
-void command_line_find_origin(struct command_line *line);
+void command_line_set_origin_and_places(struct command_line *line);
 
 /* Prints the help text of a command. */
-void command_line_help(const struct command *command, FILE *file);
+void command_line_print_help(const struct command *command, FILE *file);
 
 /* Exit 2 where --output names one of the inputs, for commands that must not overwrite an input. */
-void refuse_output_as_input(const struct command_line *line);
+void refuse_output_that_is_an_input(const struct command_line *line);
 
 /* True for -o -: standard output gets the output file alone, so that no report may go there. */
 bool is_output_to_stdout(const struct command_line *line);

@@ -61,7 +61,7 @@ static void warn_of_unobservable_inputs(const struct command_line *line, enum ma
 static void count_plot_fates(struct maintaining *maintaining, const struct rho_scan *scan, int row)
 {
     for (uint32_t i = 0; i < scan->num_plots; i++) {
-        bool is_valid = rho_measurement_is_valid(&scan->plots[i], scan->measures);
+        bool is_valid = rho_measurement_is_valid_plot(&scan->plots[i], scan->measures);
         enum rho_fate fate = (int64_t)i == row ? RHO_FATE_CLAIMED
                              : !is_valid       ? RHO_FATE_INVALID
                              : i > MAINTAINER_ROW_MAX && maintaining->gate == MAINTAIN_BEST
@@ -104,7 +104,7 @@ static void step_and_write_all_scans(struct maintaining *maintaining, struct sca
             tracks_output_write_track(tracks, scan->time_us,
                                       maintainer_report(maintaining->maintainer));
         }
-        progress_show_bytes(&progress, maintaining->scans, scan_reader_position(reader), bytes);
+        progress_show_by_bytes(&progress, maintaining->scans, scan_reader_position(reader), bytes);
     }
     progress_end(&progress);
 }
@@ -166,7 +166,7 @@ static void print_json(const struct maintaining *maintaining, const struct comma
                             (double)maintainer_state_bytes(maintaining->maintainer));
     cJSON_AddNumberToObject(object, "updates_refused",
                             (double)maintainer_num_refused(maintaining->maintainer));
-    json_print(object);
+    json_print_and_delete(object);
 }
 
 static struct scan_reader *open_plot_reader(const struct command_line *line)

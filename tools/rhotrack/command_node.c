@@ -23,7 +23,7 @@
 #include "live/node_core.h"
 #include "live/node_log.h"
 #include "live/node_print.h"
-#include "live/node_sensors.h"
+#include "live/node_sensor_warnings.h"
 #include "live/node_tally.h"
 #include "live/page_server.h"
 #include "live/senders.h"
@@ -195,7 +195,7 @@ static bool reap_clutter_writer(struct node *node, int options)
  */
 static void save_clutter_map_when_due(struct node *node)
 {
-    if (clutter_file_is_due(&node->clutter) && reap_clutter_writer(node, WNOHANG)) {
+    if (clutter_file_is_save_due(&node->clutter) && reap_clutter_writer(node, WNOHANG)) {
         node->clutter.saved_us = clock_us();
         node->clutter_writer = fork();
         if (node->clutter_writer == 0) {
@@ -261,7 +261,7 @@ static void on_step(void *context, const struct rho_report *report)
 {
     struct node *node = context;
 
-    node_print_note_step(&node->print, report);
+    node_print_step(&node->print, report);
     print_sensor_changes(node);
     if (!node->print.is_terminal) {
         print_wall_changes(node);
@@ -338,9 +338,9 @@ static void attribute_losses_to_sensor(struct node *node, const char *channel)
 {
     struct node_tally tallies[NODE_TALLIES];
     int16_t sensor_id = 0;
-    const bool has_sensor = senders_read_sensor_id(channel, &sensor_id);
+    const bool has_sensor = senders_sensor_id_of_channel(channel, &sensor_id);
 
-    node_tally_all(node->core, node->transport, tallies);
+    node_tally_collect(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         struct warning *warning = &node->warnings[i];
 
@@ -361,7 +361,7 @@ static void warn_of_losses(struct node *node)
     if (node->print.is_terminal) {
         return;
     }
-    node_tally_all(node->core, node->transport, tallies);
+    node_tally_collect(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         warn_when_tally_rose(&node->warnings[i], &tallies[i], now_us);
     }
@@ -382,7 +382,7 @@ static void print_summary(const struct node *node)
             node_core_max_step_us(node->core));
     node_core_print_learned(node->core, stderr);
     fprintf(stderr, "\n");
-    node_tally_all(node->core, node->transport, tallies);
+    node_tally_collect(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         if (tallies[i].count) {
             fprintf(stderr, "rhotrack: %s: %" PRIu64 "\n", tallies[i].name, tallies[i].count);
@@ -391,15 +391,15 @@ static void print_summary(const struct node *node)
     if (node->print.left_out > 0) {
         fprintf(stderr, "rhotrack: reports not printed: %" PRIu64 "\n", node->print.left_out);
     }
-    if (node_core_num_not_shown(node->core) > 0) {
+    if (node_core_num_show_left_out(node->core) > 0) {
         fprintf(stderr, "rhotrack: messages of --show beyond its rate: %" PRIu64 "\n",
-                node_core_num_not_shown(node->core));
+                node_core_num_show_left_out(node->core));
     }
     if (events_left_out > 0) {
         fprintf(stderr, "rhotrack: events not logged: %" PRIu64 "\n", events_left_out);
     }
     node_sensors_print_bad(node->core, stderr);
-    if (error_lines_is_lossy()) {
+    if (error_lines_were_lost()) {
         fputs("rhotrack: standard error was full for a while: lines of it are missing\n", stderr);
     }
 }
@@ -477,7 +477,7 @@ static void *exit_when_end_takes_too_long(void *signals)
     while (poll(&here, 1, -1) <= 0) {
     }
     nanosleep(&left, NULL);
-    error_lines_write("rhotrack: an output does not end in time; it ends without it\n");
+    error_lines_write_directly("rhotrack: an output does not end in time; it ends without it\n");
     _exit(EXIT_RUNTIME);
 }
 
@@ -647,7 +647,7 @@ static void send_status_and_clutter(struct node *node)
 
 static void refresh_track_table(struct node *node, bool is_end)
 {
-    if (!node_print_show(&node->print, node->core, transport_url(node->transport), is_end)) {
+    if (!node_print_refresh(&node->print, node->core, transport_url(node->transport), is_end)) {
         if (errno != EPIPE) {
             fprintf(stderr, "rhotrack: standard output: %s\n", strerror(errno));
             node->exit_code = EXIT_RUNTIME;
@@ -674,7 +674,7 @@ static void do_periodic_work(struct node *node)
     refresh_track_table(node, false);
     warn_of_losses(node);
     print_sensor_changes(node);
-    set_exit_code_of_save(node, node_log_report_errors(node->log));
+    set_exit_code_of_save(node, node_log_report_and_retry(node->log));
     save_clutter_map_when_due(node);
 }
 
@@ -697,7 +697,7 @@ static void finish_and_save_outputs(struct node *node)
 {
     node_print_finish(&node->print, node->finish_us);
     node_log_finish_queue(node->log, node->finish_us);
-    set_exit_code_of_save(node, node_log_report_errors(node->log));
+    set_exit_code_of_save(node, node_log_report_and_retry(node->log));
     print_summary(node);
     write_snapshot_at_end(node);
     save_clutter_map_at_end(node);
@@ -727,15 +727,15 @@ int command_node(struct command_line *line)
     if (line->log && transport_url_is_file(line->lcm, line->log)) {
         fail(EXIT_USAGE, "node: %s would be written over what is read", line->log);
     }
-    pipeline_set_options(&line->parameters,
-                         &(struct pipeline_options){line->gate, line->method, line->pipeline});
+    pipeline_options_to_parameters(
+        &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
     clutter_file_refuse_same_file(line->clutter_map, line->log, "log");
     if (line->clutter_map && transport_url_is_file(line->lcm, line->clutter_map)) {
         fail(EXIT_USAGE, "%s: the input cannot be the clutter map", line->clutter_map);
     }
     struct pipeline_show *show = pipeline_show_open(line->show, &line->parameters);
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
-    error_lines_open(&line->parameters, is_live);
+    error_lines_redirect_stderr(&line->parameters, is_live);
     node_core_set_show(node.core, show);
     if (line->commands) {
         node_core_allow_commands(node.core);

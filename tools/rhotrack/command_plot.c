@@ -74,7 +74,7 @@ struct drawn_results {
 static void compute_votes_of_method(struct drawn_results *results, const struct plot_data *data,
                                     struct command_line *line)
 {
-    const enum method method = method_find(line->method);
+    const enum method method = method_must_find(line->method);
 
     if (method == METHOD_KERNEL || method_takes_bearings(method)) {
         fail(EXIT_USAGE,
@@ -155,7 +155,7 @@ int command_plot(struct command_line *line)
              line->output, kind);
     }
     picture_check_path(line->output);
-    refuse_output_as_input(line);
+    refuse_output_that_is_an_input(line);
     if (line->method && strcmp(kind, "parameter-space") != 0) {
         fail(EXIT_USAGE, "plot %s: --method is for parameter-space", kind);
     }

@@ -14,7 +14,7 @@
 #include "io/log/message_shift.h"
 #include "io/log/message_source.h"
 #include "io/scans/scan_interval_hint.h"
-#include "live/publish.h"
+#include "live/publish_common.h"
 #include "rhotrack/udpm.h"
 #include "transport/transport.h"
 
@@ -172,7 +172,7 @@ static const uint8_t *adapt_message_to_pass(struct player *player,
     }
     memcpy(player->buffer, event->data, event->size);
     if (player->epoch) {
-        message_set_epoch(player->buffer, event->size, PUBLISH_EPOCH_OF_CSV, player->epoch);
+        message_replace_epoch(player->buffer, event->size, PUBLISH_EPOCH_OF_CSV, player->epoch);
     }
     if (player->passes > 0) {
         message_shift_in_time(player->buffer, event->size, (int64_t)player->shift_us,
@@ -211,7 +211,7 @@ static void play_pass(struct player *player, struct message_source *source)
             send_event(player, &event);
         }
     }
-    message_source_report(source);
+    message_source_report_skipped(source);
     message_source_close(source);
     player->passes++;
     player->shift_us = pass_duration_us(player) * (double)player->passes;

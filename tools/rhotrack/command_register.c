@@ -25,7 +25,7 @@ static void add_scan_or_fail(struct register_data *data, const struct input *inp
     if (input->sensor) {
         sensor = *input->sensor;
     } else {
-        parameters_to_any_sensor(parameters, input->scan->sensor_id, &sensor);
+        parameters_to_sensor_or_defaults(parameters, input->scan->sensor_id, &sensor);
         if (unplaced->is_any && unplaced->sensor_id != sensor.sensor_id) {
             fail(
                 EXIT_USAGE,
@@ -55,8 +55,8 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
     }
     for (struct input input = inputs_next(inputs); input.scan; input = inputs_next(inputs)) {
         add_scan_or_fail(data, &input, &line->parameters, &unplaced);
-        progress_show_bytes(&progress, ++done, inputs_bytes_read(inputs),
-                            inputs_total_bytes(inputs));
+        progress_show_by_bytes(&progress, ++done, inputs_bytes_read(inputs),
+                               inputs_total_bytes(inputs));
     }
     progress_end(&progress);
     skipped = inputs_counts(inputs).rows_skipped;
@@ -89,18 +89,19 @@ static void print_biases(const struct command_line *line, const struct register_
         register_print(result, output.file);
         output_close(&output);
     }
-    say_rows_skipped(rows_skipped);
+    print_rows_skipped(rows_skipped);
 }
 
 int command_register(struct command_line *line)
 {
     struct register_data *data = register_start(&line->parameters);
-    struct pipeline pipeline = pipeline_start();
+    struct pipeline pipeline = pipeline_allocate();
     struct register_result result;
     uint64_t rows_skipped;
 
     command_line_check_ini_output(line, "register");
-    pipeline_set_options(&line->parameters, &(struct pipeline_options){.gate = line->gate});
+    pipeline_options_to_parameters(&line->parameters,
+                                   &(struct pipeline_options){.gate = line->gate});
     rows_skipped = read_scans_counting_bad_rows(line, data);
     check_enough_radars(data);
     result = register_estimate_biases(data, &pipeline);

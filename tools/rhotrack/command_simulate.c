@@ -80,7 +80,7 @@ static void suggest_next_command(const struct command_line *line)
         words[count++] = config;
         words[count++] = "-o";
         words[count++] = tracks;
-        next_command_say(line, words);
+        next_command_suggest(line, words);
     }
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         free(files[i]);
@@ -97,7 +97,7 @@ int command_simulate(struct command_line *line)
     if (line->num_arguments != 1 || line->output == NULL) {
         fail_with_scene_list();
     }
-    scene = scene_find(line->arguments[0], line->scene_sets, line->num_scene_sets);
+    scene = scene_load_by_name(line->arguments[0], line->scene_sets, line->num_scene_sets);
     if (!scene) {
         fail_with_scene_hint(line->arguments[0]);
     }

@@ -142,8 +142,8 @@ static void step_and_write_all_inputs(struct tracking *tracking, struct inputs *
         step_and_write_input(tracking, &input, tracks);
         done++;
         if (!is_on_terminal) {
-            progress_show_bytes(&progress, done, inputs_bytes_read(inputs),
-                                inputs_total_bytes(inputs));
+            progress_show_by_bytes(&progress, done, inputs_bytes_read(inputs),
+                                   inputs_total_bytes(inputs));
         }
     }
     progress_end(&progress);
@@ -226,7 +226,7 @@ static int64_t follow_quiet_us(const struct parameters *parameters)
 {
     int32_t least_us, largest_us;
 
-    parameters_time_biases_us(parameters, &least_us, &largest_us);
+    parameters_time_bias_range_us(parameters, &least_us, &largest_us);
     return llround(parameters->value[PARAMETER_FOLLOW_QUIET_S] * 1e6) +
            ((int64_t)largest_us - least_us);
 }
@@ -306,9 +306,9 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
         fprintf(stderr, ", in %" PRIu32 " scans work_max left out plots, %" PRIu32 " times",
                 work->partial_steps, work->plots_not_tried);
     }
-    if (pipeline_show_not_sent(tracking->show) > 0) {
+    if (pipeline_show_num_not_sent(tracking->show) > 0) {
         fprintf(stderr, ", messages of --show beyond its rate: %" PRIu64,
-                pipeline_show_not_sent(tracking->show));
+                pipeline_show_num_not_sent(tracking->show));
     }
     fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_step_us(tracking, counts),
             tracking->max_us);
@@ -396,7 +396,7 @@ static double count_known_echoes(const struct rho_clutter_map *map)
     uint32_t place = 0;
     double num = 0.0;
 
-    while (rho_clutter_map_next(map, &place)) {
+    while (rho_clutter_map_next_known(map, &place)) {
         num += 1.0;
     }
     return num;
@@ -433,7 +433,7 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     if (tracking->pipeline.zones) {
         cJSON_AddItemToObject(object, "zones", zones_counts_json(tracking->pipeline.zones));
     }
-    json_print(object);
+    json_print_and_delete(object);
 }
 
 /*
@@ -450,7 +450,7 @@ static void open_pipeline(struct tracking *tracking, const struct inputs *inputs
         size_t count;
         const struct frame_sensor *sensors = inputs_passive_sensors(inputs, &count);
 
-        parameters->passive_apart_m = bearing_sensors_apart_m(sensors, count);
+        parameters->passive_apart_m = bearing_sensors_max_distance_m(sensors, count);
         pipeline_open_passive(&tracking->pipeline, parameters);
     }
     check_and_set_passive_sensors(tracking, inputs, parameters);
@@ -475,7 +475,7 @@ static struct inputs *open_inputs(const struct command_line *line)
     if (line->num_arguments > 1) {
         fail(EXIT_USAGE, "--follow takes one input");
     }
-    refuse_output_as_input(line); /* --follow writes the output in place */
+    refuse_output_that_is_an_input(line); /* --follow writes the output in place */
     return inputs_follow(line->arguments[0], &line->parameters, line->keep_going);
 }
 
@@ -505,8 +505,8 @@ static void print_results(const struct tracking *tracking, const struct inputs *
 
     print_summary(tracking, &counts, &line->parameters);
     if (tracking->pipeline.tracker->counters.tracks_confirmed == 0 && counts.frames == 0) {
-        no_tracks_reason_say(&tracking->seen, tracking->pipeline.tracker, &line->parameters,
-                             stderr);
+        no_tracks_reason_print(&tracking->seen, tracking->pipeline.tracker, &line->parameters,
+                               stderr);
     }
     if (tracking->pipeline.zones) {
         zones_print_counts(tracking->pipeline.zones);
@@ -523,8 +523,8 @@ static void print_results(const struct tracking *tracking, const struct inputs *
 static void suggest_next_command(const struct command_line *line)
 {
     const char *plots = line->arguments[0];
-    char *truth = next_command_find_beside(plots, "truth.csv");
-    char *config = next_command_find_beside(plots, "scenario.ini");
+    char *truth = next_command_find_file_beside(plots, "truth.csv");
+    char *config = next_command_find_file_beside(plots, "scenario.ini");
 
     if (config && line->num_settings == 0 && isatty(STDERR_FILENO)) {
         fprintf(stderr, "rhotrack: %s stands beside the plots and was not used (--config)\n",
@@ -532,9 +532,9 @@ static void suggest_next_command(const struct command_line *line)
     }
     if (line->output && path_ends_with(line->output, ".csv") && truth &&
         next_command_can_read_file(line, truth)) {
-        next_command_say(line, (const char *[]){"evaluate", truth, line->output, NULL});
+        next_command_suggest(line, (const char *[]){"evaluate", truth, line->output, NULL});
     } else if (line->output && path_ends_with(line->output, ".csv") && strcmp(plots, "-") != 0) {
-        next_command_say_page(line, line->arguments, line->num_arguments, line->output);
+        next_command_suggest_page(line, line->arguments, line->num_arguments, line->output);
     }
     free(truth);
     free(config);
@@ -542,14 +542,14 @@ static void suggest_next_command(const struct command_line *line)
 
 int command_track(struct command_line *line)
 {
-    struct tracking tracking = {.pipeline = pipeline_start()};
+    struct tracking tracking = {.pipeline = pipeline_allocate()};
     struct inputs *inputs;
     struct tracks_output *tracks;
     const char *why = NULL;
     bool is_saved, has_tracks;
 
-    pipeline_set_options(&line->parameters,
-                         &(struct pipeline_options){line->gate, line->method, line->pipeline});
+    pipeline_options_to_parameters(
+        &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
     check_clutter_map_is_separate(line);
     if (line->show && !tracks_output_path_is_log(line->output)) {
         fail(EXIT_USAGE, "--show writes messages: it needs -o NAME.lcm");
@@ -561,7 +561,7 @@ int command_track(struct command_line *line)
                                          &tracking.pipeline.tracker->clutter_map);
     tracks = open_tracks_output(line);
     if (tracks && line->parameters.value[PARAMETER_BODY_MAX_M] > 0.0) {
-        tracks_output_add_bodies(tracks, tracking.pipeline.tracker);
+        tracks_output_add_body_columns(tracks, tracking.pipeline.tracker);
     }
     tracking.zones = open_zone_events_output(line);
     if (line->follow) {

@@ -278,14 +278,14 @@ int main(int argc, char **argv)
         return 0;
     }
     if (command_lab_has(argv[1])) {
-        command_lab(argv);
+        command_lab_execute(argv);
     }
     command = must_find_command(argv[1]);
     command_line_read(&line, command, argc - 1, argv + 1);
     if (command->run == command_convert) {
-        command_convert_refuse_radars(&line);
+        command_convert_refuse_radar_recording(&line);
     }
-    command_line_find_origin(&line);
+    command_line_set_origin_and_places(&line);
     const int exit_code = command->run(&line);
 
     table_dialect_check_columns_option();

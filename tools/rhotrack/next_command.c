@@ -29,7 +29,7 @@ static void print_quoted_shell_word(const char *word, bool is_first)
     fputc('\'', stderr);
 }
 
-void next_command_say(const struct command_line *line, const char *const *words)
+void next_command_suggest(const struct command_line *line, const char *const *words)
 {
     if (!isatty(STDERR_FILENO)) {
         return;
@@ -45,8 +45,8 @@ void next_command_say(const struct command_line *line, const char *const *words)
     fputc('\n', stderr);
 }
 
-void next_command_say_page(const struct command_line *line, char *const *files, int num_files,
-                           const char *tracks)
+void next_command_suggest_page(const struct command_line *line, char *const *files, int num_files,
+                               const char *tracks)
 {
     const char **words = must_calloc((size_t)num_files + 6, sizeof *words);
     const int stem = (int)strlen(tracks) - (int)strlen(".csv");
@@ -63,12 +63,12 @@ void next_command_say_page(const struct command_line *line, char *const *files, 
     words[count++] = tracks;
     words[count++] = "-o";
     words[count++] = page;
-    next_command_say(line, words);
+    next_command_suggest(line, words);
     free(page);
     free(words);
 }
 
-char *next_command_find_beside(const char *path, const char *name)
+char *next_command_find_file_beside(const char *path, const char *name)
 {
     const char *slash = strrchr(path, '/');
     const size_t length = slash ? (size_t)(slash - path) + 1 : 0;

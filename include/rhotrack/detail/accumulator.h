@@ -155,11 +155,13 @@ struct rho_accumulator {
  * Number of rows of theta and of cells of rho in the plane of a config. Errors: CONFIG. Constant
  * cost.
  */
-RHO_MUST_CHECK enum rho_status rho_accumulator_plane(const struct rho_accumulator_config *config,
-                                                     uint16_t *theta_cells, uint16_t *rho_cells);
+RHO_MUST_CHECK enum rho_status
+rho_accumulator_count_cells(const struct rho_accumulator_config *config, uint16_t *theta_cells,
+                            uint16_t *rho_cells);
 
-/* Checks points as rho_accumulator_find does: its errors NULL and VALUE. Cost: the points. */
-RHO_MUST_CHECK enum rho_status rho_accumulator_check(const struct rho_accumulator_points *points);
+/* Checks points as rho_accumulator_find_peaks does: its errors NULL and VALUE. Cost: the points. */
+RHO_MUST_CHECK enum rho_status
+rho_accumulator_check_points(const struct rho_accumulator_points *points);
 
 /*
  * Initialises an accumulator; the config is copied.
@@ -184,11 +186,9 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_init(struct rho_accumulator *accu
  * within rho_max_m, and min_votes of 3 or more, rows that cannot have a peak are skipped: with few
  * points this saves up to 29/30 of the cost. Stack: 1.4 KB.
  */
-RHO_MUST_CHECK enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
-                                                    const struct rho_accumulator_points *points,
-                                                    struct rho_accumulator_peak *peaks,
-                                                    uint32_t max_peaks,
-                                                    struct rho_accumulator_result *result);
+RHO_MUST_CHECK enum rho_status rho_accumulator_find_peaks(
+    struct rho_accumulator *accumulator, const struct rho_accumulator_points *points,
+    struct rho_accumulator_peak *peaks, uint32_t max_peaks, struct rho_accumulator_result *result);
 
 /*
  * Adds a peak to the list, unless it has fewer votes than min_votes; a full list drops its worst
@@ -215,8 +215,8 @@ uint32_t rho_peak_list_suppress(struct rho_accumulator_peak *peaks, uint32_t num
                                 uint32_t num_scratch);
 
 /* Cell of rho in which a point votes in a row of theta; -1: the point is beyond rho_max_m there. */
-int rho_accumulator_cell(const struct rho_accumulator *accumulator, unsigned theta_cell, float x_m,
-                         float y_m);
+int rho_accumulator_cell_of_point(const struct rho_accumulator *accumulator, unsigned theta_cell,
+                                  float x_m, float y_m);
 
 /* theta and rho of the line through the centre of a cell. Constant cost. */
 float rho_accumulator_theta_rad(const struct rho_accumulator *accumulator, unsigned theta_cell);

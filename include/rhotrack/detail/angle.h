@@ -43,8 +43,8 @@ float rho_angle_sector_width(float from_rad, float to_rad);
 /* the next sector follows counter-clockwise, from the end `to` */
 #define RHO_ANGLE_CONTINUES_LEFT 1u
 #define RHO_ANGLE_CONTINUES_RIGHT 2u /* the next sector follows clockwise, from the end `from` */
-unsigned rho_angle_sector_continues(float from_rad, float to_rad, float next_from_rad,
-                                    float next_to_rad, float gap_max_rad);
+unsigned rho_angle_continued_ends(float from_rad, float to_rad, float next_from_rad,
+                                  float next_to_rad, float gap_max_rad);
 
 /*
  * True (1) where the direction lies in the sector that runs counter-clockwise from .. to, ends

@@ -139,17 +139,18 @@ RHO_MUST_CHECK enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map
  * The known echoes one by one:
  *
  *     uint32_t place = 0;
- *     while ((echo = rho_clutter_map_next(&tracker.clutter_map, &place))) ...
+ *     while ((echo = rho_clutter_map_next_known(&tracker.clutter_map, &place))) ...
  *
  * NULL behind the last one, or where map or place is NULL. Cost of the whole walk: RHO_MAX_ECHOES.
  */
-const struct rho_echo *rho_clutter_map_next(const struct rho_clutter_map *map, uint32_t *place);
+const struct rho_echo *rho_clutter_map_next_known(const struct rho_clutter_map *map,
+                                                  uint32_t *place);
 
 /*
  * 1: the echo stands, as far as its plots can tell, and belongs into a saved map. 0: it moves, or
  * is NULL.
  */
-int rho_clutter_map_stands(const struct rho_echo *echo);
+int rho_clutter_map_is_echo_standing(const struct rho_echo *echo);
 
 /*
  * Statistics of echoes with this number of hits after `unseen` misses: the scans that covered them,
@@ -159,8 +160,8 @@ int rho_clutter_map_stands(const struct rho_echo *echo);
  * rho_clutter_map_teach_returns.
  *   region  0 .. RHO_ECHO_TABLES - 2; RHO_ECHO_TABLES - 1: over all regions
  */
-void rho_clutter_map_learned(const struct rho_clutter_map *map, unsigned region, unsigned hits,
-                             unsigned unseen, float *looks, float *returns);
+void rho_clutter_map_learned_returns(const struct rho_clutter_map *map, unsigned region,
+                                     unsigned hits, unsigned unseen, float *looks, float *returns);
 
 /*
  * Replaces the statistics of echoes with this number of hits after `unseen` misses. Errors: NULL,

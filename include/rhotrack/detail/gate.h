@@ -48,9 +48,9 @@ struct rho_gate_hough {
  * Errors: NULL, VALUE (planes, cell not in 1e-3 .. pi/2, velocities or their change not finite);
  * *hough is unchanged.
  * Cost: about 820 instructions for three planes. Stack: 130 bytes.
- * Source: the paper named in rhotrack/detail/input.h, (20) to (28).
+ * Source: the paper named in rhotrack/detail/input_estimation.h, (20) to (28).
  */
-RHO_MUST_CHECK enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes,
+RHO_MUST_CHECK enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough, uint8_t planes,
                                                    float theta_cell_rad, const float before_mps[3],
                                                    const float newest_mps[3]);
 

@@ -32,9 +32,9 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
+#include "rhotrack/detail/doppler_notch.h"
 #include "rhotrack/detail/imm.h"
 #include "rhotrack/detail/kalman.h"
-#include "rhotrack/detail/notch.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus
@@ -169,16 +169,16 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, 
 
 /*
  * Sets the motion model, except for calm_s, whose learned value is kept. Errors: NULL, CONFIG;
- * nothing is changed. Cost: one rho_imm_step_open. Stack: 300 bytes.
+ * nothing is changed. Cost: one rho_imm_prepare_step. Stack: 300 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
                                                         const struct rho_imm_model *model);
 
 /*
  * Sets the model's calm_s, > 0, the mean time between manoeuvres of calm targets, if the model has
- * such targets. Cost: one rho_imm_step_open where calm_s changes. Stack: 160 bytes.
+ * such targets. Cost: one rho_imm_prepare_step where calm_s changes. Stack: 160 bytes.
  */
-void rho_hypotheses_set_calm(struct rho_hypotheses *pool, float calm_s);
+void rho_hypotheses_set_calm_interval(struct rho_hypotheses *pool, float calm_s);
 
 /*
  * Opens a slot with one hypothesis that starts from an estimate. Errors: NULL, STATE, CAPACITY (all
@@ -203,7 +203,7 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
 /*
  * Moves all hypotheses of a slot to time_us. A hypothesis that cannot be moved is removed. Errors:
  * NULL, STATE (slot), VALUE (none is left: the slot is closed). Cost: rho_imm_predict each, and
- * rho_imm_step_open wherever the interval differs from the last one: once a scan, except for
+ * rho_imm_prepare_step wherever the interval differs from the last one: once a scan, except for
  * hypotheses whose last plot had an own time. Stack: 490 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot,
@@ -214,8 +214,8 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *poo
  * models: on to the time from which they had been moved back.
  * Errors: as rho_hypotheses_predict. Stack: 490 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_hypotheses_return(struct rho_hypotheses *pool, uint16_t slot,
-                                                     int64_t time_us);
+RHO_MUST_CHECK enum rho_status rho_hypotheses_predict_noiseless(struct rho_hypotheses *pool,
+                                                                uint16_t slot, int64_t time_us);
 
 /*
  * Begins a scan: removes the candidates of the scan before, and fills *box (may be NULL). Cost: 70

@@ -136,7 +136,7 @@ int rho_imm_model_is_usable(const struct rho_imm_model *model);
  * between the models. Cost: about 750 instructions, and 100 for each doubling beyond memory_s / 2.
  * Stack: 160 bytes.
  */
-void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s);
+void rho_imm_prepare_step(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s);
 
 /*
  * Starts both models from an estimate, with probability 1/2 each and acceleration 0 with the
@@ -162,8 +162,8 @@ RHO_MUST_CHECK enum rho_status rho_imm_predict_unmixed(struct rho_imm *imm,
  * Prepares a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: the origin),
  * for scoring and updates. Plot and sensor are referred to, not copied.
  */
-void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, uint32_t measures,
-                       const struct rho_sensor *sensor);
+void rho_imm_prepare_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, uint32_t measures,
+                          const struct rho_sensor *sensor);
 
 /*
  * Scores a plot at the estimate's time: returns 1 and fills *match if it is in the gate of either
@@ -192,8 +192,8 @@ struct rho_imm_rates {
  * Fills *rates with the range rates that both models predict for a sensor. Cost: 1 400
  * instructions, without a height 400. Stack: 320 bytes.
  */
-void rho_imm_predict_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
-                           const struct rho_sensor *sensor);
+void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_imm *imm,
+                                 const struct rho_sensor *sensor);
 
 /*
  * Scores a plot as rho_imm_score_plot does, with range rates that were predicted for its sensor;
@@ -217,8 +217,8 @@ struct rho_imm_gate {
  * Fills *gate for plots of position noise variance_m2 on each axis. Returns 0 if the axes are
  * coupled, or a density is not finite. Cost: 250 instructions.
  */
-int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
-                      int has_z);
+int rho_imm_prepare_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
+                         int has_z);
 
 /*
  * Scores a position of the gate's noise: returns 1 and fills ln of its density and the manoeuvring
@@ -226,8 +226,8 @@ int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, floa
  * certainly at most e^enough (-FLT_MAX: no limit), which saves most of the work. Cost: 45
  * instructions outside of the gate, 150 inside.
  */
-int rho_imm_score_in_gate(const struct rho_imm_gate *gate, const float place_m[3], float enough,
-                          float *log_likelihood, float *probability);
+int rho_imm_score_position_in_gate(const struct rho_imm_gate *gate, const float place_m[3],
+                                   float enough, float *log_likelihood, float *probability);
 
 /*
  * Updates both models with a plot that was scored, and sets the manoeuvring model's probability to

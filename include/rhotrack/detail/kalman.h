@@ -64,7 +64,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, i
  * Sets the covariance to variance times I, m^2 and (m/s)^2, on the axes that are open; variance is
  * RHO_KALMAN_VARIANCE_MIN .. MAX. Constant cost.
  */
-void rho_kalman_set_covariance(struct rho_kalman *kalman, float variance);
+void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance);
 
 /*
  * Moves the estimate on by dt_s, -1e5 .. 1e5. noise_density is the power spectral density of white
@@ -137,7 +137,7 @@ struct rho_kalman_row {
 
 /*
  * Linearises a range rate with noise `variance` at an estimate, into *seen. Returns 0, and fills
- * nothing, if the estimate is nearer than a metre to the sensor. Cost: rho_measurement_range_rate,
+ * nothing, if the estimate is nearer than a metre to the sensor. Cost: rho_measurement_predict_range_rate,
  * and a division. Stack: 170 bytes.
  */
 int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
@@ -148,14 +148,15 @@ int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
  * True unless the range rate is ambiguous and the estimate is too uncertain to unfold it
  * (measurement.h). Cost: rho_linalg_project6 for an ambiguous range rate.
  */
-int rho_kalman_is_range_rate_clear(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
-                                   const struct rho_kalman_row *seen);
+int rho_kalman_can_unfold_range_rate(const struct rho_kalman *kalman,
+                                     const struct rho_sensor *sensor,
+                                     const struct rho_kalman_row *seen);
 
 /*
  * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate; to
  * be called after the update with the same plot's position. For an estimate nearer than a metre to
  * the sensor, and for an ambiguous range rate that cannot be unfolded, nothing is done: RHO_OK.
- * Errors: as rho_kalman_update_row. Cost: rho_kalman_update_row and rho_measurement_range_rate.
+ * Errors: as rho_kalman_update_row. Cost: rho_kalman_update_row and rho_measurement_predict_range_rate.
  * Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
@@ -194,7 +195,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalm
                                                          float sigma_rad);
 
 /* True if axis 0 (x), 1 (y) or 2 (z) was opened. */
-int rho_kalman_is_open(const struct rho_kalman *kalman, int axis);
+int rho_kalman_is_axis_open(const struct rho_kalman *kalman, int axis);
 
 #ifdef __cplusplus
 }

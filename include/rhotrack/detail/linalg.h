@@ -54,10 +54,10 @@ float rho_linalg_log_determinant(int n, const float *l);
  * floats). RHO_ERROR_SINGULAR: S is not positive definite, or a result is not finite; outputs
  * untouched. Also NULL. Cost: 25 and 60 operations and a logarithm.
  */
-RHO_MUST_CHECK enum rho_status rho_linalg_gate2(const float s[3], const float d[2],
-                                                float *distance2, float *log_det);
-RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[3],
-                                                float *distance2, float *log_det);
+RHO_MUST_CHECK enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *distance2,
+                                               float *log_det);
+RHO_MUST_CHECK enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *distance2,
+                                               float *log_det);
 
 /*
  * One scalar Kalman update of a six-element state x with covariance p (21 floats): element `index`
@@ -69,8 +69,9 @@ RHO_MUST_CHECK enum rho_status rho_linalg_gate3(const float s[6], const float d[
  * p_ii negative, or their sum not a number one can divide by); x, p and *nis untouched. Cost: about
  * 240 instructions. Stack: 112 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int index,
-                                                  float innovation, float variance, float *nis);
+RHO_MUST_CHECK enum rho_status rho_linalg_update6_element(float x[6], float p[21], int index,
+                                                          float innovation, float variance,
+                                                          float *nis);
 
 /*
  * One scalar Kalman update by a measurement of row . x, with row any vector of 6 floats;
@@ -92,11 +93,11 @@ float rho_linalg_project6(const float p[21], const float row[6], float projected
  * Errors: as for six elements, and CAPACITY (n, num). Cost: about 4 n^2 and 6 n^2 instructions.
  * Stack: 250 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index,
-                                                    float innovation, float variance);
-RHO_MUST_CHECK enum rho_status rho_linalg_update_along(int n, float *x, float *p, int num,
-                                                       const float *row, float innovation,
-                                                       float variance);
+RHO_MUST_CHECK enum rho_status rho_linalg_update_element(int n, float *x, float *p, int index,
+                                                         float innovation, float variance);
+RHO_MUST_CHECK enum rho_status rho_linalg_update_row(int n, float *x, float *p, int num,
+                                                     const float *row, float innovation,
+                                                     float variance);
 
 /*
  * NIS d^T S^-1 d and ln det S for any n <= RHO_LINALG_MAX; S (a triangle) and d are overwritten.
@@ -104,8 +105,8 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update_along(int n, float *x, float *p
  * NIS exceeds its limit. Cost: n^3 / 3 operations, n divisions and a logarithm for each three
  * dimensions.
  */
-int rho_linalg_match(int n, float *s, float *d, float distance2_max, float *distance2,
-                     float *log_det);
+int rho_linalg_gated_nis(int n, float *s, float *d, float distance2_max, float *distance2,
+                         float *log_det);
 
 /*
  * Rotates the frame of a symmetric 6 x 6 matrix in the plane of two of its elements a and b: p := G
@@ -115,7 +116,7 @@ int rho_linalg_match(int n, float *s, float *d, float distance2_max, float *dist
  * not checked.
  * Cost: about 90 instructions.
  */
-void rho_linalg_turn6(float p[21], int a, int b, float c, float s);
+void rho_linalg_rotate6(float p[21], int a, int b, float c, float s);
 
 #ifdef __cplusplus
 }

@@ -56,10 +56,10 @@ int32_t rho_measurement_time_bias_us(const struct rho_sensor *sensor);
  * True where all measured fields of a plot are finite and within the limits of types.h. Constant
  * cost.
  */
-int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures);
+int rho_measurement_is_valid_plot(const struct rho_plot *plot, uint32_t measures);
 
 /* True where a bearing is within +-pi and its sigma within the limits of types.h. Constant cost. */
-int rho_measurement_is_bearing(const struct rho_bearing *bearing);
+int rho_measurement_is_valid_bearing(const struct rho_bearing *bearing);
 
 /* Factors of the sigmas of a sensor's plots, along the line of sight and across it. */
 struct rho_sigma_factors {
@@ -73,7 +73,7 @@ struct rho_sigma_factors {
 struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *sensor);
 
 /* The larger one of a sensor's two sigma factors, at least 1. Constant cost. */
-float rho_measurement_widest_factor(const struct rho_sensor *sensor);
+float rho_measurement_largest_sigma_factor(const struct rho_sensor *sensor);
 
 /*
  * Fills *out from a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: from
@@ -82,14 +82,14 @@ float rho_measurement_widest_factor(const struct rho_sensor *sensor);
  * the factor nearer to 1 where both lie on one side of 1. Cost: two square roots, two divisions.
  * Stack: 80 bytes.
  */
-void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
-                          const struct rho_sensor *sensor, struct rho_measurement *out);
+void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
+                               const struct rho_sensor *sensor, struct rho_measurement *out);
 
 /*
  * True where a sensor's place, biases and span of range rates are finite and within the limits of
  * types.h. Constant cost.
  */
-int rho_measurement_is_sensor(const struct rho_sensor *sensor);
+int rho_measurement_is_valid_sensor(const struct rho_sensor *sensor);
 
 /*
  * Covariance of a plot's noise in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant
@@ -104,8 +104,8 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
  * Returns 0, and fills nothing, where the state is nearer than a metre to the sensor. Cost: a
  * square root and two divisions. Stack: 56 bytes.
  */
-int rho_measurement_range_rate(const float state[6], const struct rho_sensor *sensor, int use_z,
-                               float row[6], float *rate_mps);
+int rho_measurement_predict_range_rate(const float state[6], const struct rho_sensor *sensor,
+                                       int use_z, float row[6], float *rate_mps);
 
 /*
  * Ambiguous range rates: a radar of pulse repetition frequency f and wavelength w measures range
@@ -118,14 +118,14 @@ int rho_measurement_range_rate(const float state[6], const struct rho_sensor *se
  * Measured minus expected range rate, brought within +-span/2 by multiples of the span if the
  * sensor's range rates are ambiguous. Cost: a division.
  */
-float rho_measurement_range_rate_error_mps(const struct rho_sensor *sensor, float measured_mps,
-                                           float expected_mps);
+float rho_measurement_range_rate_innovation_mps(const struct rho_sensor *sensor, float measured_mps,
+                                                float expected_mps);
 
 /*
  * True where the difference of measured and expected range rate has a variance, (m/s)^2, small
  * enough to determine the multiple of the span. Constant cost.
  */
-int rho_measurement_is_range_rate_clear(const struct rho_sensor *sensor, float variance);
+int rho_measurement_can_unfold_range_rate(const struct rho_sensor *sensor, float variance);
 
 /*
  * Unfolds an ambiguous range rate, the last one of num (2 .. 7) correlated innovations: the
@@ -141,10 +141,10 @@ int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
  * ln of the number of range rates within -v_max .. v_max that an ambiguous one can stand for; 0 for
  * a sensor whose range rates are not ambiguous. Cost: a logarithm.
  */
-float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_mps);
+float rho_measurement_log_num_aliases(const struct rho_sensor *sensor, float v_max_mps);
 
 /* True where a sensor's range rates are ambiguous. */
-static inline int rho_measurement_has_span(const struct rho_sensor *sensor)
+static inline int rho_measurement_has_ambiguous_range_rates(const struct rho_sensor *sensor)
 {
     return RHO_AMBIGUOUS_RANGE_RATES && sensor && sensor->range_rate_span_mps > 0.0f;
 }
@@ -156,8 +156,9 @@ static inline int rho_measurement_has_span(const struct rho_sensor *sensor)
  * a metre to the place, or not finite. Cost: an arctangent, a square root and a division.
  * Stack: 48 bytes.
  */
-int rho_measurement_bearing(const float state[6], float x_m, float y_m, float bearing_rad,
-                            float row[6], float *off_m, float *range_m);
+int rho_measurement_bearing_innovation(const float state[6], float x_m, float y_m,
+                                       float bearing_rad, float row[6], float *off_m,
+                                       float *range_m);
 
 /*
  * True where a scan covers a place: it is within the scan's sector, and the sensor's sector and

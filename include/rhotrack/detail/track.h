@@ -26,7 +26,7 @@
 #include "rhotrack/detail/clutter_map.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/hypotheses.h"
-#include "rhotrack/detail/input.h"
+#include "rhotrack/detail/input_estimation.h"
 #include "rhotrack/detail/kalman.h"
 #include "rhotrack/types.h"
 
@@ -119,7 +119,7 @@ struct rho_track {
     float returns[RHO_ECHO_HIT_CLASSES];
     uint8_t has_taken_back; /* the returns were subtracted from the map */
     uint8_t has_moved;      /* the track has surely left its start place */
-    /* within a step: share of the sensor's looks that are blind to the track (notch.h), per cent */
+    /* within a step: share of the sensor's looks that are blind to the track (doppler_notch.h), per cent */
     uint8_t blind_percent;
     uint8_t is_frozen; /* an operator has frozen the track: it coasts, and does not end */
     float start_m[2], start_sigma_m;
@@ -188,7 +188,7 @@ rho_track_start(struct rho_track *track, uint32_t track_id, const struct rho_tra
                 unsigned num_plots, const struct rho_track_model *model, int32_t score_mnat);
 
 /* Frees the track's hypotheses, before the track is removed. */
-void rho_track_end(struct rho_track *track, const struct rho_track_model *model);
+void rho_track_free_hypotheses(struct rho_track *track, const struct rho_track_model *model);
 
 /*
  * Predicts a track to time_us; without process noise where that is before the estimate's time, as
@@ -204,8 +204,8 @@ RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_
  * time_us without process noise.
  * Errors and costs as rho_track_predict. Stack: 570 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
-                                                const struct rho_track_model *model);
+RHO_MUST_CHECK enum rho_status rho_track_return_to_time(struct rho_track *track, int64_t time_us,
+                                                        const struct rho_track_model *model);
 
 /*
  * Updates a track with a plot: predicts to the plot's time, and updates with its position, velocity
@@ -226,10 +226,10 @@ RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
  * `plot` is -1 where the best hypothesis has no plot, or its plot is refused.
  * Errors: NULL, STATE (another filter). Stack: 880 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_track_commit(struct rho_track *track,
-                                                const struct rho_hypotheses_scan *scan,
-                                                int32_t sensor_id,
-                                                const struct rho_track_model *model);
+RHO_MUST_CHECK enum rho_status rho_track_commit_scan(struct rho_track *track,
+                                                     const struct rho_hypotheses_scan *scan,
+                                                     int32_t sensor_id,
+                                                     const struct rho_track_model *model);
 
 /*
  * At the end of a step: merges the hypotheses into `kalman`, acceleration and manoeuvre
@@ -240,7 +240,7 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
                                const struct rho_track_model *model);
 
 /* The prediction for a gate, widened as an input may have begun since. Stack: 140 bytes. */
-void rho_track_expect(const struct rho_track *track, struct rho_kalman *expected);
+void rho_track_expect_for_gate(const struct rho_track *track, struct rho_kalman *expected);
 
 /* A bearing with its time, sensor and row. */
 struct rho_track_bearing {
@@ -281,7 +281,7 @@ void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat);
  * Counts a miss: subtracts loss_mnat >= 0 from the score, and a confirmed track coasts. Constant
  * cost.
  */
-void rho_track_miss(struct rho_track *track, int32_t loss_mnat);
+void rho_track_count_miss(struct rho_track *track, int32_t loss_mnat);
 
 /*
  * Confirms a track, makes it tentative or drops it, by the limits on its score and misses. Returns

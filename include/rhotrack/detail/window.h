@@ -213,8 +213,9 @@ struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m
  * Index of the plot nearest to the query's place, or -1 where none is in the gate. Ties go to the
  * lower index. Cost: bins under the gate's square, and their plots. Stack: 104 bytes.
  */
-int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_window_query *query,
-                       struct rho_window_work *work);
+int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
+                                 const struct rho_window_query *query,
+                                 struct rho_window_work *work);
 
 /*
  * Index of the plot with the least NIS about a place with its own covariance: position plus height
@@ -222,8 +223,9 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
  * gate. Correlations of height and range rate with the position are neglected. Cost: bins under the
  * gate's square, 60 instructions a plot in them. Stack: 272 bytes.
  */
-int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
-                          struct rho_window_work *work);
+int rho_window_nearest_anisotropic(const struct rho_window_scan *scan,
+                                   const struct rho_window_place *place,
+                                   struct rho_window_work *work);
 
 /*
  * Covariance of a held plot's place, by its sigmas and its line of sight. Cost: a division, with z
@@ -244,25 +246,25 @@ struct rho_window_range_rate {
  * Compares a held plot's range rate with the velocity of a place. Returns 0, and fills nothing, for
  * a plot at the sensor's position. Cost: 100 instructions. Stack: 160 bytes.
  */
-int rho_window_see_range_rate(const struct rho_window_scan *scan,
-                              const struct rho_window_plot *plot,
-                              const struct rho_window_place *place,
-                              struct rho_window_range_rate *seen);
+int rho_window_compare_range_rate(const struct rho_window_scan *scan,
+                                  const struct rho_window_plot *plot,
+                                  const struct rho_window_place *place,
+                                  struct rho_window_range_rate *seen);
 
 /*
  * NIS of a held plot's range rate against the velocity of a place; 0 for a plot at the sensor's
  * position. The line of sight is the plot's, and its error by the plot's noise is included. Cost:
  * 100 instructions. Stack: 160 bytes.
  */
-float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
-                                      const struct rho_window_plot *plot,
-                                      const struct rho_window_place *place);
+float rho_window_range_rate_nis(const struct rho_window_scan *scan,
+                                const struct rho_window_plot *plot,
+                                const struct rho_window_place *place);
 
 /*
  * A held plot as rho_plot, as it was pushed, but with velocity and snr 0. Sigmas are rounded to
  * 2^-12 of themselves, the offset to float32. Constant cost.
  */
-struct rho_plot rho_window_plot_of(const struct rho_window_scan *scan, unsigned index);
+struct rho_plot rho_window_unpack_plot(const struct rho_window_scan *scan, unsigned index);
 
 /* The sensor of a held scan, or NULL where it has no description. */
 const struct rho_sensor *rho_window_sensor(const struct rho_window_scan *scan);
@@ -275,7 +277,7 @@ const struct rho_sensor *rho_window_sensor(const struct rho_window_scan *scan);
 float rho_window_sigma(uint16_t code);
 
 /* The larger of a held plot's sigmas along and across. Constant cost. */
-float rho_window_sigma_m(const struct rho_window_plot *plot);
+float rho_window_larger_sigma_m(const struct rho_window_plot *plot);
 
 /*
  * Bins whose columns and rows touch [x0, x1] x [y0, y1]; outside the area, its border bins. first
@@ -288,7 +290,7 @@ struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan,
                                              float x1_m, float y0_m, float y1_m);
 
 /* Index of the bin at a place; outside the area a border bin. Constant cost. */
-unsigned rho_window_bin_of(const struct rho_window_scan *scan, float x_m, float y_m);
+unsigned rho_window_bin_at(const struct rho_window_scan *scan, float x_m, float y_m);
 
 /*
  * Width, height and area of an extent, whose sides count as at least side_min_m; 0 where it is

@@ -297,7 +297,7 @@ static void test_tracks_written(void **state)
         uint8_t expected[RECORD_MAX], bytes[ASTERIX_TRACK_BYTES];
         size_t size = from_hex(vectors_tracks[i].hex, expected);
 
-        assert_int_equal(asterix_track_write(&track, bytes), size);
+        assert_int_equal(asterix_track_encode(&track, bytes), size);
         assert_memory_equal(bytes, expected, size);
     }
 }
@@ -315,7 +315,7 @@ static void test_limits(void **state)
                                   .sigma_x_m = 1e6,
                                   .sigma_vx_mps = 1e3};
     uint8_t bytes[ASTERIX_TRACK_BYTES];
-    size_t size = asterix_track_write(&track, bytes);
+    size_t size = asterix_track_encode(&track, bytes);
     struct asterix_record record;
     struct asterix_error error;
 

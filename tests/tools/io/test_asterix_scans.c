@@ -258,7 +258,7 @@ static void test_late(void **state)
     }
     expect_scan(scans, 0, 64, 0);
     expect_none(scans);
-    assert_int_equal(asterix_scans_settled_128(scans), 64 - HZ);
+    assert_int_equal(asterix_scans_settled_time_128(scans), 64 - HZ);
     plot(scans, 70);
     sector(scans, 64 * 4);
     expect_scan(scans, 64, 128, 1);
@@ -334,7 +334,7 @@ static void test_start(void **state)
     struct asterix_scan scan;
 
     (void)state;
-    asterix_scans_start_near(scans, INT64_C(3) * ASTERIX_DAY - 50);
+    asterix_scans_set_reference_time(scans, INT64_C(3) * ASTERIX_DAY - 50);
     plot(scans, 100);
     asterix_scans_finish(scans);
     assert_true(asterix_scans_next(scans, &scan));
@@ -382,7 +382,7 @@ static void test_silent_radar(void **state)
         of_second += scan.sensor_id == 2;
     }
     assert_int_equal(of_second, 3);
-    assert_true(asterix_scans_settled_128(scans) > 512 * 36);
+    assert_true(asterix_scans_settled_time_128(scans) > 512 * 36);
     asterix_scans_close(scans);
 }
 

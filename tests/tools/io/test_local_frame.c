@@ -182,9 +182,10 @@ static void frames_are_turned_by_the_convergence(void **state)
     struct local_frame *east = local_frame_open(50, 12, 0), *south = local_frame_open(48, 10, 300);
 
     (void)state;
-    assert_close(local_frame_turn_rad(common, common), 0, 1e-12);
-    assert_close(local_frame_turn_rad(south, common), 0, 1e-12);
-    assert_close(local_frame_turn_rad(east, common), sin(50 * PI / 180) * 2 * PI / 180, 1e-4);
+    assert_close(local_frame_meridian_convergence_rad(common, common), 0, 1e-12);
+    assert_close(local_frame_meridian_convergence_rad(south, common), 0, 1e-12);
+    assert_close(local_frame_meridian_convergence_rad(east, common),
+                 sin(50 * PI / 180) * 2 * PI / 180, 1e-4);
     local_frame_close(common);
     local_frame_close(east);
     local_frame_close(south);

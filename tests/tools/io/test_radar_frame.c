@@ -88,7 +88,7 @@ static void azimuth_and_elevation_are_turned_and_tilted(void **state)
     struct radar_look look = scene.look;
 
     (void)state;
-    radar_frame_turn_look(scene.frame, true, &look);
+    radar_frame_look_to_common(scene.frame, true, &look);
     assert_at_target(&scene, &look);
     assert_true(fabs(look.elevation_rad - scene.look.elevation_rad) > 0.005); /* the tilt */
     close_scene(&scene);
@@ -101,8 +101,8 @@ static void without_elevation_the_azimuth_is_turned(void **state)
     struct radar_look flat = scene.look, whole = scene.look;
 
     (void)state;
-    radar_frame_turn_look(scene.frame, false, &flat);
-    radar_frame_turn_look(scene.frame, true, &whole);
+    radar_frame_look_to_common(scene.frame, false, &flat);
+    radar_frame_look_to_common(scene.frame, true, &whole);
     assert_near(flat.azimuth_rad - scene.look.azimuth_rad, radar_frame_turn_rad(scene.frame),
                 1e-12);
     assert_near(flat.azimuth_rad, whole.azimuth_rad, 2e-3);
@@ -137,10 +137,10 @@ static void azimuths_of_the_common_frame_are_not_turned(void **state)
     double sigma_rad = 0;
 
     (void)state;
-    radar_frame_turn_look(scene.frame, true, &look);
+    radar_frame_look_to_common(scene.frame, true, &look);
     assert_near(look.azimuth_rad, scene.look.azimuth_rad, 0);
     assert_near(radar_frame_turn_rad(scene.frame), 0, 0);
-    look.azimuth_rad += local_frame_turn_rad(scene.own, scene.common);
+    look.azimuth_rad += local_frame_meridian_convergence_rad(scene.own, scene.common);
     assert_true(radar_frame_elevation_from_height(scene.frame, 0, &height, &look, &sigma_rad));
     assert_at_target(&scene, &look);
     close_scene(&scene);

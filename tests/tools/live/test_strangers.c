@@ -19,7 +19,7 @@
 
 #include "base/random.h"
 #include "live/node_core.h"
-#include "live/node_sensors.h"
+#include "live/node_sensor_warnings.h"
 #include "rhotrack/message.h"
 
 #define START_US INT64_C(1790000000000000) /* since 1970: 2026 */

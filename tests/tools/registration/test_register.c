@@ -28,7 +28,7 @@ static struct pipeline chain;
 static int open_chain_once(void **state)
 {
     (void)state;
-    chain = pipeline_start();
+    chain = pipeline_allocate();
     return 0;
 }
 
@@ -48,7 +48,7 @@ struct heard {
 
 static struct heard hear(uint64_t run, const char *const *sets, size_t num_sets)
 {
-    struct heard heard = {.scene = scene_find("two-radars", sets, num_sets)};
+    struct heard heard = {.scene = scene_load_by_name("two-radars", sets, num_sets)};
 
     heard.run = scene_observe(heard.scene, SEED, run);
     heard.parameters = scene_parameters(heard.scene);
@@ -313,8 +313,8 @@ static void test_cholesky(void **state)
     assert_true(fabs(back[0] - 2) < 1e-12 && fabs(back[1] - 13) < 1e-12 &&
                 fabs(back[2] - 12) < 1e-12);
     /* cofactors over the determinant of 64 */
-    assert_true(fabs(cholesky_inverse_diagonal(matrix, 3, 0, work) - 29.0 / 64.0) < 1e-12);
-    assert_true(fabs(cholesky_inverse_diagonal(matrix, 3, 2, work) - 16.0 / 64.0) < 1e-12);
+    assert_true(fabs(cholesky_inverse_diagonal_element(matrix, 3, 0, work) - 29.0 / 64.0) < 1e-12);
+    assert_true(fabs(cholesky_inverse_diagonal_element(matrix, 3, 2, work) - 16.0 / 64.0) < 1e-12);
     assert_false(cholesky_factor(singular, 2));
 }
 

@@ -20,7 +20,7 @@ static void places_fill_length_and_width(void **state)
         double places_m[SCENE_SCATTERERS_MAX][2];
         int along[5] = {0}, across[5] = {0};
 
-        scene_body_draw(&body, &random, places_m);
+        scene_body_draw_scatterers(&body, &random, places_m);
         for (int i = 0; i < 5; i++) {
             const int part = (int)floor((places_m[i][0] + 5.0) / 2.0),
                       side = (int)floor((places_m[i][1] + 2.0) / 0.8);

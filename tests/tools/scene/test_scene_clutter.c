@@ -208,7 +208,7 @@ static void birds_flock(void **state)
             draw_clutter_movers(seen.scene, 0, 5, 0, &count, &paths, &num_paths);
         struct motion at;
 
-        assert_true(mover_seen_at(&birds[i], &seen.scene->sensors[0], 77, &at));
+        assert_true(mover_apparent_motion_at(&birds[i], &seen.scene->sensors[0], 77, &at));
         assert_true(hypot(at.vx_mps + 10, at.vy_mps - 5) < 6.001);
         free(birds);
     }

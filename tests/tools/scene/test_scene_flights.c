@@ -21,7 +21,7 @@ static struct scene_path *flights_of(size_t flights, double crossing_share, doub
                    "\"least_s\": 400, \"crossing_share\": %g}]"),
              duration_s, flights, crossing_share);
     scene = scene_of_text(text);
-    paths = targets_draw(&scene->targets, "test.json", duration_s, seed, 0, 0, count);
+    paths = targets_draw_paths(&scene->targets, "test.json", duration_s, seed, 0, 0, count);
     scene_free(scene);
     return paths;
 }

@@ -35,7 +35,7 @@ static struct scene_path *paths_of(const char *targets, double duration_s, uint6
 
     snprintf(text, sizeof text, SCENE("%g", RADAR(""), ", \"targets\": [%s]"), duration_s, targets);
     scene = scene_of_text(text);
-    paths = targets_draw(&scene->targets, "test.json", duration_s, seed, 0, 0, count);
+    paths = targets_draw_paths(&scene->targets, "test.json", duration_s, seed, 0, 0, count);
     scene_free(scene);
     return paths;
 }
@@ -112,7 +112,7 @@ static struct motion at_of(const char *targets, uint64_t seed, double t_s)
     snprintf(text, sizeof text,
              SCENE("100", "{\"interval_s\": 1, \"sigma_m\": 9}", ", \"targets\": [%s]"), targets);
     scene = scene_of_text(text);
-    paths = targets_draw(&scene->targets, "test.json", 100, seed, 0, 0, &count);
+    paths = targets_draw_paths(&scene->targets, "test.json", 100, seed, 0, 0, &count);
     at = path_motion_at(paths, t_s);
     free_paths(paths, count);
     scene_free(scene);

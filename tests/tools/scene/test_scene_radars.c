@@ -12,7 +12,7 @@
 static struct scene_run *watch_scene(const char *name, const char *const *sets, size_t num_sets,
                                      uint64_t run, struct scene **scene)
 {
-    *scene = scene_find(name, sets, num_sets);
+    *scene = scene_load_by_name(name, sets, num_sets);
     return scene_observe(*scene, SEED, run);
 }
 

@@ -59,7 +59,7 @@ static inline enum rho_status model_step_filter(const struct model_track *track,
     if (from_us == to_us) {
         return RHO_OK;
     }
-    rho_imm_step_open(&step, &track->model, (float)((double)(to_us - from_us) * 1e-6));
+    rho_imm_prepare_step(&step, &track->model, (float)((double)(to_us - from_us) * 1e-6));
     return is_prediction ? rho_imm_predict(imm, &step) : rho_imm_predict_unmixed(imm, &step);
 }
 
@@ -114,7 +114,7 @@ static inline int model_best_children(const struct model_track *track, int paren
         struct rho_imm moved = at->imm;
         struct rho_imm_plot seen;
 
-        rho_imm_open_plot(&seen, &scan->plots[row], scan->measures, scan->sensor);
+        rho_imm_prepare_plot(&seen, &scan->plots[row], scan->measures, scan->sensor);
         if (model_step_filter(track, &moved, at->time_us,
                               scan->time_us + scan->plots[row].offset_us, 0) != RHO_OK ||
             !rho_imm_score_plot(&moved, &seen, &child.match)) {
@@ -160,7 +160,7 @@ static inline struct model_answer model_answer_of_child(struct model_track *trac
         const int64_t time_us = scan->time_us + scan->plots[row].offset_us;
         struct rho_imm_plot seen;
 
-        rho_imm_open_plot(&seen, &scan->plots[row], scan->measures, scan->sensor);
+        rho_imm_prepare_plot(&seen, &scan->plots[row], scan->measures, scan->sensor);
         if (model_step_filter(track, &out.imm, out.time_us, time_us, 0) == RHO_OK &&
             rho_imm_update(&out.imm, &track->model, &seen, &child->match) == RHO_OK) {
             out.time_us = time_us;

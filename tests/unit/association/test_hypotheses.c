@@ -310,7 +310,7 @@ static int score_all(struct rho_hypotheses *of, uint16_t slot,
         struct rho_imm_plot seen;
         float gain_nat = 0.0f;
 
-        rho_imm_open_plot(&seen, &scan->plots[row], scan->measures, scan->sensor);
+        rho_imm_prepare_plot(&seen, &scan->plots[row], scan->measures, scan->sensor);
         const int is_near =
             rho_hypotheses_score_plot(of, slot, &seen, scan->time_us + scan->plots[row].offset_us,
                                       (int16_t)row, LOG_PD(pd), clutter, &gain_nat);

@@ -75,7 +75,7 @@ static int weigh(struct rho_hypotheses *of, uint16_t slot, double time_s,
     for (int row = 0; row < num; ++row) {
         struct rho_imm_plot seen;
 
-        rho_imm_open_plot(&seen, &plots[row], 0, NULL);
+        rho_imm_prepare_plot(&seen, &plots[row], 0, NULL);
         num_near += rho_hypotheses_score_plot(of, slot, &seen,
                                               (int64_t)(1e6 * time_s) + plots[row].offset_us,
                                               (int16_t)row, -0.105f, &thin, gain_nat);
@@ -154,7 +154,7 @@ static void a_plot_of_clutter_that_was_taken_is_undone(void **state)
     const struct rho_imm_model model = some_model();
     struct rho_imm_step step;
 
-    rho_imm_step_open(&step, &model, 1.0f);
+    rho_imm_prepare_step(&step, &model, 1.0f);
     for (int k = 1; k <= 7; ++k) {
         const struct rho_plot plot = plot_at(100.0f * (float)k, k == 3 ? 60.0f : 0.0f);
         const struct rho_hypotheses_outcome outcome = scan_all(&pool, slot, k, &plot, 1);
@@ -166,7 +166,7 @@ static void a_plot_of_clutter_that_was_taken_is_undone(void **state)
             struct rho_imm_plot seen;
             struct rho_imm_match match;
 
-            rho_imm_open_plot(&seen, &plot, 0, NULL);
+            rho_imm_prepare_plot(&seen, &plot, 0, NULL);
             assert_true(rho_imm_score_plot(&clean, &seen, &match));
             assert_int_equal(rho_imm_update(&clean, &model, &seen, &match), RHO_OK);
         }
@@ -248,7 +248,7 @@ static void a_plot_of_another_does_not_make_a_miss_too_light(void **state)
     const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
     predict(&pool, slot, 1.0);
     rho_hypotheses_begin_scan(&pool, slot, NULL);
-    rho_imm_open_plot(&seen, &plot, 0, NULL);
+    rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     assert_true(rho_hypotheses_score_plot(&pool, slot, &seen, 1000000, 0, -0.1f, &none, &gain_nat));
     assert_true(gain_nat > 40.0f);
     const struct rho_hypotheses_outcome outcome = commit(&pool, slot, 1.0, &plot, claims, 5);
@@ -284,7 +284,7 @@ static void no_plot_in_a_gate_is_outside_of_the_box(void **state)
             struct rho_imm_plot seen;
 
             predict(&pool, slot, t);
-            rho_imm_open_plot(&seen, &plot, z, NULL);
+            rho_imm_prepare_plot(&seen, &plot, z, NULL);
             assert_int_equal(rho_hypotheses_update(&pool, slot, &seen, (int64_t)(1e6 * t)), RHO_OK);
         }
         predict(&pool, slot, 2.0 + time_s);
@@ -299,7 +299,7 @@ static void no_plot_in_a_gate_is_outside_of_the_box(void **state)
             struct rho_imm moved = *imm;
             float gain_nat;
 
-            rho_imm_step_open(&step, &model, (float)offset_s);
+            rho_imm_prepare_step(&step, &model, (float)offset_s);
             if (rho_imm_predict_unmixed(&moved, &step) != RHO_OK) {
                 continue;
             }
@@ -313,7 +313,7 @@ static void no_plot_in_a_gate_is_outside_of_the_box(void **state)
             plot.sigma_range_m = (float)noise;
             plot.sigma_cross_m = (float)(n % 2 ? noise : pow(10.0, uniform(0.0, 2.0)));
             plot.sigma_up_m = plot.sigma_cross_m;
-            rho_imm_open_plot(&seen, &plot, z, NULL);
+            rho_imm_prepare_plot(&seen, &plot, z, NULL);
             if (rho_hypotheses_score_plot(&pool, slot, &seen,
                                           (int64_t)(1e6 * (2.0 + time_s)) + plot.offset_us, 0,
                                           -0.1f, &thin, &gain_nat)) {
@@ -559,8 +559,8 @@ static void all_hypotheses_take_what_is_known(void **state)
         const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
         crowd(&pool, slot, 1.0, 100.0f, 0.0f);
         predict(&pool, slot, 2.0);
-        rho_imm_open_plot(&seen, &plot, 0, NULL);
-        rho_imm_step_open(&step, &model, (float)offset_s);
+        rho_imm_prepare_plot(&seen, &plot, 0, NULL);
+        rho_imm_prepare_step(&step, &model, (float)offset_s);
         const unsigned num = rho_hypotheses_count(&pool, slot);
         for (unsigned i = 0; i < num; ++i) {
             struct rho_imm_match match;
@@ -597,7 +597,7 @@ static void what_is_too_old_to_be_known_changes_nothing(void **state)
     struct rho_imm_plot seen;
 
     (void)state;
-    rho_imm_open_plot(&seen, &plot, 0, NULL);
+    rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     for (int is_bearing = 0; is_bearing < 2; ++is_bearing) {
         begin();
         const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
@@ -678,7 +678,7 @@ static void arguments_are_checked(void **state)
     float gain_nat = 7.0f;
 
     (void)state;
-    rho_imm_open_plot(&seen, &plot, 0, NULL);
+    rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     bad.memory_s = 0.0f;
     assert_int_equal(rho_hypotheses_init(NULL, sizeof pool, &model), RHO_ERROR_NULL);
     assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, NULL), RHO_ERROR_NULL);
@@ -755,16 +755,16 @@ static void a_track_returns_to_where_it_had_been(void **state)
     const uint16_t slot = open_at(&pool, 500.0f, -200.0f, 100.0f);
     predict(&pool, slot, 4.0);
     const struct rho_imm was = rho_hypotheses_at(&pool, slot, 0)->imm;
-    assert_int_equal(rho_hypotheses_return(&pool, slot, 1000000), RHO_OK);
+    assert_int_equal(rho_hypotheses_predict_noiseless(&pool, slot, 1000000), RHO_OK);
     const struct rho_imm *imm = &rho_hypotheses_at(&pool, slot, 0)->imm;
     assert_float_equal(imm->state[0], was.state[0] - 3.0f * was.state[3], 0.1);
-    assert_int_equal(rho_hypotheses_return(&pool, slot, 4000000), RHO_OK);
+    assert_int_equal(rho_hypotheses_predict_noiseless(&pool, slot, 4000000), RHO_OK);
     for (int i = 0; i < RHO_IMM_STATES; ++i) {
         assert_float_equal(imm->state[i], was.state[i], 1e-3 * (1.0 + fabs(was.state[i])));
     }
     assert_float_equal(imm->covariance[0], was.covariance[0], 0.01 * was.covariance[0]);
-    assert_int_equal(rho_hypotheses_return(NULL, slot, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_return(&pool, slot + 1, 0), RHO_ERROR_STATE);
+    assert_int_equal(rho_hypotheses_predict_noiseless(NULL, slot, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_predict_noiseless(&pool, slot + 1, 0), RHO_ERROR_STATE);
 }
 
 /* The steps of the pool follow from the new mean time; a model without calm targets stays. */
@@ -778,15 +778,15 @@ static void calm_targets_get_another_mean_time(void **state)
     begin();
     const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
     predict(&pool, slot, 2.0);
-    rho_hypotheses_set_calm(&pool, 90.0f);
+    rho_hypotheses_set_calm_interval(&pool, 90.0f);
     model.calm_s = 90.0f;
-    rho_imm_step_open(&expected, &model, 2.0f);
+    rho_imm_prepare_step(&expected, &model, 2.0f);
     assert_memory_equal(&pool.model, &model, sizeof model);
     assert_memory_equal(&pool.step, &expected, sizeof expected);
 
     model.calm_s = 0.0f;
     assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
-    rho_hypotheses_set_calm(&pool, 90.0f);
+    rho_hypotheses_set_calm_interval(&pool, 90.0f);
     assert_memory_equal(&pool.model, &model, sizeof model);
 }
 
@@ -801,11 +801,11 @@ static void a_pool_gets_another_model(void **state)
     begin();
     const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
     predict(&pool, slot, 2.0);
-    rho_hypotheses_set_calm(&pool, 90.0f);
+    rho_hypotheses_set_calm_interval(&pool, 90.0f);
     model.drive_density *= 9.0f;
     assert_int_equal(rho_hypotheses_set_model(&pool, &model), RHO_OK);
     model.calm_s = 90.0f;
-    rho_imm_step_open(&expected, &model, 2.0f);
+    rho_imm_prepare_step(&expected, &model, 2.0f);
     assert_memory_equal(&pool.model, &model, sizeof model);
     assert_memory_equal(&pool.step, &expected, sizeof expected);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 1);

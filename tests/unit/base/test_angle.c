@@ -168,28 +168,28 @@ static void sectors_go_on_from_either_end(void **state)
     const unsigned left = RHO_ANGLE_CONTINUES_LEFT, right = RHO_ANGLE_CONTINUES_RIGHT;
 
     (void)state;
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 1.0f, 1.5f, 0.0f), left);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, -0.5f, 0.0f, 0.0f), right);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 1.0f, 0.0f, 0.0f), left | right);
-    assert_int_equal(rho_angle_sector_continues(3.0f, -3.0f, -3.0f, -2.0f, 0.0f), left);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 1.0009f, 1.5f, 0.0f), left);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 0.9995f, 1.5f, 0.0f), left);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.0f, 1.5f, 0.0f), left);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, -0.5f, 0.0f, 0.0f), right);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.0f, 0.0f, 0.0f), left | right);
+    assert_int_equal(rho_angle_continued_ends(3.0f, -3.0f, -3.0f, -2.0f, 0.0f), left);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.0009f, 1.5f, 0.0f), left);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 0.9995f, 1.5f, 0.0f), left);
     /* apart, and as far as is allowed; the nearer end */
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 1.2f, 1.5f, 0.0f), 0);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 1.2f, 1.5f, 0.3f), left);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, -1.5f, -0.2f, 0.3f), right);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 5.0f, 5.5f, 6.0f, 1.0f), right);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.2f, 1.5f, 0.0f), 0);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.2f, 1.5f, 0.3f), left);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, -1.5f, -0.2f, 0.3f), right);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 5.0f, 5.5f, 6.0f, 1.0f), right);
     /* narrow ones: of two there is no circle, nor of one twice */
-    assert_int_equal(rho_angle_sector_continues(0.0f, 4e-4f, 4e-4f, 8e-4f, 0.5f), left);
-    assert_int_equal(rho_angle_sector_continues(1.0f, 1.0004f, 0.9996f, 1.0f, 0.5f), right);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 5e-4f, 0.0f, 5e-4f, 0.5f), 0);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 4e-4f, 4e-4f, 8e-4f, 0.5f), left);
+    assert_int_equal(rho_angle_continued_ends(1.0f, 1.0004f, 0.9996f, 1.0f, 0.5f), right);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 5e-4f, 0.0f, 5e-4f, 0.5f), 0);
     /* overlap, the whole circle, no sector */
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 0.5f, 1.5f, 0.3f), 0);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 6.1f, 0.0f, 0.2f, 0.5f), 0);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 0.0f, 1.0f, 0.5f), 0);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 0.0f, 0.0f, 1.0f, 0.5f), 0);
-    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 2.0f, 2.0f, 7.0f), 0);
-    assert_int_equal(rho_angle_sector_continues(NAN, 1.0f, 1.0f, 2.0f, 0.5f), 0);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 0.5f, 1.5f, 0.3f), 0);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 6.1f, 0.0f, 0.2f, 0.5f), 0);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 0.0f, 1.0f, 0.5f), 0);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 0.0f, 0.0f, 1.0f, 0.5f), 0);
+    assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 2.0f, 2.0f, 7.0f), 0);
+    assert_int_equal(rho_angle_continued_ends(NAN, 1.0f, 1.0f, 2.0f, 0.5f), 0);
     assert_float_equal(rho_angle_sector_width(3.0f, -3.0f), 2.0 * 3.14159265 - 6.0, 1e-6);
     assert_float_equal(rho_angle_sector_width(2.0f, 2.0f), 2.0 * 3.14159265, 1e-6);
 }

@@ -247,7 +247,7 @@ static void gate2_agrees_with_the_reference(void **state)
         const struct gate2_vector *v = &gate2_vectors[i];
         float distance2[2] = {0.0f, GUARD}, log_det[2] = {0.0f, GUARD};
 
-        assert_int_equal(rho_linalg_gate2(v->s, v->d, distance2, log_det), RHO_OK);
+        assert_int_equal(rho_linalg_nis2(v->s, v->d, distance2, log_det), RHO_OK);
         assert_near(distance2, &v->distance2, 1, DISTANCE2_RELATIVE);
         assert_true(fabs(log_det[0] - v->log_det) <= LOG_DET_ABSOLUTE);
         assert_true(distance2[1] == GUARD && log_det[1] == GUARD);
@@ -261,7 +261,7 @@ static void gate3_agrees_with_the_reference(void **state)
         const struct gate3_vector *v = &gate3_vectors[i];
         float distance2[2] = {0.0f, GUARD}, log_det[2] = {0.0f, GUARD};
 
-        assert_int_equal(rho_linalg_gate3(v->s, v->d, distance2, log_det), RHO_OK);
+        assert_int_equal(rho_linalg_nis3(v->s, v->d, distance2, log_det), RHO_OK);
         assert_near(distance2, &v->distance2, 1, DISTANCE2_RELATIVE);
         assert_true(fabs(log_det[0] - v->log_det) <= LOG_DET_ABSOLUTE);
         assert_true(distance2[1] == GUARD && log_det[1] == GUARD);
@@ -276,10 +276,10 @@ static void gates_of_simple_matrices(void **state)
     float distance2, log_det;
 
     (void)state;
-    assert_int_equal(rho_linalg_gate2(s2, d2, &distance2, &log_det), RHO_OK);
+    assert_int_equal(rho_linalg_nis2(s2, d2, &distance2, &log_det), RHO_OK);
     assert_true(distance2 == 13.0f);
     assert_float_equal(log_det, log(4.0), 1e-6);
-    assert_int_equal(rho_linalg_gate3(s3, d3, &distance2, &log_det), RHO_OK);
+    assert_int_equal(rho_linalg_nis3(s3, d3, &distance2, &log_det), RHO_OK);
     assert_true(distance2 == 6.0f);
     assert_float_equal(log_det, log(64.0), 1e-6);
 }
@@ -289,9 +289,9 @@ static void assert_gates_refuse(const float s[6], const float d[3], int try2)
     float distance2 = GUARD, log_det = GUARD;
 
     if (try2) {
-        assert_int_equal(rho_linalg_gate2(s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
+        assert_int_equal(rho_linalg_nis2(s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
     }
-    assert_int_equal(rho_linalg_gate3(s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
+    assert_int_equal(rho_linalg_nis3(s, d, &distance2, &log_det), RHO_ERROR_SINGULAR);
     assert_true(distance2 == GUARD && log_det == GUARD);
 }
 
@@ -350,14 +350,14 @@ static void gates_check_their_pointers(void **state)
     float v = GUARD;
 
     (void)state;
-    assert_int_equal(rho_linalg_gate2(NULL, d, &v, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_gate2(s, NULL, &v, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_gate2(s, d, NULL, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_gate2(s, d, &v, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_gate3(NULL, d, &v, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_gate3(s, NULL, &v, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_gate3(s, d, NULL, &v), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_gate3(s, d, &v, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_nis2(NULL, d, &v, &v), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_nis2(s, NULL, &v, &v), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_nis2(s, d, NULL, &v), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_nis2(s, d, &v, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_nis3(NULL, d, &v, &v), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_nis3(s, NULL, &v, &v), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_nis3(s, d, NULL, &v), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_nis3(s, d, &v, NULL), RHO_ERROR_NULL);
     assert_true(v == GUARD);
 }
 
@@ -390,7 +390,8 @@ static void update_agrees_with_the_formula(void **state)
         float nis = GUARD;
 
         assert_int_equal(
-            rho_linalg_update6(e.x, e.p, index, (float)innovation, (float)variance, &nis), RHO_OK);
+            rho_linalg_update6_element(e.x, e.p, index, (float)innovation, (float)variance, &nis),
+            RHO_OK);
         assert_float_equal(nis, innovation * innovation / sum, 1e-6 * nis);
         for (int i = 0; i < STATES; ++i) {
             const double p_i = old.p[RHO_AT(i, index)];
@@ -417,7 +418,7 @@ static void no_variance_grows_by_more_than_rounding(void **state)
         const struct estimate old = some_estimate();
         struct estimate e = old;
 
-        assert_int_equal(rho_linalg_update6(e.x, e.p, index, 1.0f, 1e20f, NULL), RHO_OK);
+        assert_int_equal(rho_linalg_update6_element(e.x, e.p, index, 1.0f, 1e20f, NULL), RHO_OK);
         for (int i = 0; i < STATES; ++i) {
             assert_true(e.p[RHO_AT(i, i)] <= old.p[RHO_AT(i, i)] * GROWTH_MAX);
         }
@@ -430,7 +431,8 @@ static void assert_update_refuses(struct estimate e, int index, float innovation
     const struct estimate old = e;
     float nis = GUARD;
 
-    assert_int_equal(rho_linalg_update6(e.x, e.p, index, innovation, variance, &nis), expected);
+    assert_int_equal(rho_linalg_update6_element(e.x, e.p, index, innovation, variance, &nis),
+                     expected);
     assert_memory_equal(&e, &old, sizeof e);
     assert_true(nis == GUARD);
 }
@@ -489,11 +491,11 @@ static void update_checks_its_pointers(void **state)
     float nis = GUARD;
 
     (void)state;
-    assert_int_equal(rho_linalg_update6(NULL, e.p, 0, 1.0f, 1.0f, &nis), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_update6(e.x, NULL, 0, 1.0f, 1.0f, &nis), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update6_element(NULL, e.p, 0, 1.0f, 1.0f, &nis), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update6_element(e.x, NULL, 0, 1.0f, 1.0f, &nis), RHO_ERROR_NULL);
     assert_memory_equal(&e, &old, sizeof e);
     assert_true(nis == GUARD);
-    assert_int_equal(rho_linalg_update6(e.x, e.p, 0, 1.0f, 1.0f, NULL), RHO_OK);
+    assert_int_equal(rho_linalg_update6_element(e.x, e.p, 0, 1.0f, 1.0f, NULL), RHO_OK);
 }
 
 /* A full matrix, element by element in double precision. */

@@ -88,9 +88,9 @@ static void a_unit_row_is_an_update_of_its_element(void **state)
 
         row[element] = 1.0f;
         assert_int_equal(update(&one, row, 30.0f, variance, &nis_one), RHO_OK);
-        assert_int_equal(
-            rho_linalg_update6(other.state, other.covariance, element, 30.0f, variance, &nis_other),
-            RHO_OK);
+        assert_int_equal(rho_linalg_update6_element(other.state, other.covariance, element, 30.0f,
+                                                    variance, &nis_other),
+                         RHO_OK);
         const struct dense expected = dense_of(other.state, other.covariance);
         assert_near_dense(one.state, one.covariance, &expected, &before, UPDATE_RELATIVE);
         assert_true(nis_one == nis_other);
@@ -301,7 +301,7 @@ static struct plane some_plane(int n)
 
 static void turn(struct rho_kalman *e, const struct plane *plane)
 {
-    rho_linalg_turn6(e->covariance, plane->a, plane->b, plane->c, plane->s);
+    rho_linalg_rotate6(e->covariance, plane->a, plane->b, plane->c, plane->s);
 }
 
 static struct dense turned(const struct rho_kalman *e, const struct plane *plane)

@@ -156,7 +156,8 @@ static void an_update_of_an_element_is_that_of_full_matrices(void **state)
 
         h[index] = 1.0;
         const struct wide expected = updated(e.n, &before, h, innovation, variance);
-        assert_int_equal(rho_linalg_update_at(e.n, e.x, e.p, index, innovation, variance), RHO_OK);
+        assert_int_equal(rho_linalg_update_element(e.n, e.x, e.p, index, innovation, variance),
+                         RHO_OK);
         assert_near(&e, &expected, &before);
     }
 }
@@ -179,7 +180,7 @@ static void an_update_along_a_row_is_that_of_full_matrices(void **state)
             h[i] = i < num ? row[i] : 0.0;
         }
         const struct wide expected = updated(e.n, &before, h, innovation, variance);
-        assert_int_equal(rho_linalg_update_along(e.n, e.x, e.p, num, row, innovation, variance),
+        assert_int_equal(rho_linalg_update_row(e.n, e.x, e.p, num, row, innovation, variance),
                          RHO_OK);
         assert_near(&e, &expected, &before);
     }
@@ -192,8 +193,9 @@ static void six_elements_are_updated_as_by_the_routine_for_six(void **state)
         struct sized e = some_estimate(6), other = e;
         const int index = c % 6;
 
-        assert_int_equal(rho_linalg_update_at(6, e.x, e.p, index, 3.0f, 2.0f), RHO_OK);
-        assert_int_equal(rho_linalg_update6(other.x, other.p, index, 3.0f, 2.0f, NULL), RHO_OK);
+        assert_int_equal(rho_linalg_update_element(6, e.x, e.p, index, 3.0f, 2.0f), RHO_OK);
+        assert_int_equal(rho_linalg_update6_element(other.x, other.p, index, 3.0f, 2.0f, NULL),
+                         RHO_OK);
         const struct wide before = wide_of(&e), expected = wide_of(&other);
         assert_near(&e, &expected, &before);
     }
@@ -217,10 +219,11 @@ static void sharp_measurements_leave_a_vague_estimate_positive_definite(void **s
             }
             if (c % 3 == 0) {
                 assert_int_equal(
-                    rho_linalg_update_at(e.n, e.x, e.p, k % e.n, (float)normal(), 1.0f), RHO_OK);
+                    rho_linalg_update_element(e.n, e.x, e.p, k % e.n, (float)normal(), 1.0f),
+                    RHO_OK);
             }
-            assert_int_equal(
-                rho_linalg_update_along(e.n, e.x, e.p, e.n, row, (float)normal(), 1.0f), RHO_OK);
+            assert_int_equal(rho_linalg_update_row(e.n, e.x, e.p, e.n, row, (float)normal(), 1.0f),
+                             RHO_OK);
             assert_true(is_definite(&e));
         }
     }
@@ -238,8 +241,8 @@ static void sharp_elements_leave_a_correlated_estimate_positive_definite(void **
             const int index = (int)uniform(0.0, e.n);
             const float variance = e.p[RHO_AT(index, index)] * 1e-8f;
 
-            assert_int_equal(rho_linalg_update_at(e.n, e.x, e.p, index, (float)normal(), variance),
-                             RHO_OK);
+            assert_int_equal(
+                rho_linalg_update_element(e.n, e.x, e.p, index, (float)normal(), variance), RHO_OK);
             assert_true(e.p[RHO_AT(index, index)] <= variance * 1.000001f);
             assert_true(is_definite(&e));
             for (int i = 0; i < e.n; ++i) { /* a step's noise: the next one is vague again */
@@ -261,8 +264,8 @@ static void no_variance_grows_by_more_than_rounding(void **state)
             row[i] = (float)(normal() / sqrt(e.p[RHO_AT(i, i)]));
         }
         const enum rho_status status =
-            c % 2 == 0 ? rho_linalg_update_at(e.n, e.x, e.p, c / 2 % e.n, 1.0f, 1e12f)
-                       : rho_linalg_update_along(e.n, e.x, e.p, e.n, row, 1.0f, 1e12f);
+            c % 2 == 0 ? rho_linalg_update_element(e.n, e.x, e.p, c / 2 % e.n, 1.0f, 1e12f)
+                       : rho_linalg_update_row(e.n, e.x, e.p, e.n, row, 1.0f, 1e12f);
         assert_int_equal(status, RHO_OK);
         for (int i = 0; i < e.n; ++i) {
             assert_true(e.p[RHO_AT(i, i)] <= before.p[RHO_AT(i, i)] * (1.0f + 1.0f / 1048576.0f));
@@ -281,9 +284,9 @@ static void what_is_not_coupled_keeps_its_bytes(void **state)
     e.p[RHO_AT(1, 1)] = 9.0f;
     e.p[RHO_AT(2, 2)] = 0.1f;
     const struct sized before = e;
-    assert_int_equal(rho_linalg_update_along(3, e.x, e.p, 3, nothing, 7.0f, 1.0f), RHO_OK);
+    assert_int_equal(rho_linalg_update_row(3, e.x, e.p, 3, nothing, 7.0f, 1.0f), RHO_OK);
     assert_memory_equal(&e, &before, sizeof e);
-    assert_int_equal(rho_linalg_update_at(3, e.x, e.p, 1, 1.0f, 9.0f), RHO_OK);
+    assert_int_equal(rho_linalg_update_element(3, e.x, e.p, 1, 1.0f, 9.0f), RHO_OK);
     assert_true(e.x[1] == 2.5f && e.p[RHO_AT(1, 1)] == 4.5f);
     e.x[1] = before.x[1];
     e.p[RHO_AT(1, 1)] = before.p[RHO_AT(1, 1)];
@@ -297,9 +300,10 @@ static void assert_update_refused(const struct sized *before, int index, const f
 {
     struct sized e = *before;
 
-    assert_int_equal(rho_linalg_update_at(e.n, e.x, e.p, index, innovation, variance), expected);
+    assert_int_equal(rho_linalg_update_element(e.n, e.x, e.p, index, innovation, variance),
+                     expected);
     assert_memory_equal(&e, before, sizeof e);
-    assert_int_equal(rho_linalg_update_along(e.n, e.x, e.p, e.n, row, innovation, variance),
+    assert_int_equal(rho_linalg_update_row(e.n, e.x, e.p, e.n, row, innovation, variance),
                      expected);
     assert_memory_equal(&e, before, sizeof e);
 }
@@ -355,10 +359,10 @@ static void an_update_refuses_a_bad_estimate_untouched(void **state)
                 e = some_estimate(n);
                 e.p[RHO_AT(n - 1, 0)] = bad[k];
                 struct sized after = e;
-                assert_int_equal(rho_linalg_update_at(n, after.x, after.p, n - 1, 1.0f, 1.0f),
+                assert_int_equal(rho_linalg_update_element(n, after.x, after.p, n - 1, 1.0f, 1.0f),
                                  RHO_ERROR_VALUE);
-                assert_int_not_equal(
-                    rho_linalg_update_along(n, after.x, after.p, n, row, 1.0f, 1.0f), RHO_OK);
+                assert_int_not_equal(rho_linalg_update_row(n, after.x, after.p, n, row, 1.0f, 1.0f),
+                                     RHO_OK);
                 assert_memory_equal(&after, &e, sizeof e);
             }
         }
@@ -372,21 +376,22 @@ static void an_update_checks_sizes_and_pointers(void **state)
     float row[MOST] = {1.0f};
 
     (void)state;
-    assert_int_equal(rho_linalg_update_at(3, NULL, e.p, 0, 1.0f, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_update_at(3, e.x, NULL, 0, 1.0f, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_update_at(0, e.x, e.p, 0, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
-    assert_int_equal(rho_linalg_update_at(-1, e.x, e.p, 0, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
-    assert_int_equal(rho_linalg_update_at(MOST + 1, e.x, e.p, 0, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
-    assert_int_equal(rho_linalg_update_at(3, e.x, e.p, -1, 1.0f, 1.0f), RHO_ERROR_VALUE);
-    assert_int_equal(rho_linalg_update_at(3, e.x, e.p, 3, 1.0f, 1.0f), RHO_ERROR_VALUE);
-    assert_int_equal(rho_linalg_update_along(3, NULL, e.p, 3, row, 1.0f, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_update_along(3, e.x, NULL, 3, row, 1.0f, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_update_along(3, e.x, e.p, 3, NULL, 1.0f, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_linalg_update_along(0, e.x, e.p, 0, row, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
-    assert_int_equal(rho_linalg_update_along(MOST + 1, e.x, e.p, 3, row, 1.0f, 1.0f),
+    assert_int_equal(rho_linalg_update_element(3, NULL, e.p, 0, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update_element(3, e.x, NULL, 0, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update_element(0, e.x, e.p, 0, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_element(-1, e.x, e.p, 0, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_element(MOST + 1, e.x, e.p, 0, 1.0f, 1.0f),
                      RHO_ERROR_CAPACITY);
-    assert_int_equal(rho_linalg_update_along(3, e.x, e.p, 4, row, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
-    assert_int_equal(rho_linalg_update_along(3, e.x, e.p, 0, row, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_element(3, e.x, e.p, -1, 1.0f, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(rho_linalg_update_element(3, e.x, e.p, 3, 1.0f, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(rho_linalg_update_row(3, NULL, e.p, 3, row, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update_row(3, e.x, NULL, 3, row, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update_row(3, e.x, e.p, 3, NULL, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_linalg_update_row(0, e.x, e.p, 0, row, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_row(MOST + 1, e.x, e.p, 3, row, 1.0f, 1.0f),
+                     RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_row(3, e.x, e.p, 4, row, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_linalg_update_row(3, e.x, e.p, 0, row, 1.0f, 1.0f), RHO_ERROR_CAPACITY);
     assert_memory_equal(&e, &before, sizeof e);
 }
 
@@ -456,7 +461,7 @@ static void a_match_is_the_mahalanobis_distance_and_the_determinant(void **state
             e.x[i] = (float)(normal() * sqrt(e.p[RHO_AT(i, i)]));
         }
         const double expected = distance2_of(&e, &expected_log_det);
-        assert_true(rho_linalg_match(e.n, e.p, e.x, FLT_MAX, &distance2, &log_det));
+        assert_true(rho_linalg_gated_nis(e.n, e.p, e.x, FLT_MAX, &distance2, &log_det));
         assert_float_equal(distance2, expected, DISTANCE_RELATIVE * expected);
         assert_float_equal(log_det, expected_log_det, LOG_DET_ABSOLUTE);
     }
@@ -475,8 +480,8 @@ static void a_match_is_within_a_distance_that_counts(void **state)
                 e.p[RHO_AT(i, i)] = 4.0f;
                 e.x[i] = 2.0f;
             }
-            const int is_matched =
-                rho_linalg_match(n, e.p, e.x, (float)n - 0.25f * (float)k, &distance2, &log_det);
+            const int is_matched = rho_linalg_gated_nis(n, e.p, e.x, (float)n - 0.25f * (float)k,
+                                                        &distance2, &log_det);
             assert_int_equal(is_matched, k == 0);
             assert_true(distance2 == (k == 0 ? (float)n : GUARD));
             assert_true(k == 0 ? fabs(log_det - n * log(4.0)) < 1e-5 : log_det == GUARD);
@@ -498,7 +503,7 @@ static void the_determinant_of_large_and_small_variances_is_a_number(void **stat
             for (int i = 0; i < n; ++i) {
                 e.p[RHO_AT(i, i)] = variances[k];
             }
-            assert_true(rho_linalg_match(n, e.p, e.x, 30.0f, &distance2, &log_det));
+            assert_true(rho_linalg_gated_nis(n, e.p, e.x, 30.0f, &distance2, &log_det));
             assert_true(distance2 == 0.0f);
             assert_float_equal(log_det, n * log((double)variances[k]), 1e-4);
         }
@@ -516,7 +521,7 @@ static void a_match_refuses_what_is_not_positive_definite(void **state)
             float distance2 = GUARD, log_det = GUARD;
 
             e.p[RHO_AT(c % n, c % n)] = bad[c / n];
-            assert_false(rho_linalg_match(n, e.p, e.x, FLT_MAX, &distance2, &log_det));
+            assert_false(rho_linalg_gated_nis(n, e.p, e.x, FLT_MAX, &distance2, &log_det));
             assert_true(distance2 == GUARD && log_det == GUARD);
         }
         for (int i = 0; i < n; ++i) {
@@ -524,7 +529,7 @@ static void a_match_refuses_what_is_not_positive_definite(void **state)
             float distance2 = GUARD, log_det = GUARD;
 
             e.x[i] = NAN;
-            assert_false(rho_linalg_match(n, e.p, e.x, FLT_MAX, &distance2, &log_det));
+            assert_false(rho_linalg_gated_nis(n, e.p, e.x, FLT_MAX, &distance2, &log_det));
             assert_true(distance2 == GUARD && log_det == GUARD);
         }
     }
@@ -536,12 +541,12 @@ static void a_match_checks_sizes_and_pointers(void **state)
     float distance2 = GUARD, log_det = GUARD;
 
     (void)state;
-    assert_false(rho_linalg_match(0, e.p, e.x, 30.0f, &distance2, &log_det));
-    assert_false(rho_linalg_match(MOST + 1, e.p, e.x, 30.0f, &distance2, &log_det));
-    assert_false(rho_linalg_match(2, NULL, e.x, 30.0f, &distance2, &log_det));
-    assert_false(rho_linalg_match(2, e.p, NULL, 30.0f, &distance2, &log_det));
-    assert_false(rho_linalg_match(2, e.p, e.x, 30.0f, NULL, &log_det));
-    assert_false(rho_linalg_match(2, e.p, e.x, 30.0f, &distance2, NULL));
+    assert_false(rho_linalg_gated_nis(0, e.p, e.x, 30.0f, &distance2, &log_det));
+    assert_false(rho_linalg_gated_nis(MOST + 1, e.p, e.x, 30.0f, &distance2, &log_det));
+    assert_false(rho_linalg_gated_nis(2, NULL, e.x, 30.0f, &distance2, &log_det));
+    assert_false(rho_linalg_gated_nis(2, e.p, NULL, 30.0f, &distance2, &log_det));
+    assert_false(rho_linalg_gated_nis(2, e.p, e.x, 30.0f, NULL, &log_det));
+    assert_false(rho_linalg_gated_nis(2, e.p, e.x, 30.0f, &distance2, NULL));
     assert_true(distance2 == GUARD && log_det == GUARD);
 }
 

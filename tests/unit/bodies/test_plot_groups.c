@@ -191,7 +191,7 @@ static void a_body_of_unknown_length_is_half_as_long_as_the_longest(void **state
 {
     (void)state;
     prepare(0);
-    assert_float_equal(rho_tracker_body_prior_m2(&tracker), 5.0 * 5.0 / 12.0, 1e-6);
+    assert_float_equal(rho_tracker_body_prior_variance_m2(&tracker), 5.0 * 5.0 / 12.0, 1e-6);
 }
 
 /* Six units for a plot and a body; two for two plots, one for each that is passed over. */

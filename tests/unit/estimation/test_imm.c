@@ -56,7 +56,7 @@ static void an_interval_is_singers(void **state)
         double response[3], q[3][3];
         struct rho_imm_step step;
 
-        rho_imm_step_open(&step, &model, dt_s);
+        rho_imm_prepare_step(&step, &model, dt_s);
         singer_response(dt_s, model.memory_s, response);
         singer_noise(dt_s, model.memory_s, q);
         worst_response = fmax(worst_response, fabs(step.position_by_accel / response[0] - 1.0));
@@ -110,9 +110,9 @@ static void several_short_intervals_are_one_long_one(void **state)
         const float second_s = (float)(first_s * pow(10.0, uniform(-1.0, 1.0)));
         struct rho_imm_step a, b, both;
 
-        rho_imm_step_open(&a, &model, first_s);
-        rho_imm_step_open(&b, &model, second_s);
-        rho_imm_step_open(&both, &model, first_s + second_s);
+        rho_imm_prepare_step(&a, &model, first_s);
+        rho_imm_prepare_step(&b, &model, second_s);
+        rho_imm_prepare_step(&both, &model, first_s + second_s);
         const double f[3][3] = {{1.0, second_s, b.position_by_accel},
                                 {0.0, 1.0, b.velocity_by_accel},
                                 {0.0, 0.0, b.accel_by_accel}};
@@ -160,8 +160,8 @@ static void backwards_is_the_inverse_without_noise_or_change(void **state)
         model.calm_s = model.settle_s = n % 2 ? 100.0f : 0.0f;
         struct rho_imm_step forth, back;
 
-        rho_imm_step_open(&forth, &model, dt_s);
-        rho_imm_step_open(&back, &model, -dt_s);
+        rho_imm_prepare_step(&forth, &model, dt_s);
+        rho_imm_prepare_step(&back, &model, -dt_s);
         const double f = forth.position_by_accel, g = forth.velocity_by_accel;
         const double h = forth.accel_by_accel;
         /* of the inverse: acceleration 1 / h, velocity -g / h, position (g dt - f) / h */
@@ -187,7 +187,7 @@ static void no_time_is_no_change(void **state)
 
     (void)state;
     model.calm_s = model.settle_s = 100.0f;
-    rho_imm_step_open(&step, &model, 0.0f);
+    rho_imm_prepare_step(&step, &model, 0.0f);
     assert_true(step.dt_s == 0.0f && step.begins == 0.0f && step.ends == 0.0f &&
                 step.position_by_accel == 0.0f);
     assert_true(step.calm_begins == 0.0f && step.settles == 0.0f);
@@ -484,7 +484,7 @@ static void move_both(struct pair *pair, float dt_s, int is_prediction)
     struct reference same = before;
     struct rho_imm_step step;
 
-    rho_imm_step_open(&step, &pair->model, dt_s);
+    rho_imm_prepare_step(&step, &pair->model, dt_s);
     assert_int_equal(is_prediction ? rho_imm_predict(&pair->imm, &step)
                                    : rho_imm_predict_unmixed(&pair->imm, &step),
                      RHO_OK);
@@ -517,7 +517,7 @@ static void show_both(struct pair *pair, const struct rho_plot *plot, uint32_t m
     struct rho_imm_plot seen;
     struct rho_imm_match match;
 
-    rho_imm_open_plot(&seen, plot, measures, sensor);
+    rho_imm_prepare_plot(&seen, plot, measures, sensor);
     pair->num_plots++;
     if (!rho_imm_score_plot(&pair->imm, &seen, &match)) {
         assert_true(here.nearest2 > 0.99 * RHO_IMM_GATE);
@@ -670,7 +670,7 @@ static void mixing_is_right_where_a_model_is_certain(void **state)
         imm.state[4] -= 5.0f;
         imm.state[6] = 40.0f;
         imm.steady.covariance[RHO_AT(0, 0)] *= 0.01f;
-        rho_imm_step_open(&step, &model, intervals_s[n / NUM(probabilities) % NUM(intervals_s)]);
+        rho_imm_prepare_step(&step, &model, intervals_s[n / NUM(probabilities) % NUM(intervals_s)]);
         const struct reference before = reference_of(&imm);
         struct reference expected = before;
 
@@ -701,7 +701,7 @@ static void follow_twice(struct rho_imm both[2], const struct rho_imm_model *mod
 {
     struct rho_imm_step step;
 
-    rho_imm_step_open(&step, model, 0.5f);
+    rho_imm_prepare_step(&step, model, 0.5f);
     for (int k = 1; k <= 40; ++k) {
         const double t = 0.5 * k;
         const struct rho_plot plot = {.x_m = (float)(4000.0 + 200.0 * t + 5.0 * normal()),
@@ -715,7 +715,7 @@ static void follow_twice(struct rho_imm both[2], const struct rho_imm_model *mod
         struct rho_kalman estimate[2];
         struct rho_imm_plot seen;
 
-        rho_imm_open_plot(&seen, &plot, num_axes == 3 ? RHO_MEASURES_Z : 0, NULL);
+        rho_imm_prepare_plot(&seen, &plot, num_axes == 3 ? RHO_MEASURES_Z : 0, NULL);
         for (int i = 0; i < 2; ++i) {
             assert_int_equal(rho_imm_predict(&both[i], &step), RHO_OK);
             assert_true(rho_imm_score_plot(&both[i], &seen, &match[i]));
@@ -799,7 +799,7 @@ static void a_gate_weighs_as_one_plot_does(void **state)
         struct rho_imm_step step;
         struct rho_imm imm;
 
-        rho_imm_step_open(&step, &model, (float)pow(10.0, uniform(-2.0, 0.5)));
+        rho_imm_prepare_step(&step, &model, (float)pow(10.0, uniform(-2.0, 0.5)));
         rho_imm_start(&imm, &model, &first);
         imm.probability = (float)uniform(0.0, 1.0);
         for (int i = 0; i < 45; ++i) {
@@ -807,7 +807,7 @@ static void a_gate_weighs_as_one_plot_does(void **state)
             imm.steady.covariance[i % 21] *= i < 21 ? less : 1.0f;
         }
         assert_int_equal(rho_imm_predict(&imm, &step), RHO_OK);
-        assert_true(rho_imm_open_gate(&gate, &imm, sigma_m * sigma_m, measures != 0));
+        assert_true(rho_imm_prepare_gate(&gate, &imm, sigma_m * sigma_m, measures != 0));
         for (int k = 0; k < 5; ++k) {
             const double reach = 4.0 * k * sqrt(imm.covariance[0] + sigma_m * sigma_m) / 3.0;
             const struct rho_plot plot = {.x_m = imm.state[0] + (float)(reach * normal()),
@@ -820,12 +820,12 @@ static void a_gate_weighs_as_one_plot_does(void **state)
             struct rho_imm_plot seen;
             float log_likelihood, probability;
 
-            rho_imm_open_plot(&seen, &plot, measures, NULL);
+            rho_imm_prepare_plot(&seen, &plot, measures, NULL);
             const float *place_m = seen.position.place_m;
             const int is_near = rho_imm_score_plot(&imm, &seen, &one);
-            assert_int_equal(
-                rho_imm_score_in_gate(&gate, place_m, -FLT_MAX, &log_likelihood, &probability),
-                is_near);
+            assert_int_equal(rho_imm_score_position_in_gate(&gate, place_m, -FLT_MAX,
+                                                            &log_likelihood, &probability),
+                             is_near);
             if (!is_near) {
                 continue;
             }
@@ -837,14 +837,15 @@ static void a_gate_weighs_as_one_plot_does(void **state)
              * one that is likelier than enough is never left out, one that is less likely by ln 2
              * always
              */
-            assert_true(rho_imm_score_in_gate(&gate, place_m, nextafterf(log_likelihood, -INFINITY),
-                                              &log_likelihood, &probability));
-            assert_false(rho_imm_score_in_gate(&gate, place_m, log_likelihood + 0.694f,
-                                               &log_likelihood, &probability));
+            assert_true(rho_imm_score_position_in_gate(&gate, place_m,
+                                                       nextafterf(log_likelihood, -INFINITY),
+                                                       &log_likelihood, &probability));
+            assert_false(rho_imm_score_position_in_gate(&gate, place_m, log_likelihood + 0.694f,
+                                                        &log_likelihood, &probability));
             num_in_gate++;
         }
         imm.is_coupled = 1;
-        assert_false(rho_imm_open_gate(&gate, &imm, sigma_m * sigma_m, measures != 0));
+        assert_false(rho_imm_prepare_gate(&gate, &imm, sigma_m * sigma_m, measures != 0));
     }
     assert_true(num_in_gate > 3000);
 }
@@ -929,7 +930,7 @@ static void range_rates_without_a_height_are_those_the_kalman_filter_expects(voi
         at.covariance[RHO_AT(4, 0)] = (float)uniform(-0.1, 0.1) * range_m;
         at.covariance[RHO_AT(4, 3)] = (float)uniform(-8.0, 8.0);
         rho_imm_start(&imm, &model, &at);
-        rho_imm_predict_rates(&rates, &imm, &sensor);
+        rho_imm_predict_range_rates(&rates, &imm, &sensor);
         assert_true(rho_kalman_linearise_range_rate(&at, &sensor, 0.0f, FLT_MIN, &row));
         const float variance =
             row.variance + rho_linalg_project6(at.covariance, row.row, projected);
@@ -990,8 +991,8 @@ static void scores_with_rates_predicted_before_are_the_same(void **state)
                                       .sigma_up_m = 20.0f,
                                       .sigma_range_rate_mps = 2.0f};
         rho_imm_start(&imm, &model, &at);
-        rho_imm_predict_rates(&rates, &imm, &sensor);
-        rho_imm_open_plot(&seen, &plot, RHO_MEASURES_RANGE_RATE, &sensor);
+        rho_imm_predict_range_rates(&rates, &imm, &sensor);
+        rho_imm_prepare_plot(&seen, &plot, RHO_MEASURES_RANGE_RATE, &sensor);
         const int is_near = rho_imm_score_plot(&imm, &seen, &one);
         assert_int_equal(rho_imm_score_plot_with_rates(&imm, &rates, &seen, &other), is_near);
         if (is_near) {

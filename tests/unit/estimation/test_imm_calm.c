@@ -36,7 +36,7 @@ static void predict(struct rho_imm *imm, const struct rho_imm_model *model, floa
 {
     struct rho_imm_step step;
 
-    rho_imm_step_open(&step, model, dt_s);
+    rho_imm_prepare_step(&step, model, dt_s);
     assert_int_equal(rho_imm_predict(imm, &step), RHO_OK);
 }
 
@@ -115,13 +115,13 @@ static void time_alone_moves_the_share(void **state)
 
     (void)state;
     imm.calm = 0.3f;
-    rho_imm_open_plot(&seen, &plot, 0, NULL);
+    rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     assert_true(rho_imm_score_plot(&imm, &seen, &match));
     assert_int_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);
     assert_int_equal(rho_imm_update_bearing(&imm, 0.0f, 5000.0f, -1.5f, 0.01f, &gain_nat), RHO_OK);
-    rho_imm_step_open(&step, &model, 0.4f);
+    rho_imm_prepare_step(&step, &model, 0.4f);
     assert_int_equal(rho_imm_predict_unmixed(&imm, &step), RHO_OK);
-    rho_imm_step_open(&step, &model, -0.4f);
+    rho_imm_prepare_step(&step, &model, -0.4f);
     assert_int_equal(rho_imm_predict_unmixed(&imm, &step), RHO_OK);
     assert_true(imm.calm == 0.3f);
 }
@@ -165,7 +165,7 @@ static void a_refuted_manoeuvre_gives_nothing_back(void **state)
     struct rho_imm_step step;
 
     (void)state;
-    rho_imm_step_open(&step, &model, 4.0f);
+    rho_imm_prepare_step(&step, &model, 4.0f);
     for (size_t k = 0; k < NUM(odds); ++k) {
         const int gives = odds[k] > 0.16;
         struct rho_imm imm = started(&model);
@@ -237,7 +237,7 @@ static void certainty_survives_any_interval(void **state)
         struct rho_imm imm = started(&model);
         imm.probability = shares[n / 2 % NUM(shares)];
         imm.calm = shares[n / 2 / NUM(shares) % NUM(shares)];
-        rho_imm_step_open(&step, &model, dt_s);
+        rho_imm_prepare_step(&step, &model, dt_s);
         const enum rho_status status = rho_imm_predict(&imm, &step);
         assert_true(status == RHO_OK || dt_s > 1e4f);
         assert_true(imm.probability >= 0.0f && imm.probability <= 1.0f);
@@ -305,7 +305,7 @@ static void follow(const struct rho_imm_model *model, struct errors *errors)
                 RHO_OK);
         }
         predict(&imm, model, (float)PERIOD_S);
-        rho_imm_open_plot(&seen, &plot, 0, NULL);
+        rho_imm_prepare_plot(&seen, &plot, 0, NULL);
         assert_true(rho_imm_score_plot(&imm, &seen, &match));
         assert_int_equal(rho_imm_update(&imm, model, &seen, &match), RHO_OK);
         rho_imm_estimate(&imm, &estimate, NULL);
@@ -364,7 +364,7 @@ static double car_error_mps(float accel_max_mps2)
             struct rho_kalman estimate;
 
             predict(&imm, &model, 0.05f);
-            rho_imm_open_plot(&seen, &plot, 0, NULL);
+            rho_imm_prepare_plot(&seen, &plot, 0, NULL);
             assert_true(rho_imm_score_plot(&imm, &seen, &match));
             assert_int_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);
             rho_imm_estimate(&imm, &estimate, NULL);

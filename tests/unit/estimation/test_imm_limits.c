@@ -40,7 +40,7 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_model *
 {
     struct rho_imm_step step;
 
-    rho_imm_step_open(&step, model, dt_s);
+    rho_imm_prepare_step(&step, model, dt_s);
     return rho_imm_predict(imm, &step);
 }
 
@@ -54,7 +54,7 @@ static enum rho_status take(struct rho_imm *imm, const struct rho_imm_model *mod
     struct rho_imm_plot seen;
     struct rho_imm_match match;
 
-    rho_imm_open_plot(&seen, plot, measures, NULL);
+    rho_imm_prepare_plot(&seen, plot, measures, NULL);
     if (!rho_imm_score_plot(imm, &seen, &match)) {
         match.probability = imm->probability;
     }
@@ -117,7 +117,7 @@ static void assert_variances(int n, const float *state, const float *covariance,
 
 static void assert_sane(const struct rho_imm *imm)
 {
-    const int has_z = rho_kalman_is_open(&imm->steady, 2);
+    const int has_z = rho_kalman_is_axis_open(&imm->steady, 2);
 
     assert_variances(6, imm->steady.state, imm->steady.covariance, has_z);
     assert_variances(RHO_IMM_STATES, imm->state, imm->covariance, has_z);
@@ -326,7 +326,7 @@ static enum rho_status hostile_step(struct rho_imm *imm, const struct rho_imm_mo
     if (choice < 0.45) {
         struct rho_imm_step step;
 
-        rho_imm_step_open(&step, model, (float)uniform(-1.0, 1.0));
+        rho_imm_prepare_step(&step, model, (float)uniform(-1.0, 1.0));
         return rho_imm_predict_unmixed(imm, &step);
     }
     if (choice < 0.55) {
@@ -383,7 +383,7 @@ static void a_step_refuses_times_that_are_none(void **state)
         struct rho_imm imm = started(&model, 3, 100.0f);
         struct rho_imm_step step;
 
-        rho_imm_step_open(&step, &model, bad[k]);
+        rho_imm_prepare_step(&step, &model, bad[k]);
         assert_int_equal(rho_imm_predict_unmixed(&imm, &step), RHO_ERROR_VALUE);
         assert_int_equal(rho_imm_predict(&imm, &step), RHO_ERROR_VALUE);
     }
@@ -475,7 +475,7 @@ static void a_plot_that_is_no_number_is_in_no_gate_and_no_update(void **state)
 
         *fields[field] = bad[n / 28];
         plot.sigma_cross_m = n % 4 < 2 ? 10.0f : 40.0f;
-        rho_imm_open_plot(&seen, &plot, measures, NULL);
+        rho_imm_prepare_plot(&seen, &plot, measures, NULL);
         assert_false(rho_imm_score_plot(&imm, &seen, &match));
         match.probability = 0.5f;
         assert_int_not_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);
@@ -525,8 +525,8 @@ static void pointers_and_bearings_are_checked(void **state)
     float gain_nat = 7.0f;
 
     (void)state;
-    rho_imm_step_open(&step, &model, 1.0f);
-    rho_imm_open_plot(&seen, &plot, RHO_MEASURES_Z, NULL);
+    rho_imm_prepare_step(&step, &model, 1.0f);
+    rho_imm_prepare_plot(&seen, &plot, RHO_MEASURES_Z, NULL);
     assert_int_equal(rho_imm_predict_unmixed(NULL, &step), RHO_ERROR_NULL);
     assert_int_equal(rho_imm_predict_unmixed(&imm, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_imm_predict(NULL, &step), RHO_ERROR_NULL);
@@ -573,7 +573,7 @@ static void a_plot_is_in_the_gate_of_either_model(void **state)
         } else {
             imm.steady.state[0] += 1e6f;
         }
-        rho_imm_open_plot(&seen, &plot, 0, NULL);
+        rho_imm_prepare_plot(&seen, &plot, 0, NULL);
         assert_int_equal(rho_imm_score_plot(&imm, &seen, &match), is_inside);
         if (is_inside) {
             assert_float_equal(match.nis, 30.0 * 0.998, 0.01);
@@ -601,7 +601,7 @@ static void a_model_that_was_ruled_out_comes_back(void **state)
     imm.probability = 1.0f;
     imm.state[0] += 1e5f;
     const struct rho_imm before = imm;
-    rho_imm_open_plot(&seen, &plot, 0, NULL);
+    rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     assert_true(rho_imm_score_plot(&imm, &seen, &match));
     assert_true(match.probability == 0.0f && match.log_likelihood < -20.0f);
     assert_int_equal(rho_imm_update_bearing(&imm, 1000.0f, -8000.0f, 1.5707963f, 1e-3f, &gain_nat),

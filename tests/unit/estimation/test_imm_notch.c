@@ -37,9 +37,9 @@ static void shares_are_of_both_models(void **state)
     const struct rho_imm inside = imm_of(0.0f, 0.0f), half = imm_of(0.0f, 30.0f),
                          outside = imm_of(9.0f, 0.0f);
     (void)state;
-    assert_float_equal(rho_imm_notch_share(&inside, &radar), 1.0f, 1e-3);
-    assert_float_equal(rho_imm_notch_share(&half, &radar), 0.75f, 1e-3);
-    assert_float_equal(rho_imm_notch_share(&outside, &radar), 0.0f, 1e-3);
+    assert_float_equal(rho_imm_blind_probability(&inside, &radar), 1.0f, 1e-3);
+    assert_float_equal(rho_imm_blind_probability(&half, &radar), 0.75f, 1e-3);
+    assert_float_equal(rho_imm_blind_probability(&outside, &radar), 0.0f, 1e-3);
 }
 
 static void a_miss_is_evidence_of_the_notch(void **state)
@@ -47,11 +47,11 @@ static void a_miss_is_evidence_of_the_notch(void **state)
     const struct rho_notch_look look = {.pd = 0.9f};
     struct rho_imm imm = imm_of(0.0f, 30.0f), alike = imm_of(3.0f, 0.0f);
     (void)state;
-    rho_imm_miss(&imm, &radar, &look);
+    rho_imm_update_by_miss(&imm, &radar, &look);
     /* 0.75 x 1 against 0.25 x 0.1 */
     assert_float_equal(imm.probability, 0.025f / 0.775f, 1e-3);
     assert_true(imm.is_coupled);
-    rho_imm_miss(&alike, &radar, &look);
+    rho_imm_update_by_miss(&alike, &radar, &look);
     assert_float_equal(alike.probability, 0.25f, 1e-3);
     assert_true(alike.steady.state[3] < 2.9f && alike.state[3] < 2.9f);
 }
@@ -63,10 +63,10 @@ static void without_a_notch_nothing_changes(void **state)
     const struct rho_imm before = imm_of(0.0f, 30.0f);
     struct rho_imm imm = before;
     (void)state;
-    rho_imm_miss(&imm, &whole, &look);
-    rho_imm_miss(&imm, NULL, &look);
+    rho_imm_update_by_miss(&imm, &whole, &look);
+    rho_imm_update_by_miss(&imm, NULL, &look);
     assert_memory_equal(&imm, &before, sizeof imm);
-    assert_float_equal(rho_imm_notch_share(&imm, &whole), 0.0f, 0.0f);
+    assert_float_equal(rho_imm_blind_probability(&imm, &whole), 0.0f, 0.0f);
 }
 
 int main(void)

@@ -101,18 +101,18 @@ static void axes_are_open_once_opened(void **state)
     (void)state;
     rho_kalman_init(&kalman);
     for (int axis = 0; axis < 3; ++axis) {
-        assert_int_equal(rho_kalman_is_open(&kalman, axis), 0);
+        assert_int_equal(rho_kalman_is_axis_open(&kalman, axis), 0);
         assert_int_equal(rho_kalman_open_axis(&kalman, axis, -5.0f, 4.0f, 9.0f), RHO_OK);
-        assert_int_equal(rho_kalman_is_open(&kalman, axis), 1);
+        assert_int_equal(rho_kalman_is_axis_open(&kalman, axis), 1);
         assert_true(kalman.state[axis] == -5.0f && kalman.state[axis + 3] == 0.0f);
         assert_true(kalman.covariance[RHO_AT(axis, axis)] == 4.0f);
         assert_true(kalman.covariance[RHO_AT(axis + 3, axis + 3)] == 9.0f);
     }
-    assert_int_equal(rho_kalman_is_open(&kalman, -1), 0);
-    assert_int_equal(rho_kalman_is_open(&kalman, 3), 0);
-    assert_int_equal(rho_kalman_is_open(&kalman, INT32_MAX), 0);
-    assert_int_equal(rho_kalman_is_open(&kalman, INT32_MIN), 0);
-    assert_int_equal(rho_kalman_is_open(NULL, 0), 0);
+    assert_int_equal(rho_kalman_is_axis_open(&kalman, -1), 0);
+    assert_int_equal(rho_kalman_is_axis_open(&kalman, 3), 0);
+    assert_int_equal(rho_kalman_is_axis_open(&kalman, INT32_MAX), 0);
+    assert_int_equal(rho_kalman_is_axis_open(&kalman, INT32_MIN), 0);
+    assert_int_equal(rho_kalman_is_axis_open(NULL, 0), 0);
 }
 
 static void opening_an_axis_uncouples_it(void **state)
@@ -157,7 +157,7 @@ static void a_closed_axis_stays_zero(void **state)
         }
         assert_true(kalman.state[2] == 0.0f && kalman.state[5] == 0.0f);
         assert_true(nis == 9.0f);
-        assert_int_equal(rho_kalman_is_open(&kalman, 2), 0);
+        assert_int_equal(rho_kalman_is_axis_open(&kalman, 2), 0);
     }
 }
 
@@ -250,7 +250,7 @@ static void a_set_covariance_is_diagonal(void **state)
     assert_int_equal(rho_kalman_open_axis(&filter, 2, 8.0f, 4.0f, 9.0f), RHO_OK);
     assert_int_equal(rho_kalman_predict(&filter, 2.0f, 1.0f), RHO_OK);
     const struct rho_kalman before = filter;
-    rho_kalman_set_covariance(&filter, 500.0f);
+    rho_kalman_set_equal_variances(&filter, 500.0f);
     assert_memory_equal(filter.state, before.state, sizeof filter.state);
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
         for (int j = 0; j <= i; j++) {

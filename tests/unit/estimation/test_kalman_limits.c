@@ -336,11 +336,11 @@ static void a_range_rate_is_clear_where_the_estimate_unfolds_it(void **state)
                              RHO_OK);
         }
         assert_true(rho_kalman_linearise_range_rate(&at, &sensor, 0.0f, 1.0f, &seen));
-        assert_int_equal(rho_kalman_is_range_rate_clear(&at, &sensor, &seen) != 0, !is_vague);
-        assert_true(rho_kalman_is_range_rate_clear(&at, NULL, &seen));
+        assert_int_equal(rho_kalman_can_unfold_range_rate(&at, &sensor, &seen) != 0, !is_vague);
+        assert_true(rho_kalman_can_unfold_range_rate(&at, NULL, &seen));
     }
     sensor.range_rate_span_mps = 0.0f; /* not ambiguous */
-    assert_true(rho_kalman_is_range_rate_clear(&at, &sensor, &seen));
+    assert_true(rho_kalman_can_unfold_range_rate(&at, &sensor, &seen));
 }
 
 int main(void)

@@ -33,7 +33,7 @@ static struct rho_measurement opened_up(const struct rho_plot *plot, int axes)
 {
     struct rho_measurement seen;
 
-    rho_measurement_open(plot, axes == 3 ? RHO_MEASURES_Z : 0u, &somewhere, &seen);
+    rho_measurement_from_plot(plot, axes == 3 ? RHO_MEASURES_Z : 0u, &somewhere, &seen);
     return seen;
 }
 
@@ -154,7 +154,7 @@ static void a_first_position_opens_its_axes(void **state)
         dense_open_place(&expected, &place, 0, axes, SPEED_VARIANCE);
         rho_kalman_init(&kalman);
         assert_updated(&kalman, &seen, &expected, &expected, OPEN_RELATIVE);
-        assert_int_equal(rho_kalman_is_open(&kalman, 2), axes == 3);
+        assert_int_equal(rho_kalman_is_axis_open(&kalman, 2), axes == 3);
     }
 }
 
@@ -240,7 +240,7 @@ static void a_first_height_in_the_widest_of_ellipses_is_taken(void **state)
         kalman.state[0] = plot.x_m;
         kalman.state[1] = plot.y_m;
         assert_int_equal(rho_kalman_update_position(&kalman, &seen, SPEED_VARIANCE), RHO_OK);
-        assert_true(rho_kalman_is_open(&kalman, 2));
+        assert_true(rho_kalman_is_axis_open(&kalman, 2));
     }
 }
 

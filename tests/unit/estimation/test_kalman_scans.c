@@ -126,7 +126,7 @@ static void take(struct rho_kalman *kalman, const struct radar *radar,
 
     assert_int_equal(rho_kalman_predict(kalman, radar->interval_s, radar->noise_density), RHO_OK);
     assert_int_equal(rho_measurement_from_polar(polar, radar->measures, &somewhere, &plot), RHO_OK);
-    rho_measurement_open(&plot, radar->measures, &somewhere, &seen);
+    rho_measurement_from_plot(&plot, radar->measures, &somewhere, &seen);
     assert_int_equal(rho_kalman_update_position(kalman, &seen, SPEED_VARIANCE), RHO_OK);
     assert_int_equal(
         rho_kalman_update_range_rate(kalman, &somewhere, plot.range_rate_mps,

@@ -116,7 +116,7 @@ static int count_known(const struct rho_clutter_map *map)
     uint32_t place = 0;
     int num = 0;
 
-    while (rho_clutter_map_next(map, &place)) {
+    while (rho_clutter_map_next_known(map, &place)) {
         num++;
     }
     return num;
@@ -128,7 +128,7 @@ static unsigned count_known_towers(void)
     uint32_t place = 0;
     unsigned count = 0;
 
-    while ((echo = rho_clutter_map_next(map_of(), &place))) {
+    while ((echo = rho_clutter_map_next_known(map_of(), &place))) {
         count += tower_distance_m((double)echo->x_m, (double)echo->y_m) < 200.0;
     }
     return count;
@@ -169,13 +169,13 @@ static void known_places_are_better_than_a_plot(void **state)
     (void)state;
     start(3, 30.0f);
     (void)turn_on(&turn, 80, 0.5, 5);
-    while ((echo = rho_clutter_map_next(map_of(), &place))) {
+    while ((echo = rho_clutter_map_next_known(map_of(), &place))) {
         const double off_m = tower_distance_m((double)echo->x_m, (double)echo->y_m);
 
         if (off_m < 500.0) {
             square += off_m * off_m / (double)(echo->along[0] + echo->across[0]);
             assert_true(echo->along[0] < 0.5f * 900.0f);
-            assert_true(rho_clutter_map_stands(echo));
+            assert_true(rho_clutter_map_is_echo_standing(echo));
             count++;
         }
     }
@@ -276,8 +276,8 @@ static void learn_beside(double speed_mps, double *looks, double *returns)
         for (unsigned hits = 1; hits < 7; hits += hits < 3 ? 1 : 3) {
             float some_looks, some_returns;
 
-            rho_clutter_map_learned(map_of(), RHO_ECHO_TABLES - 1, hits, unseen, &some_looks,
-                                    &some_returns);
+            rho_clutter_map_learned_returns(map_of(), RHO_ECHO_TABLES - 1, hits, unseen,
+                                            &some_looks, &some_returns);
             *looks += (double)some_looks;
             *returns += (double)some_returns;
         }
@@ -338,7 +338,7 @@ static void carry_over(struct rho_clutter_map *to, const struct rho_clutter_map 
     uint32_t place = 0;
     float looks, returns;
 
-    while ((echo = rho_clutter_map_next(from, &place))) {
+    while ((echo = rho_clutter_map_next_known(from, &place))) {
         assert_int_equal(rho_clutter_map_teach(to, echo->sensor_id, echo->x_m, echo->y_m,
                                                sqrtf(echo->along[0]), sqrtf(echo->across[0]),
                                                echo->hits),
@@ -348,7 +348,7 @@ static void carry_over(struct rho_clutter_map *to, const struct rho_clutter_map 
         for (int i = 0; i < RHO_ECHO_HIT_CLASSES * RHO_ECHO_GAP_CLASSES; i++) {
             const unsigned h = hits[i / RHO_ECHO_GAP_CLASSES], u = unseen[i % RHO_ECHO_GAP_CLASSES];
 
-            rho_clutter_map_learned(from, region, h, u, &looks, &returns);
+            rho_clutter_map_learned_returns(from, region, h, u, &looks, &returns);
             assert_int_equal(rho_clutter_map_teach_returns(to, region, h, u, looks, returns),
                              RHO_OK);
         }
@@ -472,13 +472,13 @@ static void bad_values_are_refused_untouched(void **state)
     assert_int_equal(rho_clutter_map_teach_returns(map, 0, 1, 1, -1, -1), RHO_ERROR_VALUE);
     assert_int_equal(rho_clutter_map_teach_returns(NULL, 0, 1, 1, 1, 1), RHO_ERROR_NULL);
     assert_memory_equal(map, &before, sizeof before);
-    assert_null(rho_clutter_map_next(NULL, &place));
-    assert_null(rho_clutter_map_next(map, NULL));
-    assert_null(rho_clutter_map_next(map, &place));
-    assert_int_equal(rho_clutter_map_stands(NULL), 0);
-    rho_clutter_map_learned(map, RHO_ECHO_TABLES, 1, 1, &looks, &returns);
+    assert_null(rho_clutter_map_next_known(NULL, &place));
+    assert_null(rho_clutter_map_next_known(map, NULL));
+    assert_null(rho_clutter_map_next_known(map, &place));
+    assert_int_equal(rho_clutter_map_is_echo_standing(NULL), 0);
+    rho_clutter_map_learned_returns(map, RHO_ECHO_TABLES, 1, 1, &looks, &returns);
     assert_true(looks == 0.0f && returns == 0.0f);
-    rho_clutter_map_learned(NULL, 0, 1, 1, &looks, NULL);
+    rho_clutter_map_learned_returns(NULL, 0, 1, 1, &looks, NULL);
     assert_true(looks == 0.0f);
 }
 
@@ -506,7 +506,7 @@ static void more_are_taught_than_there_is_room_for(void **state)
         assert_int_equal(rho_clutter_map_teach(map_of(), 0, (float)i, 1.0f, 30.0f, 30.0f, 6),
                          RHO_OK);
     }
-    while (rho_clutter_map_next(map_of(), &place)) {
+    while (rho_clutter_map_next_known(map_of(), &place)) {
         count++;
     }
     assert_int_equal(count, RHO_MAX_ECHOES);
@@ -569,7 +569,7 @@ static unsigned hits_of_towers(int sectors)
             step_scan(scan);
         }
     }
-    while ((echo = rho_clutter_map_next(map_of(), &place))) {
+    while ((echo = rho_clutter_map_next_known(map_of(), &place))) {
         hits += echo->hits;
     }
     return hits;
@@ -585,7 +585,8 @@ static void sectors_of_a_turn_look_once(void **state)
 
         assert_int_equal(count_known_towers(), TOWERS);
         assert_in_range(hits, 390, 450); /* .7 of 600 */
-        rho_clutter_map_learned(map_of(), RHO_ECHO_TABLES - 1, 6, 1, &looks[k], &returns[k]);
+        rho_clutter_map_learned_returns(map_of(), RHO_ECHO_TABLES - 1, 6, 1, &looks[k],
+                                        &returns[k]);
         assert_true(looks[k] > 200.0f);
     }
     assert_true(fabsf(looks[1] - looks[0]) < 0.05f * looks[0]);

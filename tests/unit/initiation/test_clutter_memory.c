@@ -401,9 +401,10 @@ static void a_cell_counts_where_it_is_significant(void **state)
     (void)state;
     struct rho_clutter_memory *memory = have_memory(100);
     memory->count[0] = 9;
-    assert_true(rho_initiator_memory_density(&initiator, -4999.0f, -4999.0f, density) == density);
+    assert_true(rho_initiator_density_with_memory(&initiator, -4999.0f, -4999.0f, density) ==
+                density);
     memory->count[0] = 10;
-    assert_float_equal(rho_initiator_memory_density(&initiator, -4999.0f, -4999.0f, density) /
+    assert_float_equal(rho_initiator_density_with_memory(&initiator, -4999.0f, -4999.0f, density) /
                            density,
                        11.0 / 4.0, 1e-2);
 }
@@ -415,7 +416,7 @@ static void counts_are_halved_after_128_scans(void **state)
         struct rho_clutter_memory *memory = have_memory(scans);
         initiator.window.extent = (struct rho_extent){-4000.0f, 4000.0f, -4000.0f, 4000.0f};
         memory->count[1] = 10;
-        rho_initiator_add_to_memory(&initiator);
+        rho_initiator_remember_oldest_scan(&initiator);
         assert_int_equal(memory->num_scans, scans == 127 ? 128 : 65);
         assert_int_equal(memory->count[1], scans == 127 ? 10 : 5);
     }
@@ -430,7 +431,7 @@ static void a_map_that_is_too_wide_is_laid_anew(void **state)
         struct rho_clutter_memory *memory = have_memory(50);
         initiator.window.extent = i < 2 ? (struct rho_extent){-narrow_m, narrow_m, -wide_m, wide_m}
                                         : (struct rho_extent){-wide_m, wide_m, -narrow_m, narrow_m};
-        rho_initiator_add_to_memory(&initiator);
+        rho_initiator_remember_oldest_scan(&initiator);
         assert_int_equal(memory->num_scans, i % 2 ? 51 : 1);
         if (i == 0) {
             assert_float_equal(memory->x_min_m, -1.5 * (double)narrow_m, 0.1);

@@ -259,7 +259,7 @@ static void the_thinnest_covariances_stay_positive_definite(void **state)
                                 .sigma_cross_m = 1e5f};
         struct rho_measurement seen;
         float packed[6];
-        rho_measurement_open(&plot, 0, NULL, &seen);
+        rho_measurement_from_plot(&plot, 0, NULL, &seen);
         rho_measurement_covariance(&seen, packed);
         double determinant = (double)packed[0] * packed[2] - (double)packed[1] * packed[1];
         assert_true(packed[0] > 0.0f && packed[2] > 0.0f && determinant > 0.0);
@@ -274,12 +274,12 @@ static void what_is_not_measured_may_be_anything(void **state)
     polar.elevation_rad = polar.range_rate_mps = polar.sigma_elevation_rad = NAN;
     polar.sigma_range_rate_mps = NAN;
     assert_int_equal(rho_measurement_from_polar(&polar, 0, NULL, &plot), RHO_OK);
-    assert_true(rho_measurement_is_valid(&plot, 0));
+    assert_true(rho_measurement_is_valid_plot(&plot, 0));
     plot.z_m = plot.sigma_up_m = plot.vx_mps = plot.range_rate_mps = NAN;
-    assert_true(rho_measurement_is_valid(&plot, 0));
-    assert_false(rho_measurement_is_valid(&plot, RHO_MEASURES_Z));
-    assert_false(rho_measurement_is_valid(&plot, RHO_MEASURES_VELOCITY));
-    assert_false(rho_measurement_is_valid(&plot, RHO_MEASURES_RANGE_RATE));
+    assert_true(rho_measurement_is_valid_plot(&plot, 0));
+    assert_false(rho_measurement_is_valid_plot(&plot, RHO_MEASURES_Z));
+    assert_false(rho_measurement_is_valid_plot(&plot, RHO_MEASURES_VELOCITY));
+    assert_false(rho_measurement_is_valid_plot(&plot, RHO_MEASURES_RANGE_RATE));
 }
 
 static void a_plot_is_valid_field_by_field(void **state)
@@ -305,17 +305,17 @@ static void a_plot_is_valid_field_by_field(void **state)
                              offsetof(struct rho_plot, sigma_mps),
                              offsetof(struct rho_plot, sigma_range_rate_mps)};
     const float bad[] = {NAN, INFINITY, -INFINITY, 3.0e6f};
-    assert_true(rho_measurement_is_valid(&good, all));
+    assert_true(rho_measurement_is_valid_plot(&good, all));
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
         for (size_t k = 0; k < 4; k++) {
             struct rho_plot plot = good;
             memcpy((char *)&plot + fields[i], &bad[k], sizeof bad[k]);
-            assert_false(rho_measurement_is_valid(&plot, all));
+            assert_false(rho_measurement_is_valid_plot(&plot, all));
         }
     }
     struct rho_plot late = good;
     late.offset_us = INT32_MIN;
-    assert_false(rho_measurement_is_valid(&late, 0));
+    assert_false(rho_measurement_is_valid_plot(&late, 0));
 }
 
 /* ---- frames ---------------------------------------------------------------------------------- */
@@ -333,7 +333,7 @@ static void the_covariance_has_the_axes_of_the_line_of_sight(void **state)
         struct rho_measurement seen;
         float packed[6];
         int has_z = n % 2;
-        rho_measurement_open(&plot, has_z ? RHO_MEASURES_Z : 0u, &somewhere, &seen);
+        rho_measurement_from_plot(&plot, has_z ? RHO_MEASURES_Z : 0u, &somewhere, &seen);
         rho_measurement_covariance(&seen, packed);
         double d[3] = {plot.x_m - 1200.0, plot.y_m + 3400.0, has_z ? plot.z_m - 250.0 : 0.0};
         double ground = hypot(d[0], d[1]), range = hypot(ground, d[2]);
@@ -366,14 +366,14 @@ static void plots_without_a_line_of_sight_are_isotropic(void **state)
                             .sigma_up_m = 20.0f};
     struct rho_measurement seen;
     float packed[6];
-    rho_measurement_open(&plot, RHO_MEASURES_Z, &somewhere, &seen);
+    rho_measurement_from_plot(&plot, RHO_MEASURES_Z, &somewhere, &seen);
     rho_measurement_covariance(&seen, packed);
     /* overhead: the range is the height, and the other two axes are level, along any azimuth */
     const float overhead[6] = {400.0f, 0.0f, 900.0f, 0.0f, 0.0f, 100.0f};
     for (int i = 0; i < 6; i++) {
         assert_float_equal(packed[i], overhead[i], 1e-3f);
     }
-    rho_measurement_open(&plot, 0, &somewhere, &seen);
+    rho_measurement_from_plot(&plot, 0, &somewhere, &seen);
     rho_measurement_covariance(&seen, packed);
     assert_true(seen.is_isotropic);
     const float expected[3] = {900.0f, 0.0f, 900.0f};
@@ -382,9 +382,9 @@ static void plots_without_a_line_of_sight_are_isotropic(void **state)
     }
     plot.x_m = 5000.0f;
     plot.sigma_cross_m = 10.0f;
-    rho_measurement_open(&plot, 0, &somewhere, &seen);
+    rho_measurement_from_plot(&plot, 0, &somewhere, &seen);
     assert_true(seen.is_isotropic);
-    rho_measurement_open(&plot, RHO_MEASURES_Z, &somewhere, &seen);
+    rho_measurement_from_plot(&plot, RHO_MEASURES_Z, &somewhere, &seen);
     assert_false(seen.is_isotropic);
 }
 
@@ -408,7 +408,8 @@ static void range_rates_and_their_derivatives(void **state)
             single[i] = (float)(i < 3 ? uniform(-3e4, 3e4) : uniform(-400.0, 400.0));
             at[i] = single[i];
         }
-        assert_int_equal(rho_measurement_range_rate(single, &somewhere, use_z, row, &rate), 1);
+        assert_int_equal(rho_measurement_predict_range_rate(single, &somewhere, use_z, row, &rate),
+                         1);
         assert_float_equal(rate, rate_of(at, use_z), 2e-3);
         for (int i = 0; i < 6; i++) {
             double step = i < 3 ? 1.0 : 0.01, up[6], down[6];
@@ -422,9 +423,9 @@ static void range_rates_and_their_derivatives(void **state)
     }
     const float there[6] = {1200.5f, -3400.0f, 250.0f, 100.0f, 0.0f, 0.0f};
     float row[6] = {0.0f}, rate = 5.0f;
-    assert_int_equal(rho_measurement_range_rate(there, &somewhere, 1, row, &rate), 0);
+    assert_int_equal(rho_measurement_predict_range_rate(there, &somewhere, 1, row, &rate), 0);
     assert_float_equal(rate, 5.0f, 0.0f);
-    assert_int_equal(rho_measurement_range_rate(there, NULL, 1, row, &rate), 1);
+    assert_int_equal(rho_measurement_predict_range_rate(there, NULL, 1, row, &rate), 1);
 }
 
 static void a_scan_looks_within_its_sector_and_range(void **state)
@@ -461,8 +462,8 @@ static void a_bearing_is_linear_in_metres_across(void **state)
         const double bearing = remainder(atan2(dy, dx) + off_rad, 2.0 * PI);
         float row[6], off_m = 0.0f, range_m = 0.0f;
 
-        assert_true(rho_measurement_bearing(state_m, 300.0f, -700.0f, (float)bearing, row, &off_m,
-                                            &range_m));
+        assert_true(rho_measurement_bearing_innovation(state_m, 300.0f, -700.0f, (float)bearing,
+                                                       row, &off_m, &range_m));
         assert_true(fabs(range_m - range) <= 1e-6 * range);
         assert_true(fabs(off_m - range * off_rad) <= 2e-6 * range);
         assert_true(fabs(row[0] + dy / range) <= 1e-6 && fabs(row[1] - dx / range) <= 1e-6);
@@ -479,11 +480,14 @@ static void a_bearing_needs_a_metre_and_numbers(void **state)
     const float at_m[6] = {1.0f, 0.0f};
 
     (void)state;
-    assert_false(rho_measurement_bearing(near_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
-    assert_false(rho_measurement_bearing(none_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
-    assert_false(rho_measurement_bearing(far_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_false(
+        rho_measurement_bearing_innovation(near_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_false(
+        rho_measurement_bearing_innovation(none_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_false(
+        rho_measurement_bearing_innovation(far_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
     assert_true(row[0] == 7.0f && off_m == 7.0f && range_m == 7.0f);
-    assert_true(rho_measurement_bearing(at_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_true(rho_measurement_bearing_innovation(at_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
 }
 
 static void bearings_have_limits(void **state)
@@ -492,18 +496,18 @@ static void bearings_have_limits(void **state)
     struct rho_bearing bad = good;
 
     (void)state;
-    assert_true(rho_measurement_is_bearing(&good));
+    assert_true(rho_measurement_is_valid_bearing(&good));
     bad.bearing_rad = nextafterf(RHO_PI, 4.0f);
-    assert_false(rho_measurement_is_bearing(&bad));
+    assert_false(rho_measurement_is_valid_bearing(&bad));
     bad.bearing_rad = NAN;
-    assert_false(rho_measurement_is_bearing(&bad));
+    assert_false(rho_measurement_is_valid_bearing(&bad));
     bad = good;
     bad.sigma_rad = nextafterf(RHO_LIMIT_SIGMA_RAD_MAX, INFINITY);
-    assert_false(rho_measurement_is_bearing(&bad));
+    assert_false(rho_measurement_is_valid_bearing(&bad));
     bad.sigma_rad = nextafterf(RHO_LIMIT_SIGMA_RAD_MIN, 0.0f);
-    assert_false(rho_measurement_is_bearing(&bad));
+    assert_false(rho_measurement_is_valid_bearing(&bad));
     bad.sigma_rad = RHO_LIMIT_SIGMA_RAD_MIN;
-    assert_true(rho_measurement_is_bearing(&bad));
+    assert_true(rho_measurement_is_valid_bearing(&bad));
 }
 
 static void percentages_are_factors_of_sigmas(void **state)
@@ -517,9 +521,9 @@ static void percentages_are_factors_of_sigmas(void **state)
     assert_true(factors.range == 0.5f && factors.cross == 2.5f);
     assert_true(rho_measurement_sigma_factors(&stated).range == 1.0f);
     assert_true(rho_measurement_sigma_factors(NULL).cross == 1.0f);
-    assert_true(rho_measurement_widest_factor(&learned) == 2.5f);
-    assert_true(rho_measurement_widest_factor(&sharper) == 1.0f);
-    assert_true(rho_measurement_widest_factor(NULL) == 1.0f);
+    assert_true(rho_measurement_largest_sigma_factor(&learned) == 2.5f);
+    assert_true(rho_measurement_largest_sigma_factor(&sharper) == 1.0f);
+    assert_true(rho_measurement_largest_sigma_factor(NULL) == 1.0f);
 }
 
 static void time_biases_are_rounded_to_microseconds(void **state)

@@ -8,7 +8,7 @@
 
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/imm.h"
-#include "rhotrack/detail/input.h"
+#include "rhotrack/detail/input_estimation.h"
 
 #define SPAN 50.0f
 
@@ -34,16 +34,17 @@ static void errors_are_brought_within_half_the_span(void **state)
         {20.0f, -20.0f, -10.0f}, {7.0f, -243.0f, 0.0f}, {7.0f, 255.0f, 2.0f},
         {410.0f, 8.0f, 2.0f},    {24.0f, 0.0f, 24.0f},  {26.0f, 0.0f, -24.0f}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        assert_float_equal(rho_measurement_range_rate_error_mps(&sensor, cases[i][0], cases[i][1]),
-                           cases[i][2], 1e-4);
+        assert_float_equal(
+            rho_measurement_range_rate_innovation_mps(&sensor, cases[i][0], cases[i][1]),
+            cases[i][2], 1e-4);
         float all = cases[i][0] - cases[i][1];
-        assert_float_equal(rho_measurement_range_rate_error_mps(&whole, cases[i][0], cases[i][1]),
-                           all, 0.0);
-        assert_float_equal(rho_measurement_range_rate_error_mps(NULL, cases[i][0], cases[i][1]),
-                           all, 0.0);
+        assert_float_equal(
+            rho_measurement_range_rate_innovation_mps(&whole, cases[i][0], cases[i][1]), all, 0.0);
+        assert_float_equal(
+            rho_measurement_range_rate_innovation_mps(NULL, cases[i][0], cases[i][1]), all, 0.0);
     }
-    assert_true(isnan(rho_measurement_range_rate_error_mps(&sensor, NAN, 0.0f)));
-    assert_float_equal(rho_measurement_range_rate_error_mps(&sensor, 1e30f, 0.0f), 1e30f, 0.0);
+    assert_true(isnan(rho_measurement_range_rate_innovation_mps(&sensor, NAN, 0.0f)));
+    assert_float_equal(rho_measurement_range_rate_innovation_mps(&sensor, 1e30f, 0.0f), 1e30f, 0.0);
 }
 
 /* What is a million spans off is no range rate. */
@@ -51,9 +52,9 @@ static void errors_beyond_a_million_spans_stay(void **state)
 {
     const struct rho_sensor sensor = radar_of(10.0f);
     (void)state;
-    assert_float_equal(rho_measurement_range_rate_error_mps(&sensor, 0.0f, 7.0e6f + 2.0f), -2.0,
-                       0.0);
-    assert_float_equal(rho_measurement_range_rate_error_mps(&sensor, 0.0f, 1.5e7f + 2.0f),
+    assert_float_equal(rho_measurement_range_rate_innovation_mps(&sensor, 0.0f, 7.0e6f + 2.0f),
+                       -2.0, 0.0);
+    assert_float_equal(rho_measurement_range_rate_innovation_mps(&sensor, 0.0f, 1.5e7f + 2.0f),
                        -1.5e7 - 2.0, 0.0);
 }
 
@@ -61,14 +62,14 @@ static void three_deviations_must_be_within_half_the_span(void **state)
 {
     (void)state;
     const struct rho_sensor sensor = radar_of(30.0f), whole = radar_of(0.0f);
-    assert_true(rho_measurement_is_range_rate_clear(&sensor, 24.9f));
-    assert_false(rho_measurement_is_range_rate_clear(&sensor, 25.1f));
-    assert_false(rho_measurement_is_range_rate_clear(&sensor, NAN));
-    assert_true(rho_measurement_is_range_rate_clear(&whole, 1e9f));
-    assert_true(rho_measurement_is_range_rate_clear(NULL, 1e9f));
-    assert_float_equal(rho_measurement_log_aliases(&sensor, 300.0f), log(20.0), 1e-5);
-    assert_float_equal(rho_measurement_log_aliases(&sensor, 10.0f), 0.0, 0.0);
-    assert_float_equal(rho_measurement_log_aliases(&whole, 300.0f), 0.0, 0.0);
+    assert_true(rho_measurement_can_unfold_range_rate(&sensor, 24.9f));
+    assert_false(rho_measurement_can_unfold_range_rate(&sensor, 25.1f));
+    assert_false(rho_measurement_can_unfold_range_rate(&sensor, NAN));
+    assert_true(rho_measurement_can_unfold_range_rate(&whole, 1e9f));
+    assert_true(rho_measurement_can_unfold_range_rate(NULL, 1e9f));
+    assert_float_equal(rho_measurement_log_num_aliases(&sensor, 300.0f), log(20.0), 1e-5);
+    assert_float_equal(rho_measurement_log_num_aliases(&sensor, 10.0f), 0.0, 0.0);
+    assert_float_equal(rho_measurement_log_num_aliases(&whole, 300.0f), 0.0, 0.0);
 }
 
 /*
@@ -104,12 +105,12 @@ static void spans_beyond_the_limits_are_refused(void **state)
     begin_tracker();
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
         struct rho_sensor sensor = radar_of(good[i]);
-        assert_true(rho_measurement_is_sensor(&sensor));
+        assert_true(rho_measurement_is_valid_sensor(&sensor));
         assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
     }
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         struct rho_sensor sensor = radar_of(bad[i]);
-        assert_false(rho_measurement_is_sensor(&sensor));
+        assert_false(rho_measurement_is_valid_sensor(&sensor));
         assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_ERROR_CONFIG);
     }
 }
@@ -235,8 +236,8 @@ static void both_models_weigh_and_take_it_as_their_twins(void **state)
     rho_imm_model_default(&model, 5.0f, 400.0f);
     rho_imm_start(&imm, &model, &clear);
     twin = imm;
-    rho_imm_open_plot(&seen, &plot, RHO_MEASURES_RANGE_RATE, &sensor);
-    rho_imm_open_plot(&whole_seen, &whole_plot, RHO_MEASURES_RANGE_RATE, &whole);
+    rho_imm_prepare_plot(&seen, &plot, RHO_MEASURES_RANGE_RATE, &sensor);
+    rho_imm_prepare_plot(&whole_seen, &whole_plot, RHO_MEASURES_RANGE_RATE, &whole);
     assert_true(rho_imm_score_plot(&imm, &seen, &match));
     assert_true(rho_imm_score_plot(&twin, &whole_seen, &expected));
     assert_float_equal(match.log_likelihood, expected.log_likelihood, 2e-3);
@@ -246,7 +247,7 @@ static void both_models_weigh_and_take_it_as_their_twins(void **state)
     /* unclear: the place's density, over the span; and the place alone is taken */
     rho_imm_start(&imm, &model, &unclear);
     twin = imm;
-    rho_imm_open_plot(&place_seen, &plot, 0, &sensor);
+    rho_imm_prepare_plot(&place_seen, &plot, 0, &sensor);
     assert_true(rho_imm_score_plot(&imm, &seen, &match));
     assert_true(rho_imm_score_plot(&twin, &place_seen, &expected));
     assert_float_equal(match.log_likelihood, (double)expected.log_likelihood - log((double)SPAN),

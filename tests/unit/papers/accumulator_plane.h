@@ -68,7 +68,7 @@ static inline void fill_plane(void)
             while (i >= scan_end[scan]) {
                 scan++;
             }
-            int rho = rho_accumulator_cell(&accumulator, (unsigned)theta, x_m[i], y_m[i]);
+            int rho = rho_accumulator_cell_of_point(&accumulator, (unsigned)theta, x_m[i], y_m[i]);
             if (rho >= 0) {
                 uint16_t *cell = &plane[theta * num_rho() + rho];
                 *cell = (uint16_t)(of->votes == RHO_VOTES_SCANS ? *cell | 1u << scan : *cell + 1u);
@@ -186,7 +186,7 @@ static inline void scatter_points(unsigned num_scans, unsigned count, double hal
 
 static inline void find_peaks(uint32_t max_peaks)
 {
-    assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, max_peaks, &result),
+    assert_int_equal(rho_accumulator_find_peaks(&accumulator, &points, peaks, max_peaks, &result),
                      RHO_OK);
 }
 

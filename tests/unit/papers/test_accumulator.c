@@ -297,7 +297,7 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
         struct rho_accumulator_config bad = paper_cells();                                         \
         uint16_t rows = 0, cells = 0;                                                              \
         bad.field = (value);                                                                       \
-        assert_int_equal(rho_accumulator_plane(&bad, &rows, &cells), RHO_ERROR_CONFIG);            \
+        assert_int_equal(rho_accumulator_count_cells(&bad, &rows, &cells), RHO_ERROR_CONFIG);      \
         assert_int_equal(rho_accumulator_init(&accumulator, sizeof accumulator, &bad),             \
                          RHO_ERROR_CONFIG);                                                        \
     } while (0)
@@ -326,7 +326,7 @@ static void bad_configs_are_refused(void **state)
     REFUSED(no_pruning, 2);
     uint16_t rows, cells;
     config.theta_cell_rad = 1.01e-4f;
-    assert_int_equal(rho_accumulator_plane(&config, &rows, &cells), RHO_OK);
+    assert_int_equal(rho_accumulator_count_cells(&config, &rows, &cells), RHO_OK);
     assert_int_equal(rows, 31105);
 }
 
@@ -338,32 +338,36 @@ static void bad_points_are_refused(void **state)
     const float bad[] = {NAN, INFINITY, -INFINITY, 2.1e6f, -FLT_MAX};
     scatter_points(3, 30, 1000.0);
     prepare_accumulator(&config);
-    assert_int_equal(rho_accumulator_find(NULL, &points, peaks, 4, &result), RHO_ERROR_NULL);
-    assert_int_equal(rho_accumulator_find(&accumulator, NULL, peaks, 4, &result), RHO_ERROR_NULL);
-    assert_int_equal(rho_accumulator_find(&accumulator, &points, NULL, 4, &result), RHO_ERROR_NULL);
-    assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_accumulator_find(&accumulator, &none, peaks, 4, &result), RHO_ERROR_NULL);
-    assert_int_equal(rho_accumulator_check(NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_accumulator_check(&none), RHO_ERROR_NULL);
-    assert_int_equal(rho_accumulator_check(&points), RHO_OK);
+    assert_int_equal(rho_accumulator_find_peaks(NULL, &points, peaks, 4, &result), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_find_peaks(&accumulator, NULL, peaks, 4, &result),
+                     RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_find_peaks(&accumulator, &points, NULL, 4, &result),
+                     RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_find_peaks(&accumulator, &points, peaks, 4, NULL),
+                     RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_find_peaks(&accumulator, &none, peaks, 4, &result),
+                     RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_check_points(NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_check_points(&none), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_check_points(&points), RHO_OK);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         float was = x_m[i];
         x_m[i] = bad[i];
-        assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
+        assert_int_equal(rho_accumulator_find_peaks(&accumulator, &points, peaks, 4, &result),
                          RHO_ERROR_VALUE);
-        assert_int_equal(rho_accumulator_check(&points), RHO_ERROR_VALUE);
+        assert_int_equal(rho_accumulator_check_points(&points), RHO_ERROR_VALUE);
         x_m[i] = was;
     }
     points.num_scans = RHO_ACCUMULATOR_SCANS_MAX + 1u;
-    assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
+    assert_int_equal(rho_accumulator_find_peaks(&accumulator, &points, peaks, 4, &result),
                      RHO_ERROR_VALUE);
-    assert_int_equal(rho_accumulator_check(&points), RHO_ERROR_VALUE);
+    assert_int_equal(rho_accumulator_check_points(&points), RHO_ERROR_VALUE);
     points.num_scans = 3;
     scan_end[1] = 31; /* beyond the last scan's */
-    assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
+    assert_int_equal(rho_accumulator_find_peaks(&accumulator, &points, peaks, 4, &result),
                      RHO_ERROR_VALUE);
     accumulator.magic = 0;
-    assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
+    assert_int_equal(rho_accumulator_find_peaks(&accumulator, &points, peaks, 4, &result),
                      RHO_ERROR_STATE);
 }
 
@@ -374,11 +378,11 @@ static void a_plane_has_the_papers_rows_and_cells(void **state)
     uint16_t rows = 0, cells = 0;
 
     (void)state;
-    assert_int_equal(rho_accumulator_plane(&config, &rows, &cells), RHO_OK);
+    assert_int_equal(rho_accumulator_count_cells(&config, &rows, &cells), RHO_OK);
     assert_int_equal(rows, 3142);
     assert_int_equal(cells, 1720);
     config.theta_cell_rad = 0.5f;
-    assert_int_equal(rho_accumulator_plane(&config, &rows, &cells), RHO_OK);
+    assert_int_equal(rho_accumulator_count_cells(&config, &rows, &cells), RHO_OK);
     assert_int_equal(rows, 7);
 }
 

@@ -75,7 +75,7 @@ static struct rho_gate_hough opened(uint8_t planes, float theta_cell_rad, const 
     const float nothing_mps[3] = {0.0f, 0.0f, 0.0f};
     struct rho_gate_hough hough;
 
-    assert_int_equal(rho_gate_hough_open(&hough, planes, theta_cell_rad, nothing_mps, change_mps),
+    assert_int_equal(rho_gate_hough_init(&hough, planes, theta_cell_rad, nothing_mps, change_mps),
                      RHO_OK);
     return hough;
 }
@@ -151,7 +151,7 @@ static void no_change_takes_the_lowest_cell(void **state)
     struct rho_gate_hough hough;
 
     (void)state;
-    assert_int_equal(rho_gate_hough_open(&hough, PLANES_ALL, 0.3f, velocity_mps, velocity_mps),
+    assert_int_equal(rho_gate_hough_init(&hough, PLANES_ALL, 0.3f, velocity_mps, velocity_mps),
                      RHO_OK);
     for (int plane = 0; plane < RHO_GATE_PLANES; ++plane) {
         assert_float_equal(hough.cos_theta[plane], cos(0.15), 1e-6);
@@ -177,7 +177,7 @@ static void plots_are_off_by_their_rho_in_the_planes_looked_at(void **state)
             newest_mps[i] = (float)(at + change);
             plot_mps[i] = (float)(at + off);
         }
-        assert_int_equal(rho_gate_hough_open(&hough, planes, FIVE_DEGREES, before_mps, newest_mps),
+        assert_int_equal(rho_gate_hough_init(&hough, planes, FIVE_DEGREES, before_mps, newest_mps),
                          RHO_OK);
         for (int plane = 0; plane < RHO_GATE_PLANES; ++plane) {
             const int a = axes_of[plane][0], b = axes_of[plane][1];
@@ -216,7 +216,7 @@ static void the_target_is_the_nearest_to_its_line(void **state)
             target_mps[i] = (float)(v + 2.0 * change + noise);
         }
         assert_int_equal(
-            rho_gate_hough_open(&hough, PLANES_ALL, FIVE_DEGREES, before_mps, newest_mps), RHO_OK);
+            rho_gate_hough_init(&hough, PLANES_ALL, FIVE_DEGREES, before_mps, newest_mps), RHO_OK);
         float least = rho_gate_hough_residual_mps(&hough, target_mps);
         for (int k = 0; k < 4; ++k) {
             float clutter_mps[3];
@@ -244,7 +244,7 @@ static void assert_refuses(uint8_t planes, float theta_cell_rad, const float bef
 
     memset(&hough, 0x5a, sizeof hough);
     before = hough;
-    assert_int_equal(rho_gate_hough_open(&hough, planes, theta_cell_rad, before_mps, newest_mps),
+    assert_int_equal(rho_gate_hough_init(&hough, planes, theta_cell_rad, before_mps, newest_mps),
                      expected);
     assert_memory_equal(&hough, &before, sizeof hough);
 }
@@ -256,7 +256,7 @@ static void bad_arguments_are_refused(void **state)
     const float bad[] = {NAN, INFINITY, -INFINITY};
 
     (void)state;
-    assert_int_equal(rho_gate_hough_open(NULL, 1, 0.1f, good, good), RHO_ERROR_NULL);
+    assert_int_equal(rho_gate_hough_init(NULL, 1, 0.1f, good, good), RHO_ERROR_NULL);
     assert_refuses(1, 0.1f, NULL, good, RHO_ERROR_NULL);
     assert_refuses(1, 0.1f, good, NULL, RHO_ERROR_NULL);
     assert_refuses(0, 0.1f, good, good, RHO_ERROR_VALUE);
@@ -274,7 +274,7 @@ static void bad_arguments_are_refused(void **state)
         }
     }
     struct rho_gate_hough finest;
-    assert_int_equal(rho_gate_hough_open(&finest, 1, 1.01e-3f, good, good), RHO_OK);
+    assert_int_equal(rho_gate_hough_init(&finest, 1, 1.01e-3f, good, good), RHO_OK);
     const float most[3] = {FLT_MAX, 0.0f, 0.0f}, least[3] = {-FLT_MAX, 0.0f, 0.0f};
     assert_refuses(1, 0.1f, least, most, RHO_ERROR_VALUE);
 }

@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "passive_paper_reference.h"
-#include "rhotrack/detail/crossing.h"
+#include "rhotrack/detail/bearing_crossing.h"
 
 static struct rho_passive_paper paper;
 

@@ -64,7 +64,7 @@ static void what_is_surely_too_slow_is_no_target(void **state)
             track->kalman.covariance[RHO_AT(axis, axis)] = 100.0f;
             track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
         }
-        rho_tracker_age_track(&at, track, 0, &limits);
+        rho_tracker_confirm_or_end_track(&at, track, 0, &limits);
         assert_int_equal(track->status, i ? RHO_TRACK_CONFIRMED : RHO_TRACK_FREE);
     }
 }

@@ -45,8 +45,8 @@ static void look(void)
     }
     tracker.unclaimed_plots = 100.0f; /* on 100 by 100 km */
     tracker.extent = (struct rho_extent){-50000.0f, 50000.0f, -50000.0f, 50000.0f};
-    rho_tracker_sort_plots(&at);
-    rho_tracker_look_at_clutter(&at);
+    rho_tracker_index_plots(&at);
+    rho_tracker_find_clutter_at_plots(&at);
 }
 
 static const double usual_per_m2 = 100.0 / 1e10;
@@ -176,7 +176,7 @@ static void an_echo_takes_the_plot_that_it_explains(void **state)
             assert_int_equal(echo->plot, row);
             assert_true(echo->weight > 0.0f);
             echo->weight = i ? 0.31f : 0.29f;
-            rho_tracker_learn_clutter(&at);
+            rho_tracker_update_clutter_map(&at);
             assert_int_equal(echo->hits, 20 + i);
             assert_int_equal(map_of()->echoes[1].hits, row == 1 || i == 0);
         }
@@ -195,7 +195,7 @@ static void range_rates_are_remembered_for_a_thousand_plots(void **state)
         look();
         map_of()->echoes[0].weight = 0.9f;
         map_of()->rate_plots = before[i];
-        rho_tracker_learn_clutter(&at);
+        rho_tracker_update_clutter_map(&at);
         assert_true(map_of()->rate_plots == after[i]);
     }
 }
@@ -214,7 +214,7 @@ static void a_sensor_that_was_silent_for_a_minute_is_not_there(void **state)
         tracker.paces[0].time_us = at.time_us;
         tracker.paces[1].time_us = at.time_us - (i ? 61000000 : 59000000);
         const float before = map_of()->scans_to_blocks;
-        rho_tracker_learn_clutter(&at);
+        rho_tracker_update_clutter_map(&at);
         assert_float_equal(before - map_of()->scans_to_blocks, i ? 1.0 : 0.5, 1e-6);
     }
 }
@@ -242,8 +242,8 @@ static int is_target(uint16_t hits, float v_min_mps, float moved_m)
         track->kalman.covariance[RHO_AT(axis, axis)] = 25.0f;
         track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
     }
-    rho_tracker_learn_clutter(&at);
-    return rho_tracker_has_moved(track);
+    rho_tracker_update_clutter_map(&at);
+    return rho_tracker_is_known_moving_target(track);
 }
 
 static void tracks_of_targets_take_back_what_they_taught(void **state)

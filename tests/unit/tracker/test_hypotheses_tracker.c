@@ -65,7 +65,7 @@ static int weighed(uint16_t slot, int scan, const struct rho_plot *plot, uint32_
     const int64_t time_us = (int64_t)scan * SCAN_US;
     assert_int_equal(rho_hypotheses_predict(&pool, slot, time_us), RHO_OK);
     rho_hypotheses_begin_scan(&pool, slot, reach);
-    rho_imm_open_plot(&seen, plot, measures, NULL);
+    rho_imm_prepare_plot(&seen, plot, measures, NULL);
     return rho_hypotheses_score_plot(&pool, slot, &seen, time_us, 0, LOG_PD, &clutter, &gain_nat);
 }
 
@@ -157,7 +157,7 @@ static void a_plot_is_weighed_at_its_time(void **state)
     const struct rho_plot plot = plot_at(20.0f, 0.0f, 0.0f);
     struct rho_imm_plot seen;
     float first_nat = 0.0f, second_nat = 0.0f;
-    rho_imm_open_plot(&seen, &plot, 0, NULL);
+    rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     uint16_t slot = opened();
     rho_hypotheses_begin_scan(&pool, slot, &reach);
     assert_int_equal(
@@ -186,7 +186,7 @@ static void a_track_that_takes_no_plot_claims_none(void **state)
     assert_int_equal(track.plot, 7);
     assert_int_equal(rho_track_predict(&track, SCAN_US, &model), RHO_OK);
     rho_hypotheses_begin_scan(&pool, track.slot, NULL);
-    assert_int_equal(rho_track_commit(&track, &scan, 0, &model), RHO_OK);
+    assert_int_equal(rho_track_commit_scan(&track, &scan, 0, &model), RHO_OK);
     assert_int_equal(track.plot, -1);
 }
 
@@ -202,9 +202,9 @@ static void a_track_ends_once(void **state)
         .speed_sigma_mps = 300.0f, .noise_density = 1.0f, .hypotheses = &pool};
     const struct rho_track_plot start = {.plot = plot_at(0.0f, 0.0f, 0.0f)};
     assert_int_equal(rho_track_start(&first, 1, &start, 1, &model, 0), RHO_OK);
-    rho_track_end(&first, &model);
+    rho_track_free_hypotheses(&first, &model);
     assert_int_equal(rho_track_start(&second, 2, &start, 1, &model, 0), RHO_OK);
-    rho_track_end(&first, &model);
+    rho_track_free_hypotheses(&first, &model);
     assert_int_equal(rho_hypotheses_count(&pool, second.slot), 1);
 }
 

@@ -157,7 +157,7 @@ static void the_evidence_needed_is_as_derived(void **state)
     tracker.established = 4.0f;
     tracker.counted_us = 0;
     at.time_us = 400000000;
-    rho_tracker_find_evidence_needed(&at);
+    rho_tracker_update_evidence_needed(&at);
     const double kept = exp(-400.0 / 1600.0), ended = 20.0 * kept, established = 4.0 * kept;
     const double pd = (9.0 + 100.0 + 16.0) / (10.0 + 120.0 + 21.0);
     expect_close((double)tracker.ended_early, ended);
@@ -190,7 +190,7 @@ static void a_track_is_established_with_its_sixteenth_plot(void **state)
             tracker.established = 0.0f;
             have(0, hits, 0);
             tracker.tracks[0].plot = plot;
-            rho_tracker_note_established(&at, &tracker.tracks[0]);
+            rho_tracker_count_if_established(&at, &tracker.tracks[0]);
             assert_true(tracker.established == (hits == 16 && plot >= 0 ? 1.0f : 0.0f));
         }
     }

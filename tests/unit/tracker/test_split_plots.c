@@ -216,14 +216,15 @@ static void expect(const double gains_nat[2][2])
     for (unsigned row = 0; gains_nat && row < 2; row++) {
         for (unsigned plot = 0; plot < num_plots; plot++) {
             if (gains_nat[row][plot] > 0.0) {
-                rho_tracker_offer(&at, row, plot, (float)gains_nat[row][plot] - at.log_miss);
+                rho_tracker_add_assignment_pair(&at, row, plot,
+                                                (float)gains_nat[row][plot] - at.log_miss);
             }
         }
     }
     for (uint32_t i = 0; i < num_plots; i++) {
         tracker.assignment.column_row[i] = -1;
     }
-    rho_tracker_sort_plots(&at); /* as before they are claimed */
+    rho_tracker_index_plots(&at); /* as before they are claimed */
     for (unsigned row = 0; row < tracker.num_tracks; row++) {
         const int16_t plot = tracker.tracks[row].plot;
         if (plot >= 0) {
@@ -231,7 +232,7 @@ static void expect(const double gains_nat[2][2])
             report.fates[plot] = RHO_FATE_CLAIMED;
         }
     }
-    rho_tracker_expect_second_plots(&at);
+    rho_tracker_score_second_plots(&at);
 }
 
 static void expect_close(double is, double wanted)

@@ -84,7 +84,7 @@ static struct rho_tracker_look *have_looks(void)
 
 static int is_suspect(void)
 {
-    (void)rho_tracker_find_suspect(&at);
+    (void)rho_tracker_update_suspect_and_sigma_factor(&at);
     return at.is_suspect;
 }
 
@@ -156,7 +156,7 @@ static void a_suspect_sensor_is_trusted_when_it_agrees(void **state)
         looks[0].is_suspect = 1;
         looks[0].distance2 = distance2[i];
         looks[0].seen_share = shares[i];
-        assert_float_equal(rho_tracker_find_suspect(&at), factors[i], 1e-6);
+        assert_float_equal(rho_tracker_update_suspect_and_sigma_factor(&at), factors[i], 1e-6);
         assert_int_equal(at.is_suspect, i > 0);
     }
 }
@@ -174,9 +174,9 @@ static void looks_at_tracks_of_others_are_averaged(void **state)
         put(20000.0, 5000.0);
         assert_int_equal(rho_assignment_begin(&tracker.assignment, 1, 1), RHO_OK);
         if (is_seen) {
-            rho_tracker_offer(&at, 0, 0, 5.0f);
+            rho_tracker_add_assignment_pair(&at, 0, 0, 5.0f);
         }
-        rho_tracker_assign(&at);
+        rho_tracker_solve_assignment(&at);
         rho_tracker_update_sensor_health(&at);
         assert_int_equal(looks[0].watched, 16);
         assert_float_equal(looks[0].seen_share, 0.8 + (is_seen - 0.8) / 16.0, 1e-6);
@@ -215,7 +215,7 @@ static void thresholds_of_silent_sensors_are_left_out(void **state)
         at.initiator = &initiator;
         initiator.start_mnat = tracker.start_mnat = 1000;
         initiator.confirm_mnat = tracker.confirm_mnat = 4000;
-        rho_tracker_note_thresholds(&at);
+        rho_tracker_merge_sensor_thresholds(&at);
         assert_int_equal(tracker.start_mnat, i ? 1000 : -5000);
         assert_int_equal(tracker.confirm_mnat, i ? 4000 : 9000);
     }
@@ -239,11 +239,12 @@ static void clutter_has_an_area_and_a_density(void **state)
     const struct rho_plot plot = {.x_m = 1.0f};
     (void)state;
     prepare();
-    assert_float_equal(rho_tracker_density_at_plot(&at, &plot), 1e-8, 1e-12);
+    assert_float_equal(rho_tracker_background_density_at_plot(&at, &plot), 1e-8, 1e-12);
     tracker.extent = (struct rho_extent){0.0f, 10.0f, 0.0f, 10.0f};
-    assert_float_equal(rho_tracker_density_at_plot(&at, &plot), 100.0 / 1e6, 1e-7);
+    assert_float_equal(rho_tracker_background_density_at_plot(&at, &plot), 100.0 / 1e6, 1e-7);
     tracker.extent = (struct rho_extent){-2e7f, 2e7f, -2e7f, 2e7f};
-    assert_float_equal(1e12 * (double)rho_tracker_density_at_plot(&at, &plot), 1.0, 1e-4);
+    assert_float_equal(1e12 * (double)rho_tracker_background_density_at_plot(&at, &plot), 1.0,
+                       1e-4);
 }
 
 /* ---- how tracks end -------------------------------------------------------------------------- */
@@ -255,7 +256,7 @@ static void a_tentative_track_falls_by_a_hundred_to_one(void **state)
     prepare();
     tracker.start_mnat = 2000;
     tracker.looks_max = 1;
-    const struct rho_track_limits limits = rho_tracker_limits(&at);
+    const struct rho_track_limits limits = rho_tracker_track_limits(&at);
     assert_float_equal(limits.tentative_mnat, 2000.0 - 1000.0 * log(100.0), 1.0);
     assert_float_equal(limits.doubt_mnat, 1000.0 * log(200.0), 1.0);
     assert_float_equal(limits.fall_mnat, 5.0 * 2302.6, 2.0);
@@ -273,7 +274,7 @@ static void a_track_hides_where_there_is_little_clutter(void **state)
         track->hits = 20;
         track->has_taken_back = 1;
         track->misses_in_row = 5;
-        const struct rho_track_limits limits = rho_tracker_limits(&at);
+        const struct rho_track_limits limits = rho_tracker_track_limits(&at);
         rho_tracker_apply_thresholds(&at, track, &limits);
         assert_int_equal(track->status, i ? RHO_TRACK_FREE : RHO_TRACK_TENTATIVE);
     }
@@ -287,8 +288,8 @@ static void plots_at_the_border_are_covered(void **state)
     (void)state;
     const struct rho_plot inside = {.x_m = 1e5f + 39.0f, .sigma_range_m = 10.0f},
                           outside = {.x_m = 1e5f + 41.0f, .sigma_range_m = 10.0f};
-    assert_true(rho_tracker_covers(&radar, &inside, 0));
-    assert_false(rho_tracker_covers(&radar, &outside, 0));
+    assert_true(rho_tracker_coverage_holds_plot(&radar, &inside, 0));
+    assert_false(rho_tracker_coverage_holds_plot(&radar, &outside, 0));
 }
 
 /* A radar with a notch of 10 m/s; a track across its line of sight is in it, 99 % at most. */
@@ -307,7 +308,7 @@ static void a_track_is_blind_for_five_minutes_in_little_clutter(void **state)
         track->kalman.state[RHO_VY] = 100.0f;
         track->kalman.covariance[RHO_AT(3, 3)] = track->kalman.covariance[RHO_AT(4, 4)] = 1e-4f;
         track->updated_us = at.time_us - (i == 1 ? 301000000 : 299000000);
-        rho_tracker_find_blind(&at);
+        rho_tracker_set_blind_percents(&at);
         if (i < 2) {
             assert_int_equal(track->blind_percent, i == 0 ? 99 : 0);
         } else {
@@ -326,7 +327,7 @@ static void a_few_targets_in_the_notch_are_seen(void **state)
     struct rho_track *track = have_track(0.0, 10.0);
     track->kalman.state[RHO_VY] = 100.0f;
     track->blind_percent = 80;
-    const struct detection seen = rho_tracker_detection_beside_notch(&at, track);
+    const struct detection seen = rho_tracker_detection_with_notch(&at, track);
     const double pd = exp((double)at.log_pd);
     assert_float_equal(seen.log_pd, log(pd * 0.2 + 0.03 * 0.8), 1e-5);
     assert_float_equal(seen.log_miss, log(1.0 - pd * 0.2), 1e-5);
@@ -347,7 +348,7 @@ static void manoeuvres_are_learned_while_tracks_are_looked_at(void **state)
         assert_float_equal(tracker.straight_s, i ? 0.0 : 59.0, 1e-4);
         tracker.straight_s = 7.0f;
         tracker.time_us = 0;
-        rho_tracker_reset_manoeuvre_interval(&tracker, i ? 61000000 : 59000000);
+        rho_tracker_reset_manoeuvre_interval_after_silence(&tracker, i ? 61000000 : 59000000);
         assert_float_equal(tracker.straight_s, i ? 0.0 : 7.0, 1e-4);
     }
 }
@@ -385,8 +386,8 @@ static int is_ghost(float x_m, uint16_t hits)
 {
     have_wall(x_m)->hits = hits;
     put((double)x_m, 2000.0);
-    rho_tracker_sort_plots(&at);
-    rho_tracker_mark_images(&at);
+    rho_tracker_index_plots(&at);
+    rho_tracker_mark_image_plots_as_ghosts(&at);
     return report.fates[0] == RHO_FATE_GHOST;
 }
 
@@ -409,7 +410,7 @@ static int is_image(double off_m, uint16_t hits, uint16_t misses)
     image->kalman.state[RHO_Y] = (float)(2000.0 + off_m);
     image->hits = hits;
     image->misses = misses;
-    rho_tracker_end_images(&at);
+    rho_tracker_end_image_tracks(&at);
     return tracker.num_tracks == 1;
 }
 
@@ -434,7 +435,7 @@ static uint32_t share_after(void (*phase)(struct step *step))
     prepare();
     tracker.config.work_max = WORK_MAX;
     put(20000.0, 0.0);
-    rho_tracker_sort_plots(&at);
+    rho_tracker_index_plots(&at);
     phase(&at);
     return at.share.end;
 }
@@ -442,24 +443,24 @@ static uint32_t share_after(void (*phase)(struct step *step))
 static void each_phase_has_its_share(void **state)
 {
     (void)state;
-    assert_int_equal(share_after(rho_tracker_begin_work), WORK_MAX / 4);
+    assert_int_equal(share_after(rho_tracker_begin_tracks_work), WORK_MAX / 4);
     if (RHO_MAX_ECHOES > 0) {
-        assert_int_equal(share_after(rho_tracker_look_at_clutter), WORK_MAX / 8);
-        assert_int_equal(share_after(rho_tracker_expect_second_plots), WORK_MAX / 16);
+        assert_int_equal(share_after(rho_tracker_find_clutter_at_plots), WORK_MAX / 8);
+        assert_int_equal(share_after(rho_tracker_score_second_plots), WORK_MAX / 16);
     }
     if (RHO_MAX_REFLECTORS > 0) {
-        assert_int_equal(share_after(rho_tracker_mark_images), WORK_MAX / 16);
-        assert_int_equal(share_after(rho_tracker_end_images), WORK_MAX / 16);
+        assert_int_equal(share_after(rho_tracker_mark_image_plots_as_ghosts), WORK_MAX / 16);
+        assert_int_equal(share_after(rho_tracker_end_image_tracks), WORK_MAX / 16);
     }
     /* what is kept of what the search has, with and without images */
     prepare();
     tracker.config.work_max = WORK_MAX;
     at.initiator = &initiator;
     initiator.config.work_max = 0;
-    assert_int_equal(rho_tracker_work_left(&at), WORK_MAX - WORK_MAX / 16);
+    assert_int_equal(rho_tracker_work_left_for_search(&at), WORK_MAX - WORK_MAX / 16);
     if (RHO_MAX_REFLECTORS > 0) {
         tracker.num_reflectors = 1;
-        assert_int_equal(rho_tracker_work_left(&at), WORK_MAX - WORK_MAX / 8);
+        assert_int_equal(rho_tracker_work_left_for_search(&at), WORK_MAX - WORK_MAX / 8);
     }
 }
 
@@ -475,7 +476,7 @@ static void work_for_excluded_areas_is_counted(void **state)
         put(20000.0 + i, 0.0);
     }
     tracker.num_excluded = 3;
-    rho_tracker_mark_excluded(&at);
+    rho_tracker_mark_excluded_plots_as_ghosts(&at);
     assert_int_equal(at.work, 16 * 3 / 8);
 }
 
@@ -490,7 +491,7 @@ static void a_scan_has_four_parts(void **state)
         prepare();
         tracker.config.work_max = WORK_MAX;
         at.num_inputs = parts * RHO_MAX_PLOTS;
-        rho_tracker_begin_work(&at);
+        rho_tracker_begin_tracks_work(&at);
         assert_int_equal(at.share.end, WORK_MAX / (4 * (parts < 4 ? parts : 4)));
     }
 }

@@ -247,9 +247,9 @@ static void a_first_height_opens_the_third_axis(void **state)
                             .sigma_mps = 1.0f};
     struct rho_track_plot seen = seen_at(8000000, &plot);
     seen.measures = RHO_MEASURES_Z | RHO_MEASURES_VELOCITY;
-    assert_false(rho_kalman_is_open(&track.kalman, 2));
+    assert_false(rho_kalman_is_axis_open(&track.kalman, 2));
     assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_OK);
-    assert_true(rho_kalman_is_open(&track.kalman, 2));
+    assert_true(rho_kalman_is_axis_open(&track.kalman, 2));
     assert_float_equal(track.kalman.state[2], 3000.0f, 0.1f);
     assert_float_equal(track.kalman.state[5], 5.0f, 0.5f);
     /* seen from the origin under 56 degrees, z has of both sigmas: se^2 100 + ce^2 400 */
@@ -263,12 +263,12 @@ static void evidence_confirms_and_ends(void **state)
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_TENTATIVE);
     track.score_mnat = track.score_max_mnat = 5000;
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
-    rho_track_miss(&track, 2300);
+    rho_track_count_miss(&track, 2300);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_COASTING);
-    rho_track_miss(&track, 2300);
+    rho_track_count_miss(&track, 2300);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_COASTING);
     assert_int_equal(track.misses_in_row, 2);
-    rho_track_miss(&track, 0);
+    rho_track_count_miss(&track, 0);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits),
                      RHO_TRACK_FREE); /* three in a row */
 }
@@ -278,13 +278,13 @@ static void a_fallen_score_ends_a_track(void **state)
     (void)state;
     struct rho_track confirmed = started(9000), tentative = started(0);
     assert_int_equal(rho_track_apply_thresholds(&confirmed, &limits), RHO_TRACK_CONFIRMED);
-    rho_track_miss(&confirmed, 6499);
+    rho_track_count_miss(&confirmed, 6499);
     assert_int_equal(rho_track_apply_thresholds(&confirmed, &limits), RHO_TRACK_COASTING);
     confirmed.score_mnat -= 501;
     assert_int_equal(rho_track_apply_thresholds(&confirmed, &limits), RHO_TRACK_FREE);
-    rho_track_miss(&tentative, 4000);
+    rho_track_count_miss(&tentative, 4000);
     assert_int_equal(rho_track_apply_thresholds(&tentative, &limits), RHO_TRACK_TENTATIVE);
-    rho_track_miss(&tentative, 1);
+    rho_track_count_miss(&tentative, 1);
     assert_int_equal(rho_track_apply_thresholds(&tentative, &limits), RHO_TRACK_FREE);
 }
 
@@ -294,7 +294,7 @@ static void a_track_in_doubt_comes_back_as_itself(void **state)
     struct rho_track track = started(9000);
     assert_false(track.was_confirmed);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
-    rho_track_miss(&track, 6500);
+    rho_track_count_miss(&track, 6500);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_TENTATIVE);
     assert_true(track.was_confirmed);
     /* below the confirm threshold, but the doubt is gone: it had been confirmed */
@@ -315,7 +315,7 @@ static void counters_and_scores_saturate(void **state)
     track.misses = UINT16_MAX;
     track.misses_in_row = UINT8_MAX;
     track.score_mnat = -999999999;
-    rho_track_miss(&track, INT32_MAX);
+    rho_track_count_miss(&track, INT32_MAX);
     assert_int_equal(track.misses, UINT16_MAX);
     assert_int_equal(track.misses_in_row, UINT8_MAX);
     assert_int_equal(track.score_mnat, -1000000000);
@@ -328,18 +328,18 @@ static void a_track_returns_to_the_estimate_that_it_had(void **state)
     struct rho_track track = started(9000);
     assert_int_equal(rho_track_predict(&track, 12000000, &model), RHO_OK);
     const struct rho_track was = track;
-    assert_int_equal(rho_track_return(&track, 9000000, &model), RHO_OK);
+    assert_int_equal(rho_track_return_to_time(&track, 9000000, &model), RHO_OK);
     assert_int_equal(track.time_us, 9000000);
     assert_true(fabsf(track.kalman.state[0] - was.kalman.state[0] + 3.0f * was.kalman.state[3]) <
                 0.01f);
-    assert_int_equal(rho_track_return(&track, 12000000, &model), RHO_OK);
+    assert_int_equal(rho_track_return_to_time(&track, 12000000, &model), RHO_OK);
     assert_int_equal(track.time_us, 12000000);
     for (int i = 0; i < 6; i++) {
         assert_true(fabsf(track.kalman.state[i] - was.kalman.state[i]) < 0.01f);
     }
     assert_true(fabsf(track.kalman.covariance[0] - was.kalman.covariance[0]) <
                 0.01f * was.kalman.covariance[0]);
-    assert_int_equal(rho_track_return(NULL, 0, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_return_to_time(NULL, 0, &model), RHO_ERROR_NULL);
 }
 
 int main(void)

@@ -131,8 +131,8 @@ static void bearings_of_one_step_are_one_hit(void **state)
     (void)state;
     struct rho_track track = started();
     struct rho_track_bearing bearing = seen(START_US);
-    rho_track_miss(&track, 100);
-    rho_track_miss(&track, 100);
+    rho_track_count_miss(&track, 100);
+    rho_track_count_miss(&track, 100);
     assert_int_equal(track.misses_in_row, 2);
     for (int sensor = 0; sensor < 3; sensor++) {
         bearing.row = (int16_t)sensor;
@@ -161,7 +161,7 @@ static void a_bearing_ends_coasting(void **state)
     assert_int_equal(track.status, RHO_TRACK_TENTATIVE); /* a bearing is no belief */
     track = started();
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
-    rho_track_miss(&track, 100);
+    rho_track_count_miss(&track, 100);
     assert_int_equal(track.status, RHO_TRACK_COASTING);
     assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, 100), RHO_OK);
     assert_int_equal(track.status, RHO_TRACK_CONFIRMED);

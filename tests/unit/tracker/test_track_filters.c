@@ -80,7 +80,7 @@ static void the_model_says_which_filter(void **state)
         assert_int_equal(track.time_us, 3 * SCAN_US);
         assert_float_equal(track.kalman.state[0], 600.0f, 2.0f);
         assert_float_equal(track.kalman.state[3], 200.0f, 2.0f);
-        rho_track_end(&track, &model);
+        rho_track_free_hypotheses(&track, &model);
         assert_int_equal(count_open(), 0);
     }
     /* where there is a pool, input estimation is not asked */
@@ -107,7 +107,7 @@ static void an_estimate_starts_the_filter_of_the_model(void **state)
         assert_int_equal(rho_track_predict(&track, next.time_us, &model), RHO_OK);
         assert_int_equal(rho_track_update(&track, &next, &model, 0), RHO_OK);
         assert_int_equal(count_open() > 0, filter == RHO_TRACK_HYPOTHESES);
-        rho_track_end(&track, &model);
+        rho_track_free_hypotheses(&track, &model);
         assert_int_equal(count_open(), 0);
     }
 }
@@ -175,7 +175,7 @@ static void a_full_pool_refuses(void **state)
     assert_int_equal(rho_track_start(&one_more, 9, &plot, 1, &model, 0), RHO_ERROR_CAPACITY);
     assert_memory_equal(&one_more, &before, sizeof before);
     const uint16_t slot = tracks[5].slot;
-    rho_track_end(&tracks[5], &model);
+    rho_track_free_hypotheses(&tracks[5], &model);
     assert_int_equal(rho_track_start(&one_more, 9, &plot, 1, &model, 0), RHO_OK);
     assert_int_equal(one_more.slot, slot);
 }
@@ -186,7 +186,7 @@ static enum rho_status commit(struct rho_track *track, const struct rho_plot *pl
 {
     const struct rho_hypotheses_scan scan = {
         .time_us = track->time_us, .plots = plots, .log_miss = log_miss};
-    return rho_track_commit(track, &scan, 8, &model);
+    return rho_track_commit_scan(track, &scan, 8, &model);
 }
 
 static void commit_and_settle_are_for_hypotheses(void **state)
@@ -203,15 +203,15 @@ static void commit_and_settle_are_for_hypotheses(void **state)
         model.hypotheses = &pool; /* a pool beside it changes nothing */
         assert_int_equal(commit(&track, &plot, -2.0f), RHO_ERROR_STATE);
         rho_track_merge_estimates(&track, 9 * SCAN_US, &model);
-        rho_track_end(&track, &model);
+        rho_track_free_hypotheses(&track, &model);
         assert_memory_equal(&track, &before, sizeof track);
         assert_int_equal(count_open(), 0);
     }
     start_with(RHO_TRACK_HYPOTHESES);
     struct rho_track track = started();
-    assert_int_equal(rho_track_commit(NULL, &scan, 8, &model), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_commit(&track, NULL, 8, &model), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_commit(&track, &scan, 8, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit_scan(NULL, &scan, 8, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit_scan(&track, NULL, 8, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit_scan(&track, &scan, 8, NULL), RHO_ERROR_NULL);
 }
 
 /* One step of a track of hypotheses with the plots of a scan; own row 0. */
@@ -225,7 +225,7 @@ static void step(struct rho_track *track, int k, const struct rho_plot *plots, i
     assert_int_equal(rho_track_predict(track, (int64_t)SCAN_US * k, &model), RHO_OK);
     rho_hypotheses_begin_scan(&pool, track->slot, &reach);
     for (int i = 0; i < num_plots; i++) {
-        rho_imm_open_plot(&opened, &plots[i], 0, NULL);
+        rho_imm_prepare_plot(&opened, &plots[i], 0, NULL);
         (void)rho_hypotheses_score_plot(&pool, track->slot, &opened, (int64_t)SCAN_US * k,
                                         (int16_t)i, logf(0.9f), &clutter, &gain_nat);
     }
@@ -253,7 +253,7 @@ static void a_commit_counts_what_the_best_hypothesis_took(void **state)
     assert_int_equal(track.hits, 5);
     assert_int_equal(track.sensor_id, 8);
     assert_in_range(score_mnat - track.score_mnat, 2301, 2304); /* ln(0.1), of all hypotheses */
-    assert_int_equal(track.misses, 0);                          /* that is for rho_track_miss */
+    assert_int_equal(track.misses, 0); /* that is for rho_track_count_miss */
 }
 
 static void settling_brings_the_estimate(void **state)
@@ -290,12 +290,12 @@ static void a_closed_slot_settles_nothing(void **state)
     (void)state;
     start_with(RHO_TRACK_HYPOTHESES);
     struct rho_track track = started(), before;
-    rho_track_end(&track, &model);
+    rho_track_free_hypotheses(&track, &model);
     before = track;
     rho_track_merge_estimates(&track, 5 * SCAN_US, &model);
     assert_int_not_equal(rho_track_predict(&track, 5 * SCAN_US, &model), RHO_OK);
     assert_memory_equal(&track, &before, sizeof track);
-    rho_track_end(&track, &model); /* twice */
+    rho_track_free_hypotheses(&track, &model); /* twice */
     assert_int_equal(count_open(), 0);
 }
 
@@ -382,9 +382,9 @@ static void only_inputs_widen_the_gate(void **state)
         start_with((enum rho_track_filter)filter);
         struct rho_track track = started();
         assert_int_equal(rho_track_predict(&track, 4 * SCAN_US, &model), RHO_OK);
-        rho_track_expect(&track, &expected);
+        rho_track_expect_for_gate(&track, &expected);
         if (filter == RHO_TRACK_INPUT) {
-            rho_input_expect(&track.input, &of_input);
+            rho_input_estimate_for_gate(&track.input, &of_input);
             assert_memory_equal(&expected, &of_input, sizeof expected);
             /* 22 m/s^2 for a second: 11 m */
             assert_true(expected.covariance[RHO_AT(0, 0)] >

@@ -143,7 +143,7 @@ static int ends_after(float range_m, uint8_t misses, double unseen_s)
 {
     struct rho_track *track = have_track(range_m, misses);
     const struct step at = {.tracker = &tracker, .time_us = llround(unseen_s * 1e6)};
-    return rho_tracker_is_long_unobserved(&at, track, 0, &limits);
+    return rho_tracker_update_and_test_unobserved(&at, track, 0, &limits);
 }
 
 static void times_without_a_look_end_a_track(void **state)
@@ -178,7 +178,7 @@ static void a_plot_among_clutter_is_doubtful_after_long(void **state)
             track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
         }
         track->plot = 0;
-        assert_false(rho_tracker_is_long_unobserved(&at, track, 0, &limits));
+        assert_false(rho_tracker_update_and_test_unobserved(&at, track, 0, &limits));
         assert_int_equal(track->score_mnat, i ? -5000 : 0);
         assert_int_equal(track->seen_us, 23000000); /* whichever row the plot has */
     }
@@ -191,7 +191,7 @@ static void a_plot_out_of_sequence_was_seen_then(void **state)
         struct rho_track *track = have_track(20000.0f, 0);
         const struct step at = {.tracker = &tracker, .time_us = 3000000, .is_late = 1};
         track->plot = plot;
-        assert_false(rho_tracker_is_long_unobserved(&at, track, 0, &limits));
+        assert_false(rho_tracker_update_and_test_unobserved(&at, track, 0, &limits));
         assert_int_equal(track->seen_us, plot < 0 ? 0 : 3000000);
     }
 }
@@ -206,7 +206,7 @@ static void a_place_as_uncertain_as_the_sensor_sees_far_is_unknown(void **state)
             track->kalman.covariance[RHO_AT(axis, axis)] = i ? 4.04e8f : 3.96e8f;
             track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
         }
-        assert_int_equal(rho_tracker_is_place_unknown(&at, track), i);
+        assert_int_equal(rho_tracker_is_place_too_uncertain(&at, track), i);
     }
 }
 

@@ -151,7 +151,7 @@ static int brute_nearest(const struct rho_window_scan *scan, const struct rho_wi
         float dx = plot->x_m - query->x_m - query->vx_mps * plot->offset_s;
         float dy = plot->y_m - query->y_m - query->vy_mps * plot->offset_s;
         float d2 = dx * dx + dy * dy;
-        float sigma_m = rho_window_sigma_m(plot);
+        float sigma_m = rho_window_larger_sigma_m(plot);
         float variance = query->variance_m2 + query->sigma_factor * sigma_m * sigma_m;
         if (d2 * best_variance < best_d2 * variance && !(scan->marks[i] & query->skip_flags)) {
             best = i;
@@ -203,7 +203,7 @@ static void the_nearest_plot_is_the_nearest_of_all(void **state)
         for (int i = 0; i < 50; i++) {
             struct rho_window_work work = {0};
             struct rho_window_query query = random_query(scan);
-            int nearest = rho_window_nearest(scan, &query, &work);
+            int nearest = rho_window_nearest_isotropic(scan, &query, &work);
             assert_int_equal(nearest, brute_nearest(scan, &query));
             assert_int_equal(work.lookups, 1);
             found += nearest >= 0;
@@ -227,7 +227,7 @@ static void bins_save_distance_tests(void **state)
                                          .sigma_factor = 1.0f,
                                          .gate_chi2 = 13.8f,
                                          .gate_radius_m = 40.0f};
-        (void)rho_window_nearest(rho_window_scan_at(&window, 0), &query, &work);
+        (void)rho_window_nearest_isotropic(rho_window_scan_at(&window, 0), &query, &work);
     }
     assert_in_range(work.distances, 1, 200 * 100 / 50);
 }
@@ -241,7 +241,7 @@ static void rows_and_sigmas_are_kept(void **state)
     push(0, PLOTS);
     const struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
     for (int i = 0; i < scan->num_plots; i++) {
-        struct rho_plot held = rho_window_plot_of(scan, (unsigned)i);
+        struct rho_plot held = rho_window_unpack_plot(scan, (unsigned)i);
         const struct rho_plot *given = &plots[scan->marks[i] & RHO_WINDOW_ROW];
         assert_float_equal(held.x_m, given->x_m, 0.0f);
         assert_int_equal(held.offset_us, given->offset_us);
@@ -249,7 +249,7 @@ static void rows_and_sigmas_are_kept(void **state)
                            given->sigma_range_m / 4096.0f);
         assert_float_equal(held.sigma_cross_m, given->sigma_cross_m,
                            given->sigma_cross_m / 4096.0f);
-        assert_float_equal(rho_window_sigma_m(&scan->plots[i]), rho_plot_sigma_m(given),
+        assert_float_equal(rho_window_larger_sigma_m(&scan->plots[i]), rho_plot_sigma_m(given),
                            rho_plot_sigma_m(given) / 4096.0f);
     }
     assert_float_equal(scan->sigma_max_m, 99.0f, 0.0f);
@@ -401,9 +401,9 @@ static void own_covariances_heights_and_range_rates_decide(void **state)
             struct rho_window_place place = random_place(measures);
             struct rho_window_work work = {0};
             double best = limit, chosen = limit;
-            int nearest = rho_window_nearest_to(scan, &place, &work);
+            int nearest = rho_window_nearest_anisotropic(scan, &place, &work);
             for (int k = 0; k < scan->num_plots; k++) {
-                struct rho_plot plot = rho_window_plot_of(scan, (unsigned)k);
+                struct rho_plot plot = rho_window_unpack_plot(scan, (unsigned)k);
                 double d2 = distance2_of(&plot, measures, &place);
                 best = k != 3 && d2 < best ? d2 : best;
                 chosen = k == nearest ? d2 : chosen;
@@ -425,7 +425,7 @@ static void covariances_follow_the_line_of_sight(void **state)
         scatter_radar_plots(measures);
         const struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
         for (int i = 0; i < scan->num_plots; i++) {
-            struct rho_plot plot = rho_window_plot_of(scan, (unsigned)i);
+            struct rho_plot plot = rho_window_unpack_plot(scan, (unsigned)i);
             struct rho_window_noise noise = rho_window_noise(scan, &scan->plots[i]);
             double r[3][3];
             covariance_of(&plot, round, r);
@@ -471,7 +471,7 @@ static void a_place_has_one_bin(void **state)
     assert_true(scan->bins_x * scan->bins_y > 1);
     for (unsigned i = 0; i < scan->num_plots; i++) {
         const struct rho_window_plot *plot = &scan->plots[i];
-        const unsigned bin = rho_window_bin_of(scan, plot->x_m, plot->y_m);
+        const unsigned bin = rho_window_bin_at(scan, plot->x_m, plot->y_m);
         const struct rho_window_bins under =
             rho_window_bins_under(scan, plot->x_m, plot->x_m, plot->y_m, plot->y_m);
 
@@ -485,7 +485,7 @@ static void a_place_has_one_bin(void **state)
     assert_int_equal(all.column_last, scan->bins_x - 1);
     assert_int_equal(all.row_first, 0);
     assert_int_equal(all.row_last, scan->bins_y - 1);
-    assert_int_equal(rho_window_bin_of(scan, 1e6f, 1e6f), scan->bins_x * scan->bins_y - 1);
+    assert_int_equal(rho_window_bin_at(scan, 1e6f, 1e6f), scan->bins_x * scan->bins_y - 1);
 }
 
 #define DEGREE_RAD 0.017453293f
@@ -581,19 +581,19 @@ static void range_rates_are_compared_along_the_line_of_sight(void **state)
     scan.measures = RHO_MEASURES_RANGE_RATE;
     assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
     const struct rho_window_scan *held = rho_window_scan_at(&window, 0);
-    assert_true(rho_window_see_range_rate(held, &held->plots[0], &seen_place, &seen));
+    assert_true(rho_window_compare_range_rate(held, &held->plots[0], &seen_place, &seen));
     assert_true(fabsf(seen.error_mps - 5.0f) < 1e-3f);
     assert_true(fabsf(seen.along[0]) < 1e-6f && fabsf(seen.along[1] - 1.0f) < 1e-6f);
     assert_true(fabsf(seen.variance - 20.0f) < 0.02f); /* 16 and 2^2; 70 m/s turn by 5 m in 10 km */
-    assert_true(fabsf(rho_window_range_rate_distance2(held, &held->plots[0], &seen_place) -
+    assert_true(fabsf(rho_window_range_rate_nis(held, &held->plots[0], &seen_place) -
                       25.0f / seen.variance) < 1e-3f);
 
     place(0, turning.x_m, turning.y_m, 5.0f);
     scan.time_us = 1;
     assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
     held = rho_window_scan_at(&window, 1);
-    assert_false(rho_window_see_range_rate(held, &held->plots[0], &seen_place, &seen));
-    assert_true(rho_window_range_rate_distance2(held, &held->plots[0], &seen_place) == 0.0f);
+    assert_false(rho_window_compare_range_rate(held, &held->plots[0], &seen_place, &seen));
+    assert_true(rho_window_range_rate_nis(held, &held->plots[0], &seen_place) == 0.0f);
 }
 
 int main(void)

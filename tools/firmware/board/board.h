@@ -31,16 +31,16 @@ size_t board_receive(uint8_t *buffer, size_t capacity, uint32_t *source_ipv4);
 void board_send(const uint8_t *datagram, size_t size);
 
 /* Number of datagrams that board_send has dropped. */
-uint32_t board_unsent(void);
+uint32_t board_num_unsent(void);
 
 /* Increments and returns a count of starts in non-volatile memory; 0 where the board has none. */
-int32_t board_boot(void);
+int32_t board_count_start(void);
 
 /* Sleeps until a datagram may have arrived or the time is until_us; may return earlier. */
 void board_wait(int64_t until_us);
 
 /* Prints a line on the board's console. */
-void board_say(const char *text);
+void board_print_line(const char *text);
 
 /* Largest stack depth so far, in bytes. */
 size_t board_stack_used(void);

@@ -21,14 +21,14 @@ int files_write(int file, const uint8_t *bytes, size_t size);
 int files_close(int file);
 
 /* Prints the text on the console, without adding a newline. */
-void files_say(const char *text);
+void files_print(const char *text);
 
 /*
- * files_instructions reads a counter of executed instructions (0 where there is none), which wraps;
- * files_instructions_between gives the instructions between two readings, up to 2.6e9.
+ * files_read_instruction_counter reads a counter of executed instructions (0 where there is none), which wraps;
+ * files_instructions_elapsed gives the instructions between two readings, up to 2.6e9.
  */
-uint32_t files_instructions(void);
-uint32_t files_instructions_between(uint32_t from, uint32_t to);
+uint32_t files_read_instruction_counter(void);
+uint32_t files_instructions_elapsed(uint32_t from, uint32_t to);
 
 /* Largest stack depth so far, in bytes; 0 where not known. */
 size_t files_stack_used(void);

@@ -113,7 +113,7 @@ static size_t checked_ip_head_size(const uint8_t *ip, size_t size)
                : 0;
 }
 
-size_t udp_frame_open(const uint8_t *frame, size_t size, const uint8_t **payload)
+size_t udp_frame_parse(const uint8_t *frame, size_t size, const uint8_t **payload)
 {
     const uint8_t *ip = frame + ETHERNET_HEAD, *udp;
     size_t head, length;
@@ -135,13 +135,13 @@ size_t udp_frame_open(const uint8_t *frame, size_t size, const uint8_t **payload
     return length - UDP_HEAD;
 }
 
-uint32_t udp_frame_source(const uint8_t *frame)
+uint32_t udp_frame_source_ipv4(const uint8_t *frame)
 {
     const uint8_t *source = frame + ETHERNET_HEAD + 12;
     return (uint32_t)get_be16(source) << 16 | get_be16(source + 2);
 }
 
-void udp_frame_join(uint8_t frame[UDP_FRAME_JOIN], const struct udp_frame_host *from)
+void udp_frame_build_igmp_report(uint8_t frame[UDP_FRAME_JOIN], const struct udp_frame_host *from)
 {
     static const uint8_t router_alert[4] = {0x94, 0x04, 0, 0};
     uint8_t *ip = frame + ETHERNET_HEAD, *igmp = ip + IP_HEAD + 4;

@@ -30,12 +30,12 @@ size_t udp_frame_build(uint8_t *frame, const struct udp_frame_host *from, uint16
  * Parses a frame of any content. Returns the payload's size and sets *payload; 0 where it is no
  * complete datagram to LCM's group and port, or a checksum is wrong.
  */
-size_t udp_frame_open(const uint8_t *frame, size_t size, const uint8_t **payload);
+size_t udp_frame_parse(const uint8_t *frame, size_t size, const uint8_t **payload);
 
-/* Sender's IPv4 address (10.9.0.1 as 0x0a090001) of a frame that udp_frame_open accepted. */
-uint32_t udp_frame_source(const uint8_t *frame);
+/* Sender's IPv4 address (10.9.0.1 as 0x0a090001) of a frame that udp_frame_parse accepted. */
+uint32_t udp_frame_source_ipv4(const uint8_t *frame);
 
 /* Writes an IGMP version 2 report for the group, UDP_FRAME_JOIN bytes. */
-void udp_frame_join(uint8_t frame[UDP_FRAME_JOIN], const struct udp_frame_host *from);
+void udp_frame_build_igmp_report(uint8_t frame[UDP_FRAME_JOIN], const struct udp_frame_host *from);
 
 #endif

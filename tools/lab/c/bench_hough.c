@@ -100,7 +100,8 @@ static double calls_us(struct rho_accumulator *accumulator, const struct hough_c
     struct rho_accumulator_result result;
     int64_t start_us = clock_us();
     for (int call = 0; call < calls; call++) {
-        must_succeed(rho_accumulator_find(accumulator, &points, peaks, PEAKS_MAX, &result), "find");
+        must_succeed(rho_accumulator_find_peaks(accumulator, &points, peaks, PEAKS_MAX, &result),
+                     "find");
     }
     return (double)(clock_us() - start_us);
 }

@@ -256,9 +256,9 @@ static struct latency latency_of(const struct session *session)
 
 static void add_numbers(cJSON *json, const struct latency *latency)
 {
-    json_add_number(json, "latency_median_us", latency->median_us);
-    json_add_number(json, "latency_p99_us", latency->p99_us);
-    json_add_number(json, "latency_max_us", latency->max_us);
+    json_add_number_or_null(json, "latency_median_us", latency->median_us);
+    json_add_number_or_null(json, "latency_p99_us", latency->p99_us);
+    json_add_number_or_null(json, "latency_max_us", latency->max_us);
     cJSON_AddNumberToObject(json, "scans", latency->counted);
     cJSON_AddNumberToObject(json, "scans_lost", latency->lost);
 }

@@ -160,7 +160,7 @@ static struct times time_sky(const struct sky *sky, struct pipeline *chain, uint
 
 void bench_work(const struct bench *bench)
 {
-    struct pipeline chain = pipeline_start();
+    struct pipeline chain = pipeline_allocate();
     struct text_table table =
         text_table_start(1, "5000 plots a scan|median us|worst us|over the even median|partial");
     double even_us = 1.0, few_us = 1.0;

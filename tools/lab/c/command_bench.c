@@ -233,7 +233,7 @@ static struct cost track_cost(const struct bench *bench, struct pipeline *chain,
 static void bench_track(const struct bench *bench)
 {
     static const double plots[] = {100, 300, 1000, 3000, 5000};
-    struct pipeline chain = pipeline_start();
+    struct pipeline chain = pipeline_allocate();
     struct text_table table =
         text_table_start(0, "plots a scan|us a scan|worst scan us|ratio|tracks confirmed");
     double first_us = 0.0;
@@ -322,7 +322,7 @@ int command_bench(struct command_line *line)
         }
     }
     if (bench.json) {
-        json_print(bench.json);
+        json_print_and_delete(bench.json);
     }
     return 0;
 }

@@ -28,7 +28,7 @@ static void add(struct verdicts *verdicts, double value, const struct bar *bar, 
     cJSON *object = cJSON_CreateObject();
     vsnprintf(what, sizeof what, format, list);
     cJSON_AddStringToObject(object, "what", what);
-    json_add_number(object, "value", value);
+    json_add_number_or_null(object, "value", value);
     cJSON_AddNumberToObject(object, bar->relation[0] == '<' ? "at_most" : "at_least", bar->value);
     cJSON_AddBoolToObject(object, "held", bar->is_held);
     cJSON_AddItemToArray(verdicts->json, object);

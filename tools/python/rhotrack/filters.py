@@ -75,7 +75,7 @@ class Kalman:
         """Takes a plot's place, and its range rate if it has one; axes open with
         velocity_variance, m^2/s^2."""
         seen, measurement = _Plot(plot, settings), ffi.new("struct rho_measurement *")
-        lib.rho_measurement_open(seen.plot, seen.measures, seen.sensor, measurement)
+        lib.rho_measurement_from_plot(seen.plot, seen.measures, seen.sensor, measurement)
         must_succeed(lib.rho_kalman_update_position(self.struct, measurement, velocity_variance),
                      "x_m, y_m, z_m or a sigma")
         if seen.measures & lib.RHO_MEASURES_RANGE_RATE:
@@ -103,14 +103,14 @@ class Imm:
     def predict(self, dt_s: float) -> None:
         """Mixes the models, and moves both on."""
         step = ffi.new("struct rho_imm_step *")
-        lib.rho_imm_step_open(step, self.model, dt_s)
+        lib.rho_imm_prepare_step(step, self.model, dt_s)
         must_succeed(lib.rho_imm_predict(self.struct, step), "dt_s")
 
     def update(self, plot: np.ndarray, settings: Settings | None = None) -> float | None:
         """Takes a plot; returns ln of its density, or None where it is outside of the gate."""
         seen, match = _Plot(plot, settings), ffi.new("struct rho_imm_match *")
         opened = ffi.new("struct rho_imm_plot *")
-        lib.rho_imm_open_plot(opened, seen.plot, seen.measures, seen.sensor)
+        lib.rho_imm_prepare_plot(opened, seen.plot, seen.measures, seen.sensor)
         if not lib.rho_imm_score_plot(self.struct, opened, match):
             return None
         must_succeed(lib.rho_imm_update(self.struct, self.model, opened, match), "plot")
@@ -137,7 +137,7 @@ class Imm:
 
 
 class InputEstimation:
-    """A Kalman filter that estimates the target's acceleration (rhotrack/detail/input.h).
+    """A Kalman filter that estimates the target's acceleration (rhotrack/detail/input_estimation.h).
 
     Fields of struct rho_input_config set by name, as gamma=0.9; model: "literal" or "physical".
     """
@@ -170,13 +170,13 @@ class InputEstimation:
     def update_plot(self, plot: np.ndarray, settings: Settings | None = None) -> None:
         """Takes a plot's place."""
         seen, measurement = _Plot(plot, settings), ffi.new("struct rho_measurement *")
-        lib.rho_measurement_open(seen.plot, seen.measures, seen.sensor, measurement)
+        lib.rho_measurement_from_plot(seen.plot, seen.measures, seen.sensor, measurement)
         must_succeed(lib.rho_input_update_position(self.struct, self.config, measurement),
                      "x_m, y_m, z_m or a sigma")
 
     def decide(self) -> None:
         """Tests each axis for an input; once a scan, after its updates."""
-        lib.rho_input_decide(self.struct, self.config)
+        lib.rho_input_decide_presence(self.struct, self.config)
 
     @property
     def estimate(self) -> Kalman:
@@ -208,7 +208,7 @@ class HoughGate:
         if not set(planes.split("+")) <= set(bits):
             raise Error(f"planes {planes!r}: xy, xz and yz, joined by +")
         self.struct = ffi.new("struct rho_gate_hough *")
-        must_succeed(lib.rho_gate_hough_open(
+        must_succeed(lib.rho_gate_hough_init(
             self.struct, sum(bits[one] for one in set(planes.split("+"))),
             np.deg2rad(gate_theta_deg), [float(v) for v in before_mps],
             [float(v) for v in newest_mps]), "before_mps, newest_mps or gate_theta_deg")

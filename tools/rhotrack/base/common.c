@@ -363,7 +363,7 @@ struct cJSON *json_list_descending(int *values, int count)
     return list;
 }
 
-void json_add_number(struct cJSON *object, const char *name, double value)
+void json_add_number_or_null(struct cJSON *object, const char *name, double value)
 {
     cJSON_AddItemToObject(object, name,
                           isfinite(value) ? cJSON_CreateNumber(value) : cJSON_CreateNull());
@@ -387,7 +387,7 @@ struct cJSON *json_begin_experiment(const char *name, size_t num_runs, uint64_t 
     return object;
 }
 
-void json_print(struct cJSON *object)
+void json_print_and_delete(struct cJSON *object)
 {
     struct output output = output_open(NULL);
     char *text = cJSON_Print(object);
@@ -403,7 +403,7 @@ void json_print(struct cJSON *object)
 
 /* ---- Time and progress ---- */
 
-void say_only_last_taken(uint64_t taken, uint64_t total, const char *what)
+void print_only_last_taken(uint64_t taken, uint64_t total, const char *what)
 {
     if (total > taken) {
         fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " %s are taken\n", taken,
@@ -411,7 +411,7 @@ void say_only_last_taken(uint64_t taken, uint64_t total, const char *what)
     }
 }
 
-void say_rows_skipped(uint64_t rows)
+void print_rows_skipped(uint64_t rows)
 {
     if (rows > 0) {
         fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n", rows);
@@ -509,8 +509,8 @@ void progress_show(struct progress *progress, uint64_t done)
     }
 }
 
-void progress_show_bytes(struct progress *progress, uint64_t done, uint64_t bytes,
-                         uint64_t total_bytes)
+void progress_show_by_bytes(struct progress *progress, uint64_t done, uint64_t bytes,
+                            uint64_t total_bytes)
 {
     if (mark_progress_if_due(progress)) {
         print_progress(progress, done, fraction_done(bytes, total_bytes));

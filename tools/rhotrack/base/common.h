@@ -72,13 +72,13 @@ void make_folder(const char *path);
 
 /* Prints a JSON object (cJSON) to standard output with a newline, and deletes the object. */
 struct cJSON;
-void json_print(struct cJSON *object);
+void json_print_and_delete(struct cJSON *object);
 
 /* A new JSON object with the keys experiment (name), runs and seed. */
 struct cJSON *json_begin_experiment(const char *name, size_t num_runs, uint64_t seed);
 
 /* Adds a number to a JSON object, or null where the number is not finite. */
-void json_add_number(struct cJSON *object, const char *name, double value);
+void json_add_number_or_null(struct cJSON *object, const char *name, double value);
 
 /* Adds a tracker's counts of work: work, work_worst, partial_steps, plots_not_tried. */
 struct rho_tracker_work;
@@ -109,8 +109,8 @@ char *path_join(const char *folder, const char *name);
  * Notes on standard error: that only the last `taken` of `total` things are used, and how many bad
  * rows were skipped; print nothing where nothing was left out.
  */
-void say_only_last_taken(uint64_t taken, uint64_t total, const char *what);
-void say_rows_skipped(uint64_t rows);
+void print_only_last_taken(uint64_t taken, uint64_t total, const char *what);
+void print_rows_skipped(uint64_t rows);
 
 /* Monotonic clock, in microseconds. */
 int64_t clock_us(void);
@@ -131,8 +131,8 @@ void progress_show(struct progress *progress, uint64_t done);
  * Shows progress of work whose total is unknown, by the share of the input that was read: `bytes`
  * of `total_bytes`, 0 where that is unknown, too.
  */
-void progress_show_bytes(struct progress *progress, uint64_t done, uint64_t bytes,
-                         uint64_t total_bytes);
+void progress_show_by_bytes(struct progress *progress, uint64_t done, uint64_t bytes,
+                            uint64_t total_bytes);
 void progress_end(struct progress *progress);
 
 /* Exit 1 with `what` and the status where a call of the library failed. */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "evaluation/evaluation_parts.h"
+#include "evaluation/evaluation_state.h"
 #include "evaluation/gospa.h"
 
 /* ---- identities ---- */

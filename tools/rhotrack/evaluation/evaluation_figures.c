@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "evaluation/evaluation_parts.h"
+#include "evaluation/evaluation_state.h"
 
 static void add_figure(struct evaluation_figures *figures, const char *name, double value)
 {

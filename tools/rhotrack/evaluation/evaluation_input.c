@@ -9,7 +9,7 @@
 #include "base/common.h"
 #include "base/identity_numbers.h"
 #include "evaluation/time_alignment.h"
-#include "io/rows/path_row.h"
+#include "io/rows/trajectory_row.h"
 #include "rhotrack/message.h"
 
 struct timed_point {
@@ -27,7 +27,7 @@ struct points {
 
 /* ---- reading ---- */
 
-static struct evaluation_point point_from_row(const struct path_row *path)
+static struct evaluation_point point_from_row(const struct trajectory_row *path)
 {
     return (struct evaluation_point){
         .id = path->id,
@@ -59,20 +59,20 @@ static int by_time(const void *a, const void *b)
 /* Reads the confirmed and coasting rows of a truth or tracks table, sorted by time. */
 static struct points read_points(const struct table *table, const struct parameters *parameters)
 {
-    struct path_columns columns = path_columns_find(table, parameters);
+    struct trajectory_columns columns = trajectory_columns_find(table, parameters);
     struct points points = {.table = table,
                             .list = must_calloc(table->num_rows, sizeof *points.list),
                             .has_z = columns.z >= 0,
                             .has_vz = columns.vz >= 0};
     for (size_t row = 0; row < table->num_rows; row++) {
-        const struct path_row path = path_row_read(&columns, row);
+        const struct trajectory_row path = trajectory_row_read(&columns, row);
         if (path.status == RHO_MESSAGE_TRACK_CONFIRMED ||
             path.status == RHO_MESSAGE_TRACK_COASTING) {
             points.list[points.count++] = (struct timed_point){
                 .time_us = path.time_us, .row = row, .point = point_from_row(&path)};
         }
     }
-    path_columns_end(&columns);
+    trajectory_columns_free(&columns);
     qsort(points.list, points.count, sizeof points.list[0], by_time);
     return points;
 }

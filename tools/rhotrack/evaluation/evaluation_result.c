@@ -9,7 +9,7 @@
 
 #include "base/common.h"
 #include "evaluation/evaluation.h"
-#include "evaluation/evaluation_parts.h"
+#include "evaluation/evaluation_state.h"
 
 /* 95 % quantile of chi-square with two degrees of freedom: -2 ln 0.05 */
 #define NEES_95 5.991464547107979

@@ -179,7 +179,7 @@ static void print_search_json(const struct hough_search *search, enum method met
     cJSON_AddNumberToObject(object, "votes_dropped", result->votes_dropped);
     cJSON_AddNumberToObject(object, "kernels_dropped", result->kernels_dropped);
     cJSON_AddNumberToObject(object, "plots_invalid", search->batch.num_invalid);
-    json_print(object);
+    json_print_and_delete(object);
 }
 
 void initiate_hough(const struct command_line *line, enum method method)

@@ -94,20 +94,20 @@ static void print_search_json(const struct rho_passive *passive, const struct la
     cJSON_AddNumberToObject(object, "points_dropped", work->points_dropped);
     cJSON_AddNumberToObject(object, "candidates_dropped", work->candidates_dropped);
     cJSON_AddNumberToObject(object, "bearings_no_room", (double)batch->num_lost);
-    json_print(object);
+    json_print_and_delete(object);
 }
 
 void initiate_passive(const struct command_line *line)
 {
     struct rho_passive *passive = must_alloc(sizeof *passive);
     struct parameters parameters = line->parameters;
-    struct bearing_frame_reader *reader = last_bearings_open(line, &parameters);
+    struct bearing_frame_reader *reader = last_bearings_open_reader(line, &parameters);
     struct rho_passive_config config = method_passive_config(&parameters);
     struct bearings_search with = {passive, &passive->batch, push_passive_frame,
                                    search_passive_batch};
 
     must_succeed(rho_passive_init(passive, sizeof *passive, &config), "passive");
-    struct last_bearings batch = last_bearings_search(&with, reader, &parameters);
+    struct last_bearings batch = last_bearings_search_and_close(&with, reader, &parameters);
     if (line->output || !line->json) {
         write_found_tracks(passive, batch.time_us, line->output);
     }

@@ -82,7 +82,7 @@ static void print_search_json(const struct rho_passive_paper *paper,
     cJSON_AddNumberToObject(object, "points_dropped", work->points_dropped);
     cJSON_AddNumberToObject(object, "lines_dropped", work->lines_dropped);
     cJSON_AddNumberToObject(object, "bearings_no_room", (double)batch->num_lost);
-    json_print(object);
+    json_print_and_delete(object);
 }
 
 static void warn_of_dropped_lines(const struct rho_passive_paper_work *work)
@@ -101,12 +101,12 @@ void initiate_passive_paper(const struct command_line *line)
 {
     struct rho_passive_paper *paper = must_alloc(sizeof *paper);
     struct parameters parameters = line->parameters;
-    struct bearing_frame_reader *reader = last_bearings_open(line, &parameters);
+    struct bearing_frame_reader *reader = last_bearings_open_reader(line, &parameters);
     struct rho_passive_paper_config config = method_passive_paper_config(&parameters);
     struct bearings_search with = {paper, &paper->batch, push_paper_frame, search_paper_batch};
 
     must_succeed(rho_passive_paper_init(paper, sizeof *paper, &config), "passive-paper");
-    struct last_bearings batch = last_bearings_search(&with, reader, &parameters);
+    struct last_bearings batch = last_bearings_search_and_close(&with, reader, &parameters);
     warn_of_dropped_lines(&paper->work);
     if (line->output || !line->json) {
         write_found_tracks(paper, batch.time_us, line->output);

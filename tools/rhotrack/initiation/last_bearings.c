@@ -15,7 +15,7 @@ static double sensor_distance_m(const struct frame_sensor *a, const struct frame
     return hypot((double)a->x_m - (double)b->x_m, (double)a->y_m - (double)b->y_m);
 }
 
-double bearing_sensors_apart_m(const struct frame_sensor *sensors, size_t count)
+double bearing_sensors_max_distance_m(const struct frame_sensor *sensors, size_t count)
 {
     double apart_m = 0;
 
@@ -78,8 +78,8 @@ static void push_and_count_frame(struct last_bearings *batch, const struct beari
     batch->time_us = frame->time_us;
 }
 
-struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
-                                                struct parameters *parameters)
+struct bearing_frame_reader *last_bearings_open_reader(const struct command_line *line,
+                                                       struct parameters *parameters)
 {
     struct bearing_frame_reader *reader = bearing_frame_reader_open(
         line->arguments, line->num_arguments, &line->parameters, line->keep_going);
@@ -88,13 +88,13 @@ struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
 
     bearing_frame_reader_need_two_sensors(reader);
     sensors = bearing_frame_reader_sensors(reader, &count);
-    parameters->passive_apart_m = bearing_sensors_apart_m(sensors, count);
+    parameters->passive_apart_m = bearing_sensors_max_distance_m(sensors, count);
     return reader;
 }
 
-struct last_bearings last_bearings_search(const struct bearings_search *search,
-                                          struct bearing_frame_reader *reader,
-                                          const struct parameters *parameters)
+struct last_bearings last_bearings_search_and_close(const struct bearings_search *search,
+                                                    struct bearing_frame_reader *reader,
+                                                    const struct parameters *parameters)
 {
     struct last_bearings batch = {.wall_us = 0};
     const struct frame_sensor *sensors;

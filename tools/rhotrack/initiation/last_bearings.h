@@ -8,7 +8,7 @@
 
 #include "commands.h"
 #include "io/scans/bearing_frame_reader.h"
-#include "rhotrack/detail/batch.h"
+#include "rhotrack/detail/bearing_batch.h"
 
 /* A method's initiator for bearings, initialised, and the calls to feed and search it. */
 struct bearings_search {
@@ -29,19 +29,19 @@ struct last_bearings {
  * Opens files of bearings, and sets passive_apart_m of the parameters from their sensors. Exit 2
  * for fewer than two sensors and for bad input.
  */
-struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
-                                                struct parameters *parameters);
+struct bearing_frame_reader *last_bearings_open_reader(const struct command_line *line,
+                                                       struct parameters *parameters);
 
 /*
  * Pushes the last frames, searches them, and closes the reader. Exit 2 for too many sensors, or
  * sensors too far apart for the batch's cells.
  */
-struct last_bearings last_bearings_search(const struct bearings_search *search,
-                                          struct bearing_frame_reader *reader,
-                                          const struct parameters *parameters);
+struct last_bearings last_bearings_search_and_close(const struct bearings_search *search,
+                                                    struct bearing_frame_reader *reader,
+                                                    const struct parameters *parameters);
 
 /* Largest distance between two of the sensors, m. */
-double bearing_sensors_apart_m(const struct frame_sensor *sensors, size_t count);
+double bearing_sensors_max_distance_m(const struct frame_sensor *sensors, size_t count);
 
 /* Exit 2 where the sensors are too many, or too far apart for the batch's cells. */
 void bearing_sensors_check(const struct frame_sensor *sensors, size_t count,

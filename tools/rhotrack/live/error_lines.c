@@ -162,7 +162,7 @@ static bool is_systemd_journal(const struct stat *status)
     return journal && strcmp(journal, own) == 0;
 }
 
-void error_lines_open(const struct parameters *parameters, bool is_live)
+void error_lines_redirect_stderr(const struct parameters *parameters, bool is_live)
 {
     const cookie_io_functions_t functions = {.write = write_text_as_lines};
     struct stat status;
@@ -188,7 +188,7 @@ void error_lines_set_time(int64_t time_us)
     lines.has_time = true;
 }
 
-void error_lines_write(const char *text)
+void error_lines_write_directly(const char *text)
 {
     char time[TIME_BYTES], line[LINE_BYTES];
 
@@ -196,7 +196,7 @@ void error_lines_write(const char *text)
     write_to_stderr(line, (size_t)snprintf(line, sizeof line, "%s%.1000s", time, text));
 }
 
-bool error_lines_is_lossy(void)
+bool error_lines_were_lost(void)
 {
     return lines.is_lossy;
 }

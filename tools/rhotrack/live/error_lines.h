@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * error_lines: standard error of a long-running program. After error_lines_open every line written
+ * error_lines: standard error of a long-running program. After error_lines_redirect_stderr every line written
  * to stderr begins with a time stamp, and sensors that have a name ([sensor N] name) are printed
  * with it:
  *
@@ -23,7 +23,7 @@
  *   is_live  time stamps are the time of day; else the time of error_lines_set_time, and none
  *            before its first call
  */
-void error_lines_open(const struct parameters *parameters, bool is_live);
+void error_lines_redirect_stderr(const struct parameters *parameters, bool is_live);
 
 /* Sets the time stamp of later lines in a replay: the time of the last message, us since 1970. */
 void error_lines_set_time(int64_t time_us);
@@ -32,9 +32,9 @@ void error_lines_set_time(int64_t time_us);
  * Writes a line directly to the descriptor of standard error, without the lock of stderr, which a
  * blocked thread may hold for ever.
  */
-void error_lines_write(const char *text);
+void error_lines_write_directly(const char *text);
 
 /* True where lines of standard error were lost. */
-bool error_lines_is_lossy(void);
+bool error_lines_were_lost(void);
 
 #endif

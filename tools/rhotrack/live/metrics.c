@@ -58,7 +58,7 @@ static void write_tallies(FILE *out, const struct metrics_source *source)
 {
     struct node_tally tallies[NODE_TALLIES];
 
-    node_tally_all(source->core, source->transport, tallies);
+    node_tally_collect(source->core, source->transport, tallies);
     write_family_head(out, "refused_total", "counter", "Refused or lost, by cause: faults.");
     write_tallies_of_kind(out, "refused_total", tallies, NODE_TALLY_FAULT);
     write_family_head(out, "missing", "gauge",
@@ -114,7 +114,7 @@ static void write_input_counters(FILE *out, const struct metrics_source *source)
         {"events_not_logged_total", "Events that the log had no room for.",
          source->losses.events_not_logged},
         {"shown_left_out_total", "Messages of --show beyond its rate.",
-         node_core_num_not_shown(source->core)},
+         node_core_num_show_left_out(source->core)},
         {"metrics_pages_total", "Answers with this text.", source->pages_sent},
         {"metrics_refused_total", "Requests of something else, and clients that were too slow.",
          source->clients_refused},

@@ -111,7 +111,7 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
     core->parameters = must_alloc(sizeof *core->parameters);
     *core->parameters = *parameters;
     core->events = *events;
-    core->pipeline = pipeline_start();
+    core->pipeline = pipeline_allocate();
     core->pipeline.is_live = true;
     memset(core->pipeline.report, 0, sizeof *core->pipeline.report);
     open_pipeline(core);
@@ -131,9 +131,9 @@ void node_core_allow_commands(struct node_core *core)
     core->takes_commands = true;
 }
 
-uint64_t node_core_num_not_shown(const struct node_core *core)
+uint64_t node_core_num_show_left_out(const struct node_core *core)
 {
-    return pipeline_show_not_sent(core->show);
+    return pipeline_show_num_not_sent(core->show);
 }
 
 enum pipeline_restored node_core_restore_snapshot(struct node_core *core, const char *path)
@@ -141,7 +141,7 @@ enum pipeline_restored node_core_restore_snapshot(struct node_core *core, const 
     enum pipeline_restored restored =
         pipeline_restore_snapshot(&core->pipeline, core->parameters, path);
 
-    parameters_describe_sensors_again(core->parameters, &core->assembler);
+    parameters_update_assembler_sensors(core->parameters, &core->assembler);
     open_node(core, core->node.epoch); /* the restored pipeline has new objects */
     core->node.is_restored = restored == PIPELINE_RESTORED;
     return restored;
@@ -283,9 +283,9 @@ static void apply_setting_and_answer(struct node_core *core,
     struct rho_message_setting_answer answer;
 
     if (rho_command_set(setting, &settings, &answer) == RHO_OK) {
-        if (parameters_take_settings(core->parameters, &settings)) {
+        if (parameters_adopt_settings(core->parameters, &settings)) {
             pipeline_reconfigure(&core->pipeline, core->parameters);
-            parameters_describe_sensors_again(core->parameters, &core->assembler);
+            parameters_update_assembler_sensors(core->parameters, &core->assembler);
         } else {
             /* the range limits of a single sensor conflict with the setting */
             answer.status = RHO_ERROR_CONFIG;
@@ -428,7 +428,7 @@ static void step_due_input(struct node_core *core, enum rho_node_due due)
         pipeline_learn_walls(&core->pipeline, &core->node.scan);
     }
     run_queued_commands(core);
-    pipeline_count_zones(&core->pipeline);
+    pipeline_update_zones(&core->pipeline);
     took_us = clock_us() - start_us;
     rho_node_count_time(&core->node, took_us);
     add_time_sample(&core->step_times, took_us);
@@ -492,7 +492,7 @@ static void handle_taken_message(struct node_core *core, const char *channel, co
     } else {
         report_sensor_restarts(core, places);
         if (core->assembler.is_restart) { /* no scan since the restart has been stepped yet */
-            refused_messages_take_again(&core->refused, channel, &core->assembler, now_us,
+            refused_messages_feed_again(&core->refused, channel, &core->assembler, now_us,
                                         &core->taken);
         }
     }
@@ -675,7 +675,7 @@ bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id)
     return false;
 }
 
-int node_core_follow_scans(const struct node_core *core)
+int node_core_scans_to_establish(const struct node_core *core)
 {
     return (int)core->assembler.config.follow_scans;
 }

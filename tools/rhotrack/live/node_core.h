@@ -65,7 +65,7 @@ struct node_core_commands {
 const struct node_core_commands *node_core_command_counts(const struct node_core *core);
 
 /* Messages of --show that its rate limits left out. */
-uint64_t node_core_num_not_shown(const struct node_core *core);
+uint64_t node_core_num_show_left_out(const struct node_core *core);
 
 /*
  * Restores tracks and learned values from a snapshot file; before the first message. If the first
@@ -126,7 +126,7 @@ unsigned node_core_list_sensors(const struct node_core *core,
 bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id);
 
 /* Number of consistent scans after which a sensor is believed (follow_scans). */
-int node_core_follow_scans(const struct node_core *core);
+int node_core_scans_to_establish(const struct node_core *core);
 
 /* Gets the learned wall (reflectors.h) with this index; returns 0 where there is none. */
 int node_core_learned_wall(const struct node_core *core, unsigned place,

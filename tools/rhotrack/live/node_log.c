@@ -216,7 +216,7 @@ static void rotate_file(struct node_log *log, int64_t begin_us)
     int refused;
 
     pthread_mutex_unlock(&log->mutex);
-    refused = node_log_files_put_away(log->path, begin_us, log->limits.files_max);
+    refused = node_log_files_rotate(log->path, begin_us, log->limits.files_max);
     pthread_mutex_lock(&log->mutex);
     log->refusal = refused;
 }
@@ -455,7 +455,7 @@ static void reopen_if_removed_or_due(struct node_log *log, bool is_removed, int 
     }
 }
 
-bool node_log_report_errors(struct node_log *log)
+bool node_log_report_and_retry(struct node_log *log)
 {
     int error, refusal;
     uint64_t left_out, whole;

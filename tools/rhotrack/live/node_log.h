@@ -47,7 +47,7 @@ uint64_t node_log_events_left_out(struct node_log *log);
  * Prints new errors once on standard error, and reopens the file where it was removed or the disk
  * refused events. Returns false while the disk refuses events.
  */
-bool node_log_report_errors(struct node_log *log);
+bool node_log_report_and_retry(struct node_log *log);
 
 /*
  * Writes the rest of the queue until the monotonic time until_us; remaining events count as left

@@ -114,7 +114,7 @@ static int remove_oldest_files(const char *path, unsigned files_max)
     return refused;
 }
 
-int node_log_files_put_away(const char *path, int64_t begin_us, unsigned files_max)
+int node_log_files_rotate(const char *path, int64_t begin_us, unsigned files_max)
 {
     struct stat status;
     char *name;

@@ -12,7 +12,7 @@
 
 #include "base/common.h"
 #include "io/csv/tracks_writer.h"
-#include "live/node_sensors.h"
+#include "live/node_sensor_warnings.h"
 
 #define DEG_PER_RAD 57.29577951308232
 
@@ -115,7 +115,7 @@ struct node_print node_print_start(bool is_on, bool is_live)
     return print;
 }
 
-void node_print_note_step(struct node_print *print, const struct rho_report *report)
+void node_print_step(struct node_print *print, const struct rho_report *report)
 {
     print->is_changed = print->is_on;
     if (print->is_on && !print->is_terminal && make_room_or_count_left_out(print)) {
@@ -167,7 +167,7 @@ static int count_tracks_with_status(const struct rho_report *report, enum rho_tr
 static void print_bad_sensors(const struct node_core *core, FILE *out)
 {
     struct rho_message_sensor sensors[RHO_MAX_SENSORS];
-    const unsigned count = node_sensors_established(core, sensors);
+    const unsigned count = node_sensors_list_established(core, sensors);
 
     for (unsigned i = 0; i < count; i++) {
         if (sensors[i].is_doubted) {
@@ -242,8 +242,8 @@ static void print_track_table(const struct node_core *core, const char *url, FIL
     fputs("\033[J\033[?7h", out); /* erase the rest of the screen, and wrap long lines again */
 }
 
-bool node_print_show(struct node_print *print, const struct node_core *core, const char *url,
-                     bool is_end)
+bool node_print_refresh(struct node_print *print, const struct node_core *core, const char *url,
+                        bool is_end)
 {
     int64_t now_us = clock_us();
 

@@ -87,8 +87,8 @@ static void collect_step_tallies(const struct node_core *core,
     memcpy(tallies, all, sizeof all);
 }
 
-void node_tally_all(const struct node_core *core, const struct transport *transport,
-                    struct node_tally tallies[NODE_TALLIES])
+void node_tally_collect(const struct node_core *core, const struct transport *transport,
+                        struct node_tally tallies[NODE_TALLIES])
 {
     collect_message_tallies(core, transport, tallies);
     collect_step_tallies(core, tallies + MESSAGE_TALLIES);

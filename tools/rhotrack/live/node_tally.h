@@ -29,7 +29,7 @@ struct node_tally {
 };
 
 /* Collects all tallies, always in the same order. */
-void node_tally_all(const struct node_core *core, const struct transport *transport,
-                    struct node_tally tallies[NODE_TALLIES]);
+void node_tally_collect(const struct node_core *core, const struct transport *transport,
+                        struct node_tally tallies[NODE_TALLIES]);
 
 #endif

@@ -14,13 +14,13 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "io/asterix/asterix_records.h"
+#include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_udp.h"
 #include "io/csv/table.h"
 #include "io/log/message_shift.h"
 #include "io/rows/rows_read.h"
 #include "io/rows/rows_scans.h"
-#include "live/publish.h"
+#include "live/publish_common.h"
 
 #define WAIT_S 30.0 /* wait for a radar's place, and for its antenna messages */
 #define POLL_MS 100
@@ -32,7 +32,7 @@ struct forwarding {
     const char *url;
     struct transport *transport;
     struct asterix_scans *scans;
-    struct asterix_heard heard;
+    struct asterix_datagram_counts heard;
     int32_t epoch;
     struct first {
         int32_t sensor_id;
@@ -75,7 +75,7 @@ static void suggest_origin(struct forwarding *forwarding, const struct asterix_p
     struct parameters *parameters = &forwarding->parameters;
 
     if (place->is_given && !parameters_has_origin(parameters)) {
-        asterix_records_suggest_origin(forwarding->url, place, parameters);
+        asterix_plot_rows_suggest_origin(forwarding->url, place, parameters);
     }
 }
 
@@ -85,9 +85,9 @@ static struct table *table_of_scan(const struct forwarding *forwarding,
                                    const struct asterix_scan *scan)
 {
     const struct asterix_columns columns = {.has_place = scan->place.is_given, .has_scan = true};
-    struct table *table = asterix_records_empty_table(forwarding->url, &columns);
+    struct table *table = asterix_plot_rows_empty_table(forwarding->url, &columns);
 
-    asterix_records_add_scan(table, scan);
+    asterix_plot_rows_add_scan(table, scan);
     return table;
 }
 
@@ -99,7 +99,7 @@ static void send_rows_as_messages(struct forwarding *forwarding, struct rows_fil
 
     rows_scans_make(&scans, file, 0);
     while (rows_scans_next_message(&scans, &at, &output)) {
-        message_set_epoch(output.data, output.size, PUBLISH_EPOCH_OF_CSV, forwarding->epoch);
+        message_replace_epoch(output.data, output.size, PUBLISH_EPOCH_OF_CSV, forwarding->epoch);
         publish_send_message(forwarding->transport, output.channel, output.data, output.size);
     }
     rows_scans_free(&scans);
@@ -125,7 +125,7 @@ static void send_scan_unless_early(struct forwarding *forwarding, const struct a
         send_rows_as_messages(forwarding, &file);
     }
     forwarding->rows_skipped += file.rows_skipped;
-    rows_read_end(&file);
+    rows_file_free(&file);
     table_free(table);
 }
 
@@ -180,7 +180,7 @@ static void print_counts(const struct forwarding *forwarding)
 {
     const struct asterix_counts *counts = asterix_scans_counts(forwarding->scans);
 
-    asterix_records_report_left_out(forwarding->url, counts);
+    asterix_plot_rows_report_left_out(forwarding->url, counts);
     print_count_unless_zero(forwarding, forwarding->heard.bad,
                             "datagrams bad, from a place in them on");
     print_count_unless_zero(forwarding, forwarding->heard.others,
@@ -204,7 +204,7 @@ static void date_scans_by_today(struct asterix_scans *scans)
     struct timespec now;
 
     clock_gettime(CLOCK_REALTIME, &now);
-    asterix_scans_start_near(scans, (int64_t)now.tv_sec * ASTERIX_TIME_HZ);
+    asterix_scans_set_reference_time(scans, (int64_t)now.tv_sec * ASTERIX_TIME_HZ);
 }
 
 int publish_asterix(const struct command_line *line)
@@ -224,8 +224,8 @@ int publish_asterix(const struct command_line *line)
     forwarding->parameters = line->parameters;
     forwarding->url = line->arguments[0];
     forwarding->epoch = publish_run_epoch();
-    rules = asterix_records_scan_rules(&line->parameters,
-                                       line->parameters.value[PARAMETER_ASTERIX_HOLD_S], WAIT_S);
+    rules = asterix_plot_rows_scan_rules(&line->parameters,
+                                         line->parameters.value[PARAMETER_ASTERIX_HOLD_S], WAIT_S);
     forwarding->scans = asterix_scans_open(&rules);
     date_scans_by_today(forwarding->scans);
     publish_watch_signals();

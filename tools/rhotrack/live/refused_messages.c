@@ -89,7 +89,7 @@ static void feed_message_again(const struct refused_message *message,
     }
 }
 
-void refused_messages_take_again(struct refused_messages *refused, const char *channel,
+void refused_messages_feed_again(struct refused_messages *refused, const char *channel,
                                  struct rho_scan_assembler *assembler, int64_t now_us,
                                  struct rho_scan_assembler_counters *taken)
 {

@@ -42,7 +42,7 @@ void refused_messages_note(struct refused_messages *refused, const char *channel
  * Feeds the kept messages of a channel to the assembler again, oldest first, after its sensor's
  * restart was confirmed, and drops them. Adds the refusals that are thereby undone to `taken`.
  */
-void refused_messages_take_again(struct refused_messages *refused, const char *channel,
+void refused_messages_feed_again(struct refused_messages *refused, const char *channel,
                                  struct rho_scan_assembler *assembler, int64_t now_us,
                                  struct rho_scan_assembler_counters *taken);
 

@@ -42,7 +42,7 @@ static bool parse_sensor_id(const char *text, int16_t *sensor_id)
     return id >= INT16_MIN && id <= INT16_MAX;
 }
 
-bool senders_read_sensor_id(const char *channel, int16_t *sensor_id)
+bool senders_sensor_id_of_channel(const char *channel, int16_t *sensor_id)
 {
     static const char *const beginnings[] = {RHO_MESSAGE_POLAR_SCAN_CHANNEL,
                                              RHO_MESSAGE_PLOT_SCAN_CHANNEL,
@@ -154,7 +154,7 @@ void senders_note_message(struct senders *senders, const struct transport_messag
         senders->lines = 0;
     }
     to = senders->lines < SENDERS_LINES ? to : NULL;
-    if (senders_read_sensor_id(message->channel, &sensor_id)) {
+    if (senders_sensor_id_of_channel(message->channel, &sensor_id)) {
         note_sensor_message(senders, message, now_us, to);
     } else if (!message->sender.is_own &&
                strcmp(message->channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {

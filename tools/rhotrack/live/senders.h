@@ -41,7 +41,7 @@ struct senders {
 };
 
 /* Parses a sensor's number from its channel's name; false where the channel is not a sensor's. */
-bool senders_read_sensor_id(const char *channel, int16_t *sensor_id);
+bool senders_sensor_id_of_channel(const char *channel, int16_t *sensor_id);
 
 /*
  * Takes note of a message's sender. Prints a line once per pair where a second sender of a sensor

@@ -11,7 +11,7 @@
 #include "maintenance/scan_clutter_density.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/gate.h"
-#include "rhotrack/detail/input.h"
+#include "rhotrack/detail/input_estimation.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/track.h"
 
@@ -89,7 +89,7 @@ struct maintainer *maintainer_new(enum maintainer_gate gate, bool has_input_esti
     return maintainer;
 }
 
-struct maintainer *maintainer_new_beside(const struct maintainer *first)
+struct maintainer *maintainer_new_sharing_pool(const struct maintainer *first)
 {
     struct maintainer *maintainer = must_calloc(1, sizeof *maintainer);
 
@@ -101,7 +101,7 @@ struct maintainer *maintainer_new_beside(const struct maintainer *first)
     maintainer->pd = first->pd;
     maintainer->track.track_id = 1;
     if (first->best) {
-        maintainer->best = maintainer_best_new_beside(first->best);
+        maintainer->best = maintainer_best_new_sharing_pool(first->best);
     }
     return maintainer;
 }
@@ -118,7 +118,7 @@ void maintainer_free(struct maintainer *maintainer)
 size_t maintainer_state_bytes(const struct maintainer *maintainer)
 {
     if (maintainer->best) {
-        return maintainer_best_bytes();
+        return maintainer_best_state_bytes();
     }
     return sizeof maintainer->input +
            (maintainer->gate == MAINTAIN_HOUGH
@@ -142,7 +142,7 @@ static void set_measured_start_velocity(struct rho_kalman *kalman, const struct 
     const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
 
     for (int i = 0; i < AXES; i++) {
-        if (rho_kalman_is_open(kalman, i)) {
+        if (rho_kalman_is_axis_open(kalman, i)) {
             kalman->state[i + 3] = velocity_mps[i];
             kalman->covariance[RHO_AT(i + 3, i + 3)] = plot->sigma_mps * plot->sigma_mps;
         }
@@ -171,7 +171,7 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
     store_sensor(maintainer, sensor);
     maintainer->is_predicted = false;
     rho_kalman_init(&kalman);
-    rho_measurement_open(plot, measures, sensor, &seen);
+    rho_measurement_from_plot(plot, measures, sensor, &seen);
     must_succeed(rho_kalman_update_position(&kalman, &seen, maintainer->config.velocity_variance),
                  "start");
     if (measures & RHO_MEASURES_VELOCITY) {
@@ -183,7 +183,7 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
         return;
     }
     if (maintainer->config.initial_variance > 0.0f) {
-        rho_kalman_set_covariance(&kalman, maintainer->config.initial_variance);
+        rho_kalman_set_equal_variances(&kalman, maintainer->config.initial_variance);
     }
     must_succeed(rho_input_start(&maintainer->input, &maintainer->config, &kalman), "start");
     maintainer->measurements = 0;
@@ -258,20 +258,20 @@ static double squared_distance_to_plot(const struct maintainer *maintainer,
     double distance2 = NAN;
 
     if (predict_to_plot_time(maintainer, plot, &at)) {
-        rho_input_expect(&at, &expected);
+        rho_input_estimate_for_gate(&at, &expected);
         distance2 = plot_distance2(&expected, plot, measures, sensor, dimensions);
     }
     return isfinite(distance2) ? distance2 : INFINITY;
 }
 
-double maintainer_nis(const struct maintainer *maintainer, const struct rho_plot *plot,
-                      uint32_t measures)
+double maintainer_nis_per_dimension(const struct maintainer *maintainer,
+                                    const struct rho_plot *plot, uint32_t measures)
 {
     int dimensions = 1;
     double distance2;
 
     if (maintainer->best) {
-        return maintainer_best_nis(maintainer->best, plot, measures);
+        return maintainer_best_nis_per_dimension(maintainer->best, plot, measures);
     }
     distance2 =
         squared_distance_to_plot(maintainer, plot, measures,
@@ -286,11 +286,11 @@ static int choose_random_plot(const struct rho_scan *scan, struct random *random
     uint64_t left = 0;
 
     for (uint32_t i = 0; i < scan->num_plots; i++) {
-        left += rho_measurement_is_valid(&scan->plots[i], scan->measures) != 0;
+        left += rho_measurement_is_valid_plot(&scan->plots[i], scan->measures) != 0;
     }
     left = left > 0 ? random_below(random, left) + 1 : 0;
     for (uint32_t i = 0; left > 0; i++) {
-        left -= rho_measurement_is_valid(&scan->plots[i], scan->measures) != 0;
+        left -= rho_measurement_is_valid_plot(&scan->plots[i], scan->measures) != 0;
         if (left == 0) {
             return (int)i;
         }
@@ -307,7 +307,7 @@ static int choose_nearest_plot(const struct maintainer *maintainer, const struct
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
         double distance2 =
-            rho_measurement_is_valid(plot, scan->measures)
+            rho_measurement_is_valid_plot(plot, scan->measures)
                 ? squared_distance_to_plot(maintainer, plot, scan->measures, sensor, NULL)
                 : INFINITY;
 
@@ -335,7 +335,7 @@ static int choose_straightest_plot(const struct rho_gate_hough *hough, const str
         const struct rho_plot *plot = &scan->plots[i];
         const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps,
                                           scan->measures & RHO_MEASURES_Z ? plot->vz_mps : 0.0f};
-        float off_mps = rho_measurement_is_valid(plot, scan->measures)
+        float off_mps = rho_measurement_is_valid_plot(plot, scan->measures)
                             ? rho_gate_hough_residual_mps(hough, velocity_mps)
                             : INFINITY;
 
@@ -357,7 +357,7 @@ static int choose_plot(const struct maintainer *maintainer, const struct rho_sca
     }
     if (maintainer->gate == MAINTAIN_HOUGH && maintainer->measurements >= FIRST_ELIMINATION &&
         (scan->measures & RHO_MEASURES_VELOCITY) &&
-        rho_gate_hough_open(&hough, usable_gate_planes(maintainer, scan->measures),
+        rho_gate_hough_init(&hough, usable_gate_planes(maintainer, scan->measures),
                             maintainer->theta_cell_rad, maintainer->before_mps,
                             maintainer->newest_mps) == RHO_OK) {
         return choose_straightest_plot(&hough, scan);
@@ -374,7 +374,7 @@ static bool update_by_velocity(struct rho_input *input, const struct rho_input_c
     float variance = plot->sigma_mps * plot->sigma_mps;
 
     for (int i = 0; i < axes && i < AXES; i++) {
-        if (rho_kalman_is_open(&input->bare, i) &&
+        if (rho_kalman_is_axis_open(&input->bare, i) &&
             rho_input_update(input, config, i + 3, velocity_mps[i], variance) != RHO_OK) {
             return false;
         }
@@ -393,7 +393,7 @@ static bool update_by_plot(const struct maintainer *maintainer, const struct rho
     const struct rho_input_config *config = &maintainer->config;
     struct rho_measurement seen;
 
-    rho_measurement_open(plot, measures, sensor, &seen);
+    rho_measurement_from_plot(plot, measures, sensor, &seen);
     if (!predict_to_plot_time(maintainer, plot, input) ||
         rho_input_update_position(input, config, &seen) != RHO_OK ||
         ((measures & RHO_MEASURES_VELOCITY) &&
@@ -404,7 +404,7 @@ static bool update_by_plot(const struct maintainer *maintainer, const struct rho
              RHO_OK)) {
         return false;
     }
-    rho_input_decide(input, config);
+    rho_input_decide_presence(input, config);
     return true;
 }
 
@@ -442,7 +442,7 @@ static int restart_at_nearest_plot(struct maintainer *maintainer, const struct r
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
         double distance_m =
-            rho_measurement_is_valid(plot, scan->measures)
+            rho_measurement_is_valid_plot(plot, scan->measures)
                 ? hypot((double)plot->x_m - last_m[0], (double)plot->y_m - last_m[1])
                 : INFINITY;
 
@@ -474,7 +474,7 @@ int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan
     maintainer_predicted_place(maintainer, place_m);
     maintainer->is_predicted = false;
     if (isnan(log_density)) {
-        log_density = scan_clutter_density_log(maintainer->density, scan, place_m, pd);
+        log_density = scan_clutter_density_add_scan(maintainer->density, scan, place_m, pd);
     }
     return maintainer_best_update(maintainer->best, scan, sensor, log_density, pd);
 }

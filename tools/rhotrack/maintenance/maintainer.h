@@ -44,7 +44,7 @@ void maintainer_free(struct maintainer *maintainer);
  * most MAINTAINERS_BESIDE maintainers, including the first, can share it; the first is freed last.
  */
 #define MAINTAINERS_BESIDE (RHO_MAX_HYPOTHESES / RHO_HYPOTHESES_OF_TRACK)
-struct maintainer *maintainer_new_beside(const struct maintainer *first);
+struct maintainer *maintainer_new_sharing_pool(const struct maintainer *first);
 
 /* Size of the library's objects that hold the track, in bytes. */
 size_t maintainer_state_bytes(const struct maintainer *maintainer);
@@ -95,8 +95,8 @@ void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_
  * Squared Mahalanobis distance of a plot from the prediction, divided by the number of measured
  * dimensions: its mean is 1 for a consistent filter.
  */
-double maintainer_nis(const struct maintainer *maintainer, const struct rho_plot *plot,
-                      uint32_t measures);
+double maintainer_nis_per_dimension(const struct maintainer *maintainer,
+                                    const struct rho_plot *plot, uint32_t measures);
 
 /*
  * Number of updates that were refused, where the track coasted, and of predictions that were

@@ -37,7 +37,7 @@ struct maintainer_best *maintainer_best_new(const struct parameters *parameters)
     return best;
 }
 
-struct maintainer_best *maintainer_best_new_beside(const struct maintainer_best *first)
+struct maintainer_best *maintainer_best_new_sharing_pool(const struct maintainer_best *first)
 {
     struct maintainer_best *best = must_calloc(1, sizeof *best);
 
@@ -54,7 +54,7 @@ void maintainer_best_free(struct maintainer_best *best)
     free(best);
 }
 
-size_t maintainer_best_bytes(void)
+size_t maintainer_best_state_bytes(void)
 {
     return RHO_HYPOTHESES_OF_TRACK * sizeof(struct rho_hypothesis);
 }
@@ -118,9 +118,9 @@ static void score_plots_of_scan(struct maintainer_best *best, const struct rho_s
         const struct rho_plot *plot = &scan->plots[i];
         struct rho_imm_plot seen;
 
-        if (rho_measurement_is_valid(plot, scan->measures) &&
+        if (rho_measurement_is_valid_plot(plot, scan->measures) &&
             rho_hypotheses_is_in_box(best->pool, best->slot, &reach, plot, scan->measures)) {
-            rho_imm_open_plot(&seen, plot, scan->measures, sensor);
+            rho_imm_prepare_plot(&seen, plot, scan->measures, sensor);
             (void)rho_hypotheses_score_plot(best->pool, best->slot, &seen,
                                             scan->time_us + plot->offset_us, (int16_t)i, log_pd,
                                             &clutter, &gain_nat);
@@ -164,8 +164,8 @@ void maintainer_best_estimate(const struct maintainer_best *best,
     }
 }
 
-double maintainer_best_nis(const struct maintainer_best *best, const struct rho_plot *plot,
-                           uint32_t measures)
+double maintainer_best_nis_per_dimension(const struct maintainer_best *best,
+                                         const struct rho_plot *plot, uint32_t measures)
 {
     int dimensions = 1;
     double distance2 = plot_distance2(&best->now.kalman, plot, measures,

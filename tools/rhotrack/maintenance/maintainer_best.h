@@ -12,9 +12,9 @@ struct maintainer_best;
  * estimate (kalman) at time_us, and log_density is never NAN.
  */
 struct maintainer_best *maintainer_best_new(const struct parameters *parameters);
-struct maintainer_best *maintainer_best_new_beside(const struct maintainer_best *first);
+struct maintainer_best *maintainer_best_new_sharing_pool(const struct maintainer_best *first);
 void maintainer_best_free(struct maintainer_best *best);
-size_t maintainer_best_bytes(void);
+size_t maintainer_best_state_bytes(void);
 void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_t scan_us,
                            const struct rho_kalman *kalman, const struct rho_sensor *sensor);
 /*
@@ -27,8 +27,8 @@ int maintainer_best_update(struct maintainer_best *best, const struct rho_scan *
                            const struct rho_sensor *sensor, double log_density, double pd);
 void maintainer_best_estimate(const struct maintainer_best *best,
                               struct maintainer_estimate *estimate);
-double maintainer_best_nis(const struct maintainer_best *best, const struct rho_plot *plot,
-                           uint32_t measures);
+double maintainer_best_nis_per_dimension(const struct maintainer_best *best,
+                                         const struct rho_plot *plot, uint32_t measures);
 unsigned long maintainer_best_num_refused(const struct maintainer_best *best);
 
 #endif

@@ -60,12 +60,12 @@ static void add_range_rate_innovation(struct innovation *innovation, const struc
     float row[RHO_KALMAN_STATES], rate_mps;
     int i = innovation->num;
 
-    if (!rho_measurement_range_rate(at->state, sensor, axes == 3, row, &rate_mps)) {
+    if (!rho_measurement_predict_range_rate(at->state, sensor, axes == 3, row, &rate_mps)) {
         return;
     }
     innovation->num++;
     innovation->off[i] =
-        (double)rho_measurement_range_rate_error_mps(sensor, plot->range_rate_mps, rate_mps);
+        (double)rho_measurement_range_rate_innovation_mps(sensor, plot->range_rate_mps, rate_mps);
     innovation->noise[i][i] =
         (double)plot->sigma_range_rate_mps * (double)plot->sigma_range_rate_mps;
     for (int k = 0; k < RHO_KALMAN_STATES; k++) {
@@ -122,8 +122,8 @@ double plot_distance2(const struct rho_kalman *predicted, const struct rho_plot 
     struct rho_measurement seen;
     int axes;
 
-    rho_measurement_open(plot, measures, sensor, &seen);
-    axes = seen.has_z && rho_kalman_is_open(predicted, 2) ? 3 : 2;
+    rho_measurement_from_plot(plot, measures, sensor, &seen);
+    axes = seen.has_z && rho_kalman_is_axis_open(predicted, 2) ? 3 : 2;
     add_place_innovation(&innovation, predicted, &seen, axes);
     if (measures & RHO_MEASURES_VELOCITY) {
         add_velocity_innovation(&innovation, predicted, plot, axes);

@@ -216,8 +216,9 @@ static double log_clutter_volume(const struct spread *spread, int axes)
     return log_ball + 0.5 * log(determinant(covariance, axes));
 }
 
-double scan_clutter_density_log(struct scan_clutter_density *density, const struct rho_scan *scan,
-                                const double place_m[3], double pd)
+double scan_clutter_density_add_scan(struct scan_clutter_density *density,
+                                     const struct rho_scan *scan, const double place_m[3],
+                                     double pd)
 {
     struct sensor_statistics *seen = find_or_add_sensor(density, scan->sensor_id);
     size_t left_out = find_nearest_plot(scan, place_m);

@@ -84,20 +84,20 @@ struct map map_start(const struct picture *picture, struct map_box box)
 
 /* ---- points ---- */
 
-void map_put_point(const struct map *map, const struct plot_point *point, int64_t zero_us)
+void map_write_point(const struct map *map, const struct plot_point *point, int64_t zero_us)
 {
     fprintf(map->script, "%.6g %.6g %.6g %d\n", point->x_m / map->unit_m, point->y_m / map->unit_m,
             (double)(point->time_us - zero_us) * 1e-6, point->id);
 }
 
-void map_put_points(const struct map *map, const char *name, const struct plot_points *points)
+void map_write_points(const struct map *map, const char *name, const struct plot_points *points)
 {
     fprintf(map->script, "$%s << EOD\n", name);
     for (size_t i = 0; i < points->count; i++) {
         if (i > 0 && points->list[i].id != points->list[i - 1].id) {
             fprintf(map->script, "\n\n");
         }
-        map_put_point(map, &points->list[i], 0);
+        map_write_point(map, &points->list[i], 0);
     }
     fprintf(map->script, "EOD\n");
 }
@@ -111,7 +111,7 @@ size_t map_num_plots_drawn(size_t count)
  * Samples one plot of each of MAP_PLOTS_MAX equal parts of the list, at a pseudo-random place
  * within the part, so that samples do not follow the period of the scans.
  */
-size_t map_plot_index(size_t k, size_t count)
+size_t map_sampled_plot_index(size_t k, size_t count)
 {
     if (count <= MAP_PLOTS_MAX) {
         return k;
@@ -120,11 +120,11 @@ size_t map_plot_index(size_t k, size_t count)
     return (size_t)(((double)k + within) * (double)count / MAP_PLOTS_MAX);
 }
 
-void map_put_plots(const struct map *map, const struct plot_points *plots, int64_t zero_us)
+void map_write_plots(const struct map *map, const struct plot_points *plots, int64_t zero_us)
 {
     fprintf(map->script, "$plots << EOD\n");
     for (size_t k = 0; k < map_num_plots_drawn(plots->count); k++) {
-        map_put_point(map, &plots->list[map_plot_index(k, plots->count)], zero_us);
+        map_write_point(map, &plots->list[map_sampled_plot_index(k, plots->count)], zero_us);
     }
     fprintf(map->script, "EOD\n");
 }
@@ -160,7 +160,7 @@ size_t map_marker_interval(const struct map *map, const struct plot_points *path
 
 /* ---- radars ---- */
 
-double map_round_to_1_2_5(double value)
+double map_round_down_to_1_2_5(double value)
 {
     const double decade = pow(10.0, floor(log10(fmax(value, 1e-9))));
     return value >= 5.0 * decade ? 5.0 * decade : value >= 2.0 * decade ? 2.0 * decade : decade;
@@ -214,7 +214,7 @@ static void label_range_ring(const struct map *map, const struct plot_radar *rad
 static double ring_spacing_m(const struct map *map, const struct plot_radar *radar, int *count)
 {
     const double farthest_m = fmax(largest_ring_radius_m(map, radar), 1.0);
-    const double step_m = map_round_to_1_2_5(farthest_m / RINGS);
+    const double step_m = map_round_down_to_1_2_5(farthest_m / RINGS);
     *count = (int)floor(farthest_m / step_m + 1e-9);
     return step_m;
 }
@@ -260,7 +260,7 @@ static void put_coverage_outline(const struct map *map, const struct plot_radar 
     fputc('\n', map->script);
 }
 
-void map_put_radars(const struct map *map, const struct plot_radar *radars, size_t count)
+void map_write_radars(const struct map *map, const struct plot_radar *radars, size_t count)
 {
     fprintf(map->script, "$rings << EOD\n");
     for (size_t i = 0; i < count && count <= RADARS_RINGED; i++) {

@@ -44,20 +44,20 @@ struct map {
 struct map map_start(const struct picture *picture, struct map_box box);
 
 /* Writes a row of a gnuplot data block: x, y, seconds since zero_us, identity. */
-void map_put_point(const struct map *map, const struct plot_point *point, int64_t zero_us);
+void map_write_point(const struct map *map, const struct plot_point *point, int64_t zero_us);
 
 /* Writes the points as a data block $name; two blank lines separate identities. */
-void map_put_points(const struct map *map, const char *name, const struct plot_points *points);
+void map_write_points(const struct map *map, const char *name, const struct plot_points *points);
 
 /*
  * Number of plots drawn of `count`, and index of the k-th drawn one: evenly spread, but not in step
  * with the scans.
  */
 size_t map_num_plots_drawn(size_t count);
-size_t map_plot_index(size_t k, size_t count);
+size_t map_sampled_plot_index(size_t k, size_t count);
 
 /* Writes the drawn plots as the data block $plots. */
-void map_put_plots(const struct map *map, const struct plot_points *plots, int64_t zero_us);
+void map_write_plots(const struct map *map, const struct plot_points *plots, int64_t zero_us);
 
 /*
  * Writes the clause of gnuplot's command plot that draws $plots beneath other data; the legend says
@@ -66,17 +66,17 @@ void map_put_plots(const struct map *map, const struct plot_points *plots, int64
 void map_draw_plots(const struct map *map, const struct plot_points *plots);
 
 /*
- * map_put_radars writes data blocks and labels, before the command plot: range rings (for at most
+ * map_write_radars writes data blocks and labels, before the command plot: range rings (for at most
  * three radars: more would hide the rest) and coverage where it is known. map_draw_radars writes
  * the clauses of the command plot that draw them.
  */
-void map_put_radars(const struct map *map, const struct plot_radar *radars, size_t count);
+void map_write_radars(const struct map *map, const struct plot_radar *radars, size_t count);
 void map_draw_radars(const struct map *map, const struct plot_radar *radars, size_t count);
 
 /* Interval in points between markers of a path, so that neighbouring markers can be told apart. */
 size_t map_marker_interval(const struct map *map, const struct plot_points *path);
 
 /* Rounds down to 1, 2 or 5 times a power of ten. */
-double map_round_to_1_2_5(double value);
+double map_round_down_to_1_2_5(double value);
 
 #endif

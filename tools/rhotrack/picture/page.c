@@ -369,7 +369,7 @@ bool page_path_is_html(const char *path)
 void page_write(const char *path, const struct plot_data *data, const struct parameters *parameters)
 {
     struct output output = output_open(path);
-    const int64_t zero_us = plot_data_first_shown_us(data);
+    const int64_t zero_us = plot_data_time_origin_us(data);
     FILE *file = output.file;
     fprintf(file,
             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"

@@ -55,7 +55,7 @@ static void put_sensors(const struct map *map, const struct plot_rays *rays)
 {
     fprintf(map->script, "$sensors << EOD\n");
     for (size_t i = 0; i < rays->num_sensors; i++) {
-        map_put_point(map, &rays->sensors[i], 0);
+        map_write_point(map, &rays->sensors[i], 0);
     }
     fprintf(map->script, "EOD\n");
 }
@@ -85,7 +85,7 @@ static int ray_alpha(const struct plot_rays *rays)
     return (int)(90.0 + 130.0 * fmin(1.0, sqrt((double)rays->count / RAYS_CROWDED)));
 }
 
-void plot_bearings_draw(const struct map *map, const struct plot_rays *rays)
+void plot_bearings_draw_rays(const struct map *map, const struct plot_rays *rays)
 {
     for (size_t i = 0; i < rays->num_sensors; i++) {
         fprintf(map->script, ", \\\n $rays%zu using 1:2 with lines lw 0.6 lc rgb '#%02x%s' notitle",
@@ -109,7 +109,7 @@ void plot_bearings_draw_sensors(const struct map *map, const struct plot_rays *r
                          "boxed offset 1.2,-0.9 tc rgb '#000000' notitle");
 }
 
-void plot_bearings_put_data(const struct map *map, const struct plot_rays *rays)
+void plot_bearings_write_data(const struct map *map, const struct plot_rays *rays)
 {
     for (size_t i = 0; i < rays->num_sensors; i++) {
         put_rays_of_sensor(map, rays, i);
@@ -124,12 +124,12 @@ void plot_bearings(struct picture *picture, const struct plot_data *data)
     const struct plot_rays *rays = &data->bearings;
     const struct map map = map_start(picture, map_box_of_data(data));
     picture_set_title(picture, "%zu bearings of %zu sensors", rays->count, rays->num_sensors);
-    plot_bearings_put_data(&map, rays);
-    map_put_plots(&map, &data->plots, 0);
-    map_put_points(&map, "truth", &data->truth);
+    plot_bearings_write_data(&map, rays);
+    map_write_plots(&map, &data->plots, 0);
+    map_write_points(&map, "truth", &data->truth);
     put_path_arrows(&map, &data->truth);
     fprintf(map.script, "plot NaN notitle");
-    plot_bearings_draw(&map, rays);
+    plot_bearings_draw_rays(&map, rays);
     map_draw_plots(&map, &data->plots);
     if (data->truth.count) {
         fprintf(map.script, ", \\\n $truth using 1:2 with lines lw 1.5 lc rgb '#000000' title "

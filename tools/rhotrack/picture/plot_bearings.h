@@ -20,8 +20,8 @@ void plot_bearings(struct picture *picture, const struct plot_data *data);
  * Rays and sensors for another map: first the data blocks, then the clauses of the command plot
  * that draw them.
  */
-void plot_bearings_put_data(const struct map *map, const struct plot_rays *rays);
-void plot_bearings_draw(const struct map *map, const struct plot_rays *rays);
+void plot_bearings_write_data(const struct map *map, const struct plot_rays *rays);
+void plot_bearings_draw_rays(const struct map *map, const struct plot_rays *rays);
 void plot_bearings_draw_sensors(const struct map *map, const struct plot_rays *rays);
 
 #endif

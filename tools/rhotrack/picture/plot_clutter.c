@@ -37,7 +37,7 @@ static struct plot_radar *list_echo_sensors(const struct clutter_echo *echoes, s
         if (!find_sensor_by_id(sensors, *num_sensors, echoes[i].sensor_id)) {
             struct rho_sensor described;
 
-            parameters_to_any_sensor(parameters, echoes[i].sensor_id, &described);
+            parameters_to_sensor_or_defaults(parameters, echoes[i].sensor_id, &described);
             sensors = must_grow(sensors, *num_sensors, &capacity, sizeof *sensors);
             sensors[(*num_sensors)++] = (struct plot_radar){.sensor_id = echoes[i].sensor_id,
                                                             .x_m = (double)described.x_m,
@@ -111,8 +111,8 @@ void plot_clutter(struct picture *picture, const struct clutter_echo *echoes, si
     for (size_t i = 0; i < num_sensors; i++) {
         put_echoes_of_sensor(&map, echoes, count, sensors[i].sensor_id, i);
     }
-    map_put_radars(&map, sensors, num_sensors);
-    map_put_plots(&map, &data->plots, 0);
+    map_write_radars(&map, sensors, num_sensors);
+    map_write_plots(&map, &data->plots, 0);
     fprintf(map.script, "unset grid\nplot NaN notitle");
     map_draw_radars(&map, sensors, num_sensors);
     map_draw_plots(&map, &data->plots);

@@ -11,7 +11,7 @@
 #include "io/log/lcm_log.h"
 #include "io/log/log_scans.h"
 #include "io/log/log_table.h"
-#include "io/rows/path_row.h"
+#include "io/rows/trajectory_row.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "rhotrack/message.h"
 
@@ -85,12 +85,12 @@ static double nan_to_0(double number)
 static void add_truth_or_tracks(struct plot_points *points, const struct table *table,
                                 const struct parameters *parameters)
 {
-    struct path_columns columns = path_columns_find(table, parameters);
+    struct trajectory_columns columns = trajectory_columns_find(table, parameters);
     for (size_t row = 0; row < table->num_rows; row++) {
-        if (!path_row_has_place(&columns, row)) {
+        if (!trajectory_row_has_place(&columns, row)) {
             continue;
         }
-        const struct path_row path = path_row_read(&columns, row);
+        const struct trajectory_row path = trajectory_row_read(&columns, row);
         if (path.status != RHO_MESSAGE_TRACK_DELETED) {
             points->list[points->count++] =
                 (struct plot_point){.time_us = path.time_us,
@@ -104,7 +104,7 @@ static void add_truth_or_tracks(struct plot_points *points, const struct table *
                                     .row = row};
         }
     }
-    path_columns_end(&columns);
+    trajectory_columns_free(&columns);
 }
 
 static void add_points_of_table(struct plot_data *data, struct plot_points *points,
@@ -335,7 +335,7 @@ static int64_t earliest_time_us(const struct plot_points *points, int64_t otherw
     return otherwise_us;
 }
 
-int64_t plot_data_first_shown_us(const struct plot_data *data)
+int64_t plot_data_time_origin_us(const struct plot_data *data)
 {
     int64_t zero_us = earliest_time_us(&data->truth, INT64_MAX);
     zero_us = earliest_time_us(&data->plots, earliest_time_us(&data->tracks, zero_us));
@@ -348,7 +348,7 @@ int64_t plot_data_first_shown_us(const struct plot_data *data)
 
 void plot_data_time_label(const struct plot_data *data, char *text, size_t size)
 {
-    const int64_t zero_us = plot_data_first_shown_us(data);
+    const int64_t zero_us = plot_data_time_origin_us(data);
     if (zero_us == 0) {
         snprintf(text, size, "time (s)");
     } else {

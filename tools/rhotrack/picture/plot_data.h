@@ -89,7 +89,7 @@ size_t plot_data_count_identities(const struct plot_points *points);
  * Time that pictures show as 0: the earliest time where it is a clock's (1000 s or more), else 0;
  * and the label of a time axis, "time (s)" or "time (s), from T on".
  */
-int64_t plot_data_first_shown_us(const struct plot_data *data);
+int64_t plot_data_time_origin_us(const struct plot_data *data);
 void plot_data_time_label(const struct plot_data *data, char *text, size_t size);
 
 /*

@@ -191,7 +191,7 @@ void plot_errors_free(struct plot_errors *errors)
 
 static void put_errors(FILE *script, const struct plot_data *data, const struct plot_errors *errors)
 {
-    const int64_t zero_us = plot_data_first_shown_us(data);
+    const int64_t zero_us = plot_data_time_origin_us(data);
     fprintf(script, "$errors << EOD\n");
     for (size_t i = 0; i < data->truth.count; i++) {
         const struct plot_point *target = &data->truth.list[i];

@@ -82,8 +82,8 @@ void plot_scans(struct picture *picture, const struct plot_data *data)
     plot_data_time_label(data, time, sizeof time);
     picture_set_title(picture, "%s%s", format_plot_count(data, plots),
                       format_time_span(data, times));
-    map_put_plots(&map, &data->plots, plot_data_first_shown_us(data));
-    map_put_radars(&map, data->radars, data->num_radars);
+    map_write_plots(&map, &data->plots, plot_data_time_origin_us(data));
+    map_write_radars(&map, data->radars, data->num_radars);
     fprintf(map.script,
             "set cblabel '%s'\nset palette defined (0 '#00204d', 0.5 '#7c7b78', 1 '#ffd940')\n"
             "plot NaN notitle",
@@ -115,8 +115,8 @@ static void put_start_lines(const struct map *map, const struct plot_data *data)
                 : 0.0;
         origin.x_m -= back_s * start->vx_mps;
         origin.y_m -= back_s * start->vy_mps;
-        map_put_point(map, &origin, 0);
-        map_put_point(map, start, 0);
+        map_write_point(map, &origin, 0);
+        map_write_point(map, start, 0);
         fprintf(map->script, "\n\n");
     }
     fprintf(map->script, "EOD\n");
@@ -162,8 +162,9 @@ static double arrow_time_s(const struct map *map, const struct plot_points *trac
         const struct plot_point *end = &one.list[one.count - 1];
         fastest_mps = fmax(fastest_mps, hypot(end->vx_mps, end->vy_mps));
     }
-    return fastest_mps > 0.0 ? map_round_to_1_2_5(ARROW_PIXELS / map->pixels_per_m / fastest_mps)
-                             : 0.0;
+    return fastest_mps > 0.0
+               ? map_round_down_to_1_2_5(ARROW_PIXELS / map->pixels_per_m / fastest_mps)
+               : 0.0;
 }
 
 static void put_arrows_and_ellipses(const struct map *map, const struct plot_points *tracks)
@@ -252,20 +253,20 @@ void plot_tracks(struct picture *picture, const struct plot_data *data)
     const struct map map = start_map_of_all_data(picture, data);
     const bool has_bearings = data->bearings.num_sensors > 0;
     set_tracks_title(picture, &map, data);
-    map_put_plots(&map, &data->plots, 0);
-    map_put_points(&map, "truth", &data->truth);
-    map_put_points(&map, "tracks", &data->tracks);
-    map_put_radars(&map, data->radars, data->num_radars);
+    map_write_plots(&map, &data->plots, 0);
+    map_write_points(&map, "truth", &data->truth);
+    map_write_points(&map, "tracks", &data->tracks);
+    map_write_radars(&map, data->radars, data->num_radars);
     put_start_lines(&map, data);
     put_track_labels(&map, &data->tracks);
     put_arrows_and_ellipses(&map, &data->tracks);
     if (has_bearings) {
-        plot_bearings_put_data(&map, &data->bearings);
+        plot_bearings_write_data(&map, &data->bearings);
     }
     fprintf(map.script, "plot NaN notitle");
     map_draw_radars(&map, data->radars, data->num_radars);
     if (has_bearings) {
-        plot_bearings_draw(&map, &data->bearings);
+        plot_bearings_draw_rays(&map, &data->bearings);
         plot_bearings_draw_sensors(&map, &data->bearings);
     }
     map_draw_plots(&map, &data->plots);

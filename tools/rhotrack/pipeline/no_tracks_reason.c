@@ -32,8 +32,8 @@ static double scans_needed_for_start(const struct parameters *parameters)
     return min_scans > 0 ? min_scans : 3;
 }
 
-void no_tracks_reason_say(const struct no_tracks *seen, const struct rho_tracker *tracker,
-                          const struct parameters *parameters, FILE *file)
+void no_tracks_reason_print(const struct no_tracks *seen, const struct rho_tracker *tracker,
+                            const struct parameters *parameters, FILE *file)
 {
     const struct rho_tracker_counters *counters = &tracker->counters;
     const double *value = parameters->value;

@@ -23,7 +23,7 @@ struct no_tracks {
 void no_tracks_reason_add_scan(struct no_tracks *seen, const struct rho_scan *scan);
 
 /* Prints one line with the most likely reason, its figure, and the setting that would help. */
-void no_tracks_reason_say(const struct no_tracks *seen, const struct rho_tracker *tracker,
-                          const struct parameters *parameters, FILE *file);
+void no_tracks_reason_print(const struct no_tracks *seen, const struct rho_tracker *tracker,
+                            const struct parameters *parameters, FILE *file);
 
 #endif

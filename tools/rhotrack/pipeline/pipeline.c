@@ -16,7 +16,7 @@ static void allocate_initiator(struct pipeline *pipeline)
         must_alloc(sizeof(struct rho_initiator));
 }
 
-struct pipeline pipeline_start(void)
+struct pipeline pipeline_allocate(void)
 {
     struct pipeline pipeline = {.tracker = must_alloc(sizeof(struct rho_tracker)),
                                 .report = must_alloc(sizeof(struct rho_report)),
@@ -55,7 +55,8 @@ static void suggest_paper_methods(struct parameters *parameters, const char *nam
     parameters_suggest(parameters, PARAMETER_INPUT_ESTIMATION, 1);
 }
 
-void pipeline_set_options(struct parameters *parameters, const struct pipeline_options *options)
+void pipeline_options_to_parameters(struct parameters *parameters,
+                                    const struct pipeline_options *options)
 {
     if (options->pipeline) {
         suggest_paper_methods(parameters, options->pipeline);
@@ -106,7 +107,7 @@ static void copy_held_scan_to_initiator(struct rho_initiator *initiator,
     uint32_t left_unused = 0;
 
     for (unsigned i = 0; i < held->num_plots; i++) {
-        plots[i] = rho_window_plot_of(held, i);
+        plots[i] = rho_window_unpack_plot(held, i);
         fates[i] = held->marks[i] & RHO_WINDOW_INITIATED ? RHO_FATE_CLAIMED : RHO_FATE_HELD;
     }
     const struct rho_scan scan = {.time_us = held->time_us,
@@ -145,7 +146,7 @@ static void copy_scans_from_shared_windows(struct pipeline *pipeline,
 /*
  * Finds or adds the initiator of a window. The first initiator exists before its sensor is known.
  */
-struct rho_initiator *pipeline_initiator_of_window(struct pipeline *pipeline, int32_t sensor_id)
+struct rho_initiator *pipeline_find_or_add_initiator(struct pipeline *pipeline, int32_t sensor_id)
 {
     struct pipeline_initiator *of = NULL;
 
@@ -170,8 +171,9 @@ struct rho_initiator *pipeline_initiator_of_window(struct pipeline *pipeline, in
 struct rho_initiator *pipeline_initiator_of_scan(struct pipeline *pipeline,
                                                  const struct rho_scan *scan)
 {
-    return pipeline_initiator_of_window(
-        pipeline, pipeline->has_pairs ? pipeline_window_of(pipeline, scan) : scan->sensor_id);
+    return pipeline_find_or_add_initiator(pipeline, pipeline->has_pairs
+                                                        ? pipeline_window_sensor_id(pipeline, scan)
+                                                        : scan->sensor_id);
 }
 
 /* Opens track starts by the papers' Hough methods, with cells for plots within range_max_m. */
@@ -331,7 +333,7 @@ void pipeline_learn_walls(struct pipeline *pipeline, const struct rho_scan *scan
     }
 }
 
-void pipeline_count_zones(struct pipeline *pipeline)
+void pipeline_update_zones(struct pipeline *pipeline)
 {
     if (pipeline->zones) {
         must_succeed(rho_zones_step(pipeline->zones, pipeline->report), "zones");
@@ -346,7 +348,7 @@ void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan)
     must_succeed(rho_tracker_step(pipeline->tracker, initiator, scan, pipeline->report), "step");
     pipeline_start_paper_tracks(pipeline, scan, NULL);
     pipeline_learn_walls(pipeline, scan);
-    pipeline_count_zones(pipeline);
+    pipeline_update_zones(pipeline);
 }
 
 void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame)
@@ -356,5 +358,5 @@ void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *fram
     must_succeed(rho_tracker_step_frame(pipeline->tracker, passive, frame, pipeline->report),
                  "step");
     pipeline_start_paper_tracks(pipeline, NULL, frame);
-    pipeline_count_zones(pipeline);
+    pipeline_update_zones(pipeline);
 }

@@ -14,7 +14,7 @@
 /* Values of the parameter initiators: which sensors share an initiation window. */
 enum { INITIATORS_PAIRS, INITIATORS_SENSOR, INITIATORS_ONE };
 
-/* The initiator of one window, named by a sensor (pipeline_window_of). */
+/* The initiator of one window, named by a sensor (pipeline_window_sensor_id). */
 struct pipeline_initiator {
     int32_t sensor_id;
     struct rho_initiator *initiator;
@@ -47,7 +47,7 @@ struct pipeline {
     struct rho_plot *plots; /* RHO_MAX_PLOTS, memory for the caller's scans */
 };
 
-struct pipeline pipeline_start(void);
+struct pipeline pipeline_allocate(void);
 void pipeline_free(struct pipeline *pipeline);
 
 /* Options that choose methods; each may be NULL. */
@@ -60,7 +60,8 @@ struct pipeline_options {
  * Sets the parameters gate, method and bearings_method from options, and suggests the methods'
  * customary values. Exit 2 for a gate that the tracker lacks.
  */
-void pipeline_set_options(struct parameters *parameters, const struct pipeline_options *options);
+void pipeline_options_to_parameters(struct parameters *parameters,
+                                    const struct pipeline_options *options);
 
 /* Initialises all objects for a first scan; tracks of an earlier run are dropped. */
 void pipeline_open(struct pipeline *pipeline, const struct parameters *parameters);
@@ -69,13 +70,13 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
 void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *parameters);
 
 /* The initiator of a window, added where it is new; it becomes pipeline->initiator. */
-struct rho_initiator *pipeline_initiator_of_window(struct pipeline *pipeline, int32_t sensor_id);
+struct rho_initiator *pipeline_find_or_add_initiator(struct pipeline *pipeline, int32_t sensor_id);
 
 /*
  * The sensor that names the window of a scan: the scan's own sensor, or a sensor described before
  * it that shares its window.
  */
-int32_t pipeline_window_of(const struct pipeline *pipeline, const struct rho_scan *scan);
+int32_t pipeline_window_sensor_id(const struct pipeline *pipeline, const struct rho_scan *scan);
 
 /* The initiator for a scan's plots; call after the sensor was described, before the scan's step. */
 struct rho_initiator *pipeline_initiator_of_scan(struct pipeline *pipeline,
@@ -101,7 +102,7 @@ void pipeline_reconfigure(struct pipeline *pipeline, const struct parameters *pa
 void pipeline_learn_walls(struct pipeline *pipeline, const struct rho_scan *scan);
 
 /* Updates the zones' counts by the tracks, after a step and its track starts. */
-void pipeline_count_zones(struct pipeline *pipeline);
+void pipeline_update_zones(struct pipeline *pipeline);
 
 /* Steps a scan, or a frame of bearings, completely; the result is in pipeline->report. */
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan);

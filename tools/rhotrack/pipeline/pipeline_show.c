@@ -104,7 +104,7 @@ void pipeline_show_step(struct pipeline_show *show, struct pipeline *pipeline, b
     }
 }
 
-uint64_t pipeline_show_not_sent(const struct pipeline_show *show)
+uint64_t pipeline_show_num_not_sent(const struct pipeline_show *show)
 {
     uint64_t not_sent = 0;
 

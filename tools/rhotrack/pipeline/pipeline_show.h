@@ -35,7 +35,7 @@ void pipeline_show_step(struct pipeline_show *show, struct pipeline *pipeline, b
                         const struct pipeline_show_output *output);
 
 /* Number of messages so far that the rate limits left out. */
-uint64_t pipeline_show_not_sent(const struct pipeline_show *show);
+uint64_t pipeline_show_num_not_sent(const struct pipeline_show *show);
 
 void pipeline_show_close(struct pipeline_show *show);
 

@@ -186,7 +186,7 @@ static bool add_initiators_of_snapshot(struct pipeline *pipeline,
 
     for (unsigned i = 1; i + others <= num_parts && has_sensors && !pipeline->has_one_initiator;
          i++) {
-        (void)pipeline_initiator_of_window(pipeline, parts[i].id);
+        (void)pipeline_find_or_add_initiator(pipeline, parts[i].id);
     }
     return num_parts == pipeline->num_initiators + others &&
            parts[0].id == initiator_sharing(pipeline);
@@ -218,7 +218,7 @@ static enum rho_status load_and_compare_parameters(struct pipeline *pipeline,
         return status;
     }
     *is_other = !is_same_memory(&pipeline->told, &told, sizeof told) ||
-                !parameters_take_settings(parameters, &pipeline->settings);
+                !parameters_adopt_settings(parameters, &pipeline->settings);
     parameters_to_tracker(parameters, &maintain);
     parameters_to_initiator(parameters, &pipeline->start);
     *is_other |= !is_same_memory(&pipeline->tracker->config, &maintain, sizeof maintain) ||
@@ -246,7 +246,7 @@ static enum pipeline_restored replace_pipeline_by_snapshot(struct pipeline *pipe
     }
     struct rho_snapshot_part *parts = must_calloc(num_parts + 1, sizeof *parts);
     (void)!rho_snapshot_list(image, size, parts, num_parts, &num_parts);
-    fresh = pipeline_start();
+    fresh = pipeline_allocate();
     fresh.is_live = pipeline->is_live;
     memset(fresh.report, 0, sizeof *fresh.report);
     pipeline_open(&fresh, parameters);

@@ -265,7 +265,7 @@ static struct turns group_scans_into_turns(const struct register_data *data,
                           .plots = must_calloc(radar->num_scans + 1, sizeof(double))};
 
     for (size_t first = 0, end; first < radar->num_scans; first = end) {
-        end = register_turn_end(radar, first);
+        end = register_find_turn_end(radar, first);
         for (size_t i = first; i < end; i++) {
             turns.plots[turns.count] += (double)radar->scans[i].count;
         }
@@ -478,7 +478,7 @@ static void find_innovations_of_stated_noise(struct register_data *data, size_t 
         radar->plots[i].sigma_range_m = stated[2 * i];
         radar->plots[i].sigma_cross_m = stated[2 * i + 1];
     }
-    sum = calibrate_sum_innovations(data, number, out->is_round, &out->num_innovations);
+    sum = calibrate_sum_squared_innovations(data, number, out->is_round, &out->num_innovations);
     out->innovations = out->num_innovations ? sum / CUT_MEAN / (double)out->num_innovations : NAN;
 }
 
@@ -530,7 +530,7 @@ struct calibrate_result calibrate(struct register_data *data, struct pipeline *p
     return result;
 }
 
-void calibrate_free(struct calibrate_result *result)
+void calibrate_result_free(struct calibrate_result *result)
 {
     free(result->radars);
 }

@@ -39,7 +39,7 @@ static bool has_radar_figure(const struct calibrate_radar *of, int kind)
     return !(of->is_round && kind == CALIBRATE_AZIMUTH);
 }
 
-bool calibrate_knows_any_figure(const struct calibrate_result *result)
+bool calibrate_knows_noise_or_pd(const struct calibrate_result *result)
 {
     for (size_t i = 0; i < result->num_radars; i++) {
         const struct calibrate_figure *figures = result->radars[i].figures;
@@ -113,16 +113,16 @@ void calibrate_print_json(const struct calibrate_result *result, uint64_t rows_s
                 of->is_round && kind == CALIBRATE_RANGE ? "sigma_m" : figure_kinds[kind].json;
             cJSON *both = cJSON_AddObjectToObject(radar, name);
 
-            json_add_number(both, "value", figure->is_known ? figure->value : NAN);
-            json_add_number(both, "sigma", figure->is_known ? figure->sigma : NAN);
+            json_add_number_or_null(both, "value", figure->is_known ? figure->value : NAN);
+            json_add_number_or_null(both, "sigma", figure->is_known ? figure->sigma : NAN);
         }
-        json_add_number(radar, "area_km2", of->area_km2);
-        json_add_number(radar, "innovations", of->innovations);
+        json_add_number_or_null(radar, "area_km2", of->area_km2);
+        json_add_number_or_null(radar, "innovations", of->innovations);
         cJSON_AddNumberToObject(radar, "num_innovations", (double)of->num_innovations);
         cJSON_AddItemToArray(radars, radar);
     }
     cJSON_AddNumberToObject(object, "rows_skipped", (double)rows_skipped);
-    json_print(object);
+    json_print_and_delete(object);
 }
 
 /* ---- INI ---- */

@@ -8,7 +8,7 @@
 #include "registration/calibrate.h"
 
 /* Whether the range noise or the pd of any radar is known. */
-bool calibrate_knows_any_figure(const struct calibrate_result *result);
+bool calibrate_knows_noise_or_pd(const struct calibrate_result *result);
 
 /* Prints a table of the known figures, and a line for each unknown one with the reason. */
 void calibrate_print(const struct calibrate_result *result, FILE *out);

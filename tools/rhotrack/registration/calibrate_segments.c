@@ -260,8 +260,8 @@ void calibrate_segments_free(struct calibrate_segments *segments)
     free(segments->residuals);
 }
 
-double calibrate_sum_innovations(const struct register_data *data, size_t radar, bool is_round,
-                                 size_t *count)
+double calibrate_sum_squared_innovations(const struct register_data *data, size_t radar,
+                                         bool is_round, size_t *count)
 {
     double sum = 0.0;
 

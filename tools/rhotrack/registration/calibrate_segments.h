@@ -43,7 +43,7 @@ void calibrate_segments_free(struct calibrate_segments *segments);
  * Sum of the normalised innovations squared, each cut at 4, of the radar's plots against a straight
  * line through the four plots of the track before; *count is their number.
  */
-double calibrate_sum_innovations(const struct register_data *data, size_t radar, bool is_round,
-                                 size_t *count);
+double calibrate_sum_squared_innovations(const struct register_data *data, size_t radar,
+                                         bool is_round, size_t *count);
 
 #endif

@@ -77,8 +77,8 @@ static struct radar_plot radar_plot_from_plot(const struct rho_plot *plot, int64
                                .plot = *plot};
 }
 
-void register_add_any_scan(struct register_data *data, const struct rho_scan *scan,
-                           const struct rho_sensor *sensor)
+void register_add_unchecked_scan(struct register_data *data, const struct rho_scan *scan,
+                                 const struct rho_sensor *sensor)
 {
     struct radar_data *radar = find_or_add_radar(data, sensor);
 
@@ -107,7 +107,7 @@ const char *register_add_scan(struct register_data *data, const struct rho_scan 
     const char *reason = reason_scan_is_unfit(scan, find_or_add_radar(data, sensor), sensor);
 
     if (!reason) {
-        register_add_any_scan(data, scan, sensor);
+        register_add_unchecked_scan(data, scan, sensor);
     }
     return reason;
 }
@@ -223,12 +223,12 @@ struct register_result register_estimate_biases(struct register_data *data,
     register_match_tracks(data, FIRST_GATE_M, 0.0);
     solution = register_solve_biases(data, reference);
     while (rounds < ROUNDS_MAX && register_match_tracks(data, FIRST_GATE_M, solution.misfit)) {
-        solution_free(&solution);
+        bias_solution_free(&solution);
         solution = register_solve_biases(data, reference);
         rounds++;
     }
     result = make_result(data, reference, &solution, rounds);
-    solution_free(&solution);
+    bias_solution_free(&solution);
     return result;
 }
 

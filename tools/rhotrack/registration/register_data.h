@@ -54,8 +54,8 @@ struct register_data {
 };
 
 /* Adds one scan of a radar without checking it: Cartesian plots are taken, too. */
-void register_add_any_scan(struct register_data *data, const struct rho_scan *scan,
-                           const struct rho_sensor *sensor);
+void register_add_unchecked_scan(struct register_data *data, const struct rho_scan *scan,
+                                 const struct rho_sensor *sensor);
 
 /* Time and place of a plot after subtracting the biases estimated so far. */
 struct corrected {
@@ -74,7 +74,7 @@ void register_track_all_radars(struct register_data *data, struct pipeline *pipe
 void register_track_one_radar(struct register_data *data, size_t number, struct pipeline *pipeline);
 
 /* Index one past the last scan of the turn that begins with scan `first`. In register_tracks.c. */
-size_t register_turn_end(const struct radar_data *radar, size_t first);
+size_t register_find_turn_end(const struct radar_data *radar, size_t first);
 
 /*
  * Matches the tracks of different radars to targets with the biases estimated so far, and sets each
@@ -99,6 +99,6 @@ struct solution {
  * bias is kept. In register_solve.c.
  */
 struct solution register_solve_biases(struct register_data *data, size_t reference);
-void solution_free(struct solution *solution);
+void bias_solution_free(struct solution *solution);
 
 #endif

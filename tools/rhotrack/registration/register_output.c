@@ -51,8 +51,8 @@ static void add_bias_row(struct text_table *table, const struct register_result 
         double value = bias->is_known || is_taken ? factor * bias->value : NAN;
         double sigma = bias->is_known && !is_taken ? factor * bias->sigma : NAN;
 
-        cells[2 * kind] = text_table_number(texts[2 * kind], digits[kind], value);
-        cells[2 * kind + 1] = text_table_number(texts[2 * kind + 1], digits[kind], sigma);
+        cells[2 * kind] = text_table_format_number(texts[2 * kind], digits[kind], value);
+        cells[2 * kind + 1] = text_table_format_number(texts[2 * kind + 1], digits[kind], sigma);
     }
     text_table_add_row(table, "%d|%zu|%zu|%zu|%s|%s|%s|%s|%s|%s", (int)of->sensor_id, of->plots,
                        of->tracks, of->common_plots, cells[0], cells[1], cells[2], cells[3],
@@ -123,9 +123,9 @@ static cJSON *radar_biases_json(const struct register_result *result, size_t rad
         const struct register_bias *bias = &of->biases[kind];
         bool is_shown = bias->is_known || is_reference_time(result, radar, kind);
 
-        json_add_number(object, bias_kinds[kind].json, is_shown ? bias->value : NAN);
-        json_add_number(object, bias_kinds[kind].json_sigma,
-                        of->common_plots > 0 ? bias->sigma : NAN);
+        json_add_number_or_null(object, bias_kinds[kind].json, is_shown ? bias->value : NAN);
+        json_add_number_or_null(object, bias_kinds[kind].json_sigma,
+                                of->common_plots > 0 ? bias->sigma : NAN);
     }
     return object;
 }
@@ -146,7 +146,7 @@ void register_print_json(const struct register_result *result, uint64_t rows_ski
     cJSON_AddNumberToObject(object, "misfit", result->misfit);
     cJSON_AddNumberToObject(object, "rounds", (double)result->rounds);
     cJSON_AddNumberToObject(object, "rows_skipped", (double)rows_skipped);
-    json_print(object);
+    json_print_and_delete(object);
 }
 
 /* ---- INI ---- */

@@ -211,8 +211,9 @@ struct solution register_solve_biases(struct register_data *data, size_t referen
     solution.sigma = must_calloc(normal.num + 1, sizeof *solution.sigma);
     summarise_segments(&segments, &solution);
     for (size_t i = 0; i < normal.num; i++) {
-        solution.sigma[i] = solution.misfit * unit[i % NUM_REGISTER_KINDS] *
-                            sqrt(cholesky_inverse_diagonal(normal.matrix, normal.num, i, work));
+        solution.sigma[i] =
+            solution.misfit * unit[i % NUM_REGISTER_KINDS] *
+            sqrt(cholesky_inverse_diagonal_element(normal.matrix, normal.num, i, work));
     }
     solution.sigma[reference * NUM_REGISTER_KINDS + REGISTER_TIME] = 0.0;
     free(work);
@@ -221,7 +222,7 @@ struct solution register_solve_biases(struct register_data *data, size_t referen
     return solution;
 }
 
-void solution_free(struct solution *solution)
+void bias_solution_free(struct solution *solution)
 {
     free(solution->radar_plots);
     free(solution->sigma);

@@ -61,7 +61,7 @@ static struct rho_scan turn_as_scan(const struct radar_data *radar, size_t first
  * make a full circle, when its first sector begins again, or after half of the largest offset of a
  * plot's time from its scan's.
  */
-size_t register_turn_end(const struct radar_data *radar, size_t first)
+size_t register_find_turn_end(const struct radar_data *radar, size_t first)
 {
     const struct radar_scan *scans = radar->scans;
     double turned_rad = sector_width_rad(&scans[first]);
@@ -160,7 +160,7 @@ void register_track_one_radar(struct register_data *data, size_t number, struct 
     pipeline_open(pipeline, data->parameters);
     must_succeed(rho_tracker_set_sensor(pipeline->tracker, &radar->sensor), "sensor");
     for (size_t first = 0; first < radar->num_scans;) {
-        size_t end = register_turn_end(radar, first);
+        size_t end = register_find_turn_end(radar, first);
         struct rho_scan turn = turn_as_scan(radar, first, end, rows, pipeline->plots);
 
         pipeline_step(pipeline, &turn);

@@ -181,7 +181,7 @@ void scene_free(struct scene *scene);
  * Reads the scene of a file, where name contains a slash or ends with .json, or a scene shipped
  * with the program; NULL where there is none of this name.
  */
-struct scene *scene_find(const char *name, const char *const *sets, size_t num_sets);
+struct scene *scene_load_by_name(const char *name, const char *const *sets, size_t num_sets);
 
 /* Name of shipped scene number index; NULL past the last. */
 const char *scene_shipped_name(size_t index);

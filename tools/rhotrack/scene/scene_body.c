@@ -24,8 +24,8 @@ struct scene_body scene_body_read(struct json_object *object)
     return body;
 }
 
-void scene_body_draw(const struct scene_body *body, struct random *random,
-                     double places_m[SCENE_SCATTERERS_MAX][2])
+void scene_body_draw_scatterers(const struct scene_body *body, struct random *random,
+                                double places_m[SCENE_SCATTERERS_MAX][2])
 {
     const double parts = (double)body->scatterers;
 

@@ -27,7 +27,7 @@ struct scene_body scene_body_read(struct json_object *object);
  * Draws random scatterer positions, in metres along and across the body. Length and width are
  * divided into as many parts as there are scatterers, and each part has one at a uniform position.
  */
-void scene_body_draw(const struct scene_body *body, struct random *random,
-                     double places_m[SCENE_SCATTERERS_MAX][2]);
+void scene_body_draw_scatterers(const struct scene_body *body, struct random *random,
+                                double places_m[SCENE_SCATTERERS_MAX][2]);
 
 #endif

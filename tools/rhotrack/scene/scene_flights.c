@@ -108,7 +108,7 @@ static void add_straight_leg(struct sky *sky, double duration_s)
 
 static void add_speed_change_leg(struct sky *sky, double speed_mps)
 {
-    double change_mps = speed_mps - path_speed_mps(&sky->draft, sky->draft.until_s);
+    double change_mps = speed_mps - path_last_leg_speed_mps(&sky->draft, sky->draft.until_s);
     double accel_mps2 = draw_between(sky, ACCEL_MIN_MPS2, ACCEL_MAX_MPS2);
 
     add_leg_up_to_border(sky, fabs(change_mps) / accel_mps2, 0.0,
@@ -117,7 +117,7 @@ static void add_speed_change_leg(struct sky *sky, double speed_mps)
 
 static double draw_turn_rate(struct sky *sky)
 {
-    double speed_mps = path_speed_mps(&sky->draft, sky->draft.until_s);
+    double speed_mps = path_last_leg_speed_mps(&sky->draft, sky->draft.until_s);
     double rate_radps =
         draw_between(sky, TURN_MIN_RADPS, fmin(TURN_MAX_RADPS, TURN_MAX_MPS2 / speed_mps));
 
@@ -301,8 +301,8 @@ static void free_if_ended_before_start(struct scene_path *flight)
  * Draws flights in the order of their start, so that a new flight can be made to meet those already
  * drawn.
  */
-void flights_draw(const struct target_draft *draft, struct scene_paths *paths,
-                  struct random *random)
+void flights_draw_random(const struct target_draft *draft, struct scene_paths *paths,
+                         struct random *random)
 {
     struct sky sky = {.item = draft->item,
                       .random = random,

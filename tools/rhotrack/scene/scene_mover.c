@@ -7,8 +7,8 @@
 #include "base/common.h"
 #include "base/portable_math.h"
 
-bool mover_seen_at(const struct scene_mover *mover, const struct scene_sensor *sensor, double t_s,
-                   struct motion *at)
+bool mover_apparent_motion_at(const struct scene_mover *mover, const struct scene_sensor *sensor,
+                              double t_s, struct motion *at)
 {
     double dx_m, dy_m, range_m;
 
@@ -157,8 +157,8 @@ struct scene_mover *draw_clutter_movers(const struct scene *scene, size_t source
     *paths = NULL;
     *num_paths = 0;
     if (clutter->kind == CLUTTER_SECOND_TIME) {
-        *paths = targets_draw(&clutter->targets, scene->name, scene->duration_s, seed, run,
-                              source + 1, num_paths);
+        *paths = targets_draw_paths(&clutter->targets, scene->name, scene->duration_s, seed, run,
+                                    source + 1, num_paths);
         *count = *num_paths;
     } else {
         *count = draw_number_of_movers(scene, clutter, &random);

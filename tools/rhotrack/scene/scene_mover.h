@@ -23,8 +23,8 @@ struct scene_mover {
  * Apparent motion of the object for the sensor at time t_s. False: the object does not exist then,
  * or is outside the ranges of a second-time-around echo.
  */
-bool mover_seen_at(const struct scene_mover *mover, const struct scene_sensor *sensor, double t_s,
-                   struct motion *at);
+bool mover_apparent_motion_at(const struct scene_mover *mover, const struct scene_sensor *sensor,
+                              double t_s, struct motion *at);
 
 /*
  * Draws the persistent objects of a clutter source, in new memory; kinds that are drawn anew each

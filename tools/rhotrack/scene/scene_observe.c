@@ -246,7 +246,7 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
 {
     const struct scene_sensor *sensor = observer->sensor;
     double at_s = after_s;
-    bool is_there = mover_seen_at(mover, sensor, at_s, &sighting->at);
+    bool is_there = mover_apparent_motion_at(mover, sensor, at_s, &sighting->at);
 
     for (int i = 0; sensor->turns && i < SIGHTING_ITERATIONS; i++) {
         double azimuth_rad =
@@ -255,7 +255,7 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
             turn_share_until_azimuth(sensor, azimuth_rad + sensor->azimuth_bias_rad, at_s);
 
         at_s += (i > 0 && ahead > 0.5 ? ahead - 1.0 : ahead) * sensor->turn_s;
-        is_there = mover_seen_at(mover, sensor, at_s, &sighting->at);
+        is_there = mover_apparent_motion_at(mover, sensor, at_s, &sighting->at);
     }
     sighting->t_s = at_s;
     sighting->range_m =
@@ -573,7 +573,7 @@ static void add_body_plots(struct observer *observer, const struct scene_body *b
                                              observer->index, target, centre->pass);
     double places_m[SCENE_SCATTERERS_MAX][2];
 
-    scene_body_draw(body, body->is_anew ? &look : &stay, places_m);
+    scene_body_draw_scatterers(body, body->is_anew ? &look : &stay, places_m);
     for (size_t i = 0; i < body->scatterers; i++) {
         const struct sighting on = sighting_of_body_point(sensor, centre, path, places_m[i]);
         const double pd = faded_pd(
@@ -1049,8 +1049,8 @@ struct scene_run *scene_observe(const struct scene *scene, uint64_t seed, uint64
     run->scene = scene;
     run->seed = seed;
     run->run = run_number;
-    run->paths = targets_draw(&scene->targets, scene->name, scene->duration_s, seed, run_number, 0,
-                              &run->num_paths);
+    run->paths = targets_draw_paths(&scene->targets, scene->name, scene->duration_s, seed,
+                                    run_number, 0, &run->num_paths);
     fades = must_calloc(run->num_paths + 1, sizeof *fades);
     for (size_t i = 0; i < run->num_paths; i++) {
         fades[i] = draw_fades_of_target(scene, &run->paths[i], i, seed, run_number);

@@ -168,7 +168,7 @@ void path_begin_next_leg(struct scene_path *path, double t_s, double along_mps2,
     }
 }
 
-double path_speed_mps(const struct scene_path *path, double t_s)
+double path_last_leg_speed_mps(const struct scene_path *path, double t_s)
 {
     return path_leg_speed_mps(&path->legs[path->num_legs - 1], t_s);
 }

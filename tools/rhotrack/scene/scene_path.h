@@ -56,7 +56,7 @@ void path_begin_first_leg(struct scene_path *path, double x_m, double y_m, doubl
                           double heading_rad);
 void path_begin_next_leg(struct scene_path *path, double t_s, double along_mps2, double turn_radps);
 /* speed at t_s by the path's last leg */
-double path_speed_mps(const struct scene_path *path, double t_s);
+double path_last_leg_speed_mps(const struct scene_path *path, double t_s);
 void path_add_leg(struct scene_path *path, struct path_leg leg);
 
 /*
@@ -147,8 +147,8 @@ struct target_draft {
  * Draws the flights of an item from before the start until the end of the scene. Exits with 2 where
  * no flight of least_s fits into box_m. In scene_flights.c.
  */
-void flights_draw(const struct target_draft *draft, struct scene_paths *paths,
-                  struct random *random);
+void flights_draw_random(const struct target_draft *draft, struct scene_paths *paths,
+                         struct random *random);
 
 /* Reads the list of targets at the key. In scene_targets.c, like the functions below. */
 struct scene_targets targets_read(struct json_object *object, const char *key);
@@ -158,8 +158,8 @@ void targets_free(struct scene_targets *targets);
  * Draws all paths of a run, in new memory. Exits with 2 where no random path keeps within its
  * limits (keep_range_m, keep_box_m, keep_discs_m, spacing_m).
  */
-struct scene_path *targets_draw(const struct scene_targets *targets, const char *file,
-                                double duration_s, uint64_t seed, uint64_t run, uint64_t source,
-                                size_t *count);
+struct scene_path *targets_draw_paths(const struct scene_targets *targets, const char *file,
+                                      double duration_s, uint64_t seed, uint64_t run,
+                                      uint64_t source, size_t *count);
 
 #endif

@@ -43,7 +43,7 @@ const char *scene_shipped_name(size_t index)
     return shipped_scenes[index].name;
 }
 
-struct scene *scene_find(const char *name, const char *const *sets, size_t num_sets)
+struct scene *scene_load_by_name(const char *name, const char *const *sets, size_t num_sets)
 {
     size_t length, index = 0;
 

@@ -24,7 +24,8 @@
 static double add_speed_change_legs(struct scene_path *path, double t_s, double to_mps,
                                     double along_mps2)
 {
-    double change_mps = to_mps - path_speed_mps(path, t_s), for_s = fabs(change_mps) / along_mps2;
+    double change_mps = to_mps - path_last_leg_speed_mps(path, t_s),
+           for_s = fabs(change_mps) / along_mps2;
 
     if (for_s > 0.0) {
         path_begin_next_leg(path, t_s, change_mps > 0.0 ? along_mps2 : -along_mps2, 0.0);
@@ -45,7 +46,7 @@ static double add_speed_change_legs(struct scene_path *path, double t_s, double 
 /* Adds the legs of one described step from t_s on; returns its end time. */
 static double add_legs_of_step(struct scene_path *path, double t_s, const struct path_step *step)
 {
-    double speed_mps = path_speed_mps(path, t_s), turn_radps = step->turn_radps,
+    double speed_mps = path_last_leg_speed_mps(path, t_s), turn_radps = step->turn_radps,
            for_s = step->for_s;
     double along_mps2 = step->along_mps2;
 
@@ -207,7 +208,7 @@ static double add_random_turn_legs(const struct target_item *item, struct scene_
                                    double t_s, struct random *random)
 {
     double across_mps2 = random_in_span(random, item->turn_across),
-           speed_mps = path_speed_mps(path, t_s);
+           speed_mps = path_last_leg_speed_mps(path, t_s);
     double side = draw_turn_side(item, path, t_s, random), for_s;
     double turn_radps = speed_mps > PATH_STANDS_MPS ? across_mps2 / speed_mps : 0.0;
 
@@ -224,7 +225,7 @@ static double add_random_turn_legs(const struct target_item *item, struct scene_
 static double add_random_stop_legs(const struct target_item *item, struct scene_path *path,
                                    double t_s, struct random *random)
 {
-    double speed_mps = path_speed_mps(path, t_s),
+    double speed_mps = path_last_leg_speed_mps(path, t_s),
            along_mps2 = random_in_span(random, item->stop_along);
 
     t_s =
@@ -402,9 +403,9 @@ static void draw_paths_of_member(struct scene_paths *paths, const struct target_
     }
 }
 
-struct scene_path *targets_draw(const struct scene_targets *targets, const char *file,
-                                double duration_s, uint64_t seed, uint64_t run, uint64_t source,
-                                size_t *count)
+struct scene_path *targets_draw_paths(const struct scene_targets *targets, const char *file,
+                                      double duration_s, uint64_t seed, uint64_t run,
+                                      uint64_t source, size_t *count)
 {
     struct scene_paths paths = {.count = 0};
     size_t *first = must_calloc(targets->count + 1, sizeof *first);
@@ -417,7 +418,7 @@ struct scene_path *targets_draw(const struct scene_targets *targets, const char 
         if (item->flights > 0) {
             struct random random = scene_random_stream(seed, run, STREAM_PATH, source, i, 0);
 
-            flights_draw(&draft, &paths, &random);
+            flights_draw_random(&draft, &paths, &random);
         } else if (item->count == 0) {
             const struct scene_path *parent =
                 item->has_parent ? &paths.paths[first[item->parent]] : NULL;

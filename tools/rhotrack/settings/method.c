@@ -29,7 +29,7 @@ enum method method_of_bearings(const struct parameters *parameters)
     return (enum method)(METHOD_PASSIVE + (int)parameters->value[PARAMETER_BEARINGS_METHOD]);
 }
 
-enum method method_find(const char *name)
+enum method method_must_find(const char *name)
 {
     for (int i = 0; i < NUM_METHODS; i++) {
         if (!strcmp(names[i], name)) {

@@ -36,7 +36,7 @@ enum method method_of_plots(const struct parameters *parameters);
 enum method method_of_bearings(const struct parameters *parameters);
 
 /* Finds a method by its name; exit 2 with the list of methods for an unknown name. */
-enum method method_find(const char *name);
+enum method method_must_find(const char *name);
 
 /* Suggests the method's customary parameter values (parameters_suggest). */
 void method_suggest_parameters(enum method method, struct parameters *parameters);

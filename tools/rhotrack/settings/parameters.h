@@ -344,7 +344,7 @@ void parameters_locate_sensors(struct parameters *parameters);
  */
 bool parameters_has_origin(const struct parameters *parameters);
 struct local_frame;
-struct local_frame *parameters_open_origin(const struct parameters *parameters);
+struct local_frame *parameters_open_local_frame(const struct parameters *parameters);
 
 /* Message for a missing origin: "origin_lat_deg and origin_lon_deg are not set ..." */
 extern const char parameters_no_origin[];
@@ -354,7 +354,7 @@ bool parameters_sensor_on_earth(const struct parameters *parameters, int32_t sen
                                 double geodetic[3]);
 
 /*
- * Angle to add to a sensor's azimuths for azimuths in the local frame (local_frame_turn_rad); 0 for
+ * Angle to add to a sensor's azimuths for azimuths in the local frame (local_frame_meridian_convergence_rad); 0 for
  * sensors that are not placed by latitude and longitude.
  */
 double parameters_azimuth_turn_rad(const struct parameters *parameters, int32_t sensor_id);
@@ -426,8 +426,8 @@ double parameters_range_max_m(const struct parameters *parameters, int32_t senso
  * for sensors without one.
  */
 int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id);
-void parameters_time_biases_us(const struct parameters *parameters, int32_t *least_us,
-                               int32_t *largest_us);
+void parameters_time_bias_range_us(const struct parameters *parameters, int32_t *least_us,
+                                   int32_t *largest_us);
 
 /*
  * Describes a sensor for the library. Returns false, with *sensor unchanged, where no parameter of
@@ -440,8 +440,8 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
  * Describes any sensor for the library; without parameters of its own it is at the origin, without
  * biases, and sees everything.
  */
-void parameters_to_any_sensor(const struct parameters *parameters, int32_t sensor_id,
-                              struct rho_sensor *sensor);
+void parameters_to_sensor_or_defaults(const struct parameters *parameters, int32_t sensor_id,
+                                      struct rho_sensor *sensor);
 
 /* The library's settings from the parameters, checked by parameters_check_together; exit 2. */
 struct rho_settings parameters_settings(const struct parameters *parameters);
@@ -450,7 +450,7 @@ struct rho_settings parameters_settings(const struct parameters *parameters);
  * Sets parameters to the values of settings that differ, with the precedence of --set. Returns
  * false, with nothing changed, where a sensor's own range limits conflict with the settings.
  */
-bool parameters_take_settings(struct parameters *parameters, const struct rho_settings *settings);
+bool parameters_adopt_settings(struct parameters *parameters, const struct rho_settings *settings);
 
 void parameters_to_initiator(const struct parameters *parameters,
                              struct rho_initiator_config *config);
@@ -466,8 +466,8 @@ void parameters_to_assembler(const struct parameters *parameters,
 /*
  * Updates the assembler's descriptions of sensors from changed parameters, while messages arrive.
  */
-void parameters_describe_sensors_again(const struct parameters *parameters,
-                                       struct rho_scan_assembler *assembler);
+void parameters_update_assembler_sensors(const struct parameters *parameters,
+                                         struct rho_scan_assembler *assembler);
 
 /*
  * Assigns a zone's parameter; key: "N.name" with the zone's number N. Returns false and the reason

@@ -28,7 +28,7 @@ static struct rho_scan_assembler_sensor describe_sensor(const struct parameters 
 {
     struct rho_scan_assembler_sensor known = {.noise = sensor_noise(parameters, sensor_id)};
 
-    parameters_to_any_sensor(parameters, sensor_id, &known.sensor);
+    parameters_to_sensor_or_defaults(parameters, sensor_id, &known.sensor);
     return known;
 }
 
@@ -49,8 +49,8 @@ static enum rho_status describe_all_sensors(const struct parameters *parameters,
     return status;
 }
 
-void parameters_describe_sensors_again(const struct parameters *parameters,
-                                       struct rho_scan_assembler *assembler)
+void parameters_update_assembler_sensors(const struct parameters *parameters,
+                                         struct rho_scan_assembler *assembler)
 {
     struct rho_sensor any;
 

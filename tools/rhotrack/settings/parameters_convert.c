@@ -71,7 +71,7 @@ static bool are_sensor_ranges_valid(const struct parameters *parameters,
     return true;
 }
 
-bool parameters_take_settings(struct parameters *parameters, const struct rho_settings *settings)
+bool parameters_adopt_settings(struct parameters *parameters, const struct rho_settings *settings)
 {
     const struct rho_settings before = parameters_settings(parameters);
     const struct {
@@ -221,8 +221,8 @@ static void rotate_sector(struct rho_sensor *sensor, double turn_rad)
     }
 }
 
-void parameters_to_any_sensor(const struct parameters *parameters, int32_t sensor_id,
-                              struct rho_sensor *sensor)
+void parameters_to_sensor_or_defaults(const struct parameters *parameters, int32_t sensor_id,
+                                      struct rho_sensor *sensor)
 {
     const double *value = parameters->value;
     double range_max_m = is_parameter_set_beyond_default(parameters, PARAMETER_RANGE_MAX_M)
@@ -267,8 +267,8 @@ int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sen
     return rho_measurement_time_bias_us(&sensor);
 }
 
-void parameters_time_biases_us(const struct parameters *parameters, int32_t *least_us,
-                               int32_t *largest_us)
+void parameters_time_bias_range_us(const struct parameters *parameters, int32_t *least_us,
+                                   int32_t *largest_us)
 {
     *least_us = *largest_us = 0;
     for (size_t i = 0; i < parameters->num_sensors; i++) {
@@ -291,6 +291,6 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
         !(parameters->value[PARAMETER_RESOLUTION_AZIMUTH_RAD] > 0.0)) {
         return false;
     }
-    parameters_to_any_sensor(parameters, sensor_id, sensor);
+    parameters_to_sensor_or_defaults(parameters, sensor_id, sensor);
     return true;
 }

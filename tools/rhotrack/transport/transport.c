@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/common.h"
-#include "transport/transport_parts.h"
+#include "transport/transport_provider.h"
 
 static const char *url_or_default(const char *url)
 {
@@ -53,7 +53,7 @@ struct transport *transport_open(const char *url, enum transport_use use)
     if (strncmp(url, "udpm://", 7) == 0) {
         transport_open_udpm(transport, use);
     } else {
-        transport_open_lcm(transport, use);
+        transport_open_lcm_or_log(transport, use);
     }
     return transport;
 }

@@ -12,7 +12,7 @@
 
 #include "base/common.h"
 #include "rhotrack/udpm.h"
-#include "transport/transport_parts.h"
+#include "transport/transport_provider.h"
 
 /*
  * QUEUE_MESSAGES: capacity of liblcm's receive queue, which drops newer messages when full.
@@ -73,7 +73,7 @@ static enum transport_found receive_message(struct transport *transport, void *o
         .channel = provider->channel,
         .data = provider->data,
         .size = provider->size,
-        .received_us = transport_reception_time_us(transport, provider->time_us)};
+        .received_us = transport_to_reception_time_us(transport, provider->time_us)};
     return TRANSPORT_MESSAGE;
 }
 
@@ -139,7 +139,7 @@ static void check_url_file_mode(const struct transport *transport, enum transpor
     }
 }
 
-void transport_open_lcm(struct transport *transport, enum transport_use use)
+void transport_open_lcm_or_log(struct transport *transport, enum transport_use use)
 {
     static const struct transport_provider methods = {lcm_descriptor, receive_message, send_message,
                                                       close_lcm};
@@ -155,7 +155,7 @@ void transport_open_lcm(struct transport *transport, enum transport_use use)
             return;
         }
         if (is_read_without_waiting(transport->url)) {
-            transport_open_log(transport);
+            transport_open_read_log(transport);
             return;
         }
     }

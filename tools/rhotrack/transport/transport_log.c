@@ -11,7 +11,7 @@
 
 #include "base/common.h"
 #include "io/log/lcm_log.h"
-#include "transport/transport_parts.h"
+#include "transport/transport_provider.h"
 
 struct log {
     struct lcm_log_reader *reader;
@@ -62,7 +62,7 @@ static char *log_path(const struct transport *transport)
     return path;
 }
 
-void transport_open_log(struct transport *transport)
+void transport_open_read_log(struct transport *transport)
 {
     static const struct transport_provider provider = {no_descriptor, receive_event, NULL,
                                                        close_read_log};

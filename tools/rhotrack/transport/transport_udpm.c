@@ -14,7 +14,7 @@
 
 #include "base/common.h"
 #include "rhotrack/udpm.h"
-#include "transport/transport_parts.h"
+#include "transport/transport_provider.h"
 
 /*
  * BATCH: datagrams read by one system call. DATAGRAM_BYTES: room for one; no message of rhotrack is
@@ -295,7 +295,7 @@ static int64_t read_reception_time_and_drops(struct transport *transport, struct
         }
     }
     return time_us == INT64_MAX ? transport_now_us(transport)
-                                : transport_reception_time_us(transport, time_us);
+                                : transport_to_reception_time_us(transport, time_us);
 }
 
 /* True for a datagram that this program sent itself, which multicast loops back. */

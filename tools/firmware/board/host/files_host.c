@@ -46,17 +46,17 @@ int files_close(int file)
     return !failed;
 }
 
-void files_say(const char *text)
+void files_print(const char *text)
 {
     fputs(text, stdout);
 }
 
-uint32_t files_instructions(void)
+uint32_t files_read_instruction_counter(void)
 {
     return 0;
 }
 
-uint32_t files_instructions_between(uint32_t from, uint32_t to)
+uint32_t files_instructions_elapsed(uint32_t from, uint32_t to)
 {
     return to - from;
 }

@@ -33,7 +33,7 @@ static uint32_t unsent;
 
 /* ---- Clock ---- */
 
-void mps2_systick(void)
+void mps2_systick_interrupt(void)
 {
     ticks_ms++;
 }
@@ -66,7 +66,7 @@ int64_t board_time_us(void)
  * Interrupt of the chip: disabled until the next board_wait, as it stays active until the frames
  * are read.
  */
-void mps2_ethernet(void)
+void mps2_ethernet_interrupt(void)
 {
     NVIC_DISABLE = 1u << MPS2_ETHERNET_IRQ;
 }
@@ -91,7 +91,7 @@ static void send_group_report_if_due(void)
     int64_t now_us = board_time_us();
     if (now_us >= join_due_us) {
         join_due_us = now_us + JOIN_INTERVAL_US;
-        udp_frame_join(frame, &host);
+        udp_frame_build_igmp_report(frame, &host);
         (void)lan9118_send(frame, sizeof frame);
     }
 }
@@ -103,10 +103,10 @@ size_t board_receive(uint8_t *buffer, size_t capacity, uint32_t *source_ipv4)
     size_t size, length;
     send_group_report_if_due();
     for (int i = 0; i < REJECTED_MAX && (size = lan9118_receive(frame, sizeof frame)) > 0; i++) {
-        length = udp_frame_open(frame, size, &payload);
+        length = udp_frame_parse(frame, size, &payload);
         if (length > 0 && length <= capacity) {
             memcpy(buffer, payload, length);
-            *source_ipv4 = udp_frame_source(frame);
+            *source_ipv4 = udp_frame_source_ipv4(frame);
             return length;
         }
     }
@@ -126,7 +126,7 @@ void board_send(const uint8_t *datagram, size_t size)
     }
 }
 
-uint32_t board_unsent(void)
+uint32_t board_num_unsent(void)
 {
     return unsent;
 }
@@ -150,7 +150,7 @@ static void print_character(char character)
     UART0_DATA = (uint32_t)character;
 }
 
-void board_say(const char *text)
+void board_print_line(const char *text)
 {
     while (*text) {
         print_character(*text++);
@@ -162,26 +162,26 @@ void board_say(const char *text)
 /* ---- Start and end ---- */
 
 /* The board has no non-volatile memory to count starts in. */
-int32_t board_boot(void)
+int32_t board_count_start(void)
 {
     return 0;
 }
 
 int main(void);
 
-void mps2_run(void)
+void mps2_run_main(void)
 {
     (void)main();
     for (;;) {
     }
 }
 
-void mps2_fault(unsigned exception)
+void mps2_handle_fault(unsigned exception)
 {
     char text[] = "fault 00";
     text[6] = (char)('0' + exception / 10 % 10);
     text[7] = (char)('0' + exception % 10);
-    board_say(text);
+    board_print_line(text);
     for (;;) { /* stop here; in a product the watchdog restarts the node */
     }
 }

@@ -37,17 +37,17 @@
 #define MPS2_ETHERNET_IRQ 13u
 
 /* Last step of the start-up: runs the image's main. In board_mps2.c or semihosting.c. */
-void mps2_run(void) __attribute__((noreturn));
+void mps2_run_main(void) __attribute__((noreturn));
 
 /* Interrupt handlers of SysTick and Ethernet, defined by images that enable them. */
-void mps2_systick(void);
-void mps2_ethernet(void);
+void mps2_systick_interrupt(void);
+void mps2_ethernet_interrupt(void);
 
 /* Open and flush the console of printf in images that measure. In library_console.c. */
 void mps2_open_console(void);
 void mps2_close_console(void);
 
 /* Handles a fault of the processor; exception is its number. */
-void mps2_fault(unsigned exception) __attribute__((noreturn, used));
+void mps2_handle_fault(unsigned exception) __attribute__((noreturn, used));
 
 #endif

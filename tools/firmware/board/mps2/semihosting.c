@@ -80,7 +80,7 @@ int files_close(int file)
     return call_debugger(SYS_CLOSE, operands) == 0;
 }
 
-void files_say(const char *text)
+void files_print(const char *text)
 {
     (void)call_debugger(SYS_WRITE0, text);
 }
@@ -96,12 +96,12 @@ size_t files_stack_used(void)
  * Instructions are counted by QEMU's time: with -icount shift=6 an instruction takes 64 ns, a tick
  * of the timer 40 ns.
  */
-uint32_t files_instructions(void)
+uint32_t files_read_instruction_counter(void)
 {
     return UINT32_MAX - TIMER0_VALUE;
 }
 
-uint32_t files_instructions_between(uint32_t from, uint32_t to)
+uint32_t files_instructions_elapsed(uint32_t from, uint32_t to)
 {
     return (uint32_t)((uint64_t)(to - from) * 40 / 64);
 }
@@ -127,7 +127,7 @@ static void exit_program(uint32_t status)
     }
 }
 
-void mps2_fault(unsigned exception)
+void mps2_handle_fault(unsigned exception)
 {
     exit_program(EXIT_FAULT + exception);
 }
@@ -149,7 +149,7 @@ static int split_command_line(char *line, char **words)
     return count;
 }
 
-void mps2_run(void)
+void mps2_run_main(void)
 {
     static char line[1024];
     static char *words[ARGUMENTS_MAX + 1];

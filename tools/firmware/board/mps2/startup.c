@@ -14,7 +14,7 @@ extern uint32_t link_stack[], link_stack_top[];
 
 /*
  * Fault entry: resets the stack pointer to the top, as an overflowed stack has no room for the
- * report, and calls mps2_fault with the exception's number.
+ * report, and calls mps2_handle_fault with the exception's number.
  */
 __attribute__((noreturn, naked)) static void enter_fault_handler(void)
 {
@@ -22,14 +22,14 @@ __attribute__((noreturn, naked)) static void enter_fault_handler(void)
                      "movt r0, #:upper16:link_stack_top\n"
                      "mov sp, r0\n"
                      "mrs r0, ipsr\n"
-                     "b mps2_fault\n");
+                     "b mps2_handle_fault\n");
 }
 
 /* Default handlers for images that enable neither interrupt. */
-__attribute__((weak)) void mps2_systick(void)
+__attribute__((weak)) void mps2_systick_interrupt(void)
 {
 }
-__attribute__((weak)) void mps2_ethernet(void)
+__attribute__((weak)) void mps2_ethernet_interrupt(void)
 {
 }
 
@@ -74,7 +74,7 @@ void mps2_start(void)
     fill_stack_with_pattern();
     memcpy(link_data, link_data_from, (size_t)((uintptr_t)link_data_end - (uintptr_t)link_data));
     memset(link_bss, 0, (size_t)((uintptr_t)link_bss_end - (uintptr_t)link_bss));
-    mps2_run();
+    mps2_run_main();
 }
 
 typedef void (*handler)(void);
@@ -90,7 +90,7 @@ __attribute__((section(".vectors"), used)) static const struct {
                    enter_fault_handler, enter_fault_handler, enter_fault_handler,
                    enter_fault_handler, enter_fault_handler, enter_fault_handler,
                    enter_fault_handler, enter_fault_handler, enter_fault_handler,
-                   enter_fault_handler, mps2_systick},
-    .interrupts =
-        {[0 ... MPS2_ETHERNET_IRQ - 1] = enter_fault_handler, [MPS2_ETHERNET_IRQ] = mps2_ethernet},
+                   enter_fault_handler, mps2_systick_interrupt},
+    .interrupts = {[0 ... MPS2_ETHERNET_IRQ - 1] = enter_fault_handler,
+                   [MPS2_ETHERNET_IRQ] = mps2_ethernet_interrupt},
 };

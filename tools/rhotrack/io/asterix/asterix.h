@@ -189,6 +189,6 @@ void asterix_track_read(const struct asterix_record *record, struct asterix_trac
  * item can hold become the largest that it can. Returns the number of bytes written.
  */
 #define ASTERIX_TRACK_BYTES 64
-size_t asterix_track_write(const struct asterix_track *track, uint8_t record[ASTERIX_TRACK_BYTES]);
+size_t asterix_track_encode(const struct asterix_track *track, uint8_t record[ASTERIX_TRACK_BYTES]);
 
 #endif

@@ -81,8 +81,8 @@ enum asterix_crossing asterix_antenna_cross(struct asterix_antenna *antenna, int
     return ASTERIX_LOOKED;
 }
 
-bool asterix_look_saw(const struct asterix_look *look, int64_t time_128, uint16_t azimuth,
-                      int64_t *distance_128)
+bool asterix_look_covers_plot(const struct asterix_look *look, int64_t time_128, uint16_t azimuth,
+                              int64_t *distance_128)
 {
     uint32_t offset = (uint16_t)(azimuth - look->from);
     int64_t there_128;

@@ -52,8 +52,8 @@ int64_t asterix_look_turn_time_128(const struct asterix_look *look);
  * Whether a plot belongs to a look: its azimuth is in the look's sector, and its time is within
  * half a turn of the antenna's passage there; *distance_128 is that time difference.
  */
-bool asterix_look_saw(const struct asterix_look *look, int64_t time_128, uint16_t azimuth,
-                      int64_t *distance_128);
+bool asterix_look_covers_plot(const struct asterix_look *look, int64_t time_128, uint16_t azimuth,
+                              int64_t *distance_128);
 
 /*
  * The unfinished look since the newest crossing, up to a given time. Returns false where the

@@ -23,7 +23,7 @@ struct asterix_scans {
     int64_t clock_128;          /* latest time of all radars */
     struct asterix_scan *ready; /* complete scans to be taken; each owns its plots */
     size_t num_ready, ready_capacity, next_ready;
-    struct asterix_mark *given; /* plots of the scan handed out last */
+    struct asterix_scan_plot *given; /* plots of the scan handed out last */
     struct asterix_counts counts;
 };
 
@@ -63,7 +63,7 @@ void asterix_scans_close(struct asterix_scans *scans)
     free(scans);
 }
 
-void asterix_scans_start_near(struct asterix_scans *scans, int64_t time_128)
+void asterix_scans_set_reference_time(struct asterix_scans *scans, int64_t time_128)
 {
     scans->has_start = true;
     scans->start_128 = time_128;
@@ -74,7 +74,8 @@ size_t asterix_scans_num_sensors(const struct asterix_scans *scans)
     return scans->num_sensors;
 }
 
-bool asterix_scans_sensor_at(const struct asterix_scans *scans, size_t index, int32_t *sensor_id)
+bool asterix_scans_sensor_has_place(const struct asterix_scans *scans, size_t index,
+                                    int32_t *sensor_id)
 {
     *sensor_id = scans->sensors[index].sensor_id;
     return scans->sensors[index].place.is_given;
@@ -108,7 +109,7 @@ static struct asterix_sensor *find_or_add_sensor(struct asterix_scans *scans,
 
 static int by_time(const void *a, const void *b)
 {
-    const struct asterix_mark *one = a, *other = b;
+    const struct asterix_scan_plot *one = a, *other = b;
     int order = (one->time_128 > other->time_128) - (one->time_128 < other->time_128);
 
     return order ? order : (one->azimuth > other->azimuth) - (one->azimuth < other->azimuth);
@@ -134,7 +135,7 @@ static void queue_complete_scan(struct asterix_scans *scans, struct asterix_sens
     if (scan.count > 0) {
         qsort(open->marks.list, scan.count, sizeof *open->marks.list, by_time);
     }
-    asterix_marks_all_or_none(&open->marks, &sensor->place, &scans->counts);
+    asterix_scan_plots_keep_common(&open->marks, &sensor->place, &scans->counts);
     scans->counts.placed += scan.count;
     scans->ready =
         must_grow(scans->ready, scans->num_ready, &scans->ready_capacity, sizeof *scans->ready);
@@ -153,7 +154,7 @@ static void queue_turn_as_scan(struct asterix_scans *scans, struct asterix_senso
 /* Takes the radar's oldest open look as complete: it becomes a scan, or is added to the turn. */
 static void finish_oldest_look(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
-    struct asterix_open_scan open = asterix_sensor_take_scan(sensor);
+    struct asterix_open_scan open = asterix_sensor_take_oldest_scan(sensor);
 
     if (!scans->is_by_turn || !open.has_look) {
         queue_complete_scan(scans, sensor, &open);
@@ -184,7 +185,7 @@ static void finish_all_scans_of_sensor(struct asterix_scans *scans, struct aster
     }
     finish_looks_until(scans, sensor, INT64_MAX);
     queue_turn_as_scan(scans, sensor);
-    asterix_sensor_drop_waiting(sensor, true, &scans->counts);
+    asterix_sensor_drop_waiting_plots(sensor, true, &scans->counts);
 }
 
 bool asterix_scans_next(struct asterix_scans *scans, struct asterix_scan *scan)
@@ -196,13 +197,13 @@ bool asterix_scans_next(struct asterix_scans *scans, struct asterix_scan *scan)
         return false;
     }
     *scan = scans->ready[scans->next_ready++];
-    scans->given = (struct asterix_mark *)scan->marks;
+    scans->given = (struct asterix_scan_plot *)scan->marks;
     return true;
 }
 
 /* ---- What is known when ---- */
 
-int64_t asterix_scans_settled_128(const struct asterix_scans *scans)
+int64_t asterix_scans_settled_time_128(const struct asterix_scans *scans)
 {
     int64_t settled_128 = INT64_MAX;
 
@@ -299,7 +300,7 @@ static void finish_due_scans(struct asterix_scans *scans, struct asterix_sensor 
     end_wait_for_crossings_if_due(scans, sensor);
     finish_looks_until(scans, sensor, sensor->clock_128 - scans->hold_128);
     if (sensor->has_crossings) {
-        asterix_sensor_drop_waiting(sensor, false, &scans->counts);
+        asterix_sensor_drop_waiting_plots(sensor, false, &scans->counts);
     }
     finish_scans_of_silent_sensors(scans);
 }
@@ -322,10 +323,10 @@ static uint64_t *counter_if_left_out(struct asterix_counts *counts, const struct
     return NULL;
 }
 
-static struct asterix_mark make_scan_plot(const struct asterix_plot *plot, int64_t time_128,
-                                          struct asterix_counts *counts)
+static struct asterix_scan_plot make_scan_plot(const struct asterix_plot *plot, int64_t time_128,
+                                               struct asterix_counts *counts)
 {
-    struct asterix_mark mark = {
+    struct asterix_scan_plot mark = {
         .time_128 = time_128, .range = plot->range, .azimuth = plot->azimuth};
 
     mark.has_alt = plot->has_height || (plot->has_level && !plot->is_level_bad);
@@ -339,7 +340,7 @@ static struct asterix_mark make_scan_plot(const struct asterix_plot *plot, int64
 }
 
 static void add_plot_unless_late(struct asterix_scans *scans, struct asterix_sensor *sensor,
-                                 const struct asterix_mark *mark)
+                                 const struct asterix_scan_plot *mark)
 {
     if (mark->time_128 < asterix_sensor_settled_time(sensor, scans->hold_128)) {
         scans->counts.late++;
@@ -371,7 +372,7 @@ static void process_plot(struct asterix_scans *scans, const struct asterix_plot 
     } else if (!unwrap_time_and_advance_clocks(scans, sensor, of_day_128, &time_128)) {
         scans->counts.bad_times++;
     } else {
-        const struct asterix_mark mark = make_scan_plot(plot, time_128, &scans->counts);
+        const struct asterix_scan_plot mark = make_scan_plot(plot, time_128, &scans->counts);
 
         add_plot_unless_late(scans, sensor, &mark);
         finish_due_scans(scans, sensor);

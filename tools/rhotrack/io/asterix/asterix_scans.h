@@ -19,7 +19,7 @@
 #include "io/asterix/asterix.h"
 #include "io/asterix/asterix_antenna.h"
 
-struct asterix_mark {
+struct asterix_scan_plot {
     int64_t time_128; /* 1/128 s since the midnight before the first record */
     uint32_t range;
     uint16_t azimuth;
@@ -39,7 +39,7 @@ struct asterix_scan {
     int64_t time_128; /* start of the scan */
     struct asterix_place place;
     /* plots by time, valid until the next call; either all or none have has_alt, has_doppler */
-    const struct asterix_mark *marks;
+    const struct asterix_scan_plot *marks;
     size_t count;
 };
 
@@ -93,13 +93,14 @@ void asterix_scans_preview_record(struct asterix_scans *scans, const struct aste
  * stated its place (returned).
  */
 size_t asterix_scans_num_sensors(const struct asterix_scans *scans);
-bool asterix_scans_sensor_at(const struct asterix_scans *scans, size_t index, int32_t *sensor_id);
+bool asterix_scans_sensor_has_place(const struct asterix_scans *scans, size_t index,
+                                    int32_t *sensor_id);
 
 /*
  * Sets a reference time: the first record's time of day is taken on the day that is nearest to it.
  * Without, times start on the first day.
  */
-void asterix_scans_start_near(struct asterix_scans *scans, int64_t time_128);
+void asterix_scans_set_reference_time(struct asterix_scans *scans, int64_t time_128);
 
 /* Processes a record of plots or an antenna message of a radar. */
 void asterix_scans_take_record(struct asterix_scans *scans, const struct asterix_record *record);
@@ -114,7 +115,7 @@ void asterix_scans_finish(struct asterix_scans *scans);
 bool asterix_scans_next(struct asterix_scans *scans, struct asterix_scan *scan);
 
 /* Time before which no more scans or plots can come. INT64_MAX at the end. */
-int64_t asterix_scans_settled_128(const struct asterix_scans *scans);
+int64_t asterix_scans_settled_time_128(const struct asterix_scans *scans);
 
 const struct asterix_counts *asterix_scans_counts(const struct asterix_scans *scans);
 

@@ -59,7 +59,7 @@ bool asterix_sensor_unwrap_time(struct asterix_sensor *sensor, uint32_t time_of_
 
 /* ---- Plots and looks ---- */
 
-void asterix_marks_add(struct asterix_marks *marks, const struct asterix_mark *mark)
+void asterix_scan_plots_add(struct asterix_scan_plots *marks, const struct asterix_scan_plot *mark)
 {
     marks->list = must_grow(marks->list, marks->count, &marks->capacity, sizeof *marks->list);
     marks->list[marks->count++] = *mark;
@@ -81,7 +81,7 @@ static struct asterix_open_scan *add_open_scan(struct asterix_sensor *sensor,
  * Adds a plot to the open look that passed its azimuth nearest to its time. Returns false where
  * none did.
  */
-static bool place_plot_in_look(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+static bool place_plot_in_look(struct asterix_sensor *sensor, const struct asterix_scan_plot *mark,
                                int64_t hold_128)
 {
     struct asterix_open_scan *nearest = NULL;
@@ -91,14 +91,14 @@ static bool place_plot_in_look(struct asterix_sensor *sensor, const struct aster
         struct asterix_open_scan *open = &sensor->open[i];
 
         if (open->has_look &&
-            asterix_look_saw(&open->look, mark->time_128, mark->azimuth, &distance_128) &&
+            asterix_look_covers_plot(&open->look, mark->time_128, mark->azimuth, &distance_128) &&
             mark->time_128 >= open->look.start_128 - hold_128 && distance_128 < least_128) {
             nearest = open;
             least_128 = distance_128;
         }
     }
     if (nearest) {
-        asterix_marks_add(&nearest->marks, mark);
+        asterix_scan_plots_add(&nearest->marks, mark);
     }
     return nearest;
 }
@@ -222,11 +222,11 @@ bool asterix_sensor_cross_azimuth(struct asterix_sensor *sensor, int64_t time_12
     return crossing != ASTERIX_BACK;
 }
 
-void asterix_sensor_add_plot(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+void asterix_sensor_add_plot(struct asterix_sensor *sensor, const struct asterix_scan_plot *mark,
                              int64_t hold_128)
 {
     if (!place_plot_in_look(sensor, mark, hold_128)) {
-        asterix_marks_add(&sensor->waiting, mark);
+        asterix_scan_plots_add(&sensor->waiting, mark);
     }
 }
 
@@ -242,8 +242,8 @@ static struct asterix_open_scan *find_scan_begun_before(struct asterix_sensor *s
     return at > 0 ? &sensor->open[at - 1] : NULL;
 }
 
-void asterix_sensor_add_plot_by_time(struct asterix_sensor *sensor, const struct asterix_mark *mark,
-                                     int64_t interval_128)
+void asterix_sensor_add_plot_by_time(struct asterix_sensor *sensor,
+                                     const struct asterix_scan_plot *mark, int64_t interval_128)
 {
     struct asterix_look look = {.start_128 = mark->time_128,
                                 .end_128 = mark->time_128 + interval_128,
@@ -252,22 +252,22 @@ void asterix_sensor_add_plot_by_time(struct asterix_sensor *sensor, const struct
         interval_128 > 0 ? find_scan_begun_before(sensor, mark->time_128) : NULL;
 
     if (!open || mark->time_128 >= open->look.end_128) {
-        asterix_marks_add(&add_open_scan(sensor, &look, false)->marks, mark);
+        asterix_scan_plots_add(&add_open_scan(sensor, &look, false)->marks, mark);
         return;
     }
     if (mark->time_128 < open->look.start_128) {
         open->look.start_128 = mark->time_128;
     }
-    asterix_marks_add(&open->marks, mark);
+    asterix_scan_plots_add(&open->marks, mark);
 }
 
-void asterix_sensor_drop_waiting(struct asterix_sensor *sensor, bool all,
-                                 struct asterix_counts *counts)
+void asterix_sensor_drop_waiting_plots(struct asterix_sensor *sensor, bool all,
+                                       struct asterix_counts *counts)
 {
     size_t kept = 0;
 
     for (size_t i = 0; i < sensor->waiting.count; i++) {
-        const struct asterix_mark *mark = &sensor->waiting.list[i];
+        const struct asterix_scan_plot *mark = &sensor->waiting.list[i];
 
         if (!all && mark->time_128 >= sensor->clock_128 - WAIT_128) {
             sensor->waiting.list[kept++] = *mark;
@@ -290,7 +290,7 @@ void asterix_sensor_end_last_look(struct asterix_sensor *sensor, int64_t hold_12
     sensor->antenna.has_last = false;
 }
 
-struct asterix_open_scan asterix_sensor_take_scan(struct asterix_sensor *sensor)
+struct asterix_open_scan asterix_sensor_take_oldest_scan(struct asterix_sensor *sensor)
 {
     struct asterix_open_scan open = sensor->open[0];
 
@@ -316,7 +316,7 @@ bool asterix_sensor_extend_turn(struct asterix_sensor *sensor, struct asterix_op
     turn->look.end_128 = open->look.end_128;
     turn->look.advance += open->look.advance;
     for (size_t i = 0; i < open->marks.count; i++) {
-        asterix_marks_add(&turn->marks, &open->marks.list[i]);
+        asterix_scan_plots_add(&turn->marks, &open->marks.list[i]);
     }
     free(open->marks.list);
     return true;

@@ -7,8 +7,8 @@
 
 #include "io/asterix/asterix_scans.h"
 
-struct asterix_marks {
-    struct asterix_mark *list;
+struct asterix_scan_plots {
+    struct asterix_scan_plot *list;
     size_t count, capacity;
 };
 
@@ -16,7 +16,7 @@ struct asterix_marks {
 struct asterix_open_scan {
     bool has_look;
     struct asterix_look look;
-    struct asterix_marks marks;
+    struct asterix_scan_plots marks;
 };
 
 /* State of one radar. Initialised with zeros and the sensor number. */
@@ -37,9 +37,9 @@ struct asterix_sensor {
     /* time before which no more plots are accepted; it never goes back */
     int64_t settled_128;
     bool has_turn;
-    struct asterix_open_scan turn; /* complete looks that form no whole turn yet */
-    struct asterix_marks waiting;  /* plots that no known look has passed yet */
-    int32_t scan;                  /* number of the newest scan */
+    struct asterix_open_scan turn;     /* complete looks that form no whole turn yet */
+    struct asterix_scan_plots waiting; /* plots that no known look has passed yet */
+    int32_t scan;                      /* number of the newest scan */
 };
 
 /*
@@ -60,25 +60,25 @@ bool asterix_sensor_cross_azimuth(struct asterix_sensor *sensor, int64_t time_12
                                   int64_t hold_128, struct asterix_counts *counts);
 
 /* Adds a plot to the look that passed it, or keeps it until there is one. */
-void asterix_sensor_add_plot(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+void asterix_sensor_add_plot(struct asterix_sensor *sensor, const struct asterix_scan_plot *mark,
                              int64_t hold_128);
 
 /*
  * Adds a plot of a radar without crossings to a scan of interval_128, or as a scan of its own where
  * that is 0.
  */
-void asterix_sensor_add_plot_by_time(struct asterix_sensor *sensor, const struct asterix_mark *mark,
-                                     int64_t interval_128);
+void asterix_sensor_add_plot_by_time(struct asterix_sensor *sensor,
+                                     const struct asterix_scan_plot *mark, int64_t interval_128);
 
 /* Drops and counts waiting plots: all, or those that waited longer than any turn takes. */
-void asterix_sensor_drop_waiting(struct asterix_sensor *sensor, bool all,
-                                 struct asterix_counts *counts);
+void asterix_sensor_drop_waiting_plots(struct asterix_sensor *sensor, bool all,
+                                       struct asterix_counts *counts);
 
 /* Closes the look since the newest crossing, at the end of input, if plots wait for it. */
 void asterix_sensor_end_last_look(struct asterix_sensor *sensor, int64_t hold_128);
 
 /* Removes and returns the oldest open scan; its plots then belong to the caller. */
-struct asterix_open_scan asterix_sensor_take_scan(struct asterix_sensor *sensor);
+struct asterix_open_scan asterix_sensor_take_oldest_scan(struct asterix_sensor *sensor);
 
 /*
  * Adds a complete look to the radar's turn. Returns false, and changes nothing, where the look does
@@ -90,10 +90,11 @@ bool asterix_sensor_extend_turn(struct asterix_sensor *sensor, struct asterix_op
  * Keeps heights and Doppler speeds only where all plots of a scan have them; else heights convert
  * slant ranges to ground ranges.
  */
-void asterix_marks_all_or_none(struct asterix_marks *marks, const struct asterix_place *place,
-                               struct asterix_counts *counts);
+void asterix_scan_plots_keep_common(struct asterix_scan_plots *marks,
+                                    const struct asterix_place *place,
+                                    struct asterix_counts *counts);
 
-void asterix_marks_add(struct asterix_marks *marks, const struct asterix_mark *mark);
+void asterix_scan_plots_add(struct asterix_scan_plots *marks, const struct asterix_scan_plot *mark);
 void asterix_sensor_free(struct asterix_sensor *sensor);
 
 #endif

@@ -195,7 +195,7 @@ struct table *asterix_track_table_read(const char *path, const struct parameters
     struct asterix_record record;
 
     if (parameters && parameters_has_origin(parameters)) {
-        reading.frame = parameters_open_origin(parameters);
+        reading.frame = parameters_open_local_frame(parameters);
     }
     while (asterix_file_next_record(file, &record)) {
         struct asterix_track track;

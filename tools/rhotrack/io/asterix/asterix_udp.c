@@ -40,7 +40,7 @@ static bool process_block_records(struct asterix_scans *scans, const struct aste
 }
 
 void asterix_datagram_take_records(struct asterix_scans *scans, const uint8_t *data, size_t size,
-                                   struct asterix_heard *heard)
+                                   struct asterix_datagram_counts *heard)
 {
     struct asterix_block block;
     struct asterix_error error;

@@ -19,13 +19,13 @@ bool asterix_udp_is_url(const char *text);
 int asterix_udp_open(const char *url);
 
 /* Counts of the datagrams received. */
-struct asterix_heard {
+struct asterix_datagram_counts {
     uint64_t datagrams, bad; /* bad: with an unreadable place, before which records count */
     uint64_t others;         /* blocks of categories that are not read */
 };
 
 /* Passes the records of a datagram to the assembly of scans. Accepts any bytes. */
 void asterix_datagram_take_records(struct asterix_scans *scans, const uint8_t *data, size_t size,
-                                   struct asterix_heard *heard);
+                                   struct asterix_datagram_counts *heard);
 
 #endif

@@ -139,7 +139,7 @@ void geodetic_close(struct geodetic *geodetic)
 static const struct local_frame *origin_frame(struct geodetic *geodetic)
 {
     if (!geodetic->origin) {
-        geodetic->origin = parameters_open_origin(geodetic->parameters);
+        geodetic->origin = parameters_open_local_frame(geodetic->parameters);
     }
     return geodetic->origin;
 }
@@ -350,7 +350,7 @@ bool geodetic_convert_polar(struct geodetic *geodetic, const struct row_check *c
         return set_elevation_from_height(geodetic, check, polar);
     }
     if (polar->frame) {
-        radar_frame_turn_look(polar->frame, polar->has_elevation, &polar->look);
+        radar_frame_look_to_common(polar->frame, polar->has_elevation, &polar->look);
     }
     return true;
 }

@@ -89,7 +89,8 @@ void local_frame_convert_place(const struct local_frame *from, const struct loca
     local_frame_to_local(to, geodetic, other_m);
 }
 
-double local_frame_turn_rad(const struct local_frame *from, const struct local_frame *to)
+double local_frame_meridian_convergence_rad(const struct local_frame *from,
+                                            const struct local_frame *to)
 {
     static const double origin_m[3] = {0, 0, 0}, north_m[3] = {0, 1000, 0};
     double origin[3], north[3];

@@ -63,6 +63,7 @@ void local_frame_convert_place(const struct local_frame *from, const struct loca
  * `to`, except for the tilt of the horizons (0.9 degrees at 100 km, which turns level lines by at
  * most 0.00013 rad).
  */
-double local_frame_turn_rad(const struct local_frame *from, const struct local_frame *to);
+double local_frame_meridian_convergence_rad(const struct local_frame *from,
+                                            const struct local_frame *to);
 
 #endif

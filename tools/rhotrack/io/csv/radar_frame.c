@@ -26,7 +26,7 @@ struct radar_frame *radar_frame_open(const struct local_frame *common, const dou
     frame->own = local_frame_open(geodetic[0], geodetic[1], geodetic[2]);
     frame->has_own_north = has_own_north;
     frame->alt_m = geodetic[2];
-    frame->turn_rad = local_frame_turn_rad(frame->own, common);
+    frame->turn_rad = local_frame_meridian_convergence_rad(frame->own, common);
     local_frame_to_local(common, geodetic, frame->place_m);
     return frame;
 }
@@ -65,8 +65,8 @@ static void set_look_to_place(const struct radar_frame *frame, const double own_
     look->elevation_rad = atan2(place_m[2], hypot(place_m[0], place_m[1]));
 }
 
-void radar_frame_turn_look(const struct radar_frame *frame, bool has_elevation,
-                           struct radar_look *look)
+void radar_frame_look_to_common(const struct radar_frame *frame, bool has_elevation,
+                                struct radar_look *look)
 {
     double ground_m = look->range_m * cos(look->elevation_rad);
     const double own_m[3] = {ground_m * cos(look->azimuth_rad), ground_m * sin(look->azimuth_rad),

@@ -42,8 +42,8 @@ struct radar_look {
  * Converts a line of sight from the radar's own frame to the common one, in place. Without
  * elevation only the azimuth is turned, by the meridian convergence.
  */
-void radar_frame_turn_look(const struct radar_frame *frame, bool has_elevation,
-                           struct radar_look *look);
+void radar_frame_look_to_common(const struct radar_frame *frame, bool has_elevation,
+                                struct radar_look *look);
 
 /* A target's height and the sigmas of height and slant range. */
 struct radar_height {

@@ -443,7 +443,7 @@ static bool read_sensor(const struct row_reading *reading, const struct paramete
 
     row->has_sensor = parameters_to_sensor(parameters, row->sensor_id, &row->sensor) ||
                       columns->sensor_x_m >= 0 || columns->sensor_z_m >= 0;
-    parameters_to_any_sensor(parameters, row->sensor_id, &row->sensor);
+    parameters_to_sensor_or_defaults(parameters, row->sensor_id, &row->sensor);
     row->bias_us = rho_measurement_time_bias_us(&row->sensor);
     if (!geodetic_find_radar_frame(columns->geodetic, &reading->cells, row->sensor_id,
                                    &row->frame)) {

@@ -17,7 +17,7 @@
 #include "base/common.h"
 #include "base/number_text.h"
 #include "io/asterix/asterix_file.h"
-#include "io/asterix/asterix_records.h"
+#include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_track_table.h"
 #include "io/csv/table_dialect.h"
 
@@ -32,8 +32,8 @@
 struct table_stream {
     struct table *table;
     bool keep_going, is_whole, follow, is_plain;
-    int file;                        /* file descriptor; -1 for an ASTERIX recording */
-    struct asterix_records *asterix; /* ASTERIX recording; NULL: a CSV file */
+    int file;                          /* file descriptor; -1 for an ASTERIX recording */
+    struct asterix_plot_rows *asterix; /* ASTERIX recording; NULL: a CSV file */
     /* path, to see whether the file was replaced; NULL: standard input */
     const char *own;
     struct csv_parser parser;
@@ -501,7 +501,7 @@ static enum table_stream_found next_asterix_row(struct table_stream *stream, boo
     if (!stream->is_whole) {
         stream->table->num_rows = 0;
     }
-    stream->is_end = !asterix_records_next_row(stream->asterix, stream->table);
+    stream->is_end = !asterix_plot_rows_next(stream->asterix, stream->table);
     return stream->is_end ? TABLE_STREAM_END : TABLE_STREAM_ROW;
 }
 
@@ -559,9 +559,9 @@ static void open_asterix_recording(struct table_stream *stream, const char *path
     if (stream->follow) {
         fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is a recording in ASTERIX", path);
     }
-    stream->asterix = asterix_records_open(path, parameters, stream->keep_going);
+    stream->asterix = asterix_plot_rows_open(path, parameters, stream->keep_going);
     table_free(stream->table);
-    stream->table = asterix_records_empty_table(path, asterix_records_columns(stream->asterix));
+    stream->table = asterix_plot_rows_empty_table(path, asterix_plot_rows_columns(stream->asterix));
 }
 
 static struct table_stream *open_stream(const char *path, const struct parameters *parameters,
@@ -599,7 +599,7 @@ static void free_stream(struct table_stream *stream)
     if (stream->file >= 0) {
         close(stream->file);
     }
-    asterix_records_close(stream->asterix);
+    asterix_plot_rows_close(stream->asterix);
     csv_free(&stream->parser);
     free(stream->row);
     free(stream->joined);
@@ -669,10 +669,10 @@ enum table_stream_found table_stream_next(struct table_stream *stream)
     return found;
 }
 
-void table_stream_report_nothing(struct table_stream *stream)
+void table_stream_suppress_reports(struct table_stream *stream)
 {
     if (stream->asterix) {
-        asterix_records_report_nothing(stream->asterix);
+        asterix_plot_rows_suppress_reports(stream->asterix);
     }
 }
 
@@ -706,7 +706,7 @@ bool table_stream_is_mid_row(const struct table_stream *stream)
 
 uint64_t table_stream_position(const struct table_stream *stream)
 {
-    return stream->asterix ? asterix_records_position(stream->asterix)
+    return stream->asterix ? asterix_plot_rows_position(stream->asterix)
                            : stream->offset + stream->position;
 }
 

@@ -31,7 +31,7 @@ struct table_stream *table_stream_open(const char *path, const struct parameters
 enum table_stream_found table_stream_next(struct table_stream *stream);
 
 /* Suppresses the report of left-out content at the end, for a stream that only previews a file. */
-void table_stream_report_nothing(struct table_stream *stream);
+void table_stream_suppress_reports(struct table_stream *stream);
 
 /* The stream's table: column names, once there is a header, and the newest row. */
 const struct table *table_stream_table(const struct table_stream *stream);

@@ -115,8 +115,8 @@ void initiated_write_row(FILE *file, const struct initiated *row)
     fputc('\n', file);
 }
 
-struct initiated initiated_from(unsigned track_id, int64_t time_us,
-                                const struct rho_candidate *candidate)
+struct initiated initiated_from_candidate(unsigned track_id, int64_t time_us,
+                                          const struct rho_candidate *candidate)
 {
     struct rho_line line =
         rho_angle_line(candidate->x_m, candidate->y_m, candidate->vx_mps, candidate->vy_mps);

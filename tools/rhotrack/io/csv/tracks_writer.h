@@ -53,7 +53,7 @@ struct initiated {
 void initiated_write_row(FILE *file, const struct initiated *row);
 
 /* The row of a candidate, with its score in nats. */
-struct initiated initiated_from(unsigned track_id, int64_t time_us,
-                                const struct rho_candidate *candidate);
+struct initiated initiated_from_candidate(unsigned track_id, int64_t time_us,
+                                          const struct rho_candidate *candidate);
 
 #endif

@@ -69,7 +69,7 @@ int64_t log_scans_hold_us(const struct parameters *parameters)
 {
     int32_t least_us, largest_us;
 
-    parameters_time_biases_us(parameters, &least_us, &largest_us);
+    parameters_time_bias_range_us(parameters, &least_us, &largest_us);
     return llround(parameters->value[PARAMETER_HOLD_MS] * 1e3) + largest_us - least_us;
 }
 
@@ -194,7 +194,7 @@ static void find_clock_restart_in_log(struct log_scans *scans, uint64_t bytes, b
             refuse_or_skip_scans_before(scans, &item, keep_going);
         }
         last_us = item_scan_time_us(&item);
-        progress_show_bytes(&progress, scans->num_given, lcm_log_position(scans->reader), bytes);
+        progress_show_by_bytes(&progress, scans->num_given, lcm_log_position(scans->reader), bytes);
     }
     progress_end(&progress);
 }
@@ -289,7 +289,7 @@ int64_t log_scans_clock_us(const struct log_scans *scans)
     return scans->clock_us;
 }
 
-int64_t log_scans_heard_us(const struct log_scans *scans)
+int64_t log_scans_scan_received_us(const struct log_scans *scans)
 {
     return scans->heard_us;
 }

@@ -46,7 +46,7 @@ void log_scans_rewind(struct log_scans *scans);
  * of the newest scan that was given arrived.
  */
 int64_t log_scans_clock_us(const struct log_scans *scans);
-int64_t log_scans_heard_us(const struct log_scans *scans);
+int64_t log_scans_scan_received_us(const struct log_scans *scans);
 
 /*
  * Time that scans wait for earlier ones: hold_ms plus the largest difference of sensors' time

@@ -78,7 +78,7 @@ void message_shift_in_time(uint8_t *data, size_t size, int64_t time_us, uint32_t
     }
 }
 
-void message_set_epoch(uint8_t *data, size_t size, int32_t from, int32_t to)
+void message_replace_epoch(uint8_t *data, size_t size, int32_t from, int32_t to)
 {
     if (has_epoch(data, size) && (int32_t)get_big_endian(data + EPOCH_AT, NUMBER_BYTES) == from) {
         put_big_endian(data + EPOCH_AT, NUMBER_BYTES, (uint64_t)to);

@@ -64,7 +64,7 @@ static void open_input(struct input *input, const char *path, const struct param
         input->log = lcm_log_open(path);
     } else {
         rows_read_csv(&input->file, path, parameters, keep_going);
-        rows_turns_find(&input->file, parameters);
+        rows_turns_number_rows(&input->file, parameters);
         rows_scans_make(&input->scans, &input->file,
                         llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     }
@@ -109,7 +109,7 @@ bool message_source_next(struct message_source *source, struct message_event *ev
     return true;
 }
 
-void message_source_report(const struct message_source *source)
+void message_source_report_skipped(const struct message_source *source)
 {
     uint64_t rows_skipped = 0;
 
@@ -119,7 +119,7 @@ void message_source_report(const struct message_source *source)
         }
         rows_skipped += source->inputs[i].file.rows_skipped;
     }
-    say_rows_skipped(rows_skipped);
+    print_rows_skipped(rows_skipped);
 }
 
 void message_source_close(struct message_source *source)
@@ -130,7 +130,7 @@ void message_source_close(struct message_source *source)
     for (int i = 0; i < source->num_inputs; i++) {
         lcm_log_close(source->inputs[i].log);
         rows_scans_free(&source->inputs[i].scans);
-        rows_read_end(&source->inputs[i].file);
+        rows_file_free(&source->inputs[i].file);
     }
     free(source->inputs);
     free(source);

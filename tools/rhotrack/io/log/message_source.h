@@ -42,7 +42,7 @@ struct message_source *message_source_open(char *const *paths, int num_paths,
 bool message_source_next(struct message_source *source, struct message_event *event);
 
 /* Reports on standard error the bytes and rows that were skipped so far, if any. */
-void message_source_report(const struct message_source *source);
+void message_source_report_skipped(const struct message_source *source);
 void message_source_close(struct message_source *source);
 
 #endif

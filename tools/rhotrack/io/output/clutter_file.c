@@ -147,7 +147,7 @@ static void set_default_sigmas(const struct parameters *parameters, struct clutt
         is_sigma_configured(parameters, id, SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M)) {
         struct rho_sensor sensor;
 
-        parameters_to_any_sensor(parameters, id, &sensor);
+        parameters_to_sensor_or_defaults(parameters, id, &sensor);
         range_m = parameters_value_of_sensor(parameters, id, SENSOR_SIGMA_RANGE_M,
                                              parameters->value[PARAMETER_SIGMA_RANGE_M]);
         cross_m =
@@ -305,8 +305,8 @@ static bool next_echo(const struct rho_clutter_map *map, uint32_t *place, struct
 {
     const struct rho_echo *echo;
 
-    while ((echo = rho_clutter_map_next(map, place)) != NULL) {
-        if (rho_clutter_map_stands(echo) && rho_is_coordinate(echo->x_m) &&
+    while ((echo = rho_clutter_map_next_known(map, place)) != NULL) {
+        if (rho_clutter_map_is_echo_standing(echo) && rho_is_coordinate(echo->x_m) &&
             rho_is_coordinate(echo->y_m)) {
             *next = (struct clutter_echo){.sensor_id = echo->sensor_id,
                                           .x_m = echo->x_m,
@@ -330,8 +330,8 @@ static bool next_return_counts(const struct rho_clutter_map *map, unsigned *at,
         *next = (struct return_counts){.region = (uint8_t)(classes / RHO_ECHO_HIT_CLASSES),
                                        .hits = hits_of_class[classes % RHO_ECHO_HIT_CLASSES],
                                        .unseen = unseen_of_class[i % RHO_ECHO_GAP_CLASSES]};
-        rho_clutter_map_learned(map, next->region, next->hits, next->unseen, &next->looks,
-                                &next->returns);
+        rho_clutter_map_learned_returns(map, next->region, next->hits, next->unseen, &next->looks,
+                                        &next->returns);
         if (next->looks > 0.0f) {
             return true;
         }
@@ -489,12 +489,12 @@ bool clutter_file_save(struct clutter_file *file, const struct rho_clutter_map *
     return true;
 }
 
-bool clutter_file_is_due(const struct clutter_file *file)
+bool clutter_file_is_save_due(const struct clutter_file *file)
 {
     return file->path && clock_us() >= file->saved_us + SAVE_US;
 }
 
 bool clutter_file_save_if_due(struct clutter_file *file, const struct rho_clutter_map *map)
 {
-    return !clutter_file_is_due(file) || clutter_file_save(file, map);
+    return !clutter_file_is_save_due(file) || clutter_file_save(file, map);
 }

@@ -61,7 +61,7 @@ struct clutter_file clutter_file_open(const char *path, const struct parameters 
 bool clutter_file_save(struct clutter_file *file, const struct rho_clutter_map *map);
 
 /* Whether a minute has passed since the last save. */
-bool clutter_file_is_due(const struct clutter_file *file);
+bool clutter_file_is_save_due(const struct clutter_file *file);
 
 /*
  * Saves the map if a minute has passed since the last save. Returns false where it could not be

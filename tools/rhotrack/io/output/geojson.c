@@ -50,7 +50,7 @@ struct geojson *geojson_open(FILE *file, const struct parameters *parameters)
     }
     geojson = must_calloc(1, sizeof *geojson);
     geojson->file = file;
-    geojson->frame = parameters_open_origin(parameters);
+    geojson->frame = parameters_open_local_frame(parameters);
     geojson->origin_alt_m = parameters->value[PARAMETER_ORIGIN_ALT_M];
     geojson->newest_us = INT64_MIN;
     return geojson;

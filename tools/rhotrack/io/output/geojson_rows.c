@@ -10,7 +10,7 @@ static int by_time(const void *a, const void *b)
     const struct row *one = a, *other = b;
 
     return one->time_us != other->time_us
-               ? rows_compare_numbers(one->time_us, other->time_us)
+               ? rows_compare_int64(one->time_us, other->time_us)
                : (one->order > other->order) - (one->order < other->order);
 }
 
@@ -26,7 +26,7 @@ static void add_track_row(struct geojson *geojson, const struct rows *rows, cons
     struct geojson_row track = {
         .time_us = row->time_us,
         .track_id = (int32_t)cells[rows_find_column(rows->kind, "track_id")],
-        .status = rows_status_name((int)cells[rows_find_column(rows->kind, "status")]),
+        .status = rows_track_status_name((int)cells[rows_find_column(rows->kind, "status")]),
         .sigma_m = rows_float_or_zero(cells[rows_find_column(rows->kind, "sigma_m")]),
         .hits = int_of_cell(cells[rows_find_column(rows->kind, "hits")]),
         .misses = int_of_cell(cells[rows_find_column(rows->kind, "misses")])};
@@ -43,7 +43,7 @@ void geojson_write_rows(FILE *file, struct rows *rows, const struct parameters *
 
     qsort(rows->list, rows->count, sizeof *rows->list, by_time);
     for (size_t i = 0; i < rows->count; i++) {
-        if (rows_saw_something(rows, &rows->list[i])) {
+        if (rows_row_has_measurement(rows, &rows->list[i])) {
             add_track_row(geojson, rows, &rows->list[i]);
         }
     }

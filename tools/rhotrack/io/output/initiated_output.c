@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/asterix/asterix_tracks.h"
+#include "io/asterix/asterix_track_writer.h"
 #include "io/log/lcm_log.h"
 #include "io/output/geojson.h"
 #include "io/output/tracks_output.h"
@@ -28,7 +28,7 @@ struct initiated_output *initiated_output_open(const char *path)
         fail(EXIT_USAGE, "%s: initiate writes CSV files and LCM logs; GeoJSON is made of tracks",
              path);
     }
-    if (asterix_tracks_path_is_asterix(path)) {
+    if (asterix_track_writer_path_is_asterix(path)) {
         fail(EXIT_USAGE, "%s: initiate writes CSV files and LCM logs; CAT062 is made of tracks",
              path);
     }

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/asterix/asterix_tracks.h"
+#include "io/asterix/asterix_track_writer.h"
 #include "io/csv/tracks_writer.h"
 #include "io/log/lcm_log.h"
 #include "io/output/geojson.h"
@@ -20,7 +20,7 @@ struct tracks_output {
     bool is_log, has_header;
     struct tracks_columns columns;
     struct lcm_log_writer log;
-    struct asterix_tracks *asterix; /* NULL: the output is not ASTERIX */
+    struct asterix_track_writer *asterix; /* NULL: the output is not ASTERIX */
     int32_t step;
     struct rho_report *single; /* report of a step with a single track, allocated when needed */
     struct geojson *map;       /* GeoJSON writer; NULL: the output is not GeoJSON */
@@ -41,8 +41,8 @@ static struct tracks_output *open_output(const char *path, struct output output,
     tracks->columns.covariance = with_covariance;
     tracks->output = output;
     tracks->log = (struct lcm_log_writer){.file = tracks->output.file};
-    if (asterix_tracks_path_is_asterix(path)) {
-        tracks->asterix = asterix_tracks_open(output.file, parameters);
+    if (asterix_track_writer_path_is_asterix(path)) {
+        tracks->asterix = asterix_track_writer_open(output.file, parameters);
     }
     return tracks;
 }
@@ -55,7 +55,7 @@ struct tracks_output *tracks_output_open(const char *path, const struct paramete
     if (geojson_path_is_geojson(path) && with_covariance) {
         fail(EXIT_USAGE, "%s: --covariance has no place in GeoJSON", path);
     }
-    asterix_tracks_refuse_covariance(path, with_covariance);
+    asterix_track_writer_refuse_covariance(path, with_covariance);
     tracks = open_output(path, output_open(path), parameters, with_covariance);
     tracks->map =
         geojson_path_is_geojson(path) ? geojson_open(tracks->output.file, parameters) : NULL;
@@ -72,11 +72,11 @@ struct tracks_output *tracks_output_open_in_place(const char *path,
              "makes it of a CSV file",
              path);
     }
-    asterix_tracks_refuse_covariance(path, with_covariance);
+    asterix_track_writer_refuse_covariance(path, with_covariance);
     return open_output(path, output_open_in_place(path), parameters, with_covariance);
 }
 
-void tracks_output_add_bodies(struct tracks_output *tracks, const struct rho_tracker *tracker)
+void tracks_output_add_body_columns(struct tracks_output *tracks, const struct rho_tracker *tracker)
 {
     tracks->columns.bodies = tracker;
 }
@@ -109,7 +109,7 @@ static void write_list_message(struct tracks_output *tracks, int64_t time_us, co
                            data, size);
     } else {
         must_succeed(rho_message_track_list_decode(data, size, &message), "track_list");
-        asterix_tracks_add(tracks->asterix, &message);
+        asterix_track_writer_add_list(tracks->asterix, &message);
     }
 }
 
@@ -226,7 +226,7 @@ void tracks_output_close(struct tracks_output *tracks)
             geojson_close(tracks->map);
         }
         output_close(&tracks->output);
-        asterix_tracks_close(tracks->asterix);
+        asterix_track_writer_close(tracks->asterix);
         free(tracks->single);
         free(tracks);
     }

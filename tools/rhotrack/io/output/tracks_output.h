@@ -37,7 +37,8 @@ void tracks_output_flush(struct tracks_output *tracks);
  * Adds columns of the tracks' bodies in the tracker to CSV, and body lists to a log. To be called
  * before the first row.
  */
-void tracks_output_add_bodies(struct tracks_output *tracks, const struct rho_tracker *tracker);
+void tracks_output_add_body_columns(struct tracks_output *tracks,
+                                    const struct rho_tracker *tracker);
 
 /* Writes all tracks of a step. */
 void tracks_output_write_report(struct tracks_output *tracks, const struct rho_report *report);

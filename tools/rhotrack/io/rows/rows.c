@@ -7,7 +7,7 @@
 
 #include "base/common.h"
 
-const char *rows_status_name(int status)
+const char *rows_track_status_name(int status)
 {
     static const char *const names[ROWS_STATUS_MAX + 1] = {
         [RHO_MESSAGE_TRACK_TENTATIVE] = "tentative",
@@ -29,12 +29,12 @@ int rows_find_column(const struct rows_kind *kind, const char *name)
     return i;
 }
 
-int rows_compare_numbers(int64_t one, int64_t other)
+int rows_compare_int64(int64_t one, int64_t other)
 {
     return (one > other) - (one < other);
 }
 
-void rows_start(struct rows *rows, const struct rows_kind *kind)
+void rows_init(struct rows *rows, const struct rows_kind *kind)
 {
     *rows = (struct rows){.kind = kind};
 }
@@ -54,7 +54,7 @@ static void grow_cells(struct rows *rows)
     rows->cells = must_realloc(rows->cells, rows->cells_capacity * sizeof *rows->cells);
 }
 
-double *rows_add(struct rows *rows, const struct row *row)
+double *rows_add_row(struct rows *rows, const struct row *row)
 {
     double *cells;
 
@@ -75,7 +75,7 @@ double *rows_cells(const struct rows *rows, const struct row *row)
     return rows->cells + row->cells;
 }
 
-bool rows_saw_something(const struct rows *rows, const struct row *row)
+bool rows_row_has_measurement(const struct rows *rows, const struct row *row)
 {
     const double *cells = rows_cells(rows, row);
 
@@ -104,7 +104,7 @@ bool rows_is_plus_zero(float value)
     return fpclassify(value) == FP_ZERO && !signbit(value);
 }
 
-double rows_cell_unless_zero(float value)
+double rows_zero_to_empty_cell(float value)
 {
     return rows_is_plus_zero(value) ? (double)NAN : (double)value;
 }
@@ -114,7 +114,7 @@ double *rows_add_message_row(struct rows *rows, const struct rows_message *messa
     struct row row = message->key;
 
     row.time_us += dt_us;
-    return rows_add(rows, &row);
+    return rows_add_row(rows, &row);
 }
 
 int32_t rows_plot_offset_us(const struct rows_part *part, size_t index)

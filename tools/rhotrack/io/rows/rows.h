@@ -147,31 +147,31 @@ const struct rows_kind *rows_kind_of_channel(const char *channel);
  * Name of a track's status, "confirmed" and so on; RHO_MESSAGE_TRACK_... are 1 .. ROWS_STATUS_MAX.
  */
 #define ROWS_STATUS_MAX RHO_MESSAGE_TRACK_DELETED
-const char *rows_status_name(int status);
+const char *rows_track_status_name(int status);
 
 /* Index of a column, which the kind must have. */
 int rows_find_column(const struct rows_kind *kind, const char *name);
 
 /* Order of two numbers as qsort wants it: negative, 0 or positive. */
-int rows_compare_numbers(int64_t one, int64_t other);
+int rows_compare_int64(int64_t one, int64_t other);
 
-void rows_start(struct rows *rows, const struct rows_kind *kind);
+void rows_init(struct rows *rows, const struct rows_kind *kind);
 void rows_free(struct rows *rows);
 
 /* Adds a row with empty cells, and returns the cells, valid until the next row is added. */
-double *rows_add(struct rows *rows, const struct row *row);
+double *rows_add_row(struct rows *rows, const struct row *row);
 double *rows_cells(const struct rows *rows, const struct row *row);
 
 /* Whether the row has a plot, a bearing, a target or a track. */
-bool rows_saw_something(const struct rows *rows, const struct row *row);
+bool rows_row_has_measurement(const struct rows *rows, const struct row *row);
 
 /* ---- For the kinds ---- */
 
 /* Conversions between cells and message values: an empty cell and +0 both mean not given. */
 bool rows_is_cell_empty(double cell);
-float rows_float_or_zero(double cell);     /* 0 for an empty cell */
-double rows_cell_unless_zero(float value); /* empty for +0 */
-bool rows_is_plus_zero(float value);       /* +0, not -0 */
+float rows_float_or_zero(double cell);       /* 0 for an empty cell */
+double rows_zero_to_empty_cell(float value); /* empty for +0 */
+bool rows_is_plus_zero(float value);         /* +0, not -0 */
 
 /*
  * Adds a row of a message: of an element, dt_us after the message's utime, or of the scan itself.

@@ -66,7 +66,7 @@ static double *put_scan_cells(double *cells, const struct rho_message_bearing_sc
 {
     cells[SENSOR_X_M] = (double)message->sensor_x_m;
     cells[SENSOR_Y_M] = (double)message->sensor_y_m;
-    cells[SIGMA_RAD] = rows_cell_unless_zero(message->sigma_rad);
+    cells[SIGMA_RAD] = rows_zero_to_empty_cell(message->sigma_rad);
     return cells;
 }
 

@@ -15,7 +15,7 @@
 void rows_from_messages_start(struct rows_collection *collection, const struct rows_kind *kind)
 {
     *collection = (struct rows_collection){.count = 0};
-    rows_start(&collection->rows, kind);
+    rows_init(&collection->rows, kind);
 }
 
 static const char *describe_bad_message(enum rho_status status, const struct rows_kind *kind,
@@ -104,11 +104,11 @@ void rows_from_messages_add_event(struct rows_collection *collection, const char
 
 static int by_scan(const struct rows_message *one, const struct rows_message *other)
 {
-    int order = rows_compare_numbers(one->key.sensor_id, other->key.sensor_id);
+    int order = rows_compare_int64(one->key.sensor_id, other->key.sensor_id);
 
-    order = order ? order : rows_compare_numbers(one->key.epoch, other->key.epoch);
-    order = order ? order : rows_compare_numbers(one->key.scan, other->key.scan);
-    return order ? order : rows_compare_numbers(one->key.time_us, other->key.time_us);
+    order = order ? order : rows_compare_int64(one->key.epoch, other->key.epoch);
+    order = order ? order : rows_compare_int64(one->key.scan, other->key.scan);
+    return order ? order : rows_compare_int64(one->key.time_us, other->key.time_us);
 }
 
 static int by_part(const void *a, const void *b)
@@ -116,8 +116,8 @@ static int by_part(const void *a, const void *b)
     const struct rows_message *one = a, *other = b;
     int order = by_scan(one, other);
 
-    order = order ? order : rows_compare_numbers(one->part, other->part);
-    return order ? order : rows_compare_numbers((int64_t)one->arrival, (int64_t)other->arrival);
+    order = order ? order : rows_compare_int64(one->part, other->part);
+    return order ? order : rows_compare_int64((int64_t)one->arrival, (int64_t)other->arrival);
 }
 
 /* Rows to be kept, collected in their final order. */
@@ -198,17 +198,17 @@ static void append_scan_rows(struct ordering *ordering, const struct rows_messag
 static int by_time(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
-    int order = rows_compare_numbers(one->time_us, other->time_us);
+    int order = rows_compare_int64(one->time_us, other->time_us);
 
-    return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
+    return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
 static int by_reception(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
-    int order = rows_compare_numbers(one->received_us, other->received_us);
+    int order = rows_compare_int64(one->received_us, other->received_us);
 
-    return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
+    return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
 void rows_from_messages_finish(struct rows_collection *collection)

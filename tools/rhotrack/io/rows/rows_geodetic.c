@@ -22,8 +22,8 @@ void rows_geodetic_close(struct rows_geodetic *geodetic)
     geodetic->geodetic = NULL;
 }
 
-bool rows_geodetic_stands_for(const struct rows_geodetic *geodetic,
-                              const struct rows_column *column)
+bool rows_geodetic_replaces_column(const struct rows_geodetic *geodetic,
+                                   const struct rows_column *column)
 {
     return geodetic_has_place_columns(geodetic->geodetic) &&
            (strcmp(column->name, "x_m") == 0 || strcmp(column->name, "y_m") == 0);
@@ -148,8 +148,8 @@ static bool fill_polar_cells(const struct rows_geodetic *geodetic, const struct 
     return true;
 }
 
-bool rows_geodetic_fill(const struct rows_geodetic *geodetic, const struct row_check *check,
-                        int32_t sensor_id, double *cells)
+bool rows_geodetic_fill_cells(const struct rows_geodetic *geodetic, const struct row_check *check,
+                              int32_t sensor_id, double *cells)
 {
     const struct radar_frame *frame = NULL;
 

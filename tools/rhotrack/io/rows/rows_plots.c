@@ -145,11 +145,11 @@ static void put_plot_cells(double *cells, const struct rho_message_plot *plot, i
         cells[VY_MPS] = (double)plot->vy_mps;
         cells[VZ_MPS] = kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D
                             ? (double)plot->vz_mps
-                            : rows_cell_unless_zero(plot->vz_mps);
+                            : rows_zero_to_empty_cell(plot->vz_mps);
     }
-    cells[SIGMA_M] = rows_cell_unless_zero(plot->sigma_m);
-    cells[SIGMA_MPS] = rows_cell_unless_zero(plot->sigma_mps);
-    cells[SNR_DB] = rows_cell_unless_zero(plot->snr_db);
+    cells[SIGMA_M] = rows_zero_to_empty_cell(plot->sigma_m);
+    cells[SIGMA_MPS] = rows_zero_to_empty_cell(plot->sigma_mps);
+    cells[SNR_DB] = rows_zero_to_empty_cell(plot->snr_db);
 }
 
 static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,

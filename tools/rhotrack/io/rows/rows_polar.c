@@ -163,10 +163,10 @@ static void put_scan_cells(double *cells, const struct rho_message_polar_scan *m
     cells[SENSOR_X_M] = (double)message->sensor_x_m;
     cells[SENSOR_Y_M] = (double)message->sensor_y_m;
     cells[SENSOR_Z_M] = (double)message->sensor_z_m;
-    cells[SIGMA_RANGE_M] = rows_cell_unless_zero(message->sigma_range_m);
-    cells[SIGMA_AZIMUTH_RAD] = rows_cell_unless_zero(message->sigma_azimuth_rad);
-    cells[SIGMA_ELEVATION_RAD] = rows_cell_unless_zero(message->sigma_elevation_rad);
-    cells[SIGMA_RANGE_RATE_MPS] = rows_cell_unless_zero(message->sigma_range_rate_mps);
+    cells[SIGMA_RANGE_M] = rows_zero_to_empty_cell(message->sigma_range_m);
+    cells[SIGMA_AZIMUTH_RAD] = rows_zero_to_empty_cell(message->sigma_azimuth_rad);
+    cells[SIGMA_ELEVATION_RAD] = rows_zero_to_empty_cell(message->sigma_elevation_rad);
+    cells[SIGMA_RANGE_RATE_MPS] = rows_zero_to_empty_cell(message->sigma_range_rate_mps);
     if (!rows_is_plus_zero(message->sector_from_rad) ||
         !rows_is_plus_zero(message->sector_to_rad)) {
         cells[SECTOR_FROM_RAD] = (double)message->sector_from_rad;
@@ -186,7 +186,7 @@ static void put_plot_cells(double *cells, const struct rho_message_polar_scan *m
     if (message->has_range_rate) {
         cells[RANGE_RATE_MPS] = (double)plot->range_rate_mps;
     }
-    cells[SNR_DB] = rows_cell_unless_zero(plot->snr_db);
+    cells[SNR_DB] = rows_zero_to_empty_cell(plot->snr_db);
 }
 
 static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,

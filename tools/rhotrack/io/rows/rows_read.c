@@ -66,7 +66,7 @@ static int find_column(const struct reading *reading, const struct rows_column *
     }
     *is_degrees = degrees >= 0;
     if (degrees < 0 && (column->flags & COLUMN_NEEDED) &&
-        !rows_geodetic_stands_for(&reading->geodetic, column)) {
+        !rows_geodetic_replaces_column(&reading->geodetic, column)) {
         return table_need_column(table, column->name);
     }
     return degrees >= 0 ? degrees : plain;
@@ -111,7 +111,7 @@ static void find_columns(struct reading *reading)
 static bool read_status(const struct row_check *check, int column, double *value)
 {
     for (int i = 1; i <= ROWS_STATUS_MAX; i++) {
-        if (table_is_word(check->table, check->row, column, rows_status_name(i))) {
+        if (table_is_word(check->table, check->row, column, rows_track_status_name(i))) {
             *value = i;
             return true;
         }
@@ -205,7 +205,7 @@ static bool read_cells(const struct reading *reading, const struct row_check *ch
                 return false;
             }
         } else if ((kind->columns[i].flags & COLUMN_FILLED) &&
-                   !rows_geodetic_stands_for(&reading->geodetic, &kind->columns[i])) {
+                   !rows_geodetic_replaces_column(&reading->geodetic, &kind->columns[i])) {
             return row_refuse(check, "%s is empty", kind->columns[i].name);
         }
     }
@@ -258,7 +258,7 @@ static bool check_by_encoding(const struct reading *reading, const struct row_ch
     const char *field = "a value";
     int column;
 
-    part.count = rows_saw_something(rows, row);
+    part.count = rows_row_has_measurement(rows, row);
     if (rows->kind->encode(&part, message, &field) > 0) {
         return true;
     }
@@ -329,10 +329,10 @@ static bool check_row(const struct reading *reading, const struct row_check *che
         return false;
     }
     fill_missing_radar_place(reading, row->sensor_id, cells);
-    if (!rows_geodetic_fill(&reading->geodetic, check, row->sensor_id, cells)) {
+    if (!rows_geodetic_fill_cells(&reading->geodetic, check, row->sensor_id, cells)) {
         return false;
     }
-    if (rows->kind->why_not && rows_saw_something(rows, &rows->list[rows->count - 1])) {
+    if (rows->kind->why_not && rows_row_has_measurement(rows, &rows->list[rows->count - 1])) {
         why = rows->kind->why_not(cells);
     }
     return why ? row_refuse(check, "%s", why) : check_by_encoding(reading, check);
@@ -346,7 +346,7 @@ static bool read_row(struct reading *reading, const struct row_check *check)
     if (!read_time_and_numbers(reading, check, &row)) {
         return false;
     }
-    if (!check_row(reading, check, &row, rows_add(rows, &row))) {
+    if (!check_row(reading, check, &row, rows_add_row(rows, &row))) {
         rows->num_cells = rows->list[--rows->count].cells;
         return false;
     }
@@ -376,7 +376,7 @@ bool rows_read_table(struct rows_file *file, const char *path, const struct tabl
     *file = (struct rows_file){.path = must_copy_text(path),
                                .keep_going = keep_going,
                                .rows_skipped = table->rows_skipped};
-    rows_start(&file->rows, kind_of_table(table));
+    rows_init(&file->rows, kind_of_table(table));
     find_columns(&reading);
     read_rows(&reading);
     rows_geodetic_close(&reading.geodetic);
@@ -410,7 +410,7 @@ void rows_refuse_row(struct rows_file *file, const struct row *row, const char *
     file->rows_skipped++;
 }
 
-void rows_read_end(struct rows_file *file)
+void rows_file_free(struct rows_file *file)
 {
     free(file->path);
     rows_free(&file->rows);

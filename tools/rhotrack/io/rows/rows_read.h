@@ -40,6 +40,6 @@ bool rows_read_table(struct rows_file *file, const char *path, const struct tabl
 /* Handles a bad row: exit 2 with its line, or with keep_going counts it. */
 void rows_refuse_row(struct rows_file *file, const struct row *row, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-void rows_read_end(struct rows_file *file);
+void rows_file_free(struct rows_file *file);
 
 #endif

@@ -27,22 +27,22 @@ struct scan_grouping {
 static int by_scan_and_order(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
-    int order = rows_compare_numbers(one->sensor_id, other->sensor_id);
+    int order = rows_compare_int64(one->sensor_id, other->sensor_id);
 
-    order = order ? order : rows_compare_numbers(one->epoch, other->epoch);
-    order = order ? order : rows_compare_numbers(one->scan, other->scan);
-    return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
+    order = order ? order : rows_compare_int64(one->epoch, other->epoch);
+    order = order ? order : rows_compare_int64(one->scan, other->scan);
+    return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
 /* Order of lists' rows: by time as well, since the file may have them in any order. */
 static int by_list_and_order(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
-    int order = rows_compare_numbers(one->epoch, other->epoch);
+    int order = rows_compare_int64(one->epoch, other->epoch);
 
-    order = order ? order : rows_compare_numbers(one->scan, other->scan);
-    order = order ? order : rows_compare_numbers(one->time_us, other->time_us);
-    return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
+    order = order ? order : rows_compare_int64(one->scan, other->scan);
+    order = order ? order : rows_compare_int64(one->time_us, other->time_us);
+    return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
 struct named_row {
@@ -54,7 +54,7 @@ struct named_row {
 static int by_time_and_name(const void *a, const void *b)
 {
     const struct named_row *one = a, *other = b;
-    int order = rows_compare_numbers(one->time_us, other->time_us);
+    int order = rows_compare_int64(one->time_us, other->time_us);
 
     order = order ? order : (one->name > other->name) - (one->name < other->name);
     return order ? order : (one->row > other->row) - (one->row < other->row);
@@ -110,15 +110,16 @@ static bool joins_turn(const struct scan_grouping *grouping, size_t first, size_
     const struct row *row = &grouping->rows[index], *other = &grouping->rows[index - 1];
     const double *cells = rows_cells(&grouping->file->rows, row), *others;
 
-    while (other > &grouping->rows[first] && !rows_saw_something(&grouping->file->rows, other)) {
+    while (other > &grouping->rows[first] &&
+           !rows_row_has_measurement(&grouping->file->rows, other)) {
         other--;
     }
     others = rows_cells(&grouping->file->rows, other);
     return row->turn == grouping->rows[first].turn &&
            row->time_us - grouping->rows[first].time_us <= OWN_TIME_MAX_US &&
            !find_differing_column(grouping, cells, others, COLUMN_OF_SCAN) &&
-           (!rows_saw_something(&grouping->file->rows, row) ||
-            !rows_saw_something(&grouping->file->rows, other) ||
+           (!rows_row_has_measurement(&grouping->file->rows, row) ||
+            !rows_row_has_measurement(&grouping->file->rows, other) ||
             (!find_differing_column(grouping, cells, others, COLUMN_OF_PLOTS) &&
              (!grouping->kind->pattern ||
               grouping->kind->pattern(cells) == grouping->kind->pattern(others))));
@@ -229,7 +230,7 @@ static bool check_row_fits_scan(struct scan_grouping *grouping, const struct row
 static int64_t scan_time_of_rows(const struct scan_grouping *grouping, size_t first, size_t end)
 {
     for (size_t i = first; grouping->file->has_scan && i < end; i++) {
-        if (!rows_saw_something(&grouping->file->rows, &grouping->rows[i])) {
+        if (!rows_row_has_measurement(&grouping->file->rows, &grouping->rows[i])) {
             return grouping->rows[i].time_us;
         }
     }
@@ -266,7 +267,7 @@ static void add_scan_of_rows(struct scan_grouping *grouping, size_t first, size_
         grouping->file->rows.has_received ? grouping->rows[end - 1].received_us : scan.utime;
     for (size_t i = first; i < end; i++) {
         struct row row = grouping->rows[i];
-        bool is_plot = rows_saw_something(&grouping->file->rows, &row);
+        bool is_plot = rows_row_has_measurement(&grouping->file->rows, &row);
 
         if (!check_row_fits_scan(grouping, &scan, &row) ||
             (is_plot && scan.count > 0 && !check_plot_fits_scan(grouping, &scan, &row))) {
@@ -290,11 +291,11 @@ static void add_scan_of_rows(struct scan_grouping *grouping, size_t first, size_
 static int by_sensor(const void *a, const void *b)
 {
     const struct rows_scan *one = a, *other = b;
-    int order = rows_compare_numbers(one->head.sensor_id, other->head.sensor_id);
+    int order = rows_compare_int64(one->head.sensor_id, other->head.sensor_id);
 
-    order = order ? order : rows_compare_numbers(one->head.epoch, other->head.epoch);
-    order = order ? order : rows_compare_numbers(one->utime, other->utime);
-    return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
+    order = order ? order : rows_compare_int64(one->head.epoch, other->head.epoch);
+    order = order ? order : rows_compare_int64(one->utime, other->utime);
+    return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
 /*
@@ -320,9 +321,9 @@ static void number_scans(const struct scan_grouping *grouping)
 static int by_due_time(const void *a, const void *b)
 {
     const struct rows_scan *one = a, *other = b;
-    int order = rows_compare_numbers(one->due_us, other->due_us);
+    int order = rows_compare_int64(one->due_us, other->due_us);
 
-    return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
+    return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
 void rows_scans_make(struct rows_scans *scans, struct rows_file *file, int64_t interval_us)

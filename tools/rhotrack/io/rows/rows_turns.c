@@ -12,7 +12,7 @@ static bool plot_place_from_sensor(const struct rows_file *file, const struct ro
     const struct rows_kind *kind = file->rows.kind;
     const double *cells = rows_cells(&file->rows, row);
 
-    if (!rows_saw_something(&file->rows, row)) {
+    if (!rows_row_has_measurement(&file->rows, row)) {
         return false;
     }
     if (kind == &rows_kind_polar) {
@@ -24,7 +24,7 @@ static bool plot_place_from_sensor(const struct rows_file *file, const struct ro
     } else {
         struct rho_sensor sensor;
 
-        parameters_to_any_sensor(parameters, row->sensor_id, &sensor);
+        parameters_to_sensor_or_defaults(parameters, row->sensor_id, &sensor);
         place_m[0] = cells[rows_find_column(kind, "x_m")] - (double)sensor.x_m;
         place_m[1] = cells[rows_find_column(kind, "y_m")] - (double)sensor.y_m;
     }
@@ -42,7 +42,7 @@ static bool may_have_turns(const struct rows_file *file, const struct parameters
                rows_cells(&file->rows, file->rows.list)[rows_find_column(kind, "sector_from_rad")]);
 }
 
-void rows_turns_find(struct rows_file *file, const struct parameters *parameters)
+void rows_turns_number_rows(struct rows_file *file, const struct parameters *parameters)
 {
     struct antenna_turns *turns;
     double place_m[2];
@@ -57,7 +57,7 @@ void rows_turns_find(struct rows_file *file, const struct parameters *parameters
 
         goes_on =
             !plot_place_from_sensor(file, row, parameters, place_m) ||
-            antenna_turns_look_at_row(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
+            antenna_turns_collect_row(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
     }
     if (antenna_turns_find_rules(turns, file->path, parameters->value[PARAMETER_V_MAX_MPS])) {
         for (size_t i = 0; i < file->rows.count; i++) {

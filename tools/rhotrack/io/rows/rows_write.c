@@ -58,7 +58,7 @@ static void write_cell(FILE *file, const struct rows_column *column, double cell
         return;
     }
     if (column->flags & COLUMN_STATUS) {
-        fputs(rows_status_name((int)cell), file);
+        fputs(rows_track_status_name((int)cell), file);
     } else if (column->flags & (COLUMN_INT16 | COLUMN_INT32)) {
         fprintf(file, "%" PRId32, (int32_t)cell);
     } else if (!(cell < 0.0) && !(cell > 0.0) && !rows_is_plus_zero((float)cell)) {
@@ -149,7 +149,7 @@ static struct table *start_table(const char *path, const struct rows *rows, cons
             list[count++] = (struct table_column){
                 .name = column->name,
                 .decimals = column->flags & (COLUMN_INT16 | COLUMN_INT32) ? 0 : TABLE_SHORTEST,
-                .word = column->flags & COLUMN_STATUS ? rows_status_name : NULL};
+                .word = column->flags & COLUMN_STATUS ? rows_track_status_name : NULL};
         }
     }
     list[count++] = (struct table_column){.name = "scan"};

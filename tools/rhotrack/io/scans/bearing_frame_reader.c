@@ -221,8 +221,8 @@ static void count_frames_and_sensors(struct bearing_frame_reader *reader, uint64
 
     while (make_next_frame(reader)) {
         frames_of[reader->frame.num_scans]++;
-        progress_show_bytes(&progress, reader->counts.frames, bearing_frame_reader_position(reader),
-                            bytes);
+        progress_show_by_bytes(&progress, reader->counts.frames,
+                               bearing_frame_reader_position(reader), bytes);
     }
     progress_end(&progress);
     reader->total = reader->counts;
@@ -271,7 +271,7 @@ void bearing_frame_reader_need_two_sensors(const struct bearing_frame_reader *re
 
 void bearing_frame_reader_keep_last(struct bearing_frame_reader *reader, uint64_t frames)
 {
-    say_only_last_taken(frames, reader->total.frames, "frames");
+    print_only_last_taken(frames, reader->total.frames, "frames");
     reader->skip = reader->total.frames > frames ? reader->total.frames - frames : 0;
 }
 
@@ -300,7 +300,7 @@ bearing_frame_reader_counts(const struct bearing_frame_reader *reader)
 
 void bearing_frame_reader_report_skipped(const struct bearing_frame_reader *reader)
 {
-    say_rows_skipped(reader->total.rows_skipped);
+    print_rows_skipped(reader->total.rows_skipped);
     if (reader->total.frames_incomplete) {
         fprintf(stderr, "rhotrack: %" PRIu64 " of %" PRIu64 " frames miss a sensor\n",
                 reader->total.frames_incomplete, reader->total.frames);

@@ -14,7 +14,7 @@
 #define LIVE_LEAST 20   /* fewest scans of a live sensor before it is reported */
 #define IRREGULAR 3     /* least ratio of the longest to the shortest interval */
 
-struct lone_sensor {
+struct lone_scan_counts {
     int16_t sensor_id;
     int64_t last_us; /* time of the sensor's newest scan */
     uint64_t scans, lone;
@@ -52,8 +52,8 @@ static bool summarise_first_part(const struct message_event *event, struct scan_
 }
 
 /* The sensor's counts, or NULL where it has no scan yet. */
-static struct lone_sensor *find_sensor_counts(const struct scan_interval_hint *plots,
-                                              int16_t sensor_id)
+static struct lone_scan_counts *find_sensor_counts(const struct scan_interval_hint *plots,
+                                                   int16_t sensor_id)
 {
     for (size_t i = 0; i < plots->count; i++) {
         if (plots->sensors[i].sensor_id == sensor_id) {
@@ -66,7 +66,7 @@ static struct lone_sensor *find_sensor_counts(const struct scan_interval_hint *p
 void scan_interval_hint_add_message(struct scan_interval_hint *plots,
                                     const struct message_event *event)
 {
-    struct lone_sensor *sensor;
+    struct lone_scan_counts *sensor;
     struct scan_summary summary;
 
     if (!summarise_first_part(event, &summary)) {
@@ -88,7 +88,7 @@ void scan_interval_hint_add_message(struct scan_interval_hint *plots,
         plots->sensors =
             must_grow(plots->sensors, plots->count, &plots->capacity, sizeof *plots->sensors);
         sensor = &plots->sensors[plots->count++];
-        *sensor = (struct lone_sensor){.sensor_id = summary.sensor_id, .shortest_us = SOON_US};
+        *sensor = (struct lone_scan_counts){.sensor_id = summary.sensor_id, .shortest_us = SOON_US};
     }
     sensor->scans++;
     sensor->last_us = summary.time_us;
@@ -107,7 +107,7 @@ void scan_interval_hint_report(const struct scan_interval_hint *plots, const cha
 void scan_interval_hint_report_live(struct scan_interval_hint *plots)
 {
     for (size_t i = 0; i < plots->count; i++) {
-        struct lone_sensor *sensor = &plots->sensors[i];
+        struct lone_scan_counts *sensor = &plots->sensors[i];
 
         if (!sensor->is_said && sensor->scans >= LIVE_LEAST && sensor->lone > sensor->scans / 2 &&
             sensor->longest_us > IRREGULAR * sensor->shortest_us) {

@@ -15,7 +15,7 @@
 struct scan_interval_hint {
     /* lone: one plot, without a sector, less than a second after the sensor's scan before */
     uint64_t scans, lone;
-    struct lone_sensor *sensors;
+    struct lone_scan_counts *sensors;
     size_t count, capacity;
 };
 

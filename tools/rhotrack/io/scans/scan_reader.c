@@ -105,7 +105,7 @@ struct scan_reader_counts scan_reader_counts(const struct scan_reader *reader)
 
 void scan_reader_report_skipped(const struct scan_reader *reader)
 {
-    say_rows_skipped(scan_reader_counts(reader).rows_skipped);
+    print_rows_skipped(scan_reader_counts(reader).rows_skipped);
 }
 
 void scan_reader_close(struct scan_reader *reader)

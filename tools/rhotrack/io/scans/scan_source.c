@@ -380,7 +380,7 @@ static bool next_log_scan_in_order(struct scan_source *source, struct sensor_sca
             *scan = next;
             return true;
         }
-        reorder_buffer_put(&source->reorder, &next, log_scans_heard_us(source->log),
+        reorder_buffer_put(&source->reorder, &next, log_scans_scan_received_us(source->log),
                            log_scans_clock_us(source->log));
     }
     return true;
@@ -436,13 +436,13 @@ static void find_antenna_turns(struct scan_source *source)
     char reason[ROW_REASON_BYTES];
     bool goes_on = true;
 
-    table_stream_report_nothing(stream);
+    table_stream_suppress_reports(stream);
     source->turns = antenna_turns_start();
     while (goes_on && table_stream_next(stream) == TABLE_STREAM_ROW) {
         if (record_read(table_stream_table(stream), &columns, 0, source->parameters, &row,
                         reason) &&
             row.has_measurement) {
-            goes_on = antenna_turns_look_at_row(source->turns, row.sensor_id, row.time_us,
+            goes_on = antenna_turns_collect_row(source->turns, row.sensor_id, row.time_us,
                                                 (double)row.plot.x_m - (double)row.sensor.x_m,
                                                 (double)row.plot.y_m - (double)row.sensor.y_m);
         }
@@ -464,7 +464,7 @@ static void open_table(struct scan_source *source)
                       source->options.kind == RECORD_BEARINGS ? sizeof(struct rho_bearing)
                                                               : sizeof(struct rho_plot),
                       llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
-    parameters_time_biases_us(source->parameters, &least_us, &source->gather.bias_max_us);
+    parameters_time_bias_range_us(source->parameters, &least_us, &source->gather.bias_max_us);
     source->gather.begun_max = source->options.follow ? FOLLOW_BEGUN_MAX : 0;
     source->reorder.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
     open_stream(source);

@@ -54,7 +54,7 @@ static struct antenna *find_antenna(const struct antenna_turns *turns, int32_t s
     return NULL;
 }
 
-bool antenna_turns_look_at_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
+bool antenna_turns_collect_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
                                double x_m, double y_m)
 {
     struct antenna *antenna = find_antenna(turns, sensor_id);

@@ -22,7 +22,7 @@ struct antenna_turns *antenna_turns_start(void);
  * Collects a row for the search of rules, in the order of time: a plot's place relative to its
  * sensor. Returns false once there are enough rows.
  */
-bool antenna_turns_look_at_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
+bool antenna_turns_collect_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
                                double x_m, double y_m);
 
 /*

@@ -186,7 +186,7 @@ struct revolutions revolutions_read_last(struct scan_reader *reader, size_t max)
         free(reading.sensors[i].window);
     }
     free(reading.sensors);
-    say_only_last_taken(max, reading.revolutions.total, "scans");
+    print_only_last_taken(max, reading.revolutions.total, "scans");
     if (reading.revolutions.late > 0) {
         fprintf(stderr, "rhotrack: %" PRIu64 " scans that came late are left out\n",
                 reading.revolutions.late);

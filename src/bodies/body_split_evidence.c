@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * body_split_evidence: collects evidence that a track's body is really two targets, and decides on it.
+ *
+ * The plots of a look are compared with those of one rigid body. Their extent is at most that of
+ * the longest body. And while the body keeps its heading, range rates vary over it like a plane no
+ * steeper than an unseen turn explains. Two cars in neighbouring lanes, one faster than the other,
+ * are told apart by range rates within a few seconds, long before they are resolved; two cars in
+ * one lane, so near that they were taken for one truck, are told apart by their length.
+ */
+#include "../tracker/step.h"
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/body_extent_filter.h"
+
+/* Memory of the evidence, in looks of several plots: sums fade by 1 / MEMORY_LOOKS each look. */
+#define MEMORY_LOOKS 80.0f
+/*
+ * A body is too long where more looks than LONG_LOOKS, and a larger share than LONG_SHARE, extend
+ * beyond the longest body by LONG_SIGMAS of a plot: stray plots make fewer.
+ */
+#define LONG_LOOKS 4.0f
+#define LONG_SHARE 0.1f
+#define LONG_SIGMAS 4.0f
+/*
+ * Largest deviation of a steady heading from its mean, beside one sigma of the heading. Beyond it
+ * the sums of range rates begin anew, as parts of a turning body have different range rates.
+ */
+#define STEADY_RAD 0.1f
+/* Largest unseen turn of a steady heading, over its tolerance. */
+#define TURN_SHARE 2.0f
+/* Looks with a steady heading after which range rates are judged: a turn is seen by then. */
+#define STEADY_LOOKS 30.0f
+/* Square of the number of sigmas that the velocity across the line of sight may be off. */
+#define UNKNOWN_SHARE 4.0f
+/* Limit of chi-square in two dimensions; large, as errors of successive looks are correlated. */
+#define APART_CHI2 40.0f
+/* Least variance of places across the line of sight, as a share of their noise. */
+#define SIDE_SHARE 0.2f
+/* Least 1 - correlation^2 of places in two axes, for a plane to be fitted to the range rates. */
+#define PLANE_SHARE 0.1f
+
+static float heading_tolerance_rad(const struct rho_body_filter *body)
+{
+    return STEADY_RAD + body->heading_sigma_rad;
+}
+
+static void clear_range_rate_sums(struct rho_body_doubt *doubt, const struct rho_body_filter *body)
+{
+    *doubt = (struct rho_body_doubt){.looks = doubt->looks,
+                                     .long_looks = doubt->long_looks,
+                                     .cos_heading = body->cos_heading,
+                                     .sin_heading = body->sin_heading,
+                                     .time_us = doubt->time_us,
+                                     .doubled = doubt->doubled,
+                                     .doubled_us = doubt->doubled_us};
+}
+
+/* Fades all sums by one look and counts it; clears those of range rates where the body has turned.
+ */
+static void fade_doubt_by_one_look(struct rho_body_doubt *doubt, const struct rho_body_filter *body,
+                                   float passed_s)
+{
+    const float share = 1.0f - 1.0f / MEMORY_LOOKS;
+    doubt->looks = share * doubt->looks + 1.0f;
+    doubt->long_looks *= share;
+    const float turned_rad = rho_angle_difference(rho_atan2(doubt->sin_heading, doubt->cos_heading),
+                                                  rho_atan2(body->sin_heading, body->cos_heading));
+    if (doubt->plots_beyond_one <= 0.0f || turned_rad > heading_tolerance_rad(body) ||
+        turned_rad < -heading_tolerance_rad(body)) {
+        clear_range_rate_sums(doubt, body);
+        return;
+    }
+    doubt->steady_looks *= share;
+    doubt->time_s = share * doubt->time_s + passed_s;
+    doubt->cos_heading += (1.0f - share) * (body->cos_heading - doubt->cos_heading);
+    doubt->sin_heading += (1.0f - share) * (body->sin_heading - doubt->sin_heading);
+    doubt->plots_beyond_one *= share;
+    doubt->far_m2 *= share;
+    doubt->side_m2 *= share;
+    doubt->cross_m2 *= share;
+    doubt->rates_m2ps2 *= share;
+    doubt->side_noise_m2 *= share;
+    doubt->far_m2ps *= share;
+    doubt->side_m2ps *= share;
+    doubt->rate_noise_m2ps2 *= share;
+    doubt->unknown_m2ps2 *= share;
+}
+
+/*
+ * Sums over a look's plots: places along the line of sight (far) and across it (side), range rates,
+ * their squares and products.
+ */
+struct look_sums {
+    float n, far, side, rate, far2, cross, side2, rate2, rate_far, rate_side;
+    float side_noise_m2, rate_noise_m2ps2;
+    float first_m, last_m, noise_m2; /* along the body: extreme places, largest plot variance */
+};
+
+static struct look_sums sum_look_of_body(const struct step *step, const struct rho_scan *scan,
+                                         unsigned row)
+{
+    const struct rho_bodies *bodies = &step->tracker->bodies;
+    struct look_sums sums = {.first_m = 1e9f, .last_m = -1e9f};
+    const struct rho_groups *groups = &bodies->groups;
+    struct body_plot at;
+    float axes[3];
+    for (unsigned i = rho_tracker_first_uncontested_plot(
+             groups, groups->first[step->tracker->tracks[row].plot]);
+         i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
+        const struct rho_plot *plot = &scan->plots[i];
+        if (!rho_tracker_locate_plot_on_body(step, scan, row, i, &at) &&
+            (scan->measures & RHO_MEASURES_RANGE_RATE)) {
+            continue; /* a plot at the sensor has no line of sight */
+        }
+        rho_tracker_plot_noise_on_body(step, &bodies->of[row], plot, axes);
+        const float far_m = at.line[0] * at.dx_m + at.line[1] * at.dy_m,
+                    side_m = at.line[0] * at.dy_m - at.line[1] * at.dx_m;
+        sums.n += 1.0f;
+        sums.far += far_m;
+        sums.side += side_m;
+        sums.rate += at.rate_mps;
+        sums.far2 += far_m * far_m;
+        sums.cross += far_m * side_m;
+        sums.side2 += side_m * side_m;
+        sums.rate2 += at.rate_mps * at.rate_mps;
+        sums.rate_far += at.rate_mps * far_m;
+        sums.rate_side += at.rate_mps * side_m;
+        sums.side_noise_m2 += plot->sigma_cross_m * plot->sigma_cross_m;
+        sums.rate_noise_m2ps2 += plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
+        sums.first_m = rho_smaller(sums.first_m, at.along_m);
+        sums.last_m = rho_larger(sums.last_m, at.along_m);
+        sums.noise_m2 = rho_larger(sums.noise_m2, axes[0]);
+    }
+    return sums;
+}
+
+/* Turn rate that one sigma of the velocity across the line of sight adds to range rates, rad/s. */
+static float apparent_turn_sigma_radps(const struct step *step, const struct rho_track *track)
+{
+    const float x_m = track->kalman.state[RHO_X] - (step->sensor ? step->sensor->x_m : 0.0f),
+                y_m = track->kalman.state[RHO_Y] - (step->sensor ? step->sensor->y_m : 0.0f);
+    return rho_track_sigma_mps(track) / (rho_sqrt(x_m * x_m + y_m * y_m) + 1.0f);
+}
+
+static int is_longer_than_any_body(const struct step *step, const struct look_sums *sums)
+{
+    return sums->last_m - sums->first_m >
+           step->tracker->bodies.length_max_m + LONG_SIGMAS * rho_sqrt(sums->noise_m2);
+}
+
+void rho_tracker_add_body_split_evidence(const struct step *step, const struct rho_scan *scan,
+                                         unsigned row)
+{
+    struct rho_body_filter *body = &step->tracker->bodies.of[row];
+    struct rho_body_doubt *doubt = &body->doubt;
+    const struct look_sums sums = sum_look_of_body(step, scan, row);
+    const float passed_s =
+        doubt->looks > 0.0f ? rho_seconds_between(doubt->time_us, step->time_us) : 0.0f;
+    if (sums.n < 2.0f || !body->has_heading) {
+        return;
+    }
+    const float mean = 1.0f / sums.n;
+    doubt->time_us = step->time_us;
+    fade_doubt_by_one_look(doubt, body, passed_s);
+    doubt->long_looks += is_longer_than_any_body(step, &sums) ? 1.0f : 0.0f;
+    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE) || body->plots < RHO_BODY_NEW_PLOTS) {
+        return; /* the velocity of a new track is too uncertain for its range rates to be judged */
+    }
+    doubt->steady_looks += 1.0f;
+    doubt->plots_beyond_one += sums.n - 1.0f;
+    doubt->far_m2 += sums.far2 - mean * sums.far * sums.far;
+    const float side_m2 = sums.side2 - mean * sums.side * sums.side;
+    const float turned_radps = apparent_turn_sigma_radps(step, &step->tracker->tracks[row]);
+    doubt->side_m2 += side_m2;
+    doubt->unknown_m2ps2 += turned_radps * turned_radps * side_m2;
+    doubt->side_noise_m2 += (1.0f - mean) * sums.side_noise_m2;
+    doubt->cross_m2 += sums.cross - mean * sums.far * sums.side;
+    doubt->rates_m2ps2 += sums.rate2 - mean * sums.rate * sums.rate;
+    doubt->far_m2ps += sums.rate_far - mean * sums.rate * sums.far;
+    doubt->side_m2ps += sums.rate_side - mean * sums.rate * sums.side;
+    doubt->rate_noise_m2ps2 += (1.0f - mean) * sums.rate_noise_m2ps2;
+}
+
+/*
+ * Fits a plane to the range rates over the body, by least squares. Where the plane explains more
+ * than noise, an unseen turn and an error of the velocity do, the plots are of two targets. Wheels
+ * and other moving parts raise the noise, which is taken from the residuals.
+ */
+static int parts_move_apart(const struct rho_body_filter *body)
+{
+    const struct rho_body_doubt *doubt = &body->doubt;
+    const float det = doubt->far_m2 * doubt->side_m2 - doubt->cross_m2 * doubt->cross_m2;
+    if (doubt->steady_looks < STEADY_LOOKS ||
+        !(det > PLANE_SHARE * doubt->far_m2 * doubt->side_m2)) {
+        return 0;
+    }
+    const float far = doubt->far_m2ps, side = doubt->side_m2ps;
+    const float explained = (doubt->side_m2 * far * far - 2.0f * doubt->cross_m2 * far * side +
+                             doubt->far_m2 * side * side) /
+                            det;
+    const float noise = rho_larger(doubt->rate_noise_m2ps2, doubt->rates_m2ps2 - explained);
+    const float turn_radps = TURN_SHARE * heading_tolerance_rad(body) / (doubt->time_s + 1e-6f);
+    const float side_m2 =
+        rho_larger(doubt->side_m2 - doubt->side_noise_m2, SIDE_SHARE * doubt->side_noise_m2);
+    return explained * doubt->plots_beyond_one > APART_CHI2 * noise &&
+           explained > doubt->rate_noise_m2ps2 &&
+           explained > turn_radps * turn_radps * side_m2 + UNKNOWN_SHARE * doubt->unknown_m2ps2;
+}
+
+enum rho_body_split rho_tracker_find_body_split_reason(const struct step *step, unsigned row)
+{
+    const struct rho_body_doubt *doubt = &step->tracker->bodies.of[row].doubt;
+    if (doubt->long_looks > LONG_LOOKS && doubt->long_looks > LONG_SHARE * doubt->looks) {
+        return RHO_BODY_TOO_LONG;
+    }
+    return parts_move_apart(&step->tracker->bodies.of[row]) ? RHO_BODY_MOVES_APART : RHO_BODY_ONE;
+}

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * input_estimation_sensitivity: the sensitivity of the state to the input of each axis, one column an
+ * axis, and the effect of an input on an estimate. Private to src/estimation/input_estimation*.c.
+ */
+#ifndef RHOTRACK_INPUT_ESTIMATION_SENSITIVITY_H
+#define RHOTRACK_INPUT_ESTIMATION_SENSITIVITY_H
+
+#include <stdint.h>
+#include <string.h>
+
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/input_estimation.h"
+
+#define NUM_AXES RHO_INPUT_AXES
+#define NUM_STATES RHO_KALMAN_STATES
+#define INPUT_ALL_PRESENT 7u
+
+/* Limit of the sum of squared sensitivities: their products with any variance are finite. */
+#define SENSITIVITY2_MAX 1.0e24f
+
+/*
+ * Allowance for rounding: terms that are added to a covariance have errors of some units in the
+ * last place. Terms added to a variance are raised by sixteen units, so that the covariance stays
+ * positive definite.
+ */
+#define ROUNDING_SHARE (1.0f / 1048576.0f)
+
+static inline int includes_axis(uint32_t axes, int axis)
+{
+    return (axes >> axis & 1u) != 0;
+}
+
+static inline int is_zero(float v)
+{
+    return !(v < 0.0f || v > 0.0f);
+}
+
+/* Bits of a float without its sign: 0 for +0 and -0 alone. */
+static inline uint32_t magnitude_bits(float v)
+{
+    return rho_float_bits(v) << 1;
+}
+
+/* Raises a term that is added to a variance by the allowance for rounding. */
+static inline float with_rounding_allowance(float added)
+{
+    return added + added * ROUNDING_SHARE;
+}
+
+/* True if a column of the sensitivities is 0 outside of its own axis: the usual case. */
+static inline int is_column_uncoupled(const float m[NUM_STATES], int a)
+{
+    static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
+    const int b = others[a][0], c = others[a][1];
+
+    return (magnitude_bits(m[b]) | magnitude_bits(m[c]) | magnitude_bits(m[b + NUM_AXES]) |
+            magnitude_bits(m[c + NUM_AXES])) == 0;
+}
+
+/*
+ * Adds the effect of an input u with variance v on axis a: x := x + m u, p := p + v m m^T, m the
+ * column of sensitivities of this axis.
+ */
+static inline void add_input_effect(struct rho_kalman *kalman, const float m[NUM_STATES], int a,
+                                    float u, float v)
+{
+    /* indices of var(position), cov(velocity, position), var(velocity) */
+    static const uint8_t indices[NUM_AXES][3] = {
+        {RHO_XX, RHO_AT(RHO_VX, RHO_X), RHO_AT(RHO_VX, RHO_VX)},
+        {RHO_YY, RHO_AT(RHO_VY, RHO_Y), RHO_AT(RHO_VY, RHO_VY)},
+        {RHO_ZZ, RHO_AT(RHO_VZ, RHO_Z), RHO_AT(RHO_VZ, RHO_VZ)}};
+    float *x = kalman->state, *p = kalman->covariance;
+
+    if (is_column_uncoupled(m, a)) {
+        const float place = m[a], speed = m[a + NUM_AXES];
+
+        x[a] += place * u;
+        x[a + NUM_AXES] += speed * u;
+        p[indices[a][0]] += with_rounding_allowance(v * place * place);
+        p[indices[a][1]] += v * place * speed;
+        p[indices[a][2]] += with_rounding_allowance(v * speed * speed);
+        return;
+    }
+    for (int i = 0; i < NUM_STATES; i++) {
+        const float scaled = v * m[i];
+        float *row = &p[RHO_TRIANGLE(i)];
+
+        x[i] += m[i] * u;
+        for (int j = 0; j < i; j++) {
+            row[j] += scaled * m[j];
+        }
+        row[i] += with_rounding_allowance(scaled * m[i]);
+    }
+}
+
+static inline int are_inputs_independent(const float v[RHO_TRIANGLE(NUM_AXES)])
+{
+    return (magnitude_bits(v[RHO_YX]) | magnitude_bits(v[RHO_ZX]) | magnitude_bits(v[RHO_ZY])) == 0;
+}
+
+#endif

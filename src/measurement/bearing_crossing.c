@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/detail/bearing_crossing.h"
+
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+
+/*
+ * Least angle between the bearings of a crossing: sin(delta) of a smaller one has no significant
+ * digits.
+ */
+#define DELTA_MIN_RAD 1.0e-6f
+
+static int is_valid_place(float x_m, float y_m)
+{
+    return rho_is_coordinate(x_m) && rho_is_coordinate(y_m);
+}
+
+enum rho_status rho_crossing_set_base(struct rho_crossing_base *base, float x_a_m, float y_a_m,
+                                      float x_b_m, float y_b_m)
+{
+    if (!base) {
+        return RHO_ERROR_NULL;
+    }
+    if (!is_valid_place(x_a_m, y_a_m) || !is_valid_place(x_b_m, y_b_m)) {
+        return RHO_ERROR_VALUE;
+    }
+    float dx_m = x_b_m - x_a_m, dy_m = y_b_m - y_a_m;
+    float length_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    if (!(length_m >= RHO_CROSSING_BASE_MIN_M)) {
+        return RHO_ERROR_VALUE;
+    }
+    *base = (struct rho_crossing_base){.x_a_m = x_a_m,
+                                       .y_a_m = y_a_m,
+                                       .x_b_m = x_b_m,
+                                       .y_b_m = y_b_m,
+                                       .length_m = length_m,
+                                       .direction_rad = rho_atan2(dy_m, dx_m)};
+    return RHO_OK;
+}
+
+/* Angles of two bearings to the base, and the angle delta between the bearings. */
+struct base_angles {
+    float a_rad, b_rad; /* |beta_a| and |beta_b| */
+    float delta_rad;
+    int are_on_one_side;
+};
+
+static float without_sign(float v)
+{
+    return v < 0.0f ? -v : v;
+}
+
+/*
+ * Angles of two bearings to the base. delta is the difference of the bearings themselves, which is
+ * exact where it is small.
+ */
+static struct base_angles crossing_angles(const struct rho_crossing_base *base, float bearing_a_rad,
+                                          float bearing_b_rad)
+{
+    float a_rad = rho_angle_difference(bearing_a_rad, base->direction_rad);
+    float b_rad = rho_angle_difference(bearing_b_rad, base->direction_rad);
+    float turn_rad = rho_angle_difference(bearing_b_rad, bearing_a_rad);
+    return (struct base_angles){.a_rad = without_sign(a_rad),
+                                .b_rad = without_sign(b_rad),
+                                .delta_rad = a_rad + b_rad < 0.0f ? -turn_rad : turn_rad,
+                                .are_on_one_side = !(a_rad * b_rad < 0.0f)};
+}
+
+/*
+ * B sin(beta), as the distance of one sensor from the other one's line of sight: the rounding of
+ * the base's direction does not enter.
+ */
+static float sensor_to_ray_distance_m(const struct rho_crossing_base *base, float bearing_rad)
+{
+    float dx_m = base->x_b_m - base->x_a_m, dy_m = base->y_b_m - base->y_a_m;
+    return without_sign(dx_m * rho_sin(bearing_rad) - dy_m * rho_cos(bearing_rad));
+}
+
+float rho_crossing_angle_rad(const struct rho_crossing_base *base, float bearing_a_rad,
+                             float bearing_b_rad)
+{
+    struct base_angles angles = crossing_angles(base, bearing_a_rad, bearing_b_rad);
+    return angles.are_on_one_side ? angles.delta_rad : -RHO_PI;
+}
+
+/*
+ * Computes the place of a crossing from the nearer sensor: the rounding of sin(delta) is a relative
+ * error of the range, and moves the place less.
+ */
+static void place_crossing(const struct rho_crossing_base *base, float bearing_a_rad,
+                           float bearing_b_rad, struct rho_crossing *crossing)
+{
+    int from_a = crossing->range_a_m <= crossing->range_b_m;
+    float bearing_rad = from_a ? bearing_a_rad : bearing_b_rad;
+    float range_m = from_a ? crossing->range_a_m : crossing->range_b_m;
+    crossing->x_m = (from_a ? base->x_a_m : base->x_b_m) + range_m * rho_cos(bearing_rad);
+    crossing->y_m = (from_a ? base->y_a_m : base->y_b_m) + range_m * rho_sin(bearing_rad);
+}
+
+enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, float bearing_a_rad,
+                                         float bearing_b_rad, float range_max_m,
+                                         struct rho_crossing *crossing)
+{
+    struct base_angles angles = crossing_angles(base, bearing_a_rad, bearing_b_rad);
+    if (!angles.are_on_one_side) {
+        return RHO_CROSSING_SIDES;
+    }
+    if (!(angles.delta_rad > DELTA_MIN_RAD)) { /* true for NaN, too */
+        return RHO_CROSSING_APART;
+    }
+    float sine = rho_sin(angles.delta_rad);
+    float over_a_m = sensor_to_ray_distance_m(base, bearing_b_rad);
+    float over_b_m = sensor_to_ray_distance_m(base, bearing_a_rad);
+    if (!(over_a_m <= range_max_m * sine && over_b_m <= range_max_m * sine)) {
+        return RHO_CROSSING_RANGE;
+    }
+    crossing->delta_rad = angles.delta_rad;
+    crossing->range_a_m = over_a_m / sine;
+    crossing->range_b_m = over_b_m / sine;
+    place_crossing(base, bearing_a_rad, bearing_b_rad, crossing);
+    return RHO_CROSSING_MEETS;
+}
+
+void rho_crossing_covariance(const struct rho_crossing *crossing, float bearing_a_rad,
+                             float bearing_b_rad, float sigma_a_rad, float sigma_b_rad,
+                             float covariance_m2[3])
+{
+    float sine = rho_sin(crossing->delta_rad);
+    /* a's bearing error moves the place along b's ray, and b's error along a's ray */
+    float along_b_m = crossing->range_a_m * sigma_a_rad / sine;
+    float along_a_m = crossing->range_b_m * sigma_b_rad / sine;
+    float ax_m = along_a_m * rho_cos(bearing_a_rad), ay_m = along_a_m * rho_sin(bearing_a_rad);
+    float bx_m = along_b_m * rho_cos(bearing_b_rad), by_m = along_b_m * rho_sin(bearing_b_rad);
+    covariance_m2[0] = ax_m * ax_m + bx_m * bx_m;
+    covariance_m2[1] = ax_m * ay_m + bx_m * by_m;
+    covariance_m2[2] = ay_m * ay_m + by_m * by_m;
+}
+
+/* Names as characters instead of pointers: the table needs no relocations. */
+static const char names[RHO_NUM_CROSSING_FATES][6] = {
+    [RHO_CROSSING_MEETS] = "meets",
+    [RHO_CROSSING_SIDES] = "sides",
+    [RHO_CROSSING_APART] = "apart",
+    [RHO_CROSSING_RANGE] = "range",
+};
+
+const char *rho_crossing_fate_name(enum rho_crossing_fate fate)
+{
+    return (unsigned)fate < RHO_NUM_CROSSING_FATES ? names[fate] : "unknown";
+}

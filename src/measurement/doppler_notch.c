@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * doppler_notch: the probability that an estimate's range rate is in a radar's Doppler notch, and the
+ * estimate after a look without a plot.
+ */
+#include "rhotrack/detail/doppler_notch.h"
+
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/linalg.h"
+#include "rhotrack/detail/measurement.h"
+
+#define ROOT_TWO_PI 2.50662827f
+
+/* Blind zones farther from the expected range rate than this many sigmas are ignored. */
+#define ZONE_SIGMAS 4.0f
+/*
+ * With more than this many blind zones within reach, all range rates are taken as equally likely.
+ */
+#define ZONES_MAX 9
+#define NUMBER_MAX 1.0e6f
+
+/* Least and largest ratio of a range rate's variance after a miss to the variance before. */
+#define KEPT_MIN 0.01f
+#define KEPT_MAX 4.0f
+
+/* Factor by which a variance is raised before it is reduced, against rounding, as in linalg.c. */
+#define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
+#define VARIANCE_MIN 1.0e-9f
+#define VARIANCE_MAX 1.0e12f
+
+/* A target may stand if its speed across the line of sight is within this many sigmas of 0. */
+#define STAND_SIGMAS 2.0f
+/* Least probability that a miss was due to the notch at which the target is assumed to stand. */
+#define STAND_SHARE 0.5f
+
+#define SPEED_MAX_MPS (2.0f * RHO_LIMIT_SPEED_MPS)
+
+int rho_notch_is_valid(const struct rho_sensor *sensor)
+{
+    const float notch_mps = sensor->notch_mps, blind_mps = sensor->blind_speed_mps;
+    return rho_is_within(notch_mps, 0.0f, SPEED_MAX_MPS) &&
+           rho_is_within(blind_mps, 0.0f, SPEED_MAX_MPS) &&
+           (!(blind_mps > 0.0f) || blind_mps > 2.0f * notch_mps);
+}
+
+/* ---- a normal range rate --------------------------------------------------------------------- */
+
+static float normal_density(float sigmas)
+{
+    return rho_exp(-0.5f * sigmas * sigmas) * (1.0f / ROOT_TWO_PI);
+}
+
+/*
+ * Cumulative normal distribution at a number of sigmas; density: the normal density there. M.
+ * Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 26.2.17: within 1e-7.
+ */
+static float normal_cdf(float sigmas, float density)
+{
+    const float k = 1.0f / (1.0f + 0.2316419f * (sigmas < 0.0f ? -sigmas : sigmas));
+    const float beyond =
+        density * k *
+        (0.31938153f +
+         k * (-0.356563782f + k * (1.781477937f + k * (-1.821255978f + k * 1.330274429f))));
+    return sigmas < 0.0f ? beyond : 1.0f - beyond;
+}
+
+/*
+ * Integrals of 1, x and x^2 over the blind zones, for a normal x: the range rate's deviation from
+ * its mean in sigmas.
+ */
+struct blind_moments_sum {
+    float share, first, second;
+};
+
+static void add_zone_moments(struct blind_moments_sum *sum, float from, float to)
+{
+    const float at_from = normal_density(from), at_to = normal_density(to);
+    const float share = normal_cdf(to, at_to) - normal_cdf(from, at_from);
+    sum->share += share;
+    sum->first += at_from - at_to;
+    sum->second += share + from * at_from - to * at_to;
+}
+
+static struct blind_moments_sum blind_moments(const struct rho_sensor *sensor, float mean_mps,
+                                              float sigma_mps)
+{
+    struct blind_moments_sum sum = {0.0f, 0.0f, 0.0f};
+    const float per_sigma = 1.0f / sigma_mps, blind_mps = sensor->blind_speed_mps;
+    const float reach_mps = ZONE_SIGMAS * sigma_mps + sensor->notch_mps;
+    /* multiples of the blind speed whose zones are tested */
+    int32_t first = 0, last = 0;
+    if (blind_mps > 0.0f) {
+        if (2.0f * reach_mps > (float)ZONES_MAX * blind_mps) {
+            const float share = 2.0f * sensor->notch_mps / blind_mps;
+            return (struct blind_moments_sum){share, 0.0f, share};
+        }
+        const float before = (mean_mps - reach_mps) / blind_mps;
+        if (!rho_is_within(before, -NUMBER_MAX, NUMBER_MAX)) {
+            return sum; /* the mean is beyond any target's range rate */
+        }
+        first = (int32_t)before;
+        last = first + ZONES_MAX + 1;
+    }
+    for (int32_t number = first; number <= last; number++) {
+        const float off_mps = (float)number * blind_mps - mean_mps;
+        if (off_mps <= reach_mps && off_mps >= -reach_mps) {
+            add_zone_moments(&sum, (off_mps - sensor->notch_mps) * per_sigma,
+                             (off_mps + sensor->notch_mps) * per_sigma);
+        }
+    }
+    sum.share = sum.share < 0.0f ? 0.0f : sum.share < 1.0f ? sum.share : 1.0f;
+    return sum;
+}
+
+/* ---- estimates ------------------------------------------------------------------------------- */
+
+/* A linear function of the state, such as the range rate, with its mean and variance. */
+struct component {
+    float row[6];
+    float mean, variance;
+};
+
+static int predict_range_rate(const struct rho_sensor *sensor, const float *state,
+                              const float *covariance, struct component *view)
+{
+    float projected[6];
+    if (!rho_notch_sensor_has_notch(sensor) ||
+        !rho_measurement_predict_range_rate(state, sensor, covariance[RHO_AT(2, 2)] > 0.0f,
+                                            view->row, &view->mean)) {
+        return 0;
+    }
+    view->variance = rho_linalg_project6(covariance, view->row, projected);
+    return rho_is_within(view->variance, VARIANCE_MIN, VARIANCE_MAX);
+}
+
+float rho_notch_blind_probability(const struct rho_sensor *sensor, const float *state,
+                                  const float *covariance)
+{
+    struct component view;
+    return predict_range_rate(sensor, state, covariance, &view)
+               ? blind_moments(sensor, view.mean, rho_sqrt(view.variance)).share
+               : 0.0f;
+}
+
+/*
+ * Gives a linear function of the state another mean (moved by `off`) and variance; the rest of the
+ * estimate follows by its correlation.
+ */
+static void set_component_moments(const struct component *view, float off, float variance,
+                                  int num_states, float *state, float *covariance)
+{
+    const float per_variance = 1.0f / view->variance;
+    const float taken = (view->variance - variance) * per_variance * per_variance;
+    float projected[9];
+    for (int i = 0; i < num_states; i++) {
+        projected[i] = 0.0f;
+        for (int j = 0; j < 6; j++) {
+            projected[i] += view->row[j] * covariance[i > j ? RHO_AT(i, j) : RHO_AT(j, i)];
+        }
+    }
+    for (int i = 0; i < num_states; i++) {
+        state[i] += projected[i] * off * per_variance;
+        for (int j = 0; j < i; j++) {
+            covariance[RHO_AT(i, j)] -= projected[i] * projected[j] * taken;
+        }
+        float *own = &covariance[RHO_AT(i, i)];
+        if (*own > 0.0f) {
+            *own = *own * ROUNDING_ALLOWANCE - projected[i] * projected[i] * taken;
+            *own = *own > VARIANCE_MIN ? *own : VARIANCE_MIN;
+        }
+    }
+}
+
+/*
+ * Measures the speed across the line of sight as 0, with the notch's width as its sigma, if the
+ * estimate allows that the target stands: a standing target has no speed across, either.
+ */
+static void assume_no_cross_speed(const struct component *rate, float notch_mps, int num_states,
+                                  float *state, float *covariance)
+{
+    struct component across = {.row = {0.0f, 0.0f, 0.0f, -rate->row[4], rate->row[3], 0.0f}};
+    float projected[6];
+    across.mean = across.row[3] * state[3] + across.row[4] * state[4];
+    across.variance = rho_linalg_project6(covariance, across.row, projected);
+    const float most_mps = RHO_NOTCH_STAND_WIDTHS * notch_mps;
+    if (across.variance > VARIANCE_MIN &&
+        across.mean * across.mean <
+            STAND_SIGMAS * STAND_SIGMAS * across.variance + most_mps * most_mps) {
+        const float kept = notch_mps * notch_mps / (across.variance + notch_mps * notch_mps);
+        set_component_moments(&across, across.mean * (kept - 1.0f), across.variance * kept,
+                              num_states, state, covariance);
+    }
+}
+
+float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho_notch_look *look,
+                               int num_states, float *state, float *covariance)
+{
+    struct component rate;
+    if (!predict_range_rate(sensor, state, covariance, &rate)) {
+        return 1.0f - look->pd;
+    }
+    const float sigma = rho_sqrt(rate.variance), seen = 1.0f - look->pd;
+    const struct blind_moments_sum blind = blind_moments(sensor, rate.mean, sigma);
+    const float missed = seen + look->pd * blind.share;
+    const float off = look->pd * blind.first / missed;
+    float kept = (seen + look->pd * blind.second) / missed - off * off;
+    kept = kept > KEPT_MIN ? kept < KEPT_MAX ? kept : KEPT_MAX : KEPT_MIN;
+    if (blind.share > 0.0f) {
+        set_component_moments(&rate, off * sigma, rate.variance * kept, num_states, state,
+                              covariance);
+    }
+    if (look->may_stand && blind.share > STAND_SHARE * missed) {
+        assume_no_cross_speed(&rate, sensor->notch_mps, num_states, state, covariance);
+    }
+    return missed;
+}

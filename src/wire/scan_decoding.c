@@ -1,0 +1,255 @@
+/* SPDX-License-Identifier: MIT */
+#include <float.h>
+#include <string.h>
+
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/measurement.h"
+#include "scan_assembler_internal.h"
+
+#define NOT_A_PLACE FLT_MAX /* x_m of a plot that the tracker is to give the fate INVALID */
+
+/* ---- Headings ---- */
+
+static struct scan_heading heading_of_plots(const struct rho_message_plot_scan *scan)
+{
+    struct scan_heading heading = {
+        .place = {scan->utime, scan->scan, scan->epoch},
+        .sector_from_rad = scan->sector_from_rad,
+        .sector_to_rad = scan->sector_to_rad,
+        .part = (uint16_t)scan->part,
+        .num_parts = (uint16_t)scan->num_parts,
+        .num_inputs = (uint16_t)scan->num_plots,
+        .sensor_id = scan->sensor_id,
+        .kind = RHO_SCAN_ASSEMBLER_PLOTS,
+    };
+
+    if (scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_3D ||
+        scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D) {
+        heading.measures |= RHO_MEASURES_Z;
+    }
+    if (scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_2D ||
+        scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D) {
+        heading.measures |= RHO_MEASURES_VELOCITY;
+    }
+    return heading;
+}
+
+static struct scan_heading heading_of_polar_plots(const struct rho_message_polar_scan *scan)
+{
+    return (struct scan_heading){
+        .place = {scan->utime, scan->scan, scan->epoch},
+        .measures = (scan->has_elevation ? RHO_MEASURES_Z : 0u) |
+                    (scan->has_range_rate ? RHO_MEASURES_RANGE_RATE : 0u),
+        .sector_from_rad = scan->sector_from_rad,
+        .sector_to_rad = scan->sector_to_rad,
+        .x_m = scan->sensor_x_m,
+        .y_m = scan->sensor_y_m,
+        .z_m = scan->sensor_z_m,
+        .part = (uint16_t)scan->part,
+        .num_parts = (uint16_t)scan->num_parts,
+        .num_inputs = (uint16_t)scan->num_polar_plots,
+        .sensor_id = scan->sensor_id,
+        .kind = RHO_SCAN_ASSEMBLER_POLAR,
+    };
+}
+
+static struct scan_heading heading_of_bearings(const struct rho_message_bearing_scan *scan)
+{
+    return (struct scan_heading){
+        .place = {scan->utime, scan->scan, scan->epoch},
+        .x_m = scan->sensor_x_m,
+        .y_m = scan->sensor_y_m,
+        .num_parts = 1,
+        .num_inputs = (uint16_t)scan->num_bearings,
+        .sensor_id = scan->sensor_id,
+        .kind = RHO_SCAN_ASSEMBLER_BEARINGS,
+    };
+}
+
+enum rho_status rho_scan_assembler_decode_message(enum rho_scan_assembler_kind kind,
+                                                  const uint8_t *data, size_t size,
+                                                  union scan_message *message,
+                                                  struct scan_heading *heading)
+{
+    enum rho_status status;
+
+    if (RHO_SCAN_ASSEMBLER_IS(kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
+        status = rho_message_bearing_scan_decode(data, size, &message->bearings);
+        if (status == RHO_OK) {
+            status = rho_message_bearing_scan_validate(&message->bearings, NULL);
+            *heading = heading_of_bearings(&message->bearings);
+        }
+    } else if (RHO_SCAN_ASSEMBLER_IS(kind, RHO_SCAN_ASSEMBLER_PLOTS)) {
+        status = rho_message_plot_scan_decode(data, size, &message->plots);
+        if (status == RHO_OK) {
+            status = rho_message_plot_scan_validate(&message->plots, NULL);
+            *heading = heading_of_plots(&message->plots);
+        }
+    } else {
+        status = rho_message_polar_scan_decode(data, size, &message->polar);
+        if (status == RHO_OK) {
+            status = rho_message_polar_scan_validate(&message->polar, NULL);
+            *heading = heading_of_polar_plots(&message->polar);
+        }
+    }
+    return status;
+}
+
+/* ---- Plots and bearings ---- */
+
+/* The stated sigma, or the default where none is stated, or a newcomer states a smaller one. */
+static float sigma_or_default(float said, float otherwise, int is_new)
+{
+    return said > 0.0f && !(is_new && said < otherwise) ? said : otherwise;
+}
+
+static void convert_plots(struct rho_plot *to, unsigned count,
+                          const struct rho_message_plot_scan *scan,
+                          const struct rho_scan_assembler_noise *noise, int is_new)
+{
+    for (unsigned i = 0; i < count; i++) {
+        const struct rho_message_plot *plot = &scan->plots[i];
+        float sigma_m = sigma_or_default(plot->sigma_m, noise->sigma_m, is_new);
+
+        to[i] = (struct rho_plot){.offset_us = plot->dt_us,
+                                  .x_m = plot->x_m,
+                                  .y_m = plot->y_m,
+                                  .z_m = plot->z_m,
+                                  .vx_mps = plot->vx_mps,
+                                  .vy_mps = plot->vy_mps,
+                                  .vz_mps = plot->vz_mps,
+                                  .sigma_range_m = sigma_m,
+                                  .sigma_cross_m = sigma_m,
+                                  .sigma_up_m = sigma_m,
+                                  .sigma_mps =
+                                      sigma_or_default(plot->sigma_mps, noise->sigma_mps, is_new),
+                                  .sigma_range_rate_mps = noise->sigma_range_rate_mps,
+                                  .snr_db = plot->snr_db};
+    }
+}
+
+static void convert_polar_plots(struct rho_plot *to, unsigned count,
+                                const struct rho_message_polar_scan *scan, uint32_t measures,
+                                const struct rho_sensor *sensor,
+                                const struct rho_scan_assembler_noise *noise, int is_new)
+{
+    struct rho_sensor seen_from = *sensor;
+    struct rho_polar_plot polar = {
+        .sigma_range_m = sigma_or_default(scan->sigma_range_m, noise->sigma_range_m, is_new),
+        .sigma_azimuth_rad =
+            sigma_or_default(scan->sigma_azimuth_rad, noise->sigma_azimuth_rad, is_new),
+        .sigma_elevation_rad =
+            sigma_or_default(scan->sigma_elevation_rad, noise->sigma_elevation_rad, is_new),
+        .sigma_range_rate_mps =
+            sigma_or_default(scan->sigma_range_rate_mps, noise->sigma_range_rate_mps, is_new)};
+
+    seen_from.time_bias_s = 0.0f; /* the scan's time has been corrected already */
+    for (unsigned i = 0; i < count; i++) {
+        const struct rho_message_polar_plot *plot = &scan->polar_plots[i];
+
+        polar.offset_us = plot->dt_us;
+        polar.range_m = plot->range_m;
+        polar.azimuth_rad = plot->azimuth_rad;
+        polar.elevation_rad = plot->elevation_rad;
+        polar.range_rate_mps = plot->range_rate_mps;
+        polar.snr_db = plot->snr_db;
+        /* An invalid plot keeps its row, so that the rows of the plots behind it stay the same. */
+        if (rho_measurement_from_polar(&polar, measures, &seen_from, &to[i]) != RHO_OK) {
+            to[i] = (struct rho_plot){.x_m = NOT_A_PLACE};
+        }
+    }
+}
+
+static void convert_bearings(struct rho_bearing *to, unsigned count,
+                             const struct rho_message_bearing_scan *scan,
+                             const struct rho_scan_assembler_sensor *known, int is_new)
+{
+    for (unsigned i = 0; i < count; i++) {
+        float bearing_rad = scan->bearing_rad[i];
+
+        if (known->sensor.azimuth_bias_rad < 0.0f || known->sensor.azimuth_bias_rad > 0.0f) {
+            bearing_rad = rho_angle_difference(bearing_rad, known->sensor.azimuth_bias_rad);
+        }
+        to[i] = (struct rho_bearing){
+            .bearing_rad = bearing_rad,
+            .sigma_rad = sigma_or_default(scan->sigma_rad, known->noise.sigma_rad, is_new)};
+    }
+}
+
+const struct rho_scan_assembler_sensor *
+rho_scan_assembler_description_of_sensor(const struct rho_scan_assembler *assembler,
+                                         int32_t sensor_id)
+{
+    for (unsigned i = 0; i < assembler->num_known; i++) {
+        if (assembler->known[i].sensor.sensor_id == sensor_id) {
+            return &assembler->known[i];
+        }
+    }
+    return &assembler->config.other;
+}
+
+/* The subtraction cannot overflow: a valid time is within RHO_LIMIT_TIME_US. */
+int rho_scan_assembler_subtract_time_bias(const struct rho_scan_assembler *assembler,
+                                          struct scan_heading *heading)
+{
+    int64_t *time_us = &heading->place.time_us;
+
+    *time_us -= rho_measurement_time_bias_us(
+        &rho_scan_assembler_description_of_sensor(assembler, heading->sensor_id)->sensor);
+    return *time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US;
+}
+
+/* ---- Parts ---- */
+
+/* Number of stored plots or bearings of a scan's parts before a part. */
+static unsigned num_measurements_before_part(const struct rho_scan_assembler_slot *slot,
+                                             unsigned part)
+{
+    unsigned count = 0;
+
+    for (unsigned i = 0; i < part; i++) {
+        count += slot->parts[i] > 0 ? slot->parts[i] - 1u : 0u;
+    }
+    return count < slot->num_inputs ? count : slot->num_inputs;
+}
+
+void rho_scan_assembler_add_measurements(struct rho_scan_assembler *assembler,
+                                         struct rho_scan_assembler_slot *slot,
+                                         const struct scan_heading *heading,
+                                         const union scan_message *message)
+{
+    const struct rho_scan_assembler_sensor *known =
+        rho_scan_assembler_description_of_sensor(assembler, heading->sensor_id);
+    unsigned room = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)
+                        ? RHO_MAX_BEARINGS
+                        : RHO_MAX_PLOTS;
+    unsigned at = num_measurements_before_part(slot, heading->part), count = heading->num_inputs;
+    unsigned behind = slot->num_inputs - at, dropped = 0;
+
+    /* A full slot keeps the first rows of the scan: a part in between displaces the last ones. */
+    if (at + count > room) {
+        dropped += at + count - room;
+        count = room - at;
+    }
+    if (at + count + behind > room) {
+        dropped += at + count + behind - room;
+        behind = room - at - count;
+    }
+    if (RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
+        convert_bearings(slot->bearings + at, count, &message->bearings, known, heading->is_new);
+        assembler->counters.bearings_in =
+            rho_count(assembler->counters.bearings_in, heading->num_inputs);
+    } else {
+        memmove(slot->plots + at + count, slot->plots + at, behind * sizeof *slot->plots);
+        if (RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_PLOTS)) {
+            convert_plots(slot->plots + at, count, &message->plots, &known->noise, heading->is_new);
+        } else {
+            convert_polar_plots(slot->plots + at, count, &message->polar, heading->measures,
+                                &slot->sensor, &known->noise, heading->is_new);
+        }
+    }
+    slot->num_inputs = (uint16_t)(at + count + behind);
+    slot->parts[heading->part] = (uint16_t)(heading->num_inputs + 1u);
+    slot->parts_here++;
+    assembler->counters.plots_no_room = rho_count(assembler->counters.plots_no_room, dropped);
+}

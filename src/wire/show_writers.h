@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * show_writers: number and writing of the messages of each kind, for show_messages.c. Messages of a step are
+ * numbered from 0.
+ */
+#ifndef RHOTRACK_SHOW_WRITERS_H
+#define RHOTRACK_SHOW_WRITERS_H
+
+#include "rhotrack/publish.h"
+
+/* Buffer of one message, and the number of its kind's messages that were left out so far. */
+struct rho_show_output {
+    uint8_t *buffer;
+    size_t capacity;
+    size_t *size;
+    int32_t not_sent;
+};
+
+/* show_ghost_matrices.c: messages of the ghost matrices of the newest frame */
+uint32_t rho_show_num_ghost_messages(const struct rho_show_source *source);
+const char *rho_show_write_ghost_message(const struct rho_show_source *source, uint32_t number,
+                                         const struct rho_show_output *output);
+
+/* show_accumulators.c: messages of accumulators; writing an accumulator's first one makes its picture */
+uint32_t rho_show_num_vote_messages(const struct rho_show *show,
+                                    const struct rho_show_source *source);
+const char *rho_show_write_vote_message(struct rho_show *show, const struct rho_show_source *source,
+                                        uint32_t number, const struct rho_show_output *output);
+
+/* show_hypotheses.c: the message of a track's hypotheses; track: its row in the tracker */
+const char *rho_show_write_hypotheses_message(const struct rho_show_source *source, unsigned track,
+                                              const struct rho_show_output *output);
+
+static inline int16_t rho_show_clamp_sensor_id(int32_t sensor_id)
+{
+    return (int16_t)(sensor_id >= INT16_MIN && sensor_id <= INT16_MAX ? sensor_id : -1);
+}
+
+static inline int16_t rho_show_clamp_count(uint32_t count)
+{
+    return (int16_t)(count < INT16_MAX ? count : INT16_MAX);
+}
+
+#endif
