@@ -19,9 +19,9 @@
  *
  * Two targets that are near each other from their first plots on are taken for one body, until it
  * is surely wider than 0.3 of the longest body, or longer than the longest body, or its range rates
- * show parts that move apart (src/step/split_bodies.c, src/bodies/body_split_evidence.c). Of two tracks
- * whose bodies overlap for long the younger ends. Plots of one body in two sectors of a turn are
- * two groups.
+ * show parts that move apart (src/step/split_bodies.c, src/bodies/body_split_evidence.c). Of two
+ * tracks whose bodies overlap for long the younger ends. Plots of one body in two sectors of a turn
+ * are two groups.
  *
  * Stack: 128 bytes at most.
  */

@@ -17,9 +17,9 @@
  *   5 repeat    steps 1 to 3 with the bearings that no track has claimed, with fewer votes and
  *               without the third sensor; then one selection from all candidates
  *
- * Source: the passive Hough transform paper (see bearing_crossing.h) for steps 1 and 2, in which lines of
- * crossings are the tracks. A line has no time, and ghosts form lines too: src/DESIGN.md derives
- * steps 3 to 5.
+ * Source: the passive Hough transform paper (see bearing_crossing.h) for steps 1 and 2, in which
+ * lines of crossings are the tracks. A line has no time, and ghosts form lines too: src/DESIGN.md
+ * derives steps 3 to 5.
  *
  * Stack: 64 bytes at most where nothing else is said.
  */

@@ -22,8 +22,8 @@
  * A line has no time. Its position and velocity are a least-squares fit through the crossings that
  * voted for it, ghosts among them.
  *
- * Source: passive Hough transform paper (see bearing_crossing.h), sections 3 and 4; src/DESIGN.md says how
- * it is read.
+ * Source: passive Hough transform paper (see bearing_crossing.h), sections 3 and 4; src/DESIGN.md
+ * says how it is read.
  *
  * Stack: 32 bytes at most where nothing else is said.
  */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bearing_batch_soundness: checks that a batch of unknown origin (a snapshot) is valid: counts, positions
- * and baselines of the sensors, rising times, bearings.
+ * bearing_batch_soundness: checks that a batch of unknown origin (a snapshot) is valid: counts,
+ * positions and baselines of the sensors, rising times, bearings.
  */
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_best_subset: the subset of candidates that are tracks together. Its total is the sum of the
- * scores less share_nat for every bearing that two chosen candidates claim. The search adds the
+ * passive_best_subset: the subset of candidates that are tracks together. Its total is the sum of
+ * the scores less share_nat for every bearing that two chosen candidates claim. The search adds the
  * candidate that gains most, from several starts, and tries to replace each chosen candidate by
  * others.
  */

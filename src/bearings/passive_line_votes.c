@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_line_votes: phase 2 of the search, a Hough transform. The crossings of bearings vote for lines
- * (rho, theta), and the lines with the most votes are taken one after the other.
+ * passive_line_votes: phase 2 of the search, a Hough transform. The crossings of bearings vote for
+ * lines (rho, theta), and the lines with the most votes are taken one after the other.
  */
 #include <string.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * body_split_evidence: collects evidence that a track's body is really two targets, and decides on it.
+ * body_split_evidence: collects evidence that a track's body is really two targets, and decides on
+ * it.
  *
  * The plots of a look are compared with those of one rigid body. Their extent is at most that of
  * the longest body. And while the body keeps its heading, range rates vary over it like a plane no

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_estimation_sensitivity: the sensitivity of the state to the input of each axis, one column an
- * axis, and the effect of an input on an estimate. Private to src/estimation/input_estimation*.c.
+ * input_estimation_sensitivity: the sensitivity of the state to the input of each axis, one column
+ * an axis, and the effect of an input on an estimate. Private to
+ * src/estimation/input_estimation*.c.
  */
 #ifndef RHOTRACK_INPUT_ESTIMATION_SENSITIVITY_H
 #define RHOTRACK_INPUT_ESTIMATION_SENSITIVITY_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * doppler_notch: the probability that an estimate's range rate is in a radar's Doppler notch, and the
- * estimate after a look without a plot.
+ * doppler_notch: the probability that an estimate's range rate is in a radar's Doppler notch, and
+ * the estimate after a look without a plot.
  */
 #include "rhotrack/detail/doppler_notch.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * plot_ownership: the probabilities that a track's plots of the last scan are its own, are shared with
- * other tracks, or are clutter.
+ * plot_ownership: the probabilities that a track's plots of the last scan are its own, are shared
+ * with other tracks, or are clutter.
  */
 #include <string.h>
 

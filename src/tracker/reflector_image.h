@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * reflector_image: mirror image of a target's state in a wall. Private to src/tracker and src/walls.
+ * reflector_image: mirror image of a target's state in a wall. Private to src/tracker and
+ * src/walls.
  */
 #ifndef RHOTRACK_REFLECTOR_IMAGE_H
 #define RHOTRACK_REFLECTOR_IMAGE_H

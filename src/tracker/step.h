@@ -355,7 +355,8 @@ int rho_tracker_range_rate_residual(const struct step *step, const struct rho_sc
                                     float line[2], float *off_mps);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
- * rate and line of sight by rho_tracker_range_rate_residual, whose result rho_tracker_locate_plot_on_body returns.
+ * rate and line of sight by rho_tracker_range_rate_residual, whose result
+ * rho_tracker_locate_plot_on_body returns.
  */
 struct body_plot {
     float dx_m, dy_m, along_m, across_m, rate_mps, line[2];
@@ -490,7 +491,8 @@ void rho_tracker_find_clutter_at_plots(struct step *step);
  * in later parts of a scan.
  */
 float rho_tracker_log_echo_density_ratio(const struct step *step, uint32_t row);
-/* Stores rho_tracker_log_echo_density_ratio of the scan's plots with the held plots in the window. */
+/* Stores rho_tracker_log_echo_density_ratio of the scan's plots with the held plots in the window.
+ */
 void rho_tracker_store_echo_ratios_in_window(struct step *step);
 /* Updates the clutter map with the scan's plots, after new tracks have started. */
 void rho_tracker_update_clutter_map(struct step *step);

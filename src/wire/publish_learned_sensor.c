@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* publish_learned_sensor: a message of the noise and pd that the tracker has learned for a sensor. */
+/* publish_learned_sensor: a message of the noise and pd that the tracker has learned for a sensor.
+ */
 #include "rhotrack/publish.h"
 
 int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,

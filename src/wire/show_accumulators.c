@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * show_accumulators: messages of the accumulators of the last search. A search of plots has one; a search
- * of bearings has one for all pairs of sensors together, and one for each of several pairs.
+ * show_accumulators: messages of the accumulators of the last search. A search of plots has one; a
+ * search of bearings has one for all pairs of sensors together, and one for each of several pairs.
  */
 #include <string.h>
 

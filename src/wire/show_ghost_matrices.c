@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* show_ghost_matrices: messages of the newest frame's ghost matrices, one matrix for each sensor pair. */
+/* show_ghost_matrices: messages of the newest frame's ghost matrices, one matrix for each sensor
+ * pair. */
 #include "show_writers.h"
 
 #define PART_ELEMENTS RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * show_writers: number and writing of the messages of each kind, for show_messages.c. Messages of a step are
- * numbered from 0.
+ * show_writers: number and writing of the messages of each kind, for show_messages.c. Messages of a
+ * step are numbered from 0.
  */
 #ifndef RHOTRACK_SHOW_WRITERS_H
 #define RHOTRACK_SHOW_WRITERS_H
@@ -21,7 +21,8 @@ uint32_t rho_show_num_ghost_messages(const struct rho_show_source *source);
 const char *rho_show_write_ghost_message(const struct rho_show_source *source, uint32_t number,
                                          const struct rho_show_output *output);
 
-/* show_accumulators.c: messages of accumulators; writing an accumulator's first one makes its picture */
+/* show_accumulators.c: messages of accumulators; writing an accumulator's first one makes its
+ * picture */
 uint32_t rho_show_num_vote_messages(const struct rho_show *show,
                                     const struct rho_show_source *source);
 const char *rho_show_write_vote_message(struct rho_show *show, const struct rho_show_source *source,

@@ -69,8 +69,8 @@ int command_config(struct command_line *line);
 /*
  * The commands experiment and bench. bench is the separate program rhotrack-lab in the same folder,
  * and experiments are scripts of the source tree: the shipped program needs nothing of them.
- * command_lab_name returns NULL past the last name. command_lab_execute executes the script or program with
- * the same arguments and does not return; exit 1 where it is missing.
+ * command_lab_name returns NULL past the last name. command_lab_execute executes the script or
+ * program with the same arguments and does not return; exit 1 where it is missing.
  */
 const char *command_lab_name(size_t index);
 bool command_lab_has(const char *name);

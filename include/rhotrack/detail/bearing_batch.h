@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bearing_batch: the bearings of the last N frames, by scan and sensor, in which the passive initiators
- * search for tracks.
+ * bearing_batch: the bearings of the last N frames, by scan and sensor, in which the passive
+ * initiators search for tracks.
  *
  * A frame has the scans of several sensors at one time. A sensor is known from its first scan on,
  * must not move, and keeps its index. Embedded in the initiators; usable alone.

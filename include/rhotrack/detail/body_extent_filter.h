@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * body_extent_filter: estimates a target's length and width from plots of its scatterers: from their
- * distances to the reference point, along the body and across it.
+ * body_extent_filter: estimates a target's length and width from plots of its scatterers: from
+ * their distances to the reference point, along the body and across it.
  *
  * The distance of a plot of some place of the body has the variance
  *

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * doppler_notch: a radar's Doppler notch, range rates at which it is blind, and the evidence of a miss.
+ * doppler_notch: a radar's Doppler notch, range rates at which it is blind, and the evidence of a
+ * miss.
  *
  * A radar that suppresses standing clutter sees no target within notch_mps of zero Doppler, nor
  * within notch_mps of a multiple of its blind speed (struct rho_sensor). Range rates are those over
@@ -11,9 +12,9 @@
  *      L = 1 - pd + pd q
  *
  * and is evidence of r: its density after the miss is N(r; m, s^2) / L within the notch, and
- * (1 - pd) N(r; m, s^2) / L elsewhere. rho_notch_update_by_miss gives the estimate the mean and variance of
- * this density, as a measurement of r would. A target that was braking is thereby held in the notch
- * until it is seen again.
+ * (1 - pd) N(r; m, s^2) / L elsewhere. rho_notch_update_by_miss gives the estimate the mean and
+ * variance of this density, as a measurement of r would. A target that was braking is thereby held
+ * in the notch until it is seen again.
  *
  * Stack: 250 bytes at most.
  */
@@ -57,7 +58,8 @@ float rho_notch_blind_probability(const struct rho_sensor *sensor, const float *
 
 /*
  * Updates an estimate of num_states elements, 6 or 9 (with accelerations), by a look without a
- * plot. Returns the probability of the miss. Cost: as rho_notch_blind_probability, and num_states^2 * 5.
+ * plot. Returns the probability of the miss. Cost: as rho_notch_blind_probability, and 5
+ * num_states^2.
  */
 float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho_notch_look *look,
                                int num_states, float *state, float *covariance);

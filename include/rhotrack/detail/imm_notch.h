@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * imm_notch: an IMM filter and a radar's Doppler notch (doppler_notch.h): probability of a blind look, and
- * update by a miss. Stack: 280 bytes at most.
+ * imm_notch: an IMM filter and a radar's Doppler notch (doppler_notch.h): probability of a blind
+ * look, and update by a miss. Stack: 280 bytes at most.
  */
 #ifndef RHOTRACK_IMM_NOTCH_H
 #define RHOTRACK_IMM_NOTCH_H

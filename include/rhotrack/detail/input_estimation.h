@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_estimation: a Kalman filter that also estimates the target's acceleration, its unknown input.
+ * input_estimation: a Kalman filter that also estimates the target's acceleration, its unknown
+ * input.
  *
  * Input estimation in two stages. `bare` is a Kalman filter without input. Its response to a
  * constant input since the onset k is linear, with the sensitivities M (after an update) and N
@@ -21,7 +22,7 @@
  *
  *     rho_input_predict(&input, &config, dt_s);
  *     rho_input_update_position(&input, &config, &measurement);   further measurements follow
- *     rho_input_decide_presence(&input, &config);                          once per scan with a plot
+ *     rho_input_decide_presence(&input, &config);                 once per scan with a plot
  *     rho_input_estimate(&input, &kalman);                        at any time
  *
  * Source: the input estimation of "a novel tracking algorithm by integrating the Kalman filter,

@@ -137,8 +137,8 @@ struct rho_kalman_row {
 
 /*
  * Linearises a range rate with noise `variance` at an estimate, into *seen. Returns 0, and fills
- * nothing, if the estimate is nearer than a metre to the sensor. Cost: rho_measurement_predict_range_rate,
- * and a division. Stack: 170 bytes.
+ * nothing, if the estimate is nearer than a metre to the sensor. Cost:
+ * rho_measurement_predict_range_rate, and a division. Stack: 170 bytes.
  */
 int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
                                     const struct rho_sensor *sensor, float rate_mps, float variance,
@@ -156,8 +156,8 @@ int rho_kalman_can_unfold_range_rate(const struct rho_kalman *kalman,
  * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate; to
  * be called after the update with the same plot's position. For an estimate nearer than a metre to
  * the sensor, and for an ambiguous range rate that cannot be unfolded, nothing is done: RHO_OK.
- * Errors: as rho_kalman_update_row. Cost: rho_kalman_update_row and rho_measurement_predict_range_rate.
- * Stack: 250 bytes.
+ * Errors: as rho_kalman_update_row. Cost: rho_kalman_update_row and
+ * rho_measurement_predict_range_rate. Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                                             const struct rho_sensor *sensor,

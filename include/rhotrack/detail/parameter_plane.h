@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * parameter_plane: a picture of the votes in a window of the parameter plane (rho, theta), cell by cell or
- * reduced, in the caller's memory.
+ * parameter_plane: a picture of the votes in a window of the parameter plane (rho, theta), cell by
+ * cell or reduced, in the caller's memory.
  *
  *     window of cells       picture of 2 x 3, each with the most votes of its block
  *     0 1 | 0 0 | 0 2

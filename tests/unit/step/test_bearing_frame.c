@@ -270,7 +270,8 @@ static void a_filter_for_manoeuvres_follows_a_straight_target(void **state)
     follow_runs(3, 6.25, 0.0, RHO_TRACKER_NEAREST, &bounds);
 }
 
-/* Two models see that it flies straight: .90 to .95 of the filter's error, measured over 400 runs. */
+/* Two models see that it flies straight: .90 to .95 of the filter's error, measured over 400 runs.
+ */
 static void hypotheses_follow_a_straight_target_better(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What scan_assembler.h says, once more and in the plainest way: lists, wide integers, no memory saved.
- * Good messages alone are shown to it; what is no message is counted by the test.
+ * What scan_assembler.h says, once more and in the plainest way: lists, wide integers, no memory
+ * saved. Good messages alone are shown to it; what is no message is counted by the test.
  */
 #ifndef SCAN_ASSEMBLER_MODEL_H
 #define SCAN_ASSEMBLER_MODEL_H

@@ -24,8 +24,8 @@ int files_close(int file);
 void files_print(const char *text);
 
 /*
- * files_read_instruction_counter reads a counter of executed instructions (0 where there is none), which wraps;
- * files_instructions_elapsed gives the instructions between two readings, up to 2.6e9.
+ * files_read_instruction_counter reads a counter of executed instructions (0 where there is none),
+ * which wraps; files_instructions_elapsed gives the instructions between two readings, up to 2.6e9.
  */
 uint32_t files_read_instruction_counter(void);
 uint32_t files_instructions_elapsed(uint32_t from, uint32_t to);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * error_lines: standard error of a long-running program. After error_lines_redirect_stderr every line written
- * to stderr begins with a time stamp, and sensors that have a name ([sensor N] name) are printed
- * with it:
+ * error_lines: standard error of a long-running program. After error_lines_redirect_stderr every
+ * line written to stderr begins with a time stamp, and sensors that have a name ([sensor N] name)
+ * are printed with it:
  *
  *     2026-11-22T09:14:03.250Z rhotrack: sensor 1 (north) is silent: ...
  *

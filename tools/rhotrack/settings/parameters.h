@@ -354,8 +354,9 @@ bool parameters_sensor_on_earth(const struct parameters *parameters, int32_t sen
                                 double geodetic[3]);
 
 /*
- * Angle to add to a sensor's azimuths for azimuths in the local frame (local_frame_meridian_convergence_rad); 0 for
- * sensors that are not placed by latitude and longitude.
+ * Angle to add to a sensor's azimuths for azimuths in the local frame
+ * (local_frame_meridian_convergence_rad); 0 for sensors that are not placed by latitude and
+ * longitude.
  */
 double parameters_azimuth_turn_rad(const struct parameters *parameters, int32_t sensor_id);
 
