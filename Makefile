@@ -303,7 +303,7 @@ quick_scripts := $(addprefix tests/integration/,claims.sh command_line.sh docume
 quick_scripts := $(wildcard $(quick_scripts)) $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \
                  $(addprefix tools/gates/,layers.py tested.py forbidden_words.sh extract_example.sh)
 # What the embedded profile leaves out is tested in the other one.
-left_out := tracker/test_plot_ownership bodies/test_body_extents bodies/test_plot_groups step/test_split_bodies
+left_out := tracker/test_plot_ownership bodies/test_body_extents bodies/test_body_split_evidence bodies/test_plot_groups step/test_split_bodies
 quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) $(filter-out $(BUILD)/tests/lab/%,$(tool_programs)) \
                   $(left_out:%=$(BUILD)/tests/workstation/unit/%)
 other_programs := $(filter-out $(quick_programs),$(unit_programs) $(tool_programs))

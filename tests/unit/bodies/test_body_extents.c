@@ -341,6 +341,31 @@ static void a_body_that_stands_is_half_as_long_as_the_longest(void **state)
     assert_true(fabs((double)body.width_m - 7.5) < 0.1);
 }
 
+/* A body of which nothing was learned is half as long as the longest, but 0.1 m at least. */
+static void a_body_that_stands_has_a_least_length(void **state)
+{
+    static const struct {
+        float longest_m;
+        double length_m;
+    } cases[] = {{0.01f, 0.1}, {0.18f, 0.1}, {0.22f, 0.11}, {0.3f, 0.15}};
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct rho_body body;
+        prepare(cases[i].longest_m);
+        for (int k = 0; k < 10; k++) {
+            (void)add_plot(30.0, 50.0, 0.2);
+            (void)add_plot(30.0, 50.0, 0.2);
+            look(k);
+        }
+        assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 1);
+        assert_true(fabs((double)body.length_m - cases[i].length_m) < 0.005);
+        assert_true(fabs((double)body.width_m - cases[i].length_m) < 0.005);
+    }
+}
+
 /* Places vary by 1e-7 m^2 on the least body that a filter can work with. */
 static void least_variances_are_sound(void **state)
 {
@@ -416,6 +441,7 @@ int main(void)
         cmocka_unit_test(poor_azimuths_teach_sound_bodies),
         cmocka_unit_test(least_bodies_have_a_size),
         cmocka_unit_test(a_body_that_stands_is_half_as_long_as_the_longest),
+        cmocka_unit_test(a_body_that_stands_has_a_least_length),
         cmocka_unit_test(least_variances_are_sound),
         cmocka_unit_test(unsound_bodies_are_found),
     };
