@@ -22,7 +22,7 @@ static int is_sound_density_map(const struct rho_density_map *map)
         return 0;
     }
     return is_finite_above_0(map->mean) && is_finite_above_0(map->prior_plots) &&
-           is_finite_above_0(map->content) && is_finite_above_0(map->scans) &&
+           is_finite_above_0(map->content) && map->scans > 0.0f &&
            rho_is_coordinate(map->sensor_x_m) && rho_is_coordinate(map->sensor_y_m) &&
            rho_is_within(map->middle_rad, -10.0f, 10.0f) && rho_are_finite(&map->u0, 1) &&
            rho_are_finite(&map->v0, 1) && rho_is_within(map->width, 0.0f, 1e30f) &&

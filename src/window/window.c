@@ -419,7 +419,6 @@ static void add_scan(struct rho_window *window, const struct rho_scan *scan,
     slot->sector_from_rad = scan->sector_from_rad;
     slot->sector_to_rad = scan->sector_to_rad;
     slot->sensor = sensor ? *sensor : (struct rho_sensor){.sensor_id = scan->sensor_id};
-    slot->sensor.pd = sensor ? sensor->pd : 0.0f;
     /* the held plots' sigmas include these factors */
     slot->sensor.sigma_range_percent = slot->sensor.sigma_cross_percent = 0;
     slot->num_plots = 0;
