@@ -44,7 +44,7 @@ struct rho_tracker;
 /* Estimate of the variance of a place on a body, on one axis. */
 struct rho_body_side {
     float mean_m2;     /* mean of the plots' squared places, less their noise; may be 0 or less */
-    float weight;      /* weight of the mean, in plots; a plot without noise counts 1 */
+    float weight;      /* weight of the mean: each plot without noise adds 5, one with noise less */
     float variance_m4; /* variance of the mean */
     float prior_share; /* weight of the prior in the mean, 0 .. 1 */
 };

@@ -57,6 +57,7 @@
 #ifndef RHOTRACK_TYPES_H
 #define RHOTRACK_TYPES_H
 
+#include <float.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -313,6 +314,15 @@ uint64_t rho_elapsed_us(int64_t now_us, int64_t then_us);
 
 /* True where v is finite and lo <= v <= hi; false for NaN. */
 int rho_is_within(float v, float lo, float hi);
+
+/*
+ * True where v is neither infinite nor NaN. No stack. In code that is not called often,
+ * rho_are_finite(&v, 1) takes fewer bytes.
+ */
+static inline int rho_is_finite(float v)
+{
+    return v >= -FLT_MAX && v <= FLT_MAX;
+}
 
 /* True where all `count` values are finite. */
 int rho_are_finite(const float *values, size_t count);

@@ -30,11 +30,6 @@ static int is_positive(float v)
     return v > 0.0f && v <= FLT_MAX;
 }
 
-static int is_finite(float v)
-{
-    return v >= -FLT_MAX && v <= FLT_MAX;
-}
-
 /* Scalar product of the first n elements of two rows. */
 static float dot(int n, const float *a, const float *b)
 {
@@ -176,11 +171,11 @@ enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *dista
     pivot1 = s[2] - l10 * s[1];
     y1 = d[1] - l10 * d[0];
     distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1;
-    if (!(is_positive(s[0]) && is_positive(pivot1) && is_finite(distance))) {
+    if (!(is_positive(s[0]) && is_positive(pivot1) && rho_is_finite(distance))) {
         return RHO_ERROR_SINGULAR;
     }
     logarithm = rho_log(s[0] * pivot1);
-    if (!is_finite(logarithm)) {
+    if (!rho_is_finite(logarithm)) {
         return RHO_ERROR_SINGULAR;
     }
     *distance2 = distance;
@@ -205,11 +200,12 @@ enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *dista
     y1 = d[1] - l10 * d[0];
     y2 = d[2] - l20 * d[0] - l21 * y1;
     distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1 + y2 * y2 / pivot2;
-    if (!(is_positive(s[0]) && is_positive(pivot1) && is_positive(pivot2) && is_finite(distance))) {
+    if (!(is_positive(s[0]) && is_positive(pivot1) && is_positive(pivot2) &&
+          rho_is_finite(distance))) {
         return RHO_ERROR_SINGULAR;
     }
     logarithm = rho_log(s[0] * pivot1 * pivot2);
-    if (!is_finite(logarithm)) {
+    if (!rho_is_finite(logarithm)) {
         return RHO_ERROR_SINGULAR;
     }
     *distance2 = distance;
@@ -227,7 +223,7 @@ static inline int correct_state(float x[6], const float gain[6], float innovatio
         next[i] = x[i] + gain[i] * innovation;
         sum = i > 0 ? sum + next[i] : next[i];
     }
-    if (!(is_finite(innovation * inverse * innovation) && is_finite(sum))) {
+    if (!(rho_is_finite(innovation * inverse * innovation) && rho_is_finite(sum))) {
         return 0;
     }
     RHO_UNROLL
@@ -303,8 +299,9 @@ static int update_axis_alone(float x[6], float p[21], int index,
                 x_own = x[index] + *own * seen->inverse * seen->innovation;
     const float x_other = x[other] + gain * seen->innovation;
 
-    if (!(is_finite(seen->innovation * seen->inverse * seen->innovation) &&
-          is_finite(x_own + x_other) && is_finite(x[0] + x[1] + x[2] + x[3] + x[4] + x[5]))) {
+    if (!(rho_is_finite(seen->innovation * seen->inverse * seen->innovation) &&
+          rho_is_finite(x_own + x_other) &&
+          rho_is_finite(x[0] + x[1] + x[2] + x[3] + x[4] + x[5]))) {
         return 0;
     }
     x[index] = x_own;

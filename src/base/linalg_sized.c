@@ -13,12 +13,6 @@
  */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
-/* True for a finite number; false for NaN. */
-static int is_finite(float v)
-{
-    return v >= -FLT_MAX && v <= FLT_MAX;
-}
-
 static int is_positive(float v)
 {
     return v > 0.0f && v <= FLT_MAX;
@@ -45,7 +39,7 @@ static int correct_state(int n, float *x, const float *spread, float innovation,
         next[i] = x[i] + spread[i] * step;
         total += next[i];
     }
-    if (!(is_finite(innovation * step) && is_finite(total))) {
+    if (!(rho_is_finite(innovation * step) && rho_is_finite(total))) {
         return 0;
     }
     memcpy(x, next, (size_t)n * sizeof *x);
@@ -229,7 +223,7 @@ int rho_linalg_gated_nis(int n, float *s, float *d, float distance2_max, float *
         }
     }
     logarithm = log_pivot_product(n, s);
-    if (!is_finite(logarithm)) {
+    if (!rho_is_finite(logarithm)) {
         return 0;
     }
     *distance2 = distance;

@@ -66,7 +66,7 @@ uint64_t rho_elapsed_us(int64_t now_us, int64_t then_us)
 
 int rho_is_within(float v, float lo, float hi)
 {
-    return v >= lo && v <= hi && v >= -FLT_MAX && v <= FLT_MAX;
+    return v >= lo && v <= hi && rho_is_finite(v);
 }
 
 int rho_are_finite(const float *values, size_t count)

@@ -3,15 +3,14 @@
 
 #include <string.h>
 
-#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/bearing_crossing.h"
 
 #define FRAMES_MAGIC 0x46524d53u /* "FRMS" in ASCII */
 
 #define SECOND_US INT64_C(1000000)
 #define TOLERANCE_MAX_US (10 * SECOND_US)
 #define JUMP_MAX_US (3600 * SECOND_US)
-/* bearings of sensors nearer to each other than this do not cross (bearing_crossing.h) */
-#define APART_MIN_M 1.0f
 
 /* ---- setting up ------------------------------------------------------------------------------ */
 
@@ -82,7 +81,10 @@ static unsigned find_or_add_heard_sensor(struct rho_frames *frames,
     return i;
 }
 
-/* A known sensor must not have moved; a new sensor must be at least APART_MIN_M from the others. */
+/*
+ * A known sensor must not have moved. A new sensor must be at least RHO_CROSSING_BASE_MIN_M from
+ * the others, as bearings of nearer sensors do not cross.
+ */
 static int is_position_consistent(const struct rho_frames *frames,
                                   const struct rho_bearing_scan *scan)
 {
@@ -93,8 +95,9 @@ static int is_position_consistent(const struct rho_frames *frames,
         const struct rho_frames_sensor *sensor = &frames->sensors[i];
         float dx_m = scan->x_m - sensor->x_m, dy_m = scan->y_m - sensor->y_m;
         float apart2_m2 = dx_m * dx_m + dy_m * dy_m;
-        if (sensor->sensor_id == scan->sensor_id ? apart2_m2 > 0.0f
-                                                 : apart2_m2 < APART_MIN_M * APART_MIN_M) {
+        if (sensor->sensor_id == scan->sensor_id
+                ? apart2_m2 > 0.0f
+                : apart2_m2 < RHO_CROSSING_BASE_MIN_M * RHO_CROSSING_BASE_MIN_M) {
             return 0;
         }
     }
@@ -108,8 +111,7 @@ static enum rho_status check_scan(const struct rho_frames *frames,
         return RHO_ERROR_NULL;
     }
     if (scan->time_us < -RHO_LIMIT_TIME_US || scan->time_us > RHO_LIMIT_TIME_US ||
-        !rho_is_within(scan->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) ||
-        !rho_is_within(scan->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI) ||
+        !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
         !is_position_consistent(frames, scan)) {
         return RHO_ERROR_VALUE;
     }

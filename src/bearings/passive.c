@@ -222,7 +222,5 @@ int rho_passive_is_sound(const struct rho_passive *passive)
 {
     return is_usable(&passive->config) && rho_batch_is_sound(&passive->batch) &&
            passive->batch.scans_max == passive->config.scans &&
-           passive->num_tracks <= RHO_MAX_PASSIVE_TRACKS &&
-           /* an initialised object refuses a NULL frame by NULL, any other by STATE */
-           rho_passive_accepts(passive, NULL) == RHO_ERROR_NULL;
+           passive->num_tracks <= RHO_MAX_PASSIVE_TRACKS && passive->magic == PASSIVE_MAGIC;
 }

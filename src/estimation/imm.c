@@ -265,8 +265,6 @@ struct mixing {
 
 /* Weights with which each model's estimate is mixed with the other's. */
 struct mixing_weights {
-    float into_steady,
-        into_manoeuvre; /* probability that the target was in the other model before the step */
     struct mixing steady, manoeuvre;
 };
 
@@ -291,8 +289,6 @@ static struct mixing_weights update_markov_chain(struct rho_imm *imm,
     imm->calm = (calm_stays + agile_stays * step->settles) / is_steady;
     imm->probability = is;
     return (struct mixing_weights){
-        .into_steady = steady,
-        .into_manoeuvre = manoeuvre,
         .steady = {1.0f - steady, steady, steady * (1.0f - steady)},
         .manoeuvre = {1.0f - manoeuvre, manoeuvre, manoeuvre * (1.0f - manoeuvre)},
     };
@@ -310,19 +306,19 @@ static inline void mix_models_on_axis(struct axis *steady, struct axis *manoeuvr
     const struct mixing *s = &by->steady, *m = &by->manoeuvre;
     const float p = manoeuvre->p - steady->p, v = manoeuvre->v - steady->v, a = more->a;
     const struct axis was = *steady;
-    if (by->into_steady > 0.0f) {
-        steady->p += by->into_steady * p;
-        steady->v += by->into_steady * v;
+    if (s->other > 0.0f) {
+        steady->p += s->other * p;
+        steady->v += s->other * v;
         steady->pp = mixed_moment(s, was.pp, manoeuvre->pp, p * p);
         steady->vp = mixed_moment(s, was.vp, manoeuvre->vp, v * p);
         steady->vv = mixed_moment(s, was.vv, manoeuvre->vv, v * v);
     }
-    manoeuvre->p -= by->into_manoeuvre * p;
-    manoeuvre->v -= by->into_manoeuvre * v;
+    manoeuvre->p -= m->other * p;
+    manoeuvre->v -= m->other * v;
     manoeuvre->pp = mixed_moment(m, manoeuvre->pp, was.pp, p * p);
     manoeuvre->vp = mixed_moment(m, manoeuvre->vp, was.vp, v * p);
     manoeuvre->vv = mixed_moment(m, manoeuvre->vv, was.vv, v * v);
-    more->a -= by->into_manoeuvre * a;
+    more->a -= m->other * a;
     more->ap = m->own * more->ap + m->spread * a * p;
     more->av = m->own * more->av + m->spread * a * v;
     more->aa = m->own * more->aa + m->spread * a * a;

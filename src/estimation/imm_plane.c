@@ -121,11 +121,6 @@ static inline void reduce_acceleration_covariance(float *restrict p, const float
     p[ROW_AY + RHO_AY] = reduced_variance(p[ROW_AY + RHO_AY], ay * s[PLANE_AY]);
 }
 
-static int is_finite(float v)
-{
-    return v >= -FLT_MAX && v <= FLT_MAX;
-}
-
 enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
                                      float *restrict covariance, const float *restrict spread,
                                      float predicted, float innovation, float variance)
@@ -145,8 +140,8 @@ enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
         reduce_acceleration_covariance(covariance, spread, inverse);
     }
     /* checks all results at once: a sum is finite unless a term is not */
-    return is_finite(innovation * step + state[RHO_X] + state[RHO_Y] + state[RHO_VX] +
-                     state[RHO_VY])
+    return rho_is_finite(innovation * step + state[RHO_X] + state[RHO_Y] + state[RHO_VX] +
+                         state[RHO_VY])
                ? RHO_OK
                : RHO_ERROR_VALUE;
 }

@@ -11,11 +11,6 @@
 /* Factor by which a variance is raised before it is reduced, against rounding, as in linalg.c. */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
-static int is_finite(float v)
-{
-    return v >= -FLT_MAX && v <= FLT_MAX;
-}
-
 /* Raises a variance of an open axis to the floor: with less the axis would look closed. */
 static float at_least_floor(float variance)
 {
@@ -153,7 +148,7 @@ static enum rho_status update_independent_axes(struct rho_imm *imm, int num_axes
     if (seen->measures & RHO_MEASURES_VELOCITY) {
         check += update_velocities(imm, num_axes, seen);
     }
-    return is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
+    return rho_is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
 }
 
 /* ---- coupled axes ---------------------------------------------------------------------------- */
@@ -411,7 +406,7 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
     if (!imm || !gain_nat) {
         return RHO_ERROR_NULL;
     }
-    if (!is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
+    if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
     load_kinematics(&at, imm->state, imm->covariance);

@@ -3,17 +3,10 @@
  * input_estimation_plot: updates filter and inputs with a plot, split into scalar measurements:
  * position along its noise axes, range rate, bearing.
  */
-#include <float.h>
 #include <stddef.h>
 
 #include "input_estimation_sensitivity.h"
 #include "rhotrack/detail/input_estimation.h"
-
-/* True for a finite number; false for NaN. */
-static int is_finite(float v)
-{
-    return v >= -FLT_MAX && v <= FLT_MAX;
-}
 
 static enum rho_status open_or_update_axis(struct rho_input *input,
                                            const struct rho_input_config *config, int axis,
@@ -96,7 +89,7 @@ static enum rho_status update_position(struct rho_input *input,
     enum rho_status status = RHO_OK;
 
     for (int axis = 0; axis < num_axes; axis++) {
-        if (!is_finite(seen->place_m[axis])) {
+        if (!rho_is_finite(seen->place_m[axis])) {
             return RHO_ERROR_VALUE;
         }
     }
@@ -181,7 +174,7 @@ enum rho_status rho_input_update_bearing(struct rho_input *input,
     if (input == NULL || config == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (!is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
+    if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
     rho_input_estimate(input, &corrected);

@@ -26,12 +26,6 @@ struct axis_prediction {
     float position_m, position_variance, velocity_variance, mixed;
 };
 
-/* True for a finite number; false for NaN. */
-static int is_finite(float v)
-{
-    return v >= -FLT_MAX && v <= FLT_MAX;
-}
-
 static int is_valid_variance(float v)
 {
     return v >= RHO_KALMAN_VARIANCE_MIN && v <= RHO_KALMAN_VARIANCE_MAX;
@@ -70,7 +64,7 @@ static inline int predict_axis(struct axis_prediction *next, const struct rho_ka
     next->position_variance = floored_if_open(predicted, position);
     next->velocity_variance = velocity + q;
     next->mixed = mixed + moved + 0.5f * dt_s * q;
-    return is_finite(next->position_m) && next->position_variance >= 0.0f &&
+    return rho_is_finite(next->position_m) && next->position_variance >= 0.0f &&
            next->position_variance <= RHO_KALMAN_VARIANCE_MAX && next->velocity_variance >= 0.0f &&
            next->velocity_variance <= RHO_KALMAN_VARIANCE_MAX;
 }
@@ -132,7 +126,7 @@ enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis, float 
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (axis < 0 || axis >= NUM_AXES || !is_finite(position_m) ||
+    if (axis < 0 || axis >= NUM_AXES || !rho_is_finite(position_m) ||
         !is_valid_variance(position_variance) || !is_valid_variance(velocity_variance)) {
         return RHO_ERROR_VALUE;
     }
@@ -233,7 +227,7 @@ enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float 
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (element < 0 || element >= RHO_KALMAN_STATES || !is_finite(value) ||
+    if (element < 0 || element >= RHO_KALMAN_STATES || !rho_is_finite(value) ||
         !(variance > 0.0f && variance <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
     }
@@ -256,7 +250,7 @@ enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row
     if (kalman == NULL || row == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (!is_finite(innovation) || !(variance > 0.0f && variance <= FLT_MAX)) {
+    if (!rho_is_finite(innovation) || !(variance > 0.0f && variance <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
     }
     noise = variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
@@ -368,8 +362,8 @@ static enum rho_status update_height_separately(struct rho_kalman *kalman,
 
 static int is_finite_place(const float place_m[3], int num_axes)
 {
-    return is_finite(place_m[0]) && is_finite(place_m[1]) &&
-           (num_axes < NUM_AXES || is_finite(place_m[2]));
+    return rho_is_finite(place_m[0]) && rho_is_finite(place_m[1]) &&
+           (num_axes < NUM_AXES || rho_is_finite(place_m[2]));
 }
 
 enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
@@ -508,7 +502,7 @@ enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m, 
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (!is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
+    if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
     if (!rho_kalman_linearise_bearing(kalman, x_m, y_m, bearing_rad, sigma_rad, &seen)) {

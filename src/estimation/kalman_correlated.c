@@ -3,7 +3,6 @@
  * kalman_correlated: Kalman update with several elements of the state that were measured with
  * correlated noise.
  */
-#include <float.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -20,22 +19,16 @@ struct decorrelated_rows {
     float variance[RHO_KALMAN_STATES];
 };
 
-/* True for a finite number; false for NaN. */
-static int is_finite(float v)
-{
-    return v >= -FLT_MAX && v <= FLT_MAX;
-}
-
 static int are_valid_measurements(int num, const int elements[], const float values[],
                                   const float covariance[])
 {
     for (int i = 0; i < num; i++) {
-        if (elements[i] < 0 || elements[i] >= RHO_KALMAN_STATES || !is_finite(values[i])) {
+        if (elements[i] < 0 || elements[i] >= RHO_KALMAN_STATES || !rho_is_finite(values[i])) {
             return 0;
         }
     }
     for (int k = 0; k < RHO_TRIANGLE(num); k++) {
-        if (!is_finite(covariance[k])) {
+        if (!rho_is_finite(covariance[k])) {
             return 0;
         }
     }
@@ -73,7 +66,7 @@ static int decorrelate_row(struct decorrelated_rows *decorrelated, int i, float 
         subtract_row(decorrelated, i, k, factor);
     }
     decorrelated->variance[i] = pivot < own * PIVOT_LEAST ? own * PIVOT_LEAST : pivot;
-    return own > 0.0f && pivot > 0.0f && is_finite(decorrelated->off[i]);
+    return own > 0.0f && pivot > 0.0f && rho_is_finite(decorrelated->off[i]);
 }
 
 /* Drops elements of closed axes, and decorrelates the noise of the others. */
@@ -130,7 +123,7 @@ static enum rho_status update_with_decorrelated(struct rho_kalman *kalman,
         moved.state[j] += kalman->state[j];
         total += moved.state[j];
     }
-    if (!is_finite(total)) {
+    if (!rho_is_finite(total)) {
         return RHO_ERROR_VALUE;
     }
     *kalman = moved;

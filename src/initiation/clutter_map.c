@@ -432,8 +432,8 @@ static int is_sound_table(const struct rho_echo_returns *table)
 {
     for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
         for (unsigned g = 0; g < RHO_ECHO_GAP_CLASSES; g++) {
-            if (!rho_is_within(table->looks[c][g], 0.0f, 1e9f) ||
-                !rho_is_within(table->returns[c][g], -1e9f, 1e9f)) {
+            if (!rho_is_within(table->looks[c][g], 0.0f, LOOKS_MAX) ||
+                !rho_is_within(table->returns[c][g], -LOOKS_MAX, LOOKS_MAX)) {
                 return 0;
             }
         }

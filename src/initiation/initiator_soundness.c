@@ -10,14 +10,9 @@ static int is_sound_score(int32_t mnat)
     return mnat >= -SCORE_MAX_MNAT && mnat <= SCORE_MAX_MNAT;
 }
 
-static int is_finite(float v)
-{
-    return rho_are_finite(&v, 1);
-}
-
 static int is_finite_above_0(float v)
 {
-    return v > 0.0f && is_finite(v);
+    return v > 0.0f && rho_are_finite(&v, 1);
 }
 
 static int is_sound_density_map(const struct rho_density_map *map)
@@ -27,10 +22,10 @@ static int is_sound_density_map(const struct rho_density_map *map)
         return 0;
     }
     return is_finite_above_0(map->mean) && is_finite_above_0(map->prior_plots) &&
-           is_finite_above_0(map->content) && is_finite_above_0(map->scans) &&
+           is_finite_above_0(map->content) && map->scans > 0.0f &&
            rho_is_coordinate(map->sensor_x_m) && rho_is_coordinate(map->sensor_y_m) &&
-           rho_is_within(map->middle_rad, -10.0f, 10.0f) && is_finite(map->u0) &&
-           is_finite(map->v0) && rho_is_within(map->width, 0.0f, 1e30f) &&
+           rho_is_within(map->middle_rad, -10.0f, 10.0f) && rho_are_finite(&map->u0, 1) &&
+           rho_are_finite(&map->v0, 1) && rho_is_within(map->width, 0.0f, 1e30f) &&
            rho_is_within(map->height, 0.0f, 1e30f) &&
            rho_is_within(map->scans, 0.0f, (float)RHO_MAX_SCANS);
 }
@@ -53,7 +48,7 @@ static int has_sound_clutter_memory(const struct rho_initiator *initiator)
 {
     const struct rho_clutter_memory *memory = &initiator->memory;
     return RHO_MAX_CLUTTER_CELLS == 0 ||
-           (is_finite(memory->x_min_m) && is_finite(memory->y_min_m) &&
+           (rho_are_finite(&memory->x_min_m, 1) && rho_are_finite(&memory->y_min_m, 1) &&
             rho_is_within(memory->columns_per_m, 0.0f, 1e6f) &&
             rho_is_within(memory->rows_per_m, 0.0f, 1e6f));
 }
@@ -99,7 +94,7 @@ int rho_initiator_is_sound(const struct rho_initiator *initiator)
     }
     if (initiator->num_candidates > RHO_MAX_CANDIDATES || initiator->min_scans > RHO_MAX_SCANS ||
         !is_sound_score(initiator->start_mnat) || !is_sound_score(initiator->confirm_mnat) ||
-        !is_finite(initiator->density_per_m2) || !has_sound_density_maps(initiator) ||
+        !rho_are_finite(&initiator->density_per_m2, 1) || !has_sound_density_maps(initiator) ||
         !has_sound_clutter_memory(initiator) || !has_sound_revolution(initiator) ||
         initiator->budget.resume.cost_class >= RHO_INITIATOR_CLASSES ||
         initiator->budget.resume.plot >= RHO_MAX_PLOTS) {

@@ -4,7 +4,6 @@
  * which the velocity of a target that flies straight stays; plots are gated by their distance from
  * it.
  */
-#include <float.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -19,12 +18,6 @@
 
 /* the two velocity components that span each plane */
 static const uint8_t axes_of[RHO_GATE_PLANES][2] = {{0, 1}, {0, 2}, {1, 2}};
-
-/* Whether a number is neither infinite nor NaN. */
-static int is_finite(float v)
-{
-    return v >= -FLT_MAX && v <= FLT_MAX;
-}
 
 static float magnitude(float v)
 {
@@ -105,7 +98,7 @@ enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough, uint8_t planes
     }
     for (int i = 0; i < 3; i++) {
         change_mps[i] = newest_mps[i] - before_mps[i];
-        if (!is_finite(newest_mps[i]) || !is_finite(change_mps[i])) {
+        if (!rho_is_finite(newest_mps[i]) || !rho_is_finite(change_mps[i])) {
             return RHO_ERROR_VALUE;
         }
     }

@@ -99,6 +99,11 @@ static int is_noise_learning_on(const struct rho_tracker_config *config)
            (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
 }
 
+static int is_pd_learning_on(const struct rho_tracker_config *config)
+{
+    return config->learn_pd_min < 1.0f;
+}
+
 /* ---- use of noise ---------------------------------------------------------------------------- */
 
 static float usable_sigma_factor(const struct rho_tracker *tracker,
@@ -325,7 +330,7 @@ static int is_notch_unstated(const struct rho_sensor *sensor,
 
 static int is_notch_learning_on(const struct step *step)
 {
-    return RHO_DOPPLER_NOTCH && step->tracker->config.learn_pd_min < 1.0f &&
+    return RHO_DOPPLER_NOTCH && is_pd_learning_on(&step->tracker->config) &&
            is_notch_unstated(step->sensor, step->learned);
 }
 
@@ -495,6 +500,9 @@ static void count_look_by_range_and_rate(struct step *step, const struct rho_tra
 static void learn_pd_from_look(struct step *step, struct rho_track *track, int is_seen)
 {
     const int is_own = track->sensor_id == step->scan->sensor_id;
+    if (!is_pd_learning_on(&step->tracker->config)) {
+        return;
+    }
     if (RHO_DOPPLER_NOTCH && track->blind_percent > BLIND_PERCENT_MAX) {
         if (is_own && is_notch_learning_on(step)) {
             (void)count_look_by_range_rate(step, track, is_seen != 0);
@@ -546,7 +554,6 @@ void rho_tracker_learn_sensor(struct step *step)
     /* with bodies no noise is learned: most of a group's noise is the extent of the body */
     const int has_noise =
         is_noise_learning_on(&tracker->config) && !rho_tracker_has_bodies(tracker);
-    const int has_pd = tracker->config.learn_pd_min < 1.0f;
     if (!can_learn_from_scan(step)) {
         return;
     }
@@ -566,7 +573,7 @@ void rho_tracker_learn_sensor(struct step *step)
             learn_pd_from_look(step, track, plot != RHO_ASSIGNMENT_NONE);
         }
     }
-    if (has_pd && !step->has_more_parts) {
+    if (is_pd_learning_on(&tracker->config) && !step->has_more_parts) {
         update_lowered_pd_of_next_ring(step);
     }
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 #include "sigma_code.h"
 #include "window_extent.h"
@@ -24,11 +25,6 @@
 
 /* ---- areas and bins -------------------------------------------------------------------------- */
 
-static float larger_of(float v, float limit)
-{
-    return v > limit ? v : limit;
-}
-
 static int is_usable_area(const struct rho_extent *area)
 {
     return rho_is_coordinate(area->x_min_m) && rho_is_coordinate(area->x_max_m) &&
@@ -40,8 +36,8 @@ static int is_usable_area(const struct rho_extent *area)
 static void lay_out_bins(struct rho_window_scan *scan, const struct rho_window *window,
                          unsigned num_plots)
 {
-    float width_m = rho_extent_width_m(&window->extent, larger_of(window->side_min_m, 1.0f));
-    float height_m = rho_extent_height_m(&window->extent, larger_of(window->side_min_m, 1.0f));
+    float width_m = rho_extent_width_m(&window->extent, rho_larger(window->side_min_m, 1.0f));
+    float height_m = rho_extent_height_m(&window->extent, rho_larger(window->side_min_m, 1.0f));
     unsigned limit = BINS_PER_PLOT * num_plots + 1u;
     unsigned bins = limit < RHO_MAX_BINS ? limit : RHO_MAX_BINS;
     unsigned columns = 1;
@@ -142,13 +138,13 @@ static struct rho_window_plot make_window_plot(const struct entry *entry, uint32
 static void widen_scan_bounds(struct rho_window *window, struct rho_window_scan *slot,
                               const struct rho_window_plot *plot)
 {
-    slot->sigma_max_m = larger_of(slot->sigma_max_m, sigma_of_code(larger_sigma_code(plot)));
+    slot->sigma_max_m = rho_larger(slot->sigma_max_m, sigma_of_code(larger_sigma_code(plot)));
     if (plot->sigma_up) {
         /* a steep line of sight turns the upward noise into the horizontal plane */
-        slot->sigma_max_m = larger_of(slot->sigma_max_m, sigma_of_code(plot->sigma_up));
+        slot->sigma_max_m = rho_larger(slot->sigma_max_m, sigma_of_code(plot->sigma_up));
     }
     slot->is_isotropic = slot->is_isotropic && plot->sigma_range == plot->sigma_cross;
-    slot->offset_max_s = larger_of(slot->offset_max_s, plot->offset_s);
+    slot->offset_max_s = rho_larger(slot->offset_max_s, plot->offset_s);
     slot->offset_min_s = plot->offset_s < slot->offset_min_s ? plot->offset_s : slot->offset_min_s;
     if (RHO_SECTORS && plot->offset_s < window->newest.offset_min_s) {
         window->newest.offset_min_s = plot->offset_s;
@@ -423,7 +419,6 @@ static void add_scan(struct rho_window *window, const struct rho_scan *scan,
     slot->sector_from_rad = scan->sector_from_rad;
     slot->sector_to_rad = scan->sector_to_rad;
     slot->sensor = sensor ? *sensor : (struct rho_sensor){.sensor_id = scan->sensor_id};
-    slot->sensor.pd = sensor ? sensor->pd : 0.0f;
     /* the held plots' sigmas include these factors */
     slot->sensor.sigma_range_percent = slot->sensor.sigma_cross_percent = 0;
     slot->num_plots = 0;

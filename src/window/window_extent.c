@@ -5,6 +5,8 @@
  */
 #include "window_extent.h"
 
+#include "rhotrack/detail/approx.h"
+
 /*
  * Outliers among the plots, which the extent leaves out: square of the standard deviations beyond
  * which a plot is one, rounds of leaving out, least number of plots for it; and the share of the
@@ -17,25 +19,20 @@
 
 /* ---- extents --------------------------------------------------------------------------------- */
 
-static float larger_of(float v, float limit)
-{
-    return v > limit ? v : limit;
-}
-
 float rho_extent_width_m(const struct rho_extent *extent, float side_min_m)
 {
-    return larger_of(extent->x_max_m - extent->x_min_m, side_min_m);
+    return rho_larger(extent->x_max_m - extent->x_min_m, side_min_m);
 }
 
 float rho_extent_height_m(const struct rho_extent *extent, float side_min_m)
 {
-    return larger_of(extent->y_max_m - extent->y_min_m, side_min_m);
+    return rho_larger(extent->y_max_m - extent->y_min_m, side_min_m);
 }
 
 float rho_extent_area_m2(const struct rho_extent *extent, float side_min_m)
 {
-    return larger_of(rho_extent_width_m(extent, side_min_m), 0.0f) *
-           larger_of(rho_extent_height_m(extent, side_min_m), 0.0f);
+    return rho_larger(rho_extent_width_m(extent, side_min_m), 0.0f) *
+           rho_larger(rho_extent_height_m(extent, side_min_m), 0.0f);
 }
 
 void rho_extent_add(struct rho_extent *extent, float x_m, float y_m)

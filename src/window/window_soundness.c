@@ -4,11 +4,6 @@
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
 
-static int is_finite(float v)
-{
-    return rho_are_finite(&v, 1);
-}
-
 static int is_sound_extent(const struct rho_extent *extent)
 {
     return rho_is_coordinate(extent->x_min_m) && rho_is_coordinate(extent->x_max_m) &&
@@ -21,7 +16,7 @@ static int is_sound_plot(const struct rho_window_plot *plot)
            rho_is_coordinate(plot->z_m) &&
            rho_is_within(plot->offset_s, -2e-6f * RHO_LIMIT_OFFSET_US,
                          2e-6f * RHO_LIMIT_OFFSET_US) &&
-           is_finite(plot->range_rate_mps);
+           rho_are_finite(&plot->range_rate_mps, 1);
 }
 
 /*
@@ -63,7 +58,8 @@ static int is_sound_newest_sector(const struct rho_window *window)
     const int64_t begun_us =
         window->ring[(window->first + window->num_scans - 1u) % window->scans_max].time_us;
     return rho_is_stored_time(newest->time_us) && newest->time_us >= begun_us &&
-           newest->time_us - begun_us <= RHO_LIMIT_OFFSET_US && is_finite(newest->offset_min_s);
+           newest->time_us - begun_us <= RHO_LIMIT_OFFSET_US &&
+           rho_are_finite(&newest->offset_min_s, 1);
 }
 
 static int is_sound_scan(const struct rho_window_scan *scan)
@@ -72,11 +68,11 @@ static int is_sound_scan(const struct rho_window_scan *scan)
         !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
         !rho_measurement_is_valid_sensor(&scan->sensor) ||
         !rho_is_within(scan->sensor.pd, 0.0f, 1.0f) || scan->num_plots > RHO_MAX_PLOTS ||
-        scan->num_unused > scan->num_plots || !is_finite(scan->bin_x0_m) ||
-        !is_finite(scan->bin_y0_m) || !rho_is_within(scan->bins_per_m_x, 0.0f, 1e6f) ||
+        scan->num_unused > scan->num_plots || !rho_are_finite(&scan->bin_x0_m, 1) ||
+        !rho_are_finite(&scan->bin_y0_m, 1) || !rho_is_within(scan->bins_per_m_x, 0.0f, 1e6f) ||
         !rho_is_within(scan->bins_per_m_y, 0.0f, 1e6f) ||
-        !rho_is_within(scan->sigma_max_m, 0.0f, 1e7f) || !is_finite(scan->offset_min_s) ||
-        !is_finite(scan->offset_max_s)) {
+        !rho_is_within(scan->sigma_max_m, 0.0f, 1e7f) || !rho_are_finite(&scan->offset_min_s, 1) ||
+        !rho_are_finite(&scan->offset_max_s, 1)) {
         return 0;
     }
     for (unsigned i = 0; i < scan->num_plots; i++) {

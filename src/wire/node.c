@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "message_clamps.h"
 #include "rhotrack/publish.h"
 
 #define MAGIC 0x6e6f6465u
@@ -596,13 +597,6 @@ enum rho_status rho_node_publish(const struct rho_node *node, const struct rho_i
                              report->time_us, node->step, buffer, capacity, size);
 }
 
-static int32_t saturating_sum(int32_t counter, uint32_t more)
-{
-    uint32_t sum = rho_count((uint32_t)counter, more);
-
-    return sum < INT32_MAX ? (int32_t)sum : INT32_MAX;
-}
-
 void rho_node_status(struct rho_node *node, const struct rho_initiator *initiator,
                      struct rho_message_status *status)
 {
@@ -613,8 +607,9 @@ void rho_node_status(struct rho_node *node, const struct rho_initiator *initiato
                        initiator, status);
     status->scan = node->step;
     status->epoch = node->epoch;
-    status->plots_in = saturating_sum(status->plots_in, node->counters.plots_refused);
-    status->inputs_no_room = saturating_sum(status->inputs_no_room, node->counters.plots_refused);
+    status->plots_in = rho_clamp_sum_to_int32(status->plots_in, node->counters.plots_refused);
+    status->inputs_no_room =
+        rho_clamp_sum_to_int32(status->inputs_no_room, node->counters.plots_refused);
     if (node->timing.steps > 0) {
         status->step_us = (float)node->timing.sum_us / (float)node->timing.steps;
         status->step_max_us = (float)node->timing.max_us;

@@ -3,22 +3,13 @@
 
 #include <string.h>
 
+#include "message_clamps.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
 #define PART_TRACKS RHO_MESSAGE_TRACK_LIST_MAX_TRACKS
 #define NAT(mnat) ((float)(mnat) / 1000.0f)
 #define M2_PER_KM2 1.0e6f
-
-static int16_t clamp_to_int16(uint32_t count)
-{
-    return (int16_t)(count < INT16_MAX ? count : INT16_MAX);
-}
-
-static int32_t clamp_to_int32(uint32_t count)
-{
-    return (int32_t)(count < INT32_MAX ? count : INT32_MAX);
-}
 
 /* ---- Tracks ---- */
 
@@ -41,19 +32,14 @@ static int8_t message_status_of(enum rho_track_status status)
                                           : RHO_MESSAGE_TRACK_TENTATIVE;
 }
 
-static int16_t message_sensor_id(int32_t sensor_id)
-{
-    return (int16_t)(sensor_id >= INT16_MIN && sensor_id <= INT16_MAX ? sensor_id : -1);
-}
-
 static void fill_live_track(const struct rho_track_report *track, struct rho_message_track *message)
 {
     *message = (struct rho_message_track){
         .track_id = (int32_t)(track->track_id & INT32_MAX),
         .status = message_status_of(track->status),
-        .hits = clamp_to_int16(track->hits),
-        .misses = clamp_to_int16(track->misses),
-        .sensor_id = message_sensor_id(track->sensor_id),
+        .hits = rho_clamp_to_int16(track->hits),
+        .misses = rho_clamp_to_int16(track->misses),
+        .sensor_id = rho_clamp_sensor_id(track->sensor_id),
         .plot = (int16_t)(track->plot <= INT16_MAX ? track->plot : INT16_MAX),
         .update_age_us = track->update_age_us,
         .x_m = track->state[0],
@@ -103,7 +89,7 @@ enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step
         .utime = report->time_us,
         .scan = step,
         .epoch = epoch,
-        .num_tracks_total = clamp_to_int16(num_live_and_ended_tracks(report)),
+        .num_tracks_total = rho_clamp_to_int16(num_live_and_ended_tracks(report)),
         .part = (int16_t)part,
         .num_parts = (int16_t)rho_publish_num_parts(report)};
     status = rho_message_track_list_begin(&writer, buffer, capacity, &head);
@@ -143,7 +129,7 @@ static enum rho_status add_candidate_peaks(const struct rho_initiator *initiator
 
         peak = peak_of_motion(candidate->x_m, candidate->y_m, candidate->vx_mps, candidate->vy_mps);
         peak.score_nat = NAT(candidate->score_mnat);
-        peak.scans_hit = clamp_to_int16(candidate->hits);
+        peak.scans_hit = rho_clamp_to_int16(candidate->hits);
         status = rho_message_peak_list_add(writer, &peak);
     }
     return status;
@@ -195,37 +181,34 @@ enum rho_status rho_publish_peaks(const struct rho_initiator *initiator,
 static void fill_assembler_counters(const struct rho_scan_assembler_counters *assembler,
                                     struct rho_message_status *status)
 {
-    status->scans_accepted = clamp_to_int32(assembler->scans_accepted);
-    status->scans_late = clamp_to_int32(assembler->scans_late);
+    status->scans_accepted = rho_clamp_to_int32(assembler->scans_accepted);
+    status->scans_late = rho_clamp_to_int32(assembler->scans_late);
     status->scans_duplicate =
-        clamp_to_int32(rho_count(assembler->scans_duplicate, assembler->scans_other));
-    status->scans_lost = clamp_to_int32(assembler->scans_lost);
-    status->scans_bad = clamp_to_int32(rho_count(assembler->scans_bad, assembler->sensors_no_room));
-    status->messages_bad = clamp_to_int32(assembler->messages_bad);
-    status->messages_wrong_type = clamp_to_int32(assembler->messages_wrong_type);
+        rho_clamp_to_int32(rho_count(assembler->scans_duplicate, assembler->scans_other));
+    status->scans_lost = rho_clamp_to_int32(assembler->scans_lost);
+    status->scans_bad =
+        rho_clamp_to_int32(rho_count(assembler->scans_bad, assembler->sensors_no_room));
+    status->messages_bad = rho_clamp_to_int32(assembler->messages_bad);
+    status->messages_wrong_type = rho_clamp_to_int32(assembler->messages_wrong_type);
     status->messages_flooded =
-        clamp_to_int32(rho_count(assembler->messages_flooded, assembler->messages_not_allowed));
-    status->scans_incomplete = clamp_to_int32(assembler->scans_incomplete);
-    status->clock_jumps = clamp_to_int32(assembler->clock_jumps);
-    status->sensor_restarts = clamp_to_int32(assembler->sensor_restarts);
-    status->bearings_in = clamp_to_int32(assembler->bearings_in);
-    status->plots_in = clamp_to_int32(assembler->plots_no_room);
-    status->inputs_no_room = clamp_to_int32(assembler->plots_no_room);
-}
-
-static int32_t saturating_sum(int32_t counter, uint32_t more)
-{
-    return clamp_to_int32(rho_count((uint32_t)counter, more));
+        rho_clamp_to_int32(rho_count(assembler->messages_flooded, assembler->messages_not_allowed));
+    status->scans_incomplete = rho_clamp_to_int32(assembler->scans_incomplete);
+    status->clock_jumps = rho_clamp_to_int32(assembler->clock_jumps);
+    status->sensor_restarts = rho_clamp_to_int32(assembler->sensor_restarts);
+    status->bearings_in = rho_clamp_to_int32(assembler->bearings_in);
+    status->plots_in = rho_clamp_to_int32(assembler->plots_no_room);
+    status->inputs_no_room = rho_clamp_to_int32(assembler->plots_no_room);
 }
 
 static void add_frame_counters(const struct rho_frames_counters *frames,
                                struct rho_message_status *status)
 {
-    status->frames_incomplete = clamp_to_int32(frames->frames_incomplete);
-    status->scans_late = saturating_sum(status->scans_late, frames->scans_late);
-    status->clock_jumps = saturating_sum(status->clock_jumps, frames->scans_off_clock);
-    status->plots_in = saturating_sum(status->plots_in, frames->bearings_no_room);
-    status->inputs_no_room = saturating_sum(status->inputs_no_room, frames->bearings_no_room);
+    status->frames_incomplete = rho_clamp_to_int32(frames->frames_incomplete);
+    status->scans_late = rho_clamp_sum_to_int32(status->scans_late, frames->scans_late);
+    status->clock_jumps = rho_clamp_sum_to_int32(status->clock_jumps, frames->scans_off_clock);
+    status->plots_in = rho_clamp_sum_to_int32(status->plots_in, frames->bearings_no_room);
+    status->inputs_no_room =
+        rho_clamp_sum_to_int32(status->inputs_no_room, frames->bearings_no_room);
 }
 
 static void add_tracker_counters_and_tracks(const struct rho_tracker *tracker,
@@ -235,26 +218,26 @@ static void add_tracker_counters_and_tracks(const struct rho_tracker *tracker,
     uint32_t count[RHO_NUM_TRACK_STATUS] = {0};
 
     status->utime = tracker->time_us;
-    status->scans_late = saturating_sum(status->scans_late, counters->scans_late);
-    status->plots_in = saturating_sum(status->plots_in, counters->plots_in);
-    status->plots_claimed = clamp_to_int32(counters->fates[RHO_FATE_CLAIMED]);
-    status->plots_held = clamp_to_int32(counters->fates[RHO_FATE_HELD]);
-    status->plots_initiated = clamp_to_int32(counters->plots_initiated);
-    status->plots_clutter = clamp_to_int32(counters->plots_clutter);
-    status->inputs_stale = clamp_to_int32(counters->fates[RHO_FATE_STALE]);
-    status->inputs_invalid = clamp_to_int32(counters->fates[RHO_FATE_INVALID]);
+    status->scans_late = rho_clamp_sum_to_int32(status->scans_late, counters->scans_late);
+    status->plots_in = rho_clamp_sum_to_int32(status->plots_in, counters->plots_in);
+    status->plots_claimed = rho_clamp_to_int32(counters->fates[RHO_FATE_CLAIMED]);
+    status->plots_held = rho_clamp_to_int32(counters->fates[RHO_FATE_HELD]);
+    status->plots_initiated = rho_clamp_to_int32(counters->plots_initiated);
+    status->plots_clutter = rho_clamp_to_int32(counters->plots_clutter);
+    status->inputs_stale = rho_clamp_to_int32(counters->fates[RHO_FATE_STALE]);
+    status->inputs_invalid = rho_clamp_to_int32(counters->fates[RHO_FATE_INVALID]);
     status->inputs_no_room =
-        saturating_sum(status->inputs_no_room, counters->fates[RHO_FATE_NO_ROOM]);
-    status->ghosts_pruned = clamp_to_int32(counters->fates[RHO_FATE_GHOST]);
+        rho_clamp_sum_to_int32(status->inputs_no_room, counters->fates[RHO_FATE_NO_ROOM]);
+    status->ghosts_pruned = rho_clamp_to_int32(counters->fates[RHO_FATE_GHOST]);
     /* Only num_tracks entries are live: the array holds ended tracks behind them. */
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         if (tracker->tracks[i].status < RHO_NUM_TRACK_STATUS) {
             count[tracker->tracks[i].status]++;
         }
     }
-    status->tracks_tentative = clamp_to_int16(count[RHO_TRACK_TENTATIVE]);
-    status->tracks_confirmed = clamp_to_int16(count[RHO_TRACK_CONFIRMED]);
-    status->tracks_coasting = clamp_to_int16(count[RHO_TRACK_COASTING]);
+    status->tracks_tentative = rho_clamp_to_int16(count[RHO_TRACK_TENTATIVE]);
+    status->tracks_confirmed = rho_clamp_to_int16(count[RHO_TRACK_CONFIRMED]);
+    status->tracks_coasting = rho_clamp_to_int16(count[RHO_TRACK_COASTING]);
 }
 
 void rho_publish_status(const struct rho_scan_assembler *assembler, const struct rho_frames *frames,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* publish_clutter: messages of the echoes in the tracker's clutter map. */
+#include "message_clamps.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/clutter_map.h"
 #include "rhotrack/publish.h"
@@ -18,10 +19,8 @@ static struct rho_message_echo echo_message_of(const struct rho_clutter_map *map
                                                const struct rho_echo *echo)
 {
     return (struct rho_message_echo){
-        .sensor_id =
-            (int16_t)(echo->sensor_id >= INT16_MIN && echo->sensor_id <= INT16_MAX ? echo->sensor_id
-                                                                                   : -1),
-        .hits = (int16_t)(echo->hits < INT16_MAX ? echo->hits : INT16_MAX),
+        .sensor_id = rho_clamp_sensor_id(echo->sensor_id),
+        .hits = rho_clamp_to_int16(echo->hits),
         .unseen = echo->unseen,
         .x_m = clamp_magnitude(echo->x_m, RHO_LIMIT_POSITION_M),
         .y_m = clamp_magnitude(echo->y_m, RHO_LIMIT_POSITION_M),

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* publish_learned_sensor: a message of the noise and pd that the tracker has learned for a sensor.
+/*
+ * publish_learned_sensor: fills the message with the noise and pd that the tracker has learned for a
+ * sensor.
  */
+#include "message_clamps.h"
 #include "rhotrack/publish.h"
 
 int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
@@ -15,10 +18,8 @@ int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
     }
     *learned = (struct rho_message_learned){
         .utime = tracker->time_us,
-        .sensor_id = (int16_t)(sensor->sensor_id >= INT16_MIN && sensor->sensor_id <= INT16_MAX
-                                   ? sensor->sensor_id
-                                   : -1),
-        .innovations = (int16_t)(known.innovations < INT16_MAX ? known.innovations : INT16_MAX),
+        .sensor_id = rho_clamp_sensor_id(sensor->sensor_id),
+        .innovations = rho_clamp_to_int16(known.innovations),
         .sigma_range_factor = known.range_factor,
         .sigma_cross_factor = known.cross_factor,
         .looks = (int32_t)known.looks,

@@ -1,11 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* publish_zones: messages of the zones' counts and events. */
+#include "message_clamps.h"
 #include "rhotrack/publish.h"
-
-static int32_t clamp_to_int32(uint32_t value)
-{
-    return (int32_t)(value < INT32_MAX ? value : INT32_MAX);
-}
 
 void rho_publish_zones(const struct rho_zones *zones, struct rho_message_zone_list *list)
 {
@@ -14,7 +10,7 @@ void rho_publish_zones(const struct rho_zones *zones, struct rho_message_zone_li
     }
     list->utime = zones ? zones->time_us : 0;
     list->scan = list->epoch = 0;
-    list->events_dropped = zones ? clamp_to_int32(zones->events_dropped) : 0;
+    list->events_dropped = zones ? rho_clamp_to_int32(zones->events_dropped) : 0;
     list->num_zones = zones ? (int16_t)zones->num_zones : 0;
     for (int i = 0; i < list->num_zones; i++) {
         const struct rho_zone_counts *counts = &zones->counts[i];
@@ -22,11 +18,11 @@ void rho_publish_zones(const struct rho_zones *zones, struct rho_message_zone_li
             .zone_id = zones->zones[i].zone_id,
             .inside = (int16_t)counts->inside,
             .queued = (int16_t)counts->queued,
-            .entered = clamp_to_int32(counts->entered),
-            .left = clamp_to_int32(counts->left),
-            .ended = clamp_to_int32(counts->ended),
-            .along = clamp_to_int32(counts->along),
-            .against = clamp_to_int32(counts->against),
+            .entered = rho_clamp_to_int32(counts->entered),
+            .left = rho_clamp_to_int32(counts->left),
+            .ended = rho_clamp_to_int32(counts->ended),
+            .along = rho_clamp_to_int32(counts->along),
+            .against = rho_clamp_to_int32(counts->against),
             .speed_mps = counts->speed_mps,
             .queue_m = counts->queue_m,
             .dwell_mean_s = counts->dwell_mean_s,

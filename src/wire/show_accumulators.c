@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "message_clamps.h"
 #include "rhotrack/detail/approx.h"
 #include "show_writers.h"
 
@@ -181,11 +182,11 @@ static void set_head_of_plots(const struct shown_accumulator *accumulator,
     head->oldest_utime = rho_window_scan_at(&starts->window, 0)->time_us;
     head->rho_min_m = -config->rho_max_m;
     head->rho_max_m = config->rho_max_m;
-    head->theta_cells = rho_show_clamp_count(starts->hough.theta_cells);
-    head->rho_cells = rho_show_clamp_count(starts->hough.rho_cells);
+    head->theta_cells = rho_clamp_to_int16(starts->hough.theta_cells);
+    head->rho_cells = rho_clamp_to_int16(starts->hough.rho_cells);
     head->votes_max = votes_from_parts(accumulator, starts->result.votes_max);
     head->votes_min = share > config->votes_min ? share : config->votes_min;
-    head->num_cells_total = rho_show_clamp_count(starts->result.num_peaks);
+    head->num_cells_total = rho_clamp_to_int16(starts->result.num_peaks);
 }
 
 static void set_head_of_bearings(const struct shown_accumulator *accumulator,
@@ -200,11 +201,11 @@ static void set_head_of_bearings(const struct shown_accumulator *accumulator,
     head->origin_y_m = space->origin_y_m;
     head->rho_min_m = -space->rho_max_m;
     head->rho_max_m = space->rho_max_m;
-    head->theta_cells = rho_show_clamp_count(space->theta_cells);
-    head->rho_cells = rho_show_clamp_count(space->rho_cells);
+    head->theta_cells = rho_clamp_to_int16(space->theta_cells);
+    head->rho_cells = rho_clamp_to_int16(space->rho_cells);
     head->votes_max = (float)show->votes_max;
     head->votes_min = (float)paper->votes_min;
-    head->num_cells_total = rho_show_clamp_count(paper->num_lines);
+    head->num_cells_total = rho_clamp_to_int16(paper->num_lines);
     if (!show->config.picture && paper->num_lines > 0 && !accumulator->has_pair) {
         head->votes_max = (float)paper->lines[0].votes_sum;
     }
@@ -222,7 +223,7 @@ static enum rho_status add_peaks_of_plots(const struct shown_accumulator *accumu
             .theta_rad = rho_hough_theta_rad(&starts->hough, starts->peaks[i].theta_cell),
             .votes = votes_from_parts(accumulator, starts->peaks[i].votes),
             .scan_mask = line->mask,
-            .plots = rho_show_clamp_count(line->num_plots),
+            .plots = rho_clamp_to_int16(line->num_plots),
             .track_id = (int32_t)(starts->lines[i].track_id & INT32_MAX)};
         status = rho_message_accumulator_add(writer, &cell);
     }
@@ -244,7 +245,7 @@ static enum rho_status add_lines_of_bearings(const struct shown_accumulator *acc
             .theta_rad = line->theta_rad,
             .votes = (float)line->votes_sum,
             .scan_mask = line->scans,
-            .plots = rho_show_clamp_count(line->crossings),
+            .plots = rho_clamp_to_int16(line->crossings),
             .track_id = (int32_t)(line->track_id & INT32_MAX)};
         status = rho_message_accumulator_add(writer, &cell);
     }
@@ -290,7 +291,7 @@ static enum rho_status write_bearing_accumulator(const struct rho_show *show,
     }
     set_head_of_bearings(accumulator, show, &space, head);
     if (accumulator->has_pair) {
-        head->num_cells_total = rho_show_clamp_count(num_peaks);
+        head->num_cells_total = rho_clamp_to_int16(num_peaks);
     }
     status = rho_message_accumulator_begin(writer, output->buffer, output->capacity, head);
     if (status != RHO_OK) {
@@ -315,8 +316,8 @@ static const char *write_accumulator_message(const struct rho_show *show,
     enum rho_status status;
     if (accumulator->has_pair) {
         const struct rho_batch_sensor *sensors = source->paper->batch.sensors;
-        head.sensor_a_id = rho_show_clamp_sensor_id(sensors[accumulator->pair.a].sensor_id);
-        head.sensor_b_id = rho_show_clamp_sensor_id(sensors[accumulator->pair.b].sensor_id);
+        head.sensor_a_id = rho_clamp_sensor_id(sensors[accumulator->pair.a].sensor_id);
+        head.sensor_b_id = rho_clamp_sensor_id(sensors[accumulator->pair.b].sensor_id);
     }
     if (accumulator->is_of_bearings) {
         status = write_bearing_accumulator(show, accumulator, &head, output, &writer);
@@ -366,8 +367,8 @@ static const char *write_picture_rows(const struct rho_show *show,
         .num_parts = (int16_t)((height + PART_ROWS - 1u) / PART_ROWS)};
     if (accumulator->has_pair) {
         const struct rho_batch_sensor *sensors = source->paper->batch.sensors;
-        head.sensor_a_id = rho_show_clamp_sensor_id(sensors[accumulator->pair.a].sensor_id);
-        head.sensor_b_id = rho_show_clamp_sensor_id(sensors[accumulator->pair.b].sensor_id);
+        head.sensor_a_id = rho_clamp_sensor_id(sensors[accumulator->pair.a].sensor_id);
+        head.sensor_b_id = rho_clamp_sensor_id(sensors[accumulator->pair.b].sensor_id);
     }
     enum rho_status status =
         rho_message_plane_begin(&writer, output->buffer, output->capacity, &head);

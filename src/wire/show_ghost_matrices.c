@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* show_ghost_matrices: messages of the newest frame's ghost matrices, one matrix for each sensor
- * pair. */
+/*
+ * show_ghost_matrices: messages of the newest frame's ghost matrices, one matrix for each sensor
+ * pair.
+ */
+#include "message_clamps.h"
 #include "show_writers.h"
 
 #define PART_ELEMENTS RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS
@@ -117,8 +120,8 @@ ghost_matrix_head(const struct rho_show_source *source, const struct rho_passive
         .utime = paper->batch.time_us[paper->batch.num_scans - 1u],
         .scan = source->step,
         .epoch = source->epoch,
-        .sensor_a_id = rho_show_clamp_sensor_id(a->sensor_id),
-        .sensor_b_id = rho_show_clamp_sensor_id(b->sensor_id),
+        .sensor_a_id = rho_clamp_sensor_id(a->sensor_id),
+        .sensor_b_id = rho_clamp_sensor_id(b->sensor_id),
         .sensor_a_x_m = a->x_m,
         .sensor_a_y_m = a->y_m,
         .sensor_b_x_m = b->x_m,

@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "message_clamps.h"
 #include "show_writers.h"
 
 #define MAGIC 0x53484f57u /* "SHOW" */
@@ -143,7 +144,7 @@ const char *rho_show_next(struct rho_show *show, const struct rho_show_source *s
     output.size = size;
     for (unsigned kind = 0; kind < RHO_NUM_SHOW_KINDS; kind++) {
         struct rho_show_rate *rate = &show->rates[kind];
-        output.not_sent = (int32_t)(rate->not_sent < INT32_MAX ? rate->not_sent : INT32_MAX);
+        output.not_sent = rho_clamp_to_int32(rate->not_sent);
         while (rate->left > 0) {
             rate->left--;
             const char *channel = write_message(show, source, kind, rate->at++, &output);

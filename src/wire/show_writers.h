@@ -32,14 +32,4 @@ const char *rho_show_write_vote_message(struct rho_show *show, const struct rho_
 const char *rho_show_write_hypotheses_message(const struct rho_show_source *source, unsigned track,
                                               const struct rho_show_output *output);
 
-static inline int16_t rho_show_clamp_sensor_id(int32_t sensor_id)
-{
-    return (int16_t)(sensor_id >= INT16_MIN && sensor_id <= INT16_MAX ? sensor_id : -1);
-}
-
-static inline int16_t rho_show_clamp_count(uint32_t count)
-{
-    return (int16_t)(count < INT16_MAX ? count : INT16_MAX);
-}
-
 #endif

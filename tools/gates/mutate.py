@@ -43,7 +43,7 @@ ALIKE = {
     "src/association/hypotheses_soundness.c": r"PASS_NODES$",
     "src/tracker/tracker_soundness.c": r"PASS_SLOTS$",
     "src/papers/accumulator.c": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$",
-    "src/papers/accumulator_rows.c": r"BLOCKS$",
+    "src/papers/accumulator_rows.c": r"BLOCKS$|CROWDED$",
     "src/papers/accumulator_prune.c": r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|(SHRINK|GROW)_KEPT$",
 }
 NO_POLICY_FILES = {

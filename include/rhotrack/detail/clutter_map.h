@@ -127,7 +127,8 @@ struct rho_clutter_map {
  *   sensor_id                     the sensor of the echo
  *   sigma_range_m, sigma_cross_m  of the place, along and across the line of sight, 0.001 .. 1e5
  * Errors: NULL, VALUE (a place that is no coordinate, a sigma or hits outside its range). In a full
- * map the echo with the most misses is dropped.
+ * map the echo with the most misses for its hits is dropped; where the newest scan saw every echo
+ * of a full map, the new echo is not added. Either is RHO_OK, and echoes_dropped counts it.
  * Cost: RHO_MAX_ECHOES.
  * Stack: 290 bytes.
  */

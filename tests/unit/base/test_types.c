@@ -180,8 +180,10 @@ static void finite_numbers_alone_are_finite(void **state)
         for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
             float values[3] = {-FLT_MAX, 0.0f, FLT_MAX};
 
+            assert_true(rho_is_finite(values[place]));
             assert_true(rho_are_finite(values, 3));
             values[place] = bad[i];
+            assert_false(rho_is_finite(values[place]));
             assert_false(rho_are_finite(values, 3));
             assert_true(rho_are_finite(values, place)); /* those before it */
         }

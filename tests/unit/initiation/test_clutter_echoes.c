@@ -239,6 +239,29 @@ static void room_is_made_of_the_most_missed(void **state)
     assert_int_equal(map.echoes_dropped, RHO_ECHO_PLACES - left);
 }
 
+/* What a scan has just seen is worth more than what is only said: no echo gives way. */
+static void an_echo_taught_to_a_full_map_that_was_just_seen_is_dropped(void **state)
+{
+    static struct rho_clutter_map before;
+
+    (void)state;
+    begin();
+    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
+        map.echoes[i] = (struct rho_echo){.hits = 1, .was_looked_at = 1};
+    }
+    before = map;
+    assert_int_equal(rho_clutter_map_teach(&map, 7, 100.0f, 200.0f, 30.0f, 30.0f, UINT16_MAX),
+                     RHO_OK);
+    assert_int_equal(map.echoes_dropped, before.echoes_dropped + 1u);
+    before.echoes_dropped = map.echoes_dropped;
+    assert_memory_equal(&map, &before, sizeof map);
+    map.echoes[0].unseen = 1;
+    assert_int_equal(rho_clutter_map_teach(&map, 7, 100.0f, 200.0f, 30.0f, 30.0f, UINT16_MAX),
+                     RHO_OK);
+    assert_int_equal(map.echoes[0].sensor_id, 7);
+    assert_int_equal(map.echoes_dropped, before.echoes_dropped + 1u);
+}
+
 static void a_damaged_map_is_not_sound(void **state)
 {
     const struct rho_plot plot = plot_at(5000.0f, 0.0f);
@@ -360,6 +383,7 @@ int main(void)
         cmocka_unit_test(an_echo_is_a_filter_along_and_across),
         cmocka_unit_test(an_echo_is_lost_the_later_the_more_hits_it_had),
         cmocka_unit_test(room_is_made_of_the_most_missed),
+        cmocka_unit_test(an_echo_taught_to_a_full_map_that_was_just_seen_is_dropped),
         cmocka_unit_test(a_damaged_map_is_not_sound),
         cmocka_unit_test(returns_where_targets_may_stand),
         cmocka_unit_test(an_echo_moves_from_four_sigmas_on),

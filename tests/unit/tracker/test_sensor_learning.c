@@ -188,6 +188,18 @@ static void bounds_hold_and_one_is_off(void **state)
     assert_float_equal(known.range_factor, 0.7f, 0.0f);
 }
 
+/* Looks were counted with learn_pd_min 1, too, though the pd is not learned then. */
+static void nothing_is_counted_where_learning_is_off(void **state)
+{
+    (void)state;
+    prepare(32);
+    config.learn_noise_min = config.learn_noise_max = config.learn_pd_min = 1.0f;
+    begin_tracker();
+    const struct rho_tracker_known known = known_after(&as_stated, 60);
+    assert_int_equal(known.looks, 0);
+    assert_int_equal(known.innovations, 0);
+}
+
 /* Targets that turn leave plots beside their predictions, too: that is no noise. */
 static void manoeuvres_are_no_noise(void **state)
 {
@@ -504,6 +516,7 @@ int main(void)
         cmocka_unit_test(noise_is_found_on_each_axis),
         cmocka_unit_test(axes_are_told_apart),
         cmocka_unit_test(bounds_hold_and_one_is_off),
+        cmocka_unit_test(nothing_is_counted_where_learning_is_off),
         cmocka_unit_test(manoeuvres_are_no_noise),
         cmocka_unit_test(pd_is_learned_by_range),
         cmocka_unit_test(tracks_that_are_seen_seldom_are_believed),

@@ -136,6 +136,27 @@ static void init_and_sensors_refuse(void **state)
     assert_memory_equal(&tracker, &before_tracker, sizeof tracker);
 }
 
+/*
+ * A refused init leaves the object as it is. Init clears it before the pool of hypotheses takes the
+ * model of motion, so that no configuration in its ranges may give a model that is refused.
+ */
+static void every_model_of_a_usable_configuration_is_taken(void **state)
+{
+    static const float accels_mps2[] = {0.0f, 1e-30f, 1e-3f, 1.0f, 1000.0f};
+    static const float speeds_mps[] = {1.0f, 30.0f, RHO_LIMIT_SPEED_MPS};
+    static const float steady_s[] = {0.0f, 1.0f, 1e5f};
+    struct rho_tracker_config config;
+
+    (void)state;
+    rho_tracker_config_default(&config);
+    for (unsigned i = 0; i < 5 * 3 * 3; i++) {
+        config.accel_max_mps2 = accels_mps2[i % 5];
+        config.v_max_mps = speeds_mps[i / 5 % 3];
+        config.steady_s = steady_s[i / 15];
+        assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+    }
+}
+
 static void forgotten_sensors_make_room(void **state)
 {
     struct rho_sensor sensor = {.pd = 0.9f, .range_max_m = 1000.0f};
@@ -442,6 +463,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(init_and_sensors_refuse),
+        cmocka_unit_test(every_model_of_a_usable_configuration_is_taken),
         cmocka_unit_test(forgotten_sensors_make_room),
         cmocka_unit_test(refused_steps_change_nothing),
         cmocka_unit_test(every_plot_has_one_fate),
