@@ -187,7 +187,7 @@ $(python_site)/built: $(shell find tools/python include src tools/rhotrack -type
 	@tools/setup.sh && tools/setup.sh python && tools/setup.sh lab
 	@rm -rf $(@D) && echo "  python   $(@D)" && python3 -m pip install -q --disable-pip-version-check \
 	    --no-deps --root-user-action ignore --config-settings build-dir=$(abspath $(BUILD))/python/objects \
-	    --target $(@D) ./tools/python && PYTHONPATH=$(@D) python3 -c 'import rhotrack' && touch $@
+	    --target $(@D) ./tools/python && PYTHONPATH=$(@D) /usr/bin/python3 -c 'import rhotrack' && touch $@
 
 ## Build the package for Python: wheel and source package, in build/python
 python-dist:
