@@ -133,11 +133,11 @@ void rho_frames_config_default(struct rho_frames_config *config);
 
 /*
  * Initialises an object without frames; the config is copied.
- *   size   sizeof(struct rho_frames) of the caller
+ *   object_size   sizeof(struct rho_frames) of the caller
  * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(frames) bytes cleared.
  * Stack: 120 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_frames_init(struct rho_frames *frames, size_t size,
+RHO_MUST_CHECK enum rho_status rho_frames_init(struct rho_frames *frames, size_t object_size,
                                                const struct rho_frames_config *config);
 
 /*

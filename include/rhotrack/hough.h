@@ -221,10 +221,10 @@ void rho_hough_config_default(struct rho_hough_config *config, enum rho_hough_me
 
 /*
  * Initialises a search; the config is copied.
- *   size   sizeof(struct rho_hough) of the caller
+ *   object_size   sizeof(struct rho_hough) of the caller
  * Errors: NULL, SIZE, CONFIG (any field outside its range). Constant cost.
  */
-RHO_MUST_CHECK enum rho_status rho_hough_init(struct rho_hough *hough, size_t size,
+RHO_MUST_CHECK enum rho_status rho_hough_init(struct rho_hough *hough, size_t object_size,
                                               const struct rho_hough_config *config);
 
 /*

@@ -174,11 +174,11 @@ void rho_passive_config_default(struct rho_passive_config *config);
 
 /*
  * Initialises the passive initiator with an empty batch; the config is copied.
- *   size   sizeof(struct rho_passive) of the caller
+ *   object_size   sizeof(struct rho_passive) of the caller
  * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(passive) bytes cleared.
  * Stack: 170 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_passive_init(struct rho_passive *passive, size_t size,
+RHO_MUST_CHECK enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size,
                                                 const struct rho_passive_config *config);
 
 /*

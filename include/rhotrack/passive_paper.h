@@ -147,12 +147,12 @@ void rho_passive_paper_config_default(struct rho_passive_paper_config *config);
 
 /*
  * Initialises the search with an empty batch; the config is copied.
- *   size   sizeof(struct rho_passive_paper) of the caller
+ *   object_size   sizeof(struct rho_passive_paper) of the caller
  * Errors: NULL, SIZE, CONFIG (any field outside its range); *paper is unchanged. Cost:
  * sizeof(paper) bytes cleared. Stack: 160 bytes.
  */
 RHO_MUST_CHECK enum rho_status
-rho_passive_paper_init(struct rho_passive_paper *paper, size_t size,
+rho_passive_paper_init(struct rho_passive_paper *paper, size_t object_size,
                        const struct rho_passive_paper_config *config);
 
 /*

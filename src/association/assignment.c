@@ -36,7 +36,7 @@ static int is_costlier(const struct rho_assignment_pair *one,
 }
 
 /* Index of a column among a row's pairs, or the number of pairs where the row does not hold it. */
-static int find_pair(const struct rho_assignment *a, int row, int column)
+static int pair_index_or_num_pairs(const struct rho_assignment *a, int row, int column)
 {
     const int num_pairs = a->num_pairs[row];
     int i;
@@ -49,7 +49,8 @@ static int find_pair(const struct rho_assignment *a, int row, int column)
     return i;
 }
 
-static int find_costliest_pair(const struct rho_assignment_pair *pairs)
+/* Index of the costliest of the RHO_MAX_GATE_PLOTS pairs of a full row. */
+static int costliest_pair_of_full_row(const struct rho_assignment_pair *pairs)
 {
     int i, costliest = 0;
 
@@ -62,10 +63,11 @@ static int find_costliest_pair(const struct rho_assignment_pair *pairs)
 }
 
 /* Drops the costliest of a full row's pairs and the new pair, and counts it. */
-static void replace_costliest_pair(struct rho_assignment *a, int row,
-                                   struct rho_assignment_pair pair)
+static void keep_cheapest_count_dropped(struct rho_assignment *a, int row,
+                                        struct rho_assignment_pair pair)
 {
-    struct rho_assignment_pair *costliest = &a->pairs[row][find_costliest_pair(a->pairs[row])];
+    struct rho_assignment_pair *costliest =
+        &a->pairs[row][costliest_pair_of_full_row(a->pairs[row])];
 
     if (is_costlier(costliest, &pair)) {
         *costliest = pair;
@@ -75,36 +77,39 @@ static void replace_costliest_pair(struct rho_assignment *a, int row,
     }
 }
 
-static void label_column(struct rho_assignment *a, struct search *s, int column, int row,
-                         int32_t distance)
+/* Sets a column's distance and the row it was reached from; a new column joins the queue. */
+static void label_and_queue_column(struct rho_assignment *a, struct search *s, int column,
+                                   int from_row, int32_t distance)
 {
     if (a->column_distance[column] == DISTANCE_NONE) {
         a->column_queue[s->num_labelled++] = (int16_t)column;
     }
     a->column_distance[column] = distance;
-    a->column_from[column] = (int16_t)row;
+    a->column_from[column] = (int16_t)from_row;
 }
 
 /*
  * Labels the columns that can be reached from a row with their distances, and the row as an end
- * that gives up its column. base: the row's price less its distance.
+ * that gives up its column. price_less_distance: the row's price less its distance.
  */
-static void label_columns_of_row(struct rho_assignment *a, struct search *s, int row, int32_t base)
+static void relax_columns_and_end_from_row(struct rho_assignment *a, struct search *s, int row,
+                                           int32_t price_less_distance)
 {
     const int num_pairs = a->num_pairs[row];
     int i;
 
-    if (-base < s->end_distance) {
-        s->end_distance = -base;
+    if (-price_less_distance < s->end_distance) {
+        s->end_distance = -price_less_distance;
         s->end_row = (int16_t)row;
     }
     for (i = 0; i < num_pairs; ++i) {
         const int column = a->pairs[row][i].column;
-        const int32_t distance = a->pairs[row][i].cost - a->column_price[column] - base;
+        const int32_t distance =
+            a->pairs[row][i].cost - a->column_price[column] - price_less_distance;
 
         /* Columns at least as far as the end never become part of the path. */
         if (distance < a->column_distance[column] && distance < s->end_distance) {
-            label_column(a, s, column, row, distance);
+            label_and_queue_column(a, s, column, row, distance);
         }
     }
 }
@@ -113,7 +118,7 @@ static void label_columns_of_row(struct rho_assignment *a, struct search *s, int
  * Moves the nearest of the labelled columns that were not scanned, of equals the lowest, to the
  * head of the queue's unscanned part. Returns 0 if none is nearer than the end.
  */
-static int move_nearest_column_to_head(struct rho_assignment *a, const struct search *s)
+static int try_move_nearest_to_head(struct rho_assignment *a, const struct search *s)
 {
     int16_t *queue = a->column_queue;
     int32_t least = s->end_distance;
@@ -141,11 +146,11 @@ static int move_nearest_column_to_head(struct rho_assignment *a, const struct se
  * Finds the end of the shortest augmenting path from a row: s->end_column, or where that is NONE,
  * s->end_row, which gives up its column.
  */
-static void search_shortest_path(struct rho_assignment *a, struct search *s, int row)
+static void find_shortest_path_end(struct rho_assignment *a, struct search *s, int row)
 {
-    label_columns_of_row(a, s, row, 0);
+    relax_columns_and_end_from_row(a, s, row, 0);
     /* at most num_columns times: each column is scanned once */
-    while (move_nearest_column_to_head(a, s)) {
+    while (try_move_nearest_to_head(a, s)) {
         const int16_t column = a->column_queue[s->num_scanned];
         const int16_t owner = a->column_row[column];
         int32_t price;
@@ -156,8 +161,9 @@ static void search_shortest_path(struct rho_assignment *a, struct search *s, int
             return;
         }
         ++s->num_scanned;
-        price = a->pairs[owner][find_pair(a, owner, column)].cost - a->column_price[column];
-        label_columns_of_row(a, s, owner, price - a->column_distance[column]);
+        price = a->pairs[owner][pair_index_or_num_pairs(a, owner, column)].cost -
+                a->column_price[column];
+        relax_columns_and_end_from_row(a, s, owner, price - a->column_distance[column]);
     }
 }
 
@@ -165,7 +171,7 @@ static void search_shortest_path(struct rho_assignment *a, struct search *s, int
  * Updates the prices of scanned columns so that the reduced costs of their rows stay at least 0,
  * and clears all labels.
  */
-static void update_prices(struct rho_assignment *a, const struct search *s)
+static void update_prices_and_clear_labels(struct rho_assignment *a, const struct search *s)
 {
     int i;
 
@@ -219,12 +225,12 @@ static void clear_answer_and_prices(struct rho_assignment *a)
     }
 }
 
-enum rho_status rho_assignment_init(struct rho_assignment *assignment, size_t size)
+enum rho_status rho_assignment_init(struct rho_assignment *assignment, size_t object_size)
 {
     if (assignment == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (size != sizeof *assignment) {
+    if (object_size != sizeof *assignment) {
         return RHO_ERROR_SIZE;
     }
     memset(assignment, 0, sizeof *assignment);
@@ -269,7 +275,7 @@ enum rho_status rho_assignment_add(struct rho_assignment *assignment, unsigned r
         return RHO_ERROR_VALUE;
     }
     num_pairs = &assignment->num_pairs[row];
-    if (find_pair(assignment, (int)row, (int)column) < *num_pairs) {
+    if (pair_index_or_num_pairs(assignment, (int)row, (int)column) < *num_pairs) {
         return RHO_ERROR_VALUE;
     }
     if (cost >= 0) {
@@ -278,7 +284,7 @@ enum rho_status rho_assignment_add(struct rho_assignment *assignment, unsigned r
     if (*num_pairs < RHO_MAX_GATE_PLOTS) {
         assignment->pairs[row][(*num_pairs)++] = pair;
     } else {
-        replace_costliest_pair(assignment, (int)row, pair);
+        keep_cheapest_count_dropped(assignment, (int)row, pair);
     }
     return RHO_OK;
 }
@@ -294,8 +300,8 @@ void rho_assignment_solve(struct rho_assignment *assignment)
     for (row = 0; row < assignment->num_rows; ++row) {
         struct search s = {.end_distance = DISTANCE_NONE, .end_column = RHO_ASSIGNMENT_NONE};
 
-        search_shortest_path(assignment, &s, row);
-        update_prices(assignment, &s);
+        find_shortest_path_end(assignment, &s, row);
+        update_prices_and_clear_labels(assignment, &s);
         augment_along_path(assignment, &s, row);
     }
 }
@@ -308,14 +314,15 @@ int rho_assignment_column(const struct rho_assignment *assignment, unsigned row)
     return assignment->row_column[row];
 }
 
-void rho_assignment_move_pairs(struct rho_assignment *assignment, unsigned from, unsigned to)
+void rho_assignment_move_pairs(struct rho_assignment *assignment, unsigned from_row,
+                               unsigned to_row)
 {
-    if (from == to || from >= assignment->num_rows || to >= assignment->num_rows) {
+    if (from_row == to_row || from_row >= assignment->num_rows || to_row >= assignment->num_rows) {
         return;
     }
-    for (unsigned i = 0; i < assignment->num_pairs[from]; i++) {
-        assignment->pairs[to][i] = assignment->pairs[from][i];
+    for (unsigned i = 0; i < assignment->num_pairs[from_row]; i++) {
+        assignment->pairs[to_row][i] = assignment->pairs[from_row][i];
     }
-    assignment->num_pairs[to] = assignment->num_pairs[from];
-    assignment->num_pairs[from] = 0;
+    assignment->num_pairs[to_row] = assignment->num_pairs[from_row];
+    assignment->num_pairs[from_row] = 0;
 }

@@ -37,18 +37,20 @@ void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, fl
     }
 }
 
-void rho_gate_box(const struct rho_gate *gate, float sigma_m, float offset_s, float half_m[2])
+void rho_gate_box(const struct rho_gate *gate, float sigma_max_m, float offset_max_s,
+                  float half_widths_m[2])
 {
     const struct rho_kalman *at = &gate->predicted;
     const float *p = at->covariance;
-    float noise = gate->noise_density * offset_s;
+    float noise = gate->noise_density * offset_max_s;
     for (int axis = 0; axis < 2; axis++) {
         float mixed = p[RHO_AT(axis + 3, axis)], speed_mps = at->state[axis + 3];
         float spread_m2 =
-            p[RHO_AT(axis, axis)] + 2.0f * offset_s * (mixed < 0.0f ? -mixed : mixed) +
-            offset_s * offset_s * (p[RHO_AT(axis + 3, axis + 3)] + noise * (1.0f / 3.0f));
-        half_m[axis] = BOX_MARGIN * rho_sqrt(RHO_GATE_CHI2_4D * (spread_m2 + sigma_m * sigma_m)) +
-                       offset_s * (speed_mps < 0.0f ? -speed_mps : speed_mps);
+            p[RHO_AT(axis, axis)] + 2.0f * offset_max_s * (mixed < 0.0f ? -mixed : mixed) +
+            offset_max_s * offset_max_s * (p[RHO_AT(axis + 3, axis + 3)] + noise * (1.0f / 3.0f));
+        half_widths_m[axis] =
+            BOX_MARGIN * rho_sqrt(RHO_GATE_CHI2_4D * (spread_m2 + sigma_max_m * sigma_max_m)) +
+            offset_max_s * (speed_mps < 0.0f ? -speed_mps : speed_mps);
     }
 }
 
@@ -78,6 +80,7 @@ struct innovation {
     float s[RHO_TRIANGLE(DIMENSIONS_MAX)];
 };
 
+/* Sets the innovation of the first num axes of a position, and its covariance. */
 static void set_position_innovation(const struct rho_kalman *at, const struct rho_measurement *seen,
                                     int num, struct innovation *innovation)
 {
@@ -97,8 +100,8 @@ static void set_position_innovation(const struct rho_kalman *at, const struct rh
  * Appends a range rate's innovation, which is correlated with the position's. Returns 0 where the
  * prediction has no range rate.
  */
-static int append_range_rate_innovation(const struct rho_gate_rate *rate,
-                                        const struct rho_plot *plot, struct innovation *innovation)
+static int append_range_rate_if_known(const struct rho_gate_rate *rate, const struct rho_plot *plot,
+                                      struct innovation *innovation)
 {
     int n = innovation->num;
     if (!rate->is_known) {
@@ -129,6 +132,7 @@ static int test_four_dimensions(struct innovation *innovation, struct rho_gate_r
     return result->distance2 <= RHO_GATE_CHI2_4D;
 }
 
+/* Fills *result, and returns 1 where the NIS is within the limit for the number of dimensions. */
 static int is_innovation_in_gate(struct innovation *innovation, struct rho_gate_result *result)
 {
     const float *s = innovation->s, *d = innovation->d;
@@ -143,9 +147,10 @@ static int is_innovation_in_gate(struct innovation *innovation, struct rho_gate_
            result->distance2 <= RHO_GATE_CHI2_2D;
 }
 
-static int test_all_dimensions(const struct rho_gate *gate, const struct rho_kalman *at,
-                               const struct rho_gate_rate *rate, const struct rho_plot *plot,
-                               struct rho_gate_result *result)
+/* Tests position and range rate of a plot against an estimate at the plot's time. */
+static int is_plot_in_gate_of_estimate(const struct rho_gate *gate, const struct rho_kalman *at,
+                                       const struct rho_gate_rate *rate,
+                                       const struct rho_plot *plot, struct rho_gate_result *result)
 {
     struct rho_measurement seen;
     struct innovation innovation;
@@ -153,7 +158,7 @@ static int test_all_dimensions(const struct rho_gate *gate, const struct rho_kal
     result->has_z = gate->has_z && seen.has_z;
     set_position_innovation(at, &seen, result->has_z ? 3 : 2, &innovation);
     result->has_range_rate = (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 &&
-                             append_range_rate_innovation(rate, plot, &innovation);
+                             append_range_rate_if_known(rate, plot, &innovation);
     if (result->has_range_rate && !rho_measurement_unfold_range_rate(gate->sensor, innovation.num,
                                                                      innovation.s, innovation.d)) {
         result->has_range_rate = 0;
@@ -174,7 +179,7 @@ static int test_at_own_time(const struct rho_gate *gate, float offset_s,
     if (gate->measures & RHO_MEASURES_RANGE_RATE) {
         predict_range_rate(&at, gate->sensor, gate->has_z, &rate);
     }
-    return test_all_dimensions(gate, &at, &rate, plot, result);
+    return is_plot_in_gate_of_estimate(gate, &at, &rate, plot, result);
 }
 
 int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
@@ -194,7 +199,7 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
         return 0;
     }
     return plot->offset_us == 0
-               ? test_all_dimensions(gate, &gate->predicted, &gate->rate, plot, result)
+               ? is_plot_in_gate_of_estimate(gate, &gate->predicted, &gate->rate, plot, result)
                : test_at_own_time(gate, offset_s, plot, result);
 }
 

@@ -13,7 +13,9 @@ struct element_span {
     float min, max, variance_max;
 };
 
-static inline void extend_span(struct element_span *span, float value, float variance)
+/* Extends the range of values by one value; the span's variance is the largest of all. */
+static inline void extend_span_and_max_variance(struct element_span *span, float value,
+                                                float variance)
 {
     span->min = value < span->min ? value : span->min;
     span->max = value > span->max ? value : span->max;
@@ -31,14 +33,16 @@ static struct element_span span_of_element(const struct rho_hypotheses *pool, ui
     struct element_span span = {1e30f, -1e30f, 0.0f};
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
-        extend_span(&span, imm->state[element], imm->covariance[variance]);
+        extend_span_and_max_variance(&span, imm->state[element], imm->covariance[variance]);
         if (element < RHO_KALMAN_STATES) {
-            extend_span(&span, imm->steady.state[element], imm->steady.covariance[variance]);
+            extend_span_and_max_variance(&span, imm->steady.state[element],
+                                         imm->steady.covariance[variance]);
         }
     }
     return span;
 }
 
+/* Largest distance of a plot in the gate from an estimate with the span's largest variance. */
 static float gate_half_width(const struct element_span *span)
 {
     return GATE_SIGMAS * rho_sqrt(span->variance_max);
@@ -48,7 +52,8 @@ static float gate_half_width(const struct element_span *span)
  * Largest magnitude of three elements of the state, from `first` on, on any axis, with its
  * uncertainty.
  */
-static float largest_axis_magnitude(const struct rho_hypotheses *pool, uint16_t slot, int first)
+static float magnitude_bound_of_three_elements(const struct rho_hypotheses *pool, uint16_t slot,
+                                               int first)
 {
     float most = 0.0f;
     for (int axis = 0; axis < 3; axis++) {
@@ -68,8 +73,9 @@ static int have_all_heights(const struct rho_hypotheses *pool, uint16_t slot)
     return have;
 }
 
-static void fill_box(const struct rho_hypotheses *pool, uint16_t slot,
-                     struct rho_hypotheses_box *box)
+/* Fills the box with the extent of all hypotheses' gates, for a plot without noise. */
+static void fill_box_around_gates(const struct rho_hypotheses *pool, uint16_t slot,
+                                  struct rho_hypotheses_box *box)
 {
     const struct element_span x = span_of_element(pool, slot, 0),
                               y = span_of_element(pool, slot, 1);
@@ -106,7 +112,7 @@ void rho_hypotheses_begin_scan(struct rho_hypotheses *pool, uint16_t slot,
     /* gates are of no slot: the estimates have moved since */
     pool->gate_slot = RHO_HYPOTHESES_SLOTS;
     if (box) {
-        fill_box(pool, slot, box);
+        fill_box_around_gates(pool, slot, box);
     }
 }
 
@@ -123,18 +129,19 @@ static float largest_drift_m(const struct rho_hypotheses *pool, uint16_t slot,
         t_s * t_s * t_s *
         (model->quiet_density * (1.0f / 3.0f) + model->drive_density * t_s * t_s * (1.0f / 20.0f));
     if (box->speed_max_mps < 0.0f) {
-        box->speed_max_mps = largest_axis_magnitude(pool, slot, RHO_KALMAN_STATES - 3);
-        box->accel_max_mps2 = largest_axis_magnitude(pool, slot, RHO_KALMAN_STATES);
+        box->speed_max_mps = magnitude_bound_of_three_elements(pool, slot, RHO_KALMAN_STATES - 3);
+        box->accel_max_mps2 = magnitude_bound_of_three_elements(pool, slot, RHO_KALMAN_STATES);
     }
     return t_s * (box->speed_max_mps + 0.5f * t_s * box->accel_max_mps2) +
            GATE_SIGMAS * rho_sqrt(noise_m2);
 }
 
 float rho_hypotheses_box_margin_m(const struct rho_hypotheses *pool, uint16_t slot,
-                                  struct rho_hypotheses_box *box, float sigma_m, float offset_s)
+                                  struct rho_hypotheses_box *box, float sigma_max_m,
+                                  float offset_max_s)
 {
-    const float slack_m = GATE_SIGMAS * sigma_m;
-    return offset_s > 0.0f ? slack_m + largest_drift_m(pool, slot, box, offset_s) : slack_m;
+    const float slack_m = GATE_SIGMAS * sigma_max_m;
+    return offset_max_s > 0.0f ? slack_m + largest_drift_m(pool, slot, box, offset_max_s) : slack_m;
 }
 
 int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,

@@ -39,14 +39,15 @@ void rho_hypotheses_release_node(struct rho_hypotheses *pool, uint16_t node)
 }
 
 /*
- * Slot with the most hypotheses, of equals the first, except for slot `but`; `but` where all others
- * are free.
+ * Slot with the most hypotheses, of equals the first, except for except_slot, which is returned
+ * where all others are free.
  */
-static uint16_t slot_with_most_hypotheses(const struct rho_hypotheses *pool, uint16_t but)
+static uint16_t slot_with_most_hypotheses(const struct rho_hypotheses *pool, uint16_t except_slot)
 {
-    uint16_t found = but;
+    uint16_t found = except_slot;
     for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
-        if (slot != but && pool->num_of[slot] > (found == but ? 0 : pool->num_of[found])) {
+        if (slot != except_slot &&
+            pool->num_of[slot] > (found == except_slot ? 0 : pool->num_of[found])) {
             found = slot;
         }
     }
@@ -70,13 +71,13 @@ unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, un
     return wanted;
 }
 
-enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
+enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t object_size,
                                     const struct rho_imm_model *model)
 {
     if (!pool || !model) {
         return RHO_ERROR_NULL;
     }
-    if (size != sizeof *pool) {
+    if (object_size != sizeof *pool) {
         return RHO_ERROR_SIZE;
     }
     if (!rho_imm_model_is_usable(model)) {
@@ -225,8 +226,9 @@ float rho_hypotheses_rebase_weights(struct rho_hypotheses *pool, uint16_t slot)
     return best;
 }
 
-static enum rho_status move_hypothesis_without_noise(struct rho_hypotheses *pool,
-                                                     struct rho_hypothesis *at, int64_t time_us)
+/* Predicts a hypothesis' filter without process noise and mixing; its time stays as it was. */
+static enum rho_status predict_filter_without_noise(struct rho_hypotheses *pool,
+                                                    struct rho_hypothesis *at, int64_t time_us)
 {
     struct rho_imm_step step = *cached_step_of_interval(pool, at->time_us, time_us);
     memset(step.noise, 0, sizeof step.noise);
@@ -234,8 +236,9 @@ static enum rho_status move_hypothesis_without_noise(struct rho_hypotheses *pool
     return rho_imm_predict_unmixed(&at->imm, &step);
 }
 
-static enum rho_status move_all_hypotheses(struct rho_hypotheses *pool, uint16_t slot,
-                                           int64_t time_us, int is_without_noise)
+/* Predicts all hypotheses of a slot, and removes those that cannot be predicted. */
+static enum rho_status predict_hypotheses_or_remove(struct rho_hypotheses *pool, uint16_t slot,
+                                                    int64_t time_us, int is_without_noise)
 {
     if (!pool) {
         return RHO_ERROR_NULL;
@@ -249,7 +252,7 @@ static enum rho_status move_all_hypotheses(struct rho_hypotheses *pool, uint16_t
         struct rho_hypothesis *at = &pool->nodes[node];
         if (at->time_us != time_us &&
             (is_without_noise
-                 ? move_hypothesis_without_noise(pool, at, time_us)
+                 ? predict_filter_without_noise(pool, at, time_us)
                  : rho_imm_predict(
                        &at->imm, cached_step_of_interval(pool, at->time_us, time_us))) != RHO_OK) {
             rho_hypotheses_release_node(pool, node);
@@ -270,13 +273,13 @@ static enum rho_status move_all_hypotheses(struct rho_hypotheses *pool, uint16_t
 
 enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
 {
-    return move_all_hypotheses(pool, slot, time_us, 0);
+    return predict_hypotheses_or_remove(pool, slot, time_us, 0);
 }
 
 enum rho_status rho_hypotheses_predict_noiseless(struct rho_hypotheses *pool, uint16_t slot,
                                                  int64_t time_us)
 {
-    return move_all_hypotheses(pool, slot, time_us, 1);
+    return predict_hypotheses_or_remove(pool, slot, time_us, 1);
 }
 
 /* ---- the mean -------------------------------------------------------------------------------- */
@@ -310,21 +313,25 @@ struct deviation {
     float deviation[RHO_KALMAN_STATES], scaled[RHO_KALMAN_STATES];
 };
 
-static inline void add_deviation(struct moment_sums *sums, const struct rho_imm *imm, float s,
-                                 float m, struct deviation *steady, struct deviation *manoeuvre,
-                                 int i)
+/* Sets element i of both models' deviations, and adds them to the sums by their shares. */
+static inline void set_and_sum_deviations(struct moment_sums *sums, const struct rho_imm *imm,
+                                          float steady_share, float manoeuvre_share,
+                                          struct deviation *steady, struct deviation *manoeuvre,
+                                          int i)
 {
     steady->deviation[i] = imm->steady.state[i] - sums->about[i];
     manoeuvre->deviation[i] = imm->state[i] - sums->about[i];
-    steady->scaled[i] = s * steady->deviation[i];
-    manoeuvre->scaled[i] = m * manoeuvre->deviation[i];
+    steady->scaled[i] = steady_share * steady->deviation[i];
+    manoeuvre->scaled[i] = manoeuvre_share * manoeuvre->deviation[i];
     sums->deviation[i] += steady->scaled[i] + manoeuvre->scaled[i];
 }
 
-static inline void add_deviation_product(float *restrict out, const struct deviation *restrict s,
-                                         const struct deviation *restrict m, int i, int j)
+static inline void add_deviation_product(float *restrict out,
+                                         const struct deviation *restrict steady,
+                                         const struct deviation *restrict manoeuvre, int i, int j)
 {
-    out[RHO_AT(i, j)] += s->scaled[i] * s->deviation[j] + m->scaled[i] * m->deviation[j];
+    out[RHO_AT(i, j)] +=
+        steady->scaled[i] * steady->deviation[j] + manoeuvre->scaled[i] * manoeuvre->deviation[j];
 }
 
 /*
@@ -332,97 +339,99 @@ static inline void add_deviation_product(float *restrict out, const struct devia
  * loop would take three times as long.
  */
 static inline void add_plane_deviation_products(float *restrict out,
-                                                const struct deviation *restrict s,
-                                                const struct deviation *restrict m)
+                                                const struct deviation *restrict steady,
+                                                const struct deviation *restrict manoeuvre)
 {
-    add_deviation_product(out, s, m, 0, 0);
-    add_deviation_product(out, s, m, 1, 0);
-    add_deviation_product(out, s, m, 1, 1);
-    add_deviation_product(out, s, m, 3, 0);
-    add_deviation_product(out, s, m, 3, 1);
-    add_deviation_product(out, s, m, 3, 3);
-    add_deviation_product(out, s, m, 4, 0);
-    add_deviation_product(out, s, m, 4, 1);
-    add_deviation_product(out, s, m, 4, 3);
-    add_deviation_product(out, s, m, 4, 4);
+    add_deviation_product(out, steady, manoeuvre, 0, 0);
+    add_deviation_product(out, steady, manoeuvre, 1, 0);
+    add_deviation_product(out, steady, manoeuvre, 1, 1);
+    add_deviation_product(out, steady, manoeuvre, 3, 0);
+    add_deviation_product(out, steady, manoeuvre, 3, 1);
+    add_deviation_product(out, steady, manoeuvre, 3, 3);
+    add_deviation_product(out, steady, manoeuvre, 4, 0);
+    add_deviation_product(out, steady, manoeuvre, 4, 1);
+    add_deviation_product(out, steady, manoeuvre, 4, 3);
+    add_deviation_product(out, steady, manoeuvre, 4, 4);
 }
 
 static inline void add_height_deviation_products(float *restrict out,
-                                                 const struct deviation *restrict s,
-                                                 const struct deviation *restrict m)
+                                                 const struct deviation *restrict steady,
+                                                 const struct deviation *restrict manoeuvre)
 {
-    add_deviation_product(out, s, m, 2, 0);
-    add_deviation_product(out, s, m, 2, 1);
-    add_deviation_product(out, s, m, 2, 2);
-    add_deviation_product(out, s, m, 3, 2);
-    add_deviation_product(out, s, m, 4, 2);
-    add_deviation_product(out, s, m, 5, 0);
-    add_deviation_product(out, s, m, 5, 1);
-    add_deviation_product(out, s, m, 5, 2);
-    add_deviation_product(out, s, m, 5, 3);
-    add_deviation_product(out, s, m, 5, 4);
-    add_deviation_product(out, s, m, 5, 5);
+    add_deviation_product(out, steady, manoeuvre, 2, 0);
+    add_deviation_product(out, steady, manoeuvre, 2, 1);
+    add_deviation_product(out, steady, manoeuvre, 2, 2);
+    add_deviation_product(out, steady, manoeuvre, 3, 2);
+    add_deviation_product(out, steady, manoeuvre, 4, 2);
+    add_deviation_product(out, steady, manoeuvre, 5, 0);
+    add_deviation_product(out, steady, manoeuvre, 5, 1);
+    add_deviation_product(out, steady, manoeuvre, 5, 2);
+    add_deviation_product(out, steady, manoeuvre, 5, 3);
+    add_deviation_product(out, steady, manoeuvre, 5, 4);
+    add_deviation_product(out, steady, manoeuvre, 5, 5);
 }
 
 static inline void add_model_covariances(float *restrict out, const struct rho_imm *restrict imm,
-                                         int place, float s, float m)
+                                         int place, float steady_share, float manoeuvre_share)
 {
-    out[place] += s * imm->steady.covariance[place] + m * imm->covariance[place];
+    out[place] +=
+        steady_share * imm->steady.covariance[place] + manoeuvre_share * imm->covariance[place];
 }
 
 /* Adds the covariances between x and y; add_axis_covariances adds those within an axis. */
 static void add_plane_coupling_covariances(float *restrict out, const struct rho_imm *restrict imm,
-                                           float s, float m)
+                                           float steady_share, float manoeuvre_share)
 {
-    add_model_covariances(out, imm, RHO_AT(1, 0), s, m);
-    add_model_covariances(out, imm, RHO_AT(3, 1), s, m);
-    add_model_covariances(out, imm, RHO_AT(4, 0), s, m);
-    add_model_covariances(out, imm, RHO_AT(4, 3), s, m);
+    add_model_covariances(out, imm, RHO_AT(1, 0), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(3, 1), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(4, 0), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(4, 3), steady_share, manoeuvre_share);
 }
 
 /* Adds the covariances that couple x and y with the height. */
 static void add_height_coupling_covariances(float *restrict out, const struct rho_imm *restrict imm,
-                                            float s, float m)
+                                            float steady_share, float manoeuvre_share)
 {
-    add_model_covariances(out, imm, RHO_AT(2, 0), s, m);
-    add_model_covariances(out, imm, RHO_AT(2, 1), s, m);
-    add_model_covariances(out, imm, RHO_AT(3, 2), s, m);
-    add_model_covariances(out, imm, RHO_AT(4, 2), s, m);
-    add_model_covariances(out, imm, RHO_AT(5, 0), s, m);
-    add_model_covariances(out, imm, RHO_AT(5, 1), s, m);
-    add_model_covariances(out, imm, RHO_AT(5, 3), s, m);
-    add_model_covariances(out, imm, RHO_AT(5, 4), s, m);
+    add_model_covariances(out, imm, RHO_AT(2, 0), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(2, 1), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(3, 2), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(4, 2), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(5, 0), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(5, 1), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(5, 3), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(5, 4), steady_share, manoeuvre_share);
 }
 
 static void add_axis_covariances(float *restrict out, const struct rho_imm *restrict imm,
-                                 int has_height, float s, float m)
+                                 int has_height, float steady_share, float manoeuvre_share)
 {
-    add_model_covariances(out, imm, RHO_AT(0, 0), s, m);
-    add_model_covariances(out, imm, RHO_AT(1, 1), s, m);
-    add_model_covariances(out, imm, RHO_AT(3, 0), s, m);
-    add_model_covariances(out, imm, RHO_AT(3, 3), s, m);
-    add_model_covariances(out, imm, RHO_AT(4, 1), s, m);
-    add_model_covariances(out, imm, RHO_AT(4, 4), s, m);
+    add_model_covariances(out, imm, RHO_AT(0, 0), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(1, 1), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(3, 0), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(3, 3), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(4, 1), steady_share, manoeuvre_share);
+    add_model_covariances(out, imm, RHO_AT(4, 4), steady_share, manoeuvre_share);
     if (has_height) {
-        add_model_covariances(out, imm, RHO_AT(2, 2), s, m);
-        add_model_covariances(out, imm, RHO_AT(5, 2), s, m);
-        add_model_covariances(out, imm, RHO_AT(5, 5), s, m);
+        add_model_covariances(out, imm, RHO_AT(2, 2), steady_share, manoeuvre_share);
+        add_model_covariances(out, imm, RHO_AT(5, 2), steady_share, manoeuvre_share);
+        add_model_covariances(out, imm, RHO_AT(5, 5), steady_share, manoeuvre_share);
     }
 }
 
+/* Adds both models of one hypothesis, weighted by its share, to the sums. */
 static void add_hypothesis_moments(struct moment_sums *sums, const struct rho_imm *imm, float share)
 {
     const float m = share * imm->probability, s = share - m;
     const int has_height = sums->has_height;
     struct deviation steady, manoeuvre;
-    add_deviation(sums, imm, s, m, &steady, &manoeuvre, 0);
-    add_deviation(sums, imm, s, m, &steady, &manoeuvre, 1);
-    add_deviation(sums, imm, s, m, &steady, &manoeuvre, 3);
-    add_deviation(sums, imm, s, m, &steady, &manoeuvre, 4);
+    set_and_sum_deviations(sums, imm, s, m, &steady, &manoeuvre, 0);
+    set_and_sum_deviations(sums, imm, s, m, &steady, &manoeuvre, 1);
+    set_and_sum_deviations(sums, imm, s, m, &steady, &manoeuvre, 3);
+    set_and_sum_deviations(sums, imm, s, m, &steady, &manoeuvre, 4);
     add_plane_deviation_products(sums->covariance, &steady, &manoeuvre);
     if (has_height) {
-        add_deviation(sums, imm, s, m, &steady, &manoeuvre, 2);
-        add_deviation(sums, imm, s, m, &steady, &manoeuvre, 5);
+        set_and_sum_deviations(sums, imm, s, m, &steady, &manoeuvre, 2);
+        set_and_sum_deviations(sums, imm, s, m, &steady, &manoeuvre, 5);
         add_height_deviation_products(sums->covariance, &steady, &manoeuvre);
     }
     add_axis_covariances(sums->covariance, imm, has_height, s, m);

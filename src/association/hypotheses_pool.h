@@ -13,13 +13,14 @@
 /* True where a slot of an initialised pool has hypotheses. */
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot);
 
-/* Takes a free node from the pool; num_free must not be 0. */
+/* Takes a node off the pool's stack of free nodes; num_free must not be 0. */
 uint16_t rho_hypotheses_allot_node(struct rho_hypotheses *pool);
+/* Puts a node, which no slot lists any more, on the pool's stack of free nodes. */
 void rho_hypotheses_release_node(struct rho_hypotheses *pool, uint16_t node);
 
 /*
  * Makes room for `wanted` hypotheses of a slot: removes the least likely hypotheses of the slots
- * with the most. Returns how many the slot can have.
+ * with the most. Returns how many the slot can have, at most `wanted`.
  */
 unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted);
 

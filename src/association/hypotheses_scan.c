@@ -39,8 +39,8 @@ struct offered_plot {
  * Inserts a plot into a hypothesis' list of its best plots, of equals behind the earlier ones.
  * Returns the hypothesis' weight with the plot.
  */
-static inline float insert_candidate(struct rho_hypothesis *at, float gain_nat, float probability,
-                                     int16_t row)
+static inline float insert_and_weigh_candidate(struct rho_hypothesis *at, float gain_nat,
+                                               float probability, int16_t row)
 {
     struct rho_hypotheses_candidate *list = at->candidates;
     unsigned place = at->num_candidates;
@@ -57,8 +57,8 @@ static inline float insert_candidate(struct rho_hypothesis *at, float gain_nat, 
 }
 
 /* Predicts the range rates of a slot's hypotheses, once for all plots of a scan. */
-static void predict_range_rates(struct rho_hypotheses *pool, uint16_t slot,
-                                const struct rho_sensor *sensor)
+static void ensure_range_rates_predicted(struct rho_hypotheses *pool, uint16_t slot,
+                                         const struct rho_sensor *sensor)
 {
     if (pool->gate_slot == slot && !(pool->gate_variance_m2 > 0.0f)) {
         return;
@@ -75,9 +75,11 @@ static void predict_range_rates(struct rho_hypotheses *pool, uint16_t slot,
  * Scores a plot with a hypothesis at the plot's own time. rates: predicted at the hypothesis' time,
  * used if the plot has the same time; NULL: none.
  */
-static inline int score_hypothesis(struct rho_hypotheses *pool, const struct rho_imm_rates *rates,
-                                   const struct rho_hypothesis *at,
-                                   const struct offered_plot *offer, struct rho_imm_match *match)
+static inline int score_plot_if_in_gate(struct rho_hypotheses *pool,
+                                        const struct rho_imm_rates *rates,
+                                        const struct rho_hypothesis *at,
+                                        const struct offered_plot *offer,
+                                        struct rho_imm_match *match)
 {
     if (rates && at->time_us == offer->time_us) {
         return rho_imm_score_plot_with_rates(&at->imm, rates, offer->seen, match);
@@ -90,8 +92,8 @@ static inline int score_hypothesis(struct rho_hypotheses *pool, const struct rho
  * Scores a plot with each hypothesis in turn. Returns the weight of the best hypothesis with the
  * plot; -FLT_MAX: the plot is in no gate.
  */
-static float score_each_hypothesis(struct rho_hypotheses *pool, uint16_t slot,
-                                   const struct offered_plot *offer)
+static float offer_plot_to_each_filter(struct rho_hypotheses *pool, uint16_t slot,
+                                       const struct offered_plot *offer)
 {
     const uint16_t *nodes = pool->node_of[slot];
     struct rho_imm_match match;
@@ -101,15 +103,15 @@ static float score_each_hypothesis(struct rho_hypotheses *pool, uint16_t slot,
     if (pool->nodes[nodes[0]].time_us == offer->time_us) {
         rates = pool->opened.rates;
         if (offer->seen->measures & RHO_MEASURES_RANGE_RATE) {
-            predict_range_rates(pool, slot, offer->seen->sensor);
+            ensure_range_rates_predicted(pool, slot, offer->seen->sensor);
         }
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         struct rho_hypothesis *at = &pool->nodes[nodes[i]];
-        if (score_hypothesis(pool, rates ? &rates[i] : 0, at, offer, &match)) {
+        if (score_plot_if_in_gate(pool, rates ? &rates[i] : 0, at, offer, &match)) {
             const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
-            const float score = insert_candidate(at, pd_over_clutter + match.log_likelihood,
-                                                 match.probability, offer->row);
+            const float score = insert_and_weigh_candidate(
+                at, pd_over_clutter + match.log_likelihood, match.probability, offer->row);
             best = score > best ? score : best;
         }
     }
@@ -163,31 +165,36 @@ static inline float least_useful_gain(const struct rho_hypothesis *at, float bes
 }
 
 /*
- * Scores a plot of a position alone in one hypothesis' gate; base: ln of pd over the clutter's
- * density. Returns the larger one of `best` and the hypothesis' weight with the plot.
+ * Scores a plot of a position alone in one hypothesis' gate. Returns the larger one of
+ * best_weight_nat and the hypothesis' weight with the plot.
  */
-static inline float score_in_one_gate(struct rho_hypothesis *at, const struct rho_imm_gate *gate,
-                                      const float place_m[3], int16_t row, float base, float best)
+static inline float offer_plot_in_one_gate(struct rho_hypothesis *at,
+                                           const struct rho_imm_gate *gate, const float place_m[3],
+                                           int16_t row, float pd_over_clutter_nat,
+                                           float best_weight_nat)
 {
     float log_likelihood, probability;
-    if (!rho_imm_score_position_in_gate(gate, place_m, least_useful_gain(at, best) - base,
-                                        &log_likelihood, &probability)) {
-        return best;
+    if (!rho_imm_score_position_in_gate(
+            gate, place_m, least_useful_gain(at, best_weight_nat) - pd_over_clutter_nat,
+            &log_likelihood, &probability)) {
+        return best_weight_nat;
     }
-    const float made = insert_candidate(at, base + log_likelihood, probability, row);
-    return made > best ? made : best;
+    const float made =
+        insert_and_weigh_candidate(at, pd_over_clutter_nat + log_likelihood, probability, row);
+    return made > best_weight_nat ? made : best_weight_nat;
 }
 
-/* Scores a plot in the prepared gates of all hypotheses; returns as score_each_hypothesis. */
-static float score_in_all_gates(struct rho_hypotheses *pool, uint16_t slot,
-                                const struct offered_plot *offer)
+/* Scores a plot in the prepared gates of all hypotheses; returns as offer_plot_to_each_filter. */
+static float offer_plot_to_prepared_gates(struct rho_hypotheses *pool, uint16_t slot,
+                                          const struct offered_plot *offer)
 {
     const uint16_t *nodes = pool->node_of[slot];
     float best = -FLT_MAX;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm_gate *gate = &pool->opened.gates[i];
-        best = score_in_one_gate(&pool->nodes[nodes[i]], gate, offer->seen->position.place_m,
-                                 offer->row, gate->num_axes > 2 ? offer->high : offer->level, best);
+        best = offer_plot_in_one_gate(&pool->nodes[nodes[i]], gate, offer->seen->position.place_m,
+                                      offer->row, gate->num_axes > 2 ? offer->high : offer->level,
+                                      best);
     }
     return best;
 }
@@ -195,9 +202,9 @@ static float score_in_all_gates(struct rho_hypotheses *pool, uint16_t slot,
 int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
                               const struct rho_imm_plot *seen, int64_t time_us, int16_t row,
                               float log_pd, const struct rho_hypotheses_clutter *clutter,
-                              float *gain_nat)
+                              float *best_weight_nat)
 {
-    if (!pool || !seen || !clutter || !gain_nat || !rho_hypotheses_is_open(pool, slot)) {
+    if (!pool || !seen || !clutter || !best_weight_nat || !rho_hypotheses_is_open(pool, slot)) {
         return 0;
     }
     const struct offered_plot offer = {
@@ -208,12 +215,12 @@ int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
         .row = row,
     };
     const float best = ensure_gates_for_plot(pool, slot, seen, time_us)
-                           ? score_in_all_gates(pool, slot, &offer)
-                           : score_each_hypothesis(pool, slot, &offer);
+                           ? offer_plot_to_prepared_gates(pool, slot, &offer)
+                           : offer_plot_to_each_filter(pool, slot, &offer);
     if (!(best > -FLT_MAX)) {
         return 0;
     }
-    *gain_nat = best;
+    *best_weight_nat = best;
     return 1;
 }
 
@@ -228,6 +235,7 @@ int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t sl
 
 /* ---- commit ---------------------------------------------------------------------------------- */
 
+/* True where no other track claims the plot. */
 static int is_free_plot(const struct rho_hypotheses_scan *scan, int16_t row)
 {
     return !scan->claims || scan->claims[row] < 0 || scan->claims[row] == scan->own;
@@ -276,7 +284,8 @@ static unsigned insert_child(struct rho_hypotheses *pool, const uint16_t *nodes,
 }
 
 /* True where a child of weight_nat is too light for the list of the heaviest children. */
-static inline int is_too_light(const struct rho_hypotheses *pool, unsigned num, float weight_nat)
+static inline int is_too_light_for_full_list(const struct rho_hypotheses *pool, unsigned num,
+                                             float weight_nat)
 {
     return num == RHO_HYPOTHESES_OF_TRACK && !(weight_nat > pool->children[num - 1].weight_nat);
 }
@@ -295,7 +304,7 @@ static unsigned collect_heaviest_children(struct rho_hypotheses *pool, uint16_t 
         struct rho_hypotheses_child child = {.parent = (uint8_t)i};
         for (unsigned k = 0; k < at->num_candidates; k++) {
             child.weight_nat = at->weight_nat + at->candidates[k].gain_nat;
-            if (is_too_light(pool, num, child.weight_nat)) {
+            if (is_too_light_for_full_list(pool, num, child.weight_nat)) {
                 break; /* the candidates that follow are lighter still */
             }
             child.row = at->candidates[k].row;
@@ -306,7 +315,7 @@ static unsigned collect_heaviest_children(struct rho_hypotheses *pool, uint16_t 
         }
         child.weight_nat = at->weight_nat + scan->log_miss;
         child.row = RHO_HYPOTHESES_MISS;
-        if (!is_too_light(pool, num, child.weight_nat)) {
+        if (!is_too_light_for_full_list(pool, num, child.weight_nat)) {
             num = insert_child(pool, nodes, num, &child);
         }
     }
@@ -317,8 +326,8 @@ static unsigned collect_heaviest_children(struct rho_hypotheses *pool, uint16_t 
  * Selects the children that replace their parents, none much lighter than the best, and makes room
  * for them in the pool. Returns their number.
  */
-static unsigned select_children(struct rho_hypotheses *pool, uint16_t slot,
-                                const struct rho_hypotheses_scan *scan)
+static unsigned select_children_and_make_room(struct rho_hypotheses *pool, uint16_t slot,
+                                              const struct rho_hypotheses_scan *scan)
 {
     unsigned num = collect_heaviest_children(pool, slot, scan);
     const float least = pool->children[0].weight_nat + RHO_HYPOTHESES_WEIGHT_MIN;
@@ -330,10 +339,10 @@ static unsigned select_children(struct rho_hypotheses *pool, uint16_t slot,
 
 /*
  * Updates a hypothesis with a plot at the plot's own time, and returns the plot's row. If the
- * update fails the filter becomes `before`, and the result is a miss.
+ * update fails the filter becomes restored_on_failure, and the result is a miss.
  */
 static int16_t update_with_plot_or_miss(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                                        const struct rho_imm *before,
+                                        const struct rho_imm *restored_on_failure,
                                         const struct rho_imm_plot *seen, int64_t time_us,
                                         const struct rho_imm_match *match, int16_t row)
 {
@@ -342,7 +351,7 @@ static int16_t update_with_plot_or_miss(struct rho_hypotheses *pool, struct rho_
         at->time_us = time_us;
         return row;
     }
-    at->imm = *before;
+    at->imm = *restored_on_failure;
     pool->updates_refused = rho_count(pool->updates_refused, 1);
     return RHO_HYPOTHESES_MISS;
 }
@@ -351,14 +360,14 @@ static int16_t update_with_plot_or_miss(struct rho_hypotheses *pool, struct rho_
  * Loss of weight, nat, of an estimate faster than any target: half the squared excess in standard
  * deviations of the speed, by the likelier model.
  */
-static float excess_speed_loss_nat(const struct rho_imm *imm, float most_mps)
+static float excess_speed_loss_nat(const struct rho_imm *imm, float speed_max_mps)
 {
     const float *state = imm->probability > 0.5f ? imm->state : imm->steady.state;
     const float *covariance = imm->probability > 0.5f ? imm->covariance : imm->steady.covariance;
     const float *v = &state[3];
     const float speed2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     float variance = 0.0f; /* variance of the speed, times the squared speed */
-    if (!(most_mps > 0.0f) || !(speed2 > most_mps * most_mps)) {
+    if (!(speed_max_mps > 0.0f) || !(speed2 > speed_max_mps * speed_max_mps)) {
         return 0.0f;
     }
     for (int i = 0; i < 3; i++) {
@@ -367,7 +376,7 @@ static float excess_speed_loss_nat(const struct rho_imm *imm, float most_mps)
             variance += 2.0f * v[i] * v[j] * covariance[RHO_AT(3 + i, 3 + j)];
         }
     }
-    const float excess_mps = rho_sqrt(speed2) - most_mps;
+    const float excess_mps = rho_sqrt(speed2) - speed_max_mps;
     const float loss = 0.5f * excess_mps * excess_mps * speed2;
     return loss < SPEED_LOSS_MAX_NAT * variance ? loss / variance : SPEED_LOSS_MAX_NAT;
 }
@@ -405,13 +414,13 @@ static void advance_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesi
  * Makes one child of a parent, and returns its node: a copy while the parent has more children; the
  * last child takes the parent's node, whose filter is saved in case the update fails.
  */
-static uint16_t advance_child(struct rho_hypotheses *pool, uint16_t parent, int is_last,
-                              const struct rho_hypotheses_scan *scan,
-                              const struct rho_hypotheses_child *child,
-                              const struct rho_imm_plot *seen)
+static uint16_t make_child_node(struct rho_hypotheses *pool, uint16_t parent_node,
+                                int is_last_of_parent, const struct rho_hypotheses_scan *scan,
+                                const struct rho_hypotheses_child *child,
+                                const struct rho_imm_plot *seen)
 {
-    struct rho_hypothesis *from = &pool->nodes[parent];
-    if (!is_last) {
+    struct rho_hypothesis *from = &pool->nodes[parent_node];
+    if (!is_last_of_parent) {
         const uint16_t node = rho_hypotheses_allot_node(pool);
         pool->nodes[node] = *from;
         advance_hypothesis(pool, &pool->nodes[node], &from->imm, scan, child, seen);
@@ -421,7 +430,7 @@ static uint16_t advance_child(struct rho_hypotheses *pool, uint16_t parent, int 
         pool->scratch = from->imm;
     }
     advance_hypothesis(pool, from, &pool->scratch, scan, child, seen);
-    return parent;
+    return parent_node;
 }
 
 /*
@@ -445,14 +454,14 @@ static void replace_parents_by_children(struct rho_hypotheses *pool, uint16_t sl
     }
     for (unsigned i = 0; i < num; i++) {
         const struct rho_hypotheses_child *child = &pool->children[i];
-        const int is_last = --uses[child->parent] == 0;
+        const int is_last_of_parent = --uses[child->parent] == 0;
         /* consecutive children often have the same plot */
         if (child->row >= 0 && child->row != opened) {
             opened = child->row;
             rho_imm_prepare_plot(&seen, &scan->plots[opened], scan->measures, scan->sensor);
         }
-        nodes[i] =
-            advance_child(pool, pool->node_of[slot][child->parent], is_last, scan, child, &seen);
+        nodes[i] = make_child_node(pool, pool->node_of[slot][child->parent], is_last_of_parent,
+                                   scan, child, &seen);
     }
     memcpy(pool->node_of[slot], nodes, num * sizeof nodes[0]);
     pool->num_of[slot] = (uint8_t)num;
@@ -462,7 +471,7 @@ static void replace_parents_by_children(struct rho_hypotheses *pool, uint16_t sl
  * Sorts a slot's hypotheses by weight, makes the best one's weight 0 and removes those that are
  * much lighter. Returns the weight that the best one had.
  */
-static float sort_and_prune(struct rho_hypotheses *pool, uint16_t slot)
+static float sort_rebase_and_prune(struct rho_hypotheses *pool, uint16_t slot)
 {
     uint16_t *nodes = pool->node_of[slot];
     for (unsigned i = 1; i < pool->num_of[slot]; i++) {
@@ -494,8 +503,8 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
         return RHO_ERROR_STATE;
     }
     const float before = rho_hypotheses_sum_of_shares(pool, slot);
-    replace_parents_by_children(pool, slot, scan, select_children(pool, slot, scan));
-    const float best = sort_and_prune(pool, slot);
+    replace_parents_by_children(pool, slot, scan, select_children_and_make_room(pool, slot, scan));
+    const float best = sort_rebase_and_prune(pool, slot);
     outcome->row = pool->nodes[pool->node_of[slot][0]].picks[RHO_HYPOTHESES_MEMORY - 1];
     outcome->gain_nat = best + rho_log(rho_hypotheses_sum_of_shares(pool, slot) / before);
     return RHO_OK;
@@ -504,7 +513,8 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
 /* ---- certain plots --------------------------------------------------------------------------- */
 
 /* Moves a hypothesis to another time. Returns 0 if it cannot be moved, and is unchanged. */
-static int move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
+static int try_move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                               int64_t time_us)
 {
     pool->scratch = at->imm;
     if (rho_hypotheses_predict_filter(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
@@ -515,11 +525,12 @@ static int move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *a
     return 1;
 }
 
+/* Moves a hypothesis to the plot's time and updates it; a failed update leaves it predicted. */
 static enum rho_status update_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                                          const struct rho_imm_plot *seen, int64_t time_us)
 {
     struct rho_imm_match match;
-    if (!move_hypothesis(pool, at, time_us)) {
+    if (!try_move_hypothesis(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
     /* a plot far from both predictions does not change the models' probabilities */
@@ -559,7 +570,7 @@ static enum rho_status update_hypothesis_by_bearing(struct rho_hypotheses *pool,
                                                     float sigma_rad, float *gain_nat)
 {
     *gain_nat = 0.0f;
-    if (!move_hypothesis(pool, at, time_us)) {
+    if (!try_move_hypothesis(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
     pool->scratch = at->imm;
@@ -617,6 +628,6 @@ enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool, uint1
         pool->updates_refused = rho_count(pool->updates_refused, one != RHO_OK);
     }
     add_bearing_gains(pool, slot, gains_nat);
-    (void)sort_and_prune(pool, slot);
+    (void)sort_rebase_and_prune(pool, slot);
     return status;
 }

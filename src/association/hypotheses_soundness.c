@@ -25,7 +25,7 @@ static void mark_node_met(struct pass *pass, uint16_t node)
  * PASS_NODES at most. As the lists have as many entries as there are nodes, each node is then
  * listed once.
  */
-static int are_all_nodes_listed(const struct rho_hypotheses *pool, unsigned first)
+static int are_nodes_of_pass_listed(const struct rho_hypotheses *pool, unsigned first)
 {
     struct pass pass = {.first = first};
     for (unsigned i = 0; i < pool->num_free; i++) {
@@ -44,6 +44,7 @@ static int are_all_nodes_listed(const struct rho_hypotheses *pool, unsigned firs
     return 1;
 }
 
+/* True where the free list and the slots' lists contain each node of the pool exactly once. */
 static int has_each_node_once(const struct rho_hypotheses *pool)
 {
     unsigned named = pool->num_free;
@@ -57,7 +58,7 @@ static int has_each_node_once(const struct rho_hypotheses *pool)
         return 0;
     }
     for (unsigned first = 0; first < RHO_MAX_HYPOTHESES; first += PASS_NODES) {
-        if (!are_all_nodes_listed(pool, first)) {
+        if (!are_nodes_of_pass_listed(pool, first)) {
             return 0;
         }
     }

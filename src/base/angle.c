@@ -79,7 +79,7 @@ float rho_angle_sector_width(float from_rad, float to_rad)
  * An overlap of two sectors makes the gap between them almost a full turn. One within the tolerance
  * sets the gap to 0; returns 0 for a larger overlap.
  */
-static int zero_gap_of_small_overlap(float *gap_rad, float free_rad, float tolerance_rad)
+static int zero_gap_or_reject_overlap(float *gap_rad, float free_rad, float tolerance_rad)
 {
     if (*gap_rad > free_rad + 2.0f * tolerance_rad) {
         if (RHO_TWO_PI - *gap_rad > tolerance_rad) {
@@ -103,8 +103,8 @@ unsigned rho_angle_continued_ends(float from_rad, float to_rad, float next_from_
     float right_rad = ccw_arc_rad(next_to_rad, from_rad);
 
     if (!(free_rad >= -tolerance_rad) ||
-        !zero_gap_of_small_overlap(&left_rad, free_rad, tolerance_rad) ||
-        !zero_gap_of_small_overlap(&right_rad, free_rad, tolerance_rad)) {
+        !zero_gap_or_reject_overlap(&left_rad, free_rad, tolerance_rad) ||
+        !zero_gap_or_reject_overlap(&right_rad, free_rad, tolerance_rad)) {
         return 0;
     }
     if (left_rad <= tolerance_rad && right_rad <= tolerance_rad) {

@@ -121,7 +121,7 @@ static float atan_unit(float t)
 }
 
 /* ln(1 + f) + f^2/2 - f for sqrt(1/2) <= 1 + f < sqrt(2): Cephes, logf.c. */
-static float log_kernel(float f)
+static float log_series_beyond_square(float f)
 {
     float y = 7.0376836292e-2f;
 
@@ -208,22 +208,22 @@ float rho_log(float v)
     }
     f -= 1.0f;
     k = (float)exponent;
-    return f + (log_kernel(f) + k * LN2_LOW - 0.5f * f * f) + k * LN2_HIGH;
+    return f + (log_series_beyond_square(f) + k * LN2_LOW - 0.5f * f * f) + k * LN2_HIGH;
 }
 
 /* ln(1 + v) by a polynomial that is fitted to ln(1 + v) / v for the least absolute error. */
-float rho_log_one_plus(float v)
+float rho_log_one_plus(float zero_to_one)
 {
     float y = -6.4526148e-3f;
 
-    y = y * v + 3.6084529e-2f;
-    y = y * v - 9.5322505e-2f;
-    y = y * v + 1.6764787e-1f;
-    y = y * v - 2.4073076e-1f;
-    y = y * v + 3.3179826e-1f;
-    y = y * v - 4.9987406e-1f;
-    y = y * v + 9.9999642e-1f;
-    return y * v;
+    y = y * zero_to_one + 3.6084529e-2f;
+    y = y * zero_to_one - 9.5322505e-2f;
+    y = y * zero_to_one + 1.6764787e-1f;
+    y = y * zero_to_one - 2.4073076e-1f;
+    y = y * zero_to_one + 3.3179826e-1f;
+    y = y * zero_to_one - 4.9987406e-1f;
+    y = y * zero_to_one + 9.9999642e-1f;
+    return y * zero_to_one;
 }
 
 #if defined ROOT_INSTRUCTION
@@ -248,7 +248,7 @@ static float square_root(float v)
  * not; it tells the error in units, and settles the last unit exactly. A root is never half an
  * integer, so there are no ties.
  */
-static uint32_t scaled_integer_root(uint32_t m)
+static uint32_t rounded_root_of_shifted_23(uint32_t m)
 {
     const float x = (float)m * (1.0f / 8388608.0f);
     float y = rho_float_of(0x5f3759dfu - (rho_float_bits(x) >> 1));
@@ -279,7 +279,7 @@ static float square_root(float v)
 
     m <<= (exponent + 1u) & 1u; /* makes the exponent even, so that it can be halved */
     half = ((exponent + EXPONENT_BIAS) >> 1) - (is_subnormal ? 12u : 0u);
-    return rho_float_of((half << EXPONENT_SHIFT) + (scaled_integer_root(m) - FRACTION_ONE));
+    return rho_float_of((half << EXPONENT_SHIFT) + (rounded_root_of_shifted_23(m) - FRACTION_ONE));
 }
 
 #endif

@@ -25,7 +25,7 @@ static const uint8_t row_places[6][6] = {
 };
 
 /* True for a positive finite number; false for NaN. */
-static int is_positive(float v)
+static int is_positive_and_finite(float v)
 {
     return v > 0.0f && v <= FLT_MAX;
 }
@@ -59,11 +59,12 @@ static int cholesky_row(int i, const float *a, float *l)
     }
     pivot = a[RHO_TRIANGLE(i) + i] - dot(i, row, row);
     row[i] = rho_sqrt(pivot);
-    return is_positive(pivot);
+    return is_positive_and_finite(pivot);
 }
 
 /* p := p - gain row^T outside of the diagonal; gain: row / S. */
-static inline void reduce_covariances(float p[21], const float row[6], const float gain[6])
+static inline void reduce_off_diagonal_covariances(float p[21], const float row[6],
+                                                   const float gain[6])
 {
     RHO_UNROLL
     for (int i = 1; i < 6; ++i) {
@@ -78,7 +79,7 @@ static inline void reduce_covariances(float p[21], const float row[6], const flo
  * A variance after an update. The rounding allowance is for the covariances of its element: a
  * variance without any needs none.
  */
-static inline float reduced_variance(float variance, float gain, float covariance)
+static inline float variance_minus_gain_covariance(float variance, float gain, float covariance)
 {
     /* 0 or more; 0 where measurement and element are not coupled */
     const float taken = gain * covariance;
@@ -90,7 +91,7 @@ static inline void reduce_variances(float p[21], const float row[6], const float
 {
     RHO_UNROLL
     for (int i = 0; i < 6; ++i) {
-        p[RHO_AT(i, i)] = reduced_variance(p[RHO_AT(i, i)], gain[i], row[i]);
+        p[RHO_AT(i, i)] = variance_minus_gain_covariance(p[RHO_AT(i, i)], gain[i], row[i]);
     }
 }
 
@@ -171,7 +172,8 @@ enum rho_status rho_linalg_nis2(const float s[3], const float d[2], float *dista
     pivot1 = s[2] - l10 * s[1];
     y1 = d[1] - l10 * d[0];
     distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1;
-    if (!(is_positive(s[0]) && is_positive(pivot1) && rho_is_finite(distance))) {
+    if (!(is_positive_and_finite(s[0]) && is_positive_and_finite(pivot1) &&
+          rho_is_finite(distance))) {
         return RHO_ERROR_SINGULAR;
     }
     logarithm = rho_log(s[0] * pivot1);
@@ -200,8 +202,8 @@ enum rho_status rho_linalg_nis3(const float s[6], const float d[3], float *dista
     y1 = d[1] - l10 * d[0];
     y2 = d[2] - l20 * d[0] - l21 * y1;
     distance = d[0] * d[0] / s[0] + y1 * y1 / pivot1 + y2 * y2 / pivot2;
-    if (!(is_positive(s[0]) && is_positive(pivot1) && is_positive(pivot2) &&
-          rho_is_finite(distance))) {
+    if (!(is_positive_and_finite(s[0]) && is_positive_and_finite(pivot1) &&
+          is_positive_and_finite(pivot2) && rho_is_finite(distance))) {
         return RHO_ERROR_SINGULAR;
     }
     logarithm = rho_log(s[0] * pivot1 * pivot2);
@@ -266,15 +268,15 @@ static const uint8_t other_axes[6][4] = {
 };
 
 /* Bits of a float without its sign: 0 for +0 and -0 alone. */
-static inline uint32_t magnitude_bits(float v)
+static inline uint32_t shifted_bits_without_sign(float v)
 {
     return rho_float_bits(v) << 1;
 }
 
 static inline int is_uncoupled_from_other_axes(const float p[21], const uint8_t others[4])
 {
-    return (magnitude_bits(p[others[0]]) | magnitude_bits(p[others[1]]) |
-            magnitude_bits(p[others[2]]) | magnitude_bits(p[others[3]])) == 0;
+    return (shifted_bits_without_sign(p[others[0]]) | shifted_bits_without_sign(p[others[1]]) |
+            shifted_bits_without_sign(p[others[2]]) | shifted_bits_without_sign(p[others[3]])) == 0;
 }
 
 /*
@@ -289,14 +291,15 @@ struct scalar_measurement {
  * Updates position and velocity of one axis that is coupled with no other axis: the bits of
  * update_all_axes up to the sign of a zero, in a third of the time.
  */
-static int update_axis_alone(float x[6], float p[21], int index,
+static int update_axis_alone(float x[6], float p[21], int element,
                              const struct scalar_measurement *seen)
 {
-    const int other = index < 3 ? index + 3 : index - 3;
-    float *const mixed = &p[row_places[index][other]], *const own = &p[row_places[index][index]];
+    const int other = element < 3 ? element + 3 : element - 3;
+    float *const mixed = &p[row_places[element][other]], *const own =
+                                                             &p[row_places[element][element]];
     float *const others = &p[row_places[other][other]];
     const float gain = *mixed * seen->inverse,
-                x_own = x[index] + *own * seen->inverse * seen->innovation;
+                x_own = x[element] + *own * seen->inverse * seen->innovation;
     const float x_other = x[other] + gain * seen->innovation;
 
     if (!(rho_is_finite(seen->innovation * seen->inverse * seen->innovation) &&
@@ -304,9 +307,9 @@ static int update_axis_alone(float x[6], float p[21], int index,
           rho_is_finite(x[0] + x[1] + x[2] + x[3] + x[4] + x[5]))) {
         return 0;
     }
-    x[index] = x_own;
+    x[element] = x_own;
     x[other] = x_other;
-    *others = reduced_variance(*others, gain, *mixed);
+    *others = variance_minus_gain_covariance(*others, gain, *mixed);
     *own *= seen->kept;
     *mixed *= seen->kept;
     return 1;
@@ -322,13 +325,13 @@ static int update_all_axes(float x[6], float p[21], const uint8_t place[6],
     if (!correct_state(x, gain, seen->innovation, seen->inverse)) {
         return 0;
     }
-    reduce_covariances(p, row, gain);
+    reduce_off_diagonal_covariances(p, row, gain);
     reduce_variances(p, row, gain);
     write_scaled_row(p, place, row, seen->kept);
     return 1;
 }
 
-enum rho_status rho_linalg_update6_element(float x[6], float p[21], int index, float innovation,
+enum rho_status rho_linalg_update6_element(float x[6], float p[21], int element, float innovation,
                                            float variance, float *nis)
 {
     float predicted, sum;
@@ -337,10 +340,10 @@ enum rho_status rho_linalg_update6_element(float x[6], float p[21], int index, f
     if (x == NULL || p == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (index < 0 || index >= 6) {
+    if (element < 0 || element >= 6) {
         return RHO_ERROR_VALUE;
     }
-    predicted = p[RHO_AT(index, index)];
+    predicted = p[RHO_AT(element, element)];
     sum = predicted + variance;
     /*
      * The measured row is scaled by R / S instead of being reduced by a difference: no digit
@@ -350,9 +353,9 @@ enum rho_status rho_linalg_update6_element(float x[6], float p[21], int index, f
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && seen.inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
     }
-    if (!(RHO_FAST_UPDATES && is_uncoupled_from_other_axes(p, other_axes[index])
-              ? update_axis_alone(x, p, index, &seen)
-              : update_all_axes(x, p, row_places[index], &seen))) {
+    if (!(RHO_FAST_UPDATES && is_uncoupled_from_other_axes(p, other_axes[element])
+              ? update_axis_alone(x, p, element, &seen)
+              : update_all_axes(x, p, row_places[element], &seen))) {
         return RHO_ERROR_VALUE;
     }
     if (nis != NULL) {
@@ -398,7 +401,7 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
     if (!correct_state(x, gain, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }
-    reduce_covariances(p, projected, gain);
+    reduce_off_diagonal_covariances(p, projected, gain);
     reduce_variances(p, projected, gain);
     if (nis != NULL) {
         *nis = innovation * inverse * innovation;

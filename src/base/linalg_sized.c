@@ -13,7 +13,7 @@
  */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
-static int is_positive(float v)
+static int is_positive_and_finite(float v)
 {
     return v > 0.0f && v <= FLT_MAX;
 }
@@ -76,7 +76,7 @@ static void copy_row(int n, const float *p, int index, float *row)
     }
 }
 
-enum rho_status rho_linalg_update_element(int n, float *x, float *p, int index, float innovation,
+enum rho_status rho_linalg_update_element(int n, float *x, float *p, int element, float innovation,
                                           float variance)
 {
     float row[RHO_LINALG_MAX], inverse, kept;
@@ -88,25 +88,25 @@ enum rho_status rho_linalg_update_element(int n, float *x, float *p, int index, 
     if (n < 1 || n > RHO_LINALG_MAX) {
         return RHO_ERROR_CAPACITY;
     }
-    if (index < 0 || index >= n) {
+    if (element < 0 || element >= n) {
         return RHO_ERROR_VALUE;
     }
-    copy_row(n, p, index, row);
-    inverse = inverse_innovation_variance(row[index], variance);
+    copy_row(n, p, element, row);
+    inverse = inverse_innovation_variance(row[element], variance);
     if (!(inverse > 0.0f)) {
         return RHO_ERROR_SINGULAR;
     }
     if (!correct_state(n, x, row, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }
-    kept = variance / (row[index] + variance);
+    kept = variance / (row[element] + variance);
     reduce_covariance(n, p, row, inverse);
     /*
      * The measured row is scaled by R / S instead of being reduced by a difference: no digit
      * cancels.
      */
     for (i = 0; i < n; ++i) {
-        p[RHO_AT(i, index)] = row[i] * kept;
+        p[RHO_AT(i, element)] = row[i] * kept;
     }
     return RHO_OK;
 }
@@ -170,7 +170,7 @@ static int eliminate_column(int n, int k, float *s, float *d)
     const float inverse = 1.0f / pivot;
     int i, j;
 
-    if (!is_positive(pivot)) {
+    if (!is_positive_and_finite(pivot)) {
         return 0;
     }
     for (i = k + 1; i < n; ++i) {

@@ -40,6 +40,7 @@ static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id)
     return i;
 }
 
+/* True where a scan's sensor is neither too near to a place nor too far from it. */
 static int is_baseline_usable(const struct rho_batch *batch, const struct rho_bearing_scan *scan,
                               float x_m, float y_m)
 {
@@ -51,8 +52,8 @@ static int is_baseline_usable(const struct rho_batch *batch, const struct rho_be
  * A known sensor must not have moved; a new sensor must make a usable baseline with every known
  * one.
  */
-static int is_position_consistent(const struct rho_batch *batch,
-                                  const struct rho_bearing_scan *scan)
+static int is_sensor_position_acceptable(const struct rho_batch *batch,
+                                         const struct rho_bearing_scan *scan)
 {
     unsigned known = find_sensor(batch, scan->sensor_id);
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
@@ -69,16 +70,16 @@ static int is_position_consistent(const struct rho_batch *batch,
 }
 
 /*
- * Scan `number` must not repeat a sensor of an earlier scan of the frame, and must make usable
+ * Scan scan_number must not repeat a sensor of an earlier scan of the frame, and must make usable
  * baselines with the sensors of those scans.
  */
-static int is_apart_from_earlier_scans(const struct rho_batch *batch, const struct rho_frame *frame,
-                                       uint32_t number)
+static int is_scan_sensor_distinct_in_frame(const struct rho_batch *batch,
+                                            const struct rho_frame *frame, uint32_t scan_number)
 {
-    for (uint32_t i = 0; i < number; i++) {
+    for (uint32_t i = 0; i < scan_number; i++) {
         const struct rho_bearing_scan *other = &frame->scans[i];
-        if (other->sensor_id == frame->scans[number].sensor_id ||
-            !is_baseline_usable(batch, &frame->scans[number], other->x_m, other->y_m)) {
+        if (other->sensor_id == frame->scans[scan_number].sensor_id ||
+            !is_baseline_usable(batch, &frame->scans[scan_number], other->x_m, other->y_m)) {
             return 0;
         }
     }
@@ -93,7 +94,8 @@ static enum rho_status check_scans(const struct rho_batch *batch, const struct r
         if (scan->num_bearings > 0 && !scan->bearings) {
             return RHO_ERROR_NULL;
         }
-        if (!is_position_consistent(batch, scan) || !is_apart_from_earlier_scans(batch, frame, i) ||
+        if (!is_sensor_position_acceptable(batch, scan) ||
+            !is_scan_sensor_distinct_in_frame(batch, frame, i) ||
             !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad)) {
             return RHO_ERROR_VALUE;
         }
@@ -144,7 +146,9 @@ static unsigned find_or_add_sensor(struct rho_batch *batch, const struct rho_bea
     return s;
 }
 
-static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *scan, uint8_t *fates)
+/* Stores a scan, and those of its bearings with fate HELD; others it refuses get their fate. */
+static void store_scan_and_held_bearings(struct rho_batch *batch,
+                                         const struct rho_bearing_scan *scan, uint8_t *fates)
 {
     unsigned k = batch->num_scans, s = find_or_add_sensor(batch, scan);
     batch->was_seen[k][s] = 1;
@@ -190,7 +194,7 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
     memset(batch->num_bearings[k], 0, sizeof batch->num_bearings[k]);
     memset(batch->was_seen[k], 0, sizeof batch->was_seen[k]);
     for (uint32_t i = 0; i < frame->num_scans; i++) {
-        store_scan(batch, &frame->scans[i], fates);
+        store_scan_and_held_bearings(batch, &frame->scans[i], fates);
         fates += frame->scans[i].num_bearings;
     }
     batch->num_scans++;

@@ -32,13 +32,13 @@ static int is_usable(const struct rho_frames_config *config)
            config->sensors_min >= 2 && config->sensors_min <= RHO_MAX_PASSIVE_SENSORS;
 }
 
-enum rho_status rho_frames_init(struct rho_frames *frames, size_t size,
+enum rho_status rho_frames_init(struct rho_frames *frames, size_t object_size,
                                 const struct rho_frames_config *config)
 {
     if (!frames || !config) {
         return RHO_ERROR_NULL;
     }
-    if (size != sizeof *frames) {
+    if (object_size != sizeof *frames) {
         return RHO_ERROR_SIZE;
     }
     if (!is_usable(config)) {
@@ -69,6 +69,7 @@ static unsigned find_sensor(const struct rho_frames *frames, int32_t sensor_id)
     return i;
 }
 
+/* Finds or adds the sensor of a scan, and clears its count of silent frames. */
 static unsigned find_or_add_heard_sensor(struct rho_frames *frames,
                                          const struct rho_bearing_scan *scan)
 {
@@ -85,8 +86,8 @@ static unsigned find_or_add_heard_sensor(struct rho_frames *frames,
  * A known sensor must not have moved. A new sensor must be at least RHO_CROSSING_BASE_MIN_M from
  * the others, as bearings of nearer sensors do not cross.
  */
-static int is_position_consistent(const struct rho_frames *frames,
-                                  const struct rho_bearing_scan *scan)
+static int is_sensor_position_acceptable(const struct rho_frames *frames,
+                                         const struct rho_bearing_scan *scan)
 {
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
         return 0;
@@ -112,7 +113,7 @@ static enum rho_status check_scan(const struct rho_frames *frames,
     }
     if (scan->time_us < -RHO_LIMIT_TIME_US || scan->time_us > RHO_LIMIT_TIME_US ||
         !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
-        !is_position_consistent(frames, scan)) {
+        !is_sensor_position_acceptable(frames, scan)) {
         return RHO_ERROR_VALUE;
     }
     return find_sensor(frames, scan->sensor_id) < RHO_MAX_PASSIVE_SENSORS ? RHO_OK
@@ -173,8 +174,9 @@ static void close_open_frame(struct rho_frames *frames)
     memset(&frames->slots[frames->open], 0, sizeof frames->slots[0]);
 }
 
-static void copy_scan(struct rho_frames *frames, struct rho_frames_scan *to, unsigned sensor,
-                      const struct rho_bearing_scan *scan)
+/* Copies a scan with its first RHO_MAX_BEARINGS bearings, and counts the others as dropped. */
+static void copy_scan_up_to_capacity(struct rho_frames *frames, struct rho_frames_scan *to,
+                                     unsigned sensor, const struct rho_bearing_scan *scan)
 {
     uint32_t count = scan->num_bearings < RHO_MAX_BEARINGS ? scan->num_bearings : RHO_MAX_BEARINGS;
     to->time_us = scan->time_us;
@@ -195,8 +197,8 @@ static void add_scan_and_close_if_complete(struct rho_frames *frames,
 {
     struct rho_frames_slot *slot = &frames->slots[frames->open];
     int is_first = slot->num_scans == 0;
-    copy_scan(frames, &slot->scans[slot->num_scans++], find_or_add_heard_sensor(frames, scan),
-              scan);
+    copy_scan_up_to_capacity(frames, &slot->scans[slot->num_scans++],
+                             find_or_add_heard_sensor(frames, scan), scan);
     slot->time_us = is_first || scan->time_us < slot->time_us ? scan->time_us : slot->time_us;
     slot->last_us = is_first || scan->time_us > slot->last_us ? scan->time_us : slot->last_us;
     frames->clock_us = scan->time_us;
@@ -220,7 +222,8 @@ static int belongs_to_open_frame(const struct rho_frames *frames,
            !has_scan_of(slot, find_sensor(frames, scan->sensor_id));
 }
 
-static void add_or_count_late(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+/* Adds a scan to the open frame or a new one; a scan older than its frame is counted as late. */
+static void add_scan_or_count_late(struct rho_frames *frames, const struct rho_bearing_scan *scan)
 {
     const struct rho_frames_slot *slot = &frames->slots[frames->open];
     int is_joining = slot->num_scans > 0 && belongs_to_open_frame(frames, scan);
@@ -238,7 +241,8 @@ static void add_or_count_late(struct rho_frames *frames, const struct rho_bearin
 
 /* ---- the clock ------------------------------------------------------------------------------- */
 
-static int is_off_clock(const struct rho_frames *frames, int64_t time_us)
+/* True where a time is more than jump_max_us before or after the newest scan's. */
+static int is_time_far_from_clock(const struct rho_frames *frames, int64_t time_us)
 {
     /* cannot overflow: times are within RHO_LIMIT_TIME_US */
     int64_t ahead_us = time_us - frames->clock_us;
@@ -246,7 +250,9 @@ static int is_off_clock(const struct rho_frames *frames, int64_t time_us)
            (ahead_us > frames->config.jump_max_us || -ahead_us > frames->config.jump_max_us);
 }
 
-static void restart_frames(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+/* Follows a clock that has jumped: closes the open frame and starts one with this scan. */
+static void close_frame_and_restart_at_scan(struct rho_frames *frames,
+                                            const struct rho_bearing_scan *scan)
 {
     close_open_frame(frames);
     frames->closed_us = INT64_MIN;
@@ -269,14 +275,14 @@ enum rho_status rho_frames_push(struct rho_frames *frames, const struct rho_bear
         return status;
     }
     frames->has_closed = 0;
-    if (!is_off_clock(frames, scan->time_us)) {
+    if (!is_time_far_from_clock(frames, scan->time_us)) {
         frames->off_clock = (uint16_t)(frames->off_clock - (frames->off_clock > 0));
-        add_or_count_late(frames, scan);
+        add_scan_or_count_late(frames, scan);
     } else if (frames->off_clock < frames->config.follow_scans) {
         frames->off_clock++;
         frames->counters.scans_off_clock = rho_count(frames->counters.scans_off_clock, 1);
     } else {
-        restart_frames(frames, scan);
+        close_frame_and_restart_at_scan(frames, scan);
     }
     return RHO_OK;
 }

@@ -88,12 +88,12 @@ static void remove_crossing(const struct beams *beams, unsigned beam, unsigned o
 }
 
 /* Number of crossings of a beam that are not removed; *only is the last of them. */
-static unsigned count_kept_crossings(const struct beams *beams, unsigned beam, unsigned *only)
+static unsigned count_kept_crossings(const struct beams *beams, unsigned beam, unsigned *last_kept)
 {
     unsigned count = 0;
     for (unsigned other = 0; other < beams->others; other++) {
         if (is_crossing_kept(beams, beam, other)) {
-            *only = other;
+            *last_kept = other;
             count++;
         }
     }
@@ -187,7 +187,7 @@ static void augment_along_path(struct matching *matching, const uint8_t *reached
  * Matches one more row: breadth-first search for an augmenting path to a free column. Returns 0
  * where there is no such path.
  */
-static int match_row(struct matching *matching, unsigned row)
+static int try_match_row(struct matching *matching, unsigned row)
 {
     uint8_t rows[RHO_MAX_BEARINGS], reached_from[RHO_MAX_BEARINGS];
     uint64_t reached = 0;
@@ -213,7 +213,7 @@ static int match_row(struct matching *matching, unsigned row)
 static int find_complete_matching(struct matching *matching)
 {
     unsigned row = 0;
-    while (row < matching->count && match_row(matching, row)) {
+    while (row < matching->count && try_match_row(matching, row)) {
         row++;
     }
     return row == matching->count;
@@ -242,7 +242,7 @@ static void find_reachable_rows(const struct matching *matching, uint64_t ways[R
  * Removes crossings that are in no complete matching. Crossing (i, j) is in one if the row matched
  * with column j can get the column of row i (find_reachable_rows).
  */
-static unsigned prune_unmatched(struct rho_ghost_matrix *matrix)
+static unsigned prune_crossings_in_no_matching(struct rho_ghost_matrix *matrix)
 {
     struct matching matching;
     uint64_t ways[RHO_MAX_BEARINGS];
@@ -269,7 +269,9 @@ unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule ru
     if (rule == RHO_GHOST_LITERAL) {
         return prune_by_single_crossings(matrix);
     }
-    return rule == RHO_GHOST_SAFE && matrix->rows == matrix->columns ? prune_unmatched(matrix) : 0;
+    return rule == RHO_GHOST_SAFE && matrix->rows == matrix->columns
+               ? prune_crossings_in_no_matching(matrix)
+               : 0;
 }
 
 /* arrays of characters rather than pointers, so that the table needs no relocation */

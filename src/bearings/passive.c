@@ -66,13 +66,13 @@ static float max_sensor_distance_m(const struct rho_passive_config *config)
     return apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
 }
 
-enum rho_status rho_passive_init(struct rho_passive *passive, size_t size,
+enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size,
                                  const struct rho_passive_config *config)
 {
     if (!passive || !config) {
         return RHO_ERROR_NULL;
     }
-    if (size != sizeof *passive) {
+    if (object_size != sizeof *passive) {
         return RHO_ERROR_SIZE;
     }
     if (!is_usable(config)) {

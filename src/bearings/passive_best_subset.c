@@ -15,7 +15,9 @@
 
 /* ---- joint selection ------------------------------------------------------------------------- */
 
-static void init_choice(struct rho_passive_choice *choice, const struct rho_passive_search *search)
+/* Starts a choice without candidates: each candidate's gain is its score. */
+static void init_empty_choice(struct rho_passive_choice *choice,
+                              const struct rho_passive_search *search)
 {
     memset(choice, 0, sizeof *choice);
     choice->search = search;
@@ -41,7 +43,7 @@ static void toggle_candidate(struct rho_passive_choice *choice, unsigned which)
 }
 
 /* The candidate outside the choice that raises the total most; choice->count: no candidate does. */
-static unsigned find_best_addition(const struct rho_passive_choice *choice, unsigned excluded)
+static unsigned best_addition_or_count(const struct rho_passive_choice *choice, unsigned excluded)
 {
     unsigned best = choice->count;
     float most = RHO_PASSIVE_GAIN_MIN_NAT;
@@ -56,9 +58,9 @@ static unsigned find_best_addition(const struct rho_passive_choice *choice, unsi
 }
 
 /* Adds candidates while the total grows, and removes those whose gain has become negative. */
-static void add_while_gaining(struct rho_passive_choice *choice, unsigned excluded)
+static void add_and_drop_while_gaining(struct rho_passive_choice *choice, unsigned excluded)
 {
-    for (unsigned added; (added = find_best_addition(choice, excluded)) < choice->count;) {
+    for (unsigned added; (added = best_addition_or_count(choice, excluded)) < choice->count;) {
         toggle_candidate(choice, added);
         for (unsigned i = 0; i < choice->count; i++) {
             if (choice->is_in[i] && i != added && choice->gain_nat[i] < -RHO_PASSIVE_GAIN_MIN_NAT) {
@@ -75,7 +77,7 @@ static int try_to_replace_candidate(struct rho_passive_choice *choice, unsigned 
 {
     struct rho_passive_choice tried = *choice;
     toggle_candidate(&tried, which);
-    add_while_gaining(&tried, which);
+    add_and_drop_while_gaining(&tried, which);
     if (!(tried.total_nat > choice->total_nat + RHO_PASSIVE_GAIN_MIN_NAT)) {
         return 0;
     }
@@ -111,12 +113,12 @@ void rho_passive_choose_candidates(const struct rho_passive_search *search,
     uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
     rho_passive_rank_candidates(search->passive, order);
     fill_shared_bearings_table(search);
-    init_choice(best, search);
+    init_empty_choice(best, search);
     for (unsigned i = 0; i < STARTS && i < best->count; i++) {
         struct rho_passive_choice choice = {.count = 0};
-        init_choice(&choice, search);
+        init_empty_choice(&choice, search);
         toggle_candidate(&choice, order[i]);
-        add_while_gaining(&choice, choice.count);
+        add_and_drop_while_gaining(&choice, choice.count);
         rho_passive_improve_choice(&choice);
         if (choice.total_nat > best->total_nat) {
             *best = choice;
@@ -127,10 +129,10 @@ void rho_passive_choose_candidates(const struct rho_passive_search *search,
 /* ---- choices with and without a candidate ---------------------------------------------------- */
 
 /* Whether two candidates share so many bearings that both are fits of one target. */
-static int are_fits_of_same_target(const struct rho_passive *passive, unsigned of, unsigned other)
+static int are_fits_of_same_target(const struct rho_passive *passive, unsigned one, unsigned other)
 {
-    return (float)passive->shared[of][other] >=
-           SAME_TARGET_SHARE * (float)passive->candidates[of].hits;
+    return (float)passive->shared[one][other] >=
+           SAME_TARGET_SHARE * (float)passive->candidates[one].hits;
 }
 
 void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned which)
@@ -150,5 +152,5 @@ void rho_passive_include_and_extend(struct rho_passive_choice *choice, unsigned 
     if (which < choice->count && !choice->is_in[which]) {
         toggle_candidate(choice, which);
     }
-    add_while_gaining(choice, choice->count);
+    add_and_drop_while_gaining(choice, choice->count);
 }

@@ -23,13 +23,13 @@ unsigned rho_passive_count_shared_bearings(const struct rho_passive_search *sear
     return shared;
 }
 
-/* Whether candidate `other` claims at least DUPLICATE_SHARE of the bearings of candidate `of`. */
-static int is_duplicate(const struct rho_passive_search *search,
-                        const struct rho_passive_candidate *of,
-                        const struct rho_passive_candidate *other)
+/* Whether candidate `other` claims at least DUPLICATE_SHARE of the bearings of `owner`. */
+static int shares_most_bearings_of(const struct rho_passive_search *search,
+                                   const struct rho_passive_candidate *owner,
+                                   const struct rho_passive_candidate *other)
 {
-    return (float)rho_passive_count_shared_bearings(search, of, other) >=
-           DUPLICATE_SHARE * (float)of->hits;
+    return (float)rho_passive_count_shared_bearings(search, owner, other) >=
+           DUPLICATE_SHARE * (float)owner->hits;
 }
 
 static int has_better_duplicate(const struct rho_passive_search *search,
@@ -38,19 +38,20 @@ static int has_better_duplicate(const struct rho_passive_search *search,
     const struct rho_passive *passive = search->passive;
     for (unsigned i = 0; i < passive->num_candidates; i++) {
         if (passive->candidates[i].score_nat >= candidate->score_nat &&
-            is_duplicate(search, candidate, &passive->candidates[i])) {
+            shares_most_bearings_of(search, candidate, &passive->candidates[i])) {
             return 1;
         }
     }
     return 0;
 }
 
-static void remove_worse_duplicates(struct rho_passive_search *search,
-                                    const struct rho_passive_candidate *candidate)
+/* Removes the candidates that share most of their bearings with this one, which is better. */
+static void remove_duplicates_of_candidate(struct rho_passive_search *search,
+                                           const struct rho_passive_candidate *candidate)
 {
     struct rho_passive *passive = search->passive;
     for (unsigned i = passive->num_candidates; i > 0; i--) {
-        if (is_duplicate(search, &passive->candidates[i - 1u], candidate)) {
+        if (shares_most_bearings_of(search, &passive->candidates[i - 1u], candidate)) {
             passive->candidates[i - 1u] = passive->candidates[--passive->num_candidates];
             /* cannot overflow: at most one removal for each of 2 passes x 96 lines x 20 fits */
             search->candidates_removed++;
@@ -59,8 +60,8 @@ static void remove_worse_duplicates(struct rho_passive_search *search,
 }
 
 /* Adds a candidate to the list; a full list drops its lowest score, or the new candidate. */
-static void add_candidate(struct rho_passive_search *search,
-                          const struct rho_passive_candidate *candidate)
+static void add_or_replace_lowest_candidate(struct rho_passive_search *search,
+                                            const struct rho_passive_candidate *candidate)
 {
     struct rho_passive *passive = search->passive;
     if (passive->num_candidates < RHO_MAX_PASSIVE_CANDIDATES) {
@@ -89,8 +90,8 @@ int rho_passive_offer_candidate(struct rho_passive_search *search,
     candidate.hits = score.hits;
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
     if (score.is_track && !has_better_duplicate(search, &candidate)) {
-        remove_worse_duplicates(search, &candidate);
-        add_candidate(search, &candidate);
+        remove_duplicates_of_candidate(search, &candidate);
+        add_or_replace_lowest_candidate(search, &candidate);
     }
     return score.is_track;
 }

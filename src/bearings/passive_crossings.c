@@ -19,8 +19,9 @@ struct sensor_pair {
     uint8_t index_a[RHO_MAX_BEARINGS], index_b[RHO_MAX_BEARINGS];
 };
 
-static unsigned collect_unclaimed_bearings(const struct rho_passive_search *search, unsigned scan,
-                                           unsigned sensor, float *bearings_rad, uint8_t *index)
+/* Collects a sensor's bearings in a scan, in the second pass only unclaimed ones. */
+static unsigned collect_bearings_of_pass(const struct rho_passive_search *search, unsigned scan,
+                                         unsigned sensor, float *bearings_rad, uint8_t *index)
 {
     const struct rho_passive *passive = search->passive;
     unsigned count = 0;
@@ -64,9 +65,9 @@ static int has_bearing_towards(const struct rho_passive_search *search, unsigned
  * In the first pass, with three sensors or more: all but one of the sensors besides the pair, and
  * at least one, must have a bearing towards the crossing.
  */
-static int is_supported_by_other_sensors(const struct rho_passive_search *search,
-                                         const struct sensor_pair *pair,
-                                         const struct rho_passive_point *point)
+static int is_supported_where_required(const struct rho_passive_search *search,
+                                       const struct sensor_pair *pair,
+                                       const struct rho_passive_point *point)
 {
     unsigned num_sensors = search->passive->batch.num_sensors, support = 0;
     if (num_sensors < 3 || search->is_second) {
@@ -113,8 +114,11 @@ static void store_crossing(struct rho_passive_search *search, const struct rho_p
     }
 }
 
-static void cross_bearing_pair(struct rho_passive_search *search, const struct sensor_pair *pair,
-                               const struct rho_crossing_base *base, unsigned i, unsigned j)
+/* Stores the crossing of two bearings, unless they do not cross or lack support. */
+static void cross_and_store_bearing_pair(struct rho_passive_search *search,
+                                         const struct sensor_pair *pair,
+                                         const struct rho_crossing_base *base, unsigned i,
+                                         unsigned j)
 {
     struct rho_passive *passive = search->passive;
     const struct rho_batch_bearing *a =
@@ -135,13 +139,15 @@ static void cross_bearing_pair(struct rho_passive_search *search, const struct s
                                       .xy_m2 = covariance_m2[1],
                                       .yy_m2 = covariance_m2[2],
                                       .scan = (uint16_t)pair->scan};
-    if (is_supported_by_other_sensors(search, pair, &point)) {
+    if (is_supported_where_required(search, pair, &point)) {
         store_crossing(search, &point);
     }
 }
 
-static void cross_scan(struct rho_passive_search *search, const struct sensor_pair *pair,
-                       const struct rho_crossing_base *base)
+/* Crosses two sensors' bearings in one scan, and stores the crossings that are no ghosts. */
+static void cross_sensor_pair_in_scan(struct rho_passive_search *search,
+                                      const struct sensor_pair *pair,
+                                      const struct rho_crossing_base *base)
 {
     struct rho_passive *passive = search->passive;
     struct rho_ghost_matrix matrix;
@@ -158,13 +164,13 @@ static void cross_scan(struct rho_passive_search *search, const struct sensor_pa
                 passive->work.ghosts = rho_count(passive->work.ghosts, (unsigned)is_ghost);
             }
             if (!is_ghost) {
-                cross_bearing_pair(search, pair, base, i, j);
+                cross_and_store_bearing_pair(search, pair, base, i, j);
             }
         }
     }
 }
 
-static void cross_sensors(struct rho_passive_search *search, unsigned a, unsigned b)
+static void cross_sensors_in_all_scans(struct rho_passive_search *search, unsigned a, unsigned b)
 {
     struct rho_crossing_base base;
     if (rho_crossing_set_base(&base, search->x_m[a], search->y_m[a], search->x_m[b],
@@ -173,9 +179,9 @@ static void cross_sensors(struct rho_passive_search *search, unsigned a, unsigne
     }
     for (unsigned scan = 0; scan < search->passive->batch.num_scans; scan++) {
         struct sensor_pair pair = {.scan = scan, .a = a, .b = b};
-        pair.num_a = collect_unclaimed_bearings(search, scan, a, pair.bearings_a_rad, pair.index_a);
-        pair.num_b = collect_unclaimed_bearings(search, scan, b, pair.bearings_b_rad, pair.index_b);
-        cross_scan(search, &pair, &base);
+        pair.num_a = collect_bearings_of_pass(search, scan, a, pair.bearings_a_rad, pair.index_a);
+        pair.num_b = collect_bearings_of_pass(search, scan, b, pair.bearings_b_rad, pair.index_b);
+        cross_sensor_pair_in_scan(search, &pair, &base);
     }
 }
 
@@ -185,7 +191,7 @@ void rho_passive_find_crossings(struct rho_passive_search *search)
     memset(search->passive->fitted, 0, sizeof search->passive->fitted);
     for (unsigned a = 0; a + 1u < search->passive->batch.num_sensors; a++) {
         for (unsigned b = a + 1u; b < search->passive->batch.num_sensors; b++) {
-            cross_sensors(search, a, b);
+            cross_sensors_in_all_scans(search, a, b);
         }
     }
 }

@@ -35,6 +35,7 @@ struct equations {
     float a[RHO_TRIANGLE(N)], b[N];
 };
 
+/* Adds one weighted linear equation, row . change = residual, to the normal equations. */
 static void add_equation(struct equations *equations, const float row[N], float weight,
                          float residual)
 {
@@ -46,6 +47,7 @@ static void add_equation(struct equations *equations, const float row[N], float 
     }
 }
 
+/* Adds the weak priors of position and speed to the normal equations. */
 static void add_prior_equations(const struct rho_passive_search *search, const float state_m[N],
                                 struct equations *equations)
 {
@@ -95,6 +97,7 @@ static struct equations equations_of_nearest_bearings(const struct rho_passive_s
     return equations;
 }
 
+/* Normal equations of the claimed bearings at any distance, with the priors. */
 static struct equations equations_of_claimed_bearings(const struct rho_passive_search *search,
                                                       const float state_m[N],
                                                       rho_passive_const_claim *claim)
@@ -123,8 +126,8 @@ static float clipped(float v, float most)
  * Solves the normal equations and moves the state, each component by a limited step. Returns 0
  * where they are singular, and the state stays.
  */
-static int gauss_newton_step(const struct rho_passive_search *search, struct equations *equations,
-                             float state_m[N])
+static int try_gauss_newton_step(const struct rho_passive_search *search,
+                                 struct equations *equations, float state_m[N])
 {
     float range_m = search->passive->config.range_max_m, factor[RHO_TRIANGLE(N)];
     if (rho_linalg_cholesky(N, equations->a, factor) != RHO_OK) {
@@ -147,7 +150,7 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search, float stat
     for (unsigned step = 0; step < 4 && goes_on; step++) {
         struct equations equations =
             equations_of_nearest_bearings(search, state_m, gates[step], include_claimed);
-        goes_on = gauss_newton_step(search, &equations, state_m);
+        goes_on = try_gauss_newton_step(search, &equations, state_m);
     }
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
 }
@@ -156,7 +159,7 @@ void rho_passive_fit_claimed(const struct rho_passive_search *search, float stat
                              rho_passive_const_claim *claim)
 {
     struct equations equations = equations_of_claimed_bearings(search, state_m, claim);
-    (void)gauss_newton_step(search, &equations, state_m);
+    (void)try_gauss_newton_step(search, &equations, state_m);
 }
 
 /* ---- score ----------------------------------------------------------------------------------- */
@@ -204,9 +207,10 @@ static int is_in_view(const struct rho_passive_search *search, unsigned scan, un
     return rho_angle_in_sector(rho_atan2(offset.y_m, offset.x_m), from_rad, to_rad);
 }
 
-static void add_miss_to_score(const struct rho_passive_search *search, unsigned scan,
-                              unsigned sensor, const float state_m[N],
-                              struct rho_passive_score *score)
+/* Adds a miss to the score of a look with the state in view, else counts it as out of view. */
+static void add_miss_or_out_of_view(const struct rho_passive_search *search, unsigned scan,
+                                    unsigned sensor, const float state_m[N],
+                                    struct rho_passive_score *score)
 {
     if (!search->passive->batch.was_seen[scan][sensor]) {
         return;
@@ -230,6 +234,7 @@ static int has_enough_hits(const struct rho_passive_search *search,
            hits >= 0.5f * share * (float)search->looks;
 }
 
+/* True where score, hits, chi-square, speed and sensors are those of a track. */
 static int is_track(const struct rho_passive_search *search, const float state_m[N],
                     const struct rho_passive_score *score, rho_passive_const_claim *claim)
 {
@@ -257,7 +262,7 @@ struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_sear
             struct rho_passive_match seen =
                 rho_passive_match_claimed(search, k, s, state_m, claim[k][s]);
             if (seen.bearing < 0) {
-                add_miss_to_score(search, k, s, state_m, &score);
+                add_miss_or_out_of_view(search, k, s, state_m, &score);
                 continue;
             }
             float chi2 = square(rho_passive_normalised_residual(&seen));

@@ -50,6 +50,7 @@ static void insert_pair_if_better(struct best_pairs *best, float agreement, stru
     best->pair[place] = pair;
 }
 
+/* Lists the indices of the crossings on a line, within their errors. Returns their number. */
 static unsigned collect_crossings_near_line(const struct rho_passive_search *search,
                                             const struct rho_passive_line *line, uint16_t *index)
 {
@@ -118,6 +119,7 @@ static void list_best_pairs(struct rho_passive_search *search, const uint16_t *i
     }
 }
 
+/* Entry of a pair of crossings in the table of fitted pairs; it may hold another pair. */
 static struct rho_passive_fitted *fitted_pair_entry(struct rho_passive *passive, struct pair pair)
 {
     return &passive->fitted[(pair.a * 61u + pair.b) % RHO_PASSIVE_PAIRS];
@@ -127,17 +129,18 @@ static struct rho_passive_fitted *fitted_pair_entry(struct rho_passive *passive,
  * Neighbouring lines share pairs of crossings. Fitting a pair again gives no track if it gave none
  * before; otherwise it gives a duplicate, unless a candidate has been removed since.
  */
-static int was_pair_fitted(const struct rho_passive_search *search, struct pair pair)
+static int is_refit_useless(const struct rho_passive_search *search, struct pair pair)
 {
     const struct rho_passive_fitted *fitted = fitted_pair_entry(search->passive, pair);
     return fitted->a == pair.a && fitted->b == pair.b &&
            (fitted->when == UINT16_MAX || fitted->when == search->candidates_removed);
 }
 
+/* Fits the state through two crossings and offers it, unless that pair is known to give nothing. */
 static void fit_and_offer_pair(struct rho_passive_search *search, struct pair pair)
 {
     float state_m[RHO_PASSIVE_STATES];
-    if (was_pair_fitted(search, pair) || !connect_crossings(search, pair, state_m)) {
+    if (is_refit_useless(search, pair) || !connect_crossings(search, pair, state_m)) {
         return;
     }
     rho_passive_fit_nearest(search, state_m, 0);

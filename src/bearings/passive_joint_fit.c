@@ -142,6 +142,7 @@ static void assign_bearings_of_all_looks(const struct rho_passive_search *search
     }
 }
 
+/* Scores each member of the set with its claims, tests it for a track, and sums the scores. */
 static void score_set(const struct rho_passive_search *search, struct rho_passive_set *set)
 {
     set->total_nat = 0.0f;
@@ -215,8 +216,9 @@ static void fill_set_with_chosen(const struct rho_passive_search *search,
     }
 }
 
-static void fit_until_all_are_tracks(const struct rho_passive_search *search,
-                                     struct rho_passive_set *set)
+/* Fits the set, and drops its worst member, until all members pass the tests of a track. */
+static void fit_and_drop_non_tracks(const struct rho_passive_search *search,
+                                    struct rho_passive_set *set)
 {
     do {
         assign_and_fit(search, set);
@@ -263,9 +265,9 @@ void rho_passive_fit_jointly(const struct rho_passive_search *search,
     struct rho_passive_set *spare = &search->passive->spare;
     fill_set_with_chosen(search, choice, set);
     *spare = *set;
-    fit_until_all_are_tracks(search, set);
+    fit_and_drop_non_tracks(search, set);
     fit_tracks_in_turn(search, spare);
-    fit_until_all_are_tracks(search, spare);
+    fit_and_drop_non_tracks(search, spare);
     if (spare->total_nat > set->total_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
         *set = *spare;
     }

@@ -18,6 +18,7 @@ static int clipped_cell(float cell, int last)
     return cell > 0.0f ? (cell < (float)last ? (int)cell : last) : 0;
 }
 
+/* Sets the scan's bit in the cells of one row of theta that the crossing's errors reach. */
 static void vote_crossing_in_row(struct rho_passive_search *search,
                                  const struct rho_passive_point *point, unsigned row)
 {

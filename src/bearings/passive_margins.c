@@ -54,13 +54,13 @@ static unsigned find_best_alternative(const struct alternatives *alternatives)
 }
 
 /*
- * The highest total of a set of tracks without the target of candidate `which`. With may_change, a
- * set that exceeds passive->best replaces it, and its choice replaces *choice. Alternatives beyond
- * FITTED_MAX are not fitted; the total of their choice is taken.
+ * The highest total of a set of tracks without the target of candidate `which`. With
+ * may_replace_best, a set that exceeds passive->best replaces it, and its choice replaces *choice.
+ * Alternatives beyond FITTED_MAX are not fitted; the total of their choice is taken.
  */
 static float best_total_without_target(const struct rho_passive_search *search,
                                        struct rho_passive_choice *choice, unsigned which,
-                                       int may_change)
+                                       int may_replace_best)
 {
     struct rho_passive *passive = search->passive;
     float most_nat = NONE_NAT, fit_nat = passive->best.total_nat - choice->total_nat;
@@ -77,7 +77,7 @@ static float best_total_without_target(const struct rho_passive_search *search,
         rho_passive_fit_jointly(search, &tried, &passive->other);
         alternatives.total_nat[best] = NONE_NAT;
         most_nat = passive->other.total_nat > most_nat ? passive->other.total_nat : most_nat;
-        if (may_change && most_nat > passive->best.total_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
+        if (may_replace_best && most_nat > passive->best.total_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
             passive->best = passive->other;
             *choice = tried;
             memset(choice->is_out, 0, sizeof choice->is_out);

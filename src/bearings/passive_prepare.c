@@ -11,6 +11,7 @@
 #define SIGMA_RATIO_MAX 200.0f
 #define SQRT_TWO_PI 2.50662827f
 
+/* Sets the sensors' centroid, and their positions relative to it. */
 static void set_sensor_positions(struct rho_passive_search *search)
 {
     const struct rho_passive *passive = search->passive;
@@ -25,6 +26,7 @@ static void set_sensor_positions(struct rho_passive_search *search)
     }
 }
 
+/* Sets half the time span of the batch, and each scan's time as -1 .. 1 within it. */
 static void set_scan_times(struct rho_passive_search *search)
 {
     const struct rho_passive *passive = search->passive;
@@ -82,6 +84,7 @@ static void set_likelihood_ratios(struct rho_passive_search *search)
         search->hit_nat - log_sigmas / (total > 0.0f ? total : 1.0f) - search->miss_nat;
 }
 
+/* Sets the number of cells, and cosine and sine of theta at each row's centre. */
 static void set_theta_rows(struct rho_passive_search *search)
 {
     const struct rho_passive_config *config = &search->passive->config;

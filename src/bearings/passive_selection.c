@@ -38,7 +38,9 @@ static int32_t nat_to_mnat(float nat)
     return (int32_t)(1000.0f * nat);
 }
 
-static void add_track(struct rho_passive_search *search, unsigned number, float margin_nat)
+/* Adds a member of the best set to the tracks, unless its covariance cannot be computed. */
+static void add_track_of_best_set(struct rho_passive_search *search, unsigned number,
+                                  float margin_nat)
 {
     struct rho_passive *passive = search->passive;
     const struct rho_passive_candidate *from = &passive->best.tracks[number];
@@ -78,7 +80,7 @@ void rho_passive_select_tracks(struct rho_passive_search *search)
     rho_passive_find_margins(search, &choice, margins_nat);
     passive->num_tracks = 0;
     for (unsigned i = 0; i < passive->best.num; i++) {
-        add_track(search, i, margins_nat[i]);
+        add_track_of_best_set(search, i, margins_nat[i]);
     }
     sort_tracks(passive);
 }

@@ -126,7 +126,7 @@ void rho_body_place_covariance(const struct rho_body_filter *body, float xx_yx_y
 }
 
 /* Mean square of the heading's error: the share of the squared length that appears as width. */
-static float heading_error_share(const struct rho_body_filter *body)
+static float mean_square_heading_error(const struct rho_body_filter *body)
 {
     return TURNED_SHARE * body->heading_sigma_rad * body->heading_sigma_rad;
 }
@@ -193,7 +193,7 @@ static void update_across_and_slope(struct rho_body_filter *body, const struct r
     const float along_m2 = rho_larger(look->along_m2, n * LEAST_M2);
     const float slope = look->cross_m2 / along_m2;
     const float slope_variance = (noise_m2 + missed * usual_m2) / along_m2;
-    const float turned = heading_error_share(body);
+    const float turned = mean_square_heading_error(body);
     const float k = turned / (turned + slope_variance);
     const float off = slope - body->slope, left = (1.0f - k) * (1.0f - k) * turned;
     /* number of plots whose information is used up by the heading's error */
@@ -222,7 +222,8 @@ void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look
     if (look->num_plots == 0 || !body->has_heading) {
         return;
     }
-    const float along_m2 = look->noise_along_m2 / n + heading_error_share(body) * body->across_m2;
+    const float along_m2 =
+        look->noise_along_m2 / n + mean_square_heading_error(body) * body->across_m2;
     update_side(&body->along, floored_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
     body->along_m2 = rho_larger(body->along.mean_m2, LEAST_M2);
     update_across_and_slope(body, look, n);
@@ -265,7 +266,7 @@ void rho_body_shape(const struct rho_body_filter *body, struct rho_body *shape)
     /*
      * a heading error e adds (s + e)^2 - s^2 to the squared slope s; e is at most as uncertain as s
      */
-    const float turned = rho_smaller(heading_error_share(body), 1.0f / body->slope_weight);
+    const float turned = rho_smaller(mean_square_heading_error(body), 1.0f / body->slope_weight);
     const float off = rho_sqrt(turned * (turned + 4.0f * body->slope * body->slope));
     shape->length_m = side_length_m(body, &body->along, body->along_m2, turned * body->across_m2,
                                     &shape->sigma_length_m);

@@ -113,8 +113,8 @@ static void acceleration_response(float t_s, float memory_s, float out[3])
     out[2] = 1.0f - x * (1.0f - x * rest);
 }
 
-static void fill_short_step(struct rho_imm_step *step, const struct rho_imm_model *model,
-                            float dt_s)
+static void fill_acceleration_response_and_noise(struct rho_imm_step *step,
+                                                 const struct rho_imm_model *model, float dt_s)
 {
     float response[3];
     acceleration_response(dt_s, model->memory_s, response);
@@ -212,7 +212,7 @@ void rho_imm_prepare_step(struct rho_imm_step *step, const struct rho_imm_model 
         step->dt_s *= 0.5f;
         doublings++;
     }
-    fill_short_step(step, model, step->dt_s);
+    fill_acceleration_response_and_noise(step, model, step->dt_s);
     for (; doublings > 0; doublings--) {
         double_step(step);
     }
@@ -350,7 +350,8 @@ static inline void mix_models_on_axis_pair(struct axis_pair *steady, struct axis
 
 /* ---- predict --------------------------------------------------------------------------------- */
 
-static inline float with_rounding_margin(float variance)
+/* Raises a predicted variance by the rounding allowance, and to the least variance. */
+static inline float with_rounding_margin_and_floor(float variance)
 {
     const float higher = variance * ROUNDING_ALLOWANCE;
     return higher < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : higher;
@@ -364,12 +365,12 @@ static inline void predict_manoeuvre_axis(struct axis *at, struct accel *by,
     at->v += step->velocity_by_accel * by->a;
     by->a *= step->accel_by_accel;
     propagate_axis_covariance(at, by, step);
-    at->pp = with_rounding_margin(at->pp + step->noise[0]);
+    at->pp = with_rounding_margin_and_floor(at->pp + step->noise[0]);
     at->vp += step->noise[1];
-    at->vv = with_rounding_margin(at->vv + step->noise[2]);
+    at->vv = with_rounding_margin_and_floor(at->vv + step->noise[2]);
     by->ap += step->noise[3];
     by->av += step->noise[4];
-    by->aa = with_rounding_margin(by->aa + step->noise[5]);
+    by->aa = with_rounding_margin_and_floor(by->aa + step->noise[5]);
 }
 
 /* Predicts one axis of the steady model: F x and F P F^T + Q. */
@@ -377,9 +378,9 @@ static inline void predict_steady_axis(struct axis *at, float dt,
                                        const float noise[RHO_TRIANGLE(2)])
 {
     at->p += dt * at->v;
-    at->pp = with_rounding_margin(at->pp + dt * (2.0f * at->vp + dt * at->vv) + noise[0]);
+    at->pp = with_rounding_margin_and_floor(at->pp + dt * (2.0f * at->vp + dt * at->vv) + noise[0]);
     at->vp += dt * at->vv + noise[1];
-    at->vv = with_rounding_margin(at->vv + noise[2]);
+    at->vv = with_rounding_margin_and_floor(at->vv + noise[2]);
 }
 
 /* Checks of a prediction: states must be finite, and variances within their limit. */
@@ -397,11 +398,10 @@ static inline int are_within_limits(const struct prediction_checks *checks)
  * Predicts one axis of both models, after mixing them if `by` is given. quiet_noise: process noise
  * of the steady model.
  */
-static void predict_axis_of_both_models(struct rho_imm *imm, int axis,
-                                        const struct mixing_weights *by,
-                                        const struct rho_imm_step *step,
-                                        const float quiet_noise[RHO_TRIANGLE(2)],
-                                        struct prediction_checks *checks)
+static void mix_and_predict_axis(struct rho_imm *imm, int axis, const struct mixing_weights *by,
+                                 const struct rho_imm_step *step,
+                                 const float quiet_noise[RHO_TRIANGLE(2)],
+                                 struct prediction_checks *checks)
 {
     struct rho_kalman *kalman = &imm->steady;
     if (!is_axis_open(imm, axis)) {
@@ -473,8 +473,9 @@ static inline struct model_difference model_difference_on_axis(const struct rho_
  * Predicts both models' covariances of an axis with an earlier one; called before the axes
  * themselves are mixed, as mixing needs their differences.
  */
-static void predict_axis_pair(struct rho_imm *imm, int axis, int other,
-                              const struct mixing_weights *by, const struct rho_imm_step *step)
+static void mix_and_predict_axis_pair(struct rho_imm *imm, int axis, int other,
+                                      const struct mixing_weights *by,
+                                      const struct rho_imm_step *step)
 {
     float *p = imm->covariance, *q = imm->steady.covariance;
     const uint8_t *rows = pair_rows[axis + other - 1];
@@ -490,18 +491,18 @@ static void predict_axis_pair(struct rho_imm *imm, int axis, int other,
     store_axis_pair(p, rows, &manoeuvre);
 }
 
-static void predict_axis_pairs(struct rho_imm *imm, const struct mixing_weights *by,
-                               const struct rho_imm_step *step)
+static void mix_and_predict_axis_pairs(struct rho_imm *imm, const struct mixing_weights *by,
+                                       const struct rho_imm_step *step)
 {
-    predict_axis_pair(imm, RHO_Y, RHO_X, by, step);
+    mix_and_predict_axis_pair(imm, RHO_Y, RHO_X, by, step);
     if (is_axis_open(imm, RHO_Z)) {
-        predict_axis_pair(imm, RHO_Z, RHO_X, by, step);
-        predict_axis_pair(imm, RHO_Z, RHO_Y, by, step);
+        mix_and_predict_axis_pair(imm, RHO_Z, RHO_X, by, step);
+        mix_and_predict_axis_pair(imm, RHO_Z, RHO_Y, by, step);
     }
 }
 
 static enum rho_status predict_both_models(struct rho_imm *imm, const struct rho_imm_step *step,
-                                           int may_change)
+                                           int may_mix)
 {
     struct prediction_checks checks = {0.0f, 1};
     struct mixing_weights by;
@@ -512,12 +513,12 @@ static enum rho_status predict_both_models(struct rho_imm *imm, const struct rho
     if (!(step->dt_s >= -STEP_MAX_S && step->dt_s <= STEP_MAX_S)) {
         return RHO_ERROR_VALUE;
     }
-    if (may_change && step->begins + step->ends > 0.0f) {
+    if (may_mix && step->begins + step->ends > 0.0f) {
         by = update_markov_chain(imm, step);
         mixing = &by;
     }
     if (imm->is_coupled) {
-        predict_axis_pairs(imm, mixing, step);
+        mix_and_predict_axis_pairs(imm, mixing, step);
     }
     const float density =
         step->quiet_density + imm->calm * (step->calm_density - step->quiet_density);
@@ -525,7 +526,7 @@ static enum rho_status predict_both_models(struct rho_imm *imm, const struct rho
                                                 density * step->quiet_noise[1],
                                                 density * step->quiet_noise[2]};
     for (int axis = 0; axis < NUM_AXES; axis++) {
-        predict_axis_of_both_models(imm, axis, mixing, step, quiet_noise, &checks);
+        mix_and_predict_axis(imm, axis, mixing, step, quiet_noise, &checks);
     }
     return are_within_limits(&checks) ? RHO_OK : RHO_ERROR_VALUE;
 }

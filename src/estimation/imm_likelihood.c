@@ -37,9 +37,9 @@ struct model_view {
  * Fills *out and covariance for a plot with isotropic noise, which needs no line-of-sight frame.
  * Returns 0 if the noise is not isotropic.
  */
-static int prepare_isotropic_plot(struct rho_measurement *out, float covariance[6],
-                                  const struct rho_plot *plot, uint32_t measures,
-                                  const struct rho_sensor *sensor)
+static int prepare_plot_if_isotropic(struct rho_measurement *out, float covariance[6],
+                                     const struct rho_plot *plot, uint32_t measures,
+                                     const struct rho_sensor *sensor)
 {
     const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
     const int has_z = (measures & RHO_MEASURES_Z) != 0;
@@ -69,7 +69,7 @@ void rho_imm_prepare_plot(struct rho_imm_plot *seen, const struct rho_plot *plot
     seen->measures = measures;
     seen->plot = plot;
     seen->sensor = sensor;
-    if (prepare_isotropic_plot(&seen->position, seen->covariance, plot, measures, sensor)) {
+    if (prepare_plot_if_isotropic(&seen->position, seen->covariance, plot, measures, sensor)) {
         return;
     }
     rho_measurement_from_plot(plot, measures, sensor, &seen->position);
@@ -78,7 +78,9 @@ void rho_imm_prepare_plot(struct rho_imm_plot *seen, const struct rho_plot *plot
 
 /* ---- independent axes ------------------------------------------------------------------------ */
 
-static inline void position_nis(struct model_view *view, const struct rho_imm_plot *seen, int has_z)
+/* Sets NIS, density factor and use of a model for a position on independent axes. */
+static inline void set_position_score(struct model_view *view, const struct rho_imm_plot *seen,
+                                      int has_z)
 {
     const float *p = view->covariance, noise = seen->position.variance_m2[0];
     const float sx = p[RHO_XX] + noise, sy = p[RHO_YY] + noise;
@@ -111,8 +113,9 @@ static float axis_position_velocity_nis(const struct model_view *view,
     return off_m * off_m / s + off_mps * off_mps / rest;
 }
 
-static void position_velocity_nis(struct model_view *view, const struct rho_imm_plot *seen,
-                                  int num_axes)
+/* Sets NIS, density factor and use of a model for position and velocity, independent axes. */
+static void set_position_velocity_score(struct model_view *view, const struct rho_imm_plot *seen,
+                                        int num_axes)
 {
     float det[NUM_AXES] = {1.0f, 1.0f, 1.0f};
     view->nis = 0.0f;
@@ -195,8 +198,9 @@ static int has_predicted_range_rate(const struct model_view *view)
 /*
  * NIS of positions, velocities and, if measured, a range rate, on coupled axes: the general case.
  */
-static void position_velocity_rate_nis(struct model_view *view, const struct rho_imm_plot *seen,
-                                       const struct rho_imm_match *match)
+static void set_position_velocity_rate_score(struct model_view *view,
+                                             const struct rho_imm_plot *seen,
+                                             const struct rho_imm_match *match)
 {
     struct innovation innovation;
     float log_det = 0.0f;
@@ -247,8 +251,8 @@ static inline float range_rate_nis(const struct model_view *view, const struct r
  * NIS of a position with height and, if measured, a range rate, on coupled axes: S = L D L^T
  * written out.
  */
-static void position_3d_rate_nis(struct model_view *view, const struct rho_imm_plot *seen,
-                                 int has_rate)
+static void set_position_3d_rate_score(struct model_view *view, const struct rho_imm_plot *seen,
+                                       int has_rate)
 {
     const float *p = view->covariance, *r = seen->covariance, *rate = view->projected;
     const float s00 = p[RHO_XX] + r[RHO_XX], s10 = p[RHO_YX] + r[RHO_YX], l10 = s10 / s00;
@@ -331,16 +335,17 @@ static void score_under_model(struct model_view *view, const struct rho_imm *imm
 {
     const int is_coupled = imm->is_coupled || !seen->position.is_isotropic;
     if (match->has_velocity && (is_coupled || match->has_range_rate)) {
-        position_velocity_rate_nis(view, seen, match);
+        set_position_velocity_rate_score(view, seen, match);
     } else if (match->has_velocity) {
-        position_velocity_nis(view, seen, match->num_axes);
+        set_position_velocity_score(view, seen, match->num_axes);
     } else if (!is_coupled && !match->has_range_rate) {
-        position_nis(view, seen, match->num_axes > 2);
+        set_position_score(view, seen, match->num_axes > 2);
     } else {
-        position_3d_rate_nis(view, seen, match->has_range_rate);
+        set_position_3d_rate_score(view, seen, match->has_range_rate);
     }
 }
 
+/* Returns 0 where neither model's NIS is in the gate, or the density is not usable. */
 static int combine_models_if_in_gate(const float factor[2], const float nis[2], int num_dimensions,
                                      struct rho_imm_match *match)
 {
@@ -471,8 +476,9 @@ static int can_score_in_plane(const struct rho_imm *imm, const struct rho_imm_pl
            (imm->is_coupled || !seen->position.is_isotropic || match->has_range_rate);
 }
 
-static inline void fill_view(struct model_view *view, int model, const struct rho_imm *imm,
-                             const struct rho_imm_rates *rates, int has_rate)
+/* Sets the view on the steady model (0) or the manoeuvring one (1), with its range rate. */
+static inline void fill_view_of_model(struct model_view *view, int model, const struct rho_imm *imm,
+                                      const struct rho_imm_rates *rates, int has_rate)
 {
     view->state = model == 0 ? imm->steady.state : imm->state;
     view->covariance = model == 0 ? imm->steady.covariance : imm->covariance;
@@ -502,7 +508,7 @@ static int score_in_plane(const struct rho_imm *imm, const struct rho_imm_rates 
     float factor[2], nis[2];
     for (int i = 0; i < 2; i++) {
         struct model_view view;
-        fill_view(&view, i, imm, rates, plot.has_rate);
+        fill_view_of_model(&view, i, imm, rates, plot.has_rate);
         nis[i] = position_2d_rate_nis(&view, &plot, seen, share[i], &factor[i]);
     }
     return combine_models_if_in_gate(factor, nis, 2 + plot.has_rate, match);
@@ -521,7 +527,7 @@ int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_im
     }
     for (int i = 0; i < 2; i++) {
         struct model_view view;
-        fill_view(&view, i, imm, rates, match->has_range_rate);
+        fill_view_of_model(&view, i, imm, rates, match->has_range_rate);
         score_under_model(&view, imm, seen, match);
         nis[i] = view.counts ? view.nis : NIS_BEYOND_ALL;
         factor[i] = view.counts ? floored_probability(share[i]) * view.root : 0.0f;
@@ -590,10 +596,11 @@ static inline float log_density_of_model(float log_factor, float half)
 
 /*
  * Scores a position of the gate's noise. ln(e^s + e^m) lies between max(s, m) and max(s, m) + ln 2:
- * `enough` is compared with the upper bound.
+ * log_likelihood_to_exceed is compared with the upper bound.
  */
 int rho_imm_score_position_in_gate(const struct rho_imm_gate *gate, const float place_m[3],
-                                   float enough, float *log_likelihood, float *probability)
+                                   float log_likelihood_to_exceed, float *log_likelihood,
+                                   float *probability)
 {
     const float to_s = half_nis(gate->centre_m[0], gate->half_inverse[0], place_m);
     const float to_m = half_nis(gate->centre_m[1], gate->half_inverse[1], place_m);
@@ -603,7 +610,7 @@ int rho_imm_score_position_in_gate(const struct rho_imm_gate *gate, const float 
     const float s = log_density_of_model(gate->log_factor[0], to_s),
                 m = log_density_of_model(gate->log_factor[1], to_m);
     const float most = s > m ? s : m, least = s > m ? m : s;
-    if (!(most + LOG_TWO > enough)) {
+    if (!(most + LOG_TWO > log_likelihood_to_exceed)) {
         return 0;
     }
     const float ratio = rho_exp(least - most), share = 1.0f / (1.0f + ratio);

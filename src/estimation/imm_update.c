@@ -24,6 +24,7 @@ struct update_factors {
     float inverse, kept;
 };
 
+/* Factors for a predicted variance and the variance of the measurement's noise. */
 static inline struct update_factors update_factors_of(float predicted, float variance)
 {
     const float inverse = 1.0f / (predicted + variance);
@@ -76,8 +77,8 @@ static inline void update_acceleration(struct accel *at, float *with_seen, float
  * is a check: not finite if anything computed is not. S is never 0, as the noise variance is at
  * least the floor.
  */
-static inline float update_axis_position(struct axis *at, struct accel *more, float place_m,
-                                         float variance)
+static inline float update_axis_position_finite_if_ok(struct axis *at, struct accel *more,
+                                                      float place_m, float variance)
 {
     const struct update_factors by = update_factors_of(at->pp, variance);
     const float off = place_m - at->p, step = off * by.inverse;
@@ -89,9 +90,9 @@ static inline float update_axis_position(struct axis *at, struct accel *more, fl
     return check + at->p + at->v;
 }
 
-/* Updates one axis by its velocity. Returns a check as update_axis_position does. */
-static inline float update_axis_velocity(struct axis *at, struct accel *more, float speed_mps,
-                                         float variance)
+/* Updates one axis by its velocity. Returns a check as update_axis_position_finite_if_ok does. */
+static inline float update_axis_velocity_finite_if_ok(struct axis *at, struct accel *more,
+                                                      float speed_mps, float variance)
 {
     const struct update_factors by = update_factors_of(at->vv, variance);
     const float off = speed_mps - at->v, step = off * by.inverse;
@@ -103,7 +104,9 @@ static inline float update_axis_velocity(struct axis *at, struct accel *more, fl
     return check + at->p + at->v;
 }
 
-static float update_positions(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen)
+/* Updates both models by the position, axis by axis. The result is not finite after a failure. */
+static float update_positions_finite_if_ok(struct rho_imm *imm, int num_axes,
+                                           const struct rho_imm_plot *seen)
 {
     struct rho_kalman *kalman = &imm->steady;
     const float variance = at_least_floor(seen->position.variance_m2[0]);
@@ -113,8 +116,8 @@ static float update_positions(struct rho_imm *imm, int num_axes, const struct rh
         struct axis steady = load_axis(kalman->state, kalman->covariance, axis);
         struct axis at = load_axis(imm->state, imm->covariance, axis);
         struct accel more = load_accel(imm, axis);
-        check += update_axis_position(&steady, 0, place_m, variance);
-        check += update_axis_position(&at, &more, place_m, variance) + more.a;
+        check += update_axis_position_finite_if_ok(&steady, 0, place_m, variance);
+        check += update_axis_position_finite_if_ok(&at, &more, place_m, variance) + more.a;
         store_axis(kalman->state, kalman->covariance, axis, &steady);
         store_axis(imm->state, imm->covariance, axis, &at);
         store_accel(imm, axis, &more);
@@ -122,7 +125,9 @@ static float update_positions(struct rho_imm *imm, int num_axes, const struct rh
     return check;
 }
 
-static float update_velocities(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen)
+/* Updates both models by the velocity, axis by axis. The result is not finite after a failure. */
+static float update_velocities_finite_if_ok(struct rho_imm *imm, int num_axes,
+                                            const struct rho_imm_plot *seen)
 {
     struct rho_kalman *kalman = &imm->steady;
     const float variance = at_least_floor(seen->plot->sigma_mps * seen->plot->sigma_mps);
@@ -132,8 +137,8 @@ static float update_velocities(struct rho_imm *imm, int num_axes, const struct r
         struct axis steady = load_axis(kalman->state, kalman->covariance, axis);
         struct axis at = load_axis(imm->state, imm->covariance, axis);
         struct accel more = load_accel(imm, axis);
-        check += update_axis_velocity(&steady, 0, speed_mps, variance);
-        check += update_axis_velocity(&at, &more, speed_mps, variance) + more.a;
+        check += update_axis_velocity_finite_if_ok(&steady, 0, speed_mps, variance);
+        check += update_axis_velocity_finite_if_ok(&at, &more, speed_mps, variance) + more.a;
         store_axis(kalman->state, kalman->covariance, axis, &steady);
         store_axis(imm->state, imm->covariance, axis, &at);
         store_accel(imm, axis, &more);
@@ -144,16 +149,17 @@ static float update_velocities(struct rho_imm *imm, int num_axes, const struct r
 static enum rho_status update_independent_axes(struct rho_imm *imm, int num_axes,
                                                const struct rho_imm_plot *seen)
 {
-    float check = update_positions(imm, num_axes, seen);
+    float check = update_positions_finite_if_ok(imm, num_axes, seen);
     if (seen->measures & RHO_MEASURES_VELOCITY) {
-        check += update_velocities(imm, num_axes, seen);
+        check += update_velocities_finite_if_ok(imm, num_axes, seen);
     }
     return rho_is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
 }
 
 /* ---- coupled axes ---------------------------------------------------------------------------- */
 
-static void raise_variances_to_floor(struct rho_imm *imm)
+/* Raises the manoeuvring model's variances that are not 0: 0 marks a closed axis. */
+static void raise_manoeuvre_variances_to_floor(struct rho_imm *imm)
 {
     for (int i = 0; i < RHO_IMM_STATES; i++) {
         float *variance = &imm->covariance[RHO_AT(i, i)];
@@ -190,7 +196,8 @@ static enum rho_status update_position_along(struct rho_imm *imm, const float di
 }
 
 /* Updates both models by one element of the state. */
-static enum rho_status update_element(struct rho_imm *imm, int element, float value, float variance)
+static enum rho_status update_both_models_by_element(struct rho_imm *imm, int element, float value,
+                                                     float variance)
 {
     float noise = at_least_floor(variance);
     enum rho_status status = rho_kalman_update(&imm->steady, element, value, noise, 0);
@@ -233,8 +240,9 @@ static enum rho_status update_velocity(struct rho_imm *imm, int num_axes,
 {
     enum rho_status status = RHO_OK;
     for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
-        status = update_element(imm, NUM_AXES + axis, plot_velocity_component(plot, axis),
-                                plot->sigma_mps * plot->sigma_mps);
+        status =
+            update_both_models_by_element(imm, NUM_AXES + axis, plot_velocity_component(plot, axis),
+                                          plot->sigma_mps * plot->sigma_mps);
     }
     return status;
 }
@@ -267,8 +275,8 @@ static enum rho_status update_coupled_axes(struct rho_imm *imm, int num_axes,
         status = update_position_along_noise_axes(imm, num_axes, &seen->position);
     } else {
         for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
-            status = update_element(imm, axis, seen->position.place_m[axis],
-                                    seen->position.variance_m2[0]);
+            status = update_both_models_by_element(imm, axis, seen->position.place_m[axis],
+                                                   seen->position.variance_m2[0]);
         }
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_VELOCITY)) {
@@ -277,7 +285,7 @@ static enum rho_status update_coupled_axes(struct rho_imm *imm, int num_axes,
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
         status = update_range_rate(imm, seen);
     }
-    raise_variances_to_floor(imm);
+    raise_manoeuvre_variances_to_floor(imm);
     return status;
 }
 
@@ -427,7 +435,7 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
         status = rho_linalg_update_row(RHO_IMM_STATES, imm->state, imm->covariance, 2,
                                        bearings[1].row, bearings[1].off_m, bearings[1].variance_m2);
     }
-    raise_variances_to_floor(imm);
+    raise_manoeuvre_variances_to_floor(imm);
     if (status == RHO_OK) {
         const float innovations_m[2] = {bearings[0].off_m, bearings[1].off_m};
         rho_imm_update_probability(imm, innovations_m, variance, gain_nat);

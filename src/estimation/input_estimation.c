@@ -51,7 +51,7 @@ void rho_input_config_default(struct rho_input_config *config)
     }
 }
 
-static int is_noise_sigma(float sigma)
+static int is_valid_noise_sigma(float sigma)
 {
     return sigma >= 0.0f && sigma <= NOISE_MAX;
 }
@@ -62,8 +62,8 @@ int rho_input_is_usable(const struct rho_input_config *config)
            config->sigma_mps2 >= SIGMA_MIN_MPS2 && config->sigma_mps2 <= SIGMA_MAX_MPS2 &&
            config->threshold > 0.0f && config->threshold <= FLT_MAX && config->gamma > 0.0f &&
            config->gamma <= 1.0f && config->noise_density >= 0.0f &&
-           config->noise_density <= FLT_MAX && is_noise_sigma(config->noise_m) &&
-           is_noise_sigma(config->noise_mps) &&
+           config->noise_density <= FLT_MAX && is_valid_noise_sigma(config->noise_m) &&
+           is_valid_noise_sigma(config->noise_mps) &&
            config->velocity_variance >= RHO_KALMAN_VARIANCE_MIN &&
            config->velocity_variance <= RHO_KALMAN_VARIANCE_MAX &&
            config->initial_variance >= 0.0f &&
@@ -109,6 +109,7 @@ static void add_correlated_input_effects(struct rho_kalman *estimate, const stru
     }
 }
 
+/* Adds the effects of these axes' inputs, and their uncertainty, to an estimate without input. */
 static void add_input_effects(struct rho_kalman *estimate, const struct rho_input *input,
                               uint32_t axes)
 {
@@ -160,8 +161,8 @@ enum rho_status rho_input_start(struct rho_input *input, const struct rho_input_
 }
 
 /* N = F M + D; back in time N = F^-1 (M - D). Returns the sum of squares of N's elements. */
-static float predict_sensitivity(struct rho_input *input, const struct rho_input_config *config,
-                                 float dt_s)
+static float predict_and_square_sensitivities(struct rho_input *input,
+                                              const struct rho_input_config *config, float dt_s)
 {
     const int is_literal = config->model == RHO_INPUT_LITERAL;
     const float half_m = 0.5f * dt_s * dt_s, whole_m = dt_s < 0.0f ? dt_s * dt_s : 0.0f;
@@ -188,7 +189,8 @@ static float predict_sensitivity(struct rho_input *input, const struct rho_input
  * Forgetting: V / gamma on axes with an input, at most V(0); covariances grow by the square roots
  * of the variances' factors.
  */
-static void grow_input_variance(struct rho_input *input, const struct rho_input_config *config)
+static void grow_present_input_variances(struct rho_input *input,
+                                         const struct rho_input_config *config)
 {
     const float most = config->sigma_mps2 * config->sigma_mps2;
     float *v = input->variance;
@@ -213,16 +215,16 @@ static void grow_input_variance(struct rho_input *input, const struct rho_input_
 }
 
 /*
- * True where variances of the corrected estimate are within their limit. Inputs add at most size2
- * trace V to a variance; this bound usually suffices.
+ * True where variances of the corrected estimate are within their limit. Inputs add at most
+ * sensitivity2 trace V to a variance; this bound usually suffices.
  */
-static int is_variance_within_limit(const struct rho_input *input, float size2)
+static int are_estimate_variances_in_limit(const struct rho_input *input, float sensitivity2)
 {
     const float *v = input->variance;
-    const float most = size2 * (v[RHO_XX] + v[RHO_YY] + v[RHO_ZZ]);
+    const float most = sensitivity2 * (v[RHO_XX] + v[RHO_YY] + v[RHO_ZZ]);
     struct rho_kalman estimate;
 
-    if (!(size2 <= SENSITIVITY2_MAX)) {
+    if (!(sensitivity2 <= SENSITIVITY2_MAX)) {
         return 0;
     }
     if (!input->present || most <= ADDED_EASILY) {
@@ -250,10 +252,10 @@ static enum rho_status predict_filter_and_inputs(struct rho_input *input,
         return status;
     }
     if (dt_s > 0.0f && config->gamma < 1.0f) {
-        grow_input_variance(input, config);
+        grow_present_input_variances(input, config);
     }
-    const float size2 = predict_sensitivity(input, config, dt_s);
-    return is_variance_within_limit(input, size2) ? RHO_OK : RHO_ERROR_VALUE;
+    const float size2 = predict_and_square_sensitivities(input, config, dt_s);
+    return are_estimate_variances_in_limit(input, size2) ? RHO_OK : RHO_ERROR_VALUE;
 }
 
 enum rho_status rho_input_predict(struct rho_input *input, const struct rho_input_config *config,

@@ -12,6 +12,7 @@
 /* Indices of the elements of row i of a packed symmetric 3 x 3 matrix. */
 static const uint8_t places[NUM_AXES][NUM_AXES] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
 
+/* Restarts the estimation of one axis' input: 0 with this variance, and no sensitivity. */
 static void reset_input(struct rho_input *input, int axis, float variance)
 {
     const uint8_t *place = places[axis];
@@ -24,6 +25,7 @@ static void reset_input(struct rho_input *input, int axis, float variance)
     input->variance[place[axis]] = variance;
 }
 
+/* Square of the estimated input of one axis over its variance. */
 static float input_nis(const struct rho_input *input, int axis)
 {
     const float u = input->input_mps2[axis];
@@ -42,7 +44,7 @@ static float remaining_variance(float variance, float explained)
 }
 
 /* Conditions the other axes' inputs on an input of 0 on this axis. */
-static void condition_on_no_input(struct rho_input *input, int axis)
+static void condition_others_on_no_input(struct rho_input *input, int axis)
 {
     const int b = (axis + 1) % NUM_AXES, c = (axis + 2) % NUM_AXES;
     float *v = input->variance;
@@ -62,7 +64,7 @@ static void condition_on_no_input(struct rho_input *input, int axis)
  * only the rest, which is uncorrelated with the other inputs, goes into the estimate, so that
  * estimate and inputs stay independent.
  */
-static void absorb_input(struct rho_input *input, int axis)
+static void move_input_effect_into_filter(struct rho_input *input, int axis)
 {
     const int b = (axis + 1) % NUM_AXES, c = (axis + 2) % NUM_AXES;
     const float *v = input->variance, *m = input->sensitivity[axis];
@@ -106,22 +108,23 @@ static int find_weakest_input(const struct rho_input *input, uint32_t axes)
  * Tests correlated inputs, the weakest first, and removes those below the limit. Returns the axes
  * with inputs.
  */
-static uint32_t decide_correlated_inputs(struct rho_input *input, float limit2, float variance)
+static uint32_t end_weak_correlated_inputs(struct rho_input *input, float nis_limit,
+                                           float initial_variance)
 {
     uint32_t left = INPUT_ALL_PRESENT;
 
     while (left) {
         const int axis = find_weakest_input(input, left);
 
-        if (input_nis(input, axis) > limit2) {
+        if (input_nis(input, axis) > nis_limit) {
             break;
         }
         if (includes_axis(input->present, axis)) {
-            absorb_input(input, axis);
+            move_input_effect_into_filter(input, axis);
         } else {
-            condition_on_no_input(input, axis);
+            condition_others_on_no_input(input, axis);
         }
-        reset_input(input, axis, variance);
+        reset_input(input, axis, initial_variance);
         left &= ~(1u << axis);
     }
     return left;
@@ -129,12 +132,14 @@ static uint32_t decide_correlated_inputs(struct rho_input *input, float limit2, 
 
 /* ---- independent inputs ---------------------------------------------------------------------- */
 
-static uint32_t decide_independent_inputs(struct rho_input *input, float limit2, float variance)
+/* Ends each input with a NIS within the limit. Returns the axes with inputs. */
+static uint32_t end_weak_independent_inputs(struct rho_input *input, float nis_limit,
+                                            float initial_variance)
 {
     uint32_t left = 0;
 
     for (int axis = 0; axis < NUM_AXES; axis++) {
-        if (input_nis(input, axis) > limit2) {
+        if (input_nis(input, axis) > nis_limit) {
             left |= 1u << axis;
             continue;
         }
@@ -142,7 +147,7 @@ static uint32_t decide_independent_inputs(struct rho_input *input, float limit2,
             add_input_effect(&input->bare, input->sensitivity[axis], axis, input->input_mps2[axis],
                              input->variance[places[axis][axis]]);
         }
-        reset_input(input, axis, variance);
+        reset_input(input, axis, initial_variance);
     }
     return left;
 }
@@ -156,6 +161,6 @@ void rho_input_decide_presence(struct rho_input *input, const struct rho_input_c
     const float variance = config->sigma_mps2 * config->sigma_mps2;
 
     input->present = are_inputs_independent(input->variance)
-                         ? decide_independent_inputs(input, limit2, variance)
-                         : decide_correlated_inputs(input, limit2, variance);
+                         ? end_weak_independent_inputs(input, limit2, variance)
+                         : end_weak_correlated_inputs(input, limit2, variance);
 }

@@ -38,7 +38,7 @@ static inline int is_zero(float v)
 }
 
 /* Bits of a float without its sign: 0 for +0 and -0 alone. */
-static inline uint32_t magnitude_bits(float v)
+static inline uint32_t shifted_bits_without_sign(float v)
 {
     return rho_float_bits(v) << 1;
 }
@@ -50,21 +50,22 @@ static inline float with_rounding_allowance(float added)
 }
 
 /* True if a column of the sensitivities is 0 outside of its own axis: the usual case. */
-static inline int is_column_uncoupled(const float m[NUM_STATES], int a)
+static inline int is_column_uncoupled(const float sensitivity[NUM_STATES], int axis)
 {
     static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
-    const int b = others[a][0], c = others[a][1];
+    const int b = others[axis][0], c = others[axis][1];
 
-    return (magnitude_bits(m[b]) | magnitude_bits(m[c]) | magnitude_bits(m[b + NUM_AXES]) |
-            magnitude_bits(m[c + NUM_AXES])) == 0;
+    return (shifted_bits_without_sign(sensitivity[b]) | shifted_bits_without_sign(sensitivity[c]) |
+            shifted_bits_without_sign(sensitivity[b + NUM_AXES]) |
+            shifted_bits_without_sign(sensitivity[c + NUM_AXES])) == 0;
 }
 
 /*
- * Adds the effect of an input u with variance v on axis a: x := x + m u, p := p + v m m^T, m the
+ * Adds the effect of an input u with variance v on an axis: x := x + m u, p := p + v m m^T, m the
  * column of sensitivities of this axis.
  */
-static inline void add_input_effect(struct rho_kalman *kalman, const float m[NUM_STATES], int a,
-                                    float u, float v)
+static inline void add_input_effect(struct rho_kalman *kalman, const float sensitivity[NUM_STATES],
+                                    int axis, float input_mps2, float variance)
 {
     /* indices of var(position), cov(velocity, position), var(velocity) */
     static const uint8_t indices[NUM_AXES][3] = {
@@ -73,31 +74,32 @@ static inline void add_input_effect(struct rho_kalman *kalman, const float m[NUM
         {RHO_ZZ, RHO_AT(RHO_VZ, RHO_Z), RHO_AT(RHO_VZ, RHO_VZ)}};
     float *x = kalman->state, *p = kalman->covariance;
 
-    if (is_column_uncoupled(m, a)) {
-        const float place = m[a], speed = m[a + NUM_AXES];
+    if (is_column_uncoupled(sensitivity, axis)) {
+        const float place = sensitivity[axis], speed = sensitivity[axis + NUM_AXES];
 
-        x[a] += place * u;
-        x[a + NUM_AXES] += speed * u;
-        p[indices[a][0]] += with_rounding_allowance(v * place * place);
-        p[indices[a][1]] += v * place * speed;
-        p[indices[a][2]] += with_rounding_allowance(v * speed * speed);
+        x[axis] += place * input_mps2;
+        x[axis + NUM_AXES] += speed * input_mps2;
+        p[indices[axis][0]] += with_rounding_allowance(variance * place * place);
+        p[indices[axis][1]] += variance * place * speed;
+        p[indices[axis][2]] += with_rounding_allowance(variance * speed * speed);
         return;
     }
     for (int i = 0; i < NUM_STATES; i++) {
-        const float scaled = v * m[i];
+        const float scaled = variance * sensitivity[i];
         float *row = &p[RHO_TRIANGLE(i)];
 
-        x[i] += m[i] * u;
+        x[i] += sensitivity[i] * input_mps2;
         for (int j = 0; j < i; j++) {
-            row[j] += scaled * m[j];
+            row[j] += scaled * sensitivity[j];
         }
-        row[i] += with_rounding_allowance(scaled * m[i]);
+        row[i] += with_rounding_allowance(scaled * sensitivity[i]);
     }
 }
 
 static inline int are_inputs_independent(const float v[RHO_TRIANGLE(NUM_AXES)])
 {
-    return (magnitude_bits(v[RHO_YX]) | magnitude_bits(v[RHO_ZX]) | magnitude_bits(v[RHO_ZY])) == 0;
+    return (shifted_bits_without_sign(v[RHO_YX]) | shifted_bits_without_sign(v[RHO_ZX]) |
+            shifted_bits_without_sign(v[RHO_ZY])) == 0;
 }
 
 #endif

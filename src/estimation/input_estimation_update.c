@@ -171,15 +171,16 @@ static enum rho_status update_by_coupled_element(struct rho_input *input, int el
  * True if the element depends on no other axis' input, and the inputs are uncorrelated: the usual
  * case.
  */
-static int is_element_independent(const struct rho_input *input, int element, int axis)
+static int depends_on_own_input_only(const struct rho_input *input, int element, int axis)
 {
     static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
     const int b = others[axis][0], c = others[axis][1];
 
-    return (magnitude_bits(input->sensitivity[b][element]) |
-            magnitude_bits(input->sensitivity[c][element]) |
-            magnitude_bits(input->variance[RHO_YX]) | magnitude_bits(input->variance[RHO_ZX]) |
-            magnitude_bits(input->variance[RHO_ZY])) == 0;
+    return (shifted_bits_without_sign(input->sensitivity[b][element]) |
+            shifted_bits_without_sign(input->sensitivity[c][element]) |
+            shifted_bits_without_sign(input->variance[RHO_YX]) |
+            shifted_bits_without_sign(input->variance[RHO_ZX]) |
+            shifted_bits_without_sign(input->variance[RHO_ZY])) == 0;
 }
 
 /*
@@ -187,8 +188,8 @@ static int is_element_independent(const struct rho_input *input, int element, in
  * update_filter_and_inputs does, the paper's (8) to (13), written out, as a loop would take twice
  * the time.
  */
-static enum rho_status update_axis(struct rho_input *input, int axis, int element, float value,
-                                   float variance)
+static enum rho_status update_axis_with_own_input(struct rho_input *input, int axis, int element,
+                                                  float value, float variance)
 {
     const float *p = input->bare.covariance;
     const uint8_t *index = row_indices[element];
@@ -238,14 +239,14 @@ enum rho_status rho_input_update(struct rho_input *input, const struct rho_input
     if (!config->is_estimated) {
         return rho_kalman_update(&input->bare, element, value, variance, NULL);
     }
-    if (!is_element_independent(input, element, axis)) {
+    if (!depends_on_own_input_only(input, element, axis)) {
         return update_by_coupled_element(input, element, value, variance);
     }
     if (is_zero(
             input->sensitivity[axis][element])) { /* the element does not depend on the inputs */
         return rho_kalman_update(&input->bare, element, value, variance, NULL);
     }
-    return update_axis(input, axis, element, value, variance);
+    return update_axis_with_own_input(input, axis, element, value, variance);
 }
 
 enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_input_config *config,

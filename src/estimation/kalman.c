@@ -35,9 +35,10 @@ static int is_valid_variance(float v)
  * Raises a variance of an open axis to the floor. Zero marks a closed axis and stays; a negative
  * value stays, too, and is refused later.
  */
-static inline float floored_if_open(float variance, float before)
+static inline float floored_if_open(float variance, float variance_before)
 {
-    const int is_low = variance >= 0.0f && variance < RHO_KALMAN_VARIANCE_MIN && before > 0.0f;
+    const int is_low =
+        variance >= 0.0f && variance < RHO_KALMAN_VARIANCE_MIN && variance_before > 0.0f;
 
     return is_low ? RHO_KALMAN_VARIANCE_MIN : variance;
 }
@@ -94,7 +95,7 @@ static inline void store_predicted_axis(struct rho_kalman *kalman, int axis,
 }
 
 /* Raises a variance of an open axis to the floor; 0 marks a closed axis and stays. */
-static inline void raise_to_floor(float *variance)
+static inline void raise_nonzero_to_floor(float *variance)
 {
     if (*variance < RHO_KALMAN_VARIANCE_MIN && (*variance > 0.0f || *variance < 0.0f)) {
         *variance = RHO_KALMAN_VARIANCE_MIN;
@@ -105,7 +106,7 @@ static void raise_variances_to_floor(struct rho_kalman *kalman)
 {
     RHO_UNROLL
     for (int i = 0; i < RHO_KALMAN_STATES; ++i) {
-        raise_to_floor(&kalman->covariance[DIAGONAL(i)]);
+        raise_nonzero_to_floor(&kalman->covariance[DIAGONAL(i)]);
     }
 }
 
@@ -187,9 +188,9 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
 }
 
 /* True where the sum of a variance and `by` is within the limit; false for NaN. */
-static int can_add_variance(float variance, float by)
+static int can_add_variance(float variance, float added)
 {
-    return variance + by <= RHO_KALMAN_VARIANCE_MAX;
+    return variance + added <= RHO_KALMAN_VARIANCE_MAX;
 }
 
 enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance,
@@ -397,8 +398,8 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
  * against the range: a position error of sigma rotates the line of sight by sigma / range, which
  * changes the range rate by up to (sigma / range)^2 / 2 times the speed.
  */
-static float range_rate_nonlinearity(const struct rho_kalman *kalman,
-                                     const struct rho_sensor *sensor)
+static float range_rate_nonlinearity_variance(const struct rho_kalman *kalman,
+                                              const struct rho_sensor *sensor)
 {
     const float *state = kalman->state;
     float range2_m2 = 0.0f, spread_m2 = 0.0f, speed2 = 0.0f;
@@ -427,7 +428,7 @@ int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
                                             &predicted_mps)) {
         return 0;
     }
-    const float nonlinearity = range_rate_nonlinearity(kalman, sensor);
+    const float nonlinearity = range_rate_nonlinearity_variance(kalman, sensor);
     seen->innovation = rho_measurement_range_rate_innovation_mps(sensor, rate_mps, predicted_mps);
     seen->variance = variance;
     if (variance > 0.0f && nonlinearity <= FLT_MAX) { /* else the update refuses the variance */
@@ -469,7 +470,7 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
  * of the bearing is 1 / range^2 (along times across the line of sight): for errors a along and c
  * across, a c / range metres are left out, with the variance (var a var c + cov^2) / range^2.
  */
-static float bearing_nonlinearity(const float *p, const float row[6], float range_m)
+static float bearing_nonlinearity_variance(const float *p, const float row[6], float range_m)
 {
     const float xx = p[RHO_XX], xy = p[RHO_YX], yy = p[RHO_YY];
     const float s = row[RHO_X], c = row[RHO_Y]; /* unit vectors: across (s, c), along (c, -s) */
@@ -489,8 +490,8 @@ int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, flo
         return 0;
     }
     const float sigma_m = sigma_rad * seen->range_m;
-    seen->variance_m2 =
-        sigma_m * sigma_m + bearing_nonlinearity(kalman->covariance, seen->row, seen->range_m);
+    seen->variance_m2 = sigma_m * sigma_m +
+                        bearing_nonlinearity_variance(kalman->covariance, seen->row, seen->range_m);
     return 1;
 }
 

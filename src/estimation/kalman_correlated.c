@@ -70,9 +70,9 @@ static int decorrelate_row(struct decorrelated_rows *decorrelated, int i, float 
 }
 
 /* Drops elements of closed axes, and decorrelates the noise of the others. */
-static int decorrelate_noise(const struct rho_kalman *kalman, int num, const int elements[],
-                             const float values[], const float covariance[],
-                             struct decorrelated_rows *decorrelated)
+static int decorrelate_open_elements(const struct rho_kalman *kalman, int num, const int elements[],
+                                     const float values[], const float covariance[],
+                                     struct decorrelated_rows *decorrelated)
 {
     float kept[RHO_TRIANGLE(RHO_KALMAN_STATES)] = {0.0f};
     int source[RHO_KALMAN_STATES] = {0};
@@ -143,7 +143,7 @@ enum rho_status rho_kalman_update_correlated(struct rho_kalman *kalman, int num,
         !are_valid_measurements(num, elements, values, covariance)) {
         return RHO_ERROR_VALUE;
     }
-    if (!decorrelate_noise(kalman, num, elements, values, covariance, &decorrelated)) {
+    if (!decorrelate_open_elements(kalman, num, elements, values, covariance, &decorrelated)) {
         return RHO_ERROR_SINGULAR;
     }
     return update_with_decorrelated(kalman, &decorrelated);

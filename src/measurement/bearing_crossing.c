@@ -10,6 +10,7 @@
  */
 #define DELTA_MIN_RAD 1.0e-6f
 
+/* True where both coordinates are finite and within RHO_LIMIT_POSITION_M. */
 static int is_valid_place(float x_m, float y_m)
 {
     return rho_is_coordinate(x_m) && rho_is_coordinate(y_m);
@@ -87,8 +88,9 @@ float rho_crossing_angle_rad(const struct rho_crossing_base *base, float bearing
  * Computes the place of a crossing from the nearer sensor: the rounding of sin(delta) is a relative
  * error of the range, and moves the place less.
  */
-static void place_crossing(const struct rho_crossing_base *base, float bearing_a_rad,
-                           float bearing_b_rad, struct rho_crossing *crossing)
+static void place_crossing_by_shorter_range(const struct rho_crossing_base *base,
+                                            float bearing_a_rad, float bearing_b_rad,
+                                            struct rho_crossing *crossing)
 {
     int from_a = crossing->range_a_m <= crossing->range_b_m;
     float bearing_rad = from_a ? bearing_a_rad : bearing_b_rad;
@@ -117,7 +119,7 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
     crossing->delta_rad = angles.delta_rad;
     crossing->range_a_m = over_a_m / sine;
     crossing->range_b_m = over_b_m / sine;
-    place_crossing(base, bearing_a_rad, bearing_b_rad, crossing);
+    place_crossing_by_shorter_range(base, bearing_a_rad, bearing_b_rad, crossing);
     return RHO_CROSSING_MEETS;
 }
 

@@ -72,6 +72,7 @@ struct blind_moments_sum {
     float share, first, second;
 };
 
+/* Adds the integrals over one blind zone, whose ends are in sigmas from the mean. */
 static void add_zone_moments(struct blind_moments_sum *sum, float from, float to)
 {
     const float at_from = normal_density(from), at_to = normal_density(to);
@@ -120,8 +121,9 @@ struct component {
     float mean, variance;
 };
 
-static int predict_range_rate(const struct rho_sensor *sensor, const float *state,
-                              const float *covariance, struct component *view)
+/* Returns 0 for a sensor without a notch, and where no range rate can be predicted. */
+static int predict_notched_range_rate(const struct rho_sensor *sensor, const float *state,
+                                      const float *covariance, struct component *view)
 {
     float projected[6];
     if (!rho_notch_sensor_has_notch(sensor) ||
@@ -137,20 +139,21 @@ float rho_notch_blind_probability(const struct rho_sensor *sensor, const float *
                                   const float *covariance)
 {
     struct component view;
-    return predict_range_rate(sensor, state, covariance, &view)
+    return predict_notched_range_rate(sensor, state, covariance, &view)
                ? blind_moments(sensor, view.mean, rho_sqrt(view.variance)).share
                : 0.0f;
 }
 
 /*
- * Gives a linear function of the state another mean (moved by `off`) and variance; the rest of the
- * estimate follows by its correlation.
+ * Gives a linear function of the state another mean (moved by mean_shift) and variance; the rest of
+ * the estimate follows by its correlation.
  */
-static void set_component_moments(const struct component *view, float off, float variance,
-                                  int num_states, float *state, float *covariance)
+static void impose_component_moments(const struct component *view, float mean_shift,
+                                     float new_variance, int num_states, float *state,
+                                     float *covariance)
 {
     const float per_variance = 1.0f / view->variance;
-    const float taken = (view->variance - variance) * per_variance * per_variance;
+    const float taken = (view->variance - new_variance) * per_variance * per_variance;
     float projected[9];
     for (int i = 0; i < num_states; i++) {
         projected[i] = 0.0f;
@@ -159,7 +162,7 @@ static void set_component_moments(const struct component *view, float off, float
         }
     }
     for (int i = 0; i < num_states; i++) {
-        state[i] += projected[i] * off * per_variance;
+        state[i] += projected[i] * mean_shift * per_variance;
         for (int j = 0; j < i; j++) {
             covariance[RHO_AT(i, j)] -= projected[i] * projected[j] * taken;
         }
@@ -175,8 +178,8 @@ static void set_component_moments(const struct component *view, float off, float
  * Measures the speed across the line of sight as 0, with the notch's width as its sigma, if the
  * estimate allows that the target stands: a standing target has no speed across, either.
  */
-static void assume_no_cross_speed(const struct component *rate, float notch_mps, int num_states,
-                                  float *state, float *covariance)
+static void assume_no_cross_speed_if_possible(const struct component *rate, float notch_mps,
+                                              int num_states, float *state, float *covariance)
 {
     struct component across = {.row = {0.0f, 0.0f, 0.0f, -rate->row[4], rate->row[3], 0.0f}};
     float projected[6];
@@ -187,8 +190,8 @@ static void assume_no_cross_speed(const struct component *rate, float notch_mps,
         across.mean * across.mean <
             STAND_SIGMAS * STAND_SIGMAS * across.variance + most_mps * most_mps) {
         const float kept = notch_mps * notch_mps / (across.variance + notch_mps * notch_mps);
-        set_component_moments(&across, across.mean * (kept - 1.0f), across.variance * kept,
-                              num_states, state, covariance);
+        impose_component_moments(&across, across.mean * (kept - 1.0f), across.variance * kept,
+                                 num_states, state, covariance);
     }
 }
 
@@ -196,7 +199,7 @@ float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho
                                int num_states, float *state, float *covariance)
 {
     struct component rate;
-    if (!predict_range_rate(sensor, state, covariance, &rate)) {
+    if (!predict_notched_range_rate(sensor, state, covariance, &rate)) {
         return 1.0f - look->pd;
     }
     const float sigma = rho_sqrt(rate.variance), seen = 1.0f - look->pd;
@@ -206,11 +209,11 @@ float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho
     float kept = (seen + look->pd * blind.second) / missed - off * off;
     kept = kept > KEPT_MIN ? kept < KEPT_MAX ? kept : KEPT_MAX : KEPT_MIN;
     if (blind.share > 0.0f) {
-        set_component_moments(&rate, off * sigma, rate.variance * kept, num_states, state,
-                              covariance);
+        impose_component_moments(&rate, off * sigma, rate.variance * kept, num_states, state,
+                                 covariance);
     }
     if (look->may_stand && blind.share > STAND_SHARE * missed) {
-        assume_no_cross_speed(&rate, sensor->notch_mps, num_states, state, covariance);
+        assume_no_cross_speed_if_possible(&rate, sensor->notch_mps, num_states, state, covariance);
     }
     return missed;
 }

@@ -15,45 +15,46 @@
 
 /* ---- ranges of values ------------------------------------------------------------------------ */
 
-static int is_speed(float v_mps)
+static int is_valid_speed(float v_mps)
 {
     return rho_is_within(v_mps, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS);
 }
 
-static int is_sigma(float sigma)
+static int is_valid_sigma(float sigma)
 {
     return rho_is_within(sigma, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX);
 }
 
-static int is_sigma_rad(float sigma_rad)
+static int is_valid_sigma_rad(float sigma_rad)
 {
     return rho_is_within(sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
 }
 
-static int is_offset(int64_t offset_us)
+static int is_valid_offset(int64_t offset_us)
 {
     return offset_us <= RHO_LIMIT_OFFSET_US && offset_us >= -RHO_LIMIT_OFFSET_US;
 }
 
 static int is_valid_velocity(const struct rho_plot *plot, uint32_t measures)
 {
-    return is_speed(plot->vx_mps) && is_speed(plot->vy_mps) &&
-           (!(measures & RHO_MEASURES_Z) || is_speed(plot->vz_mps)) && is_sigma(plot->sigma_mps);
+    return is_valid_speed(plot->vx_mps) && is_valid_speed(plot->vy_mps) &&
+           (!(measures & RHO_MEASURES_Z) || is_valid_speed(plot->vz_mps)) &&
+           is_valid_sigma(plot->sigma_mps);
 }
 
 int rho_measurement_is_valid_plot(const struct rho_plot *plot, uint32_t measures)
 {
-    if (!is_offset(plot->offset_us) || !rho_is_coordinate(plot->x_m) ||
-        !rho_is_coordinate(plot->y_m) || !is_sigma(plot->sigma_range_m) ||
-        !is_sigma(plot->sigma_cross_m)) {
+    if (!is_valid_offset(plot->offset_us) || !rho_is_coordinate(plot->x_m) ||
+        !rho_is_coordinate(plot->y_m) || !is_valid_sigma(plot->sigma_range_m) ||
+        !is_valid_sigma(plot->sigma_cross_m)) {
         return 0;
     }
     if ((measures & RHO_MEASURES_Z) &&
-        !(rho_is_coordinate(plot->z_m) && is_sigma(plot->sigma_up_m))) {
+        !(rho_is_coordinate(plot->z_m) && is_valid_sigma(plot->sigma_up_m))) {
         return 0;
     }
     if ((measures & RHO_MEASURES_RANGE_RATE) &&
-        !(is_speed(plot->range_rate_mps) && is_sigma(plot->sigma_range_rate_mps))) {
+        !(is_valid_speed(plot->range_rate_mps) && is_valid_sigma(plot->sigma_range_rate_mps))) {
         return 0;
     }
     return !(measures & RHO_MEASURES_VELOCITY) || is_valid_velocity(plot, measures);
@@ -63,7 +64,7 @@ int rho_measurement_is_valid_plot(const struct rho_plot *plot, uint32_t measures
  * True for a span of range rates of 0 (not ambiguous), or one within its limits in a build with
  * RHO_AMBIGUOUS_RANGE_RATES.
  */
-static int is_ambiguity_span(float span_mps)
+static int is_valid_range_rate_span(float span_mps)
 {
     return rho_is_within(span_mps, 0.0f, 0.0f) ||
            (RHO_AMBIGUOUS_RANGE_RATES &&
@@ -72,8 +73,9 @@ static int is_ambiguity_span(float span_mps)
 
 int rho_measurement_is_valid_sensor(const struct rho_sensor *sensor)
 {
-    return is_ambiguity_span(sensor->range_rate_span_mps) && rho_is_coordinate(sensor->x_m) &&
-           rho_is_coordinate(sensor->y_m) && rho_is_coordinate(sensor->z_m) &&
+    return is_valid_range_rate_span(sensor->range_rate_span_mps) &&
+           rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
+           rho_is_coordinate(sensor->z_m) &&
            rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
            rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
            rho_is_within(sensor->time_bias_s, -RHO_LIMIT_BIAS_S, RHO_LIMIT_BIAS_S);
@@ -87,20 +89,21 @@ int32_t rho_measurement_time_bias_us(const struct rho_sensor *sensor)
 
 /* ---- polar plots ----------------------------------------------------------------------------- */
 
+/* True where the measured fields of a polar plot are finite and within their limits. */
 static int is_valid_polar_plot(const struct rho_polar_plot *polar, uint32_t measures)
 {
     if (!(polar->range_m > 0.0f && polar->range_m <= RANGE_MAX_M) ||
-        !rho_is_within(polar->azimuth_rad, -RHO_PI, RHO_PI) || !is_sigma(polar->sigma_range_m) ||
-        !is_sigma_rad(polar->sigma_azimuth_rad)) {
+        !rho_is_within(polar->azimuth_rad, -RHO_PI, RHO_PI) ||
+        !is_valid_sigma(polar->sigma_range_m) || !is_valid_sigma_rad(polar->sigma_azimuth_rad)) {
         return 0;
     }
     if ((measures & RHO_MEASURES_Z) &&
         !(rho_is_within(polar->elevation_rad, -RHO_HALF_PI, RHO_HALF_PI) &&
-          is_sigma_rad(polar->sigma_elevation_rad))) {
+          is_valid_sigma_rad(polar->sigma_elevation_rad))) {
         return 0;
     }
     return !(measures & RHO_MEASURES_RANGE_RATE) ||
-           (is_speed(polar->range_rate_mps) && is_sigma(polar->sigma_range_rate_mps));
+           (is_valid_speed(polar->range_rate_mps) && is_valid_sigma(polar->sigma_range_rate_mps));
 }
 
 /* A polar plot from which the sensor's biases are subtracted, and the sensor's position. */
@@ -197,7 +200,7 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
         return RHO_ERROR_VALUE;
     }
     struct unbiased_polar seen = remove_biases(polar, measures, sensor);
-    if (!(seen.range_m > 0.0f && seen.range_m <= RANGE_MAX_M) || !is_offset(seen.offset_us)) {
+    if (!(seen.range_m > 0.0f && seen.range_m <= RANGE_MAX_M) || !is_valid_offset(seen.offset_us)) {
         return RHO_ERROR_VALUE;
     }
     unbiased_polar_to_plot(&seen, polar, measures, &converted);
@@ -241,6 +244,7 @@ static int are_equal(float a, float b)
     return a <= b && a >= b;
 }
 
+/* Variance of a sigma that is multiplied by its sensor's factor. */
 static float scaled_variance(float sigma_m, float factor)
 {
     return sigma_m * sigma_m * (factor * factor);

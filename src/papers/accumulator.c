@@ -30,13 +30,13 @@ typedef char rho_assert_accumulator_ram[sizeof(struct rho_accumulator) <= RHO_RA
                                             ? 1
                                             : -1];
 
-enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t size,
+enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t object_size,
                                      const struct rho_accumulator_config *config)
 {
     if (!accumulator || !config) {
         return RHO_ERROR_NULL;
     }
-    if (size != sizeof *accumulator) {
+    if (object_size != sizeof *accumulator) {
         return RHO_ERROR_SIZE;
     }
     if (rho_accumulator_count_cells(config, &accumulator->theta_cells, &accumulator->rho_cells) !=
@@ -123,7 +123,8 @@ static unsigned find_scans_outside(const struct rho_accumulator_pass *pass)
     return scans;
 }
 
-static void choose_row_format(struct rho_accumulator_pass *pass)
+/* Chooses cells of 8 or 16 bits, sparse or dense rows, and whether rows are pruned. */
+static void choose_row_format_and_pruning(struct rho_accumulator_pass *pass)
 {
     const struct rho_accumulator_config *config = &pass->accumulator->config;
     pass->counts_points = config->votes == RHO_VOTES_POINTS;
@@ -176,7 +177,7 @@ enum rho_status rho_accumulator_find_peaks(struct rho_accumulator *accumulator,
                                                  .min_share = accumulator->config.min_share},
                                         .num_points = num_points,
                                         .neighbours = accumulator->config.neighbours};
-    choose_row_format(&pass);
+    choose_row_format_and_pruning(&pass);
     if (pass.is_sparse) {
         clear_rows(&pass);
     } else {

@@ -54,7 +54,7 @@ unsigned rho_accumulator_project_clamped(const float *restrict x_m, const float 
  * reversed if the row stands in for a neighbour beyond the ends of theta.
  */
 void rho_accumulator_fill_row(struct rho_accumulator_pass *pass, unsigned slot, unsigned theta_cell,
-                              int is_turned);
+                              int is_rho_reversed);
 
 /* Fills a row slot with the votes of the first num_kept points of room.few only. */
 void rho_accumulator_fill_row_with_kept(struct rho_accumulator_pass *pass, unsigned slot,

@@ -62,7 +62,8 @@ static uint32_t min_votes_by_share(const struct rho_peak_list *list)
     return least < list->votes_max ? least : list->votes_max;
 }
 
-static void update_vote_limits(struct rho_peak_list *list, uint32_t votes)
+/* Sets the most votes of a peak, and raises the list's min_votes by its share of them. */
+static void set_votes_max_raise_min(struct rho_peak_list *list, uint32_t votes)
 {
     list->votes_max = votes;
     uint32_t least = min_votes_by_share(list);
@@ -75,7 +76,7 @@ void rho_peak_list_add(struct rho_peak_list *list, struct rho_accumulator_peak p
         return;
     }
     if (peak.votes > list->votes_max) {
-        update_vote_limits(list, peak.votes);
+        set_votes_max_raise_min(list, peak.votes);
     }
     if (list->num_peaks < list->max_peaks) {
         list->peaks[list->num_peaks] = peak;
@@ -235,7 +236,7 @@ static int is_suppressed(const struct kept *kept, const struct rho_accumulator_p
  * Adds the last kept peak to the hash table, unless an earlier one was left out or the table is two
  * thirds full: a third stays free, so that searches are short.
  */
-static void hash_last_kept_peak(struct kept *kept)
+static void hash_last_kept_peak_if_room(struct kept *kept)
 {
     const struct rho_accumulator_peak *peak = &kept->peaks[kept->num_peaks - 1u];
     if (kept->num_listed + 1u < kept->num_peaks || 3u * (kept->num_listed + 1u) > 2u * kept->size) {
@@ -262,7 +263,7 @@ uint32_t rho_peak_list_suppress(struct rho_accumulator_peak *peaks, uint32_t num
     for (uint32_t i = 0; i < num_peaks; i++) {
         if (!is_suppressed(&kept, &peaks[i])) {
             peaks[kept.num_peaks++] = peaks[i];
-            hash_last_kept_peak(&kept);
+            hash_last_kept_peak_if_room(&kept);
         }
     }
     return kept.num_peaks;

@@ -79,7 +79,7 @@ struct prune {
 /* ---- points ---------------------------------------------------------------------------------- */
 
 /* Copies the points to room.few, with the bits of their scans; each interval reorders the copy. */
-static void copy_points(struct prune *prune)
+static void copy_points_to_scratch(struct prune *prune)
 {
     const struct rho_accumulator_points *points = prune->pass->points;
     struct rho_accumulator *accumulator = prune->pass->accumulator;
@@ -105,7 +105,8 @@ static void find_middle_and_half_width(const float *values, unsigned n, float *m
     *half = 0.5f * (high - low);
 }
 
-static void enclose_points(struct prune *prune)
+/* Sets the circle that contains all points, about the middle of their extent. */
+static void set_circle_around_points(struct prune *prune)
 {
     const struct rho_accumulator_points *points = prune->pass->points;
     unsigned n = prune->pass->num_points;
@@ -150,6 +151,7 @@ static unsigned num_bins_for(unsigned num_points)
     return num_bins;
 }
 
+/* Computes the bin of each point on a ring of num_bins bins, a power of two. */
 static void bins_of_points(const float *restrict x_m, const float *restrict y_m, unsigned n,
                            struct rho_accumulator_projection place, unsigned num_bins,
                            int32_t *restrict bins)
@@ -194,8 +196,8 @@ static void drop_hopeless_points(const struct prune *prune, struct interval *of)
     }
     bins_of_points(accumulator->room.few.x_m, accumulator->room.few.y_m, n,
                    bin_projection(prune, *of), num_bins, accumulator->room.few.bins);
-    of->num_points = pass->is_narrow ? choose_points_narrow(pass, n, num_bins)
-                                     : choose_points_wide(pass, n, num_bins);
+    of->num_points = pass->is_narrow ? list_points_that_may_peak_narrow(pass, n, num_bins)
+                                     : list_points_that_may_peak_wide(pass, n, num_bins);
     if (of->num_points < n) {
         move_kept_to_front(accumulator, of->num_points);
     }
@@ -207,7 +209,7 @@ static void drop_hopeless_points(const struct prune *prune, struct interval *of)
  * Lists the peaks of the row filled last, once the row after it is filled: rows that are skipped
  * are cleared, and after the last row comes the first one, reversed.
  */
-static void search_last_filled_row(struct prune *prune, unsigned next)
+static void find_peaks_of_last_filled_row(struct prune *prune, unsigned next)
 {
     struct rho_accumulator_pass *pass = prune->pass;
     unsigned row = prune->last_filled, slot = (row + 1u) % 3u;
@@ -226,10 +228,10 @@ static void search_last_filled_row(struct prune *prune, unsigned next)
  * Before the first row after a gap: searches the row filled last, and sets the row above to its
  * votes: none, as it was skipped, or for row 0 those of the last row, reversed.
  */
-static void start_run_at_row(struct prune *prune, unsigned row)
+static void prepare_first_row_after_gap(struct prune *prune, unsigned row)
 {
     if (prune->last_filled == NONE || prune->last_filled + 1u != row) {
-        search_last_filled_row(prune, row);
+        find_peaks_of_last_filled_row(prune, row);
         prune->last_filled = NONE;
         if (row == 0) {
             rho_accumulator_fill_row(prune->pass, 2, prune->pass->accumulator->theta_cells - 1u, 1);
@@ -239,15 +241,16 @@ static void start_run_at_row(struct prune *prune, unsigned row)
     }
 }
 
+/* Fills a row with the votes of the first num_points points, then searches the row before it. */
 static void fill_row_and_search_previous(struct prune *prune, unsigned row, unsigned num_points)
 {
-    start_run_at_row(prune, row);
+    prepare_first_row_after_gap(prune, row);
     if (num_points == prune->pass->num_points) {
         rho_accumulator_fill_row(prune->pass, row % 3u, row, 0);
     } else {
         rho_accumulator_fill_row_with_kept(prune->pass, row % 3u, row, num_points);
     }
-    search_last_filled_row(prune, row);
+    find_peaks_of_last_filled_row(prune, row);
     prune->last_filled = row;
 }
 
@@ -262,7 +265,8 @@ static unsigned cost_of_unpruned_rows(const struct prune *prune, unsigned num_ro
     return num_rows * (WORK_ROW + prune->pass->num_points * 3u / 2u);
 }
 
-static void fill_interval_rows(struct prune *prune, struct interval of)
+/* Fills each row of an interval with its points, and lists the peaks of the rows before. */
+static void fill_and_search_interval_rows(struct prune *prune, struct interval of)
 {
     prune->work += of.num_rows * (WORK_ROW + WORK_POINT * of.num_points);
     for (unsigned row = of.first; row < of.first + of.num_rows; row++) {
@@ -281,7 +285,7 @@ static int is_worth_halving(struct interval of, unsigned num_before)
  * Searches an interval depth-first by halving it. Returns the number of points that the whole
  * interval keeps.
  */
-static unsigned search_interval_by_halving(struct prune *prune, struct interval whole)
+static unsigned search_interval_count_kept_points(struct prune *prune, struct interval whole)
 {
     struct interval stack[HALVINGS_MAX + 1];
     unsigned depth = 0, num_kept = 0;
@@ -297,7 +301,7 @@ static unsigned search_interval_by_halving(struct prune *prune, struct interval 
                 (struct interval){of.first + num_left, of.num_rows - num_left, of.num_points};
             stack[depth++] = (struct interval){of.first, num_left, of.num_points};
         } else if (of.num_points > 0) {
-            fill_interval_rows(prune, of);
+            fill_and_search_interval_rows(prune, of);
         }
     }
     return num_kept;
@@ -309,7 +313,7 @@ static unsigned search_interval_by_halving(struct prune *prune, struct interval 
  * interval cost more than its rows without pruning, or even ROWS_LEAST rows keep many points, all
  * points vote in the next rows before pruning is tried again.
  */
-static void search_next_interval(struct prune *prune, unsigned rows_left)
+static void search_interval_and_adapt_length(struct prune *prune, unsigned rows_left)
 {
     unsigned n = prune->pass->num_points, num_rows = prune->num_rows;
     int is_pruned = num_rows >= ROWS_LEAST;
@@ -318,13 +322,13 @@ static void search_next_interval(struct prune *prune, unsigned rows_left)
     struct interval of = {prune->next_row, num_rows, n};
     prune->next_row += num_rows;
     if (!is_pruned) {
-        fill_interval_rows(prune, of);
+        fill_and_search_interval_rows(prune, of);
         prune->num_rows = ROWS_LEAST;
         prune->num_unpruned += prune->num_unpruned < ROWS_MAX ? prune->num_unpruned : 0u;
         return;
     }
     prune->work = 0;
-    unsigned num_kept = search_interval_by_halving(prune, of);
+    unsigned num_kept = search_interval_count_kept_points(prune, of);
     if (prune->work > cost_of_unpruned_rows(prune, num_rows)) {
         prune->num_rows = 1;
         return;
@@ -347,12 +351,12 @@ void rho_accumulator_search_pruned(struct rho_accumulator_pass *pass)
     if (pass->num_points == 0) {
         return;
     }
-    copy_points(&prune);
-    enclose_points(&prune);
+    copy_points_to_scratch(&prune);
+    set_circle_around_points(&prune);
     while (prune.next_row < num_rows) {
-        search_next_interval(&prune, num_rows - prune.next_row);
+        search_interval_and_adapt_length(&prune, num_rows - prune.next_row);
     }
-    search_last_filled_row(&prune, NONE);
+    find_peaks_of_last_filled_row(&prune, NONE);
     /* all points are within rho_max_m where rows are pruned */
     pass->votes = pass->num_points * num_rows;
 }

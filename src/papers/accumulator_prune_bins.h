@@ -24,8 +24,8 @@ static void NAME(vote_in_bins)(const struct rho_accumulator_pass *pass, CELL *re
  * Sets are_enough[b] if the points in bins b .. b + 2 number min_votes or more. Returns whether any
  * bin is set.
  */
-static int NAME(mark_bins_by_points)(const CELL *restrict votes, CELL *restrict are_enough,
-                                     unsigned num_bins, CELL min_votes)
+static int NAME(mark_bin_triples_by_points)(const CELL *restrict votes, CELL *restrict are_enough,
+                                            unsigned num_bins, CELL min_votes)
 {
     CELL any = 0;
     for (unsigned i = 0; i < num_bins; i++) {
@@ -35,8 +35,9 @@ static int NAME(mark_bins_by_points)(const CELL *restrict votes, CELL *restrict 
     return any;
 }
 
-static int NAME(mark_bins_by_scans)(const CELL *restrict votes, CELL *restrict are_enough,
-                                    unsigned num_bins, CELL min_votes)
+/* Sets are_enough[b] if bins b .. b + 2 hold min_votes scans. Returns whether any bin is set. */
+static int NAME(mark_bin_triples_by_scans)(const CELL *restrict votes, CELL *restrict are_enough,
+                                           unsigned num_bins, CELL min_votes)
 {
     CELL any = 0, add = (CELL)(0x80u - min_votes);
     for (unsigned i = 0; i < num_bins; i++) {
@@ -70,8 +71,8 @@ static unsigned NAME(list_points_in_marked_bins)(int32_t *bins, unsigned n, cons
  * Lists in bins[] the points of room.few that may reach min_votes, by the votes in their bins.
  * Returns their number.
  */
-static unsigned NAME(choose_points)(struct rho_accumulator_pass *pass, unsigned n,
-                                    unsigned num_bins)
+static unsigned NAME(list_points_that_may_peak)(struct rho_accumulator_pass *pass, unsigned n,
+                                                unsigned num_bins)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
     CELL *votes = (CELL *)accumulator->room.few.votes;
@@ -82,8 +83,9 @@ static unsigned NAME(choose_points)(struct rho_accumulator_pass *pass, unsigned 
     NAME(vote_in_bins)(pass, votes, bins, accumulator->room.few.bits, n);
     votes[num_bins] = votes[0];
     votes[num_bins + 1u] = votes[1];
-    if (!(pass->counts_points ? NAME(mark_bins_by_points)(votes, are_enough + 2, num_bins, least)
-                              : NAME(mark_bins_by_scans)(votes, are_enough + 2, num_bins, least))) {
+    if (!(pass->counts_points
+              ? NAME(mark_bin_triples_by_points)(votes, are_enough + 2, num_bins, least)
+              : NAME(mark_bin_triples_by_scans)(votes, are_enough + 2, num_bins, least))) {
         return 0;
     }
     are_enough[0] = are_enough[num_bins];

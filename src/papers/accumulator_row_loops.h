@@ -65,9 +65,9 @@ static unsigned NAME(vote_and_list_reached)(const struct rho_accumulator_pass *p
  * Votes of n points of several scans, with the bit of each point's scan, or 0 where points are
  * counted. Lists cells that reach min_votes; returns their number.
  */
-static unsigned NAME(vote_kept_points)(const struct rho_accumulator_pass *pass, CELL *row,
-                                       const int32_t *cells, const uint16_t *bits, unsigned n,
-                                       uint16_t *reached)
+static unsigned NAME(vote_kept_and_list_reached)(const struct rho_accumulator_pass *pass, CELL *row,
+                                                 const int32_t *cells, const uint16_t *bits,
+                                                 unsigned n, uint16_t *reached)
 {
     unsigned num_reached = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -77,8 +77,9 @@ static unsigned NAME(vote_kept_points)(const struct rho_accumulator_pass *pass, 
     return num_reached;
 }
 
-static unsigned NAME(max_votes_around)(const struct rho_accumulator_pass *pass, const CELL *row,
-                                       unsigned cell)
+/* Most votes of a cell and, with eight neighbours, of the cells left and right of it. */
+static unsigned NAME(max_votes_at_and_beside)(const struct rho_accumulator_pass *pass,
+                                              const CELL *row, unsigned cell)
 {
     unsigned most = NAME(votes_of_cell)(pass, row[cell]);
     if (pass->neighbours == 8) {
@@ -100,8 +101,8 @@ static int NAME(is_peak)(const struct rho_accumulator_pass *pass, unsigned cell,
     if (pass->neighbours == 0) {
         return 1;
     }
-    unsigned above = NAME(max_votes_around)(pass, pass->rows[0], cell);
-    unsigned below = NAME(max_votes_around)(pass, pass->rows[2], cell);
+    unsigned above = NAME(max_votes_at_and_beside)(pass, pass->rows[0], cell);
+    unsigned below = NAME(max_votes_at_and_beside)(pass, pass->rows[2], cell);
     return NAME(votes_of_cell)(pass, row[cell - 1u]) < votes &&
            NAME(votes_of_cell)(pass, row[cell + 1u]) <= votes &&
            above + pass->above_is_first <= votes && below + pass->below_is_first <= votes;
@@ -134,6 +135,7 @@ static void NAME(reverse_row)(CELL *row, unsigned num_cells)
 
 /* ---- dense rows: all cells are searched, block by block ---- */
 
+/* Counts a vote for each point's cell, up to the largest count that a cell holds. */
 static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells, unsigned n)
 {
     for (unsigned i = 0; i < n; i++) {
@@ -157,7 +159,7 @@ static CELL NAME(larger)(CELL a, CELL b)
 }
 
 /* Whether any of n cells, which count points, has min_votes. */
-static int NAME(may_reach_min_points)(const CELL *restrict row, unsigned n, unsigned min_votes)
+static int NAME(has_cell_with_min_points)(const CELL *restrict row, unsigned n, unsigned min_votes)
 {
     CELL most = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -166,11 +168,12 @@ static int NAME(may_reach_min_points)(const CELL *restrict row, unsigned n, unsi
     return most >= min_votes;
 }
 
-static int NAME(may_reach_min_votes)(const struct rho_accumulator_pass *pass, const CELL *row,
-                                     unsigned n)
+/* False where none of n cells has min_votes, points or scans. */
+static int NAME(may_have_cell_with_min_votes)(const struct rho_accumulator_pass *pass,
+                                              const CELL *row, unsigned n)
 {
-    return pass->counts_points ? NAME(may_reach_min_points)(row, n, pass->list.min_votes)
-                               : NAME(may_reach_min_scans)(row, n, pass->list.min_votes);
+    return pass->counts_points ? NAME(has_cell_with_min_points)(row, n, pass->list.min_votes)
+                               : NAME(may_have_cell_with_min_scans)(row, n, pass->list.min_votes);
 }
 
 /* Counts the votes of the cells of a block and of its neighbours on both sides. */
@@ -249,7 +252,8 @@ static void NAME(find_dense_row_peaks)(struct rho_accumulator_pass *pass)
     for (unsigned first = 1; first <= cells;) {
         unsigned left = cells + 1u - first, most = num_passed < BLOCKS ? BLOCK : BLOCKS * BLOCK;
         unsigned n = most < left ? most : left;
-        int may_have = NAME(may_reach_min_votes)(pass, (const CELL *)pass->rows[1] + first, n);
+        int may_have =
+            NAME(may_have_cell_with_min_votes)(pass, (const CELL *)pass->rows[1] + first, n);
         num_passed = may_have ? 0u : num_passed + 1u;
         if (may_have && n > BLOCK) {
             continue; /* test the blocks one by one now */

@@ -48,7 +48,7 @@ static void add_peak(struct rho_accumulator_pass *pass, unsigned cell, unsigned 
  * a time, in words that a compiler vectorises: the bit count of each byte ends in its upper half,
  * and bits that the shift moves into the lower half stay there.
  */
-static int may_reach_min_scans_narrow(const uint8_t *row, unsigned n, unsigned min_votes)
+static int may_have_cell_with_min_scans_narrow(const uint8_t *row, unsigned n, unsigned min_votes)
 {
     const uint64_t ones = UINT64_C(0x0101010101010101);
     uint64_t reached = 0, add = ones * (0x80u - 16u * (min_votes < 8u ? min_votes : 8u));
@@ -64,7 +64,7 @@ static int may_reach_min_scans_narrow(const uint8_t *row, unsigned n, unsigned m
 
 static uint16_t count_scans_wide(uint16_t mask);
 
-static int may_reach_min_scans_wide(const uint16_t *row, unsigned n, unsigned min_votes)
+static int may_have_cell_with_min_scans_wide(const uint16_t *row, unsigned n, unsigned min_votes)
 {
     uint16_t most = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -91,8 +91,9 @@ static int may_reach_min_scans_wide(const uint16_t *row, unsigned n, unsigned mi
  * Computes the cells of points from .. from + n - 1, which are of the scans in the mask `scans`.
  * Points outside the plane are not added to pass->votes.
  */
-static void project_points(struct rho_accumulator_pass *pass, unsigned scans, unsigned from,
-                           unsigned n, struct rho_accumulator_projection place, int32_t *cells)
+static void project_points_and_count_votes(struct rho_accumulator_pass *pass, unsigned scans,
+                                           unsigned from, unsigned n,
+                                           struct rho_accumulator_projection place, int32_t *cells)
 {
     const float *x_m = pass->points->x_m + from, *y_m = pass->points->y_m + from;
     unsigned outside = 0;
@@ -132,6 +133,7 @@ static void reverse_row(const struct rho_accumulator_pass *pass, void *row)
 
 /* ---- sparse rows ----------------------------------------------------------------------------- */
 
+/* Votes of one scan. Lists the cells that reach min_votes by them, and returns their number. */
 static unsigned vote_in_sparse_row(const struct rho_accumulator_pass *pass, void *row,
                                    const int32_t *cells, unsigned n, unsigned scan,
                                    uint16_t *reached)
@@ -166,14 +168,14 @@ static void clear_sparse_row(struct rho_accumulator_pass *pass, unsigned slot)
 }
 
 static void fill_sparse_row(struct rho_accumulator_pass *pass, unsigned slot,
-                            struct rho_accumulator_projection place, int is_turned)
+                            struct rho_accumulator_projection place, int is_rho_reversed)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
     int32_t *cells = accumulator->touched[slot];
     void *row = accumulator->rows[slot];
     unsigned num_reached = 0;
     clear_sparse_row(pass, slot);
-    project_points(pass, ~0u, 0, pass->num_points, place, cells);
+    project_points_and_count_votes(pass, ~0u, 0, pass->num_points, place, cells);
     for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
         unsigned from = first_point_of_scan(pass, scan), n = pass->points->scan_end[scan] - from;
         num_reached += vote_in_sparse_row(pass, row, cells + from, n, scan,
@@ -182,7 +184,7 @@ static void fill_sparse_row(struct rho_accumulator_pass *pass, unsigned slot,
     accumulator->num_touched[slot] = (uint16_t)pass->num_points;
     accumulator->num_reached[slot] = (uint16_t)num_reached;
     clear_guard_cells(pass, row);
-    if (is_turned) {
+    if (is_rho_reversed) {
         reverse_row(pass, row);
         for (unsigned i = 0; i < pass->num_points; i++) {
             cells[i] = accumulator->rho_cells + 1 - cells[i];
@@ -201,9 +203,10 @@ void rho_accumulator_fill_row_with_kept(struct rho_accumulator_pass *pass, unsig
     clear_sparse_row(pass, slot);
     rho_accumulator_project(accumulator->room.few.x_m, accumulator->room.few.y_m, num_kept,
                             rho_accumulator_projection(accumulator, theta_cell), cells);
-    unsigned num_reached = pass->is_narrow
-                               ? vote_kept_points_narrow(pass, row, cells, bits, num_kept, reached)
-                               : vote_kept_points_wide(pass, row, cells, bits, num_kept, reached);
+    unsigned num_reached =
+        pass->is_narrow
+            ? vote_kept_and_list_reached_narrow(pass, row, cells, bits, num_kept, reached)
+            : vote_kept_and_list_reached_wide(pass, row, cells, bits, num_kept, reached);
     accumulator->num_touched[slot] = (uint16_t)num_kept;
     accumulator->num_reached[slot] = (uint16_t)num_reached;
 }
@@ -237,6 +240,7 @@ static void vote_in_dense_row(const struct rho_accumulator_pass *pass, void *row
     }
 }
 
+/* Votes of one scan in a dense row, for as many points at a time as the scratch list holds. */
 static void vote_scan_in_chunks(struct rho_accumulator_pass *pass, void *row,
                                 struct rho_accumulator_projection place, unsigned scan)
 {
@@ -245,13 +249,13 @@ static void vote_scan_in_chunks(struct rho_accumulator_pass *pass, void *row,
     unsigned end = pass->points->scan_end[scan], most = RHO_ACCUMULATOR_SPARSE_MAX;
     for (unsigned from = first_point_of_scan(pass, scan); from < end; from += most) {
         unsigned n = end - from < most ? end - from : most;
-        project_points(pass, 1u << scan, from, n, place, cells);
+        project_points_and_count_votes(pass, 1u << scan, from, n, place, cells);
         vote_in_dense_row(pass, row, cells, n, scan);
     }
 }
 
 static void fill_dense_row(struct rho_accumulator_pass *pass, unsigned slot,
-                           struct rho_accumulator_projection place, int is_turned)
+                           struct rho_accumulator_projection place, int is_rho_reversed)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
     void *row = accumulator->rows[slot];
@@ -261,7 +265,7 @@ static void fill_dense_row(struct rho_accumulator_pass *pass, unsigned slot,
         vote_scan_in_chunks(pass, row, place, scan);
     }
     clear_guard_cells(pass, row);
-    if (is_turned) {
+    if (is_rho_reversed) {
         reverse_row(pass, row);
     }
 }
@@ -269,17 +273,17 @@ static void fill_dense_row(struct rho_accumulator_pass *pass, unsigned slot,
 /* ---- all rows -------------------------------------------------------------------------------- */
 
 void rho_accumulator_fill_row(struct rho_accumulator_pass *pass, unsigned slot, unsigned theta_cell,
-                              int is_turned)
+                              int is_rho_reversed)
 {
     struct rho_accumulator_projection place =
         rho_accumulator_projection(pass->accumulator, theta_cell);
     uint32_t votes = pass->votes;
     if (pass->is_sparse) {
-        fill_sparse_row(pass, slot, place, is_turned);
+        fill_sparse_row(pass, slot, place, is_rho_reversed);
     } else {
-        fill_dense_row(pass, slot, place, is_turned);
+        fill_dense_row(pass, slot, place, is_rho_reversed);
     }
-    if (is_turned) {
+    if (is_rho_reversed) {
         pass->votes = votes; /* a reversed row is filled a second time, and its votes count once */
     }
 }

@@ -79,13 +79,13 @@ static int is_usable(const struct rho_hough_config *config)
            config->v_min_mps < config->v_max_mps;
 }
 
-enum rho_status rho_hough_init(struct rho_hough *hough, size_t size,
+enum rho_status rho_hough_init(struct rho_hough *hough, size_t object_size,
                                const struct rho_hough_config *config)
 {
     if (!hough || !config) {
         return RHO_ERROR_NULL;
     }
-    if (size != sizeof *hough) {
+    if (object_size != sizeof *hough) {
         return RHO_ERROR_SIZE;
     }
     struct rho_accumulator_config plane = accumulator_config_of(config);
@@ -213,13 +213,13 @@ static enum rho_status find_ht_peaks(struct rho_hough *hough, const struct rho_h
 /* ---- pairs, in as many passes as it takes ---------------------------------------------------- */
 
 static struct rho_hough_rows widened_rows(const struct rho_hough *hough, struct rho_hough_rows rows,
-                                          int32_t by)
+                                          int32_t by_rows)
 {
-    int32_t all = hough->theta_cells, first = rows.first - by;
-    if (rows.count + 2 * by >= all) {
+    int32_t all = hough->theta_cells, first = rows.first - by_rows;
+    if (rows.count + 2 * by_rows >= all) {
         return (struct rho_hough_rows){0, all};
     }
-    return (struct rho_hough_rows){first < 0 ? first + all : first, rows.count + 2 * by};
+    return (struct rho_hough_rows){first < 0 ? first + all : first, rows.count + 2 * by_rows};
 }
 
 /* Sets the normals of lines at the borders of the held rows, widened by one row at either end. */

@@ -200,6 +200,7 @@ static struct columns reached_columns(const struct band *band, struct band_cell 
                             cell.column + reach < last ? cell.column + reach : last};
 }
 
+/* Adds a cell's votes, scaled by their distance, to the sums of a row's cells. */
 static void spread_cell_over_row(const struct band *band, int32_t row, struct band_cell cell,
                                  uint32_t *sums)
 {
@@ -213,6 +214,7 @@ static void spread_cell_over_row(const struct band *band, int32_t row, struct ba
     }
 }
 
+/* Adds a cell to the list of peaks, or to the plane of the pass where there is no list. */
 static void list_or_note_cell(const struct rho_hough_pass *pass, struct rho_peak_list *list,
                               int32_t row, int32_t column, uint32_t votes)
 {

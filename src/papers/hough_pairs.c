@@ -48,7 +48,8 @@ struct rho_line rho_hough_line_through_pair(const struct rho_hough_points *point
  * Squared distance of two lines in units of eps, (drho / eps)^2 + (dtheta / eps)^2; negative where
  * either difference is more than 2 eps.
  */
-static float line_distance2(const struct rho_hough *hough, struct rho_line a, struct rho_line b)
+static float line_distance2_or_negative(const struct rho_hough *hough, struct rho_line a,
+                                        struct rho_line b)
 {
     float drho_m = a.rho_m - b.rho_m, dtheta_rad = a.theta_rad - b.theta_rad;
     if (dtheta_rad > RHO_HALF_PI ||
@@ -78,7 +79,7 @@ void rho_hough_update_nearest(const struct rho_hough *hough, struct rho_line lin
                               struct rho_line kernel, struct rho_hough_pair pair,
                               struct rho_hough_nearest *nearest)
 {
-    float distance2 = line_distance2(hough, line, kernel);
+    float distance2 = line_distance2_or_negative(hough, line, kernel);
     if (distance2 < 0.0f) {
         return;
     }
@@ -115,7 +116,7 @@ static float indeterminacy(const struct rho_hough *hough, const struct rho_hough
         return 0.0f;
     }
     struct rho_line between = rho_angle_line(first_x_m, first_y_m, dx_m, dy_m);
-    float distance2 = line_distance2(hough, line, between);
+    float distance2 = line_distance2_or_negative(hough, line, between);
     return distance2 < 0.0f ? 0.0f : rho_exp(-0.5f * distance2);
 }
 
@@ -124,6 +125,7 @@ static uint32_t to_vote_parts(float membership)
     return (uint32_t)(membership * (float)RHO_HOUGH_VOTE + 0.5f);
 }
 
+/* Falsity of every vote: lambda times the squared probability of a false plot. */
 static float falsity(const struct rho_hough *hough)
 {
     return hough->config.lambda_k * hough->config.p_false * hough->config.p_false;
@@ -191,6 +193,7 @@ static uint16_t *chain_head_of_bin(struct rho_hough *hough, struct bin bin)
     return &hough->work.sparse.step.kernels.heads[(key ^ key >> 16) % RHO_HOUGH_CHAINS];
 }
 
+/* Keeps a pair as a kernel for the next scan; with a full list it is dropped and counted. */
 static void store_kernel(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
                          struct rho_hough_pair pair)
 {
@@ -250,6 +253,7 @@ static void compare_kernels_in_bin(const struct rho_hough_pass *pass, unsigned s
     }
 }
 
+/* Finds the two kernels nearest to a line, in the bins around the line's own. */
 static struct rho_hough_nearest find_nearest_kernels(const struct rho_hough_pass *pass,
                                                      unsigned scan, struct rho_line line)
 {
@@ -269,6 +273,7 @@ static struct rho_hough_nearest find_nearest_kernels(const struct rho_hough_pass
 
 /* ---- votes ----------------------------------------------------------------------------------- */
 
+/* False where the direction (dx_m, dy_m) of a line is certainly that of none of the held rows. */
 static int may_line_be_in_held_rows(const struct rho_hough_pass *pass, float dx_m, float dy_m)
 {
     float from = pass->from_x * dx_m + pass->from_y * dy_m;
@@ -300,8 +305,9 @@ static uint32_t component_of_vote(const struct rho_hough_pass *pass, struct rho_
                : larger(of.truth, larger(of.indeterminacy, of.falsity));
 }
 
-static void vote_pair_by_kernels(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
-                                 struct rho_hough_pair pair)
+/* Votes for a pair by its nearest kernels, and keeps it as a kernel for the next scan's pairs. */
+static void vote_pair_and_store_kernel(struct rho_hough_pass *pass, unsigned scan,
+                                       struct rho_line line, struct rho_hough_pair pair)
 {
     const struct rho_hough *hough = pass->hough;
     int32_t row = rho_hough_row_of_theta(hough, line.theta_rad);
@@ -327,7 +333,7 @@ static void vote_pair(struct rho_hough_pass *pass, unsigned scan, struct rho_hou
     }
     struct rho_line line = rho_hough_line_through_pair(points, pair);
     if (rho_hough_uses_kernels(pass->hough)) {
-        vote_pair_by_kernels(pass, scan, line, pair);
+        vote_pair_and_store_kernel(pass, scan, line, pair);
     } else if (rho_hough_has_row(pass->hough, pass->wanted,
                                  rho_hough_row_of_theta(pass->hough, line.theta_rad))) {
         rho_hough_add_votes(pass, line, RHO_HOUGH_VOTE);

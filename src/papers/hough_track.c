@@ -102,7 +102,8 @@ struct rho_hough_memberships rho_hough_pair_memberships(const struct rho_hough *
  * Number of rows between a pair's cell and the queried cell; across the ends of theta, where rho is
  * reversed, *column is reversed too.
  */
-static int32_t row_distance_to_cell(const struct cell_query *query, int32_t row, int32_t *column)
+static int32_t row_distance_and_turned_column(const struct cell_query *query, int32_t row,
+                                              int32_t *column)
 {
     int32_t away = row - query->row, all = query->hough->theta_cells;
     if (2 * away > all || 2 * away < -all) {
@@ -124,6 +125,7 @@ static void scale_vote_by_distance(const struct cell_query *query, int32_t rows,
     }
 }
 
+/* Vote of a pair for the queried cell; weight 0: the pair does not vote for it. */
 static struct vote pair_vote_for_cell(const struct cell_query *query, unsigned scan,
                                       struct rho_hough_pair pair)
 {
@@ -140,8 +142,8 @@ static struct vote pair_vote_for_cell(const struct cell_query *query, unsigned s
     if (column < 0) {
         return none;
     }
-    int32_t rows =
-        row_distance_to_cell(query, rho_hough_row_of_theta(hough, line.theta_rad), &column);
+    int32_t rows = row_distance_and_turned_column(
+        query, rho_hough_row_of_theta(hough, line.theta_rad), &column);
     int32_t columns = column < query->column ? query->column - column : column - query->column;
     if (rows > (is_spread ? hough->theta_reach : 0) ||
         columns > (is_spread ? hough->rho_reach : 0)) {
@@ -164,18 +166,18 @@ static void add_memberships(struct rho_hough_memberships *sums,
 
 /*
  * Sum of the votes for the queried cell of plot i paired with each plot of the next scan
- * (is_behind) or of the previous one; adds their memberships to *sums.
+ * (with_next_scan) or of the previous one; adds their memberships to *sums.
  */
 static uint32_t votes_of_plot_pairs(const struct cell_query *query, unsigned scan, uint32_t i,
-                                    int is_behind, struct rho_hough_memberships *sums)
+                                    int with_next_scan, struct rho_hough_memberships *sums)
 {
     const struct rho_hough_points *points = query->points;
-    unsigned other = is_behind ? scan + 1u : scan - 1u;
+    unsigned other = with_next_scan ? scan + 1u : scan - 1u;
     uint32_t votes = 0;
     for (uint32_t j = rho_hough_scan_start(points, other); j < points->at.scan_end[other]; j++) {
         if (may_plot_vote(query, j)) {
-            struct rho_hough_pair pair = {is_behind ? i : j, is_behind ? j : i};
-            struct vote vote = pair_vote_for_cell(query, is_behind ? other : scan, pair);
+            struct rho_hough_pair pair = {with_next_scan ? i : j, with_next_scan ? j : i};
+            struct vote vote = pair_vote_for_cell(query, with_next_scan ? other : scan, pair);
             votes = rho_count(votes, vote.weight);
             add_memberships(sums, &vote.of);
         }
@@ -213,6 +215,7 @@ static void add_plot_to_fit(const struct cell_query *query, unsigned scan, uint3
     track->mask = (uint16_t)(track->mask | 1u << scan);
 }
 
+/* Solves the fit of position over time; the track gets its position at at_s, and its velocity. */
 static void fit_motion(const struct sums *sums, float at_s, struct rho_hough_track *track)
 {
     float divisor = sums->n * sums->tt - sums->t * sums->t;

@@ -58,13 +58,13 @@ static float max_sensor_distance_m(const struct rho_passive_paper_config *config
     return apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
 }
 
-enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t size,
+enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t object_size,
                                        const struct rho_passive_paper_config *config)
 {
     if (!paper || !config) {
         return RHO_ERROR_NULL;
     }
-    if (size != sizeof *paper) {
+    if (object_size != sizeof *paper) {
         return RHO_ERROR_SIZE;
     }
     if (!is_usable(config)) {

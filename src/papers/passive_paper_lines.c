@@ -28,6 +28,7 @@ static struct cell wrapped_cell(const struct rho_passive_paper_search *search, i
     return cell;
 }
 
+/* Sum of votes of a cell, also beyond the ends of theta; 0 beyond the ends of rho. */
 static unsigned votes_at(const struct rho_passive_paper_search *search, int row, int column)
 {
     struct cell cell = wrapped_cell(search, row, column);
@@ -97,7 +98,9 @@ static void clear_cells_around(struct rho_passive_paper_search *search, struct c
     }
 }
 
-static void add_line(struct rho_passive_paper_search *search, struct cell at, unsigned height)
+/* Adds the line of a cell, without its fit; beyond the capacity it is dropped and counted. */
+static void add_line(struct rho_passive_paper_search *search, struct cell at,
+                     unsigned votes_plus_one)
 {
     struct rho_passive_paper *paper = search->paper;
     struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, at.row);
@@ -113,7 +116,7 @@ static void add_line(struct rho_passive_paper_search *search, struct cell at, un
                  search->middle_y_m * direction.sine,
         .theta_rad = ((float)at.row + 0.5f) * RHO_PI / (float)search->rows,
         .votes = UINT8_MAX,
-        .votes_sum = (uint16_t)(height - 1u)};
+        .votes_sum = (uint16_t)(votes_plus_one - 1u)};
 }
 
 static void count_confirmed_cells(struct rho_passive_paper_search *search)
@@ -165,9 +168,9 @@ static void add_crossing_to_fit(const struct rho_passive_paper_search *search, u
  * Among the cell of a line and the neighbours that may confirm it, finds the cell with the most
  * votes of the current pair of sensors. Returns its votes.
  */
-static unsigned find_most_voted_neighbour(const struct rho_passive_paper_search *search,
-                                          const struct rho_passive_paper_fit *fit,
-                                          struct cell *best)
+static unsigned find_most_voted_cell_near_line(const struct rho_passive_paper_search *search,
+                                               const struct rho_passive_paper_fit *fit,
+                                               struct cell *best)
 {
     uint8_t *counts = search->paper->rows[0];
     *best = (struct cell){fit->row, fit->column};
@@ -186,12 +189,13 @@ static unsigned find_most_voted_neighbour(const struct rho_passive_paper_search 
     return most;
 }
 
+/* Adds the last pair's crossings in the most voted cell at a line to the line's fit. */
 static void add_pair_crossings_to_fit(struct rho_passive_paper_search *search, unsigned number)
 {
     const struct rho_passive_paper *paper = search->paper;
     struct rho_passive_paper_line *line = &search->paper->lines[number];
     struct cell cell;
-    unsigned votes = find_most_voted_neighbour(search, &paper->fits[number], &cell);
+    unsigned votes = find_most_voted_cell_near_line(search, &paper->fits[number], &cell);
     struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, cell.row);
     line->votes = votes < line->votes ? (uint16_t)votes : line->votes;
     for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
@@ -214,9 +218,9 @@ static float cell_variance_m2(const struct rho_passive_paper *paper)
  * Solves the least-squares fit of position = p + u d, u the time of the scan, and fills the line's
  * position, velocity and covariance at the newest scan.
  */
-static void solve_line_fit(const struct rho_passive_paper_search *search,
-                           const struct rho_passive_paper_fit *fit,
-                           struct rho_passive_paper_line *line)
+static void fit_line_position_and_velocity(const struct rho_passive_paper_search *search,
+                                           const struct rho_passive_paper_fit *fit,
+                                           struct rho_passive_paper_line *line)
 {
     float n = (float)fit->count, spread = fit->uu - fit->u * fit->u / n;
     line->crossings = (uint16_t)(fit->count < UINT16_MAX ? fit->count : UINT16_MAX);
@@ -252,6 +256,6 @@ void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search)
         }
     }
     for (unsigned line = 0; line < paper->num_lines; line++) {
-        solve_line_fit(search, &paper->fits[line], &paper->lines[line]);
+        fit_line_position_and_velocity(search, &paper->fits[line], &paper->lines[line]);
     }
 }

@@ -96,15 +96,16 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
 }
 
 /*
- * Notes the votes of a row in the plane: `first` is subtracted from each cell, 1 for the sums of
- * all pairs, which count from 1 where 0 is a cell that is not confirmed.
+ * Notes the votes of a row in the plane: `subtracted` is subtracted from each cell, 1 for the sums
+ * of all pairs, which count from 1 where 0 is a cell that is not confirmed.
  */
 static void note_row_votes(const struct rho_passive_paper_search *search, int row,
-                           const uint8_t *cells, unsigned first, struct rho_plane *plane)
+                           const uint8_t *cells, unsigned subtracted, struct rho_plane *plane)
 {
     for (int column = 0; column < search->columns; column++) {
-        if (cells[column] > first) {
-            rho_plane_note_votes(plane, (unsigned)row, (unsigned)column, cells[column] - first);
+        if (cells[column] > subtracted) {
+            rho_plane_note_votes(plane, (unsigned)row, (unsigned)column,
+                                 cells[column] - subtracted);
         }
     }
 }
@@ -189,6 +190,7 @@ static uint32_t scans_voting_for_cell(const struct rho_passive_paper_search *sea
     return mask;
 }
 
+/* Lists the cells with votes_min votes of the pair crossed last, best first. */
 static void list_pair_cells(const struct rho_passive_paper_search *search,
                             struct rho_peak_list *list)
 {

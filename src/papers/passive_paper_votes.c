@@ -21,6 +21,7 @@ static unsigned collect_bearings(const struct rho_batch *batch, unsigned scan, u
     return batch->num_bearings[scan][sensor];
 }
 
+/* Stores a crossing of a scan; beyond the capacity it is dropped and counted. */
 static void store_crossing(struct rho_passive_paper_search *search, unsigned scan,
                            const struct rho_crossing *crossing)
 {
@@ -51,9 +52,10 @@ int rho_passive_paper_make_ghost_matrix(const struct rho_passive_paper_config *c
     return 1;
 }
 
-static void cross_scan(struct rho_passive_paper_search *search,
-                       const struct rho_crossing_base *base, unsigned scan,
-                       struct rho_passive_paper_pair pair)
+/* Stores the crossings of a pair of sensors in one scan that are no ghosts, and counts both. */
+static void cross_pair_in_scan(struct rho_passive_paper_search *search,
+                               const struct rho_crossing_base *base, unsigned scan,
+                               struct rho_passive_paper_pair pair)
 {
     const struct rho_passive_paper *paper = search->paper;
     struct rho_ghost_matrix matrix;
@@ -102,7 +104,7 @@ void rho_passive_paper_cross_sensors(struct rho_passive_paper_search *search, un
     }
     for (unsigned scan = 0; scan < paper->batch.num_scans; scan++) {
         paper->scan_end[scan] = scan > 0 ? paper->scan_end[scan - 1u] : 0;
-        cross_scan(search, &base, scan, pair);
+        cross_pair_in_scan(search, &base, scan, pair);
     }
 }
 
@@ -174,8 +176,8 @@ static unsigned max_votes_near(const uint8_t *const rows[3], int column, int col
  * Adds the votes of a pair of sensors to each cell of a row, plus 1 with the first pair; cells that
  * the pair does not confirm become 0, and stay 0.
  */
-static void confirm_cells_of_row(struct rho_passive_paper_search *search, int row,
-                                 const uint8_t *const rows[3], int is_first)
+static void add_votes_of_confirmed_cells(struct rho_passive_paper_search *search, int row,
+                                         const uint8_t *const rows[3], int is_first)
 {
     uint8_t *cells = search->paper->cells[row];
     for (int column = 0; column < search->columns; column++) {
@@ -188,7 +190,8 @@ static void confirm_cells_of_row(struct rho_passive_paper_search *search, int ro
     }
 }
 
-static void vote_pair(struct rho_passive_paper_search *search, int is_first)
+/* Adds the votes of the pair crossed last to the cells that it confirms, and clears the others. */
+static void add_pair_votes_to_cells(struct rho_passive_paper_search *search, int is_first)
 {
     uint8_t(*kept)[RHO_PAPER_RHO_CELLS] = search->paper->rows;
     rho_passive_paper_count_row_votes(search, -1, kept[0]);
@@ -196,7 +199,7 @@ static void vote_pair(struct rho_passive_paper_search *search, int is_first)
     for (int row = 0; row < search->rows; row++) {
         const uint8_t *const rows[3] = {kept[row % 3], kept[(row + 1) % 3], kept[(row + 2) % 3]};
         rho_passive_paper_count_row_votes(search, row + 1, kept[(row + 2) % 3]);
-        confirm_cells_of_row(search, row, rows, is_first);
+        add_votes_of_confirmed_cells(search, row, rows, is_first);
     }
 }
 
@@ -218,7 +221,7 @@ void rho_passive_paper_vote_for_cells(struct rho_passive_paper_search *search)
         for (unsigned j = i + 1u; j < search->num_sensors; j++) {
             rho_passive_paper_cross_sensors(search, search->sensors[i], search->sensors[j]);
             add_pair_counters(search);
-            vote_pair(search, is_first);
+            add_pair_votes_to_cells(search, is_first);
             is_first = 0;
         }
     }

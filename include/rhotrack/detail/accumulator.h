@@ -165,11 +165,11 @@ rho_accumulator_check_points(const struct rho_accumulator_points *points);
 
 /*
  * Initialises an accumulator; the config is copied.
- *   size   sizeof(struct rho_accumulator) of the caller
+ *   object_size   sizeof(struct rho_accumulator) of the caller
  * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: constant.
  */
 RHO_MUST_CHECK enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator,
-                                                    size_t size,
+                                                    size_t object_size,
                                                     const struct rho_accumulator_config *config);
 
 /*

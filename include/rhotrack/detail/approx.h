@@ -77,10 +77,10 @@ float rho_exp(float v);
 float rho_log(float v);
 
 /*
- * ln(1 + v) for 0 <= v <= 1: absolute error <= 2e-7. Other values give no sensible result. A third
- * of rho_log's cost.
+ * ln(1 + zero_to_one) of a number 0 .. 1: absolute error <= 2e-7. Other values give no sensible
+ * result. A third of rho_log's cost.
  */
-float rho_log_one_plus(float v);
+float rho_log_one_plus(float zero_to_one);
 
 /*
  * Square root of v >= 0, correctly rounded as IEEE 754 demands. v < 0: NaN. +infinity: +infinity.

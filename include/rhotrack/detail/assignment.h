@@ -51,10 +51,9 @@ struct rho_assignment {
     int16_t column_queue[RHO_MAX_PLOTS];
 };
 
-/*
- * Initialises the object; size: sizeof *assignment as the caller was compiled. Errors: NULL, SIZE.
- */
-RHO_MUST_CHECK enum rho_status rho_assignment_init(struct rho_assignment *assignment, size_t size);
+/* Initialises the object; object_size: sizeof *assignment of the caller. Errors: NULL, SIZE. */
+RHO_MUST_CHECK enum rho_status rho_assignment_init(struct rho_assignment *assignment,
+                                                   size_t object_size);
 
 /*
  * Starts a problem of num_rows x num_columns without pairs. Errors: NULL, STATE, CAPACITY (rows
@@ -84,10 +83,11 @@ void rho_assignment_solve(struct rho_assignment *assignment);
 int rho_assignment_column(const struct rho_assignment *assignment, unsigned row);
 
 /*
- * Moves the pairs of row `from` to row `to`, whose own pairs are lost; row `from` has none
- * afterwards. Does nothing for rows beyond num_rows. Cost: RHO_MAX_GATE_PLOTS.
+ * Moves the pairs of from_row to to_row, whose own pairs are lost; from_row has none afterwards.
+ * Does nothing for rows beyond num_rows. Cost: RHO_MAX_GATE_PLOTS.
  */
-void rho_assignment_move_pairs(struct rho_assignment *assignment, unsigned from, unsigned to);
+void rho_assignment_move_pairs(struct rho_assignment *assignment, unsigned from_row,
+                               unsigned to_row);
 
 /* True for an initialised object. Constant cost. */
 int rho_assignment_is_ready(const struct rho_assignment *assignment);

@@ -103,10 +103,11 @@ void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, fl
 
 /*
  * Half widths, along x and y, of a box about the prediction that contains all plots in the gate
- * with sigmas of at most sigma_m and own times of at most offset_s either way. NaN where the
- * prediction is. Cost: about 60 instructions.
+ * with sigmas of at most sigma_max_m and own times of at most offset_max_s either way. NaN where
+ * the prediction is. Cost: about 60 instructions.
  */
-void rho_gate_box(const struct rho_gate *gate, float sigma_m, float offset_s, float half_m[2]);
+void rho_gate_box(const struct rho_gate *gate, float sigma_max_m, float offset_max_s,
+                  float half_widths_m[2]);
 
 /*
  * Tests a valid plot. Returns 1 and fills *result where the plot is in the gate, else 0 (also where

@@ -161,10 +161,10 @@ struct rho_hypotheses_estimate {
 };
 
 /*
- * Initialises an empty pool; the model is copied. Errors: NULL, SIZE, CONFIG. Cost: clears the
- * object. Stack: 240 bytes.
+ * Initialises an empty pool; object_size: sizeof *pool; the model is copied. Errors: NULL, SIZE,
+ * CONFIG. Cost: clears the object. Stack: 240 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
+RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t object_size,
                                                    const struct rho_imm_model *model);
 
 /*
@@ -234,24 +234,25 @@ int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,
                              uint32_t measures);
 
 /*
- * Margin about *box for plots with sigmas of at most sigma_m and own times of at most offset_s
- * either way. Cost and stack: as rho_hypotheses_is_in_box.
+ * Margin about *box for plots with sigmas of at most sigma_max_m and own times of at most
+ * offset_max_s either way. Cost and stack: as rho_hypotheses_is_in_box.
  */
 float rho_hypotheses_box_margin_m(const struct rho_hypotheses *pool, uint16_t slot,
-                                  struct rho_hypotheses_box *box, float sigma_m, float offset_s);
+                                  struct rho_hypotheses_box *box, float sigma_max_m,
+                                  float offset_max_s);
 
 /*
  * Scores a plot with every hypothesis, at the plot's own time time_us; each hypothesis keeps its
  * RHO_HYPOTHESES_CHILDREN best plots as candidates, of equals the earlier ones. Returns 1 where the
- * plot is in the gate of any hypothesis; *gain_nat is then the weight of the best hypothesis with
- * the plot: ln of pd times the plot's density over the clutter's, plus the hypothesis' weight.
+ * plot is in the gate of any hypothesis; *best_weight_nat is then the weight of the best hypothesis
+ * with the plot: ln of pd times the plot's density over the clutter's, plus the hypothesis' weight.
  * Cost: rho_imm_score_plot a hypothesis, and rho_imm_predict_unmixed for a plot with an own time.
  * Stack: 820 bytes.
  */
 int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
                               const struct rho_imm_plot *seen, int64_t time_us, int16_t row,
                               float log_pd, const struct rho_hypotheses_clutter *clutter,
-                              float *gain_nat);
+                              float *best_weight_nat);
 
 /* True where any plot of this scan is in the gate of any hypothesis of the slot. */
 int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t slot);

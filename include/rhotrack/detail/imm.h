@@ -223,11 +223,12 @@ int rho_imm_prepare_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, f
 /*
  * Scores a position of the gate's noise: returns 1 and fills ln of its density and the manoeuvring
  * model's probability if it is in the gate of either model. Returns 0 also if the density is
- * certainly at most e^enough (-FLT_MAX: no limit), which saves most of the work. Cost: 45
- * instructions outside of the gate, 150 inside.
+ * certainly at most e^log_likelihood_to_exceed (-FLT_MAX: no limit), which saves most of the work.
+ * Cost: 45 instructions outside of the gate, 150 inside.
  */
 int rho_imm_score_position_in_gate(const struct rho_imm_gate *gate, const float place_m[3],
-                                   float enough, float *log_likelihood, float *probability);
+                                   float log_likelihood_to_exceed, float *log_likelihood,
+                                   float *probability);
 
 /*
  * Updates both models with a plot that was scored, and sets the manoeuvring model's probability to

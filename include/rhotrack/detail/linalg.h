@@ -60,16 +60,16 @@ RHO_MUST_CHECK enum rho_status rho_linalg_nis3(const float s[6], const float d[3
                                                float *log_det);
 
 /*
- * One scalar Kalman update of a six-element state x with covariance p (21 floats): element `index`
+ * One scalar Kalman update of a six-element state x with covariance p (21 floats): `element` of x
  * was measured, `innovation` is its measured minus predicted value, `variance` the measurement's
  * noise. *nis (may be NULL) gets innovation^2 / (p_ii + variance). No variance grows by more than
  * 2^-20 of itself, and a positive definite p stays so in spite of rounding, unless it is singular
  * to within 10^-6 already.
- * Errors: NULL, VALUE (index, innovation or a result not finite), SINGULAR (variance not positive,
- * p_ii negative, or their sum not a number one can divide by); x, p and *nis untouched. Cost: about
- * 240 instructions. Stack: 112 bytes.
+ * Errors: NULL, VALUE (element, innovation or a result not finite), SINGULAR (variance not
+ * positive, p_ii negative, or their sum not a number one can divide by); x, p and *nis untouched.
+ * Cost: about 240 instructions. Stack: 112 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_linalg_update6_element(float x[6], float p[21], int index,
+RHO_MUST_CHECK enum rho_status rho_linalg_update6_element(float x[6], float p[21], int element,
                                                           float innovation, float variance,
                                                           float *nis);
 
@@ -89,11 +89,11 @@ float rho_linalg_project6(const float p[21], const float row[6], float projected
 
 /*
  * Scalar Kalman updates of a state of n <= RHO_LINALG_MAX elements with covariance p: by a
- * measurement of element `index`, or of row . x, where elements of row beyond the first num are 0.
+ * measurement of `element` of x, or of row . x, where elements of row beyond the first num are 0.
  * Errors: as for six elements, and CAPACITY (n, num). Cost: about 4 n^2 and 6 n^2 instructions.
  * Stack: 250 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_linalg_update_element(int n, float *x, float *p, int index,
+RHO_MUST_CHECK enum rho_status rho_linalg_update_element(int n, float *x, float *p, int element,
                                                          float innovation, float variance);
 RHO_MUST_CHECK enum rho_status rho_linalg_update_row(int n, float *x, float *p, int num,
                                                      const float *row, float innovation,
