@@ -63,7 +63,7 @@ void rho_tracker_align_bodies_with_tracks(struct step *step)
 
 int rho_tracker_range_rate_residual(const struct step *step, const struct rho_scan *scan,
                                     const struct rho_track *track, const struct rho_plot *plot,
-                                    float line[2], float *off_mps)
+                                    float sight_line[2], float *off_mps)
 {
     float row[6], rate_mps;
     const float *velocity = &track->kalman.state[RHO_VX];
@@ -73,8 +73,8 @@ int rho_tracker_range_rate_residual(const struct step *step, const struct rho_sc
             state, step->sensor, (scan->measures & RHO_MEASURES_Z) != 0, row, &rate_mps)) {
         return 0;
     }
-    line[0] = row[3];
-    line[1] = row[4];
+    sight_line[0] = row[3];
+    sight_line[1] = row[4];
     *off_mps =
         rho_measurement_range_rate_innovation_mps(step->sensor, plot->range_rate_mps, rate_mps);
     return 1;

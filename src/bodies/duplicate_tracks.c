@@ -31,7 +31,8 @@ struct body_offset {
     float along_m, across_m;
 };
 
-static struct body_offset offset_on_body(const struct step *step, unsigned row, unsigned other)
+static struct body_offset absolute_offset_on_body(const struct step *step, unsigned row,
+                                                  unsigned other)
 {
     const struct rho_track *tracks = step->tracker->tracks;
     const struct rho_body_filter *body = &step->tracker->bodies.of[row];
@@ -57,7 +58,7 @@ static int do_bodies_overlap(const struct step *step, unsigned row, unsigned oth
 {
     const struct rho_body_filter *one = &step->tracker->bodies.of[row],
                                  *two = &step->tracker->bodies.of[other];
-    const struct body_offset offset = offset_on_body(step, row, other);
+    const struct body_offset offset = absolute_offset_on_body(step, row, other);
     /* a quarter of both lengths, each sqrt(12 variance): 0.866 = sqrt(12) / 4 */
     return one->has_heading && two->has_heading &&
            offset.along_m <= 0.866f * (rho_sqrt(one->along_m2) + rho_sqrt(two->along_m2)) &&
@@ -69,7 +70,7 @@ static int is_new_track(const struct step *step, unsigned row)
     return rho_tracker_may_own_plots(step, row) && step->tracker->tracks[row].hits < NEW_HITS;
 }
 
-/* A cheap test in x and y before that of the body's axes: two new tracks are near enough. */
+/* True where two tracks are near in x and y: a cheap test before that in the body's axes. */
 static int are_tracks_near(const struct step *step, unsigned row, unsigned other)
 {
     const float *one = step->tracker->tracks[row].kalman.state,
@@ -83,7 +84,7 @@ static int may_be_one_body(const struct step *step, unsigned row, unsigned other
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
     const struct rho_track *tracks = step->tracker->tracks;
-    const struct body_offset offset = offset_on_body(step, row, other);
+    const struct body_offset offset = absolute_offset_on_body(step, row, other);
     const float turned_m = TURNED_SIGMAS * bodies->of[row].heading_sigma_rad * offset.along_m;
     return bodies->of[row].has_heading &&
            offset.along_m <= NEW_ALONG_SHARE * bodies->length_max_m &&
@@ -107,7 +108,8 @@ static void end_track_and_move_plots(struct step *step, unsigned stays, unsigned
     rho_tracker_end_track(step, &step->tracker->tracks[ends]);
 }
 
-static void end_overlapping_tracks(struct step *step)
+/* Counts scans in which bodies overlap; the younger track ends after DOUBLED_SCANS of these. */
+static void count_overlaps_and_end_younger(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_groups *groups = &tracker->bodies.groups;
@@ -159,7 +161,7 @@ static void end_new_duplicates(struct step *step)
 void rho_tracker_end_duplicate_tracks(struct step *step)
 {
     if (!step->is_late) {
-        end_overlapping_tracks(step);
+        count_overlaps_and_end_younger(step);
     }
     end_new_duplicates(step);
 }

@@ -351,8 +351,8 @@ static struct rho_plot mean_plot_of_group(const struct step *step, unsigned grou
  * a track it is the share of the variance of a place that n plots leave; without, it is the spread
  * of the plots, with the prior as one plot more.
  */
-static void variance_missed_by_mean(const struct step *step, unsigned group,
-                                    const struct rho_plot *mean, unsigned count, float xx_yx_yy[3])
+static void scatter_variance_on_body(const struct step *step, unsigned group,
+                                     const struct rho_plot *mean, unsigned count, float xx_yx_yy[3])
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
     const struct rho_groups *groups = &bodies->groups;
@@ -398,7 +398,7 @@ static void make_group_plot(const struct step *step, unsigned group, struct rho_
         return;
     }
     const float n = (float)count;
-    variance_missed_by_mean(step, group, out, count, spread);
+    scatter_variance_on_body(step, group, out, count, spread);
     rho_measurement_from_plot(out, 0, step->sensor, &seen);
     const float c = seen.cos_azimuth, s = seen.sin_azimuth;
     const float along_m2 = c * c * spread[0] + 2.0f * c * s * spread[1] + s * s * spread[2];

@@ -17,14 +17,14 @@
 #define UNKNOWNS_MAX (3 + 3 + 2)
 
 /*
- * Index of the plot of scan m nearest to the fitted track, or -1 where the gate has none. `factor`
- * widens the gate's covariance.
+ * Index of the plot of scan m nearest to the fitted track, or -1 where the gate has none.
+ * `variance_factor` widens the gate's covariance.
  */
 int rho_initiator_nearest_plot_anisotropic(struct search *search, const struct line_fit *fit,
-                                           float factor, unsigned m)
+                                           float variance_factor, unsigned m)
 {
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
-    float t_s = search->time_s[m], bend_m2 = factor * search->fit_process_m2;
+    float t_s = search->time_s[m], bend_m2 = variance_factor * search->fit_process_m2;
     struct rho_window_place place = {
         .x_m = fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s,
         .y_m = fit->y_m + (fit->vy_mps + 0.5f * fit->ay_mps2 * t_s) * t_s,
@@ -35,10 +35,11 @@ int rho_initiator_nearest_plot_anisotropic(struct search *search, const struct l
         .ay_mps2 = fit->ay_mps2,
         .vz_mps = fit->vz_mps,
         .noise = {bend_m2, 0.0f, bend_m2, bend_m2},
-        .factor = factor,
+        .factor = variance_factor,
         .has_z = fit->has_z,
-        .gate_radius_m = rho_sqrt(search->gate_chi2 *
-                                  (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
+        .gate_radius_m =
+            rho_sqrt(search->gate_chi2 *
+                     (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
     return rho_window_nearest_anisotropic(scan, &place, &search->initiator->work.window);
@@ -225,7 +226,7 @@ static int solve_unknowns(struct regression *of)
  * Sets the number of unknowns, the origin and the units of a regression. Returns the number of
  * solutions to make: 2 with range rates, 1 without, 0 where all plots have one time.
  */
-static int set_up_regression(struct regression *of)
+static int set_up_and_count_solutions(struct regression *of)
 {
     const struct search *search = of->search;
     float first_s = 0.0f, last_s = 0.0f;
@@ -309,8 +310,11 @@ struct first_rate {
     float gain[UNKNOWNS_MAX];
 };
 
-static int predict_range_rate_innovation(const struct regression *of, unsigned m,
-                                         struct first_rate *first)
+/*
+ * Sets the innovation of scan m's range rate and its Kalman gain. Returns 0 without a range rate.
+ */
+static int range_rate_innovation_and_gain(const struct regression *of, unsigned m,
+                                          struct first_rate *first)
 {
     struct equation equation = {.variance = 0.0f};
     const int unknowns = of->unknowns;
@@ -360,11 +364,12 @@ static int is_within_speed_limit(const struct regression *of)
  * Moves the fit of the positions by the gain times this innovation of a range rate, and solves with
  * all range rates linearised there.
  */
-static int solve_with_range_rate_alias(struct regression *of, const float *places,
-                                       const struct first_rate *first, float error_mps)
+static int solve_with_range_rate_alias(struct regression *of, const float *position_fit,
+                                       const struct first_rate *first, float alias_innovation_mps)
 {
     for (int k = 0; k < of->unknowns; k++) {
-        of->unknown[k] = places[k] + first->gain[k] * (error_mps / first->variance);
+        of->unknown[k] =
+            position_fit[k] + first->gain[k] * (alias_innovation_mps / first->variance);
     }
     return solve_unknowns(of);
 }
@@ -374,13 +379,13 @@ static int solve_with_range_rate_alias(struct regression *of, const float *place
  * determines those of the others. The fit with the least chi-square is kept, as all aliases are
  * equally likely a priori.
  */
-static int solve_with_best_alias(struct regression *of, unsigned widest)
+static int solve_with_best_alias(struct regression *of, unsigned widest_scan)
 {
     float places[UNKNOWNS_MAX];
     struct first_rate first;
     float least = FLT_MAX, best_mps = 0.0f;
     of->has_point = 1;
-    if (!predict_range_rate_innovation(of, widest, &first)) {
+    if (!range_rate_innovation_and_gain(of, widest_scan, &first)) {
         return solve_unknowns(of);
     }
     float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * first.variance);
@@ -413,7 +418,7 @@ static int solve_with_best_alias(struct regression *of, unsigned widest)
  */
 static int run_regression(struct regression *of)
 {
-    int rounds = set_up_regression(of);
+    int rounds = set_up_and_count_solutions(of);
     const unsigned widest = RHO_AMBIGUOUS_RANGE_RATES && rounds > 1
                                 ? scan_with_widest_ambiguity_span(of)
                                 : RHO_MAX_SCANS;

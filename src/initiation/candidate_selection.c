@@ -35,10 +35,10 @@ static unsigned count_shared_plots(const struct rho_candidate *a, const struct r
     return shared;
 }
 
-static int conflicts_with_accepted(const struct rho_initiator *initiator, unsigned accepted,
+static int conflicts_with_accepted(const struct rho_initiator *initiator, unsigned num_accepted,
                                    const struct rho_candidate *candidate)
 {
-    for (unsigned i = 0; i < accepted; i++) {
+    for (unsigned i = 0; i < num_accepted; i++) {
         if (count_shared_plots(&initiator->candidates[i], candidate) > SHARED_PLOTS_MAX) {
             return 1;
         }
@@ -73,7 +73,8 @@ static void clear_taken_marks(struct search *search)
  * Associates a candidate with the plots that better candidates have left, and scores it again.
  * Returns 0 where too few plots are left.
  */
-static int associate_with_untaken_plots(struct search *search, struct rho_candidate *candidate)
+static int remake_candidate_from_untaken_plots(struct search *search,
+                                               struct rho_candidate *candidate)
 {
     struct line_fit fit;
     struct plot_set set;
@@ -89,17 +90,17 @@ static int associate_with_untaken_plots(struct search *search, struct rho_candid
     return found;
 }
 
-static void move_best_remaining_first(struct rho_initiator *initiator, unsigned accepted)
+static void move_best_remaining_first(struct rho_initiator *initiator, unsigned num_accepted)
 {
     struct rho_candidate *list = initiator->candidates;
-    unsigned best = accepted;
-    for (unsigned i = accepted + 1; i < initiator->num_candidates; i++) {
+    unsigned best = num_accepted;
+    for (unsigned i = num_accepted + 1; i < initiator->num_candidates; i++) {
         if (list[i].score_mnat > list[best].score_mnat) {
             best = i;
         }
     }
-    struct rho_candidate first = list[accepted];
-    list[accepted] = list[best];
+    struct rho_candidate first = list[num_accepted];
+    list[num_accepted] = list[best];
     list[best] = first;
 }
 
@@ -122,19 +123,19 @@ static void sort_candidates_by_score(struct rho_initiator *initiator)
  * Charges the least work of the next choice. Where the work is spent, drops all candidates that are
  * not accepted yet and returns 0.
  */
-static int charge_choice_or_drop_rest(struct search *search, unsigned accepted)
+static int charge_choice_or_drop_rest(struct search *search, unsigned num_accepted)
 {
     struct rho_initiator *initiator = search->initiator;
     if (rho_initiator_is_work_spent(search)) {
         initiator->work.candidates_dropped =
-            rho_count(initiator->work.candidates_dropped, initiator->num_candidates - accepted);
-        initiator->num_candidates = (uint16_t)accepted;
+            rho_count(initiator->work.candidates_dropped, initiator->num_candidates - num_accepted);
+        initiator->num_candidates = (uint16_t)num_accepted;
         search->is_partial = 1;
         return 0;
     }
-    rho_initiator_charge_work(search, RESCORED_UNITS + accepted / SORTED_IN_UNIT +
-                                          accepted / COMPARED_IN_UNIT +
-                                          (initiator->num_candidates - accepted) / PASSED_IN_UNIT);
+    rho_initiator_charge_work(
+        search, RESCORED_UNITS + num_accepted / SORTED_IN_UNIT + num_accepted / COMPARED_IN_UNIT +
+                    (initiator->num_candidates - num_accepted) / PASSED_IN_UNIT);
     return 1;
 }
 
@@ -152,7 +153,7 @@ void rho_initiator_select_candidates(struct search *search)
         if (!conflicts_with_accepted(initiator, accepted, &candidate)) {
             mark_plots_as_taken(search, &candidate);
             accepted++;
-        } else if (associate_with_untaken_plots(search, &candidate)) {
+        } else if (remake_candidate_from_untaken_plots(search, &candidate)) {
             initiator->candidates[accepted] = candidate;
         } else {
             initiator->num_candidates--;
@@ -171,7 +172,7 @@ void rho_initiator_select_candidates(struct search *search)
  * Marks the plots of likely targets as taken, as they are not clutter. Returns the mean number of
  * plots of a likely target: one of these targets may be clutter nevertheless, and its plots count.
  */
-static float mark_plots_of_likely_targets(struct search *search)
+static float mark_plots_mean_hits_per_target(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     unsigned likely = 0, hits = 0;
@@ -206,7 +207,7 @@ static int rescore_candidate(struct search *search, struct rho_candidate *candid
 void rho_initiator_rescore_candidates(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
-    float more_plots = mark_plots_of_likely_targets(search);
+    float more_plots = mark_plots_mean_hits_per_target(search);
     if (more_plots <= 0.0f) {
         return; /* without likely targets every plot counts as clutter already: the scores stand */
     }

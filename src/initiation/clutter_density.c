@@ -67,19 +67,20 @@ static float distance_m(float dx_m, float dy_m)
 }
 
 /*
- * Index of the map's cell at a place. Sets *per_m2 to the map's content (m^2, or m rad) per square
- * metre there.
+ * Index of the map's cell at a place. Sets *content_per_m2 to the map's content (m^2, or m rad) per
+ * square metre there.
  */
-static unsigned map_cell_at(const struct rho_density_map *map, float x_m, float y_m, float *per_m2)
+static unsigned map_cell_at(const struct rho_density_map *map, float x_m, float y_m,
+                            float *content_per_m2)
 {
     float u = x_m, v = y_m;
-    *per_m2 = 1.0f;
+    *content_per_m2 = 1.0f;
     if (map->is_polar) {
         float dx_m = x_m - map->sensor_x_m, dy_m = y_m - map->sensor_y_m;
         float near_m = NEAR_SHARE * (map->u0 + map->width);
         u = distance_m(dx_m, dy_m);
         v = rho_angle_difference(rho_atan2(dy_m, dx_m), map->middle_rad);
-        *per_m2 = 1.0f / (u > near_m ? u : near_m);
+        *content_per_m2 = 1.0f / (u > near_m ? u : near_m);
     }
     return cell_index_at(v, map->v0, map->height, map->rows) * map->columns +
            cell_index_at(u, map->u0, map->width, map->columns);
@@ -135,7 +136,7 @@ static int add_fixed_radar(struct radars *radars, const struct rho_sensor *senso
  * Lists the radars of the window's scans. Returns 1 where none of them moved, there is a density
  * map for each, and the noise of plots is anisotropic.
  */
-static int list_fixed_radars(const struct search *search, struct radars *radars)
+static int list_radars_for_polar_maps(const struct search *search, struct radars *radars)
 {
     struct rho_window *window = &search->initiator->window;
     int is_radar = 0;
@@ -159,10 +160,14 @@ struct polar_spread {
     struct rho_extent extent;
 };
 
-static void add_plot_to_polar_spread(struct polar_spread *spread, float dx_m, float dy_m,
-                                     int has_middle)
+/*
+ * Adds a plot to the spread of a radar's plots. The first pass sums ranges and directions; the
+ * second, with the mean azimuth known, widens the sector.
+ */
+static void add_plot_to_spread_in_pass(struct polar_spread *spread, float dx_m, float dy_m,
+                                       int is_second_pass)
 {
-    if (has_middle) {
+    if (is_second_pass) {
         float off_rad = rho_angle_difference(rho_atan2(dy_m, dx_m), spread->middle_rad);
         spread->left_rad = off_rad > spread->left_rad ? off_rad : spread->left_rad;
         spread->right_rad = off_rad < spread->right_rad ? off_rad : spread->right_rad;
@@ -186,15 +191,15 @@ static struct polar_spread polar_spread_of_plots(const struct search *search,
 {
     struct rho_window *window = &search->initiator->window;
     struct polar_spread spread = {.plots = 0.0f, .extent = {1.0f, 0.0f, 1.0f, 0.0f}};
-    for (int has_middle = 0; has_middle < 2; has_middle++) {
-        spread.middle_rad = has_middle ? rho_atan2(spread.sum_y, spread.sum_x) : 0.0f;
+    for (int is_second_pass = 0; is_second_pass < 2; is_second_pass++) {
+        spread.middle_rad = is_second_pass ? rho_atan2(spread.sum_y, spread.sum_x) : 0.0f;
         for (unsigned m = 0; m < window->num_scans; m++) {
             const struct rho_window_scan *scan = rho_window_scan_at(window, m);
             for (unsigned i = 0; i < scan->num_plots && scan->sensor.sensor_id == radar->sensor_id;
                  i++) {
                 const struct rho_window_plot *plot = &scan->plots[i];
-                add_plot_to_polar_spread(&spread, plot->x_m - radar->x_m, plot->y_m - radar->y_m,
-                                         has_middle);
+                add_plot_to_spread_in_pass(&spread, plot->x_m - radar->x_m, plot->y_m - radar->y_m,
+                                           is_second_pass);
                 rho_extent_add(&spread.extent, plot->x_m, plot->y_m);
             }
         }
@@ -233,12 +238,13 @@ static void lay_out_polar_map(const struct rho_sensor *radar, const struct polar
  * even density over the area than under one in range and azimuth, 1 / (content range) a square
  * metre.
  */
-static int try_polar_map(const struct search *search, const struct rho_sensor *radar, int is_alone,
-                         struct rho_density_map *map)
+static int lay_out_polar_map_is_likelier(const struct search *search,
+                                         const struct rho_sensor *radar, int is_only_radar,
+                                         struct rho_density_map *map)
 {
     struct polar_spread spread = polar_spread_of_plots(search, radar);
-    float area_m2 = is_alone ? rho_initiator_area_m2(search->initiator)
-                             : rho_extent_area_m2(&spread.extent, 1.0f);
+    float area_m2 = is_only_radar ? rho_initiator_area_m2(search->initiator)
+                                  : rho_extent_area_m2(&spread.extent, 1.0f);
     if (spread.plots < POLAR_PLOTS_MIN) {
         return 0;
     }
@@ -269,10 +275,11 @@ static void lay_out_maps(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     struct radars radars = {.count = 0};
-    int is_polar = list_fixed_radars(search, &radars);
+    int is_polar = list_radars_for_polar_maps(search, &radars);
     memset(initiator->density, 0, sizeof initiator->density);
     for (unsigned i = 0; i < radars.count && is_polar; i++) {
-        is_polar = try_polar_map(search, radars.of[i], radars.count == 1, &initiator->density[i]);
+        is_polar = lay_out_polar_map_is_likelier(search, radars.of[i], radars.count == 1,
+                                                 &initiator->density[i]);
         initiator->density[i].sensor_id = radars.of[i]->sensor_id;
     }
     initiator->num_maps = is_polar ? (uint16_t)radars.count : 1;
@@ -356,8 +363,8 @@ static float mean_density(const struct search *search, float plots, float scans,
  * this ratio. One scan of mean density is added to the sensor's own. The ratio is 1 where there is
  * one sensor, or each sensor has a map.
  */
-static void find_sensor_density_ratios(struct search *search, const uint32_t by_scan[RHO_MAX_SCANS],
-                                       uint32_t plots)
+static void set_sensor_density_ratios(struct search *search, const uint32_t by_scan[RHO_MAX_SCANS],
+                                      uint32_t plots)
 {
     struct rho_initiator *initiator = search->initiator;
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -423,7 +430,7 @@ void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, f
     for (unsigned i = 0; i < initiator->num_maps; i++) {
         fill_density_map(search, &initiator->density[i], skip_flags, by_scan, more_plots);
     }
-    find_sensor_density_ratios(search, by_scan, plots);
+    set_sensor_density_ratios(search, by_scan, plots);
 }
 
 void rho_initiator_prepare_density(struct search *search)
@@ -523,7 +530,7 @@ float rho_initiator_density(const struct rho_initiator *initiator, int32_t senso
  * True where the density map counts the plots of scan m: a further sector of a revolution is not
  * counted.
  */
-static int is_scan_in_map(const struct search *search, unsigned m)
+static int does_map_count_scan(const struct search *search, unsigned m)
 {
     return !search->is_continued || m + 1u < search->num_scans;
 }
@@ -535,7 +542,7 @@ static unsigned count_set_plots_in_cell(const struct search *search, const struc
     unsigned own = 0;
     for (unsigned k = 0; k < search->num_scans && !search->is_left_out; k++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, k);
-        if ((set->mask >> k & 1u) && is_scan_in_map(search, k) &&
+        if ((set->mask >> k & 1u) && does_map_count_scan(search, k) &&
             map_of_sensor(search->initiator, scan->sensor.sensor_id) == map) {
             const struct rho_window_plot *other = rho_initiator_plot_of_set(search, set, k);
             float per_m2;

@@ -119,9 +119,9 @@ void rho_clutter_map_remove_returns(struct rho_clutter_map *map, unsigned region
     }
 }
 
-float rho_clutter_map_decay_factor(float share)
+float rho_clutter_map_decay_factor(float turn_share)
 {
-    return 1.0f - share / TURNS_REMEMBERED;
+    return 1.0f - turn_share / TURNS_REMEMBERED;
 }
 
 /* Decays a table of looks and returns and adds another one: *to = keep * *to + *from. */
@@ -145,13 +145,13 @@ static void advance_count_blocks(struct rho_clutter_map *map)
     memset(map->tables[1], 0, sizeof map->tables[1]);
 }
 
-void rho_clutter_map_age_counts(struct rho_clutter_map *map, float share)
+void rho_clutter_map_age_counts(struct rho_clutter_map *map, float turn_share)
 {
     static const struct rho_echo_returns none;
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        decay_and_add_table(&map->tables[0][r], rho_clutter_map_decay_factor(share), &none);
+        decay_and_add_table(&map->tables[0][r], rho_clutter_map_decay_factor(turn_share), &none);
     }
-    map->scans_to_blocks -= share;
+    map->scans_to_blocks -= turn_share;
     if (!(map->scans_to_blocks > 0.0f)) {
         advance_count_blocks(map);
         if (!(map->tables[0][ALL_REGIONS].looks[0][0] > 0.0f)) {
@@ -180,7 +180,8 @@ float rho_clutter_map_azimuth_share(const struct echo_view *view)
     return (rho_atan2(view->along_y, view->along_x) + RHO_PI) / RHO_TWO_PI;
 }
 
-static unsigned region_index(float share)
+/* Index of a region on one axis: azimuth in turns, or root of the range over the maximum range. */
+static unsigned region_index_on_axis(float share)
 {
     const float cell = share * (float)RHO_ECHO_REGIONS;
     return cell > 0.0f ? cell < (float)RHO_ECHO_REGIONS ? (unsigned)cell : RHO_ECHO_REGIONS - 1u
@@ -191,8 +192,8 @@ uint8_t rho_clutter_map_region_of_place(const struct rho_sensor *sensor, float r
                                         float x_m, float y_m)
 {
     const struct echo_view view = rho_clutter_map_view_from_sensor(sensor, x_m, y_m);
-    return (uint8_t)(region_index(rho_clutter_map_azimuth_share(&view)) * RHO_ECHO_REGIONS +
-                     region_index(rho_sqrt(view.range_m / range_max_m)));
+    return (uint8_t)(region_index_on_axis(rho_clutter_map_azimuth_share(&view)) * RHO_ECHO_REGIONS +
+                     region_index_on_axis(rho_sqrt(view.range_m / range_max_m)));
 }
 
 static void predict_axis_covariance(float axis[3], float dt_s)
@@ -215,11 +216,12 @@ void rho_clutter_map_predict_echo(struct rho_echo *echo, int64_t time_us)
  * Kalman update of an echo's covariance on one axis with a plot that lies off_m from it. Sets
  * move[] to the corrections of place and speed.
  */
-static void update_axis(float axis[3], float variance_m2, float off_m, float move[2])
+static void update_axis_covariance(float axis[3], float variance_m2, float off_m,
+                                   float corrections[2])
 {
     const float sum = axis[0] + variance_m2, place = axis[0] / sum, speed = axis[1] / sum;
-    move[0] = place * off_m;
-    move[1] = speed * off_m;
+    corrections[0] = place * off_m;
+    corrections[1] = speed * off_m;
     axis[2] -= speed * axis[1];
     /* rounding: the noise may be as small as millimetres */
     axis[2] = axis[2] > 0.0f ? axis[2] : 0.0f;
@@ -233,10 +235,10 @@ void rho_clutter_map_update_echo(struct rho_echo *echo, const struct rho_sensor 
     const struct echo_view view = rho_clutter_map_view_from_sensor(sensor, echo->x_m, echo->y_m);
     const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
     float along[2], across[2];
-    update_axis(echo->along, plot->sigma_range_m * plot->sigma_range_m,
-                dx_m * view.along_x + dy_m * view.along_y, along);
-    update_axis(echo->across, plot->sigma_cross_m * plot->sigma_cross_m,
-                dy_m * view.along_x - dx_m * view.along_y, across);
+    update_axis_covariance(echo->along, plot->sigma_range_m * plot->sigma_range_m,
+                           dx_m * view.along_x + dy_m * view.along_y, along);
+    update_axis_covariance(echo->across, plot->sigma_cross_m * plot->sigma_cross_m,
+                           dy_m * view.along_x - dx_m * view.along_y, across);
     echo->x_m += along[0] * view.along_x - across[0] * view.along_y;
     echo->y_m += along[0] * view.along_y + across[0] * view.along_x;
     echo->vx_mps += along[1] * view.along_x - across[1] * view.along_y;

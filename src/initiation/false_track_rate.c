@@ -115,7 +115,7 @@ static void sample_place_classes(struct false_tracks *model)
 /* ---- patterns -------------------------------------------------------------------------------- */
 
 /* ln Gamma(k + 1), where k is a multiple of a half. */
-static float log_gamma_plus_1(float k)
+static float log_gamma_of_k_plus_1(float k)
 {
     float sum = 0.0f;
     while (k > 0.75f) {
@@ -216,7 +216,8 @@ static float log_fisher_determinant(const struct false_tracks *model,
 }
 
 /* Half the ln of the determinant of one hit's noise covariance. */
-static float log_noise_of_hit(const struct false_tracks *model, const struct place_class *place)
+static float half_log_det_of_hit_noise(const struct false_tracks *model,
+                                       const struct place_class *place)
 {
     return place->log_range + place->log_cross + (model->has_z ? place->log_up : 0.0f) +
            (model->has_range_rate ? place->log_range_rate : 0.0f);
@@ -249,7 +250,7 @@ static float best_score_of_pattern(const struct false_tracks *model,
     float fisher = log_fisher_determinant(model, place, h, spread_s2);
     return search->log_prior + log_hit_pattern_probability(search, first, hits) -
            h * place->log_density - half_residual_dimensions(model, hits) * LOG_TWO_PI -
-           h * log_noise_of_hit(model, place) - 0.5f * fisher +
+           h * half_log_det_of_hit_noise(model, place) - 0.5f * fisher +
            rho_initiator_log_height_rate_volume(search, model->has_z, model->has_z ? hits : 0u,
                                                 model->has_range_rate ? hits : 0u) -
            log_aliases_of_hits(model, h);
@@ -350,7 +351,7 @@ static struct pattern_score score_pattern(const struct false_tracks *model,
         .best_nat = best_score_of_pattern(model, &wide, first, hits, pattern->spread_s2)};
     score.weight = 0.5f * place->share * pattern->inside *
                    rho_exp(log_hit_pattern_probability(search, first, hits) + pattern->log_choices -
-                           score.best_nat - log_gamma_plus_1(pattern->half_dimensions));
+                           score.best_nat - log_gamma_of_k_plus_1(pattern->half_dimensions));
     score.weight = score.weight < WEIGHT_MAX ? score.weight : WEIGHT_MAX;
     return score;
 }
@@ -415,39 +416,40 @@ void rho_initiator_model_false_tracks(const struct search *search, struct false_
  * Margin above start_nat of the pattern that the track had a scan ago, with one hit fewer; 0 where
  * that has too few hits to start a track.
  */
-static float score_margin_a_scan_ago(const struct false_tracks *model, unsigned place, unsigned k,
-                                     float start_nat)
+static float score_margin_a_scan_ago(const struct false_tracks *model, unsigned class_index,
+                                     unsigned pattern_index, float start_nat)
 {
-    if (model->patterns[k].hits <= model->least_hits) {
+    if (model->patterns[pattern_index].hits <= model->least_hits) {
         return 0.0f;
     }
     /*
      * index of the pattern with one hit fewer that begins a scan later: patterns are listed by
      * their first scan, then by hits
      */
-    const unsigned less = k + model->search->num_scans - model->patterns[k].first - 3u;
-    const float before = model->scores[place][less].best_nat - start_nat;
+    const unsigned less =
+        pattern_index + model->search->num_scans - model->patterns[pattern_index].first - 3u;
+    const float before = model->scores[class_index][less].best_nat - start_nat;
     const float most = model->patterns[less].most;
     return before < most ? before : most;
 }
 
 /*
- * Number of false sets of a pattern in one class that reach the score s, and had not reached
+ * Number of false sets of a pattern in one class that reach score_nat, and had not reached
  * start_nat a scan ago: weight y^k times the share of new ones. Without the newest hit their chi2 /
  * 2 is above `before`, and with it below y. Of the content of a ball, with the two dimensions of
  * one hit fewer, that share is 1 - k q^(k - 1) + (k - 1) q^k, q = before / y. Powers are multiplied
  * out rather than taken by logarithms, as the function is called often: k is a multiple of a half.
  */
-static float false_sets_in_class(const struct false_tracks *model, unsigned place, unsigned k,
-                                 float s_nat, float start_nat)
+static float false_sets_in_class(const struct false_tracks *model, unsigned class_index,
+                                 unsigned pattern_index, float score_nat, float start_nat)
 {
-    const struct pattern *pattern = &model->patterns[k];
-    const struct pattern_score *score = &model->scores[place][k];
-    float half = pattern->half_dimensions, y = score->best_nat - s_nat;
+    const struct pattern *pattern = &model->patterns[pattern_index];
+    const struct pattern_score *score = &model->scores[class_index][pattern_index];
+    float half = pattern->half_dimensions, y = score->best_nat - score_nat;
     if (!(y > 0.0f)) {
         return 0.0f;
     }
-    const float before = score_margin_a_scan_ago(model, place, k, start_nat);
+    const float before = score_margin_a_scan_ago(model, class_index, pattern_index, start_nat);
     y = y < pattern->most ? y : pattern->most;
     if (before >= y) {
         return 0.0f;
@@ -463,25 +465,25 @@ static float false_sets_in_class(const struct false_tracks *model, unsigned plac
     return score->weight * (content * y) * share;
 }
 
-static float false_sets_of_pattern(const struct false_tracks *model, unsigned k, float s_nat,
-                                   float start_nat)
+static float false_sets_of_pattern(const struct false_tracks *model, unsigned pattern_index,
+                                   float score_nat, float start_nat)
 {
     float sum = 0.0f;
-    if (model->patterns[k].hits < model->least_hits) {
+    if (model->patterns[pattern_index].hits < model->least_hits) {
         return 0.0f;
     }
     for (unsigned i = 0; i < model->num_classes; i++) {
-        sum += false_sets_in_class(model, i, k, s_nat, start_nat);
+        sum += false_sets_in_class(model, i, pattern_index, score_nat, start_nat);
     }
     return sum;
 }
 
-float rho_initiator_false_sets_above(const struct false_tracks *model, float s_nat, float start_nat,
-                                     float enough)
+float rho_initiator_false_sets_above(const struct false_tracks *model, float score_nat,
+                                     float start_nat, float stop_above)
 {
     float sum = 0.0f;
-    for (unsigned k = 0; k < model->num_patterns && sum <= enough; k++) {
-        sum += false_sets_of_pattern(model, k, s_nat, start_nat);
+    for (unsigned k = 0; k < model->num_patterns && sum <= stop_above; k++) {
+        sum += false_sets_of_pattern(model, k, score_nat, start_nat);
     }
     return sum;
 }
@@ -513,7 +515,7 @@ float rho_initiator_gain_of_hit(const struct false_tracks *model)
             noise_widened_by_bend(model, &model->classes[i], search->num_scans - 3u, 3);
         float gain =
             search->log_pd[search->num_scans - 1u] - wide.log_density -
-            0.5f * dimensions_of_hit(model) * LOG_TWO_PI - log_noise_of_hit(model, &wide) -
+            0.5f * dimensions_of_hit(model) * LOG_TWO_PI - half_log_det_of_hit_noise(model, &wide) -
             rho_log(PREDICTION_SPREAD) +
             rho_initiator_log_height_rate_volume(search, 0, 0, model->has_range_rate ? 1u : 0u) -
             log_aliases_of_hits(model, 1.0f);
@@ -523,11 +525,11 @@ float rho_initiator_gain_of_hit(const struct false_tracks *model)
 }
 
 /* Score of a perfect fit to a pattern, in the class of places where it is highest. */
-static float best_score_in_any_class(const struct false_tracks *model, unsigned k)
+static float best_score_in_any_class(const struct false_tracks *model, unsigned pattern_index)
 {
     float best = NEVER_NAT;
     for (unsigned i = 0; i < model->num_classes; i++) {
-        float here = model->scores[i][k].best_nat;
+        float here = model->scores[i][pattern_index].best_nat;
         best = here > best ? here : best;
     }
     return best;

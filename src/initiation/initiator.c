@@ -170,7 +170,7 @@ static int measures_heights_or_rates(const struct search *search)
  * True where every plot has the same noise along and across the line of sight, and no scan measures
  * heights or range rates.
  */
-static int has_isotropic_noise(const struct search *search)
+static int has_only_isotropic_positions(const struct search *search)
 {
     for (unsigned m = 0; m < search->num_scans; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
@@ -238,7 +238,7 @@ static float revolution_share_of_newest(struct search *search)
  * Sets whether the newest input is a sector, and whether an earlier sector of the same revolution
  * was searched, whose density map and thresholds then hold.
  */
-static void set_up_revolution(struct search *search)
+static void set_up_newest_sector(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     const int is_newest = search->kind == RHO_SEARCH_NEWEST;
@@ -256,10 +256,10 @@ static void set_up_search(struct search *search)
     search->scans_seen = (float)search->num_scans;
     search->has_more = measures_heights_or_rates(search);
     search->gate_chi2 = search->has_more ? RHO_GATE_CHI2_4D : RHO_GATE_CHI2_2D;
-    search->has_one_noise = has_isotropic_noise(search);
+    search->has_one_noise = has_only_isotropic_positions(search);
     rho_initiator_assume_turns(search, 0);
     if (RHO_SECTORS) {
-        set_up_revolution(search);
+        set_up_newest_sector(search);
     }
     set_times_and_area_side(search);
 }

@@ -68,20 +68,20 @@ int rho_initiator_fit_isotropic(const struct search *search, const struct plot_s
 
 /* Index of the plot of scan m nearest to the fitted track, or -1 where the gate has none. */
 int rho_initiator_nearest_plot_isotropic(struct search *search, const struct line_fit *fit,
-                                         float factor, unsigned m)
+                                         float variance_factor, unsigned m)
 {
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
-    float bend_m2 = factor * search->fit_process_m2;
+    float bend_m2 = variance_factor * search->fit_process_m2;
     struct rho_window_query query = {
         .x_m = fit->x_m + fit->vx_mps * search->time_s[m],
         .y_m = fit->y_m + fit->vy_mps * search->time_s[m],
         .vx_mps = fit->vx_mps,
         .vy_mps = fit->vy_mps,
         .variance_m2 = bend_m2,
-        .sigma_factor = factor,
+        .sigma_factor = variance_factor,
         .gate_chi2 = RHO_GATE_CHI2_2D,
-        .gate_radius_m =
-            rho_sqrt(RHO_GATE_CHI2_2D * (bend_m2 + factor * scan->sigma_max_m * scan->sigma_max_m)),
+        .gate_radius_m = rho_sqrt(
+            RHO_GATE_CHI2_2D * (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
     return rho_window_nearest_isotropic(scan, &query, &search->initiator->work.window);

@@ -44,9 +44,13 @@ static float plot_time_spread_s(const struct rho_window_scan *scan)
     return scan->offset_max_s - scan->offset_min_s;
 }
 
-static float variance_from_ends_m2(const struct span *span, float al)
+/*
+ * Largest variance, by the noise of both ends, of a place interpolated at this fraction of a span.
+ */
+static float interpolated_variance_m2(const struct span *span, float fraction)
 {
-    float from_m = (1.0f - al) * span->scan_a->sigma_max_m, to_m = al * span->scan_b->sigma_max_m;
+    float from_m = (1.0f - fraction) * span->scan_a->sigma_max_m,
+          to_m = fraction * span->scan_b->sigma_max_m;
     return from_m * from_m + to_m * to_m;
 }
 
@@ -61,8 +65,8 @@ static struct voter make_voter(const struct search *search, const struct span *s
     float al = (search->time_s[m] - search->time_s[span->a]) / span->gap_s;
     float slack =
         (plot_time_spread_s(span->scan_a) + plot_time_spread_s(span->scan_b)) / span->gap_s;
-    float low_m2 = variance_from_ends_m2(span, al - slack),
-          high_m2 = variance_from_ends_m2(span, al + slack);
+    float low_m2 = interpolated_variance_m2(span, al - slack),
+          high_m2 = interpolated_variance_m2(span, al + slack);
     if (search->fit_process_m2 > 0.0f) {
         voter.process_m2 = rho_initiator_process_variance_m2(search, span->a, m, span->b);
     }
@@ -116,7 +120,7 @@ static void set_up_span(struct search *search, struct span *span, struct voter *
  * True where some spans need more votes than M. The rule is used where all scans before the last
  * are of one sensor and cover the same sector: elsewhere misses weigh less.
  */
-static int has_spans_with_more_votes(struct search *search, const struct span_list *list)
+static int do_some_spans_need_more_votes(struct search *search, const struct span_list *list)
 {
     struct rho_window *window = &search->initiator->window;
     int has_more = 0;
@@ -155,7 +159,7 @@ void rho_initiator_list_spans(struct search *search, unsigned b, struct span_lis
             voters += b - a - 1u;
         }
     }
-    list->has_span_hits = HAS_SPAN_HITS && has_spans_with_more_votes(search, list);
+    list->has_span_hits = HAS_SPAN_HITS && do_some_spans_need_more_votes(search, list);
 }
 
 /* ---- plots in a square ----------------------------------------------------------------------- */
@@ -218,9 +222,9 @@ static float target_travel_max_m(const struct search *search, const struct endin
  * Makes candidates of the kernels from plot i of scan a for which enough scans vote: several where
  * a range rate is ambiguous.
  */
-static void try_kernels_of_pair(struct search *search, const struct span *span,
-                                const struct ending *ending, const struct first_vote *first,
-                                unsigned i)
+static void add_candidates_of_pair(struct search *search, const struct span *span,
+                                   const struct ending *ending, const struct first_vote *first,
+                                   unsigned i)
 {
     struct plot_set set;
     int next = 0;
@@ -231,8 +235,9 @@ static void try_kernels_of_pair(struct search *search, const struct span *span,
     } while (next > 0);
 }
 
-static int try_all_pairs(struct search *search, const struct span *span,
-                         const struct ending *ending)
+/* Tries a kernel from each reachable plot of the first scan. Returns 0 where the work is spent. */
+static int add_candidates_of_all_pairs(struct search *search, const struct span *span,
+                                       const struct ending *ending)
 {
     static const struct first_vote any = {.gap = 0};
     const struct rho_window_scan *scan = span->scan_a;
@@ -244,7 +249,7 @@ static int try_all_pairs(struct search *search, const struct span *span,
         unsigned end = start[bins.column_last + 1];
         rho_initiator_charge_work(search, end - start[bins.column_first]);
         for (unsigned i = start[bins.column_first]; i < end; i++) {
-            try_kernels_of_pair(search, span, ending, &any, i);
+            add_candidates_of_pair(search, span, ending, &any, i);
         }
         if (rho_initiator_is_work_spent(search)) {
             return 0;
@@ -343,9 +348,10 @@ static struct box extrapolate_box(const struct rho_window_scan *scan, const stru
  * Tries the kernels of a span whose first plots lie in the box that the third plot leaves. Returns
  * the work of searching the box, in units.
  */
-static uint32_t try_kernels_from_box(struct search *search, const struct span *span,
-                                     const struct ending *ending, const struct third *third,
-                                     const struct extrapolation *to_scan)
+static uint32_t add_candidates_from_box_count_work(struct search *search, const struct span *span,
+                                                   const struct ending *ending,
+                                                   const struct third *third,
+                                                   const struct extrapolation *to_scan)
 {
     const struct rho_window_scan *scan = span->scan_a;
     const struct box box = extrapolate_box(scan, ending, third, to_scan, 0.0f);
@@ -358,7 +364,7 @@ static uint32_t try_kernels_from_box(struct search *search, const struct span *s
         passed += end - i + 1u;
         for (; i < end; i++) {
             if (is_plot_in_box(&scan->plots[i], &box)) {
-                try_kernels_of_pair(search, span, ending, &third->first, i);
+                add_candidates_of_pair(search, span, ending, &third->first, i);
             }
         }
     }
@@ -390,15 +396,16 @@ static int can_previous_scan_vote(const struct rho_window_scan *scan, const stru
 }
 
 /*
- * Spans of the mask by_votes whose misses allow the vote nearest to the end to be `gap` scans
+ * Spans of among_mask whose misses allow the vote nearest to the end to be `gap` scans
  * before the end; a bit each.
  */
-static unsigned spans_allowing_gap(const struct span_list *list, const struct ending *ending,
-                                   unsigned by_votes, unsigned gap)
+static unsigned mask_of_spans_allowing_gap(const struct span_list *list,
+                                           const struct ending *ending, unsigned among_mask,
+                                           unsigned gap)
 {
     unsigned spans = 0;
     for (unsigned n = 0; n < list->num_spans; n++) {
-        if ((by_votes >> n & 1u) &&
+        if ((among_mask >> n & 1u) &&
             (int)gap <= rho_initiator_misses_max(&list->spans[n], ending) + 1) {
             spans |= 1u << n;
         }
@@ -407,13 +414,13 @@ static unsigned spans_allowing_gap(const struct span_list *list, const struct en
 }
 
 /* Widest gates of the spans in a bit mask, whose third plot is `gap` scans before the last. */
-static struct widest_gates widest_gates_of_spans(const struct span_list *list, unsigned spans,
+static struct widest_gates widest_gates_of_spans(const struct span_list *list, unsigned span_mask,
                                                  unsigned gap)
 {
     struct widest_gates widest = {0.0f, 0.0f, 0.0f};
     for (unsigned n = 0; n < list->num_spans; n++) {
         const struct span *span = &list->spans[n];
-        if (spans >> n & 1u) {
+        if (span_mask >> n & 1u) {
             widest.third_m = rho_larger(widest.third_m, span->voters[gap - 1u].gate_radius_m);
             widest.slack_m = rho_larger(widest.slack_m, span->slack_m);
             if (span->a + gap + 1u < span->b) {
@@ -430,14 +437,15 @@ static struct widest_gates widest_gates_of_spans(const struct span_list *list, u
  * the third plot is `gap` scans before the last. Returns the most that noise and gate add to a
  * target's travel to the third plot.
  */
-static float extrapolate_to_spans(const struct search *search, const struct span_list *list,
-                                  const struct ending *ending, unsigned spans, unsigned gap,
-                                  struct extrapolation *to_first)
+static float set_extrapolations_and_slack_m(const struct search *search,
+                                            const struct span_list *list,
+                                            const struct ending *ending, unsigned span_mask,
+                                            unsigned gap, struct extrapolation *to_first)
 {
     float far_m = 0.0f;
-    for (unsigned n = 0; spans >> n; n++) {
+    for (unsigned n = 0; span_mask >> n; n++) {
         const struct span *span = &list->spans[n];
-        if (spans >> n & 1u) {
+        if (span_mask >> n & 1u) {
             const float third_m = span->voters[gap - 1u].gate_radius_m;
             to_first[n] = extrapolation_to_scan(search, span->scan_a, ending, span->gap_s, third_m,
                                                 span->slack_m);
@@ -451,13 +459,13 @@ static float extrapolate_to_spans(const struct search *search, const struct span
  * Tries the kernels, of the spans in a bit mask, whose vote nearest to the end is `gap` scans
  * before the end. Returns 0 where the work is spent.
  */
-static int try_third_plots(struct search *search, const struct span_list *list,
-                           const struct ending *ending, unsigned spans, unsigned gap)
+static int add_candidates_by_third_plots(struct search *search, const struct span_list *list,
+                                         const struct ending *ending, unsigned spans, unsigned gap)
 {
     const unsigned b = list->spans[0].b;
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, b - gap);
     struct extrapolation to_first[SPANS_MAX];
-    const float far_m = extrapolate_to_spans(search, list, ending, spans, gap, to_first) +
+    const float far_m = set_extrapolations_and_slack_m(search, list, ending, spans, gap, to_first) +
                         ending->rounding_m +
                         GATE_ROUNDING * target_travel_max_m(search, ending, b, b - gap);
     struct box box = square_about_plot(ending->plot, far_m);
@@ -466,7 +474,7 @@ static int try_third_plots(struct search *search, const struct span_list *list,
     /* spans that allow no further miss: their kernels need a vote of the next scan back, too */
     const unsigned full = !HAS_SPAN_HITS || ending->is_clear
                               ? 0u
-                              : spans & ~spans_allowing_gap(list, ending, spans, gap + 1u);
+                              : spans & ~mask_of_spans_allowing_gap(list, ending, spans, gap + 1u);
     const struct rho_window_scan *next = scan;
     struct extrapolation to_next = {0};
     float own_m = 0.0f;
@@ -501,8 +509,8 @@ static int try_third_plots(struct search *search, const struct span_list *list,
             }
             for (unsigned n = 0; tried >> n; n++) {
                 if (tried >> n & 1u) {
-                    passed +=
-                        try_kernels_from_box(search, &list->spans[n], ending, &third, &to_first[n]);
+                    passed += add_candidates_from_box_count_work(search, &list->spans[n], ending,
+                                                                 &third, &to_first[n]);
                 }
             }
             if (passed >= CHARGED_UNITS) {
@@ -579,8 +587,12 @@ unsigned rho_initiator_count_near_in_previous(struct search *search, const struc
                       scan->bin_start[bins.row_first * scan->bins_x]);
 }
 
-static void sum_reachable_plots(struct search *search, const struct span_list *list,
-                                const struct ending *ending, unsigned *counts)
+/*
+ * Sets counts[gap] to the number of plots in the last `gap` scans that a target in the kernels'
+ * last plot may have come from.
+ */
+static void count_reachable_plots_by_gap(struct search *search, const struct span_list *list,
+                                         const struct ending *ending, unsigned *counts)
 {
     unsigned b = list->spans[0].b;
     counts[0] = 0;
@@ -625,7 +637,7 @@ int rho_initiator_try_kernels_ending_at(struct search *search, const struct span
     ending.gate_rounded = GATE_ROUNDING * ending.gate_share;
     ending.is_clear =
         !HAS_SPAN_HITS || !list->has_span_hits || is_in_thin_clutter(search, ending.plot);
-    sum_reachable_plots(search, list, &ending, counts);
+    count_reachable_plots_by_gap(search, list, &ending, counts);
     for (unsigned n = 0; n < list->num_spans; n++) {
         if (rho_initiator_misses_max(&list->spans[n], &ending) < 0) {
             continue;
@@ -633,13 +645,13 @@ int rho_initiator_try_kernels_ending_at(struct search *search, const struct span
         if ((list->ordered >> n & 1u) &&
             is_cheaper_by_third_plots(search, &list->spans[n], &ending, counts)) {
             by_votes |= 1u << n;
-        } else if (!try_all_pairs(search, &list->spans[n], &ending)) {
+        } else if (!add_candidates_of_all_pairs(search, &list->spans[n], &ending)) {
             return 0;
         }
     }
-    for (unsigned gap = 1; spans_allowing_gap(list, &ending, by_votes, gap) != 0; gap++) {
-        const unsigned spans = spans_allowing_gap(list, &ending, by_votes, gap);
-        if (!try_third_plots(search, list, &ending, spans, gap)) {
+    for (unsigned gap = 1; mask_of_spans_allowing_gap(list, &ending, by_votes, gap) != 0; gap++) {
+        const unsigned spans = mask_of_spans_allowing_gap(list, &ending, by_votes, gap);
+        if (!add_candidates_by_third_plots(search, list, &ending, spans, gap)) {
             return 0;
         }
     }

@@ -61,7 +61,7 @@ static int is_of_newest_sector(const struct search *search, const struct rho_win
  * Sets the cost class of each plot of the list's last scan; unusable plots get class CLASSES.
  * Returns the number of plots at which kernels may end.
  */
-static unsigned set_cost_classes(struct search *search, const struct span_list *list)
+static unsigned set_cost_classes_count_plots(struct search *search, const struct span_list *list)
 {
     const struct rho_window_scan *scan = list->spans[0].scan_b;
     unsigned count = 0;
@@ -82,8 +82,8 @@ static unsigned set_cost_classes(struct search *search, const struct span_list *
  * next search begins with the first plot left out, or the one behind it where that was the first of
  * this pass.
  */
-static void try_kernels_of_plot(struct search *search, const struct span_list *list, unsigned j,
-                                struct pass *pass)
+static void try_plot_and_record_resume(struct search *search, const struct span_list *list,
+                                       unsigned j, struct pass *pass)
 {
     int is_done = rho_initiator_try_kernels_ending_at(search, list, j);
     if (!is_done) {
@@ -103,8 +103,8 @@ static void try_kernels_of_plot(struct search *search, const struct span_list *l
  * Limit of work until the end of a plot: the shares reserved for the waiting plots stay, and the
  * plot may take a part of the rest beyond its own share.
  */
-static uint32_t work_limit_after_plot(const struct search *search, const struct pass *pass,
-                                      uint32_t end_units)
+static uint32_t work_limit_to_end_of_plot(const struct search *search, const struct pass *pass,
+                                          uint32_t end_units)
 {
     if (end_units == UINT32_MAX) {
         return UINT32_MAX; /* UINT32_MAX: no limit */
@@ -123,8 +123,8 @@ static void try_kernels_of_class(struct search *search, const struct span_list *
     for (unsigned j = first; j < end; j++) {
         if (search->initiator->cost_class[j] == class) {
             pass->waiting--;
-            search->limit_units = work_limit_after_plot(search, pass, end_units);
-            try_kernels_of_plot(search, list, j, pass);
+            search->limit_units = work_limit_to_end_of_plot(search, pass, end_units);
+            try_plot_and_record_resume(search, list, j, pass);
         }
     }
     search->limit_units = end_units;
@@ -134,8 +134,8 @@ static void try_kernels_of_class(struct search *search, const struct span_list *
  * Tries all kernels that end in scan b, the cheapest plots first, beginning at the class and plot
  * of `begin`.
  */
-static void try_kernels_of_scan(struct search *search, unsigned b, uint32_t units,
-                                const struct rho_initiator_resume *begin)
+static void try_kernels_ending_in_scan(struct search *search, unsigned b, uint32_t units,
+                                       const struct rho_initiator_resume *begin)
 {
     struct span_list list;
     rho_initiator_list_spans(search, b, &list);
@@ -143,7 +143,7 @@ static void try_kernels_of_scan(struct search *search, unsigned b, uint32_t unit
         return;
     }
     const unsigned num_plots = list.spans[0].scan_b->num_plots;
-    struct pass pass = {.waiting = set_cost_classes(search, &list)};
+    struct pass pass = {.waiting = set_cost_classes_count_plots(search, &list)};
     unsigned first = begin->plot < num_plots ? begin->plot : num_plots;
     pass.kept_units = pass.waiting > 0 ? units / (KEPT_SHARE * pass.waiting) : 0u;
     try_kernels_of_class(search, &list, begin->cost_class, first, num_plots, &pass);
@@ -171,7 +171,8 @@ void rho_initiator_try_kernels(struct search *search)
     for (unsigned b = is_batch ? search->min_scans - 1u : last; b <= last; b++) {
         search->limit_units = work_max > 0 ? end_units + units : UINT32_MAX;
         end_units = rho_count(end_units, work_max);
-        try_kernels_of_scan(search, b, units, is_batch ? &cheapest : &initiator->budget.resume);
+        try_kernels_ending_in_scan(search, b, units,
+                                   is_batch ? &cheapest : &initiator->budget.resume);
     }
     search->limit_units = work_max > 0 ? end_units : UINT32_MAX;
 }
@@ -193,7 +194,7 @@ void rho_initiator_try_turning_kernels(struct search *search)
     const uint32_t most = share > TURN_UNITS_MIN ? share : TURN_UNITS_MIN;
     units = units < most ? units : most;
     search->limit_units = rho_count(spent, units);
-    try_kernels_of_scan(search, search->num_scans - 1u, units, &cheapest);
+    try_kernels_ending_in_scan(search, search->num_scans - 1u, units, &cheapest);
     search->limit_units = end_units;
     search->next = next;
     search->is_partial = 0;

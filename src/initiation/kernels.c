@@ -33,8 +33,9 @@ static int do_both_ends_measure(const struct span *span, uint32_t what)
  * Velocity of a kernel with its covariance, as a look-up of votes. The position is filled in for
  * each scan.
  */
-static struct rho_window_place kernel_velocity(const struct search *search, const struct span *span,
-                                               const struct kernel *kernel)
+static struct rho_window_place lookup_with_kernel_velocity(const struct search *search,
+                                                           const struct span *span,
+                                                           const struct kernel *kernel)
 {
     const struct rho_window_noise *a = &kernel->noise_a, *b = &kernel->noise_b;
     float per_s = 1.0f / kernel->duration_s, per_s2 = per_s * per_s;
@@ -78,7 +79,7 @@ static int set_up_anisotropic_kernel(const struct search *search, const struct s
                                      struct kernel *kernel)
 {
     kernel->noise_a = rho_window_noise(span->scan_a, kernel->from);
-    kernel->place = kernel_velocity(search, span, kernel);
+    kernel->place = lookup_with_kernel_velocity(search, span, kernel);
     return !search->has_more ||
            (!climbs_too_fast(search, &kernel->place) &&
             is_range_rate_in_gate(span->scan_a, kernel->from, &kernel->place) &&
@@ -134,11 +135,11 @@ static int find_vote_in_scan(struct search *search, const struct span *span, uns
                                         &search->initiator->work.window);
 }
 
-static void add_vote(struct plot_set *set, unsigned m, int plot)
+static void add_vote(struct plot_set *set, unsigned m, int plot_index)
 {
     set->mask |= 1u << m;
     set->hits++;
-    set->plot[m] = (uint16_t)plot;
+    set->plot[m] = (uint16_t)plot_index;
 }
 
 /*
@@ -232,16 +233,16 @@ static int set_up_kernel(struct search *search, const struct span *span, struct 
 
 /*
  * Collects the votes of a kernel. Where its first plot has an ambiguous range rate, each alias is
- * tried from number *next on, up to the first one with enough votes; *next becomes the number
- * behind that, or 0.
+ * tried from number *next_alias on, up to the first one with enough votes; *next_alias becomes the
+ * number behind that, or 0.
  */
 static int collect_votes_by_alias(struct search *search, const struct span *span,
-                                  const struct first_vote *first, struct kernel *kernel, int *next,
-                                  struct plot_set *set)
+                                  const struct first_vote *first, struct kernel *kernel,
+                                  int *next_alias, struct plot_set *set)
 {
     struct aliases aliases;
-    int number = *next;
-    *next = 0;
+    int number = *next_alias;
+    *next_alias = 0;
     if (!RHO_AMBIGUOUS_RANGE_RATES || rho_initiator_is_isotropic(search) ||
         !rho_initiator_find_aliases(span->scan_a, kernel->from, &kernel->place, &aliases)) {
         return collect_votes(search, span, first, kernel, set);
@@ -252,7 +253,7 @@ static int collect_votes_by_alias(struct search *search, const struct span *span
         rho_initiator_apply_alias(&aliases, i, &place, &kernel->place);
         if (is_range_rate_in_gate(span->scan_b, kernel->to, &kernel->place) &&
             collect_votes(search, span, first, kernel, set)) {
-            *next = i + 1 - aliases.first;
+            *next_alias = i + 1 - aliases.first;
             return 1;
         }
         if (i < aliases.last && rho_initiator_is_work_spent(search)) {
@@ -302,7 +303,7 @@ static int is_first_vote_in_widest_gate(const struct search *search, const struc
 
 int rho_initiator_collect_kernel_votes(struct search *search, const struct span *span,
                                        const struct ending *ending, const struct first_vote *first,
-                                       unsigned i, int *next, struct plot_set *set)
+                                       unsigned i, int *next_alias, struct plot_set *set)
 {
     const struct rho_window_plot *from = &span->scan_a->plots[i], *to = ending->plot;
     struct kernel kernel;
@@ -317,8 +318,8 @@ int rho_initiator_collect_kernel_votes(struct search *search, const struct span 
     if ((span->scan_a->marks[i] & search->skip_flags) || !has_target_speed(search, span, &kernel) ||
         !is_first_vote_in_widest_gate(search, span, ending, first, &kernel) ||
         rho_initiator_is_work_spent(search) || !set_up_kernel(search, span, &kernel)) {
-        *next = 0;
+        *next_alias = 0;
         return 0;
     }
-    return collect_votes_by_alias(search, span, first, &kernel, next, set);
+    return collect_votes_by_alias(search, span, first, &kernel, next_alias, set);
 }

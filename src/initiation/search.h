@@ -59,8 +59,8 @@ struct search {
     float sigma_near_m, sigma_per_m, sigma_least_m;
     int has_one_noise; /* every plot has isotropic noise, and no height or range rate */
     /*
-     * noise is isotropic and sets are straight; ask rho_initiator_is_isotropic, which knows the
-     * build
+     * noise is isotropic and sets are straight; ask rho_initiator_is_isotropic, which
+     * knows the build
      */
     int is_isotropic;
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
@@ -140,7 +140,9 @@ static inline float rho_initiator_plot_time_s(const struct search *search,
 void rho_initiator_prepare_density(struct search *search);
 /* Measures the clutter density without plots of these marks, but with more_plots added. */
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots);
+/* Area over which clutter is spread: the window's extent, at least 1 m^2. */
 float rho_initiator_area_m2(const struct rho_initiator *initiator);
+/* Clutter density at a place, mean over the scans held, raised by the clutter memory. */
 float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m);
 float rho_initiator_log_density_of_hit(const struct search *search, const struct plot_set *set,
                                        unsigned m);
@@ -176,6 +178,7 @@ float rho_initiator_log_factorial(unsigned n);
 
 /* Sets M, and the scores that start and confirm a track (start_thresholds.c). */
 void rho_initiator_set_thresholds(struct search *search);
+/* Finds the thresholds anew, for the clutter density measured last. */
 void rho_initiator_update_thresholds(struct search *search);
 float rho_initiator_log_turn_prior(const struct search *search);
 /* Takes sets as those of turning targets from here on, or of straight ones. */
@@ -292,12 +295,12 @@ void rho_initiator_apply_alias(const struct aliases *aliases, int i,
 
 /*
  * Collects the votes for the kernel from plot i of the span's first scan to `ending`. Returns 0
- * where they are too few. An ambiguous range rate makes several kernels of one pair: *next, 0 at
- * first, tells with which alias to continue, and is 0 after the last (kernels.c).
+ * where they are too few. An ambiguous range rate makes several kernels of one pair: *next_alias, 0
+ * at first, tells with which alias to continue, and is 0 after the last (kernels.c).
  */
 int rho_initiator_collect_kernel_votes(struct search *search, const struct span *span,
                                        const struct ending *ending, const struct first_vote *first,
-                                       unsigned i, int *next, struct plot_set *set);
+                                       unsigned i, int *next_alias, struct plot_set *set);
 
 /* Lists the spans of kernels that end in scan b (kernel_enumeration.c). */
 void rho_initiator_list_spans(struct search *search, unsigned b, struct span_list *list);
@@ -313,6 +316,7 @@ int rho_initiator_try_kernels_ending_at(struct search *search, const struct span
 
 /* Tries all kernels of straight targets within the limit of work (kernel_schedule.c). */
 void rho_initiator_try_kernels(struct search *search);
+/* Tries kernels of turning targets that end in the newest scan, with the work that is left. */
 void rho_initiator_try_turning_kernels(struct search *search);
 
 /* ---- candidates ------------------------------------------------------------------------------ */
@@ -321,8 +325,8 @@ void rho_initiator_try_turning_kernels(struct search *search);
 int32_t rho_initiator_nat_to_mnat(float nat);
 int rho_initiator_fit_track(const struct search *search, const struct plot_set *set,
                             struct line_fit *fit);
-void rho_initiator_associate_plots(struct search *search, const struct line_fit *fit, float factor,
-                                   struct plot_set *set);
+void rho_initiator_associate_plots(struct search *search, const struct line_fit *fit,
+                                   float variance_factor, struct plot_set *set);
 int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct line_fit *fit);
 int rho_initiator_score_set(const struct search *search, const struct plot_set *set,
                             const struct line_fit *fit, struct set_score *score);
@@ -334,13 +338,13 @@ int rho_initiator_score_set(const struct search *search, const struct plot_set *
 int rho_initiator_fit_isotropic(const struct search *search, const struct plot_set *set,
                                 struct line_fit *fit);
 int rho_initiator_nearest_plot_isotropic(struct search *search, const struct line_fit *fit,
-                                         float factor, unsigned m);
+                                         float variance_factor, unsigned m);
 int rho_initiator_likelihood_isotropic(const struct search *search, const struct plot_set *set,
                                        struct set_score *score, float *nat);
 int rho_initiator_fit_anisotropic(const struct search *search, const struct plot_set *set,
                                   struct line_fit *fit);
 int rho_initiator_nearest_plot_anisotropic(struct search *search, const struct line_fit *fit,
-                                           float factor, unsigned m);
+                                           float variance_factor, unsigned m);
 int rho_initiator_likelihood_anisotropic(const struct search *search, const struct plot_set *set,
                                          struct set_score *score, float *nat);
 
@@ -360,8 +364,9 @@ int rho_initiator_passes_thresholds(const struct search *search, const struct se
 int rho_initiator_unpack_candidate(struct search *search, const struct rho_candidate *candidate,
                                    struct plot_set *set, struct line_fit *fit);
 
-/* Choice among the candidates listed, in candidate_selection.c. */
+/* Keeps candidates by score so that no two share more than one plot (candidate_selection.c). */
 void rho_initiator_select_candidates(struct search *search);
+/* Scores candidates anew, likely targets' plots left out of the clutter, and drops low scores. */
 void rho_initiator_rescore_candidates(struct search *search);
 
 /* True where every field of a configuration is within its range (initiator.c). */

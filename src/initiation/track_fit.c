@@ -34,17 +34,17 @@ int rho_initiator_fit_track(const struct search *search, const struct plot_set *
 }
 
 /*
- * Makes the set of the plots nearest to the fitted track, one a scan at most. `factor` widens the
- * gate's variance.
+ * Makes the set of the plots nearest to the fitted track, one a scan at most. `variance_factor`
+ * widens the gate's variance.
  */
-void rho_initiator_associate_plots(struct search *search, const struct line_fit *fit, float factor,
-                                   struct plot_set *set)
+void rho_initiator_associate_plots(struct search *search, const struct line_fit *fit,
+                                   float variance_factor, struct plot_set *set)
 {
     set->mask = set->hits = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
         int plot = rho_initiator_is_isotropic(search)
-                       ? rho_initiator_nearest_plot_isotropic(search, fit, factor, m)
-                       : rho_initiator_nearest_plot_anisotropic(search, fit, factor, m);
+                       ? rho_initiator_nearest_plot_isotropic(search, fit, variance_factor, m)
+                       : rho_initiator_nearest_plot_anisotropic(search, fit, variance_factor, m);
         set->plot[m] = (uint16_t)(plot < 0 ? 0 : plot);
         if (plot >= 0) {
             set->mask |= 1u << m;

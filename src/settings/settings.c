@@ -50,48 +50,58 @@ void rho_settings_default(struct rho_settings *settings)
  * True where the value is finite and in min .. max. Always notes field, value and limits in *fault,
  * so that the first refused one stands there.
  */
-static int is_within(struct rho_settings_fault *fault, const char *field, float value, float min,
-                     float max)
+static int is_within_noting_fault(struct rho_settings_fault *fault, const char *field, float value,
+                                  float min, float max)
 {
     *fault = (struct rho_settings_fault){field, value, min, max};
     return rho_is_within(value, min, max);
 }
 
-static int is_below(struct rho_settings_fault *fault, const char *field, float value, float min,
-                    float max)
+/* True where the value is in min .. max, max excluded. Notes field, value and limits in *fault. */
+static int is_below_max_noting_fault(struct rho_settings_fault *fault, const char *field,
+                                     float value, float min, float max)
 {
-    return is_within(fault, field, value, min, max) && value < max;
+    return is_within_noting_fault(fault, field, value, min, max) && value < max;
 }
 
-static int is_length_sigma(struct rho_settings_fault *fault, const char *field, float sigma)
+static int is_length_sigma_noting_fault(struct rho_settings_fault *fault, const char *field,
+                                        float sigma)
 {
-    return is_within(fault, field, sigma, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX);
+    return is_within_noting_fault(fault, field, sigma, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX);
 }
 
-static int is_angle_sigma(struct rho_settings_fault *fault, const char *field, float sigma_rad)
+static int is_angle_sigma_noting_fault(struct rho_settings_fault *fault, const char *field,
+                                       float sigma_rad)
 {
-    return is_within(fault, field, sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
+    return is_within_noting_fault(fault, field, sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN,
+                                  RHO_LIMIT_SIGMA_RAD_MAX);
 }
 
 static int has_usable_targets(const struct rho_settings *settings, struct rho_settings_fault *fault)
 {
-    return is_within(fault, "v_max_mps", settings->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
-           is_below(fault, "v_min_mps", settings->v_min_mps, 0.0f, settings->v_max_mps) &&
-           is_within(fault, "accel_max_mps2", settings->accel_max_mps2, 0.0f, 1000.0f);
+    return is_within_noting_fault(fault, "v_max_mps", settings->v_max_mps, 1.0f,
+                                  RHO_LIMIT_SPEED_MPS) &&
+           is_below_max_noting_fault(fault, "v_min_mps", settings->v_min_mps, 0.0f,
+                                     settings->v_max_mps) &&
+           is_within_noting_fault(fault, "accel_max_mps2", settings->accel_max_mps2, 0.0f, 1000.0f);
 }
 
 static int has_usable_sensor(const struct rho_settings *settings, struct rho_settings_fault *fault)
 {
-    return is_within(fault, "pd", settings->pd, 0.01f, 0.999f) &&
-           is_within(fault, "scan_interval_s", settings->scan_interval_s, 1e-3f, 3600.0f) &&
-           is_length_sigma(fault, "sigma_range_m", settings->sigma_range_m) &&
-           is_angle_sigma(fault, "sigma_azimuth_rad", settings->sigma_azimuth_rad) &&
-           is_angle_sigma(fault, "sigma_elevation_rad", settings->sigma_elevation_rad) &&
-           is_length_sigma(fault, "sigma_range_rate_mps", settings->sigma_range_rate_mps) &&
-           is_angle_sigma(fault, "sigma_rad", settings->sigma_rad) &&
-           is_within(fault, "range_max_m", settings->range_max_m, 1.0f,
-                     2.0f * RHO_LIMIT_POSITION_M) &&
-           is_below(fault, "range_min_m", settings->range_min_m, 0.0f, settings->range_max_m);
+    return is_within_noting_fault(fault, "pd", settings->pd, 0.01f, 0.999f) &&
+           is_within_noting_fault(fault, "scan_interval_s", settings->scan_interval_s, 1e-3f,
+                                  3600.0f) &&
+           is_length_sigma_noting_fault(fault, "sigma_range_m", settings->sigma_range_m) &&
+           is_angle_sigma_noting_fault(fault, "sigma_azimuth_rad", settings->sigma_azimuth_rad) &&
+           is_angle_sigma_noting_fault(fault, "sigma_elevation_rad",
+                                       settings->sigma_elevation_rad) &&
+           is_length_sigma_noting_fault(fault, "sigma_range_rate_mps",
+                                        settings->sigma_range_rate_mps) &&
+           is_angle_sigma_noting_fault(fault, "sigma_rad", settings->sigma_rad) &&
+           is_within_noting_fault(fault, "range_max_m", settings->range_max_m, 1.0f,
+                                  2.0f * RHO_LIMIT_POSITION_M) &&
+           is_below_max_noting_fault(fault, "range_min_m", settings->range_min_m, 0.0f,
+                                     settings->range_max_m);
 }
 
 static int has_usable_area(const struct rho_settings *settings, struct rho_settings_fault *fault)
@@ -99,23 +109,27 @@ static int has_usable_area(const struct rho_settings *settings, struct rho_setti
     const struct rho_extent *area = &settings->area;
     const float limit_m = RHO_LIMIT_POSITION_M;
     return !settings->area_is_fixed ||
-           (is_within(fault, "area.x_max_m", area->x_max_m, -limit_m, limit_m) &&
-            is_within(fault, "area.y_max_m", area->y_max_m, -limit_m, limit_m) &&
-            is_below(fault, "area.x_min_m", area->x_min_m, -limit_m, area->x_max_m) &&
-            is_below(fault, "area.y_min_m", area->y_min_m, -limit_m, area->y_max_m));
+           (is_within_noting_fault(fault, "area.x_max_m", area->x_max_m, -limit_m, limit_m) &&
+            is_within_noting_fault(fault, "area.y_max_m", area->y_max_m, -limit_m, limit_m) &&
+            is_below_max_noting_fault(fault, "area.x_min_m", area->x_min_m, -limit_m,
+                                      area->x_max_m) &&
+            is_below_max_noting_fault(fault, "area.y_min_m", area->y_min_m, -limit_m,
+                                      area->y_max_m));
 }
 
-static int has_usable_decisions(const struct rho_settings *settings,
-                                struct rho_settings_fault *fault)
+static int has_usable_rates_and_limits(const struct rho_settings *settings,
+                                       struct rho_settings_fault *fault)
 {
     const float scans = settings->scans;
-    return is_within(fault, "false_tracks_per_hour", settings->false_tracks_per_hour, 1e-6f,
-                     1e6f) &&
-           is_within(fault, "scans", scans, 3.0f, (float)RHO_MAX_SCANS) &&
+    return is_within_noting_fault(fault, "false_tracks_per_hour", settings->false_tracks_per_hour,
+                                  1e-6f, 1e6f) &&
+           is_within_noting_fault(fault, "scans", scans, 3.0f, (float)RHO_MAX_SCANS) &&
            (settings->min_scans == 0 ||
-            is_within(fault, "min_scans", settings->min_scans, 3.0f, scans)) &&
-           is_within(fault, "coast_scans_max", settings->coast_scans_max, 1.0f, (float)UINT8_MAX) &&
-           is_within(fault, "work_max", (float)settings->work_max, 0.0f, (float)RHO_LIMIT_WORK) &&
+            is_within_noting_fault(fault, "min_scans", settings->min_scans, 3.0f, scans)) &&
+           is_within_noting_fault(fault, "coast_scans_max", settings->coast_scans_max, 1.0f,
+                                  (float)UINT8_MAX) &&
+           is_within_noting_fault(fault, "work_max", (float)settings->work_max, 0.0f,
+                                  (float)RHO_LIMIT_WORK) &&
            /* compared as an integer, too: the float may have been rounded down to the limit */
            settings->work_max <= RHO_LIMIT_WORK;
 }
@@ -128,7 +142,7 @@ enum rho_status rho_settings_check(const struct rho_settings *settings,
         return RHO_ERROR_NULL;
     }
     if (has_usable_targets(settings, &first) && has_usable_sensor(settings, &first) &&
-        has_usable_area(settings, &first) && has_usable_decisions(settings, &first)) {
+        has_usable_area(settings, &first) && has_usable_rates_and_limits(settings, &first)) {
         return RHO_OK;
     }
     if (fault) {

@@ -26,14 +26,14 @@ static const uint8_t magic[8] = {'r', 'h', 'o', 's', 'n', 'a', 'p', '\n'};
 
 /* ---- numbers and checksum -------------------------------------------------------------------- */
 
-static void put_u32(uint8_t *bytes, uint32_t value)
+static void put_little_endian_u32(uint8_t *bytes, uint32_t value)
 {
     for (unsigned i = 0; i < 4; i++) {
         bytes[i] = (uint8_t)(value >> 8 * i);
     }
 }
 
-static uint32_t get_u32(const uint8_t *bytes)
+static uint32_t get_little_endian_u32(const uint8_t *bytes)
 {
     return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 |
            (uint32_t)bytes[3] << 24;
@@ -262,7 +262,8 @@ struct writer {
     int has_crc; /* the checksum is computed, as the buffer will hold it */
 };
 
-static void put_bytes(struct writer *writer, const void *data, size_t size)
+/* Writes those bytes that lie in the requested range of the image, and passes over the others. */
+static void put_bytes_in_requested_range(struct writer *writer, const void *data, size_t size)
 {
     const uint8_t *bytes = data;
     const size_t at = writer->at;
@@ -282,29 +283,29 @@ static void put_header_and_table(struct writer *writer, const struct rho_snapsho
 {
     uint8_t bytes[HEADER_BYTES];
     memcpy(bytes + MAGIC_AT, magic, sizeof magic);
-    put_u32(bytes + VERSION_AT, RHO_SNAPSHOT_VERSION);
-    put_u32(bytes + LAYOUT_AT, layout_hash());
-    put_u32(bytes + SIZE_AT, (uint32_t)image_size(parts, num_parts));
-    put_u32(bytes + NUM_PARTS_AT, num_parts);
-    put_bytes(writer, bytes, HEADER_BYTES);
+    put_little_endian_u32(bytes + VERSION_AT, RHO_SNAPSHOT_VERSION);
+    put_little_endian_u32(bytes + LAYOUT_AT, layout_hash());
+    put_little_endian_u32(bytes + SIZE_AT, (uint32_t)image_size(parts, num_parts));
+    put_little_endian_u32(bytes + NUM_PARTS_AT, num_parts);
+    put_bytes_in_requested_range(writer, bytes, HEADER_BYTES);
     for (unsigned i = 0; i < num_parts; i++) {
-        put_u32(bytes, (uint32_t)parts[i].kind);
-        put_u32(bytes + 4, (uint32_t)parts[i].id);
-        put_u32(bytes + 8, (uint32_t)parts[i].size);
-        put_u32(bytes + 12, 0);
-        put_bytes(writer, bytes, PART_BYTES);
+        put_little_endian_u32(bytes, (uint32_t)parts[i].kind);
+        put_little_endian_u32(bytes + 4, (uint32_t)parts[i].id);
+        put_little_endian_u32(bytes + 8, (uint32_t)parts[i].size);
+        put_little_endian_u32(bytes + 12, 0);
+        put_bytes_in_requested_range(writer, bytes, PART_BYTES);
     }
 }
 
 static void put_checksum(struct writer *writer)
 {
     uint8_t bytes[4] = {0};
-    put_bytes(writer, bytes, sizeof bytes);
-    put_u32(bytes, ~writer->crc);
-    put_bytes(writer, bytes, sizeof bytes);
+    put_bytes_in_requested_range(writer, bytes, sizeof bytes);
+    put_little_endian_u32(bytes, ~writer->crc);
+    put_bytes_in_requested_range(writer, bytes, sizeof bytes);
 }
 
-static int are_all_sound(const struct rho_snapshot_part *parts, unsigned num_parts)
+static int are_all_objects_sound(const struct rho_snapshot_part *parts, unsigned num_parts)
 {
     for (unsigned i = 0; i < num_parts; i++) {
         if (!is_sound_object((uint32_t)parts[i].kind, parts[i].object)) {
@@ -322,7 +323,7 @@ enum rho_status rho_snapshot_save(const struct rho_snapshot_part *parts, unsigne
     if (!buffer || !length || status != RHO_OK) {
         return status != RHO_OK ? status : RHO_ERROR_NULL;
     }
-    if (offset == 0 && !are_all_sound(parts, num_parts)) {
+    if (offset == 0 && !are_all_objects_sound(parts, num_parts)) {
         return RHO_ERROR_STATE;
     }
     const size_t all = image_size(parts, num_parts);
@@ -335,8 +336,8 @@ enum rho_status rho_snapshot_save(const struct rho_snapshot_part *parts, unsigne
     writer.buffer = buffer;
     put_header_and_table(&writer, parts, num_parts);
     for (unsigned i = 0; i < num_parts; i++) {
-        put_bytes(&writer, parts[i].object, parts[i].size);
-        put_bytes(&writer, zeros, padding_to_alignment(parts[i].size));
+        put_bytes_in_requested_range(&writer, parts[i].object, parts[i].size);
+        put_bytes_in_requested_range(&writer, zeros, padding_to_alignment(parts[i].size));
     }
     put_checksum(&writer);
     return RHO_OK;
@@ -346,7 +347,7 @@ enum rho_status rho_snapshot_save(const struct rho_snapshot_part *parts, unsigne
 
 static uint32_t part_field(const uint8_t *image, unsigned part, unsigned field)
 {
-    return get_u32(image + HEADER_BYTES + (size_t)part * PART_BYTES + 4u * field);
+    return get_little_endian_u32(image + HEADER_BYTES + (size_t)part * PART_BYTES + 4u * field);
 }
 
 /* True where each part of an image has the size of its kind, and the parts fill the image. */
@@ -381,19 +382,19 @@ static enum rho_status check_image(const uint8_t *image, size_t size)
         return RHO_ERROR_SHORT;
     }
     if (memcmp(image, magic, sizeof magic) != 0 ||
-        get_u32(image + VERSION_AT) != RHO_SNAPSHOT_VERSION) {
+        get_little_endian_u32(image + VERSION_AT) != RHO_SNAPSHOT_VERSION) {
         return RHO_ERROR_TYPE;
     }
-    if (get_u32(image + LAYOUT_AT) != layout_hash()) {
+    if (get_little_endian_u32(image + LAYOUT_AT) != layout_hash()) {
         return RHO_ERROR_SIZE;
     }
-    const uint32_t said = get_u32(image + SIZE_AT);
+    const uint32_t said = get_little_endian_u32(image + SIZE_AT);
     if (said > size) {
         return RHO_ERROR_SHORT;
     }
     if (said < HEADER_BYTES + END_BYTES ||
-        ~add_to_crc(UINT32_MAX, image, said - 4u) != get_u32(image + said - 4u) ||
-        !is_filled_by_parts(image, said, get_u32(image + NUM_PARTS_AT))) {
+        ~add_to_crc(UINT32_MAX, image, said - 4u) != get_little_endian_u32(image + said - 4u) ||
+        !is_filled_by_parts(image, said, get_little_endian_u32(image + NUM_PARTS_AT))) {
         return RHO_ERROR_VALUE;
     }
     return RHO_OK;
@@ -410,7 +411,7 @@ enum rho_status rho_snapshot_list(const void *image, size_t size, struct rho_sna
     if (status != RHO_OK) {
         return status;
     }
-    *num_parts = get_u32(bytes + NUM_PARTS_AT);
+    *num_parts = get_little_endian_u32(bytes + NUM_PARTS_AT);
     for (unsigned i = 0; i < *num_parts && i < max_parts; i++) {
         parts[i].kind = (enum rho_snapshot_kind)part_field(bytes, i, 0);
         parts[i].id = (int32_t)part_field(bytes, i, 1);
@@ -422,7 +423,7 @@ enum rho_status rho_snapshot_list(const void *image, size_t size, struct rho_sna
 static int are_parts_of_image(const struct rho_snapshot_part *parts, unsigned num_parts,
                               const uint8_t *image)
 {
-    if (get_u32(image + NUM_PARTS_AT) != num_parts) {
+    if (get_little_endian_u32(image + NUM_PARTS_AT) != num_parts) {
         return 0;
     }
     for (unsigned i = 0; i < num_parts; i++) {
@@ -434,13 +435,13 @@ static int are_parts_of_image(const struct rho_snapshot_part *parts, unsigned nu
     return 1;
 }
 
-/* Checks that the image's objects are consistent, or (takes) copies them to the parts. */
+/* Checks that an image's objects are consistent; is_copy: copies them to the parts instead. */
 static int check_or_copy_objects(const struct rho_snapshot_part *parts, unsigned num_parts,
-                                 const uint8_t *image, int takes)
+                                 const uint8_t *image, int is_copy)
 {
     const uint8_t *object = image + HEADER_BYTES + (size_t)num_parts * PART_BYTES;
     for (unsigned i = 0; i < num_parts; i++) {
-        if (takes) {
+        if (is_copy) {
             memcpy(parts[i].object, object, parts[i].size);
         } else if (!is_sound_object((uint32_t)parts[i].kind, object)) {
             return 0;
@@ -520,10 +521,11 @@ static void copy_piece_to_objects(const struct rho_snapshot_loader *loader, cons
  * Ends a pass over an image: the first pass checks the checksum, the second one the loaded objects
  * too, which are cleared where that fails.
  */
-static enum rho_status end_pass(struct rho_snapshot_loader *loader)
+static enum rho_status end_pass_and_check_image(struct rho_snapshot_loader *loader)
 {
     int is_whole = loader->crc == CRC_OF_ALL;
-    if (loader->passes == 1 && !(is_whole && are_all_sound(loader->parts, loader->num_parts))) {
+    if (loader->passes == 1 &&
+        !(is_whole && are_all_objects_sound(loader->parts, loader->num_parts))) {
         for (unsigned i = 0; i < loader->num_parts; i++) {
             memset(loader->parts[i].object, 0, loader->parts[i].size);
         }
@@ -569,7 +571,7 @@ enum rho_status rho_snapshot_take(struct rho_snapshot_loader *loader, const uint
     loader->crc = add_to_crc(loader->crc, bytes, taken);
     loader->at += (uint32_t)taken;
     if (status == RHO_OK && loader->at == all) {
-        status = end_pass(loader);
+        status = end_pass_and_check_image(loader);
     }
     if (status != RHO_OK) {
         loader->passes = RHO_SNAPSHOT_PASSES + 1; /* marks the image as refused */

@@ -25,7 +25,7 @@ static int is_too_slow(const struct step *step, const struct rho_track *track)
 }
 
 /* Counts successive updates that leave a track faster than any target. 1: enough to end it. */
-static int count_fast_updates(const struct step *step, struct rho_track *track)
+static int count_fast_updates_are_enough(const struct step *step, struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float v_max_mps = step->tracker->config.v_max_mps;
@@ -49,7 +49,7 @@ void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track
     struct rho_tracker_counters *counters = &step->tracker->counters;
     const int is_unseen = rho_tracker_update_and_test_unobserved(step, track, is_missed, limits) ||
                           rho_tracker_is_place_too_uncertain(step, track);
-    const int is_fast = count_fast_updates(step, track);
+    const int is_fast = count_fast_updates_are_enough(step, track);
     rho_tracker_apply_thresholds(step, track, limits);
     if (track->status != RHO_TRACK_FREE && (is_unseen || is_fast || is_too_slow(step, track))) {
         counters->tracks_unseen = rho_count(counters->tracks_unseen, is_unseen ? 1 : 0);

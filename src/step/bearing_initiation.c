@@ -71,15 +71,15 @@ static void mark_ghost_bearings(struct step *step)
 
 /* ---- initiate -------------------------------------------------------------------------------- */
 
-/* Copies fates from the report to the batch's frame; is_back: from the frame to the report. */
-static void copy_fates(const struct step *step, struct batch_frame *held, int is_back)
+/* Copies fates from the report to the batch's frame; to_report: from the frame to the report. */
+static void copy_fates(const struct step *step, struct batch_frame *held, int to_report)
 {
     uint8_t *packed = held->fates;
     uint32_t first = 0;
     for (uint32_t i = 0; i < step->frame->num_scans; i++) {
         uint32_t num = held->scans[i].num_bearings;
         uint8_t *fates = step->report->fates + (num > 0 ? first : 0);
-        memcpy(is_back ? fates : packed, is_back ? packed : fates, num);
+        memcpy(to_report ? fates : packed, to_report ? packed : fates, num);
         packed += num;
         first = rho_count(first, step->frame->scans[i].num_bearings);
     }
@@ -157,7 +157,10 @@ static void start_found_track(struct step *step, const struct rho_passive_track 
     }
 }
 
-/* Guards against a second track of a target whose newer bearings a started track claims. */
+/*
+ * True where a found track has a bearing of the last two scans: others may be of a target whose
+ * newer bearings a started track claims.
+ */
 static int is_seen_in_last_two_scans(const struct rho_passive *passive,
                                      const struct rho_passive_track *found)
 {

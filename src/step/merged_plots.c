@@ -135,10 +135,10 @@ static void plot_offset_from_track(const struct step *step, const struct track_p
 }
 
 /* Factor of one axis in the probability that two targets are unresolved. */
-static float unresolved_probability_on_axis(float near2, float apart, float variance)
+static float unresolved_probability_on_axis(float unresolved_variance, float apart, float variance)
 {
-    const float spread2 = near2 + variance;
-    return rho_sqrt(near2 / spread2) * rho_exp(-0.5f * apart * apart / spread2);
+    const float spread2 = unresolved_variance + variance;
+    return rho_sqrt(unresolved_variance / spread2) * rho_exp(-0.5f * apart * apart / spread2);
 }
 
 static float unresolved_probability_by_range_rate(const struct step *step,

@@ -11,7 +11,8 @@
 
 /*
  * step_begin.c: clears the report, and counts the scan. Returns 0 where the inputs are too old for
- * the tracker: their fates are then STALE, and no phase but rho_tracker_report follows.
+ * the tracker: their fates are then STALE, and of the later phases only rho_tracker_report
+ * follows.
  */
 int rho_tracker_begin_step(struct step *step);
 /* Sets the step's motion model, the filter of new tracks, and the volumes of clutter densities. */
@@ -19,10 +20,12 @@ void rho_tracker_set_motion_model(struct step *step);
 /* Sets step->log_pd and step->log_miss by step->sensor, or by the tracker's default pd. */
 void rho_tracker_set_pd(struct step *step);
 int rho_tracker_is_usable_time(int64_t time_us);
+/* True where a time is before that of the tracker's newest step. */
 int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
 
-/* predict.c: moves the tracks that the scan can see, or one track, to the time of the step */
+/* predict.c: moves the tracks that the scan can see to the time of the step */
 void rho_tracker_predict(struct step *step);
+/* Moves a track to the step's time; a track whose covariance has grown too large ends. */
 void rho_tracker_predict_or_end_track(struct step *step, struct rho_track *track);
 
 /* claim.c: gates the plots and assigns them to tracks; changes no track */
@@ -39,8 +42,9 @@ void rho_tracker_age(struct step *step);
 void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track, int is_missed,
                                       const struct rho_track_limits *limits);
 
-/* initiate.c, bearing_initiation.c: tracks start from plots or bearings that no track claimed */
+/* initiate.c: tracks start from unclaimed plots; the clutter map and counts are updated */
 void rho_tracker_initiate(struct step *step);
+/* bearing_initiation.c: tracks start from unclaimed bearings */
 void rho_tracker_initiate_passive(struct step *step);
 
 /*

@@ -30,7 +30,8 @@
 /* Longest time without a plot for which a track may coast in the notch; then it is rather gone. */
 #define BLIND_MAX_S 300.0f
 
-static float share_of_blind_looks(const struct step *step, const struct rho_track *track)
+/* Probability that a look at the track is blind, as its range rate lies in the sensor's notch. */
+static float blind_look_probability(const struct step *step, const struct rho_track *track)
 {
     const struct rho_hypotheses *pool = &step->tracker->hypotheses;
     float sum = 0.0f, shares = 0.0f;
@@ -46,13 +47,16 @@ static float share_of_blind_looks(const struct step *step, const struct rho_trac
     return shares > 0.0f ? sum / shares : 0.0f;
 }
 
-static uint8_t percent_of_blind_looks(const struct step *step, const struct rho_track *track)
+/*
+ * Per cent of blind looks; 0 where the track was unseen for too long or clutter would be claimed.
+ */
+static uint8_t blind_percent_if_may_coast(const struct step *step, const struct rho_track *track)
 {
     if (rho_seconds_between(track->updated_us, step->time_us) > BLIND_MAX_S ||
         rho_tracker_expected_clutter_in_gate(step, track) > BLIND_CLUTTER_MAX) {
         return 0;
     }
-    const float percent = 100.0f * share_of_blind_looks(step, track);
+    const float percent = 100.0f * blind_look_probability(step, track);
     return (uint8_t)(percent < BLIND_PERCENT_MOST ? percent : BLIND_PERCENT_MOST);
 }
 
@@ -66,7 +70,7 @@ void rho_tracker_set_blind_percents(struct step *step)
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status != RHO_TRACK_FREE && rho_tracker_is_track_in_view(step, row)) {
-            track->blind_percent = percent_of_blind_looks(step, track);
+            track->blind_percent = blind_percent_if_may_coast(step, track);
         }
     }
 }

@@ -80,7 +80,7 @@ static float range_max_of_sensor(const struct step *step)
  * Likelihood ratios of a plot's range rate, from the echo against clutter that is spread over all
  * rates. exact: the rate is that of the echo's own speed, as of a mast; other: it is not.
  */
-struct echo_range_rate_ratios {
+struct echo_rate_likelihood_ratios {
     float exact, other;
 };
 
@@ -99,16 +99,17 @@ float rho_tracker_range_rate_ratio(const struct step *step, float off_mps, float
                normal_over_uniform_rate(step, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
 }
 
-static struct echo_range_rate_ratios echo_range_rate_ratios(const struct step *step,
-                                                            const struct rho_echo *echo,
-                                                            const struct echo_view *view,
-                                                            const struct rho_plot *plot)
+static struct echo_rate_likelihood_ratios echo_rate_likelihood_ratios(const struct step *step,
+                                                                      const struct rho_echo *echo,
+                                                                      const struct echo_view *view,
+                                                                      const struct rho_plot *plot)
 {
     const float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + echo->along[2];
     const float off_mps =
         plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
-    return (struct echo_range_rate_ratios){normal_over_uniform_rate(step, off_mps, variance),
-                                           rho_tracker_range_rate_ratio(step, off_mps, variance)};
+    return (struct echo_rate_likelihood_ratios){
+        normal_over_uniform_rate(step, off_mps, variance),
+        rho_tracker_range_rate_ratio(step, off_mps, variance)};
 }
 
 /* Learned share of echoes' plots that have exactly the range rate of the echo's own speed. */
@@ -118,13 +119,15 @@ static float share_of_exact_rates(const struct rho_clutter_map *map)
            (map->rate_plots + EXACT_PRIOR_PLOTS);
 }
 
-static float echo_range_rate_ratio(const struct step *step, const struct rho_echo *echo,
-                                   const struct echo_view *view, const struct rho_plot *plot)
+/* Likelihood ratio of a plot's range rate, echo against clutter of any rate; 1: not measured. */
+static float echo_rate_likelihood_ratio(const struct step *step, const struct rho_echo *echo,
+                                        const struct echo_view *view, const struct rho_plot *plot)
 {
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
     }
-    const struct echo_range_rate_ratios ratios = echo_range_rate_ratios(step, echo, view, plot);
+    const struct echo_rate_likelihood_ratios ratios =
+        echo_rate_likelihood_ratios(step, echo, view, plot);
     const float share = share_of_exact_rates(&step->tracker->clutter_map);
     return share * ratios.exact + (1.0f - share) * ratios.other;
 }
@@ -139,7 +142,8 @@ static void learn_exact_rate_share(struct step *step, const struct rho_echo *ech
     }
     const struct echo_view view =
         rho_clutter_map_view_from_sensor(step->sensor, echo->x_m, echo->y_m);
-    const struct echo_range_rate_ratios ratios = echo_range_rate_ratios(step, echo, &view, plot);
+    const struct echo_rate_likelihood_ratios ratios =
+        echo_rate_likelihood_ratios(step, echo, &view, plot);
     const float share = share_of_exact_rates(map);
     const float exact = share * ratios.exact;
     if (map->rate_plots >= RATE_PLOTS_REMEMBERED) {
@@ -164,7 +168,7 @@ static float echo_density_at(const struct step *step, const struct rho_echo *ech
         return 0.0f;
     }
     return rho_exp(-0.5f * chi2) * rho_inverse_sqrt(along_m2 * across_m2) / RHO_TWO_PI *
-           echo_range_rate_ratio(step, echo, view, plot);
+           echo_rate_likelihood_ratio(step, echo, view, plot);
 }
 
 static void add_echo_density_at_plots(struct step *step, unsigned place)
@@ -344,7 +348,7 @@ static float strobe_density(const struct step *step, unsigned bin, float plots, 
                : 0.0f;
 }
 
-/* A cheap test of the whole scan: enough plots for one strobe, in enough eighths of the range. */
+/* True where the scan has enough plots for a strobe, in enough eighths of the range. */
 static int may_have_strobes(const struct step *step, float range_max_m)
 {
     float plots = 0.0f;
@@ -525,9 +529,9 @@ static void remove_track_returns_from_map(struct step *step, struct rho_track *t
 
 /* ---- learn ----------------------------------------------------------------------------------- */
 
-static int is_row_in_set(const uint32_t *targets, uint32_t row)
+static int is_row_in_set(const uint32_t *set, uint32_t row)
 {
-    return (targets[row / 32] >> row % 32 & 1u) != 0;
+    return (set[row / 32] >> row % 32 & 1u) != 0;
 }
 
 /* Adds to a track's sum of returns the probability that its plot is the return of an echo. */
@@ -545,14 +549,15 @@ static void add_echo_return_to_track(const struct rho_clutter_map *map, struct r
  * Sets the bits of plots of targets. The returns of such a track are removed from the map once;
  * other tracks fade theirs as the map does, and add the newest.
  */
-static void update_returns_and_find_target_plots(struct step *step, uint32_t *targets, float share)
+static void update_returns_and_find_target_plots(struct step *step, uint32_t *targets,
+                                                 float turn_share)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
             track->returns[c] *=
-                rho_clutter_map_decay_factor(share); /* as the map's sums fade with time */
+                rho_clutter_map_decay_factor(turn_share); /* as the map's sums fade with time */
         }
         if (track->plot < 0 || (uint32_t)track->plot >= step->num_gated) {
             continue;
@@ -640,7 +645,7 @@ static void add_echoes(struct step *step, const uint32_t *targets, const uint32_
 }
 
 /* Share of this scan in one turn of all sensors that are not silent. */
-static float share_of_turn(const struct step *step)
+static float turn_share_of_scan(const struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     float sensors = 0.0f;
@@ -658,7 +663,7 @@ void rho_tracker_update_clutter_map(struct step *step)
     if (!step->tracker->clutter_map.is_looked) {
         return;
     }
-    const float share = share_of_turn(step);
+    const float share = turn_share_of_scan(step);
     update_returns_and_find_target_plots(step, targets, share);
     update_echoes(step, targets, taken);
     add_echoes(step, targets, taken);

@@ -56,7 +56,7 @@ int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struc
 }
 
 /* True where the scan or the sensor covers a sector instead of the full circle. */
-static int has_scan_or_sensor_sector(const struct step *step)
+static int covers_less_than_full_circle(const struct step *step)
 {
     const struct rho_scan *scan = step->scan;
     const struct rho_sensor *sensor = step->sensor;
@@ -87,7 +87,7 @@ int rho_tracker_may_see_track(const struct step *step, const struct rho_track *t
     const float *state = track->kalman.state;
     float dt_s, dx_m, dy_m, range_m, margin_m;
 
-    if (!sensor && !has_scan_or_sensor_sector(step)) {
+    if (!sensor && !covers_less_than_full_circle(step)) {
         return 1;
     }
     dt_s = rho_seconds_between(track->time_us, step->time_us);
@@ -95,7 +95,7 @@ int rho_tracker_may_see_track(const struct step *step, const struct rho_track *t
     dy_m = state[1] + state[4] * dt_s - (sensor ? sensor->y_m : 0.0f);
     range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     if (sensor && range_m <= sensor->range_max_m && range_m >= sensor->range_min_m &&
-        !has_scan_or_sensor_sector(step)) {
+        !covers_less_than_full_circle(step)) {
         return 1;
     }
     dt_s = dt_s < 0.0f ? -dt_s : dt_s; /* the track's estimate may be newer than the scan */
@@ -105,7 +105,7 @@ int rho_tracker_may_see_track(const struct step *step, const struct rho_track *t
         (range_m - margin_m > sensor->range_max_m || range_m + margin_m < sensor->range_min_m)) {
         return 0;
     }
-    if (!(margin_m < range_m) || !has_scan_or_sensor_sector(step)) {
+    if (!(margin_m < range_m) || !covers_less_than_full_circle(step)) {
         return 1; /* plots of a track within the margin of the sensor may be in any direction */
     }
     /* upper bound of the angle that the margin subtends: asin(x) <= x pi / 2 for x in 0 .. 1 */

@@ -96,7 +96,8 @@ static struct wall wall_of(const struct rho_reflector *reflector)
 }
 
 /* Signed distance of a place from the wall's line, > 0 on its left; and position along the line. */
-static float distance_before_wall(const struct wall *wall, float x_m, float y_m, float *along_m)
+static float signed_distance_from_wall(const struct wall *wall, float x_m, float y_m,
+                                       float *along_m)
 {
     const float dx_m = x_m - wall->x_m, dy_m = y_m - wall->y_m;
     *along_m = dx_m * wall->along_x + dy_m * wall->along_y;
@@ -106,7 +107,7 @@ static float distance_before_wall(const struct wall *wall, float x_m, float y_m,
 /* ---- images ---------------------------------------------------------------------------------- */
 
 /* Reflects a vector in the wall's line: the component across the wall changes its sign. */
-static void reflect_components(const struct wall *wall, float *x, float *y)
+static void reflect_vector_in_wall(const struct wall *wall, float *x, float *y)
 {
     const float along = *x * wall->along_x + *y * wall->along_y;
     const float kept = 2.0f * along;
@@ -145,14 +146,14 @@ int rho_reflector_mirror_state(const struct rho_reflector *reflector,
     *image = *of;
     image->state[RHO_X] -= wall.x_m;
     image->state[RHO_Y] -= wall.y_m;
-    reflect_components(&wall, &image->state[RHO_X], &image->state[RHO_Y]);
-    reflect_components(&wall, &image->state[RHO_VX], &image->state[RHO_VY]);
+    reflect_vector_in_wall(&wall, &image->state[RHO_X], &image->state[RHO_Y]);
+    reflect_vector_in_wall(&wall, &image->state[RHO_VX], &image->state[RHO_VY]);
     image->state[RHO_X] += wall.x_m;
     image->state[RHO_Y] += wall.y_m;
-    const float sensor_m = distance_before_wall(&wall, sensor ? sensor->x_m : 0.0f,
-                                                sensor ? sensor->y_m : 0.0f, &sensor_along_m);
+    const float sensor_m = signed_distance_from_wall(&wall, sensor ? sensor->x_m : 0.0f,
+                                                     sensor ? sensor->y_m : 0.0f, &sensor_along_m);
     const float image_m =
-        distance_before_wall(&wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
+        signed_distance_from_wall(&wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
     if (!(sensor_m * image_m < 0.0f)) {
         return 0;
     }
@@ -237,7 +238,8 @@ static int may_be_image_track(const struct step *step, const struct rho_track *t
 }
 
 /* True where a track agrees with an image in horizontal place and velocity. */
-static int is_at_image(const struct rho_track *track, const struct rho_kalman *image)
+static int does_track_agree_with_image(const struct rho_track *track,
+                                       const struct rho_kalman *image)
 {
     static const uint8_t of[4] = {RHO_X, RHO_Y, RHO_VX, RHO_VY};
     float s[RHO_TRIANGLE(4)], off[4], chi2, log_det;
@@ -265,7 +267,7 @@ static int is_image_of_other_track(struct step *step, unsigned row)
                 return 0;
             }
             if (make_image_of_track(step, i, of, &image) &&
-                is_at_image(&tracker->tracks[row], &image)) {
+                does_track_agree_with_image(&tracker->tracks[row], &image)) {
                 return 1;
             }
         }

@@ -23,7 +23,7 @@
 #define GATE_SIGMAS 3.0f
 
 /* Index of a sensor's record in tracker->looks; num_looks where it has none. */
-static unsigned place_of_look(const struct rho_tracker *tracker, int32_t sensor_id)
+static unsigned look_index_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
 {
     unsigned place = 0;
     while (place < tracker->num_looks && tracker->looks[place].sensor_id != sensor_id) {
@@ -34,7 +34,7 @@ static unsigned place_of_look(const struct rho_tracker *tracker, int32_t sensor_
 
 static struct rho_tracker_look *find_look_of_sensor(struct rho_tracker *tracker, int32_t sensor_id)
 {
-    const unsigned place = place_of_look(tracker, sensor_id);
+    const unsigned place = look_index_of_sensor(tracker, sensor_id);
     return place < tracker->num_looks ? &tracker->looks[place] : 0;
 }
 
@@ -68,7 +68,7 @@ static struct rho_tracker_look *add_look_or_replace_oldest(struct rho_tracker *t
 const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
                                                    int32_t sensor_id)
 {
-    const unsigned place = tracker ? place_of_look(tracker, sensor_id) : 0;
+    const unsigned place = tracker ? look_index_of_sensor(tracker, sensor_id) : 0;
     return tracker && place < tracker->num_looks ? &tracker->looks[place] : 0;
 }
 
@@ -165,7 +165,8 @@ void rho_tracker_record_seeing_sensor(const struct step *step, struct rho_track 
 }
 
 /* True where the scan's sector holds the gate's counter-clockwise (+1) or clockwise (-1) end. */
-static int sector_holds_gate_end(const struct step *step, const struct rho_track *track, float way)
+static int sector_holds_gate_end(const struct step *step, const struct rho_track *track,
+                                 float turn_sign)
 {
     const struct rho_scan *scan = step->scan;
     const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
@@ -177,13 +178,13 @@ static int sector_holds_gate_end(const struct step *step, const struct rho_track
         margin_rad = 0.5f * width_rad;
     }
     /* the track's place, rotated about the sensor by a small angle */
-    const float turn = way * margin_rad;
+    const float turn = turn_sign * margin_rad;
     return rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
                                   track->kalman.state[0] - turn * dy_m,
                                   track->kalman.state[1] + turn * dx_m);
 }
 
-static int is_scan_sector(const struct rho_scan *scan)
+static int is_scan_less_than_full_turn(const struct rho_scan *scan)
 {
     return rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad) < RHO_TWO_PI;
 }
@@ -194,7 +195,7 @@ int rho_tracker_has_passed_gate(const struct step *step, const struct rho_track 
     if (is_antenna_turning(step)) {
         return sector_holds_gate_end(step, track, step->turning); /* the end that is passed last */
     }
-    if (step->is_late && is_scan_sector(scan)) {
+    if (step->is_late && is_scan_less_than_full_turn(scan)) {
         /* where the sector does not hold the whole gate, a neighbouring sector may have the plot */
         return sector_holds_gate_end(step, track, 1.0f) &&
                sector_holds_gate_end(step, track, -1.0f);

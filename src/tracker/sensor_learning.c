@@ -168,7 +168,10 @@ struct innovation {
     int is_clear;
 };
 
-/* noise_m2: variance of the learned noise; up_m2: of the height's noise, which is not learned. */
+/*
+ * Innovation of a plot along a direction (x, y), over its sigma. noise_m2 is the variance of the
+ * noise that is learned, up_m2 that of the height's noise, which is not.
+ */
 static struct innovation innovation_along(const struct rho_kalman *steady,
                                           const struct rho_plot *plot, float x, float y,
                                           float noise_m2, float up_m2)
@@ -194,8 +197,8 @@ static struct innovation innovation_along(const struct rho_kalman *steady,
  * Half of the squared difference from the track's last innovation on an axis, cut at CUT2; below 0
  * where it is not to be used. Stores the new innovation in the track.
  */
-static float compare_with_last_innovation(struct rho_track *track, int axis,
-                                          const struct innovation *now)
+static float half_squared_change_store_innovation(struct rho_track *track, int axis,
+                                                  const struct innovation *now)
 {
     const float off = now->sigmas - (float)track->shown[axis] * (1.0f / SHOWN_PER_SIGMA);
     const float square = 0.5f * off * off;
@@ -215,7 +218,10 @@ static int update_log_noise(float *log_noise, float excess, float gain)
     return 1;
 }
 
-/* factors: learned so far, on the variances along the line of sight and across it. */
+/*
+ * Learns a sensor's noise from a plot of a steady track. factors are those learned so far, on the
+ * variances along the line of sight and across it.
+ */
 static void learn_noise_from_plot(struct step *step, struct rho_track *track,
                                   const struct rho_plot *plot, const float factors[2])
 {
@@ -239,8 +245,8 @@ static void learn_noise_from_plot(struct step *step, struct rho_track *track,
         innovation_along(steady, plot, x, y, (1.0f - rise2) * along_m2 * factors[0], up_m2);
     const struct innovation across =
         innovation_along(steady, plot, -y, x, across_m2 * factors[1], 0.0f);
-    const float along_excess = compare_with_last_innovation(track, 0, &along);
-    const float across_excess = compare_with_last_innovation(track, 1, &across);
+    const float along_excess = half_squared_change_store_innovation(track, 0, &along);
+    const float across_excess = half_squared_change_store_innovation(track, 1, &across);
     const float gain = GAIN / (INNOVATIONS_PRIOR + (float)learned->innovations);
     const int is_round = along_m2 <= across_m2 && along_m2 >= across_m2;
     int is_used = update_log_noise(&learned->log_noise[0], along_excess, gain);
@@ -363,14 +369,18 @@ static unsigned range_rate_interval_of_track(const struct rho_sensor *sensor,
                                                             : RHO_LEARN_RATES - 1u;
 }
 
-/* New number of intervals of a notch in use: as before, one less, or 0. */
-static unsigned keep_shrink_or_drop_notch(unsigned used, float here, float seen, float looks,
-                                          float hits, float pd)
+/*
+ * New number of intervals of a notch in use: as before, one less, or 0. last_looks and last_hits
+ * are of its fastest interval, looks and hits of all, faster_pd of the intervals above.
+ */
+static unsigned keep_shrink_or_drop_notch(unsigned used, float last_looks, float last_hits,
+                                          float looks, float hits, float faster_pd)
 {
-    if (hits > BLIND_SHARE * pd * looks) {
+    if (hits > BLIND_SHARE * faster_pd * looks) {
         return 0;
     }
-    return used > RATES_LEAST && here >= BLIND_USED_LOOKS && seen > BLIND_USED_SHARE * pd * here
+    return used > RATES_LEAST && last_looks >= BLIND_USED_LOOKS &&
+                   last_hits > BLIND_USED_SHARE * faster_pd * last_looks
                ? used - 1u
                : used;
 }
@@ -426,8 +436,8 @@ static void update_learned_notch(struct rho_tracker_learned *learned)
  * Counts a look in the interval of the track's range rate, and looks for a notch now and then.
  * Returns 1 where the interval is outside of the notch.
  */
-static int count_look_by_range_rate(struct step *step, const struct rho_track *track,
-                                    unsigned is_seen)
+static int count_look_by_rate_outside_notch(struct step *step, const struct rho_track *track,
+                                            unsigned is_seen)
 {
     struct rho_tracker_learned *learned = step->learned;
     const unsigned rate = range_rate_interval_of_track(step->sensor, track);
@@ -482,7 +492,7 @@ static void count_look_by_range_and_rate(struct step *step, const struct rho_tra
 {
     struct rho_tracker_learned *learned = step->learned;
     const unsigned ring = range_ring_of_track(step->sensor, track);
-    if (is_notch_learning_on(step) && !count_look_by_range_rate(step, track, is_seen)) {
+    if (is_notch_learning_on(step) && !count_look_by_rate_outside_notch(step, track, is_seen)) {
         return;
     }
     learned->looks[ring] = (uint16_t)(learned->looks[ring] + 1u);
@@ -505,7 +515,7 @@ static void learn_pd_from_look(struct step *step, struct rho_track *track, int i
     }
     if (RHO_DOPPLER_NOTCH && track->blind_percent > BLIND_PERCENT_MAX) {
         if (is_own && is_notch_learning_on(step)) {
-            (void)count_look_by_range_rate(step, track, is_seen != 0);
+            (void)count_look_by_rate_outside_notch(step, track, is_seen != 0);
         }
         return;
     }

@@ -146,8 +146,9 @@ static float second_plot_density(const struct rho_second_plots *table, struct bi
 }
 
 /* Likelihood ratio of two plots' range rates, of one target against clutter of any range rate. */
-static float range_rate_ratio_of_plots(const struct step *step, uint32_t measures,
-                                       const struct rho_plot *first, const struct rho_plot *second)
+static float likelihood_ratio_of_range_rates(const struct step *step, uint32_t measures,
+                                             const struct rho_plot *first,
+                                             const struct rho_plot *second)
 {
     if (!(measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
@@ -194,8 +195,9 @@ static float probability_of_one_target(const struct rho_track *track)
  * Evidence for one target, ln, by a scan in which each of both tracks claimed a plot: the younger
  * track's plot is a second plot of the older's target, or of a target of its own.
  */
-static float evidence_of_two_plots(const struct step *step, const struct rho_second_plots *table,
-                                   unsigned older_row, unsigned row)
+static float one_target_evidence_by_two_plots(const struct step *step,
+                                              const struct rho_second_plots *table,
+                                              unsigned older_row, unsigned row)
 {
     const struct rho_track *older = &step->tracker->tracks[older_row];
     const struct rho_track *track = &step->tracker->tracks[row];
@@ -219,7 +221,7 @@ static float evidence_of_two_plots(const struct step *step, const struct rho_sec
     }
     if (is_within_bins(offset)) {
         ratio = second_plot_rate(table, older) * second_plot_density(table, offset, first) *
-                range_rate_ratio_of_plots(step, step->scan->measures, first, second) /
+                likelihood_ratio_of_range_rates(step, step->scan->measures, first, second) /
                 rho_tracker_background_density_at_plot(step, second) *
                 rho_exp(-rho_tracker_log_echo_density_ratio(step, (uint32_t)track->plot));
     }
@@ -230,8 +232,9 @@ static float evidence_of_two_plots(const struct step *step, const struct rho_sec
  * Evidence for one target, ln, by a scan in which one of both tracks has a plot, or both have the
  * same. A plot in both gates could be of either of two targets: two ways, which LOG_TWO counts.
  */
-static float evidence_of_one_plot(const struct step *step, const struct rho_second_plots *table,
-                                  unsigned older_row, unsigned row)
+static float one_target_evidence_by_one_plot(const struct step *step,
+                                             const struct rho_second_plots *table,
+                                             unsigned older_row, unsigned row)
 {
     const struct rho_track *older = &step->tracker->tracks[older_row];
     const struct rho_track *track = &step->tracker->tracks[row];
@@ -295,8 +298,8 @@ static void test_and_end_younger_track(struct step *step, const struct rho_secon
         return;
     }
     const float nat = track->plot >= 0 && older->plot >= 0 && track->plot != older->plot
-                          ? evidence_of_two_plots(step, table, older_row, row)
-                          : evidence_of_one_plot(step, table, older_row, row);
+                          ? one_target_evidence_by_two_plots(step, table, older_row, row)
+                          : one_target_evidence_by_one_plot(step, table, older_row, row);
     add_evidence_of_one_target(track, nat);
     if (track->one_target_nat > ONE_TARGET_END_NAT) {
         track->one_target_nat = ONE_TARGET_END_NAT;
@@ -322,8 +325,10 @@ static int can_teach_second_plots(const struct rho_track *track)
  * Probability that a plot near the track's plot is its target's second one. Raises the density of
  * clutter at an unclaimed plot; a younger track that claimed the plot becomes one to be tested.
  */
-static float score_plot_near_claimed(struct step *step, const struct rho_second_plots *table,
-                                     unsigned row, uint32_t other, struct bin_offset offset)
+static float second_plot_probability_raise_density(struct step *step,
+                                                   const struct rho_second_plots *table,
+                                                   unsigned row, uint32_t other,
+                                                   struct bin_offset offset)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
@@ -341,13 +346,13 @@ static float score_plot_near_claimed(struct step *step, const struct rho_second_
         if (younger->older_id == 0 && younger->hits <= YOUNGER_HITS_MAX && track->was_confirmed) {
             younger->older_id = track->track_id;
             younger->one_target_nat = 0.0f;
-            add_evidence_of_one_target(younger,
-                                       evidence_of_two_plots(step, table, row, (unsigned)owner));
+            add_evidence_of_one_target(
+                younger, one_target_evidence_by_two_plots(step, table, row, (unsigned)owner));
         }
         share = younger->older_id == track->track_id ? probability_of_one_target(younger) : 0.0f;
     }
     const float ratio = second_plot_rate(table, track) * second_plot_density(table, offset, first) *
-                        range_rate_ratio_of_plots(step, step->scan->measures, first, second) /
+                        likelihood_ratio_of_range_rates(step, step->scan->measures, first, second) /
                         rho_tracker_background_density_at_plot(step, second);
     float *denser = &tracker->clutter_map.denser[other];
     const float known = rho_exp(*denser);
@@ -357,8 +362,9 @@ static float score_plot_near_claimed(struct step *step, const struct rho_second_
     return share * ratio / (known + ratio);
 }
 
-static void score_plots_near_claimed(struct step *step, const struct rho_second_plots *table,
-                                     unsigned row, struct second_plot_sums *found)
+/* Sums the probable second plots near a track's plot, and raises the clutter density at them. */
+static void sum_second_plots_raise_density(struct step *step, const struct rho_second_plots *table,
+                                           unsigned row, struct second_plot_sums *found)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
     const struct rho_plot *first = &step->scan->plots[track->plot];
@@ -376,7 +382,7 @@ static void score_plots_near_claimed(struct step *step, const struct rho_second_
         const struct bin_offset offset = bin_offset_of_plots(step->sensor, first, plot);
         rho_tracker_spend_work(step, PAIR_UNITS);
         if (is_within_bins(offset)) {
-            const float share = score_plot_near_claimed(step, table, row, i, offset);
+            const float share = second_plot_probability_raise_density(step, table, row, i, offset);
             found->plots += share;
             found->along[offset.along] += share;
             found->across[offset.across] += share;
@@ -444,7 +450,7 @@ void rho_tracker_score_second_plots(struct step *step)
             continue;
         }
         struct second_plot_sums near = {.plots = 0.0f};
-        score_plots_near_claimed(step, table, row, &near);
+        sum_second_plots_raise_density(step, table, row, &near);
         if (can_teach_second_plots(track)) {
             const float share = track->second_share;
             add_second_plots_to_track(track, near.plots, share);
@@ -463,10 +469,10 @@ void rho_tracker_score_second_plots(struct step *step)
 
 /* ---- plots in the window --------------------------------------------------------------------- */
 
-static void raise_density_near_window_plot(struct step *step, const struct rho_second_plots *table,
-                                           struct rho_window_scan *scan, unsigned own)
+static void raise_stored_clutter_near_plot(struct step *step, const struct rho_second_plots *table,
+                                           struct rho_window_scan *scan, unsigned claimed)
 {
-    const struct rho_plot first = rho_window_unpack_plot(scan, own);
+    const struct rho_plot first = rho_window_unpack_plot(scan, claimed);
     const struct rho_sensor *sensor = rho_window_sensor(scan);
     const float half_m = NEAR_SIGMAS * 1.4142136f * rho_plot_sigma_m(&first);
     for (unsigned i = 0; i < scan->num_plots; i++) {
@@ -479,10 +485,10 @@ static void raise_density_near_window_plot(struct step *step, const struct rho_s
         const struct bin_offset offset = bin_offset_of_plots(sensor, &first, &plot);
         rho_tracker_spend_work(step, PAIR_UNITS);
         if (is_within_bins(offset)) {
-            const float ratio = second_plot_rate(table, 0) *
-                                second_plot_density(table, offset, &first) *
-                                range_rate_ratio_of_plots(step, scan->measures, &first, &plot) /
-                                rho_tracker_background_density_at_plot(step, &plot);
+            const float ratio =
+                second_plot_rate(table, 0) * second_plot_density(table, offset, &first) *
+                likelihood_ratio_of_range_rates(step, scan->measures, &first, &plot) /
+                rho_tracker_background_density_at_plot(step, &plot);
             scan->repeats[i] = add_ratio_to_repeats(scan->repeats[i], ratio);
         }
     }
@@ -501,7 +507,7 @@ void rho_tracker_raise_density_near_start_plots(struct step *step,
             count_plot_not_tried(step);
         } else if (((unsigned)candidate->mask >> m & 1u) && table) {
             rho_tracker_spend_work(step, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
-            raise_density_near_window_plot(step, table, scan, candidate->plot[m]);
+            raise_stored_clutter_near_plot(step, table, scan, candidate->plot[m]);
         }
     }
 }

@@ -102,6 +102,7 @@ void rho_tracker_set_late_max_default(struct rho_tracker_config *config);
 int rho_tracker_is_late_max_usable(const struct rho_tracker_config *config);
 /* True of an out-of-sequence scan within late_max_s that is not its sensor's newest one again. */
 int rho_tracker_accepts_late_scan(const struct step *step);
+/* Counts an out-of-sequence scan that still updates tracks. */
 void rho_tracker_count_late_scan(struct step *step);
 /* Stores the track's time before an out-of-sequence scan moves the track back. */
 void rho_tracker_store_track_time(struct rho_track *track);
@@ -352,7 +353,7 @@ void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
  */
 int rho_tracker_range_rate_residual(const struct step *step, const struct rho_scan *scan,
                                     const struct rho_track *track, const struct rho_plot *plot,
-                                    float line[2], float *off_mps);
+                                    float sight_line[2], float *off_mps);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
  * rate and line of sight by rho_tracker_range_rate_residual, whose result
@@ -433,8 +434,8 @@ struct plot_choice {
 };
 /* Begins a phase in which tracks score plots, with a reserved share for each track in view. */
 void rho_tracker_begin_tracks_work(struct step *step);
-/* Begins a phase that may do work_max / part units of work. */
-void rho_tracker_begin_work_share(struct step *step, uint32_t part);
+/* Begins a phase that may do work_max / divisor units of work. */
+void rho_tracker_begin_work_share(struct step *step, uint32_t divisor);
 static inline void rho_tracker_spend_work(struct step *step, uint32_t units)
 {
     step->work = rho_count(step->work, units);

@@ -254,7 +254,7 @@ static enum rho_status predict_and_update_input(struct rho_track *track,
  * Decides which inputs are present after all bearings of a step: a bearing measures nothing along
  * its line of sight, so that bearings of several sensors are needed.
  */
-static void decide_inputs_by_bearings(struct rho_track *track, const struct rho_track_model *model)
+static void decide_undecided_inputs(struct rho_track *track, const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
         rho_input_decide_presence(&track->input, model->input);
@@ -282,7 +282,7 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
                                const struct rho_track_model *model)
 {
     struct rho_hypotheses_estimate estimate;
-    decide_inputs_by_bearings(track, model);
+    decide_undecided_inputs(track, model);
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) ||
         rho_hypotheses_estimate(model->hypotheses, track->slot, time_us, &estimate) != RHO_OK) {
         return;
@@ -327,7 +327,8 @@ static enum rho_track_filter filter_of_model(const struct rho_track_model *model
 }
 
 /* Sets the filter that the model asks for, and starts it from the track's Kalman estimate. */
-static enum rho_status open_filter(struct rho_track *track, const struct rho_track_model *model)
+static enum rho_status start_filter_of_model(struct rho_track *track,
+                                             const struct rho_track_model *model)
 {
     const enum rho_track_filter filter = filter_of_model(model);
     if (!RHO_HAS_FILTER(filter)) {
@@ -342,14 +343,14 @@ static enum rho_status open_filter(struct rho_track *track, const struct rho_tra
                : RHO_OK;
 }
 
-/* Stores the velocity after a hit; is_first 0: a step's later plot replaces the newest velocity. */
-static void store_velocity_after_hit(struct rho_track *track, int is_first)
+/* Stores the velocity after a hit; a later plot of the same step replaces the newest velocity. */
+static void store_velocity_after_hit(struct rho_track *track, int is_first_of_step)
 {
-    if (is_first && track->num_velocities < UINT8_MAX) {
+    if (is_first_of_step && track->num_velocities < UINT8_MAX) {
         track->num_velocities++;
     }
     for (int axis = 0; axis < 3 && RHO_HAS_FILTER(RHO_TRACK_INPUT); axis++) {
-        if (is_first) {
+        if (is_first_of_step) {
             track->before_mps[axis] = track->newest_mps[axis];
         }
         track->newest_mps[axis] = track->kalman.state[3 + axis];
@@ -413,7 +414,7 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
     rho_kalman_init(&start.kalman);
     enum rho_status status = update_state_by_plot(&start.kalman, &plots[0], model);
     if (status == RHO_OK) {
-        status = open_filter(&start, model);
+        status = start_filter_of_model(&start, model);
     }
     if (status != RHO_OK) {
         return status;
@@ -454,7 +455,7 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     start.time_us = time_us;
     start.updated_us = time_us;
     start.kalman = *estimate;
-    enum rho_status status = open_filter(&start, model);
+    enum rho_status status = start_filter_of_model(&start, model);
     if (status == RHO_OK) {
         status = restart_input_with_initial_variance(&start, model);
     }
@@ -482,8 +483,8 @@ void rho_track_free_hypotheses(struct rho_track *track, const struct rho_track_m
  * Predicts the merged estimate of a track with hypotheses without noise, which is a rough value
  * until rho_track_merge_estimates computes it at the end of the step. Passes errors on.
  */
-static enum rho_status move_merged_estimate(struct rho_track *track, int64_t time_us,
-                                            enum rho_status status)
+static enum rho_status move_merged_estimate_unless_error(struct rho_track *track, int64_t time_us,
+                                                         enum rho_status status)
 {
     return status == RHO_OK ? rho_kalman_predict(&track->kalman,
                                                  rho_seconds_between(track->time_us, time_us), 0.0f)
@@ -499,7 +500,7 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     }
     float dt_s = rho_seconds_between(track->time_us, time_us);
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        status = move_merged_estimate(
+        status = move_merged_estimate_unless_error(
             track, time_us, rho_hypotheses_predict(model->hypotheses, track->slot, time_us));
     } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         status = rho_input_predict(&track->input, model->input, dt_s);
@@ -524,7 +525,7 @@ enum rho_status rho_track_return_to_time(struct rho_track *track, int64_t time_u
     }
     enum rho_status status =
         RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
-            ? move_merged_estimate(
+            ? move_merged_estimate_unless_error(
                   track, time_us,
                   rho_hypotheses_predict_noiseless(model->hypotheses, track->slot, time_us))
             : rho_kalman_predict(&track->kalman, rho_seconds_between(track->time_us, time_us),

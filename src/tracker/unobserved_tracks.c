@@ -150,7 +150,7 @@ static int may_sensor_see_place(const struct rho_tracker *tracker,
 }
 
 /* True of the sensor that saw the track last; with RHO_SECTORS also of the one before it. */
-static int is_last_seeing_sensor(const struct rho_track *track, int32_t sensor_id)
+static int is_among_last_seeing_sensors(const struct rho_track *track, int32_t sensor_id)
 {
     return track->sensor_id == sensor_id ||
            (RHO_SECTORS && rho_tracker_is_last_seeing_sensor(track, sensor_id));
@@ -167,7 +167,7 @@ static struct expected_looks expect_looks_at_track(const struct step *step,
     for (unsigned i = 0; i < tracker->num_paces; i++) {
         const struct rho_tracker_pace *pace = &tracker->paces[i];
         const int is_seen = may_sensor_see_place(tracker, pace, x_m, y_m);
-        const int is_last = is_last_seeing_sensor(track, pace->sensor_id);
+        const int is_last = is_among_last_seeing_sensors(track, pace->sensor_id);
         const float interval_s =
             pace->interval_s > track->seen_every_s ? pace->interval_s : track->seen_every_s;
         if ((is_seen || is_last) && interval_s > wait.interval_s) {

@@ -37,10 +37,10 @@ static uint32_t num_parts_of_scan(const struct step *step)
                                             : RHO_TRACKER_PARTS_MAX;
 }
 
-void rho_tracker_begin_work_share(struct step *step, uint32_t part)
+void rho_tracker_begin_work_share(struct step *step, uint32_t divisor)
 {
     const uint32_t work_max = step->tracker->config.work_max;
-    step->share.end = work_max > 0 ? rho_count(step->work, work_max / part) : UINT32_MAX;
+    step->share.end = work_max > 0 ? rho_count(step->work, work_max / divisor) : UINT32_MAX;
 }
 
 void rho_tracker_begin_tracks_work(struct step *step)

@@ -172,10 +172,10 @@ static void widen_image_by_line_error(const struct rho_learned_reflector *line, 
  * Refines and lengthens a line by the plot of a target's image: the line is half way between both.
  * Returns the distance of that place from the line as it was before.
  */
-static float refine_line_by_image_plot(struct rho_learned_reflector *line,
-                                       const struct observation *observation,
-                                       const struct rho_track_report *target,
-                                       const struct rho_plot *plot, float crossing_m)
+static float refine_line_by_image_return_off_m(struct rho_learned_reflector *line,
+                                               const struct observation *observation,
+                                               const struct rho_track_report *target,
+                                               const struct rho_plot *plot, float crossing_m)
 {
     struct rho_measurement seen;
     float noise[6], along_m, across_m;
@@ -195,7 +195,8 @@ static float refine_line_by_image_plot(struct rho_learned_reflector *line,
     return off_m;
 }
 
-static int is_line_observed(const struct rho_learned_reflector *line)
+/* True of a line that is used as a wall, or that enough pairs of tracks support. */
+static int is_line_worth_observing(const struct rho_learned_reflector *line)
 {
     return line->is_taken && (line->is_used || line->pairs >= OBSERVED_PAIRS);
 }
@@ -226,7 +227,7 @@ static int may_be_image_in_other_line(const struct rho_reflector_learning *learn
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
         const struct rho_learned_reflector *other = &learning->lines[i];
         float from_m, to_m;
-        if (other == line || !is_line_observed(other)) {
+        if (other == line || !is_line_worth_observing(other)) {
             continue;
         }
         const float sensor_m = off_line_m(other, x_m, y_m, &from_m);
@@ -270,8 +271,8 @@ static void count_witness_verdict(struct rho_reflector_learning *learning,
 }
 
 /* The line's slot of a track's witness, or a free slot; NULL where there is neither. */
-static struct rho_reflector_witness *witness_slot_of_track(struct rho_learned_reflector *line,
-                                                           uint32_t track_id)
+static struct rho_reflector_witness *
+witness_slot_of_track_or_free(struct rho_learned_reflector *line, uint32_t track_id)
 {
     struct rho_reflector_witness *found = 0;
     for (unsigned i = 0; i < RHO_REFLECTOR_WITNESSES; i++) {
@@ -305,8 +306,9 @@ static void forget_ended_witnesses(struct rho_learned_reflector *line,
  * Size of an image's gate, its half sides in x and y added, for a plot as uncertain as the
  * target's.
  */
-static float gate_reach_m(const struct observation *observation,
-                          const struct rho_track_report *target, const struct rho_kalman *image)
+static float sum_of_gate_half_sides_m(const struct observation *observation,
+                                      const struct rho_track_report *target,
+                                      const struct rho_kalman *image)
 {
     const float sigma_m = rho_plot_sigma_m(&observation->scan->plots[target->plot]);
     struct rho_gate gate;
@@ -345,9 +347,10 @@ static int is_image_outside_body(const struct observation *observation,
  * the gate does not reach. Counts both for the track's witness, and the verdict after JUDGED_LOOKS
  * looks.
  */
-static void observe_image(struct rho_reflector_learning *learning,
-                          struct rho_learned_reflector *line, struct observation *observation,
-                          const struct rho_track_report *target)
+static void look_for_image_and_count(struct rho_reflector_learning *learning,
+                                     struct rho_learned_reflector *line,
+                                     struct observation *observation,
+                                     const struct rho_track_report *target)
 {
     const struct rho_reflector wall = wall_of_line(line);
     struct rho_kalman of, image;
@@ -362,7 +365,7 @@ static void observe_image(struct rho_reflector_learning *learning,
     }
     crossing_m += line->from_m - extension_of_short_line_m(line);
     widen_image_by_line_error(line, crossing_m, &image);
-    struct rho_reflector_witness *witness = witness_slot_of_track(line, target->track_id);
+    struct rho_reflector_witness *witness = witness_slot_of_track_or_free(line, target->track_id);
     if (!witness || !is_image_outside_body(observation, target, &image)) {
         return;
     }
@@ -373,13 +376,14 @@ static void observe_image(struct rho_reflector_learning *learning,
     observation->images_left--;
     const int32_t nearest = nearest_other_plot_in_gate(observation, &image, target);
     const float off_m =
-        nearest >= 0 ? refine_line_by_image_plot(line, observation, target,
-                                                 &observation->scan->plots[nearest], crossing_m)
-                     : 0.0f;
+        nearest >= 0
+            ? refine_line_by_image_return_off_m(line, observation, target,
+                                                &observation->scan->plots[nearest], crossing_m)
+            : 0.0f;
     if (witness->looks >= JUDGED_LOOKS || crossing_m < line->from_m || crossing_m > line->to_m) {
         return;
     }
-    const float reach_m = gate_reach_m(observation, target, &image);
+    const float reach_m = sum_of_gate_half_sides_m(observation, target, &image);
     const float beside_m = witness->looks % 2u ? 2.0f * reach_m : -2.0f * reach_m;
     image.state[RHO_X] += beside_m * line->cos_along;
     image.state[RHO_Y] += beside_m * line->sin_along;
@@ -393,20 +397,22 @@ static void observe_image(struct rho_reflector_learning *learning,
     }
 }
 
-static void observe_images(struct rho_reflector_learning *learning, struct observation *observation,
-                           const struct rho_report *report)
+/* Looks for the images of all tracks in each line worth observing, up to the limit of images. */
+static void look_for_images_in_lines(struct rho_reflector_learning *learning,
+                                     struct observation *observation,
+                                     const struct rho_report *report)
 {
     for (unsigned k = 0; k < RHO_LEARNED_REFLECTORS && observation->images_left > 0; k++) {
         struct rho_learned_reflector *line =
             &learning->lines[(learning->next_line + k) % RHO_LEARNED_REFLECTORS];
-        if (!is_line_observed(line)) {
+        if (!is_line_worth_observing(line)) {
             continue;
         }
         forget_ended_witnesses(line, report);
         for (unsigned i = 0; i < report->num_tracks && observation->images_left > 0; i++) {
             const struct rho_track_report *target = &report->tracks[i];
             if (may_have_image(target, observation->scan)) {
-                observe_image(learning, line, observation, target);
+                look_for_image_and_count(learning, line, observation, target);
             }
         }
     }
@@ -584,7 +590,7 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     const int has_walls = learning->num_used > 0;
     learning->steps++;
     rho_reflector_learning_note_pairs(learning, observation.sensor, scan, report);
-    observe_images(learning, &observation, report);
+    look_for_images_in_lines(learning, &observation, report);
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
         accept_or_forget_line(learning, tracker, &learning->lines[i]);
     }

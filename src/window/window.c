@@ -65,8 +65,8 @@ static float seconds_of_us(int32_t offset_us)
  * Gives HELD plots beyond the window's capacity the fate NO_ROOM. Returns the number of plots that
  * the scan then holds, `held` earlier ones included.
  */
-static unsigned refuse_plots_beyond_capacity(const struct rho_scan *scan, unsigned held,
-                                             uint8_t *fates)
+static unsigned refuse_excess_plots_count_held(const struct rho_scan *scan, unsigned held,
+                                               uint8_t *fates)
 {
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         if (fates[i] != RHO_FATE_HELD) {
@@ -152,7 +152,7 @@ static void widen_scan_bounds(struct rho_window *window, struct rho_window_scan 
 }
 
 /* Finds the start of each bin, earlier sectors' plots and the new ones counted. */
-static void find_bin_starts(const struct entry *entry)
+static void set_bin_starts_by_counts(const struct entry *entry)
 {
     struct rho_window_scan *slot = entry->slot;
     unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
@@ -210,7 +210,7 @@ static void copy_plots_into_bins(struct rho_window *window, const struct entry *
     struct rho_window_scan *slot = entry->slot;
     unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
     uint16_t *start = slot->bin_start;
-    find_bin_starts(entry);
+    set_bin_starts_by_counts(entry);
     if (RHO_SECTORS) {
         move_held_plots_to_bins(slot);
     }
@@ -347,7 +347,7 @@ static void add_sector_to_newest(struct rho_window *window, const struct rho_sca
     struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans - 1u);
     const struct entry entry = {slot, scan, fates, rho_measurement_sigma_factors(sensor),
                                 rho_seconds_between(slot->time_us, scan->time_us)};
-    const unsigned held = refuse_plots_beyond_capacity(scan, slot->num_plots, fates);
+    const unsigned held = refuse_excess_plots_count_held(scan, slot->num_plots, fates);
     if (slot->num_plots == 0) {
         set_first_extent(window, scan, fates);
         lay_out_bins(slot, window, expected_plots_of_revolution(window, scan, held));
@@ -413,7 +413,7 @@ static void add_scan(struct rho_window *window, const struct rho_scan *scan,
                                 .scan = scan,
                                 .fates = fates,
                                 .factors = rho_measurement_sigma_factors(sensor)};
-    unsigned held = refuse_plots_beyond_capacity(scan, 0, fates);
+    unsigned held = refuse_excess_plots_count_held(scan, 0, fates);
     slot->time_us = scan->time_us;
     slot->measures = scan->measures;
     slot->sector_from_rad = scan->sector_from_rad;

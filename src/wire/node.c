@@ -42,7 +42,7 @@ static int is_initialised(const struct rho_node *node)
  * frame comes or its time has passed: the number of sensors is unknown, and a frame closed by the
  * second sensor would make the scans of all others out of sequence.
  */
-static void await_all_sensors(struct rho_frames *frames)
+static void require_all_sensors_in_frame(struct rho_frames *frames)
 {
     frames->config.sensors_min = RHO_MAX_PASSIVE_SENSORS;
 }
@@ -69,7 +69,7 @@ enum rho_status rho_node_init(struct rho_node *node, size_t size,
         if (rho_frames_close(frames_or_null(node)) != RHO_OK) {
             return RHO_ERROR_STATE;
         }
-        await_all_sensors(frames_or_null(node));
+        require_all_sensors_in_frame(frames_or_null(node));
     }
     node->magic = MAGIC;
     return RHO_OK;
@@ -161,7 +161,7 @@ static void reset_frames(struct rho_node *node)
         struct rho_frames_counters counters = frames->counters;
 
         (void)!rho_frames_init(frames, sizeof *frames, &frames->config);
-        await_all_sensors(frames);
+        require_all_sensors_in_frame(frames);
         counters.scans_taken = 0; /* 0 tells the frames that they have no clock yet */
         frames->counters = counters;
         memset(node->refused_scans, 0, sizeof node->refused_scans);
@@ -209,7 +209,8 @@ static int push_bearings_into_frame(struct rho_node *node, const struct rho_bear
  * Counts a refused scan. Returns 1 where the frames are to begin anew: a silent sensor keeps the
  * scan's sensor out, or MOVED_SCANS refusals suggest that the scan's sensor has moved.
  */
-static int count_refusal_and_check_reset(struct rho_node *node, const struct rho_bearing_scan *scan)
+static int count_refusal_and_must_reset_frames(struct rho_node *node,
+                                               const struct rho_bearing_scan *scan)
 {
     const struct rho_frames *frames = frames_or_null(node);
 
@@ -248,7 +249,7 @@ static void set_frame_due_time(struct rho_node *node, int64_t now_us)
 }
 
 /* Adds the item to a frame; where frames must begin anew, keeps it until the open frame's step. */
-static void take_bearings_item(struct rho_node *node, int64_t now_us)
+static void push_bearings_or_await_reset(struct rho_node *node, int64_t now_us)
 {
     const struct rho_bearing_scan *scan = &node->item.bearings;
     int is_again = node->is_forgetting;
@@ -263,7 +264,7 @@ static void take_bearings_item(struct rho_node *node, int64_t now_us)
         set_frame_due_time(node, now_us);
     } else if (!is_again) {
         node->counters.bearings_refused = rho_count(node->counters.bearings_refused, 1);
-        if (count_refusal_and_check_reset(node, scan)) {
+        if (count_refusal_and_must_reset_frames(node, scan)) {
             node->is_forgetting = 1;
             (void)close_open_frame(node);
         }
@@ -317,7 +318,11 @@ static enum rho_node_due give_first_waiting_scan(struct rho_node *node)
                                          first->has_sensor ? &first->sensor : NULL);
 }
 
-static enum rho_node_due take_plots_item(struct rho_node *node)
+/*
+ * Gives the item's scan; while an older frame is open the scan waits, or closes it if none may
+ * wait.
+ */
+static enum rho_node_due give_scan_or_let_wait(struct rho_node *node)
 {
     const struct rho_frames_slot *frame = find_open_frame(node);
     const struct rho_scan_assembler_item *item = &node->item;
@@ -338,7 +343,8 @@ static enum rho_node_due take_plots_item(struct rho_node *node)
 
 /* ---- What is due ---- */
 
-static enum rho_node_due begin_restart(struct rho_node *node)
+/* Initialises passive initiation anew, counts the restart, and tells the caller of it. */
+static enum rho_node_due reset_search_and_tell_restart(struct rho_node *node)
 {
     reset_passive_search(node);
     node->counters.restarts = rho_count(node->counters.restarts, 1);
@@ -352,7 +358,7 @@ static enum rho_node_due give_closed_frame_or_restart(struct rho_node *node)
     frames->config.sensors_min = PASSIVE_MIN;
     if (node->has_closed == FRAME_CLOSED && frames->slots[1 - frames->open].is_restart) {
         node->has_closed = FRAME_RESTARTED;
-        return begin_restart(node);
+        return reset_search_and_tell_restart(node);
     }
     node->has_closed = FRAME_NONE;
     return RHO_NODE_FRAME;
@@ -398,13 +404,13 @@ static enum rho_node_due take_fetched_item(struct rho_node *node, int64_t now_us
         }
         node->item.is_restart = 0;
         reset_frames(node);
-        return begin_restart(node);
+        return reset_search_and_tell_restart(node);
     }
     if (RHO_SCAN_ASSEMBLER_IS(node->item.kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
-        take_bearings_item(node, now_us);
+        push_bearings_or_await_reset(node, now_us);
         return RHO_NODE_NOTHING;
     }
-    return take_plots_item(node);
+    return give_scan_or_let_wait(node);
 }
 
 /* 1 where the first scan after a snapshot is jump_max_us older: it is of another clock. */

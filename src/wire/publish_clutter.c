@@ -33,7 +33,7 @@ static struct rho_message_echo echo_message_of(const struct rho_clutter_map *map
     };
 }
 
-static unsigned count_echoes(const struct rho_tracker *tracker)
+static unsigned count_known_echoes(const struct rho_tracker *tracker)
 {
     uint32_t place = 0;
     unsigned count = 0;
@@ -65,7 +65,7 @@ static unsigned num_parts_for_echoes(unsigned echoes)
 
 uint16_t rho_publish_num_clutter_parts(const struct rho_tracker *tracker)
 {
-    return (uint16_t)num_parts_for_echoes(tracker ? count_echoes(tracker) : 0);
+    return (uint16_t)num_parts_for_echoes(tracker ? count_known_echoes(tracker) : 0);
 }
 
 enum rho_status rho_publish_clutter(const struct rho_tracker *tracker, uint16_t part,
@@ -74,7 +74,7 @@ enum rho_status rho_publish_clutter(const struct rho_tracker *tracker, uint16_t 
     if (!tracker || !list) {
         return RHO_ERROR_NULL;
     }
-    const unsigned echoes = count_echoes(tracker);
+    const unsigned echoes = count_known_echoes(tracker);
     if (part >= num_parts_for_echoes(echoes)) {
         return RHO_ERROR_VALUE;
     }

@@ -77,10 +77,10 @@ static int is_much_longer(uint64_t took_us, uint64_t longest_us)
  * silence before it, explains has a wrong time; a scan that skips more numbers than there was time
  * for has a wrong number. Accepted, such a scan would make the next ones look old.
  */
-static enum scan_verdict classify_by_pace(const struct rho_scan_assembler_config *config,
-                                          const struct rho_scan_assembler_source *source,
-                                          const struct rho_scan_assembler_place *place,
-                                          int64_t now_us)
+static enum scan_verdict classify_newer_scan_by_pace(const struct rho_scan_assembler_config *config,
+                                                     const struct rho_scan_assembler_source *source,
+                                                     const struct rho_scan_assembler_place *place,
+                                                     int64_t now_us)
 {
     int32_t ahead = scan_number_difference(place->scan, source->place.scan);
     uint64_t took_us = rho_elapsed_us(place->time_us, source->place.time_us);
@@ -101,10 +101,11 @@ static enum scan_verdict classify_by_pace(const struct rho_scan_assembler_config
                                                                       : SCAN_NEXT;
 }
 
-static enum scan_verdict classify_by_number(const struct rho_scan_assembler_config *config,
-                                            const struct rho_scan_assembler_source *source,
-                                            const struct rho_scan_assembler_place *place,
-                                            int64_t now_us)
+/* Classifies a scan by its number and time against its sensor's newest scan. */
+static enum scan_verdict classify_by_number_and_time(const struct rho_scan_assembler_config *config,
+                                                     const struct rho_scan_assembler_source *source,
+                                                     const struct rho_scan_assembler_place *place,
+                                                     int64_t now_us)
 {
     const struct rho_scan_assembler_place *newest = &source->place;
     int32_t ahead = scan_number_difference(place->scan, newest->scan);
@@ -114,7 +115,7 @@ static enum scan_verdict classify_by_number(const struct rho_scan_assembler_conf
         return SCAN_WRONG_NUMBER;
     }
     if (ahead > 0) {
-        return classify_by_pace(config, source, place, now_us);
+        return classify_newer_scan_by_pace(config, source, place, now_us);
     }
     /*
      * An older number with a newer time: the sensor's numbering was set back. With a time far back
@@ -131,9 +132,9 @@ static enum scan_verdict classify_by_number(const struct rho_scan_assembler_conf
 
 /* The longest series of refused scans that a scan may continue; NULL: it continues none. */
 static const struct rho_scan_assembler_stray *
-find_series_to_continue(const struct rho_scan_assembler_config *config,
-                        const struct rho_scan_assembler_source *source,
-                        const struct rho_scan_assembler_place *place)
+find_refused_series_to_continue(const struct rho_scan_assembler_config *config,
+                                const struct rho_scan_assembler_source *source,
+                                const struct rho_scan_assembler_place *place)
 {
     const struct rho_scan_assembler_stray *most = NULL;
 
@@ -160,7 +161,7 @@ static int may_restart_numbers(const struct rho_scan_assembler_config *config,
     int32_t behind = scan_number_difference(source->place.scan, place->scan);
 
     return behind > 0 &&
-           (source->seen >> behind <= 1u || find_series_to_continue(config, source, place));
+           (source->seen >> behind <= 1u || find_refused_series_to_continue(config, source, place));
 }
 
 int rho_scan_assembler_may_begin_sequence(const struct rho_scan_assembler_config *config,
@@ -218,13 +219,13 @@ enum scan_verdict rho_scan_assembler_classify_scan(const struct rho_scan_assembl
     if (source->scans == 0) {
         return SCAN_NEXT;
     }
-    verdict = classify_by_number(config, source, place, now_us);
+    verdict = classify_by_number_and_time(config, source, place, now_us);
     if (TAKES_LATE && verdict == SCAN_TOO_LATE &&
         is_usable_out_of_sequence(assembler, source, place)) {
         return SCAN_OUT_OF_SEQUENCE;
     }
     if (rho_scan_assembler_may_begin_sequence(config, source, place, verdict)) {
-        stray = find_series_to_continue(config, source, place);
+        stray = find_refused_series_to_continue(config, source, place);
         if (stray && stray->scans + 1 >= config->follow_scans) {
             return SCAN_RESTARTS_SENSOR;
         }
@@ -233,7 +234,7 @@ enum scan_verdict rho_scan_assembler_classify_scan(const struct rho_scan_assembl
 }
 
 /* Index of the series of refused scans that a new one replaces: the shortest, and then oldest. */
-static unsigned series_to_replace(const struct rho_scan_assembler_source *source)
+static unsigned refused_series_to_replace(const struct rho_scan_assembler_source *source)
 {
     unsigned least = 0;
 
@@ -247,8 +248,9 @@ void rho_scan_assembler_remember_refused_scan(const struct rho_scan_assembler_co
                                               struct rho_scan_assembler_source *source,
                                               const struct rho_scan_assembler_place *place)
 {
-    const struct rho_scan_assembler_stray *agrees = find_series_to_continue(config, source, place);
-    unsigned at = agrees ? (unsigned)(agrees - source->strays) : series_to_replace(source);
+    const struct rho_scan_assembler_stray *agrees =
+        find_refused_series_to_continue(config, source, place);
+    unsigned at = agrees ? (unsigned)(agrees - source->strays) : refused_series_to_replace(source);
     /* stays below follow_scans: the scan that reaches it is accepted */
     uint32_t scans = agrees ? agrees->scans + 1 : 1;
 
@@ -282,13 +284,13 @@ static uint64_t divide_by_16_bits(uint64_t value, uint32_t by)
 }
 
 static void update_scan_interval(struct rho_scan_assembler_source *source, int64_t took_us,
-                                 int32_t ahead, int is_known)
+                                 int32_t ahead, int keeps_mean)
 {
     /* took_us and ahead are above 0, as the scan follows the one before */
     int64_t interval_us = (int64_t)divide_by_16_bits((uint64_t)took_us, (uint32_t)ahead);
     int64_t mean_us = source->interval_us;
 
-    mean_us = is_known && mean_us > 0 ? mean_us + (interval_us - mean_us) / 4 : interval_us;
+    mean_us = keeps_mean && mean_us > 0 ? mean_us + (interval_us - mean_us) / 4 : interval_us;
     source->interval_us = (uint32_t)(mean_us > 0 ? mean_us : 1);
 }
 
@@ -311,7 +313,8 @@ uint32_t rho_scan_assembler_set_newest_scan(const struct rho_scan_assembler_conf
                                             enum scan_verdict verdict, int64_t now_us)
 {
     const struct rho_scan_assembler_stray *stray =
-        verdict == SCAN_RESTARTS_SENSOR ? find_series_to_continue(config, source, place) : NULL;
+        verdict == SCAN_RESTARTS_SENSOR ? find_refused_series_to_continue(config, source, place)
+                                        : NULL;
     const struct rho_scan_assembler_place *from = stray ? &stray->place : &source->place;
     int is_next = verdict == SCAN_NEXT && source->scans > 0;
     int32_t ahead = scan_number_difference(place->scan, from->scan);
@@ -413,9 +416,9 @@ static int may_vote_on_clock(const struct rho_scan_assembler *assembler,
 }
 
 /* Reception time by which a sensor's own scan of time_us would have come, hold_us included. */
-static int64_t when_clock_reaches_us(const struct rho_scan_assembler *assembler,
-                                     const struct rho_scan_assembler_source *source,
-                                     int64_t time_us)
+static int64_t when_own_scan_would_come_us(const struct rho_scan_assembler *assembler,
+                                           const struct rho_scan_assembler_source *source,
+                                           int64_t time_us)
 {
     uint64_t ahead_us = rho_elapsed_us(time_us, source->place.time_us);
     int64_t wait_us =
@@ -442,7 +445,7 @@ int64_t rho_scan_assembler_newcomer_release_us(const struct rho_scan_assembler *
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         if (may_vote_on_clock(assembler, &assembler->sources[i], eldest_us, slot->heard_us)) {
             until_us =
-                when_clock_reaches_us(assembler, &assembler->sources[i], slot->place.time_us);
+                when_own_scan_would_come_us(assembler, &assembler->sources[i], slot->place.time_us);
             first_us = until_us < first_us ? until_us : first_us;
             is_asked = 1;
         }
@@ -485,9 +488,9 @@ static int is_time_off_sensor_clock(const struct rho_scan_assembler_config *conf
  * 1 where a time is off the clocks of most live sensors on the common clock. Newcomers and unproven
  * sensors vote only where there are no others.
  */
-static int is_time_contradicted(const struct rho_scan_assembler *assembler,
-                                const struct rho_scan_assembler_source *source, int64_t time_us,
-                                int64_t now_us)
+static int is_time_off_most_clocks(const struct rho_scan_assembler *assembler,
+                                   const struct rho_scan_assembler_source *source, int64_t time_us,
+                                   int64_t now_us)
 {
     uint32_t eldest_us = rho_scan_assembler_longest_known_us(assembler, now_us);
     int votes[2] = {0}, balance[2] = {0}, counts;
@@ -557,7 +560,8 @@ static int is_common_clock_set_back(const struct rho_scan_assembler *assembler,
 }
 
 /* Sets the common clock anew: sensors whose clocks agree with it are on it, all others off it. */
-static void set_common_clock(struct rho_scan_assembler *assembler, int64_t time_us, int64_t now_us)
+static void restart_common_clock(struct rho_scan_assembler *assembler, int64_t time_us,
+                                 int64_t now_us)
 {
     for (unsigned i = 0; HAS_OTHERS && i < RHO_MAX_SENSORS; i++) {
         struct rho_scan_assembler_source *source = &assembler->sources[i];
@@ -581,7 +585,7 @@ enum scan_clock rho_scan_assembler_update_common_clock(struct rho_scan_assembler
 
     if (assembler->has_clock &&
         (!are_near_times(time_us, assembler->clock_us, assembler->config.jump_max_us) ||
-         (HAS_OTHERS && is_time_contradicted(assembler, source, time_us, now_us)) ||
+         (HAS_OTHERS && is_time_off_most_clocks(assembler, source, time_us, now_us)) ||
          (FOLLOWS_REPEATS && verdict == SCAN_RESTARTS_SENSOR &&
           is_common_clock_set_back(assembler, source, time_us, now_us)))) {
         /* the refused scans before a sensor's restart have shown its new time, too */
@@ -594,7 +598,7 @@ enum scan_clock rho_scan_assembler_update_common_clock(struct rho_scan_assembler
             (HAS_OTHERS && !has_new_time_majority(assembler, source, time_us, now_us))) {
             return CLOCK_OTHER;
         }
-        set_common_clock(assembler, time_us, now_us);
+        restart_common_clock(assembler, time_us, now_us);
         clock = CLOCK_SET;
     }
     source->off_clock = 0;

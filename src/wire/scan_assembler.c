@@ -300,9 +300,9 @@ static int is_sensor_named_in_config(const struct rho_scan_assembler *assembler,
  * scans.
  */
 static int admit_newcomer_in_turn(struct rho_scan_assembler *assembler,
-                                  const struct scan_heading *heading, int is_new)
+                                  const struct scan_heading *heading, int is_newcomer)
 {
-    if (!is_new) {
+    if (!is_newcomer) {
         assembler->newcomers = 0;
     } else if (heading->is_new && assembler->newcomers++ > 0) {
         rho_scan_assembler_increment(&assembler->counters.messages_flooded);
@@ -316,7 +316,7 @@ static int admit_newcomer_in_turn(struct rho_scan_assembler *assembler,
 static void begin_newest_scan(struct rho_scan_assembler *assembler,
                               struct rho_scan_assembler_source *source, enum scan_verdict verdict,
                               const struct scan_heading *heading, const union scan_message *message,
-                              int is_new, int64_t now_us)
+                              int is_newcomer, int64_t now_us)
 {
     enum scan_clock clock;
 
@@ -335,7 +335,7 @@ static void begin_newest_scan(struct rho_scan_assembler *assembler,
     }
     if (clock == CLOCK_OTHER) {
         rho_scan_assembler_increment(&assembler->counters.clock_jumps);
-    } else if (admit_newcomer_in_turn(assembler, heading, is_new)) {
+    } else if (admit_newcomer_in_turn(assembler, heading, is_newcomer)) {
         open_accepted_scan(assembler, source, heading, message, ORDER_NEXT, now_us);
     } else {
         source->check = CHECK_NOT_ADMITTED;
@@ -349,10 +349,10 @@ static void begin_newest_scan(struct rho_scan_assembler *assembler,
 static void begin_out_of_sequence_scan(struct rho_scan_assembler *assembler,
                                        struct rho_scan_assembler_source *source,
                                        const struct scan_heading *heading,
-                                       const union scan_message *message, int is_new,
+                                       const union scan_message *message, int is_newcomer,
                                        int64_t now_us)
 {
-    if (!admit_newcomer_in_turn(assembler, heading, is_new)) {
+    if (!admit_newcomer_in_turn(assembler, heading, is_newcomer)) {
         return;
     }
     rho_scan_assembler_increment(&assembler->counters.scans_late);
@@ -384,10 +384,10 @@ static void start_source(struct rho_scan_assembler *assembler,
  * one whose release neither cuts short nor makes out of sequence the scan of an established sensor.
  */
 static int may_release_scan_for_room(struct rho_scan_assembler *assembler,
-                                     const struct rho_scan_assembler_source *source, int is_new,
-                                     int64_t now_us)
+                                     const struct rho_scan_assembler_source *source,
+                                     int is_newcomer, int64_t now_us)
 {
-    return (source && rho_scan_assembler_is_proven(&assembler->config, source) && !is_new) ||
+    return (source && rho_scan_assembler_is_proven(&assembler->config, source) && !is_newcomer) ||
            rho_scan_assembler_find_slot_in_state(assembler, SLOT_GIVEN) ||
            rho_scan_assembler_find_releasable(assembler, now_us);
 }
@@ -396,7 +396,7 @@ static int may_release_scan_for_room(struct rho_scan_assembler *assembler,
 static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
                                       const struct scan_heading *heading,
                                       const union scan_message *message,
-                                      struct rho_scan_assembler_source *source, int is_new,
+                                      struct rho_scan_assembler_source *source, int is_newcomer,
                                       int64_t now_us)
 {
     struct rho_scan_assembler_slot *slot =
@@ -417,12 +417,13 @@ static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
         return RHO_OK;
     }
     if (verdict == SCAN_OUT_OF_SEQUENCE) {
-        begin_out_of_sequence_scan(assembler, source, heading, message, is_new, now_us);
+        begin_out_of_sequence_scan(assembler, source, heading, message, is_newcomer, now_us);
         return RHO_OK;
     }
     place = source ? source : find_free_or_replaceable_source(assembler, now_us);
-    is_free = place && rho_scan_assembler_make_free_slot(assembler, is_new, now_us);
-    if (!place || (!is_free && !may_release_scan_for_room(assembler, source, is_new, now_us))) {
+    is_free = place && rho_scan_assembler_make_free_slot(assembler, is_newcomer, now_us);
+    if (!place ||
+        (!is_free && !may_release_scan_for_room(assembler, source, is_newcomer, now_us))) {
         rho_scan_assembler_increment(&assembler->counters.sensors_no_room);
         return RHO_OK;
     }
@@ -433,7 +434,7 @@ static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
     if (!source) {
         start_source(assembler, place, heading);
     }
-    begin_newest_scan(assembler, place, verdict, heading, message, is_new, now_us);
+    begin_newest_scan(assembler, place, verdict, heading, message, is_newcomer, now_us);
     return RHO_OK;
 }
 

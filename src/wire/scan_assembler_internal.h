@@ -187,18 +187,19 @@ void rho_scan_assembler_open_scan(struct rho_scan_assembler *assembler,
 void rho_scan_assembler_complete_scan(struct rho_scan_assembler *assembler,
                                       struct rho_scan_assembler_slot *slot);
 
-/* Ends the wait for parts of all open scans of a sensor; is_over: its numbers begin anew. */
+/* Ends the wait for parts of a sensor's open scans; numbers_restart: its numbers begin anew. */
 void rho_scan_assembler_complete_open_scans(struct rho_scan_assembler *assembler,
                                             const struct rho_scan_assembler_source *source,
-                                            int is_over);
+                                            int numbers_restart);
 
 /*
  * Finds or makes a free slot. An out-of-sequence scan is dropped for it, and, for a scan of an
  * established sensor, a newcomer's held scan. NULL: no slot can be freed.
- *   is_new  1: the slot is for a newcomer's scan
+ *   for_newcomer  1: the slot is for a newcomer's scan
  */
 struct rho_scan_assembler_slot *
-rho_scan_assembler_make_free_slot(struct rho_scan_assembler *assembler, int is_new, int64_t now_us);
+rho_scan_assembler_make_free_slot(struct rho_scan_assembler *assembler, int for_newcomer,
+                                  int64_t now_us);
 
 /* Drops all waiting scans: the common clock was set anew, and they are of the old one. */
 void rho_scan_assembler_drop_waiting_scans(struct rho_scan_assembler *assembler);

@@ -98,50 +98,50 @@ enum rho_status rho_scan_assembler_decode_message(enum rho_scan_assembler_kind k
 /* ---- Plots and bearings ---- */
 
 /* The stated sigma, or the default where none is stated, or a newcomer states a smaller one. */
-static float sigma_or_default(float said, float otherwise, int is_new)
+static float sigma_or_default(float stated, float fallback, int is_newcomer)
 {
-    return said > 0.0f && !(is_new && said < otherwise) ? said : otherwise;
+    return stated > 0.0f && !(is_newcomer && stated < fallback) ? stated : fallback;
 }
 
 static void convert_plots(struct rho_plot *to, unsigned count,
                           const struct rho_message_plot_scan *scan,
-                          const struct rho_scan_assembler_noise *noise, int is_new)
+                          const struct rho_scan_assembler_noise *noise, int is_newcomer)
 {
     for (unsigned i = 0; i < count; i++) {
         const struct rho_message_plot *plot = &scan->plots[i];
-        float sigma_m = sigma_or_default(plot->sigma_m, noise->sigma_m, is_new);
+        float sigma_m = sigma_or_default(plot->sigma_m, noise->sigma_m, is_newcomer);
 
-        to[i] = (struct rho_plot){.offset_us = plot->dt_us,
-                                  .x_m = plot->x_m,
-                                  .y_m = plot->y_m,
-                                  .z_m = plot->z_m,
-                                  .vx_mps = plot->vx_mps,
-                                  .vy_mps = plot->vy_mps,
-                                  .vz_mps = plot->vz_mps,
-                                  .sigma_range_m = sigma_m,
-                                  .sigma_cross_m = sigma_m,
-                                  .sigma_up_m = sigma_m,
-                                  .sigma_mps =
-                                      sigma_or_default(plot->sigma_mps, noise->sigma_mps, is_new),
-                                  .sigma_range_rate_mps = noise->sigma_range_rate_mps,
-                                  .snr_db = plot->snr_db};
+        to[i] = (struct rho_plot){
+            .offset_us = plot->dt_us,
+            .x_m = plot->x_m,
+            .y_m = plot->y_m,
+            .z_m = plot->z_m,
+            .vx_mps = plot->vx_mps,
+            .vy_mps = plot->vy_mps,
+            .vz_mps = plot->vz_mps,
+            .sigma_range_m = sigma_m,
+            .sigma_cross_m = sigma_m,
+            .sigma_up_m = sigma_m,
+            .sigma_mps = sigma_or_default(plot->sigma_mps, noise->sigma_mps, is_newcomer),
+            .sigma_range_rate_mps = noise->sigma_range_rate_mps,
+            .snr_db = plot->snr_db};
     }
 }
 
 static void convert_polar_plots(struct rho_plot *to, unsigned count,
                                 const struct rho_message_polar_scan *scan, uint32_t measures,
                                 const struct rho_sensor *sensor,
-                                const struct rho_scan_assembler_noise *noise, int is_new)
+                                const struct rho_scan_assembler_noise *noise, int is_newcomer)
 {
     struct rho_sensor seen_from = *sensor;
     struct rho_polar_plot polar = {
-        .sigma_range_m = sigma_or_default(scan->sigma_range_m, noise->sigma_range_m, is_new),
+        .sigma_range_m = sigma_or_default(scan->sigma_range_m, noise->sigma_range_m, is_newcomer),
         .sigma_azimuth_rad =
-            sigma_or_default(scan->sigma_azimuth_rad, noise->sigma_azimuth_rad, is_new),
+            sigma_or_default(scan->sigma_azimuth_rad, noise->sigma_azimuth_rad, is_newcomer),
         .sigma_elevation_rad =
-            sigma_or_default(scan->sigma_elevation_rad, noise->sigma_elevation_rad, is_new),
+            sigma_or_default(scan->sigma_elevation_rad, noise->sigma_elevation_rad, is_newcomer),
         .sigma_range_rate_mps =
-            sigma_or_default(scan->sigma_range_rate_mps, noise->sigma_range_rate_mps, is_new)};
+            sigma_or_default(scan->sigma_range_rate_mps, noise->sigma_range_rate_mps, is_newcomer)};
 
     seen_from.time_bias_s = 0.0f; /* the scan's time has been corrected already */
     for (unsigned i = 0; i < count; i++) {
@@ -162,7 +162,7 @@ static void convert_polar_plots(struct rho_plot *to, unsigned count,
 
 static void convert_bearings(struct rho_bearing *to, unsigned count,
                              const struct rho_message_bearing_scan *scan,
-                             const struct rho_scan_assembler_sensor *known, int is_new)
+                             const struct rho_scan_assembler_sensor *known, int is_newcomer)
 {
     for (unsigned i = 0; i < count; i++) {
         float bearing_rad = scan->bearing_rad[i];
@@ -172,7 +172,7 @@ static void convert_bearings(struct rho_bearing *to, unsigned count,
         }
         to[i] = (struct rho_bearing){
             .bearing_rad = bearing_rad,
-            .sigma_rad = sigma_or_default(scan->sigma_rad, known->noise.sigma_rad, is_new)};
+            .sigma_rad = sigma_or_default(scan->sigma_rad, known->noise.sigma_rad, is_newcomer)};
     }
 }
 

@@ -72,7 +72,7 @@ void rho_scan_assembler_complete_scan(struct rho_scan_assembler *assembler,
 
 void rho_scan_assembler_complete_open_scans(struct rho_scan_assembler *assembler,
                                             const struct rho_scan_assembler_source *source,
-                                            int is_over)
+                                            int numbers_restart)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
@@ -80,7 +80,8 @@ void rho_scan_assembler_complete_open_scans(struct rho_scan_assembler *assembler
         if (is_open_scan_of(assembler, slot, source)) {
             rho_scan_assembler_complete_scan(assembler, slot);
         }
-        if (is_over && slot->order == ORDER_NEXT && &assembler->sources[slot->source] == source) {
+        if (numbers_restart && slot->order == ORDER_NEXT &&
+            &assembler->sources[slot->source] == source) {
             slot->order = ORDER_OF_OLD_NUMBERS;
         }
     }
@@ -101,7 +102,8 @@ static int is_of_established_sensor(const struct rho_scan_assembler *assembler,
 }
 
 struct rho_scan_assembler_slot *
-rho_scan_assembler_make_free_slot(struct rho_scan_assembler *assembler, int is_new, int64_t now_us)
+rho_scan_assembler_make_free_slot(struct rho_scan_assembler *assembler, int for_newcomer,
+                                  int64_t now_us)
 {
     struct rho_scan_assembler_slot *room =
         rho_scan_assembler_find_slot_in_state(assembler, SLOT_FREE);
@@ -109,12 +111,13 @@ rho_scan_assembler_make_free_slot(struct rho_scan_assembler *assembler, int is_n
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && !room; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
 
-        if (is_slot_waiting(slot) && !is_new && is_newcomer_scan_held(assembler, slot, now_us)) {
+        if (is_slot_waiting(slot) && !for_newcomer &&
+            is_newcomer_scan_held(assembler, slot, now_us)) {
             rho_scan_assembler_increment(&assembler->counters.sensors_no_room);
             slot->state = SLOT_FREE;
             room = slot;
         } else if (is_slot_waiting(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
-                   !(is_new && is_of_established_sensor(assembler, slot, now_us))) {
+                   !(for_newcomer && is_of_established_sensor(assembler, slot, now_us))) {
             slot->state = SLOT_FREE; /* scans_late has counted it before */
             room = slot;
         }
@@ -353,8 +356,8 @@ find_first_scan_in_state(struct rho_scan_assembler *assembler, enum slot_state s
  * would be out of sequence.
  */
 static struct rho_scan_assembler_slot *
-complete_older_open_scan_or(struct rho_scan_assembler *assembler,
-                            struct rho_scan_assembler_slot *slot, int64_t now_us)
+older_open_scan_completed_or_slot(struct rho_scan_assembler *assembler,
+                                  struct rho_scan_assembler_slot *slot, int64_t now_us)
 {
     struct rho_scan_assembler_slot *open = find_first_scan_in_state(assembler, SLOT_OPEN, now_us);
 
@@ -431,8 +434,9 @@ struct rho_scan_assembler_slot *rho_scan_assembler_find_due(struct rho_scan_asse
         return NULL;
     }
     if (has_any_scan_waited_hold_us(assembler, now_us)) {
-        return assembler->config.hold_us > 0 ? complete_older_open_scan_or(assembler, slot, now_us)
-                                             : slot;
+        return assembler->config.hold_us > 0
+                   ? older_open_scan_completed_or_slot(assembler, slot, now_us)
+                   : slot;
     }
     return is_next_in_time(assembler, slot, now_us) ? slot : NULL;
 }

@@ -148,9 +148,10 @@ static int64_t newest_scan_us(const struct shown_accumulator *accumulator)
     return rho_window_scan_at(window, window->num_scans - 1u)->time_us;
 }
 
-static float votes_from_parts(const struct shown_accumulator *accumulator, uint32_t parts)
+/* Votes of a number of integer units of the accumulator's cells. */
+static float votes_from_units(const struct shown_accumulator *accumulator, uint32_t units)
 {
-    return (float)parts / (float)accumulator->votes_per_unit;
+    return (float)units / (float)accumulator->votes_per_unit;
 }
 
 static int8_t message_method_of(const struct shown_accumulator *accumulator)
@@ -177,14 +178,14 @@ static void set_head_of_plots(const struct shown_accumulator *accumulator,
 {
     struct rho_paper_starts *starts = accumulator->source->starts;
     const struct rho_hough_config *config = &starts->hough.config;
-    const float share = config->tau * votes_from_parts(accumulator, starts->result.votes_max);
+    const float share = config->tau * votes_from_units(accumulator, starts->result.votes_max);
     head->num_scans = (int16_t)starts->window.num_scans;
     head->oldest_utime = rho_window_scan_at(&starts->window, 0)->time_us;
     head->rho_min_m = -config->rho_max_m;
     head->rho_max_m = config->rho_max_m;
     head->theta_cells = rho_clamp_to_int16(starts->hough.theta_cells);
     head->rho_cells = rho_clamp_to_int16(starts->hough.rho_cells);
-    head->votes_max = votes_from_parts(accumulator, starts->result.votes_max);
+    head->votes_max = votes_from_units(accumulator, starts->result.votes_max);
     head->votes_min = share > config->votes_min ? share : config->votes_min;
     head->num_cells_total = rho_clamp_to_int16(starts->result.num_peaks);
 }
@@ -221,7 +222,7 @@ static enum rho_status add_peaks_of_plots(const struct shown_accumulator *accumu
         const struct rho_message_accumulator_cell cell = {
             .rho_m = rho_hough_rho_m(&starts->hough, starts->peaks[i].rho_cell),
             .theta_rad = rho_hough_theta_rad(&starts->hough, starts->peaks[i].theta_cell),
-            .votes = votes_from_parts(accumulator, starts->peaks[i].votes),
+            .votes = votes_from_units(accumulator, starts->peaks[i].votes),
             .scan_mask = line->mask,
             .plots = rho_clamp_to_int16(line->num_plots),
             .track_id = (int32_t)(starts->lines[i].track_id & INT32_MAX)};
@@ -362,7 +363,7 @@ static const char *write_picture_rows(const struct rho_show *show,
         .epoch = source->epoch,
         .method = message_method_of(accumulator),
         .has_pair = (int8_t)accumulator->has_pair,
-        .votes_max = votes_from_parts(accumulator, show->votes_max),
+        .votes_max = votes_from_units(accumulator, show->votes_max),
         .part = (int16_t)part,
         .num_parts = (int16_t)((height + PART_ROWS - 1u) / PART_ROWS)};
     if (accumulator->has_pair) {

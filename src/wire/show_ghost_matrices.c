@@ -44,8 +44,9 @@ static int have_both_sensors_looked(const struct rho_batch *batch,
  * Finds the sensor pair and the part of its matrix that a message number stands for. Returns 0
  * beyond the last message; *before is the number of all messages then.
  */
-static int find_pair_and_part(const struct rho_show_source *source, uint32_t number,
-                              struct rho_passive_paper_pair *pair, unsigned *part, uint32_t *before)
+static int find_pair_and_part_of_message(const struct rho_show_source *source, uint32_t number,
+                                         struct rho_passive_paper_pair *pair, unsigned *part,
+                                         uint32_t *before)
 {
     const struct rho_batch *batch = batch_of_newest_frame(source);
     *before = 0;
@@ -66,7 +67,7 @@ uint32_t rho_show_num_ghost_messages(const struct rho_show_source *source)
     struct rho_passive_paper_pair pair;
     uint32_t all;
     unsigned part;
-    (void)find_pair_and_part(source, UINT32_MAX, &pair, &part, &all);
+    (void)find_pair_and_part_of_message(source, UINT32_MAX, &pair, &part, &all);
     return all;
 }
 
@@ -144,7 +145,7 @@ const char *rho_show_write_ghost_message(const struct rho_show_source *source, u
     struct rho_message_writer writer;
     uint32_t before;
     unsigned part;
-    if (!find_pair_and_part(source, number, &pair, &part, &before) ||
+    if (!find_pair_and_part_of_message(source, number, &pair, &part, &before) ||
         rho_passive_paper_ghosts(source->paper, &pair, source->paper->batch.num_scans - 1u,
                                  &matrix) != RHO_OK) {
         return NULL;

@@ -104,8 +104,9 @@ static void set_evidence(struct rho_message_hypotheses_head *head, int8_t kind, 
 }
 
 /* Sets the neutrosophic sums of the line that started the track in this step; 0: none did. */
-static int set_evidence_of_line(const struct rho_paper_starts *starts, uint32_t track_id,
-                                struct rho_message_hypotheses_head *head)
+static int set_evidence_if_line_started_track(const struct rho_paper_starts *starts,
+                                              uint32_t track_id,
+                                              struct rho_message_hypotheses_head *head)
 {
     for (uint32_t i = 0; starts && starts->has_searched && i < starts->result.num_peaks; i++) {
         const struct rho_hough_memberships *sums = &starts->lines[i].line.sums;
@@ -125,7 +126,8 @@ static void find_and_set_evidence(const struct rho_show_source *source, unsigned
                                   struct rho_message_hypotheses_head *head)
 {
     struct rho_tracker_evidence evidence;
-    if (!set_evidence_of_line(source->starts, source->tracker->tracks[track].track_id, head) &&
+    if (!set_evidence_if_line_started_track(source->starts, source->tracker->tracks[track].track_id,
+                                            head) &&
         rho_tracker_evidence_of(source->tracker, track, &evidence)) {
         set_evidence(head, RHO_MESSAGE_HYPOTHESES_PLOTS, evidence.support, evidence.shared,
                      evidence.clutter);

@@ -110,7 +110,7 @@ void rho_show_begin(struct rho_show *show, const struct rho_show_source *source,
 }
 
 /* Row of the track to be shown next: the one with the next identity after the last shown one. */
-static unsigned take_next_track(struct rho_show *show, const struct rho_report *report)
+static unsigned choose_next_track_to_show(struct rho_show *show, const struct rho_report *report)
 {
     unsigned track = 0;
     while (track < report->num_tracks && report->tracks[track].track_id <= show->last_track_id) {
@@ -125,10 +125,11 @@ static const char *write_message(struct rho_show *show, const struct rho_show_so
                                  unsigned kind, uint32_t number,
                                  const struct rho_show_output *output)
 {
-    return kind == RHO_SHOW_GHOSTS  ? rho_show_write_ghost_message(source, number, output)
-           : kind == RHO_SHOW_VOTES ? rho_show_write_vote_message(show, source, number, output)
-                                    : rho_show_write_hypotheses_message(
-                                          source, take_next_track(show, source->report), output);
+    return kind == RHO_SHOW_GHOSTS ? rho_show_write_ghost_message(source, number, output)
+           : kind == RHO_SHOW_VOTES
+               ? rho_show_write_vote_message(show, source, number, output)
+               : rho_show_write_hypotheses_message(
+                     source, choose_next_track_to_show(show, source->report), output);
 }
 
 const char *rho_show_next(struct rho_show *show, const struct rho_show_source *source,

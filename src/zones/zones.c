@@ -171,6 +171,10 @@ static struct zone_track zone_track_from_report(const struct rho_track_report *t
                                .is_believed = track->status == RHO_TRACK_CONFIRMED};
 }
 
+/*
+ * 1 where a track moves along the zone's heading, -1 against it, 0 where it is slow or there is
+ * none.
+ */
 static int8_t direction_along_lane(const struct rho_zone *zone, const struct zone_track *track)
 {
     if (!zone->has_heading || !(track->speed_mps > zone->queue_mps)) {
@@ -282,9 +286,10 @@ static void set_current_counts(struct rho_zone_counts *counts, const struct occu
         occupants->inside > 0 ? occupants->speed_sum_mps / (float)occupants->inside : 0.0f;
 }
 
-static void count_track_inside(struct occupants *occupants, const struct rho_zone *zone,
-                               unsigned place, struct rho_zone_visitor *visitor,
-                               const struct zone_track *track)
+/* Counts a track in a zone, and lets it join or leave the zone's queue by its speed. */
+static void count_track_inside_and_queue(struct occupants *occupants, const struct rho_zone *zone,
+                                         unsigned place, struct rho_zone_visitor *visitor,
+                                         const struct zone_track *track)
 {
     const uint32_t bit = (uint32_t)1 << place;
     const float limit_mps = (visitor->queued & bit ? QUEUE_LEFT : 1.0f) * zone->queue_mps;
@@ -311,17 +316,17 @@ static void update_track_in_zone(struct rho_zones *zones, struct rho_zone_visito
         leave_zone(zones, visitor, place, track);
     }
     if (visitor->inside >> place & 1u) {
-        count_track_inside(occupants, zone, place, visitor, track);
+        count_track_inside_and_queue(occupants, zone, place, visitor, track);
     }
 }
 
 static const struct rho_track_report *find_track_report(const struct rho_report *report,
-                                                        uint32_t track_id, unsigned *from)
+                                                        uint32_t track_id, unsigned *search_from)
 {
     for (unsigned i = 0; i < report->num_tracks; i++) {
-        const unsigned at = (*from + i) % report->num_tracks;
+        const unsigned at = (*search_from + i) % report->num_tracks;
         if (report->tracks[at].track_id == track_id) {
-            *from = at + 1u;
+            *search_from = at + 1u;
             return &report->tracks[at];
         }
     }
@@ -348,13 +353,13 @@ static void remove_gone_visitors(struct rho_zones *zones, const struct rho_repor
 
 /* The track's visitor, or the first free one, prepared for a track that is in no zone yet. */
 static struct rho_zone_visitor *find_or_prepare_visitor(struct rho_zones *zones, uint32_t track_id,
-                                                        unsigned *from)
+                                                        unsigned *search_from)
 {
     struct rho_zone_visitor *next = &zones->visitors[zones->num_visitors];
     for (unsigned i = 0; i < zones->num_visitors; i++) {
-        const unsigned at = (*from + i) % zones->num_visitors;
+        const unsigned at = (*search_from + i) % zones->num_visitors;
         if (zones->visitors[at].track_id == track_id) {
-            *from = at + 1u;
+            *search_from = at + 1u;
             return &zones->visitors[at];
         }
     }

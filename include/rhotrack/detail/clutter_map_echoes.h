@@ -36,10 +36,10 @@ uint8_t rho_clutter_map_region_of_place(const struct rho_sensor *sensor, float r
 void rho_clutter_map_count_look(struct rho_clutter_map *map, const struct rho_echo *echo);
 /* Counts, in the newest block, the return of an echo by its weight. */
 void rho_clutter_map_count_return(struct rho_clutter_map *map, const struct rho_echo *echo);
-/* Factor by which the counts in use decay over `share` of a revolution. */
-float rho_clutter_map_decay_factor(float share);
-/* Decays the counts in use over `share` of a revolution, and closes the newest block when due. */
-void rho_clutter_map_age_counts(struct rho_clutter_map *map, float share);
+/* Factor by which the counts in use decay over `turn_share` of a revolution. */
+float rho_clutter_map_decay_factor(float turn_share);
+/* Decays the counts in use over `turn_share` of a revolution; closes the newest block when due. */
+void rho_clutter_map_age_counts(struct rho_clutter_map *map, float turn_share);
 
 /*
  * Takes the returns of a target's plots out of the counts of a region: by class of hits, the sum of
