@@ -57,14 +57,14 @@ static double nees_of_xy_error(double xx, double yx, double yy, double ex, doubl
     return (ex * ex * yy - 2.0 * ex * ey * yx + ey * ey * xx) / det;
 }
 
-static struct pair_error error_of_pair(size_t number, enum evaluation_motion motion,
+static struct pair_error error_of_pair(size_t target_index, enum evaluation_motion motion,
                                        const struct evaluation_point *target,
                                        const struct evaluation_point *track)
 {
     double ex_m = track->x_m - target->x_m, ey_m = track->y_m - target->y_m;
     double ex_mps = track->vx_mps - target->vx_mps, ey_mps = track->vy_mps - target->vy_mps;
     return (struct pair_error){
-        .target = number,
+        .target = target_index,
         .motion = track->is_coasting ? EVALUATION_COASTING : motion,
         .error_m = norm(ex_m, ey_m, track->z_m - target->z_m),
         .error_mps = norm(ex_mps, ey_mps, track->vz_mps - target->vz_mps),

@@ -57,7 +57,8 @@ static int by_time(const void *a, const void *b)
 }
 
 /* Reads the confirmed and coasting rows of a truth or tracks table, sorted by time. */
-static struct points read_points(const struct table *table, const struct parameters *parameters)
+static struct points read_confirmed_points(const struct table *table,
+                                           const struct parameters *parameters)
 {
     struct trajectory_columns columns = trajectory_columns_find(table, parameters);
     struct points points = {.table = table,
@@ -81,12 +82,12 @@ static struct points read_points(const struct table *table, const struct paramet
  * Sets heights (vertical velocities) to 0 unless has_z (has_vz): they are compared only where both
  * truth and tracks have them.
  */
-static void zero_uncompared_heights(struct points *points, bool has_z, bool has_vz)
+static void zero_uncompared_heights(struct points *points, bool compares_z, bool compares_vz)
 {
     for (size_t i = 0; i < points->count; i++) {
         struct evaluation_point *point = &points->list[i].point;
-        point->z_m = has_z ? point->z_m : 0.0;
-        point->vz_mps = has_vz ? point->vz_mps : 0.0;
+        point->z_m = compares_z ? point->z_m : 0.0;
+        point->vz_mps = compares_vz ? point->vz_mps : 0.0;
     }
 }
 
@@ -149,22 +150,22 @@ static void align_tracks_to_truth(struct points *tracks, const struct points *tr
 /* ---- time by time ---- */
 
 /* Index one past the last point from `from` on whose time is at most time_us plus 1 ms. */
-static size_t end_of_points_at_time(const struct points *points, size_t from, int64_t time_us)
+static size_t end_of_points_at_time(const struct points *points, size_t first, int64_t time_us)
 {
-    while (from < points->count && points->list[from].time_us <= time_us + ALIGNMENT_LEAST_US) {
-        from++;
+    while (first < points->count && points->list[first].time_us <= time_us + ALIGNMENT_LEAST_US) {
+        first++;
     }
-    return from;
+    return first;
 }
 
 /*
  * Exits with an error if the track point at index `at` is earlier than time_us: the truth has no
  * such time.
  */
-static void check_truth_has_time(const struct points *tracks, size_t at, int64_t time_us)
+static void check_truth_has_time(const struct points *tracks, size_t index, int64_t time_us)
 {
-    if (at < tracks->count && tracks->list[at].time_us < time_us - ALIGNMENT_LEAST_US) {
-        alignment_fail_unmatched(tracks->table, tracks->list[at].row, ALIGNMENT_LEAST_US);
+    if (index < tracks->count && tracks->list[index].time_us < time_us - ALIGNMENT_LEAST_US) {
+        alignment_fail_unmatched(tracks->table, tracks->list[index].row, ALIGNMENT_LEAST_US);
     }
 }
 
@@ -176,7 +177,7 @@ struct last_times {
 };
 
 /* Marks the id as seen at the present time; true if it had not been marked at this time before. */
-static bool mark_id_seen_now(struct last_times *last, int32_t id)
+static bool mark_id_if_unseen_now(struct last_times *last, int32_t id)
 {
     size_t known = last->ids.count, number = identity_numbers_find_or_add(&last->ids, id);
     if (number == known) {
@@ -198,7 +199,7 @@ static size_t keep_last_point_of_each_id(struct last_times *last, const struct p
     size_t kept = end - begin;
     last->now++;
     for (size_t i = end; i-- > begin;) {
-        if (mark_id_seen_now(last, points->list[i].point.id)) {
+        if (mark_id_if_unseen_now(last, points->list[i].point.id)) {
             list[--kept] = points->list[i].point;
         }
     }
@@ -241,8 +242,8 @@ struct evaluation *evaluation_of_tables(const struct table *truth_table,
 {
     struct evaluation *e = evaluation_start(cutoff_m);
     evaluation_set_turning_limit(e, parameters->value[PARAMETER_TURNING_MPS2]);
-    struct points truth = read_points(truth_table, parameters);
-    struct points tracks = read_points(tracks_table, parameters);
+    struct points truth = read_confirmed_points(truth_table, parameters);
+    struct points tracks = read_confirmed_points(tracks_table, parameters);
     zero_uncompared_heights(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     zero_uncompared_heights(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     int64_t tolerance_us = alignment_tolerance_us(parameters);

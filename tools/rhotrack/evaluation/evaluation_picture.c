@@ -14,7 +14,7 @@
 #define LONG_TIME_US 1000000000000
 
 /* Time that is drawn as 0: the first time where times are long (LONG_TIME_US), else time 0. */
-static int64_t first_shown_time_us(const struct evaluation_scan *scans, size_t count)
+static int64_t time_drawn_as_zero_us(const struct evaluation_scan *scans, size_t count)
 {
     return count > 0 && llabs(scans[count - 1].time_us) >= LONG_TIME_US ? scans[0].time_us : 0;
 }
@@ -29,7 +29,7 @@ static void put_values_over_time(FILE *script, const struct evaluation_scan *sca
     for (size_t i = 0; i < count; i++) {
         const struct evaluation_scan *scan = &scans[i];
         fprintf(script, "%.6f %.6g %.6g %.6g %.6g %zu %zu %zu %zu\n",
-                (double)(scan->time_us - first_shown_time_us(scans, count)) * 1e-6, scan->gospa_m,
+                (double)(scan->time_us - time_drawn_as_zero_us(scans, count)) * 1e-6, scan->gospa_m,
                 sqrt(scan->missed_m2), sqrt(scan->false_m2), sqrt(scan->localisation_m2),
                 scan->targets, scan->tracks, scan->targets - scan->pairs,
                 scan->tracks - scan->pairs);
@@ -53,17 +53,17 @@ static void define_line_styles(FILE *script, size_t count)
 }
 
 /* Sets a panel's position, key and y range; is_zero: all values are 0, and the range is 0 .. 1. */
-static void place_panel(FILE *script, double bottom, double top, bool is_zero)
+static void place_panel(FILE *script, double bottom, double top, bool values_are_zero)
 {
     fprintf(script,
             "set yrange [0:%s]\nset tmargin at screen %g\nset bmargin at screen %g\n"
             "set key at screen 0.81,%g left top vertical Left reverse\n",
-            is_zero ? "1" : "*", top, bottom, top);
+            values_are_zero ? "1" : "*", top, bottom, top);
 }
 
 static void define_time_axis(FILE *script, const struct evaluation_scan *scans, size_t count)
 {
-    int64_t zero = first_shown_time_us(scans, count);
+    int64_t zero = time_drawn_as_zero_us(scans, count);
     if (count == 1) {
         double time_s = (double)(scans[0].time_us - zero) * 1e-6;
         fprintf(script, "set xrange [%g:%g]\n", time_s - 1.0, time_s + 1.0);

@@ -49,8 +49,9 @@ static const char *const motion_names[EVALUATION_MOTIONS] = {
     [EVALUATION_COASTING] = "coasting",
 };
 
-static void print_motion(struct text_table *table, const char *name,
-                         const struct evaluation_errors *of)
+/* Adds a row with the errors of one motion to the table. */
+static void add_motion_row(struct text_table *table, const char *name,
+                           const struct evaluation_errors *of)
 {
     char texts[6][TEXT_TABLE_NUMBER];
     text_table_add_row(table, "%s|%zu|%s|%s|%s|%s|%s|%s", name, of->pairs,
@@ -66,14 +67,14 @@ static void print_motion(struct text_table *table, const char *name,
  * Prints a table of errors by motion. Where covariances are right, ratios are 1 and shares inside
  * the 95 % ellipse are 0.95.
  */
-static void print_motions(const struct evaluation_result *result, FILE *file)
+static void print_errors_by_motion(const struct evaluation_result *result, FILE *file)
 {
     struct text_table table = text_table_start(
         1, "pairs|number|rmse m|rmse m/s|place ratio|inside|velocity ratio|inside");
     for (int i = 0; i < EVALUATION_MOTIONS; i++) {
-        print_motion(&table, motion_names[i], &result->by_motion[i]);
+        add_motion_row(&table, motion_names[i], &result->by_motion[i]);
     }
-    print_motion(&table, "all", &result->errors);
+    add_motion_row(&table, "all", &result->errors);
     fputc('\n', file);
     text_table_print(&table, file);
     text_table_free(&table);
@@ -93,7 +94,7 @@ void evaluation_print(const struct evaluation *e, bool by_target)
             fprintf(output.file, "%-22s %12s\n", figures.list[i].name, "-");
         }
     }
-    print_motions(&result, output.file);
+    print_errors_by_motion(&result, output.file);
     if (by_target) {
         print_targets(e, output.file);
     }

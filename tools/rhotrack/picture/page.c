@@ -51,7 +51,7 @@ static void append_double(struct bytes *bytes, double value)
  * Writes the bytes as base64 into a script element of the page with the array's name as id, and
  * frees them.
  */
-static void write_base64_array(FILE *file, const char *name, struct bytes *bytes)
+static void write_and_free_base64_array(FILE *file, const char *name, struct bytes *bytes)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -176,7 +176,8 @@ static struct claims collect_claims(const struct plot_data *data)
 /*
  * Fate of a plot, and marks its claims as matched; of two claims that of a confirmed track counts.
  */
-static uint32_t find_plot_fate(struct claims *claims, const struct rho_scan *scan, uint32_t plot)
+static uint32_t match_plot_and_find_fate(struct claims *claims, const struct rho_scan *scan,
+                                         uint32_t plot)
 {
     const struct claim wanted = {scan->time_us, scan->sensor_id, plot, 0, false};
     size_t low = 0, high = claims->count;
@@ -222,8 +223,8 @@ static double seconds_since(int64_t time_us, int64_t zero_us)
     return (double)(time_us - zero_us) * 1e-6;
 }
 
-static void write_plots(FILE *file, const struct plot_data *data,
-                        const struct parameters *parameters, int64_t zero_us)
+static void write_plot_arrays(FILE *file, const struct plot_data *data,
+                              const struct parameters *parameters, int64_t zero_us)
 {
     struct bytes time = {0}, first = {0}, x = {0}, y = {0}, fate = {0};
     struct claims claims = collect_claims(data);
@@ -238,7 +239,7 @@ static void write_plots(FILE *file, const struct plot_data *data,
             for (uint32_t i = 0; i < scan->num_plots; i++) {
                 append_float(&x, (double)scan->plots[i].x_m);
                 append_float(&y, (double)scan->plots[i].y_m);
-                append_uint32(&fate, find_plot_fate(&claims, scan, i));
+                append_uint32(&fate, match_plot_and_find_fate(&claims, scan, i));
             }
             count += scan->num_plots;
         }
@@ -246,11 +247,11 @@ static void write_plots(FILE *file, const struct plot_data *data,
         warn_of_unmatched_claims(&claims);
     }
     append_uint32(&first, count);
-    write_base64_array(file, "scan_time", &time);
-    write_base64_array(file, "scan_first", &first);
-    write_base64_array(file, "plot_x", &x);
-    write_base64_array(file, "plot_y", &y);
-    write_base64_array(file, "plot_fate", &fate);
+    write_and_free_base64_array(file, "scan_time", &time);
+    write_and_free_base64_array(file, "scan_first", &first);
+    write_and_free_base64_array(file, "plot_x", &x);
+    write_and_free_base64_array(file, "plot_y", &y);
+    write_and_free_base64_array(file, "plot_fate", &fate);
     free(claims.list);
 }
 
@@ -281,7 +282,7 @@ static void append_track_row(struct bytes *rows, const struct plot_point *point)
     append_float(rows, point->is_tentative ? 0.0 : 1.0);
 }
 
-static void write_tracks(FILE *file, const struct plot_points *tracks, int64_t zero_us)
+static void write_track_arrays(FILE *file, const struct plot_points *tracks, int64_t zero_us)
 {
     struct bytes id = {0}, first = {0}, time = {0}, rows = {0};
     struct plot_points one;
@@ -295,13 +296,13 @@ static void write_tracks(FILE *file, const struct plot_points *tracks, int64_t z
         }
     }
     append_uint32(&first, (uint32_t)tracks->count);
-    write_base64_array(file, "track_id", &id);
-    write_base64_array(file, "track_first", &first);
-    write_base64_array(file, "track_time", &time);
-    write_base64_array(file, "track_row", &rows);
+    write_and_free_base64_array(file, "track_id", &id);
+    write_and_free_base64_array(file, "track_first", &first);
+    write_and_free_base64_array(file, "track_time", &time);
+    write_and_free_base64_array(file, "track_row", &rows);
 }
 
-static void write_truth(FILE *file, const struct plot_points *truth)
+static void write_truth_arrays(FILE *file, const struct plot_points *truth)
 {
     struct bytes first = {0}, place = {0};
     struct plot_points one;
@@ -314,11 +315,11 @@ static void write_truth(FILE *file, const struct plot_points *truth)
         }
     }
     append_uint32(&first, (uint32_t)truth->count);
-    write_base64_array(file, "truth_first", &first);
-    write_base64_array(file, "truth_place", &place);
+    write_and_free_base64_array(file, "truth_first", &first);
+    write_and_free_base64_array(file, "truth_place", &place);
 }
 
-static void write_bearings(FILE *file, const struct plot_rays *rays, int64_t zero_us)
+static void write_bearing_arrays(FILE *file, const struct plot_rays *rays, int64_t zero_us)
 {
     struct bytes time = {0}, line = {0};
     for (size_t i = 0; i < rays->count; i++) {
@@ -329,15 +330,15 @@ static void write_bearings(FILE *file, const struct plot_rays *rays, int64_t zer
         append_float(&line, ray->end_x_m);
         append_float(&line, ray->end_y_m);
     }
-    write_base64_array(file, "ray_time", &time);
-    write_base64_array(file, "ray_line", &line);
+    write_and_free_base64_array(file, "ray_time", &time);
+    write_and_free_base64_array(file, "ray_line", &line);
 }
 
 /*
  * Writes id, place, range and sector of all sensors; range is NaN for passive sensors and radars of
  * unknown range.
  */
-static void write_sensors(FILE *file, const struct plot_data *data)
+static void write_sensor_array(FILE *file, const struct plot_data *data)
 {
     struct bytes sensors = {0};
     for (size_t i = 0; i < data->num_radars; i++) {
@@ -358,7 +359,7 @@ static void write_sensors(FILE *file, const struct plot_data *data)
         append_float(&sensors, 0.0);
         append_float(&sensors, 0.0);
     }
-    write_base64_array(file, "sensors", &sensors);
+    write_and_free_base64_array(file, "sensors", &sensors);
 }
 
 bool page_path_is_html(const char *path)
@@ -377,11 +378,11 @@ void page_write(const char *path, const struct plot_data *data, const struct par
             "<title>rhotrack: %zu tracks, %zu plots</title>\n<style>\n%s</style></head>\n",
             plot_data_count_identities(&data->tracks), data->plots.count, page_style);
     fprintf(file, "<body data-zero-s=\"%.15g\">\n%s", (double)zero_us * 1e-6, page_html);
-    write_plots(file, data, parameters, zero_us);
-    write_tracks(file, &data->tracks, zero_us);
-    write_truth(file, &data->truth);
-    write_bearings(file, &data->bearings, zero_us);
-    write_sensors(file, data);
+    write_plot_arrays(file, data, parameters, zero_us);
+    write_track_arrays(file, &data->tracks, zero_us);
+    write_truth_arrays(file, &data->truth);
+    write_bearing_arrays(file, &data->bearings, zero_us);
+    write_sensor_array(file, data);
     fprintf(file, "<!-- d3:\n%s-->\n<script>\n%s</script>\n<script>\n%s</script>\n</body></html>\n",
             page_licence, page_d3, page_script);
     output_close(&output);

@@ -130,8 +130,8 @@ static void keep_track_table(struct plot_data *data, struct table *table)
     data->track_tables[data->num_track_tables++] = table;
 }
 
-static void add_table(struct plot_data *data, struct table *table,
-                      const struct parameters *parameters)
+static void add_and_consume_table(struct plot_data *data, struct table *table,
+                                  const struct parameters *parameters)
 {
     if (table_find_column(table, "track_id") >= 0) {
         add_points_of_table(data, &data->tracks, table, parameters);
@@ -154,7 +154,8 @@ static void add_points_of_file(struct plot_data *data, const char *path,
     size_t found = 0;
     unsigned scans;
     if (!lcm_log_is_log(path)) {
-        add_table(data, table_read_with_parameters(path, parameters, false), parameters);
+        add_and_consume_table(data, table_read_with_parameters(path, parameters, false),
+                              parameters);
         return;
     }
     scans = log_scans_kinds(path);
@@ -162,7 +163,7 @@ static void add_points_of_file(struct plot_data *data, const char *path,
         struct table *table =
             log_table_read(path, kinds[i], false, i == 0 && scans != LOG_HAS_BEARINGS);
         if (table != NULL) {
-            add_table(data, table, parameters);
+            add_and_consume_table(data, table, parameters);
             found++;
         }
     }

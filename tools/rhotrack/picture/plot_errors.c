@@ -72,7 +72,7 @@ static void find_all_errors(struct error_finder *finder)
 }
 
 /* Exits with 2 where no target ever has a track: gnuplot cannot draw an empty picture. */
-static void fail_without_errors(const struct error_finder *finder)
+static void fail_if_no_error_known(const struct error_finder *finder)
 {
     for (size_t i = 0; i < finder->truth->count; i++) {
         if (!isnan(finder->error_m[i])) {
@@ -172,7 +172,7 @@ struct plot_errors plot_errors_find(const struct plot_data *data,
         .track_of = must_calloc(targets, sizeof(int)),
     };
     find_all_errors(&finder);
-    fail_without_errors(&finder);
+    fail_if_no_error_known(&finder);
     free(finder.aligned_tracks.list);
     free(finder.targets);
     free(finder.tracks);

@@ -136,12 +136,12 @@ struct plot_votes *plot_votes_find(enum method method, const struct revolutions 
 }
 
 /* Largest vote of a picture; 1 where there is none, so that the colour scale is not empty. */
-static double max_votes(const struct plot_votes *votes, unsigned number)
+static double max_votes_of_picture(const struct plot_votes *votes, unsigned picture)
 {
     uint32_t most = 0;
 
     for (unsigned i = 0; i < votes->height * votes->width; i++) {
-        most = votes->of[number][i] > most ? votes->of[number][i] : most;
+        most = votes->of[picture][i] > most ? votes->of[picture][i] : most;
     }
     return most > 0 ? most / (double)RHO_HOUGH_VOTE : 1.0;
 }
@@ -185,7 +185,7 @@ void plot_votes(struct picture *picture, const struct plot_votes *votes)
         fprintf(script,
                 "set title '%s: %s' noenhanced\nset cbrange [0:%.6g]\n"
                 "plot $of%u using 1:2:3 with image\n",
-                method_name(votes->method), pictures[i].title, max_votes(votes, i), i);
+                method_name(votes->method), pictures[i].title, max_votes_of_picture(votes, i), i);
     }
     if (votes->count > 1) {
         fprintf(script, "unset multiplot\n");

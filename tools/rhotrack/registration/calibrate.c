@@ -63,23 +63,24 @@ static double median(double *values, size_t count)
 /* ---- noise ---- */
 
 /* Magnitude of a residual: metres, or radians across the line of sight of a polar plot. */
-static double residual_magnitude(const struct residual *residual, bool is_round)
+static double residual_magnitude(const struct residual *residual, bool is_isotropic)
 {
-    return fabs(residual->axis == 1 && !is_round ? residual->off_m / residual->range_m
-                                                 : residual->off_m);
+    return fabs(residual->axis == 1 && !is_isotropic ? residual->off_m / residual->range_m
+                                                     : residual->off_m);
 }
 
-static bool is_residual_counted(const struct residual *residual, int axis, bool is_round, int part)
+static bool is_residual_counted(const struct residual *residual, int axis, bool is_isotropic,
+                                int part)
 {
-    return (is_round || residual->axis == axis) && (int)(residual->segment % PARTS) != part;
+    return (is_isotropic || residual->axis == axis) && (int)(residual->segment % PARTS) != part;
 }
 
 /*
  * Finds by bisection the sigma for which the residuals' normalised squares, cut at CUT^2, have the
  * mean CUT_MEAN. Residuals of one part are left out; part -1: none is.
  */
-static double noise_without_part(const struct calibrate_segments *segments, int axis, bool is_round,
-                                 int part)
+static double noise_without_part(const struct calibrate_segments *segments, int axis,
+                                 bool is_isotropic, int part)
 {
     double least = 1e-9, most = 1e7;
 
@@ -88,8 +89,9 @@ static double noise_without_part(const struct calibrate_segments *segments, int 
         double sum = 0.0, count = 0.0;
 
         for (size_t k = 0; k < segments->num_residuals; k++) {
-            if (is_residual_counted(&segments->residuals[k], axis, is_round, part)) {
-                const double sigmas = residual_magnitude(&segments->residuals[k], is_round) / sigma;
+            if (is_residual_counted(&segments->residuals[k], axis, is_isotropic, part)) {
+                const double sigmas =
+                    residual_magnitude(&segments->residuals[k], is_isotropic) / sigma;
 
                 sum += sigmas < CUT ? sigmas * sigmas : CUT * CUT;
                 count += 1.0;
@@ -105,32 +107,33 @@ static double noise_without_part(const struct calibrate_segments *segments, int 
 }
 
 static struct calibrate_figure noise_with_jackknife_sigma(const struct calibrate_segments *segments,
-                                                          int axis, bool is_round)
+                                                          int axis, bool is_isotropic)
 {
     struct calibrate_figure figure = {.is_known = segments->num_segments >= SEGMENTS_MIN};
     struct jackknife_figures jackknife_figures;
 
     if (figure.is_known) {
         for (int i = 0; i < PARTS; i++) {
-            jackknife_figures.without[i] = noise_without_part(segments, axis, is_round, i);
+            jackknife_figures.without[i] = noise_without_part(segments, axis, is_isotropic, i);
         }
-        figure.value = noise_without_part(segments, axis, is_round, -1);
+        figure.value = noise_without_part(segments, axis, is_isotropic, -1);
         figure.sigma = jackknife_sigma(&jackknife_figures);
     }
     return figure;
 }
 
-static void set_plot_sigmas(struct radar_data *radar, bool is_round, double along_m, double across)
+static void set_plot_sigmas(struct radar_data *radar, bool is_isotropic, double along_m,
+                            double across)
 {
     for (size_t i = 0; i < radar->num_plots; i++) {
         struct radar_plot *plot = &radar->plots[i];
-        const double across_m = is_round ? along_m : across * plot->range_m;
+        const double across_m = is_isotropic ? along_m : across * plot->range_m;
 
         plot->sigma_range_m = fmax(along_m, (double)RHO_LIMIT_SIGMA_MIN);
         plot->sigma_cross_m = fmax(across_m, (double)RHO_LIMIT_SIGMA_MIN);
         plot->plot.sigma_range_m = (float)plot->sigma_range_m;
         plot->plot.sigma_cross_m = (float)plot->sigma_cross_m;
-        plot->plot.sigma_up_m = is_round ? plot->plot.sigma_range_m : plot->plot.sigma_up_m;
+        plot->plot.sigma_up_m = is_isotropic ? plot->plot.sigma_range_m : plot->plot.sigma_up_m;
     }
 }
 
@@ -159,11 +162,12 @@ static void remove_all_tracks(struct register_data *data)
 }
 
 static struct calibrate_segments track_and_cut_segments(struct register_data *data, size_t radar,
-                                                        bool is_round, struct pipeline *pipeline)
+                                                        bool is_isotropic,
+                                                        struct pipeline *pipeline)
 {
     remove_all_tracks(data);
     register_track_one_radar(data, radar, pipeline);
-    return calibrate_cut_segments(data, radar, is_round);
+    return calibrate_cut_segments(data, radar, is_isotropic);
 }
 
 /* Score of a noise factor: fitted segments minus segments that fit no parabola. */
@@ -178,12 +182,14 @@ static double segments_minus_left_out(const struct calibrate_segments *segments)
  * the tracker finds no tracks.
  */
 static struct calibrate_segments track_with_best_noise_factor(struct register_data *data,
-                                                              size_t number, bool is_round,
+                                                              size_t radar_number,
+                                                              bool is_isotropic,
                                                               struct pipeline *pipeline)
 {
     static const double factors[] = {4.0, 16.0, 0.25};
-    struct radar_data *radar = &data->radars[number];
-    struct calibrate_segments best = track_and_cut_segments(data, number, is_round, pipeline);
+    struct radar_data *radar = &data->radars[radar_number];
+    struct calibrate_segments best =
+        track_and_cut_segments(data, radar_number, is_isotropic, pipeline);
     double factor = 1.0;
 
     for (size_t i = 0; i < sizeof factors / sizeof *factors; i++) {
@@ -191,7 +197,7 @@ static struct calibrate_segments track_with_best_noise_factor(struct register_da
         struct calibrate_segments segments;
 
         scale_plot_sigmas(radar, tried / factor);
-        segments = track_and_cut_segments(data, number, is_round, pipeline);
+        segments = track_and_cut_segments(data, radar_number, is_isotropic, pipeline);
         if (segments_minus_left_out(&segments) >
             TRY_BETTER * fmax(segments_minus_left_out(&best), 1.0)) {
             calibrate_segments_free(&best);
@@ -203,7 +209,7 @@ static struct calibrate_segments track_with_best_noise_factor(struct register_da
         }
     }
     calibrate_segments_free(&best);
-    return track_and_cut_segments(data, number, is_round, pipeline);
+    return track_and_cut_segments(data, radar_number, is_isotropic, pipeline);
 }
 
 static bool has_noise_converged(const struct calibrate_figure *before,
@@ -223,27 +229,29 @@ static bool are_enough_segments(const struct calibrate_segments *segments)
  * Estimates the noise along and across the line of sight: tracks are found again with each estimate
  * until it converges. Returns the segments of the last tracks.
  */
-static struct calibrate_segments estimate_noise(struct register_data *data, size_t number,
-                                                struct calibrate_radar *out,
-                                                struct pipeline *pipeline)
+static struct calibrate_segments estimate_noise_and_cut_segments(struct register_data *data,
+                                                                 size_t radar_number,
+                                                                 struct calibrate_radar *out,
+                                                                 struct pipeline *pipeline)
 {
     struct calibrate_figure *noise = out->figures;
     struct calibrate_segments segments =
-        track_with_best_noise_factor(data, number, out->is_round, pipeline);
+        track_with_best_noise_factor(data, radar_number, out->is_isotropic, pipeline);
 
     for (int round = 0; round < ROUNDS_MAX && segments.num_segments >= SEGMENTS_MIN; round++) {
         const struct calibrate_figure before[2] = {noise[0], noise[1]};
 
-        noise[0] = noise_with_jackknife_sigma(&segments, 0, out->is_round);
+        noise[0] = noise_with_jackknife_sigma(&segments, 0, out->is_isotropic);
         noise[1] = noise_with_jackknife_sigma(&segments, 1, false);
-        noise[1].is_known = noise[1].is_known && !out->is_round;
+        noise[1].is_known = noise[1].is_known && !out->is_isotropic;
         if (has_noise_converged(&before[0], &noise[0]) &&
-            (out->is_round || has_noise_converged(&before[1], &noise[1]))) {
+            (out->is_isotropic || has_noise_converged(&before[1], &noise[1]))) {
             break;
         }
-        set_plot_sigmas(&data->radars[number], out->is_round, noise[0].value, noise[1].value);
+        set_plot_sigmas(&data->radars[radar_number], out->is_isotropic, noise[0].value,
+                        noise[1].value);
         calibrate_segments_free(&segments);
-        segments = track_and_cut_segments(data, number, out->is_round, pipeline);
+        segments = track_and_cut_segments(data, radar_number, out->is_isotropic, pipeline);
     }
     if (!are_enough_segments(&segments)) {
         noise[0].is_known = noise[1].is_known = false;
@@ -300,15 +308,15 @@ static struct calibrate_figure estimate_turn_time(const struct turns *turns)
     return figure;
 }
 
-static struct calibrate_figure estimate_clutter(const struct register_data *data, size_t number,
-                                                const struct turns *turns)
+static struct calibrate_figure estimate_clutter(const struct register_data *data,
+                                                size_t radar_number, const struct turns *turns)
 {
     const double count = (double)turns->count;
     struct calibrate_figure figure = {.is_known = turns->count >= TURNS_MIN};
     double mean = 0.0, square = 0.0, tracked = 0.0;
 
     for (size_t i = 0; i < data->num_tracks; i++) {
-        if (data->tracks[i].radar == number) {
+        if (data->tracks[i].radar == radar_number) {
             tracked += (double)(data->tracks[i].count + data->tracks[i].earlier);
         }
     }
@@ -325,7 +333,7 @@ static struct calibrate_figure estimate_clutter(const struct register_data *data
  * Area over which clutter is spread: the circle that holds 99.5 % of a polar radar's plots, or the
  * bounding box of plots without a range.
  */
-static double covered_area_km2(const struct radar_data *radar, bool is_round)
+static double covered_area_km2(const struct radar_data *radar, bool is_isotropic)
 {
     double *range_m = must_calloc(radar->num_plots + 1, sizeof *range_m), area_m2 = 0.0;
     double x[2] = {1e9, -1e9}, y[2] = {1e9, -1e9};
@@ -341,8 +349,9 @@ static double covered_area_km2(const struct radar_data *radar, bool is_round)
     }
     if (radar->num_plots > 0) {
         qsort(range_m, radar->num_plots, sizeof *range_m, compare_doubles);
-        area_m2 = is_round ? (x[1] - x[0]) * (y[1] - y[0])
-                           : M_PI * pow(range_m[radar->num_plots - 1 - radar->num_plots / 200], 2);
+        area_m2 = is_isotropic
+                      ? (x[1] - x[0]) * (y[1] - y[0])
+                      : M_PI * pow(range_m[radar->num_plots - 1 - radar->num_plots / 200], 2);
     }
     free(range_m);
     return area_m2 * 1e-6;
@@ -370,7 +379,7 @@ static void count_looks_and_hits(const struct register_data *data, const struct 
     *looks = fmax(round((double)(last->time_us - first->time_us) * 1e-6 / turn_s), *hits);
 }
 
-static struct calibrate_figure estimate_pd(const struct register_data *data, size_t number,
+static struct calibrate_figure estimate_pd(const struct register_data *data, size_t radar_number,
                                            double turn_s)
 {
     double looks[PARTS + 1] = {0.0}, hits[PARTS + 1] = {0.0};
@@ -380,7 +389,7 @@ static struct calibrate_figure estimate_pd(const struct register_data *data, siz
     for (size_t i = 0; i < data->num_tracks; i++) {
         double looks_of, hits_of;
 
-        if (data->tracks[i].radar == number) {
+        if (data->tracks[i].radar == radar_number) {
             count_looks_and_hits(data, &data->tracks[i], turn_s, &looks_of, &hits_of);
             for (int part = 0; part <= PARTS; part++) {
                 const bool is_in = (int)(i % PARTS) != part;
@@ -405,11 +414,11 @@ static struct calibrate_figure estimate_pd(const struct register_data *data, siz
 /* ---- speeds ---- */
 
 /*
- * Median speed of the segments of the track that begins at *next, with its error; moves *next to
- * the following track. False where the track has fewer than two segments.
+ * Median speed, with its error, of the track whose segments begin at *next, and moves *next to the
+ * following track. False, not reliable, where the track has fewer than two segments.
  */
-static bool next_track_speed(const struct calibrate_segments *segments, size_t *next,
-                             struct calibrate_figure *speed)
+static bool next_track_speed_if_reliable(const struct calibrate_segments *segments, size_t *next,
+                                         struct calibrate_figure *speed)
 {
     const size_t first = *next;
     double *speeds, square = 0.0;
@@ -442,7 +451,7 @@ static void find_speed_extremes(const struct calibrate_segments *segments,
     struct calibrate_figure speed;
 
     for (size_t next = 0; next < segments->num_segments;) {
-        if (!next_track_speed(segments, &next, &speed) ||
+        if (!next_track_speed_if_reliable(segments, &next, &speed) ||
             speed.value < MOVING_SIGMAS * speed.sigma) {
             continue;
         }
@@ -468,24 +477,25 @@ static bool has_isotropic_plots(const struct radar_data *radar)
  * Puts the stated sigmas back into the plots, and computes the mean normalised innovation squared
  * with them.
  */
-static void find_innovations_of_stated_noise(struct register_data *data, size_t number,
-                                             struct calibrate_radar *out, const double *stated)
+static void restore_noise_and_find_innovations(struct register_data *data, size_t radar_number,
+                                               struct calibrate_radar *out, const double *stated)
 {
-    struct radar_data *radar = &data->radars[number];
+    struct radar_data *radar = &data->radars[radar_number];
     double sum;
 
     for (size_t i = 0; i < radar->num_plots; i++) {
         radar->plots[i].sigma_range_m = stated[2 * i];
         radar->plots[i].sigma_cross_m = stated[2 * i + 1];
     }
-    sum = calibrate_sum_squared_innovations(data, number, out->is_round, &out->num_innovations);
+    sum = calibrate_sum_squared_innovations(data, radar_number, out->is_isotropic,
+                                            &out->num_innovations);
     out->innovations = out->num_innovations ? sum / CUT_MEAN / (double)out->num_innovations : NAN;
 }
 
-static void calibrate_one_radar(struct register_data *data, size_t number,
+static void calibrate_one_radar(struct register_data *data, size_t radar_number,
                                 struct pipeline *pipeline, struct calibrate_radar *out)
 {
-    struct radar_data *radar = &data->radars[number];
+    struct radar_data *radar = &data->radars[radar_number];
     double *stated = must_calloc(2 * radar->num_plots + 1, sizeof *stated);
     struct calibrate_segments segments;
     struct turns turns;
@@ -495,24 +505,25 @@ static void calibrate_one_radar(struct register_data *data, size_t number,
         stated[2 * i + 1] = radar->plots[i].sigma_cross_m;
     }
     *out = (struct calibrate_radar){.sensor_id = radar->sensor.sensor_id,
-                                    .is_round = has_isotropic_plots(radar),
+                                    .is_isotropic = has_isotropic_plots(radar),
                                     .scans = radar->num_scans,
                                     .plots = radar->num_plots};
-    segments = estimate_noise(data, number, out, pipeline);
+    segments = estimate_noise_and_cut_segments(data, radar_number, out, pipeline);
     turns = group_scans_into_turns(data, radar);
     out->turns = turns.count;
     out->tracks = data->num_tracks;
     out->segments = segments.num_segments;
     out->segments_left_out = segments.num_left_out;
-    out->area_km2 = covered_area_km2(radar, out->is_round);
+    out->area_km2 = covered_area_km2(radar, out->is_isotropic);
     out->figures[CALIBRATE_TURN] = estimate_turn_time(&turns);
-    out->figures[CALIBRATE_CLUTTER] = estimate_clutter(data, number, &turns);
+    out->figures[CALIBRATE_CLUTTER] = estimate_clutter(data, radar_number, &turns);
     if (out->figures[CALIBRATE_TURN].is_known) {
-        out->figures[CALIBRATE_PD] = estimate_pd(data, number, out->figures[CALIBRATE_TURN].value);
+        out->figures[CALIBRATE_PD] =
+            estimate_pd(data, radar_number, out->figures[CALIBRATE_TURN].value);
     }
     find_speed_extremes(&segments, &out->figures[CALIBRATE_FASTEST],
                         &out->figures[CALIBRATE_SLOWEST]);
-    find_innovations_of_stated_noise(data, number, out, stated);
+    restore_noise_and_find_innovations(data, radar_number, out, stated);
     calibrate_segments_free(&segments);
     free(turns.end_s);
     free(turns.plots);

@@ -36,7 +36,7 @@ struct calibrate_figure {
 
 struct calibrate_radar {
     int32_t sensor_id;
-    bool is_round; /* plots are Cartesian, with equal sigmas on all axes */
+    bool is_isotropic; /* plots are Cartesian, with equal sigmas on all axes */
     size_t scans, turns, plots, tracks;
     size_t segments, segments_left_out; /* left out: segments that fit no parabola */
     struct calibrate_figure figures[NUM_CALIBRATE_KINDS];

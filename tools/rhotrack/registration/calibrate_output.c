@@ -30,13 +30,14 @@ static const struct {
 
 static const char *figure_title(const struct calibrate_radar *of, int kind)
 {
-    return of->is_round && kind == CALIBRATE_RANGE ? "noise, each axis" : figure_kinds[kind].what;
+    return of->is_isotropic && kind == CALIBRATE_RANGE ? "noise, each axis"
+                                                       : figure_kinds[kind].what;
 }
 
 /* Whether the figure exists for the radar: plots without a range have no azimuth noise. */
 static bool has_radar_figure(const struct calibrate_radar *of, int kind)
 {
-    return !(of->is_round && kind == CALIBRATE_AZIMUTH);
+    return !(of->is_isotropic && kind == CALIBRATE_AZIMUTH);
 }
 
 bool calibrate_knows_noise_or_pd(const struct calibrate_result *result)
@@ -110,7 +111,7 @@ void calibrate_print_json(const struct calibrate_result *result, uint64_t rows_s
         for (int kind = 0; kind < NUM_CALIBRATE_KINDS; kind++) {
             const struct calibrate_figure *figure = &of->figures[kind];
             const char *name =
-                of->is_round && kind == CALIBRATE_RANGE ? "sigma_m" : figure_kinds[kind].json;
+                of->is_isotropic && kind == CALIBRATE_RANGE ? "sigma_m" : figure_kinds[kind].json;
             cJSON *both = cJSON_AddObjectToObject(radar, name);
 
             json_add_number_or_null(both, "value", figure->is_known ? figure->value : NAN);
@@ -153,10 +154,11 @@ static void write_speed_limits(const struct calibrate_result *result, FILE *out)
 }
 
 static void write_figure(FILE *out, const struct calibrate_figure *figure, const char *name,
-                         const char *comment)
+                         const char *line_prefix)
 {
     if (figure->is_known) {
-        fprintf(out, "# sigma %.2g\n%s%s = %.6g\n", figure->sigma, comment, name, figure->value);
+        fprintf(out, "# sigma %.2g\n%s%s = %.6g\n", figure->sigma, line_prefix, name,
+                figure->value);
     } else {
         fprintf(out, "# %s: not known\n", name);
     }
@@ -168,9 +170,9 @@ static void write_radar_section(const struct calibrate_radar *of, FILE *out)
 
     pd.value = fmin(fmax(pd.value, 0.01), 0.999);
     fprintf(out, "\n[sensor %d]\n", (int)of->sensor_id);
-    write_figure(out, &of->figures[CALIBRATE_RANGE], of->is_round ? "sigma_m" : "sigma_range_m",
+    write_figure(out, &of->figures[CALIBRATE_RANGE], of->is_isotropic ? "sigma_m" : "sigma_range_m",
                  "");
-    if (!of->is_round) {
+    if (!of->is_isotropic) {
         write_figure(out, &of->figures[CALIBRATE_AZIMUTH], "sigma_azimuth_rad", "");
     }
     write_figure(out, &pd, "pd", "");

@@ -33,7 +33,7 @@ struct path {
  * Row of the design matrix: the coordinate along the direction (x, y) at time t_s as a linear
  * function of the path's coefficients.
  */
-static void design_row(const struct path *path, double t_s, double x, double y, double *row)
+static void fill_design_row(const struct path *path, double t_s, double x, double y, double *row)
 {
     double power = 1.0;
 
@@ -69,9 +69,10 @@ struct axes {
     double x[2], y[2], sigma_m[2];
 };
 
-static struct axes noise_axes(const struct radar_plot *plot, bool is_round)
+static struct axes noise_axes(const struct radar_plot *plot, bool is_isotropic)
 {
-    double c = is_round ? 1.0 : cos(plot->azimuth_rad), s = is_round ? 0.0 : sin(plot->azimuth_rad);
+    double c = is_isotropic ? 1.0 : cos(plot->azimuth_rad),
+           s = is_isotropic ? 0.0 : sin(plot->azimuth_rad);
 
     return (struct axes){
         .x = {c, -s}, .y = {s, c}, .sigma_m = {plot->sigma_range_m, plot->sigma_cross_m}};
@@ -93,7 +94,7 @@ static double plot_coordinate_along(const struct radar_plot *plot, const struct 
  * it.
  */
 static bool fit_path(const struct register_data *data, const struct radar_track *track,
-                     size_t first, size_t count, bool is_round, struct path *path)
+                     size_t first, size_t count, bool is_isotropic, struct path *path)
 {
     const struct radar_plot *plots = data->radars[track->radar].plots;
     const size_t n = 2 * path->powers;
@@ -104,12 +105,12 @@ static bool fit_path(const struct register_data *data, const struct radar_track 
                             plot_time_s(data, &plots[track->plots[first + count - 1]]));
     for (size_t k = 0; k < 2 * count; k++) {
         const struct radar_plot *plot = &plots[track->plots[first + k / 2]];
-        const struct axes axes = noise_axes(plot, is_round);
+        const struct axes axes = noise_axes(plot, is_isotropic);
         const int axis = (int)(k % 2);
         const double weight = 1.0 / (axes.sigma_m[axis] * axes.sigma_m[axis]);
         double row[MAX_UNKNOWN];
 
-        design_row(path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
+        fill_design_row(path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
         for (size_t i = 0; i < n; i++) {
             path->solution[i] += weight * row[i] * plot_coordinate_along(plot, &axes, axis);
             for (size_t j = 0; j < n; j++) {
@@ -129,18 +130,18 @@ static bool fit_path(const struct register_data *data, const struct radar_track 
  * variance is the plot's noise.
  */
 static void add_segment_residuals(const struct register_data *data, const struct radar_track *track,
-                                  size_t first, size_t count, bool is_round,
+                                  size_t first, size_t count, bool is_isotropic,
                                   const struct path *path, struct calibrate_segments *segments)
 {
     const struct radar_plot *plots = data->radars[track->radar].plots;
 
     for (size_t k = 0; k < 2 * count; k++) {
         const struct radar_plot *plot = &plots[track->plots[first + k / 2]];
-        const struct axes axes = noise_axes(plot, is_round);
+        const struct axes axes = noise_axes(plot, is_isotropic);
         const int axis = (int)(k % 2);
         double row[MAX_UNKNOWN], leverage;
 
-        design_row(path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
+        fill_design_row(path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
         leverage = path_variance(path, row) / (axes.sigma_m[axis] * axes.sigma_m[axis]);
         if (leverage > LEVERAGE_MAX) {
             /*
@@ -197,16 +198,16 @@ static struct calibrate_segment segment_from_path(const struct path *path, size_
  * the fit to segments. False, without residuals, where neither fits.
  */
 static bool fit_segment(const struct register_data *data, const struct radar_track *track,
-                        size_t first, bool is_round, struct path *path,
+                        size_t first, bool is_isotropic, struct path *path,
                         struct calibrate_segments *segments)
 {
     const size_t before = segments->num_residuals;
 
     for (path->powers = 2; path->powers <= POWERS_MAX; path->powers++) {
-        if (!fit_path(data, track, first, SEGMENT_PLOTS, is_round, path)) {
+        if (!fit_path(data, track, first, SEGMENT_PLOTS, is_isotropic, path)) {
             return false;
         }
-        add_segment_residuals(data, track, first, SEGMENT_PLOTS, is_round, path, segments);
+        add_segment_residuals(data, track, first, SEGMENT_PLOTS, is_isotropic, path, segments);
         if (residuals_look_like_noise(&segments->residuals[before],
                                       segments->num_residuals - before)) {
             return true;
@@ -216,10 +217,10 @@ static bool fit_segment(const struct register_data *data, const struct radar_tra
     return false;
 }
 
-static void cut_track_into_segments(const struct register_data *data, size_t number, bool is_round,
-                                    struct calibrate_segments *segments)
+static void cut_track_into_segments(const struct register_data *data, size_t track_number,
+                                    bool is_isotropic, struct calibrate_segments *segments)
 {
-    const struct radar_track *track = &data->tracks[number];
+    const struct radar_track *track = &data->tracks[track_number];
     const struct radar_plot *plots = data->radars[track->radar].plots;
 
     for (size_t first = 0; first + SEGMENT_PLOTS <= track->count; first += SEGMENT_PLOTS) {
@@ -231,24 +232,24 @@ static void cut_track_into_segments(const struct register_data *data, size_t num
         if (duration_s > SEGMENT_S) {
             continue;
         }
-        if (!fit_segment(data, track, first, is_round, &path, segments)) {
+        if (!fit_segment(data, track, first, is_isotropic, &path, segments)) {
             segments->num_left_out++;
             continue;
         }
         segments->segments = must_grow(segments->segments, segments->num_segments,
                                        &segments->segments_room, sizeof *segments->segments);
-        segments->segments[segments->num_segments++] = segment_from_path(&path, number);
+        segments->segments[segments->num_segments++] = segment_from_path(&path, track_number);
     }
 }
 
 struct calibrate_segments calibrate_cut_segments(const struct register_data *data, size_t radar,
-                                                 bool is_round)
+                                                 bool is_isotropic)
 {
     struct calibrate_segments segments = {.num_segments = 0};
 
     for (size_t i = 0; i < data->num_tracks; i++) {
         if (data->tracks[i].radar == radar) {
-            cut_track_into_segments(data, i, is_round, &segments);
+            cut_track_into_segments(data, i, is_isotropic, &segments);
         }
     }
     return segments;
@@ -261,7 +262,7 @@ void calibrate_segments_free(struct calibrate_segments *segments)
 }
 
 double calibrate_sum_squared_innovations(const struct register_data *data, size_t radar,
-                                         bool is_round, size_t *count)
+                                         bool is_isotropic, size_t *count)
 {
     double sum = 0.0;
 
@@ -271,15 +272,15 @@ double calibrate_sum_squared_innovations(const struct register_data *data, size_
 
         for (size_t next = PREDICTOR_PLOTS; track->radar == radar && next < track->count; next++) {
             const struct radar_plot *plot = &data->radars[radar].plots[track->plots[next]];
-            const struct axes axes = noise_axes(plot, is_round);
+            const struct axes axes = noise_axes(plot, is_isotropic);
             struct path path = {.powers = 2};
 
             for (int axis = 0; axis < 2 && fit_path(data, track, next - PREDICTOR_PLOTS,
-                                                    PREDICTOR_PLOTS, is_round, &path);
+                                                    PREDICTOR_PLOTS, is_isotropic, &path);
                  axis++) {
                 double row[MAX_UNKNOWN] = {0.0}, off_m, square;
 
-                design_row(&path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
+                fill_design_row(&path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
                 off_m =
                     plot_coordinate_along(plot, &axes, axis) - dot_product(row, path.solution, 4);
                 square = off_m * off_m /

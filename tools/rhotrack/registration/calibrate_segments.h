@@ -32,11 +32,11 @@ struct calibrate_segments {
 };
 
 /*
- * Cuts the tracks of the radar into segments, with weights by the plots' sigmas. is_round:
+ * Cuts the tracks of the radar into segments, with weights by the plots' sigmas. is_isotropic:
  * residuals are along x and y instead of along and across the line of sight.
  */
 struct calibrate_segments calibrate_cut_segments(const struct register_data *data, size_t radar,
-                                                 bool is_round);
+                                                 bool is_isotropic);
 void calibrate_segments_free(struct calibrate_segments *segments);
 
 /*
@@ -44,6 +44,6 @@ void calibrate_segments_free(struct calibrate_segments *segments);
  * line through the four plots of the track before; *count is their number.
  */
 double calibrate_sum_squared_innovations(const struct register_data *data, size_t radar,
-                                         bool is_round, size_t *count);
+                                         bool is_isotropic, size_t *count);
 
 #endif

@@ -165,10 +165,10 @@ static void mean_plot_noise(const struct radar_data *radar, double speed_mps,
     noise[REGISTER_TIME] = noise[REGISTER_RANGE] / speed_mps;
 }
 
-static void fill_radar_result(const struct register_data *data, size_t number,
+static void fill_radar_result(const struct register_data *data, size_t radar_number,
                               const struct solution *solution, struct register_radar *out)
 {
-    const struct radar_data *radar = &data->radars[number];
+    const struct radar_data *radar = &data->radars[radar_number];
     const double configured[NUM_REGISTER_KINDS] = {(double)radar->sensor.range_bias_m,
                                                    (double)radar->sensor.azimuth_bias_rad,
                                                    (double)radar->sensor.time_bias_s};
@@ -177,13 +177,13 @@ static void fill_radar_result(const struct register_data *data, size_t number,
     *out = (struct register_radar){.sensor_id = radar->sensor.sensor_id,
                                    .scans = radar->num_scans,
                                    .plots = radar->num_plots,
-                                   .common_plots = solution->radar_plots[number]};
+                                   .common_plots = solution->radar_plots[radar_number]};
     for (size_t i = 0; i < data->num_tracks; i++) {
-        out->tracks += data->tracks[i].radar == number;
+        out->tracks += data->tracks[i].radar == radar_number;
     }
     mean_plot_noise(radar, solution->speed_mps, noise);
     for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
-        double sigma = solution->sigma[number * NUM_REGISTER_KINDS + kind];
+        double sigma = solution->sigma[radar_number * NUM_REGISTER_KINDS + kind];
         bool is_known = out->common_plots > 0 && sigma <= KNOWN_SHARE * noise[kind];
 
         out->biases[kind] =

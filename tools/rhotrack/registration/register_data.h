@@ -71,7 +71,8 @@ struct corrected register_correct_plot(const struct register_data *data,
  * and step the tracker. In register_tracks.c.
  */
 void register_track_all_radars(struct register_data *data, struct pipeline *pipeline);
-void register_track_one_radar(struct register_data *data, size_t number, struct pipeline *pipeline);
+void register_track_one_radar(struct register_data *data, size_t radar_number,
+                              struct pipeline *pipeline);
 
 /* Index one past the last scan of the turn that begins with scan `first`. In register_tracks.c. */
 size_t register_find_turn_end(const struct radar_data *radar, size_t first);

@@ -48,7 +48,7 @@ struct pair {
  * of actual noise to sigmas.
  */
 static void course_from_track(const struct register_data *data, const struct radar_track *track,
-                              double noise, struct course *course)
+                              double noise_factor, struct course *course)
 {
     const struct radar_data *radar = &data->radars[track->radar];
 
@@ -60,8 +60,8 @@ static void course_from_track(const struct register_data *data, const struct rad
         const struct radar_plot *plot = &radar->plots[track->plots[i]];
 
         course->at[i] = register_correct_plot(data, radar, plot);
-        course->along_m2[i] = pow(noise * plot->sigma_range_m, 2.0);
-        course->cross_m2[i] = pow(noise * plot->sigma_cross_m, 2.0);
+        course->along_m2[i] = pow(noise_factor * plot->sigma_range_m, 2.0);
+        course->cross_m2[i] = pow(noise_factor * plot->sigma_cross_m, 2.0);
     }
 }
 

@@ -17,7 +17,8 @@ static const struct {
     {"time", "time_bias_s", "time_bias_s", "time_bias_sigma_s", "s"},
 };
 
-static bool is_reference_time(const struct register_result *result, size_t radar, size_t kind)
+/* Whether the bias is the time bias of the reference radar, which is taken as known. */
+static bool is_reference_time_bias(const struct register_result *result, size_t radar, size_t kind)
 {
     return radar == result->reference && kind == REGISTER_TIME;
 }
@@ -26,7 +27,8 @@ bool register_knows_any_bias(const struct register_result *result)
 {
     for (size_t i = 0; i < result->num_radars; i++) {
         for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
-            if (result->radars[i].biases[kind].is_known && !is_reference_time(result, i, kind)) {
+            if (result->radars[i].biases[kind].is_known &&
+                !is_reference_time_bias(result, i, kind)) {
                 return true;
             }
         }
@@ -47,7 +49,7 @@ static void add_bias_row(struct text_table *table, const struct register_result 
     for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
         const struct register_bias *bias = &of->biases[kind];
         double factor = kind == REGISTER_AZIMUTH ? 1.0 / DEG_RAD : 1.0;
-        bool is_taken = is_reference_time(result, radar, kind);
+        bool is_taken = is_reference_time_bias(result, radar, kind);
         double value = bias->is_known || is_taken ? factor * bias->value : NAN;
         double sigma = bias->is_known && !is_taken ? factor * bias->sigma : NAN;
 
@@ -71,7 +73,7 @@ static void print_unknown_biases(const struct register_result *result, FILE *out
             continue;
         }
         for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
-            if (!of->biases[kind].is_known && !is_reference_time(result, i, kind)) {
+            if (!of->biases[kind].is_known && !is_reference_time_bias(result, i, kind)) {
                 fprintf(out,
                         "radar %d, %s: not known; its sigma of %.3g %s is beyond half of a plot's "
                         "noise: too "
@@ -121,7 +123,7 @@ static cJSON *radar_biases_json(const struct register_result *result, size_t rad
     cJSON_AddNumberToObject(object, "common_plots", (double)of->common_plots);
     for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
         const struct register_bias *bias = &of->biases[kind];
-        bool is_shown = bias->is_known || is_reference_time(result, radar, kind);
+        bool is_shown = bias->is_known || is_reference_time_bias(result, radar, kind);
 
         json_add_number_or_null(object, bias_kinds[kind].json, is_shown ? bias->value : NAN);
         json_add_number_or_null(object, bias_kinds[kind].json_sigma,
@@ -164,7 +166,7 @@ void register_write_ini(const struct register_result *result, const char *path)
         for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
             const struct register_bias *bias = &of->biases[kind];
 
-            if (is_reference_time(result, i, kind)) {
+            if (is_reference_time_bias(result, i, kind)) {
                 fprintf(output.file, "%s = %.9f\n", bias_kinds[kind].parameter, bias->value);
             } else if (bias->is_known) {
                 fprintf(output.file, "# sigma %.9f\n%s = %.9f\n", bias->sigma,

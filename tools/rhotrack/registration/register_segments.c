@@ -153,8 +153,8 @@ static struct plot_terms make_plot_terms(const struct register_data *data,
 }
 
 /* Derivatives of the parabola's coordinate along the row's axis by each coefficient, in sigmas. */
-static void coefficient_row(const struct plot_terms *plot_terms, int row,
-                            double values[SEGMENT_COEFFICIENTS])
+static void fill_coefficient_row(const struct plot_terms *plot_terms, int row,
+                                 double values[SEGMENT_COEFFICIENTS])
 {
     for (int k = 0; k < SEGMENT_TERMS; k++) {
         values[k] = plot_terms->unit[row][0] * plot_terms->basis[k];
@@ -169,10 +169,10 @@ static double measured_coordinate(const struct plot_terms *plot_terms, int row)
 }
 
 /* Subtracts `from`, the place of the segment's first plot: large coordinates would lose digits. */
-static void shift_origin_to(struct plot_terms *plot_terms, const struct corrected *from)
+static void shift_origin_to(struct plot_terms *plot_terms, const struct corrected *origin)
 {
-    plot_terms->at.x_m -= from->x_m;
-    plot_terms->at.y_m -= from->y_m;
+    plot_terms->at.x_m -= origin->x_m;
+    plot_terms->at.y_m -= origin->y_m;
 }
 
 /*
@@ -189,7 +189,7 @@ static bool fit_path_coefficients(const struct plot_terms *plot_terms,
         for (int row = 0; row < 2; row++) {
             double values[SEGMENT_COEFFICIENTS], value = measured_coordinate(&plot_terms[i], row);
 
-            coefficient_row(&plot_terms[i], row, values);
+            fill_coefficient_row(&plot_terms[i], row, values);
             for (int j = 0; j < SEGMENT_COEFFICIENTS; j++) {
                 segment->coefficients[j] += plots[i].weight * values[j] * value;
                 for (int k = 0; k < SEGMENT_COEFFICIENTS; k++) {
@@ -217,8 +217,8 @@ static void path_velocity(const struct segment *segment, const struct plot_terms
 }
 
 /* Derivatives of a plot's row by the biases of its radar. */
-static void bias_row(const struct segment *segment, const struct plot_terms *plot_terms, int row,
-                     double values[NUM_REGISTER_KINDS])
+static void fill_bias_row(const struct segment *segment, const struct plot_terms *plot_terms,
+                          int row, double values[NUM_REGISTER_KINDS])
 {
     double v_mps[2];
 
@@ -236,7 +236,7 @@ static double row_residual(const struct segment *segment, const struct plot_term
 {
     double values[SEGMENT_COEFFICIENTS], off = measured_coordinate(plot_terms, row);
 
-    coefficient_row(plot_terms, row, values);
+    fill_coefficient_row(plot_terms, row, values);
     for (int k = 0; k < SEGMENT_COEFFICIENTS; k++) {
         off -= values[k] * segment->coefficients[k];
     }
@@ -262,8 +262,8 @@ static void add_bias_equations(const struct segment_plot *plots,
             double values[SEGMENT_COEFFICIENTS], biases[NUM_REGISTER_KINDS];
             double off = row_residual(segment, &plot_terms[i], row);
 
-            coefficient_row(&plot_terms[i], row, values);
-            bias_row(segment, &plot_terms[i], row, biases);
+            fill_coefficient_row(&plot_terms[i], row, values);
+            fill_bias_row(segment, &plot_terms[i], row, biases);
             for (size_t j = 0; j < NUM_REGISTER_KINDS; j++) {
                 double weighted = plots[i].weight * biases[j];
 

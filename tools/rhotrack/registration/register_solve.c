@@ -41,7 +41,7 @@ static void free_normal_equations(struct normal_equations *normal)
 }
 
 /* Fixes a bias at its present value: its row and column become those of the identity. */
-static void fix_bias(struct normal_equations *normal, size_t index)
+static void hold_bias_constant(struct normal_equations *normal, size_t index)
 {
     for (size_t i = 0; i < normal->num; i++) {
         normal->matrix[index * normal->num + i] = normal->matrix[i * normal->num + index] = 0.0;
@@ -73,14 +73,16 @@ static void finish_and_factor_normal(const struct register_data *data, size_t re
                 unit[i % NUM_REGISTER_KINDS] * unit[j % NUM_REGISTER_KINDS];
         }
     }
-    fix_bias(normal, reference * NUM_REGISTER_KINDS + REGISTER_TIME);
+    hold_bias_constant(normal, reference * NUM_REGISTER_KINDS + REGISTER_TIME);
     if (!cholesky_factor(normal->matrix, num)) {
         fail(EXIT_RUNTIME, "register: the normal equations of the biases cannot be solved");
     }
 }
 
-static void sum_segment_equations(const struct register_data *data, struct segments *segments,
-                                  struct normal_equations *normal)
+/* Fits all segments in use, sums their normal equations, and leaves out those that do not fit. */
+static void fit_segments_and_sum_equations(const struct register_data *data,
+                                           struct segments *segments,
+                                           struct normal_equations *normal)
 {
     memset(normal->matrix, 0, normal->num * normal->num * sizeof *normal->matrix);
     memset(normal->right, 0, normal->num * sizeof *normal->right);
@@ -103,7 +105,7 @@ static void iterate_biases(struct register_data *data, struct segments *segments
     for (int i = 0; i < STEPS_MAX; i++) {
         double largest = 0.0;
 
-        sum_segment_equations(data, segments, normal);
+        fit_segments_and_sum_equations(data, segments, normal);
         finish_and_factor_normal(data, reference, normal);
         cholesky_solve(normal->matrix, normal->num, normal->right);
         for (size_t j = 0; j < normal->num; j++) {

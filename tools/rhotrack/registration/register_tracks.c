@@ -89,7 +89,7 @@ struct following {
     } * ids;
 };
 
-static struct followed *find_or_add_followed(struct following *all, uint32_t track_id)
+static struct followed *find_or_add_followed_track(struct following *all, uint32_t track_id)
 {
     for (size_t i = all->num_ids; i-- > 0;) { /* from the newest, which are looked up most often */
         if (all->ids[i].track_id == track_id) {
@@ -107,7 +107,7 @@ static void record_reported_tracks(struct following *all, const struct rho_repor
 {
     for (unsigned i = 0; i < report->num_tracks; i++) {
         const struct rho_track_report *from = &report->tracks[i];
-        struct followed *followed = find_or_add_followed(all, from->track_id);
+        struct followed *followed = find_or_add_followed_track(all, from->track_id);
         struct radar_track *track = &followed->track;
         const bool is_first = track->count == 0;
 
@@ -148,10 +148,11 @@ static int by_time(const void *a, const void *b)
     return (one->first > other->first) - (one->first < other->first);
 }
 
-void register_track_one_radar(struct register_data *data, size_t number, struct pipeline *pipeline)
+void register_track_one_radar(struct register_data *data, size_t radar_number,
+                              struct pipeline *pipeline)
 {
-    struct radar_data *radar = &data->radars[number];
-    struct following all = {.data = data, .radar = number};
+    struct radar_data *radar = &data->radars[radar_number];
+    struct following all = {.data = data, .radar = radar_number};
     size_t *rows = must_calloc(RHO_MAX_PLOTS, sizeof *rows);
 
     if (radar->num_scans > 0) {

@@ -63,8 +63,8 @@ static const char *skip_value(const char *at)
 }
 
 /* Lists the places from the root of the file down to `place`; returns their number. */
-static size_t places_from_root(const struct json_place *place,
-                               const struct json_place *chain[DEPTH_MAX])
+static size_t list_places_from_root(const struct json_place *place,
+                                    const struct json_place *chain[DEPTH_MAX])
 {
     size_t count = 0;
 
@@ -108,10 +108,11 @@ static const char *find_member_in_text(const char *at, const struct json_place *
     return NULL;
 }
 
-static const char *find_place_in_text(const struct json_place *place)
+/* Text position of a place, or of the nearest place above it that the text has; never NULL. */
+static const char *find_nearest_place_in_text(const struct json_place *place)
 {
     const struct json_place *chain[DEPTH_MAX];
-    size_t count = places_from_root(place, chain);
+    size_t count = list_places_from_root(place, chain);
     const char *at = skip_space(place->file->text);
 
     for (size_t i = 0; i < count; i++) {
@@ -145,7 +146,7 @@ static size_t line_number_at(const char *text, const char *at)
 static void format_place(const struct json_place *place, char text[PLACE_BYTES])
 {
     const struct json_place *chain[DEPTH_MAX];
-    size_t count = places_from_root(place, chain), used = 0;
+    size_t count = list_places_from_root(place, chain), used = 0;
 
     text[0] = '\0';
     for (size_t i = 0; i < count && used < PLACE_BYTES; i++) {
@@ -164,8 +165,8 @@ static _Noreturn void fail_at_place(const struct json_place *place, const char *
 
     format_place(place, where);
     fail(EXIT_USAGE, "%s:%zu: %s%s%s", place->file->name,
-         line_number_at(place->file->text, find_place_in_text(place)), where, where[0] ? ": " : "",
-         what);
+         line_number_at(place->file->text, find_nearest_place_in_text(place)), where,
+         where[0] ? ": " : "", what);
 }
 
 void json_fail(const struct json_place *place, const char *format, ...)

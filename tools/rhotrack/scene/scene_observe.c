@@ -863,7 +863,9 @@ static void observe_clutter_about_targets(struct observer *observer, const struc
     }
 }
 
-static double mean_clutter_plots(const struct scene *scene, const struct scene_clutter *clutter)
+/* Mean number of clutter plots a scan, by number or by density over the area. */
+static double mean_clutter_plots_per_scan(const struct scene *scene,
+                                          const struct scene_clutter *clutter)
 {
     const double *box_m = clutter->has_box ? clutter->box_m : scene->area_m;
 
@@ -875,7 +877,7 @@ static double mean_clutter_plots(const struct scene *scene, const struct scene_c
 static void observe_scan_clutter(struct observer *observer, size_t source)
 {
     const struct scene_clutter *clutter = &observer->scene->clutter[source];
-    double mean = mean_clutter_plots(observer->scene, clutter);
+    double mean = mean_clutter_plots_per_scan(observer->scene, clutter);
 
     for (size_t turn = 0; turn < observer->turns; turn++) {
         double t_s = observer->sensor->start_s + (double)turn * observer->sensor->turn_s;

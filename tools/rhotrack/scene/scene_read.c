@@ -233,7 +233,7 @@ static void read_passive_sensor(struct json_object *object, struct scene_sensor 
     }
 }
 
-static void append_sensor(struct scene *scene, struct json_object *object, bool is_passive)
+static void read_and_append_sensor(struct scene *scene, struct json_object *object, bool is_passive)
 {
     struct scene_sensor *sensor = &scene->sensors[scene->num_sensors];
     const struct scene_coverage everywhere = {.range_m = {0, is_passive ? RANGE_MAX_M : 100e3}};
@@ -279,13 +279,13 @@ static void read_all_sensors(struct scene *scene, struct json_object *root)
     for (size_t i = 0; i < radars.count; i++) {
         struct json_object one = json_element(&radars, i);
 
-        append_sensor(scene, &one, false);
+        read_and_append_sensor(scene, &one, false);
     }
     scene->num_radars = scene->num_sensors;
     for (size_t i = 0; i < passive.count; i++) {
         struct json_object one = json_element(&passive, i);
 
-        append_sensor(scene, &one, true);
+        read_and_append_sensor(scene, &one, true);
     }
 }
 
@@ -365,7 +365,7 @@ static void read_sea_spikes(struct json_object *object, struct scene_clutter *cl
     read_clutter_area(object, clutter);
 }
 
-static void read_strobe(struct json_object *object, struct scene_clutter *clutter)
+static void read_strobe_clutter(struct json_object *object, struct scene_clutter *clutter)
 {
     json_require_key(object, "plots");
     json_require_key(object, "azimuth_rad");
@@ -379,7 +379,7 @@ static void read_strobe(struct json_object *object, struct scene_clutter *clutte
         json_read_span(object, "range_m", 0, RANGE_MAX_M, (struct json_span){-1, -1});
 }
 
-static void read_flock(struct json_object *object, struct scene_clutter *clutter)
+static void read_bird_flock(struct json_object *object, struct scene_clutter *clutter)
 {
     json_require_key(object, "count");
     json_require_key(object, "at_m");
@@ -433,20 +433,15 @@ static void check_clutter(const struct scene *scene, const struct json_object *o
     }
 }
 
-static void append_clutter(struct scene *scene, struct json_object *object)
+static void read_and_append_clutter(struct scene *scene, struct json_object *object)
 {
     static const char *const kinds[CLUTTER_KINDS] = {
         "uniform", "cell",  "standing",           "spikes",
         "strobe",  "flock", "second-time-around", "about-targets"};
     static void (*const readers[CLUTTER_KINDS])(struct json_object *, struct scene_clutter *) = {
-        read_uniform_clutter,
-        read_clutter_cell,
-        read_standing_clutter,
-        read_sea_spikes,
-        read_strobe,
-        read_flock,
-        read_second_time_echoes,
-        read_clutter_about_targets};
+        read_uniform_clutter,    read_clutter_cell,         read_standing_clutter,
+        read_sea_spikes,         read_strobe_clutter,       read_bird_flock,
+        read_second_time_echoes, read_clutter_about_targets};
     struct scene_clutter *clutter = &scene->clutter[scene->num_clutter];
 
     json_require_key(object, "kind");
@@ -463,14 +458,14 @@ static void append_clutter(struct scene *scene, struct json_object *object)
 
 /* ---- events ---- */
 
-static void read_outage(struct json_object *object, struct scene_event *event)
+static void read_outage_event(struct json_object *object, struct scene_event *event)
 {
     json_require_key(object, "from_s");
     json_require_key(object, "until_s");
     event->is_silent = json_read_flag(object, "is_silent", true);
 }
 
-static void read_fades(struct json_object *object, struct scene_event *event)
+static void read_fades_event(struct json_object *object, struct scene_event *event)
 {
     struct json_list list = json_read_list(object, "targets", 32);
 
@@ -491,12 +486,12 @@ static void read_fades(struct json_object *object, struct scene_event *event)
     }
 }
 
-static void read_mask(struct json_object *object, struct scene_event *event)
+static void read_mask_event(struct json_object *object, struct scene_event *event)
 {
     event->within = read_coverage(object, anywhere);
 }
 
-static void read_split(struct json_object *object, struct scene_event *event)
+static void read_split_event(struct json_object *object, struct scene_event *event)
 {
     const struct json_span none = {0, 0};
 
@@ -508,11 +503,11 @@ static void read_split(struct json_object *object, struct scene_event *event)
     event->azimuth_rad = json_read_span(object, "azimuth_rad", -1, 1, none);
 }
 
-static void append_event(struct scene *scene, struct json_object *object)
+static void read_and_append_event(struct scene *scene, struct json_object *object)
 {
     static const char *const kinds[EVENT_KINDS] = {"outage", "fades", "mask", "split"};
     static void (*const readers[EVENT_KINDS])(struct json_object *, struct scene_event *) = {
-        read_outage, read_fades, read_mask, read_split};
+        read_outage_event, read_fades_event, read_mask_event, read_split_event};
     struct scene_event *event = &scene->events[scene->num_events];
 
     json_require_key(object, "kind");
@@ -659,14 +654,14 @@ struct scene *scene_read(const char *name, char *text, size_t length, const char
     for (size_t i = 0; i < list.count; i++) {
         struct json_object one = json_element(&list, i);
 
-        append_clutter(scene, &one);
+        read_and_append_clutter(scene, &one);
     }
     scene->reflectors = scene_reflectors_read(&root);
     list = json_read_list(&root, "events", SCENE_ITEMS_MAX);
     for (size_t i = 0; i < list.count; i++) {
         struct json_object one = json_element(&list, i);
 
-        append_event(scene, &one);
+        read_and_append_event(scene, &one);
     }
     if (json_has_key(&root, "platforms") && json_read_list(&root, "platforms", 1000).count > 0) {
         json_fail_key(&root, "platforms", "sensors that move are not simulated yet");

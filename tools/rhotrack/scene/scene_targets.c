@@ -375,8 +375,8 @@ static struct scene_path draw_path_within_limits(const struct target_draft *draf
  * Draws the paths of one member of a group: a single one, or with is_replaced one after the other
  * with pauses, the first beginning somewhere in its life.
  */
-static void draw_paths_of_member(struct scene_paths *paths, const struct target_draft *draft,
-                                 struct random *random)
+static void draw_paths_of_group_member(struct scene_paths *paths, const struct target_draft *draft,
+                                       struct random *random)
 {
     const struct target_item *item = draft->item;
     double life_s = item->has_life ? random_in_span(random, item->life) : INFINITY;
@@ -433,7 +433,7 @@ struct scene_path *targets_draw_paths(const struct scene_targets *targets, const
         for (size_t k = 0; k < item->count; k++) {
             struct random random = scene_random_stream(seed, run, STREAM_PATH, source, i, k);
 
-            draw_paths_of_member(&paths, &draft, &random);
+            draw_paths_of_group_member(&paths, &draft, &random);
         }
         if (paths.count > 100000) {
             fail(EXIT_USAGE, "%s: targets: more than 100000 of them", file);
@@ -530,8 +530,8 @@ static void read_velocity(struct json_object *object, struct target_item *item)
     }
 }
 
-static void read_parent(struct json_object *object, struct target_item *item,
-                        const struct scene_targets *before)
+static void read_parent_target(struct json_object *object, struct target_item *item,
+                               const struct scene_targets *before)
 {
     const struct target_item *parent;
 
@@ -552,7 +552,7 @@ static void read_parent(struct json_object *object, struct target_item *item,
         json_read_number(object, "heading_change_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
 }
 
-static void read_points(struct json_object *object, struct target_item *item)
+static void read_path_points(struct json_object *object, struct target_item *item)
 {
     static const char *const others[] = {"at_m",   "velocity_mps", "speed_mps", "heading_rad",
                                          "from_s", "parent",       "legs"};
@@ -575,7 +575,7 @@ static void read_points(struct json_object *object, struct target_item *item)
     item->from_s = item->points[0][0];
 }
 
-static void read_shake(struct json_object *object, struct target_item *item)
+static void read_random_accelerations(struct json_object *object, struct target_item *item)
 {
     struct json_object shake;
 
@@ -588,16 +588,16 @@ static void read_shake(struct json_object *object, struct target_item *item)
     }
 }
 
-static void read_path(struct json_object *object, struct target_item *item,
-                      const struct scene_targets *before)
+static void read_described_path(struct json_object *object, struct target_item *item,
+                                const struct scene_targets *before)
 {
     double place_m[3] = {0};
 
     item->from_s = json_read_number(object, "from_s", -1e6, 1e6, 0);
     item->until_s = json_read_number(object, "until_s", -1e6, 1e6, INFINITY);
-    read_shake(object, item);
+    read_random_accelerations(object, item);
     if (json_has_key(object, "points")) {
-        read_points(object, item);
+        read_path_points(object, item);
     }
     if (item->until_s <= item->from_s) {
         json_fail_key(object, "until_s", "is not after from_s");
@@ -606,7 +606,7 @@ static void read_path(struct json_object *object, struct target_item *item,
         return;
     }
     if (json_has_key(object, "parent")) {
-        read_parent(object, item, before);
+        read_parent_target(object, item, before);
     } else {
         json_require_key(object, "at_m");
         read_xy_or_xyz(object, "at_m", PLACE_MAX_M, place_m, &item->has_height);
@@ -618,7 +618,7 @@ static void read_path(struct json_object *object, struct target_item *item,
     read_legs(object, item);
 }
 
-static void read_turns(struct json_object *object, struct target_item *item)
+static void read_random_turns(struct json_object *object, struct target_item *item)
 {
     struct json_object turns;
 
@@ -639,7 +639,7 @@ static void read_turns(struct json_object *object, struct target_item *item)
     }
 }
 
-static void read_speed_changes(struct json_object *object, struct target_item *item)
+static void read_random_speed_changes(struct json_object *object, struct target_item *item)
 {
     struct json_object changes;
 
@@ -656,7 +656,7 @@ static void read_speed_changes(struct json_object *object, struct target_item *i
     }
 }
 
-static void read_stops(struct json_object *object, struct target_item *item)
+static void read_random_stops(struct json_object *object, struct target_item *item)
 {
     struct json_object stops;
 
@@ -717,7 +717,7 @@ static void read_keep_discs(struct json_object *object, struct target_item *item
     item->keep_all_share = json_read_number(object, "keep_all_share", 0, 1, 0);
 }
 
-static void read_group(struct json_object *object, struct target_item *item)
+static void read_target_group(struct json_object *object, struct target_item *item)
 {
     static const struct json_span all_round = {-PORTABLE_PI, PORTABLE_PI};
 
@@ -744,12 +744,12 @@ static void read_group(struct json_object *object, struct target_item *item)
         json_read_numbers(object, "keep_box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->keep_box_m);
     read_keep_discs(object, item);
     item->spacing_m = json_read_number(object, "spacing_m", 0, PLACE_MAX_M, 0);
-    read_turns(object, item);
-    read_speed_changes(object, item);
-    read_stops(object, item);
+    read_random_turns(object, item);
+    read_random_speed_changes(object, item);
+    read_random_stops(object, item);
 }
 
-static void read_flights(struct json_object *object, struct target_item *item)
+static void read_random_flights(struct json_object *object, struct target_item *item)
 {
     item->flights = json_read_count(object, "flights", 1, GROUP_MAX, 0);
     json_require_key(object, "box_m");
@@ -772,11 +772,11 @@ struct scene_targets targets_read(struct json_object *object, const char *key)
         item->body = scene_body_read(&one);
         json_exclude_keys(&one, "count", "flights");
         if (json_has_key(&one, "flights")) {
-            read_flights(&one, item);
+            read_random_flights(&one, item);
         } else if (json_has_key(&one, "count")) {
-            read_group(&one, item);
+            read_target_group(&one, item);
         } else {
-            read_path(&one, item, &targets);
+            read_described_path(&one, item, &targets);
         }
         json_refuse_unknown_keys(&one);
     }

@@ -51,7 +51,8 @@ static void write_scan_cells(const struct scene_run *run, const struct scene_sca
     }
 }
 
-static void write_target_cell(int target_id, FILE *file)
+/* Writes the last cell of a row, target_id, and ends the line. */
+static void end_row_with_target_cell(int target_id, FILE *file)
 {
     fprintf(file, ",%d\n", target_id);
 }
@@ -79,7 +80,7 @@ static void write_polar_scan(const struct scene_run *run, const struct scene_sca
             fprintf(file, "%s%s", no_rate, place);
         }
         write_scan_cells(run, scan, file);
-        write_target_cell(plot->target_id, file);
+        end_row_with_target_cell(plot->target_id, file);
     }
 }
 
@@ -114,11 +115,11 @@ static void write_cartesian_scan(const struct scene_run *run, const struct scene
             fprintf(file, has_height ? ",,,," : ",,,");
         }
         write_scan_cells(run, scan, file);
-        write_target_cell(plot->target_id, file);
+        end_row_with_target_cell(plot->target_id, file);
     }
 }
 
-static void write_plots(const struct scene_run *run, const char *folder)
+static void write_plots_file(const struct scene_run *run, const char *folder)
 {
     const struct scene *scene = run->scene;
     char *path = path_join(folder, "plots.csv");
@@ -166,7 +167,7 @@ static void write_bearing_scan(const struct scene_run *run, const struct scene_s
         fprintf(file, "%.6f,%s,%.8f", scan->plots[i].t_s + sensor->time_bias_s, place,
                 scan->plots[i].azimuth_rad);
         write_scan_cells(run, scan, file);
-        write_target_cell(scan->plots[i].target_id, file);
+        end_row_with_target_cell(scan->plots[i].target_id, file);
     }
     if (scan->num_plots == 0) {
         fprintf(file, "%.6f,%s,", scan->end_s + sensor->time_bias_s, place);
@@ -175,7 +176,7 @@ static void write_bearing_scan(const struct scene_run *run, const struct scene_s
     }
 }
 
-static void write_bearings(const struct scene_run *run, const char *folder)
+static void write_bearings_file(const struct scene_run *run, const char *folder)
 {
     char *path = path_join(folder, "bearings.csv");
     struct output output = output_open(path);
@@ -232,7 +233,7 @@ static bool scene_has_bodies(const struct scene *scene)
 }
 
 /* Writes truth.csv with the targets in the coverage of a sensor, and paths.csv with all targets. */
-static void write_truth(const struct scene_run *run, const char *folder)
+static void write_truth_and_paths_files(const struct scene_run *run, const char *folder)
 {
     char *path = path_join(folder, "truth.csv"), *all_path = path_join(folder, "paths.csv");
     struct output truth = output_open(path), all = output_open(all_path);
@@ -321,7 +322,7 @@ static void write_sensor_settings(const struct scene_sensor *sensor, FILE *file)
     }
 }
 
-static void write_settings(const struct scene *scene, const char *name, const char *folder)
+static void write_settings_file(const struct scene *scene, const char *name, const char *folder)
 {
     char *path = path_join(folder, "scenario.ini");
     struct output output = output_open(path);
@@ -361,12 +362,12 @@ void scene_simulate(const struct scene *scene, const char *name, const char *fol
 
     make_folder(folder);
     if (scene->num_radars > 0) {
-        write_plots(run, folder);
+        write_plots_file(run, folder);
     }
     if (scene->num_sensors > scene->num_radars) {
-        write_bearings(run, folder);
+        write_bearings_file(run, folder);
     }
-    write_truth(run, folder);
-    write_settings(scene, name, folder);
+    write_truth_and_paths_files(run, folder);
+    write_settings_file(scene, name, folder);
     scene_run_free(run);
 }

@@ -118,7 +118,7 @@ static size_t count_simple_item_bytes(const struct cursor *cursor, const struct 
 
 /* Moves the cursor behind an item that is not compound; false: it is cut off, or without bytes. */
 static bool skip_simple_item(struct cursor *cursor, const struct asterix_item *item,
-                             const char *part)
+                             const char *compound_name)
 {
     size_t bytes = count_simple_item_bytes(cursor, item);
 
@@ -128,8 +128,8 @@ static bool skip_simple_item(struct cursor *cursor, const struct asterix_item *i
     }
     if (bytes > cursor->size - cursor->at) {
         return set_error(cursor, cursor->at, "I%03u/%s%s%s goes beyond its data block",
-                         cursor->category, part ? part : item->name, part ? "/" : "",
-                         part ? item->name : "");
+                         cursor->category, compound_name ? compound_name : item->name,
+                         compound_name ? "/" : "", compound_name ? item->name : "");
     }
     cursor->at += bytes;
     return true;

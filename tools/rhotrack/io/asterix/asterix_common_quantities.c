@@ -47,9 +47,9 @@ static bool find_ground_range(double slant_m, double alt_m, double radar_alt_m, 
  * Where not all plots of a scan have a height, converts the slant ranges of those that have one to
  * ground ranges, and drops the heights.
  */
-static void keep_heights_if_all_have(struct asterix_scan_plots *marks,
-                                     const struct asterix_place *place,
-                                     struct asterix_counts *counts)
+static void keep_heights_or_make_ground_ranges(struct asterix_scan_plots *marks,
+                                               const struct asterix_place *place,
+                                               struct asterix_counts *counts)
 {
     size_t with = 0;
 
@@ -74,6 +74,6 @@ void asterix_scan_plots_keep_common(struct asterix_scan_plots *marks,
                                     const struct asterix_place *place,
                                     struct asterix_counts *counts)
 {
-    keep_heights_if_all_have(marks, place, counts);
+    keep_heights_or_make_ground_ranges(marks, place, counts);
     keep_dopplers_if_all_have(marks, counts);
 }

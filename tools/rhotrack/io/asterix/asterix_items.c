@@ -217,7 +217,7 @@ static const struct asterix_item i062[I062_ITEMS] = {
     EXPLICIT("SP"),
 };
 
-const struct asterix_category *asterix_category_find(uint8_t category, bool is_track)
+const struct asterix_category *asterix_category_find(uint8_t category, bool is_cat001_track)
 {
     static const struct asterix_category tracks = {1, I001_TRACK_ITEMS, i001_track};
     static const struct asterix_category categories[] = {{1, I001_ITEMS, i001},
@@ -226,7 +226,7 @@ const struct asterix_category *asterix_category_find(uint8_t category, bool is_t
                                                          {48, I048_ITEMS, i048},
                                                          {62, I062_ITEMS, i062}};
 
-    if (category == tracks.category && is_track) {
+    if (category == tracks.category && is_cat001_track) {
         return &tracks;
     }
     for (size_t i = 0; i < sizeof categories / sizeof *categories; i++) {

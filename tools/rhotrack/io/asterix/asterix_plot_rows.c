@@ -256,8 +256,12 @@ void asterix_plot_rows_report_left_out(const char *path, const struct asterix_co
 
 /* ---- Looking at the file ---- */
 
-/* Notes which columns the record fills, and its radar. Returns whether it has a plot or a time. */
-static bool preview_record(struct asterix_plot_rows *records, const struct asterix_record *record)
+/*
+ * Notes the radar of a record and the columns that it fills. Returns whether it can be used: it has
+ * a place of a plot, or the type and time of an antenna message.
+ */
+static bool preview_and_check_record(struct asterix_plot_rows *records,
+                                     const struct asterix_record *record)
 {
     struct asterix_service service;
     struct asterix_plot plot;
@@ -281,7 +285,7 @@ static void preview_recording(struct asterix_plot_rows *records, bool keep_going
     bool has_any = false;
 
     while (asterix_file_next_record(file, &record)) {
-        has_any |= preview_record(records, &record);
+        has_any |= preview_and_check_record(records, &record);
     }
     if (!has_any && asterix_file_num_skipped_blocks(file, ASTERIX_TRACKS) > 0) {
         fail(EXIT_USAGE, "%s: %s", records->path, asterix_plot_rows_no_tracks);
@@ -299,7 +303,7 @@ static void preview_recording(struct asterix_plot_rows *records, bool keep_going
  * Finds radars without a place, which are put at the origin: that is correct only for a single
  * radar without an origin on the earth.
  */
-static void find_placeless_radars(struct asterix_plot_rows *records,
+static void list_placeless_radars(struct asterix_plot_rows *records,
                                   const struct parameters *parameters)
 {
     size_t count = asterix_scans_num_sensors(records->scans);
@@ -332,7 +336,7 @@ asterix_plot_rows_open(const char *path, const struct parameters *parameters, bo
     records->scans = asterix_scans_open(&rules);
     preview_recording(records, keep_going);
     if (parameters) {
-        find_placeless_radars(records, parameters);
+        list_placeless_radars(records, parameters);
     }
     records->file = asterix_file_open(path, keep_going);
     return records;
@@ -345,8 +349,13 @@ void asterix_plot_rows_suppress_reports(struct asterix_plot_rows *records)
 
 /* ---- Rows ---- */
 
-static void queue_row(struct asterix_plot_rows *records, const struct asterix_scan *scan,
-                      const struct asterix_scan_plot *mark)
+/*
+ * Queues the row of a plot, or with mark NULL the row that begins a scan. A row before the newest
+ * one given out is counted as late instead.
+ */
+static void queue_row_unless_late(struct asterix_plot_rows *records,
+                                  const struct asterix_scan *scan,
+                                  const struct asterix_scan_plot *mark)
 {
     struct output_row row = row_of_scan(scan, mark);
 
@@ -363,10 +372,10 @@ static void queue_row(struct asterix_plot_rows *records, const struct asterix_sc
 static void queue_scan_rows(struct asterix_plot_rows *records, const struct asterix_scan *scan)
 {
     if (scan->is_numbered) {
-        queue_row(records, scan, NULL);
+        queue_row_unless_late(records, scan, NULL);
     }
     for (size_t i = 0; i < scan->count; i++) {
-        queue_row(records, scan, &scan->marks[i]);
+        queue_row_unless_late(records, scan, &scan->marks[i]);
     }
 }
 
@@ -379,7 +388,7 @@ static int by_time_and_order(const void *a, const void *b)
 }
 
 /* Removes the rows that were given out, and adds those of the scans that are complete. */
-static void queue_complete_scans(struct asterix_plot_rows *records)
+static void queue_rows_of_complete_scans(struct asterix_plot_rows *records)
 {
     struct asterix_scan scan;
     size_t before = records->count;
@@ -435,7 +444,7 @@ static void process_next_record(struct asterix_plot_rows *records)
         asterix_scans_finish(records->scans);
         records->is_over = true;
     }
-    queue_complete_scans(records);
+    queue_rows_of_complete_scans(records);
     if (records->is_over && !records->is_hushed) {
         report_at_end(records);
     }

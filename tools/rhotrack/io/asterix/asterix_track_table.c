@@ -172,7 +172,7 @@ static void add_track_row(struct reading *reading, const struct asterix_track *t
     }
 }
 
-static void report_or_refuse_incomplete(const struct reading *reading, const char *path)
+static void fail_if_empty_or_report_incomplete(const struct reading *reading, const char *path)
 {
     if (reading->table->num_rows == 0 && reading->on_earth > 0) {
         fail(EXIT_USAGE, "%s: tracks (CAT062) with places on the earth alone (I062/105): %s", path,
@@ -206,6 +206,6 @@ struct table *asterix_track_table_read(const char *path, const struct parameters
     asterix_file_report_skipped(file);
     asterix_file_close(file);
     local_frame_close(reading.frame);
-    report_or_refuse_incomplete(&reading, path);
+    fail_if_empty_or_report_incomplete(&reading, path);
     return reading.table;
 }

@@ -24,6 +24,7 @@ bool asterix_udp_is_url(const char *text)
 
 /* ---- Records ---- */
 
+/* Processes the records of a data block; false from the first one that cannot be read. */
 static bool process_block_records(struct asterix_scans *scans, const struct asterix_block *block)
 {
     struct asterix_record record;
@@ -82,7 +83,8 @@ static struct sockaddr_in parse_url(const char *url)
     return address;
 }
 
-static void fail_if_error(const char *url, int result)
+/* Exit 1 with the reason in errno where the result of a system call is not 0. */
+static void fail_if_nonzero(const char *url, int result)
 {
     if (result) {
         fail(EXIT_RUNTIME, "%s: %s", url, strerror(errno));
@@ -97,7 +99,8 @@ static void join_multicast_group(const char *url, int receiver, const struct soc
         return;
     }
     member.imr_ifindex = (int)if_nametoindex("lo");
-    fail_if_error(url, setsockopt(receiver, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member, sizeof member));
+    fail_if_nonzero(url,
+                    setsockopt(receiver, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member, sizeof member));
     fprintf(stderr,
             "rhotrack: %s: no route to this group; the loopback is used: programs of this machine "
             "alone\n",
@@ -109,12 +112,12 @@ int asterix_udp_open(const char *url)
     struct sockaddr_in address = parse_url(url);
     int receiver = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0), yes = 1, bytes = BUFFER_BYTES;
 
-    fail_if_error(url, receiver < 0);
-    fail_if_error(url, setsockopt(receiver, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes));
+    fail_if_nonzero(url, receiver < 0);
+    fail_if_nonzero(url, setsockopt(receiver, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes));
     if (setsockopt(receiver, SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes)) {
-        fail_if_error(url, setsockopt(receiver, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes));
+        fail_if_nonzero(url, setsockopt(receiver, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes));
     }
-    fail_if_error(url, bind(receiver, (const struct sockaddr *)&address, sizeof address));
+    fail_if_nonzero(url, bind(receiver, (const struct sockaddr *)&address, sizeof address));
     if (IN_MULTICAST(ntohl(address.sin_addr.s_addr))) {
         join_multicast_group(url, receiver, &address);
     }

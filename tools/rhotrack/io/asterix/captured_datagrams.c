@@ -172,7 +172,7 @@ static bool skip_ipv6_header(struct packet_rest *rest)
 }
 
 /* Cuts a packet to its UDP content; false where it has none, or is incomplete, which is counted. */
-static bool find_udp_content(struct captured_datagrams *captured, struct packet_rest *rest)
+static bool cut_to_udp_content(struct captured_datagrams *captured, struct packet_rest *rest)
 {
     const unsigned type = skip_link_header(captured, rest);
     bool is_incomplete = false;
@@ -205,7 +205,7 @@ bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_goin
     while ((got = pcap_next_ex(captured->capture, &header, &bytes)) == 1) {
         struct packet_rest rest = {bytes, header->caplen};
         captured->packets++;
-        if (find_udp_content(captured, &rest)) {
+        if (cut_to_udp_content(captured, &rest)) {
             *data = rest.data;
             *size = rest.size;
             return true;

@@ -52,8 +52,8 @@ double radar_frame_turn_rad(const struct radar_frame *frame)
 /* ---- From frame to frame ---- */
 
 /* Azimuth and elevation in the common frame of a position in the radar's own frame. */
-static void set_look_to_place(const struct radar_frame *frame, const double own_m[3],
-                              struct radar_look *look)
+static void set_look_angles_to_place(const struct radar_frame *frame, const double own_m[3],
+                                     struct radar_look *look)
 {
     double place_m[3];
 
@@ -76,7 +76,7 @@ void radar_frame_look_to_common(const struct radar_frame *frame, bool has_elevat
         return;
     }
     if (has_elevation) {
-        set_look_to_place(frame, own_m, look);
+        set_look_angles_to_place(frame, own_m, look);
     } else {
         look->azimuth_rad = remainder(look->azimuth_rad + frame->turn_rad, TURN);
     }
@@ -89,8 +89,8 @@ void radar_frame_look_to_common(const struct radar_frame *frame, bool has_elevat
  * Range and height determine the position by dP . u = dr and dP . n = dh, n being the vertical at
  * the target, which u meets at the elevation e: the error upwards is (dh - sin e dr) / cos e.
  */
-static double sigma_up_over_range(const struct radar_height *height, double sin_elevation,
-                                  double range_m)
+static double elevation_sigma_from_height(const struct radar_height *height, double sin_elevation,
+                                          double range_m)
 {
     double cos_elevation = sqrt(fmax(0.0, 1 - sin_elevation * sin_elevation));
     double sigma_m = hypot(height->sigma_alt_m, sin_elevation * height->sigma_range_m);
@@ -108,7 +108,7 @@ static bool elevation_on_flat_earth(double radar_z_m, const struct radar_height 
         return false;
     }
     look->elevation_rad = asin(sine);
-    *sigma_elevation_rad = sigma_up_over_range(height, sine, look->range_m);
+    *sigma_elevation_rad = elevation_sigma_from_height(height, sine, look->range_m);
     return true;
 }
 
@@ -140,8 +140,8 @@ bool radar_frame_elevation_from_height(const struct radar_frame *frame, double r
     if (!local_frame_from_range_and_height(frame->own, &plot, own_m)) {
         return false;
     }
-    set_look_to_place(frame, own_m, look);
-    *sigma_elevation_rad = sigma_up_over_range(
+    set_look_angles_to_place(frame, own_m, look);
+    *sigma_elevation_rad = elevation_sigma_from_height(
         height, elevation_sine_at_target(frame->alt_m, height->alt_m, look->range_m),
         look->range_m);
     return true;

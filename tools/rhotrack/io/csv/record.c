@@ -21,7 +21,7 @@ bool record_table_has_bearings(const struct table *table)
 }
 
 /* Refuses bearings by name, rather than with a missing x_m. */
-static void check_plot_columns(const struct table *table)
+static void refuse_bearings_as_plots(const struct table *table)
 {
     if (table_find_column(table, "x_m") < 0 && table_find_column(table, "range_m") < 0 &&
         table_find_column(table, "bearing_rad") >= 0) {
@@ -41,7 +41,7 @@ static void check_not_both_columns(const struct table *table, int first, int sec
 }
 
 /* Refuses plots by name, rather than with a missing bearing_rad. */
-static void check_bearing_columns(const struct table *table)
+static void refuse_plots_as_bearings(const struct table *table)
 {
     static const char *const others[][2] = {{"x_m", "plots, which are no bearings"},
                                             {"range_m", "polar plots, which are no bearings"}};
@@ -60,7 +60,7 @@ static void check_bearing_columns(const struct table *table)
 
 static struct record_columns find_bearing_columns(const struct table *table)
 {
-    check_bearing_columns(table);
+    refuse_plots_as_bearings(table);
     row_need_both_columns(table, "sector_from_rad", "sector_to_rad");
     return (struct record_columns){
         .is_bearings = true,
@@ -85,7 +85,7 @@ find_plot_columns(const struct table *table, const struct parameters *parameters
     struct record_columns columns;
     bool is_polar, has_no_xy;
 
-    check_plot_columns(table);
+    refuse_bearings_as_plots(table);
     is_polar = table_find_column(table, "range_m") >= 0;
     has_no_xy = is_polar || table_find_column(table, "lat_deg") >= 0;
     columns = (struct record_columns){
@@ -413,7 +413,7 @@ static bool read_polar_plot(const struct row_reading *reading, const struct para
  * Sets the sensor's position from its radar frame, and turns the row's sector, which counts from
  * the radar's own east; sectors in the parameters have been turned already.
  */
-static void set_place_from_radar_frame(struct record *row)
+static void set_place_and_turn_sector(struct record *row)
 {
     const double *place_m = radar_frame_place_m(row->frame);
     float turn_rad = (float)radar_frame_turn_rad(row->frame);
@@ -450,7 +450,7 @@ static bool read_sensor(const struct row_reading *reading, const struct paramete
         return false;
     }
     if (row->frame) {
-        set_place_from_radar_frame(row);
+        set_place_and_turn_sector(row);
         return true;
     }
     return (!has_place ||

@@ -93,16 +93,16 @@ bool row_read_sigma_rad(const struct row_check *check, int column, double otherw
     return true;
 }
 
-bool row_read_sector(const struct row_check *check, int from, int to, float *from_rad,
+bool row_read_sector(const struct row_check *check, int from_column, int to_column, float *from_rad,
                      float *to_rad)
 {
     static const float turn = 6.2831855f;
 
-    if (!row_has_cell(check, from) && !row_has_cell(check, to)) {
+    if (!row_has_cell(check, from_column) && !row_has_cell(check, to_column)) {
         return true;
     }
-    return row_read_float(check, from, -turn, turn, from_rad) &&
-           row_read_float(check, to, -turn, turn, to_rad);
+    return row_read_float(check, from_column, -turn, turn, from_rad) &&
+           row_read_float(check, to_column, -turn, turn, to_rad);
 }
 
 bool row_read_snr(const struct row_check *check, int column, float *snr_db)
@@ -110,17 +110,18 @@ bool row_read_snr(const struct row_check *check, int column, float *snr_db)
     return !row_has_cell(check, column) || row_read_float(check, column, -1000.0f, 1000.0f, snr_db);
 }
 
-bool row_read_time_and_sensor(const struct row_check *check, int t_s, int sensor_id,
+bool row_read_time_and_sensor(const struct row_check *check, int time_column, int sensor_column,
                               int64_t *time_us, int32_t *sensor)
 {
-    const char *why = table_read_time_us(check->table, check->row, t_s, time_us);
+    const char *why = table_read_time_us(check->table, check->row, time_column, time_us);
 
     if (why) {
-        return row_refuse_cell(check, t_s, why);
+        return row_refuse_cell(check, time_column, why);
     }
     *sensor = 0;
-    why = sensor_id < 0 ? NULL : table_read_int32(check->table, check->row, sensor_id, sensor);
-    return why ? row_refuse_cell(check, sensor_id, why) : true;
+    why = sensor_column < 0 ? NULL
+                            : table_read_int32(check->table, check->row, sensor_column, sensor);
+    return why ? row_refuse_cell(check, sensor_column, why) : true;
 }
 
 bool row_check_unbiased_time(const struct row_check *check, int64_t time_us, int32_t bias_us)
@@ -149,22 +150,23 @@ bool row_check_received_together(const struct row_check *check, int64_t received
                       (double)received_us * 1e-6, (double)scan_us * 1e-6);
 }
 
-bool row_read_number(const struct row_check *check, int scan, int epoch, struct row_number *number)
+bool row_read_number(const struct row_check *check, int scan_column, int epoch_column,
+                     struct row_number *number)
 {
     const char *why;
 
-    *number = (struct row_number){.is_given = row_has_cell(check, scan)};
+    *number = (struct row_number){.is_given = row_has_cell(check, scan_column)};
     if (!number->is_given) {
         return true;
     }
-    why = table_read_int32(check->table, check->row, scan, &number->scan);
+    why = table_read_int32(check->table, check->row, scan_column, &number->scan);
     if (why) {
-        return row_refuse_cell(check, scan, why);
+        return row_refuse_cell(check, scan_column, why);
     }
-    why = row_has_cell(check, epoch)
-              ? table_read_int32(check->table, check->row, epoch, &number->epoch)
+    why = row_has_cell(check, epoch_column)
+              ? table_read_int32(check->table, check->row, epoch_column, &number->epoch)
               : NULL;
-    return why ? row_refuse_cell(check, epoch, why) : true;
+    return why ? row_refuse_cell(check, epoch_column, why) : true;
 }
 
 bool row_joins_scan(const struct row_number *number, int64_t time_us, const struct row_number *scan,

@@ -49,12 +49,12 @@ bool row_read_position(const struct row_check *check, int column, float *value);
 bool row_read_sigma_rad(const struct row_check *check, int column, double otherwise, float *value);
 
 /* Reads cells that may be missing; the values are then unchanged. */
-bool row_read_sector(const struct row_check *check, int from, int to, float *from_rad,
+bool row_read_sector(const struct row_check *check, int from_column, int to_column, float *from_rad,
                      float *to_rad);
 bool row_read_snr(const struct row_check *check, int column, float *snr_db);
 
 /* Reads time and sensor; sensor 0 where the file has no such column (-1). */
-bool row_read_time_and_sensor(const struct row_check *check, int t_s, int sensor_id,
+bool row_read_time_and_sensor(const struct row_check *check, int time_column, int sensor_column,
                               int64_t *time_us, int32_t *sensor);
 
 /* Checks that the time is within the library's limits once the sensor's time bias is subtracted. */
@@ -78,7 +78,8 @@ struct row_number {
     bool is_given;
     int32_t scan, epoch; /* epoch: 0 where not given */
 };
-bool row_read_number(const struct row_check *check, int scan, int epoch, struct row_number *number);
+bool row_read_number(const struct row_check *check, int scan_column, int epoch_column,
+                     struct row_number *number);
 
 /*
  * Whether a row joins a scan that began at start_us: by their numbers where both have one, else by

@@ -146,7 +146,11 @@ const char *table_read_float(const struct table *table, size_t row, int column, 
     return why;
 }
 
-static const char *time_us_of_text(const char *text, double factor, int64_t *time_us)
+/*
+ * Parses a time in seconds, scaled by a factor above 0, or in ISO 8601. Returns NULL, or why it is
+ * bad.
+ */
+static const char *parse_time_us(const char *text, double factor, int64_t *time_us)
 {
     double seconds;
     const char *why = text_to_time_us(text, time_us);
@@ -167,7 +171,7 @@ const char *table_read_time_us(const struct table *table, size_t row, int column
     const char *text = cell_text(table, row, column);
 
     if (text) {
-        return time_us_of_text(
+        return parse_time_us(
             text, column_has_unit_factor(table, column) ? table->factors[column] : 0, time_us);
     }
     *time_us = table->times_us[row]; /* the only column of times in a table of numbers */

@@ -347,7 +347,7 @@ static void fail_if_partly_renamed(const struct table *table, size_t found, cons
     }
 }
 
-static void rename_columns(struct table *table)
+static void rename_columns_by_option(struct table *table)
 {
     size_t found = 0;
     const char *missing = NULL;
@@ -401,7 +401,7 @@ static bool is_renamed(const char *name)
  * Whether the header already names a time and a place as the readers do; other columns then keep
  * their names, except the sensor's, since extra columns may have any name.
  */
-static bool has_known_columns(const struct table *table)
+static bool header_names_time_and_place(const struct table *table)
 {
     static const char *const places[] = {"x_m",         "range_m",   "lat_deg",
                                          "bearing_rad", "target_id", "track_id"};
@@ -425,8 +425,8 @@ static void set_column_unit(struct table *table, size_t column, struct unit unit
 
 void table_dialect_name_columns(struct table *table)
 {
-    rename_columns(table);
-    const bool is_left = has_known_columns(table);
+    rename_columns_by_option(table);
+    const bool is_left = header_names_time_and_place(table);
 
     for (size_t i = 0; i < table->num_columns; i++) {
         struct unit unit = {1, 0};

@@ -78,7 +78,7 @@ static void drop_parsed_bytes(struct table_stream *stream)
 }
 
 /* Whether a pipe has no bytes ready, which with follow is not waited for. */
-static bool is_pipe_silent(const struct table_stream *stream)
+static bool is_followed_pipe_silent(const struct table_stream *stream)
 {
     struct pollfd ready = {.fd = stream->file, .events = POLLIN};
 
@@ -94,11 +94,12 @@ static void make_content_room(struct table_stream *stream, size_t bytes)
     }
 }
 
-static bool read_more_bytes(struct table_stream *stream)
+/* Reads more bytes, or finds that the file ends; false where neither is possible yet. */
+static bool read_more_or_find_end(struct table_stream *stream)
 {
     ssize_t got;
 
-    if (is_pipe_silent(stream)) {
+    if (is_followed_pipe_silent(stream)) {
         return false;
     }
     drop_parsed_bytes(stream);
@@ -120,7 +121,7 @@ static bool read_more_bytes(struct table_stream *stream)
  * Length of the line at the current position with its line end; 0 where it is not there as a whole,
  * or there is none.
  */
-static size_t line_length(const struct table_stream *stream)
+static size_t whole_line_length(const struct table_stream *stream)
 {
     const char *start = stream->content + stream->position, *c = start;
     const char *end = stream->content + stream->bytes;
@@ -190,7 +191,8 @@ static void grow_cell_text(struct table_stream *stream, size_t bytes)
     table->text = text;
 }
 
-static void on_cell(void *cell, size_t bytes, void *user)
+/* Appends a cell that libcsv has parsed to the row under way. */
+static void append_parsed_cell(void *cell, size_t bytes, void *user)
 {
     struct table_stream *stream = user;
     char *text;
@@ -210,7 +212,8 @@ static void on_cell(void *cell, size_t bytes, void *user)
     stream->row[stream->row_cells++] = text;
 }
 
-static void on_row_end(int end, void *user)
+/* Notes that libcsv has come to the end of a row. */
+static void mark_row_complete(int end, void *user)
 {
     (void)end;
     ((struct table_stream *)user)->row_is_complete = true;
@@ -360,7 +363,8 @@ static void parse_line(struct table_stream *stream, size_t length)
     if (stream->delimiter == ' ') {
         line = join_blanks(stream, line, &length);
     }
-    if (csv_parse(&stream->parser, line, length, on_cell, on_row_end, stream) != length) {
+    if (csv_parse(&stream->parser, line, length, append_parsed_cell, mark_row_complete, stream) !=
+        length) {
         if (csv_error(&stream->parser) != CSV_EPARSE) {
             fail(EXIT_RUNTIME, "%s: %s", stream->table->path,
                  csv_strerror(csv_error(&stream->parser)));
@@ -377,7 +381,7 @@ static void parse_line(struct table_stream *stream, size_t length)
  * Name of the binary format that a file begins with, as an error message; NULL: it may be text.
  * Recordings and logs that are plain files do not get here.
  */
-static const char *name_binary_format(const uint8_t *start, size_t bytes, bool is_file)
+static const char *message_for_binary_format(const uint8_t *start, size_t bytes, bool is_file)
 {
     static const uint8_t log_sync[] = {0xED, 0xA1, 0xDA, 0x01};
 
@@ -401,8 +405,8 @@ static void refuse_foreign_format(const struct table_stream *stream)
     const char *start = stream->content + stream->position, *what = NULL;
 
     if (stream->offset + stream->position == 0) {
-        what = name_binary_format((const uint8_t *)start, stream->bytes - stream->position,
-                                  stream->own && stream->is_plain);
+        what = message_for_binary_format((const uint8_t *)start, stream->bytes - stream->position,
+                                         stream->own && stream->is_plain);
     }
     if (*start == '{') {
         what = "JSON, and CSV is needed; GeoJSON is written and not read: give the tracks' CSV "
@@ -413,7 +417,8 @@ static void refuse_foreign_format(const struct table_stream *stream)
     }
 }
 
-static void check_line(const struct table_stream *stream, size_t length)
+/* Exit 2 where a line is of another format than CSV, has NUL bytes or is too long. */
+static void refuse_bad_line(const struct table_stream *stream, size_t length)
 {
     if (length > 0 && !stream->table->names && !stream->row_is_open) {
         refuse_foreign_format(stream);
@@ -432,7 +437,7 @@ static void refuse_too_long_row(struct table_stream *stream)
     if (stream->is_whole || stream->bytes - from <= TABLE_STREAM_ROW_BYTES) {
         return;
     }
-    check_line(stream, stream->bytes - stream->position);
+    refuse_bad_line(stream, stream->bytes - stream->position);
     fail_or_skip_row(stream, too_long);
 }
 
@@ -451,12 +456,12 @@ static void skip_byte_order_mark(struct table_stream *stream, size_t *length)
  */
 static enum table_stream_found find_line(struct table_stream *stream, size_t *length)
 {
-    while ((*length = line_length(stream)) == 0) {
+    while ((*length = whole_line_length(stream)) == 0) {
         if (stream->is_end) {
             return TABLE_STREAM_END;
         }
         refuse_too_long_row(stream);
-        if (line_length(stream) == 0 && !read_more_bytes(stream)) {
+        if (whole_line_length(stream) == 0 && !read_more_or_find_end(stream)) {
             return TABLE_STREAM_WAITS;
         }
     }
@@ -470,7 +475,7 @@ static enum table_stream_found find_line(struct table_stream *stream, size_t *le
  */
 static bool finish_last_row(struct table_stream *stream)
 {
-    if (csv_fini(&stream->parser, on_cell, on_row_end, stream)) {
+    if (csv_fini(&stream->parser, append_parsed_cell, mark_row_complete, stream)) {
         fail_or_skip_row(stream, "a quoted cell has no end");
         return true;
     }
@@ -483,7 +488,7 @@ static bool finish_last_row(struct table_stream *stream)
 
 static void process_line(struct table_stream *stream, size_t length)
 {
-    check_line(stream, length);
+    refuse_bad_line(stream, length);
     if (stream->row_is_open || !is_blank_or_comment(stream->content + stream->position, length)) {
         parse_line(stream, length);
     } else {
@@ -541,7 +546,8 @@ static void need_header(const struct table_stream *stream)
     fail_at_line(stream, stream->line - 1, "no header row");
 }
 
-static void need_any_good_row(const struct table_stream *stream)
+/* Exit 2 where the file has no header, or rows of which none is good. */
+static void fail_if_all_rows_bad(const struct table_stream *stream)
 {
     const struct table *table = stream->table;
 
@@ -594,7 +600,7 @@ static struct table_stream *open_stream(const char *path, const struct parameter
 }
 
 /* Frees the stream without its table. */
-static void free_stream(struct table_stream *stream)
+static void free_stream_not_table(struct table_stream *stream)
 {
     if (stream->file >= 0) {
         close(stream->file);
@@ -617,8 +623,8 @@ static struct table *parse_whole_and_free_stream(struct table_stream *stream)
     table->text = must_alloc(stream->text_capacity);
     while (parse_to_row(stream, false) == TABLE_STREAM_ROW) {
     }
-    need_any_good_row(stream);
-    free_stream(stream);
+    fail_if_all_rows_bad(stream);
+    free_stream_not_table(stream);
     return table;
 }
 
@@ -639,7 +645,7 @@ struct table *table_read_with_parameters(const char *path, const struct paramete
 
     stream->is_whole = true;
     while (!stream->asterix && !stream->is_end) {
-        read_more_bytes(stream);
+        read_more_or_find_end(stream);
     }
     return parse_whole_and_free_stream(stream);
 }
@@ -720,7 +726,7 @@ uint64_t table_stream_size(const struct table_stream *stream)
 void table_stream_close(struct table_stream *stream)
 {
     table_free(stream->table);
-    free_stream(stream);
+    free_stream_not_table(stream);
 }
 
 struct table *table_read_header(const char *path)
@@ -728,6 +734,6 @@ struct table *table_read_header(const char *path)
     struct table_stream *stream = table_stream_open(path, NULL, false, false);
     struct table *table = stream->table;
 
-    free_stream(stream);
+    free_stream_not_table(stream);
     return table;
 }

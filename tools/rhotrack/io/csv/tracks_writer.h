@@ -28,9 +28,11 @@ void tracks_write_header(FILE *file, struct tracks_columns columns);
 /* Writes a time in seconds, with six decimals. */
 void tracks_write_time(FILE *file, int64_t time_us);
 
-/* Writes one row: a track's estimate at time_us; place: the track's index in the tracker. */
+/*
+ * Writes one row: a track's estimate at time_us; tracker_index: the track's index in the tracker.
+ */
 void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report *track,
-                      unsigned place, struct tracks_columns columns);
+                      unsigned tracker_index, struct tracks_columns columns);
 
 /* Writes one row for each track of the report. */
 void tracks_write_report(FILE *file, const struct rho_report *report,

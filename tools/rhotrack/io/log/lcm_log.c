@@ -372,18 +372,18 @@ void lcm_log_close(struct lcm_log_reader *reader)
 /* ---- Writing ---- */
 
 void lcm_log_put_header(uint8_t header[LCM_LOG_HEADER_BYTES], int64_t number, int64_t utime,
-                        size_t channel, size_t data)
+                        size_t channel_bytes, size_t data_bytes)
 {
     memcpy(header, sync_word, SYNC_BYTES);
     store_big_endian(header + 4, (uint64_t)number, 8);
     store_big_endian(header + 12, (uint64_t)utime, 8);
-    store_big_endian(header + LCM_LOG_CHANNEL_AT, channel, 4);
-    store_big_endian(header + LCM_LOG_DATA_AT, data, 4);
+    store_big_endian(header + LCM_LOG_CHANNEL_AT, channel_bytes, 4);
+    store_big_endian(header + LCM_LOG_DATA_AT, data_bytes, 4);
 }
 
-uint64_t lcm_log_event_bytes(uint64_t channel, uint64_t data)
+uint64_t lcm_log_event_bytes(uint64_t channel_bytes, uint64_t data_bytes)
 {
-    return LCM_LOG_HEADER_BYTES + channel + data;
+    return LCM_LOG_HEADER_BYTES + channel_bytes + data_bytes;
 }
 
 bool lcm_log_write(struct lcm_log_writer *writer, int64_t utime, const char *channel,

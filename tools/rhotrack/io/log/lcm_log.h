@@ -87,13 +87,14 @@ void lcm_log_close(struct lcm_log_reader *reader);
 /* ---- Writing ---- */
 
 /*
- * Fills an event's header; channel and data are the lengths in bytes of the parts that follow it.
+ * Fills an event's header; channel_bytes and data_bytes are the lengths in bytes of the parts that
+ * follow it.
  */
 void lcm_log_put_header(uint8_t header[LCM_LOG_HEADER_BYTES], int64_t number, int64_t utime,
-                        size_t channel, size_t data);
+                        size_t channel_bytes, size_t data_bytes);
 
-/* Bytes of a whole event, header included, given the lengths of its channel and data. */
-uint64_t lcm_log_event_bytes(uint64_t channel, uint64_t data);
+/* Bytes of a whole event, header included, from the lengths of its channel and data. */
+uint64_t lcm_log_event_bytes(uint64_t channel_bytes, uint64_t data_bytes);
 
 /* Writer of events, numbered from 0. The caller opens, flushes and closes the file. */
 struct lcm_log_writer {

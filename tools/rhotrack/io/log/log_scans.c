@@ -78,12 +78,13 @@ int64_t log_scans_hold_us(const struct parameters *parameters)
  * which would drop out-of-sequence scans, the assembler waits only for the sensors' clocks.
  * late_max_s grows by the whole wait, so that scans held for it are not dropped as too late.
  */
-static void set_assembler_waits(struct parameters *parameters, bool is_held)
+static void set_assembler_waits(struct parameters *parameters, bool caller_holds_scans)
 {
     double hold_ms = (double)log_scans_hold_us(parameters) * 1e-3;
     double clocks_ms = hold_ms - parameters->value[PARAMETER_HOLD_MS];
 
-    parameters->value[PARAMETER_HOLD_MS] = fmin(is_held ? clocks_ms : hold_ms, HOLD_MAX_MS);
+    parameters->value[PARAMETER_HOLD_MS] =
+        fmin(caller_holds_scans ? clocks_ms : hold_ms, HOLD_MAX_MS);
     parameters->value[PARAMETER_LATE_MAX_S] =
         fmin(parameters->value[PARAMETER_LATE_MAX_S] + hold_ms * 1e-3, LATE_MAX_S);
 }
@@ -183,7 +184,8 @@ static void refuse_or_skip_scans_before(struct log_scans *scans,
 /*
  * Goes through the whole log to count its scans, and to find the last time the clock was set back.
  */
-static void find_clock_restart_in_log(struct log_scans *scans, uint64_t bytes, bool keep_going)
+static void count_scans_and_find_restart(struct log_scans *scans, uint64_t file_bytes,
+                                         bool keep_going)
 {
     struct rho_scan_assembler_item item;
     int64_t last_us = INT64_MIN;
@@ -194,7 +196,8 @@ static void find_clock_restart_in_log(struct log_scans *scans, uint64_t bytes, b
             refuse_or_skip_scans_before(scans, &item, keep_going);
         }
         last_us = item_scan_time_us(&item);
-        progress_show_by_bytes(&progress, scans->num_given, lcm_log_position(scans->reader), bytes);
+        progress_show_by_bytes(&progress, scans->num_given, lcm_log_position(scans->reader),
+                               file_bytes);
     }
     progress_end(&progress);
 }
@@ -242,17 +245,17 @@ static void report_assembler_faults(const char *path,
 }
 
 struct log_scans *log_scans_open(const char *path, const struct parameters *parameters,
-                                 bool keep_going, bool is_reported, bool is_held)
+                                 bool keep_going, bool reports_faults, bool caller_holds_scans)
 {
     struct log_scans *scans = must_calloc(1, sizeof *scans);
 
     scans->path = path;
     scans->parameters = parameters;
-    scans->is_held = is_held;
+    scans->is_held = caller_holds_scans;
     scans->assembler = must_alloc(sizeof *scans->assembler);
     open_log_and_assembler(scans);
-    find_clock_restart_in_log(scans, plain_file_size(path), keep_going);
-    if (is_reported) {
+    count_scans_and_find_restart(scans, plain_file_size(path), keep_going);
+    if (reports_faults) {
         const struct scan_losses losses =
             out_of_sequence_counts_losses(&scans->order, &scans->assembler->counters);
 

@@ -24,16 +24,16 @@ unsigned log_scans_kinds(const char *path);
  * Opens a log to take its scans one by one, in the order in which the tracker would step them, in
  * memory that does not grow with the log: opening reads the whole log once.
  *
- * is_reported: skipped bytes, and in one line all faults that the assembler counted, are reported
- * on standard error. Exit 2 where the log has no scan, or where the sensors' common clock is set
- * back (two recordings in one file); with keep_going the scans before are left out instead. After a
- * long pause the scans go on, but for the follow_scans - 1 scans until the assembler accepts the
- * new time. is_held: scans are given as soon as they are whole, since the caller delays them by
- * log_scans_hold_us itself.
+ * reports_faults: skipped bytes, and in one line all faults that the assembler counted, are
+ * reported on standard error. Exit 2 where the log has no scan, or where the sensors' common clock
+ * is set back (two recordings in one file); with keep_going the scans before are left out instead.
+ * After a long pause the scans go on, but for the follow_scans - 1 scans until the assembler
+ * accepts the new time. caller_holds_scans: scans are given as soon as they are whole, since the
+ * caller delays them by log_scans_hold_us itself.
  */
 struct log_scans;
 struct log_scans *log_scans_open(const char *path, const struct parameters *parameters,
-                                 bool keep_going, bool is_reported, bool is_held);
+                                 bool keep_going, bool reports_faults, bool caller_holds_scans);
 
 /* Takes the next scan, valid until the next call. Returns false after the last scan. */
 bool log_scans_next(struct log_scans *scans, struct rho_scan_assembler_item *item);

@@ -23,7 +23,7 @@ static void collect_log_rows(struct lcm_log_reader *log, const char *path,
 }
 
 struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going,
-                             bool is_reported)
+                             bool reports_damage)
 {
     struct rows_collection collection;
     struct lcm_log_reader *log = lcm_log_open(path);
@@ -31,7 +31,7 @@ struct table *log_table_read(const char *path, const struct rows_kind *kind, boo
 
     rows_from_messages_start(&collection, kind);
     collect_log_rows(log, path, &collection, keep_going);
-    if (is_reported) {
+    if (reports_damage) {
         lcm_log_report_skipped(log);
     }
     if (collection.messages_bad > 0) {

@@ -12,11 +12,11 @@
 
 /*
  * Reads the table, or returns NULL where the log has no message of the kind. Bad messages: exit 2,
- * or with keep_going skipped and counted on standard error. is_reported: damaged places of the log
- * are reported too; callers that read several kinds from one log set it once.
+ * or with keep_going skipped and counted on standard error. reports_damage: damaged places of the
+ * log are reported too; callers that read several kinds from one log set it once.
  */
 struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going,
-                             bool is_reported);
+                             bool reports_damage);
 
 /*
  * The table of a CSV file, of an ASTERIX recording of tracks, or of a log's messages of one kind;

@@ -293,7 +293,7 @@ static void load_file_into_map(const char *path, const struct parameters *parame
 /* ---- what is kept ---- */
 
 /* Standard deviation, within the limits that the map accepts. */
-static float sigma_m_of(float variance_m2)
+static float sigma_m_from_variance(float variance_m2)
 {
     const float sigma_m = sqrtf(variance_m2);
 
@@ -301,7 +301,8 @@ static float sigma_m_of(float variance_m2)
 }
 
 /* Reads the next known, stationary echo of the map; false after the last. */
-static bool next_echo(const struct rho_clutter_map *map, uint32_t *place, struct clutter_echo *next)
+static bool next_standing_echo(const struct rho_clutter_map *map, uint32_t *place,
+                               struct clutter_echo *next)
 {
     const struct rho_echo *echo;
 
@@ -311,8 +312,8 @@ static bool next_echo(const struct rho_clutter_map *map, uint32_t *place, struct
             *next = (struct clutter_echo){.sensor_id = echo->sensor_id,
                                           .x_m = echo->x_m,
                                           .y_m = echo->y_m,
-                                          .sigma_range_m = sigma_m_of(echo->along[0]),
-                                          .sigma_cross_m = sigma_m_of(echo->across[0]),
+                                          .sigma_range_m = sigma_m_from_variance(echo->along[0]),
+                                          .sigma_cross_m = sigma_m_from_variance(echo->across[0]),
                                           .hits = echo->hits};
             return true;
         }
@@ -344,7 +345,7 @@ void clutter_file_copy_echoes(struct rho_clutter_map *to, const struct rho_clutt
     struct clutter_echo echo;
     struct return_counts counts;
 
-    for (uint32_t place = 0; next_echo(from, &place, &echo);) {
+    for (uint32_t place = 0; next_standing_echo(from, &place, &echo);) {
         add_echo_to_map(to, &echo);
     }
     for (unsigned at = 0; next_return_counts(from, &at, &counts);) {
@@ -384,7 +385,7 @@ static bool write_map(FILE *file, const struct rho_clutter_map *map)
           "of their returns.\n"
           "sensor_id,x_m,y_m,sigma_range_m,sigma_cross_m,hits,region,unseen,looks,returns\n",
           file);
-    for (uint32_t place = 0; next_echo(map, &place, &echo);) {
+    for (uint32_t place = 0; next_standing_echo(map, &place, &echo);) {
         write_echo(file, &echo);
     }
     for (unsigned at = 0; next_return_counts(map, &at, &counts);) {

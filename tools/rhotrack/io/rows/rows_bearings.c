@@ -70,8 +70,8 @@ static double *put_scan_cells(double *cells, const struct rho_message_bearing_sc
     return cells;
 }
 
-static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,
-                                      struct rows_message *out, const char **field)
+static enum rho_status decode_message_to_rows(const uint8_t *data, size_t size, struct rows *rows,
+                                              struct rows_message *out, const char **field)
 {
     struct rho_message_bearing_scan message;
     struct rho_message_place place;
@@ -113,5 +113,5 @@ const struct rows_kind rows_kind_bearings = {
     .num_columns = NUM_COLUMNS,
     .fit = rows_in_one_message,
     .encode = encode_part,
-    .decode = decode_message,
+    .decode = decode_message_to_rows,
 };

@@ -151,8 +151,9 @@ static uint64_t first_arrival_of(const struct rows_message *messages, size_t cou
  * Adds the row of a scan itself, which has no measurement, unless an element of the scan, added
  * from index `before` on, has the scan's time. Counts a list without elements.
  */
-static void append_scan_row_if_needed(struct ordering *ordering, const struct rows_message *message,
-                                      size_t before, uint64_t order)
+static void append_scan_row_if_time_missing(struct ordering *ordering,
+                                            const struct rows_message *message, size_t before,
+                                            uint64_t order)
 {
     int64_t earliest_us = INT64_MAX;
 
@@ -192,7 +193,7 @@ static void append_scan_rows(struct ordering *ordering, const struct rows_messag
         }
     }
     ordering->collection->scans_incomplete += parts < (size_t)messages[0].num_parts;
-    append_scan_row_if_needed(ordering, &messages[0], before, order);
+    append_scan_row_if_time_missing(ordering, &messages[0], before, order);
 }
 
 static int by_time(const void *a, const void *b)

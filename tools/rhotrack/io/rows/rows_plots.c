@@ -152,8 +152,8 @@ static void put_plot_cells(double *cells, const struct rho_message_plot *plot, i
     cells[SNR_DB] = rows_zero_to_empty_cell(plot->snr_db);
 }
 
-static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,
-                                      struct rows_message *out, const char **field)
+static enum rho_status decode_message_to_rows(const uint8_t *data, size_t size, struct rows *rows,
+                                              struct rows_message *out, const char **field)
 {
     struct rho_message_plot_scan message;
     struct rho_message_place place;
@@ -198,5 +198,5 @@ const struct rows_kind rows_kind_plots = {
     .pattern = plot_message_kind,
     .fit = rows_in_one_message,
     .encode = encode_part,
-    .decode = decode_message,
+    .decode = decode_message_to_rows,
 };

@@ -247,7 +247,8 @@ static bool read_time_and_numbers(const struct reading *reading, const struct ro
 }
 
 /* Encodes the newest row as a message of its own, and refuses a row that no message can hold. */
-static bool check_by_encoding(const struct reading *reading, const struct row_check *check)
+static bool check_newest_row_by_encoding(const struct reading *reading,
+                                         const struct row_check *check)
 {
     const struct rows *rows = &reading->file->rows;
     const struct row *row = &rows->list[rows->count - 1];
@@ -319,8 +320,9 @@ static void note_good_row(struct reading *reading, const struct row *row)
     reading->has_last = true;
 }
 
-static bool check_row(const struct reading *reading, const struct row_check *check,
-                      const struct row *row, double *cells)
+/* Reads the cells of the newest row, and checks the row with them. */
+static bool read_and_check_row(const struct reading *reading, const struct row_check *check,
+                               const struct row *row, double *cells)
 {
     const struct rows *rows = &reading->file->rows;
     const char *why = NULL;
@@ -335,10 +337,11 @@ static bool check_row(const struct reading *reading, const struct row_check *che
     if (rows->kind->why_not && rows_row_has_measurement(rows, &rows->list[rows->count - 1])) {
         why = rows->kind->why_not(cells);
     }
-    return why ? row_refuse(check, "%s", why) : check_by_encoding(reading, check);
+    return why ? row_refuse(check, "%s", why) : check_newest_row_by_encoding(reading, check);
 }
 
-static bool read_row(struct reading *reading, const struct row_check *check)
+/* Adds a row of the table where it is good; else returns false with the reason set. */
+static bool add_row_if_good(struct reading *reading, const struct row_check *check)
 {
     struct rows *rows = &reading->file->rows;
     struct row row = {.line = check->table->lines[check->row], .order = check->row};
@@ -346,7 +349,7 @@ static bool read_row(struct reading *reading, const struct row_check *check)
     if (!read_time_and_numbers(reading, check, &row)) {
         return false;
     }
-    if (!check_row(reading, check, &row, rows_add_row(rows, &row))) {
+    if (!read_and_check_row(reading, check, &row, rows_add_row(rows, &row))) {
         rows->num_cells = rows->list[--rows->count].cells;
         return false;
     }
@@ -361,7 +364,7 @@ static void read_rows(struct reading *reading)
     for (size_t i = 0; i < reading->table->num_rows; i++) {
         const struct row_check check = {.table = reading->table, .row = i, .reason = reason};
 
-        if (!read_row(reading, &check)) {
+        if (!add_row_if_good(reading, &check)) {
             rows_refuse_row(reading->file, &(struct row){.line = reading->table->lines[i]}, "%s",
                             reason);
         }

@@ -361,7 +361,7 @@ void rows_scans_free(struct rows_scans *scans)
 
 /* ---- Messages ---- */
 
-static void write_channel_name(const struct rows_kind *kind, int32_t sensor_id, char *channel)
+static void format_channel_name(const struct rows_kind *kind, int32_t sensor_id, char *channel)
 {
     if (kind->has_sensor) {
         snprintf(channel, ROWS_CHANNEL_BYTES, "%s%" PRId32, kind->channel, sensor_id);
@@ -385,7 +385,7 @@ bool rows_scans_next_message(const struct rows_scans *scans, struct rows_at *at,
     part.count = part.scan->count - at->row;
     part.count = part.count > 0 ? kind->fit(&part) : 0;
     output->utime = part.scan->due_us;
-    write_channel_name(kind, part.scan->head.sensor_id, output->channel);
+    format_channel_name(kind, part.scan->head.sensor_id, output->channel);
     output->size = kind->encode(&part, output->data, &field);
     /* each row can be encoded alone: the value fails in this combination of rows */
     if (output->size == 0) {

@@ -205,7 +205,7 @@ static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const c
  * Root mean variance over the measured axes, as the tracker computes it: the axes on which position
  * or velocity has a variance.
  */
-static double rms_sigma_of(const float *covariance, int first)
+static double rms_sigma_of(const float *covariance, int first_state)
 {
     float sum = 0.0f;
     int axes = 0;
@@ -213,7 +213,7 @@ static double rms_sigma_of(const float *covariance, int first)
     for (int axis = 0; axis < AXES; axis++) {
         if (covariance[variance_index(axis)] > 0.0f ||
             covariance[variance_index(AXES + axis)] > 0.0f) {
-            sum += covariance[variance_index(first + axis)];
+            sum += covariance[variance_index(first_state + axis)];
             axes++;
         }
     }
@@ -245,8 +245,8 @@ static void put_track_cells(double *cells, const struct rho_message_track *track
     cells[MANEUVER_PROBABILITY] = (double)track->maneuver_probability;
 }
 
-static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,
-                                      struct rows_message *out, const char **field)
+static enum rho_status decode_message_to_rows(const uint8_t *data, size_t size, struct rows *rows,
+                                              struct rows_message *out, const char **field)
 {
     struct rho_message_track_list message;
     struct rho_message_place place;
@@ -284,5 +284,5 @@ const struct rows_kind rows_kind_tracks = {
     .why_not = why_row_invalid,
     .fit = rows_in_one_message,
     .encode = encode_part,
-    .decode = decode_message,
+    .decode = decode_message_to_rows,
 };

@@ -72,8 +72,8 @@ static void put_target_cells(double *cells, const struct rho_message_truth *targ
     cells[VZ_MPS] = (double)target->vz_mps;
 }
 
-static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,
-                                      struct rows_message *out, const char **field)
+static enum rho_status decode_message_to_rows(const uint8_t *data, size_t size, struct rows *rows,
+                                              struct rows_message *out, const char **field)
 {
     struct rho_message_truth_list message;
     struct rho_message_place place;
@@ -108,5 +108,5 @@ const struct rows_kind rows_kind_truth = {
     .num_columns = NUM_COLUMNS,
     .fit = rows_in_one_message,
     .encode = encode_part,
-    .decode = decode_message,
+    .decode = decode_message_to_rows,
 };

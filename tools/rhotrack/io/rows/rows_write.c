@@ -49,7 +49,7 @@ static void choose_columns(const struct rows *rows, bool with_covariance, bool *
 
 /* ---- Cells ---- */
 
-static void write_cell(FILE *file, const struct rows_column *column, double cell)
+static void write_comma_and_cell(FILE *file, const struct rows_column *column, double cell)
 {
     char text[FLOAT_TEXT_BYTES];
 
@@ -94,7 +94,7 @@ static void write_row(FILE *file, const struct rows *rows, const struct row *row
     }
     for (int i = 0; i < kind->num_columns; i++) {
         if (is_chosen[i]) {
-            write_cell(file, &kind->columns[i], cells[i]);
+            write_comma_and_cell(file, &kind->columns[i], cells[i]);
         }
     }
     fprintf(file, ",%" PRId32, row->scan);

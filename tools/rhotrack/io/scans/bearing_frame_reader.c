@@ -214,7 +214,7 @@ static void rewind_files(struct bearing_frame_reader *reader)
  * Reads all frames to count them and to find the sensors. Frames are counted by their number of
  * scans, since the number of sensors is known only at the end.
  */
-static void count_frames_and_sensors(struct bearing_frame_reader *reader, uint64_t bytes)
+static void count_frames_and_sensors(struct bearing_frame_reader *reader, uint64_t file_bytes)
 {
     uint64_t frames_of[RHO_MAX_SENSORS + 1] = {0};
     struct progress progress = progress_start("frames looked through", 0);
@@ -222,7 +222,7 @@ static void count_frames_and_sensors(struct bearing_frame_reader *reader, uint64
     while (make_next_frame(reader)) {
         frames_of[reader->frame.num_scans]++;
         progress_show_by_bytes(&progress, reader->counts.frames,
-                               bearing_frame_reader_position(reader), bytes);
+                               bearing_frame_reader_position(reader), file_bytes);
     }
     progress_end(&progress);
     reader->total = reader->counts;

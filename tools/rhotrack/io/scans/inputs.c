@@ -33,19 +33,20 @@ static unsigned kinds_in_file(const char *path)
 }
 
 /* Lists the paths of files that hold a kind of scans, in the given order. Returns their number. */
-static int paths_of_kind(char *const *paths, int num_paths, unsigned kind, char **sorted)
+static int paths_of_kind(char *const *paths, int num_paths, unsigned kind, char **chosen)
 {
     int count = 0;
 
     for (int i = 0; i < num_paths; i++) {
         if (kinds_in_file(paths[i]) & kind) {
-            sorted[count++] = paths[i];
+            chosen[count++] = paths[i];
         }
     }
     return count;
 }
 
-static void read_next_scan(struct inputs *inputs)
+/* Reads the next scan of plots unless one is waiting to be handed out. */
+static void read_ahead_next_scan(struct inputs *inputs)
 {
     if (inputs->scan_reader && !inputs->has_scan) {
         inputs->scan = scan_reader_next(inputs->scan_reader);
@@ -54,7 +55,8 @@ static void read_next_scan(struct inputs *inputs)
     }
 }
 
-static void read_next_frame(struct inputs *inputs)
+/* Reads the next frame of bearings unless one is waiting to be handed out. */
+static void read_ahead_next_frame(struct inputs *inputs)
 {
     if (inputs->bearing_frame_reader && !inputs->has_frame) {
         inputs->frame = bearing_frame_reader_next(inputs->bearing_frame_reader);
@@ -66,7 +68,7 @@ static void read_next_frame(struct inputs *inputs)
  * Sum of the files' sizes; a log of both kinds is read by two readers, and counts twice. 0: not
  * known.
  */
-static uint64_t sum_file_sizes(char *const *paths, int num_paths)
+static uint64_t sum_bytes_to_read(char *const *paths, int num_paths)
 {
     uint64_t sum = 0;
 
@@ -100,9 +102,9 @@ struct inputs *inputs_open(char *const *paths, int num_paths, const struct param
         }
     }
     free(sorted);
-    inputs->bytes = sum_file_sizes(paths, num_paths);
-    read_next_scan(inputs);
-    read_next_frame(inputs);
+    inputs->bytes = sum_bytes_to_read(paths, num_paths);
+    read_ahead_next_scan(inputs);
+    read_ahead_next_frame(inputs);
     return inputs;
 }
 
@@ -131,8 +133,8 @@ bool inputs_have_bearings(const struct inputs *inputs)
 
 struct input inputs_next(struct inputs *inputs)
 {
-    read_next_scan(inputs);
-    read_next_frame(inputs);
+    read_ahead_next_scan(inputs);
+    read_ahead_next_frame(inputs);
     if (inputs->has_scan &&
         (!inputs->has_frame || inputs->scan->time_us <= inputs->frame->time_us)) {
         inputs->has_scan = false;

@@ -11,10 +11,10 @@ void scan_gather_start(struct scan_gather *gather, size_t element_bytes, int64_t
     *gather = (struct scan_gather){.element_bytes = element_bytes, .interval_us = interval_us};
 }
 
-void scan_gather_set_reception(struct scan_gather *gather, int64_t clock_us)
+void scan_gather_set_reception(struct scan_gather *gather, int64_t received_us)
 {
     gather->has_clock = true;
-    gather->clock_us = clock_us;
+    gather->clock_us = received_us;
 }
 
 /* The time by which rows are ordered: of reception where the file has it, else the row's own. */
@@ -91,7 +91,8 @@ static void note_row_time(struct scan_gather *gather, struct gathered_scan *scan
     gather->has_rows = true;
 }
 
-static void count_begun_since(struct scan_gather *gather, int32_t sensor_id)
+/* Counts, in each open scan of the sensor, one more scan that began after it. */
+static void increment_begun_since(struct scan_gather *gather, int32_t sensor_id)
 {
     for (size_t i = 0; i < gather->count; i++) {
         gather->scans[i].begun_since += gather->scans[i].sensor_id == sensor_id;
@@ -103,7 +104,7 @@ struct gathered_scan *scan_gather_begin_scan(struct scan_gather *gather,
 {
     struct gathered_scan *begun;
 
-    count_begun_since(gather, scan->sensor_id);
+    increment_begun_since(gather, scan->sensor_id);
     gather->scans =
         must_grow(gather->scans, gather->count, &gather->capacity, sizeof *gather->scans);
     begun = &gather->scans[gather->count++];

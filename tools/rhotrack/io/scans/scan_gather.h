@@ -76,7 +76,7 @@ void scan_gather_start(struct scan_gather *gather, size_t element_bytes, int64_t
  * Sets the reception time of the row that is checked and added next. Either all rows have one, or
  * none.
  */
-void scan_gather_set_reception(struct scan_gather *gather, int64_t clock_us);
+void scan_gather_set_reception(struct scan_gather *gather, int64_t received_us);
 
 /*
  * The scan in memory that a row belongs to, or NULL where it begins a new one. Valid until the next

@@ -324,7 +324,8 @@ static bool add_or_refuse_bearing_sensor(struct scan_source *source,
 }
 
 /* Whether the item is of the wanted kind, and of a sensor that is accepted. */
-static bool accept_item(struct scan_source *source, const struct rho_scan_assembler_item *item)
+static bool accept_and_note_item(struct scan_source *source,
+                                 const struct rho_scan_assembler_item *item)
 {
     bool is_bearings = item->kind == RHO_SCAN_ASSEMBLER_BEARINGS;
 
@@ -346,7 +347,7 @@ static bool read_log_scan(struct scan_source *source, struct sensor_scan *scan)
         if (!log_scans_next(source->log, &item)) {
             return false;
         }
-    } while (!accept_item(source, &item));
+    } while (!accept_and_note_item(source, &item));
     *scan = (struct sensor_scan){.is_bearings = item.kind == RHO_SCAN_ASSEMBLER_BEARINGS,
                                  .path = source->path,
                                  .line = source->item};

@@ -54,8 +54,9 @@ static bool is_whole_circle(const struct rho_scan *scan)
  * Pushes the scan, without its plots, to the sensor's window. Returns whether it is a further
  * sector of the sensor's current turn.
  */
-static bool push_scan_continues_turn(struct turning_sensor *turning, const struct rho_scan *scan,
-                                     const struct rho_sensor *sensor)
+static bool push_and_test_turn_continues(struct turning_sensor *turning,
+                                         const struct rho_scan *scan,
+                                         const struct rho_sensor *sensor)
 {
     struct rho_scan bare = *scan;
     uint32_t left_unused = 0;
@@ -101,8 +102,9 @@ static void add_plots_to_turn(struct revolution *turn, const struct rho_scan *sc
     turn->scan.num_plots = (uint32_t)count;
 }
 
-static void add_sector_to_turn(struct revolution *turn, struct turning_sensor *turning,
-                               const struct rho_scan *scan)
+/* Adds a scan's plots to its turn, and widens the sector of the turn to that of the window. */
+static void extend_turn_by_sector(struct revolution *turn, struct turning_sensor *turning,
+                                  const struct rho_scan *scan)
 {
     const struct rho_window_scan *whole = rho_window_scan_at(turning->window, 0);
 
@@ -166,10 +168,10 @@ static void add_scan_to_turns(struct reading *reading, const struct rho_scan *sc
         return;
     }
     turning->last_us = scan->time_us;
-    if (!push_scan_continues_turn(turning, scan, sensor)) {
+    if (!push_and_test_turn_continues(turning, scan, sensor)) {
         begin_turn_if_recent(reading, turning, scan, sensor);
     } else if (turning->is_open) { /* else the turn was dropped, or never kept */
-        add_sector_to_turn(&reading->revolutions.list[turning->at], turning, scan);
+        extend_turn_by_sector(&reading->revolutions.list[turning->at], turning, scan);
     }
 }
 

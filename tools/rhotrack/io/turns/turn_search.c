@@ -65,9 +65,9 @@ static double azimuth_concentration(const struct fitted *fitted, double rate_rad
     return hypot(x, y) / (double)fitted->count;
 }
 
-/* Collects evenly spaced plots of the first SPAN_S seconds. Returns how many plots the span has. */
-static size_t choose_fitted_plots(const struct turn_plot *plots, size_t count,
-                                  struct fitted *fitted)
+/* Samples evenly spaced plots of the first SPAN_S seconds; returns how many plots the span has. */
+static size_t sample_and_count_span_plots(const struct turn_plot *plots, size_t count,
+                                          struct fitted *fitted)
 {
     size_t num = 0, stride;
 
@@ -200,7 +200,7 @@ static bool find_rule_by_azimuths(const struct turn_plot *plots, size_t count, d
                                   struct turn_rule *rule)
 {
     struct fitted fitted;
-    const size_t num = choose_fitted_plots(plots, count, &fitted);
+    const size_t num = sample_and_count_span_plots(plots, count, &fitted);
     double span_s, turn_s;
 
     span_s = fitted.after_s[fitted.count - 1];
