@@ -347,19 +347,24 @@ void rho_tracker_set_body_heading(struct rho_tracker *tracker, unsigned row);
 /* Updates each track's body with the plots of its group, before rho_tracker_ungroup_plots. */
 void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
 /*
- * A plot's range rate less that of a target there with the track's velocity, and the unit vector of
- * the line of sight. Returns 0 where no range rate was measured, or the plot is at the sensor.
+ * A plot's range rate less that of a target at the plot's place with the track's velocity; the
+ * residual's variance by the plot's noise: that of its range rate, and that of its place across the
+ * line of sight, which turns with the target (rad/s); and the unit vector of the line of sight.
  */
+struct range_rate_residual {
+    float mps, variance_m2ps2, line_turn_m2ps2, line[2];
+};
+/* Returns 0 where no range rate was measured, or the plot is at the sensor. */
 int rho_tracker_range_rate_residual(const struct step *step, const struct rho_scan *scan,
                                     const struct rho_track *track, const struct rho_plot *plot,
-                                    float line[2], float *off_mps);
+                                    struct range_rate_residual *rate);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
- * rate and line of sight by rho_tracker_range_rate_residual, whose result
- * rho_tracker_locate_plot_on_body returns.
+ * rate by rho_tracker_range_rate_residual, whose result rho_tracker_locate_plot_on_body returns.
  */
 struct body_plot {
-    float dx_m, dy_m, along_m, across_m, rate_mps, line[2];
+    float dx_m, dy_m, along_m, across_m;
+    struct range_rate_residual rate;
 };
 int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_scan *scan,
                                     unsigned row, unsigned plot, struct body_plot *at);
