@@ -63,7 +63,7 @@ void rho_tracker_align_bodies_with_tracks(struct step *step)
 
 int rho_tracker_range_rate_residual(const struct step *step, const struct rho_scan *scan,
                                     const struct rho_track *track, const struct rho_plot *plot,
-                                    float sight_line[2], float *off_mps)
+                                    struct range_rate_residual *rate)
 {
     float row[6], rate_mps;
     const float *velocity = &track->kalman.state[RHO_VX];
@@ -73,10 +73,14 @@ int rho_tracker_range_rate_residual(const struct step *step, const struct rho_sc
             state, step->sensor, (scan->measures & RHO_MEASURES_Z) != 0, row, &rate_mps)) {
         return 0;
     }
-    sight_line[0] = row[3];
-    sight_line[1] = row[4];
-    *off_mps =
+    rate->sight_line[0] = row[3];
+    rate->sight_line[1] = row[4];
+    rate->mps =
         rho_measurement_range_rate_innovation_mps(step->sensor, plot->range_rate_mps, rate_mps);
+    const float turned_mps = (row[3] * row[1] - row[4] * row[0]) * plot->sigma_cross_m;
+    rate->line_turn_m2ps2 = turned_mps * turned_mps;
+    rate->variance_m2ps2 =
+        plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + rate->line_turn_m2ps2;
     return 1;
 }
 
@@ -92,7 +96,7 @@ int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_sc
                              .dy_m = seen->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
     at->along_m = body->cos_heading * at->dx_m + body->sin_heading * at->dy_m;
     at->across_m = body->cos_heading * at->dy_m - body->sin_heading * at->dx_m;
-    return rho_tracker_range_rate_residual(step, scan, track, seen, at->line, &at->rate_mps);
+    return rho_tracker_range_rate_residual(step, scan, track, seen, &at->rate);
 }
 
 void rho_tracker_plot_noise_on_body(const struct step *step, const struct rho_body_filter *body,

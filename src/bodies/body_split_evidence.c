@@ -94,7 +94,7 @@ static void fade_doubt_by_one_look(struct rho_body_doubt *doubt, const struct rh
  */
 struct look_sums {
     float n, far, side, rate, far2, cross, side2, rate2, rate_far, rate_side;
-    float side_noise_m2, rate_noise_m2ps2;
+    float side_noise_m2, rate_noise_m2ps2, line_turn_m2ps2;
     float first_m, last_m, noise_m2; /* along the body: extreme places, largest plot variance */
 };
 
@@ -115,19 +115,20 @@ static struct look_sums sum_look_of_body(const struct step *step, const struct r
             continue; /* a plot at the sensor has no line of sight */
         }
         rho_tracker_plot_noise_on_body(step, &bodies->of[row], plot, axes);
-        const float far_m = at.line[0] * at.dx_m + at.line[1] * at.dy_m,
-                    side_m = at.line[0] * at.dy_m - at.line[1] * at.dx_m;
+        const float far_m = at.rate.sight_line[0] * at.dx_m + at.rate.sight_line[1] * at.dy_m,
+                    side_m = at.rate.sight_line[0] * at.dy_m - at.rate.sight_line[1] * at.dx_m;
         sums.n += 1.0f;
         sums.far += far_m;
         sums.side += side_m;
-        sums.rate += at.rate_mps;
+        sums.rate += at.rate.mps;
         sums.far2 += far_m * far_m;
         sums.cross += far_m * side_m;
         sums.side2 += side_m * side_m;
-        sums.rate2 += at.rate_mps * at.rate_mps;
-        sums.rate_far += at.rate_mps * far_m;
-        sums.rate_side += at.rate_mps * side_m;
+        sums.rate2 += at.rate.mps * at.rate.mps;
+        sums.rate_far += at.rate.mps * far_m;
+        sums.rate_side += at.rate.mps * side_m;
         sums.side_noise_m2 += plot->sigma_cross_m * plot->sigma_cross_m;
+        sums.line_turn_m2ps2 += at.rate.line_turn_m2ps2;
         sums.rate_noise_m2ps2 += plot->sigma_range_rate_mps * plot->sigma_range_rate_mps;
         sums.first_m = rho_smaller(sums.first_m, at.along_m);
         sums.last_m = rho_larger(sums.last_m, at.along_m);
@@ -174,7 +175,8 @@ void rho_tracker_add_body_split_evidence(const struct step *step, const struct r
     const float side_m2 = sums.side2 - mean * sums.side * sums.side;
     const float turned_radps = apparent_turn_sigma_radps(step, &step->tracker->tracks[row]);
     doubt->side_m2 += side_m2;
-    doubt->unknown_m2ps2 += turned_radps * turned_radps * side_m2;
+    doubt->unknown_m2ps2 +=
+        turned_radps * turned_radps * side_m2 + (1.0f - mean) * sums.line_turn_m2ps2;
     doubt->side_noise_m2 += (1.0f - mean) * sums.side_noise_m2;
     doubt->cross_m2 += sums.cross - mean * sums.far * sums.side;
     doubt->rates_m2ps2 += sums.rate2 - mean * sums.rate * sums.rate;

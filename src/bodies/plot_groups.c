@@ -132,18 +132,18 @@ static int range_rate_agrees_add_misfit(const struct step *step,
                                         const struct predicted_body *outline,
                                         const struct rho_plot *plot, float apart_m, float *misfit)
 {
-    float off_mps, line[2];
-    if (!rho_tracker_range_rate_residual(step, step->scan, outline->track, plot, line, &off_mps)) {
+    struct range_rate_residual rate;
+    if (!rho_tracker_range_rate_residual(step, step->scan, outline->track, plot, &rate)) {
         return 1;
     }
     const float slack_mps =
-        RATE_SIGMAS * (outline->rate_sigma_mps + plot->sigma_range_rate_mps) + TURN_RADPS * apart_m;
+        RATE_SIGMAS * (outline->rate_sigma_mps + rho_sqrt(rate.variance_m2ps2)) +
+        TURN_RADPS * apart_m;
     const float turn_mps = TURN_MISFIT_RADPS * apart_m;
-    const float variance = outline->rate_sigma_mps * outline->rate_sigma_mps +
-                           plot->sigma_range_rate_mps * plot->sigma_range_rate_mps +
+    const float variance = outline->rate_sigma_mps * outline->rate_sigma_mps + rate.variance_m2ps2 +
                            turn_mps * turn_mps;
-    *misfit += off_mps * off_mps / variance + rho_log(variance);
-    return off_mps <= slack_mps && off_mps >= -slack_mps;
+    *misfit += rate.mps * rate.mps / variance + rho_log(variance);
+    return rate.mps <= slack_mps && rate.mps >= -slack_mps;
 }
 
 /* Returns 1 where a plot is in the gate of a body. *misfit: -2 ln of the plot's likelihood. */

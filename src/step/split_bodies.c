@@ -42,7 +42,7 @@ static float separating_value(enum rho_body_split why, const struct body_plot *a
 {
     return why == RHO_BODY_TOO_LONG   ? at->along_m
            : why == RHO_BODY_TOO_WIDE ? at->across_m
-                                      : at->rate_mps;
+                                      : at->rate.mps;
 }
 
 /* Least distance of the outermost plots of two targets, in the coordinate that tells them apart. */
@@ -64,7 +64,7 @@ static int find_dividing_value(const struct step *step, const struct rho_scan *s
                                enum rho_body_split why, float *middle)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
-    float least = 1e30f, most = -1e30f, rate_sigma_mps = 0.0f;
+    float least = 1e30f, most = -1e30f, rate_m2ps2 = 0.0f;
     struct body_plot at;
     for (unsigned i = rho_tracker_first_uncontested_plot(
              groups, groups->first[step->tracker->tracks[row].plot]);
@@ -72,10 +72,10 @@ static int find_dividing_value(const struct step *step, const struct rho_scan *s
         (void)!rho_tracker_locate_plot_on_body(step, scan, row, i, &at);
         least = rho_smaller(least, separating_value(why, &at));
         most = rho_larger(most, separating_value(why, &at));
-        rate_sigma_mps = rho_larger(rate_sigma_mps, scan->plots[i].sigma_range_rate_mps);
+        rate_m2ps2 = rho_larger(rate_m2ps2, at.rate.variance_m2ps2);
     }
     *middle = 0.5f * (least + most);
-    return most - least > least_separation(step, why, rate_sigma_mps);
+    return most - least > least_separation(step, why, rho_sqrt(rate_m2ps2));
 }
 
 /* Sums the track's plots on either side of the middle to means. 0: they do not show two targets. */
@@ -96,8 +96,8 @@ static int divide_plots_into_sides(const struct step *step, const struct rho_sca
         side->plots++;
         side->x_m += at.dx_m;
         side->y_m += at.dy_m;
-        side->vx_mps += at.line[0] * at.rate_mps;
-        side->vy_mps += at.line[1] * at.rate_mps;
+        side->vx_mps += at.rate.sight_line[0] * at.rate.mps;
+        side->vy_mps += at.rate.sight_line[1] * at.rate.mps;
     }
     for (int i = 0; i < 2 && sides[i].plots > 0; i++) {
         const float share = 1.0f / (float)sides[i].plots;

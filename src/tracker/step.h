@@ -347,20 +347,24 @@ void rho_tracker_align_bodies_with_tracks(struct step *step);
 void rho_tracker_set_body_heading(struct rho_tracker *tracker, unsigned row);
 /* Updates each track's body with the plots of its group, before rho_tracker_ungroup_plots. */
 void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
-/*
- * A plot's range rate less that of a target there with the track's velocity, and the unit vector of
- * the line of sight. Returns 0 where no range rate was measured, or the plot is at the sensor.
- */
+/* A plot's range rate less that of a target at the plot's place with the track's velocity. */
+struct range_rate_residual {
+    float mps;
+    float variance_m2ps2;  /* by the noise of the plot's range rate and of its place */
+    float line_turn_m2ps2; /* of this, by the place: its error turns the line of sight */
+    float sight_line[2];   /* unit vector from the sensor to the plot, x and y */
+};
+/* Returns 0 where no range rate was measured, or the plot is at the sensor. */
 int rho_tracker_range_rate_residual(const struct step *step, const struct rho_scan *scan,
                                     const struct rho_track *track, const struct rho_plot *plot,
-                                    float sight_line[2], float *off_mps);
+                                    struct range_rate_residual *rate);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
- * rate and line of sight by rho_tracker_range_rate_residual, whose result
- * rho_tracker_locate_plot_on_body returns.
+ * rate by rho_tracker_range_rate_residual, whose result rho_tracker_locate_plot_on_body returns.
  */
 struct body_plot {
-    float dx_m, dy_m, along_m, across_m, rate_mps, line[2];
+    float dx_m, dy_m, along_m, across_m;
+    struct range_rate_residual rate;
 };
 int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_scan *scan,
                                     unsigned row, unsigned plot, struct body_plot *at);
