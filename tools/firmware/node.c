@@ -54,7 +54,7 @@ static void send_if_encoded(enum rho_status status, size_t size)
     }
 }
 
-static void publish_step(void)
+static void publish_messages_of_step(void)
 {
     for (uint16_t part = 0; part < rho_node_num_messages(&node); part++) {
         size_t head, size = 0;
@@ -125,7 +125,7 @@ static void step_and_publish(void)
         if (settings.stepped) {
             settings.stepped(settings.context, &report);
         }
-        publish_step();
+        publish_messages_of_step();
     }
 }
 
@@ -157,7 +157,7 @@ const struct rho_udpm_guard *node_sender_filter(void)
  * Whether the sender is allowed and the authentication code is right; removes the code from *size
  * and counts refused datagrams.
  */
-static int admit_datagram(const uint8_t *bytes, size_t *size, uint32_t source_ipv4)
+static int admit_datagram_and_strip_mac(const uint8_t *bytes, size_t *size, uint32_t source_ipv4)
 {
     const size_t whole = *size;
     if (!rho_udpm_admits(&guard, source_ipv4)) {
@@ -174,7 +174,7 @@ static int admit_datagram(const uint8_t *bytes, size_t *size, uint32_t source_ip
 void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64_t now_us)
 {
     struct rho_udpm_datagram datagram;
-    if (!is_started || !admit_datagram(bytes, &size, source_ipv4)) {
+    if (!is_started || !admit_datagram_and_strip_mac(bytes, &size, source_ipv4)) {
         return;
     }
     if (rho_udpm_parse(bytes, size, &datagram) != RHO_OK) {

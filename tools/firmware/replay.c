@@ -131,7 +131,7 @@ static int64_t zero_clock_us(void *context)
 
 /* ---- Run ---- */
 
-static float parse_whole_number(const char *text)
+static float parse_whole_number_or_minus_1(const char *text)
 {
     float value = 0.0f;
     while (*text >= '0' && *text <= '9') {
@@ -141,7 +141,8 @@ static float parse_whole_number(const char *text)
     return *text ? -1.0f : value;
 }
 
-static int gate_by_name(const char *name)
+/* Number of the gate with this name; RHO_NUM_TRACKER_GATES, which the node refuses, for others. */
+static int gate_of_name_or_invalid(const char *name)
 {
     static const char *const names[RHO_NUM_TRACKER_GATES] = {"best", "hough", "nearest"};
     int gate = 0;
@@ -152,21 +153,21 @@ static int gate_by_name(const char *name)
 }
 
 /* Applies an option NAME=VALUE; returns 0 where the name is unknown. */
-static int set_option(struct node_config *config, const char *argument)
+static int try_to_set_option(struct node_config *config, const char *argument)
 {
     const char *value = strchr(argument, '=');
     size_t length = value ? (size_t)(value - argument) : 0;
     if (length == 4 && strncmp(argument, "gate", length) == 0) {
-        config->tracker.gate = (uint8_t)gate_by_name(value + 1);
+        config->tracker.gate = (uint8_t)gate_of_name_or_invalid(value + 1);
         config->tracker.input.is_estimated = config->tracker.gate != RHO_TRACKER_BEST;
     } else if (length == 9 && strncmp(argument, "v_min_mps", length) == 0) {
-        config->initiator.v_min_mps = parse_whole_number(value + 1);
+        config->initiator.v_min_mps = parse_whole_number_or_minus_1(value + 1);
         config->tracker.v_min_mps = config->initiator.v_min_mps;
     } else if (length == 9 && strncmp(argument, "v_max_mps", length) == 0) {
-        config->initiator.v_max_mps = parse_whole_number(value + 1);
+        config->initiator.v_max_mps = parse_whole_number_or_minus_1(value + 1);
         config->tracker.v_max_mps = config->initiator.v_max_mps;
     } else if (length == 10 && strncmp(argument, "accel_mps2", length) == 0) {
-        config->tracker.accel_max_mps2 = parse_whole_number(value + 1);
+        config->tracker.accel_max_mps2 = parse_whole_number_or_minus_1(value + 1);
         config->initiator.turn_mps2 = 0.2f * config->tracker.accel_max_mps2;
     } else if (length == 6 && strncmp(argument, "radars", length) == 0) {
         config->sensors = radars;
@@ -177,12 +178,12 @@ static int set_option(struct node_config *config, const char *argument)
     return 1;
 }
 
-static int start_node_with_options(int count, char **arguments)
+static int try_to_start_node_with_options(int count, char **arguments)
 {
     struct node_config config;
     node_config_default(&config);
     for (int i = 0; i < count; i++) {
-        if (!set_option(&config, arguments[i])) {
+        if (!try_to_set_option(&config, arguments[i])) {
             return 0;
         }
     }
@@ -258,7 +259,7 @@ int main(int argc, char **argv)
         files_print("usage: replay IN.lcm OUT.lcm [NAME=VALUE ...]; or a file does not open\n");
         return 2;
     }
-    if (!start_node_with_options(argc - 3, argv + 3)) {
+    if (!try_to_start_node_with_options(argc - 3, argv + 3)) {
         files_print("replay: a setting is not known, or not taken\n");
         return 2;
     }

@@ -45,7 +45,7 @@ void track_starts_configure_bearings(struct rho_node_config *config)
  * Starts tracks from a closed frame of bearings; where its sensors do not fit the batch, begins a
  * new batch.
  */
-static enum rho_status start_from_bearings(const struct rho_node_config *node)
+static enum rho_status start_tracks_from_closed_frame(const struct rho_node_config *node)
 {
     struct rho_frame_view view;
     if (!rho_frames_closed(node->frames, &view) ||
@@ -63,7 +63,7 @@ enum rho_status track_starts_step(struct rho_node *node)
     if (status != RHO_OK) {
         return status;
     }
-    return is_frame ? start_from_bearings(config)
+    return is_frame ? start_tracks_from_closed_frame(config)
                     : rho_paper_starts_step(&starts, config->tracker, &node->scan, config->report);
 }
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * count: the instructions between count_begin and count_end, for the jobs beside it. On this
- * machine valgrind counts them (callgrind, started with --collect-atstart=no); on a Cortex-M under
- * QEMU (COUNT_ON_TARGET) the timer does, and count_report says what it has seen. What a job says
- * itself goes to standard output before that.
+ * count: counts the instructions between count_begin and count_end for the programs in this folder.
+ * On a workstation valgrind counts them (callgrind, started with --collect-atstart=no). On a
+ * Cortex-M in QEMU (COUNT_ON_TARGET) a timer counts them, and count_report prints the calls, their
+ * sum and their maximum; a program prints its own results before that.
  */
 #ifndef COUNT_H
 #define COUNT_H
@@ -22,7 +22,7 @@ static uint64_t count_sum;
 
 static inline void count_begin(void)
 {
-    if (count_calls == 0) { /* what counting itself takes */
+    if (count_calls == 0) { /* the cost of the two readings */
         count_from = files_read_instruction_counter();
         count_empty = files_instructions_elapsed(count_from, files_read_instruction_counter());
     }
@@ -40,7 +40,7 @@ static inline void count_end(void)
     }
 }
 
-/* For who looks at single calls. */
+/* The reading of the counter; valgrind has none that a program can read, so there it is 0. */
 static inline uint32_t count_instructions_now(void)
 {
     return files_read_instruction_counter();

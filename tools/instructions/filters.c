@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * filters: one step of a Kalman filter, or of the literature's filter with its gate, for
- * tools/gates/instructions.sh to count the instructions of. Argument: predict+3, predict+6 (updates
- * of an element each), coupled+6 (the same where a polar plot has coupled the axes), predict+polar,
- * input+hough.
+ * filters: one step of a Kalman filter, or of the literature's filter with its gate;
+ * tools/gates/instructions.sh counts its instructions. The argument names the step: predict+3 and
+ * predict+6 (a prediction and 3 or 6 updates of one state element each), coupled+6 (6 updates after
+ * a polar plot has coupled the axes), predict+polar, input+hough.
  */
 #include <string.h>
 
@@ -15,13 +15,14 @@
 #include "rhotrack/detail/measurement.h"
 
 #define STEPS 20
-#define PLOTS 5 /* the target's is the first */
+#define PLOTS 5 /* the first one is the target's */
 
 static struct rho_kalman kalman;
 static struct rho_measurement measurement;
 static int failed;
 
-static void must_be_ok(enum rho_status status)
+/* Prints the name of a status that is an error and makes the program's exit code 1. */
+static void note_failure_unless_ok(enum rho_status status)
 {
     if (status != RHO_OK) {
         fprintf(stderr, "filters: %s\n", rho_status_name(status));
@@ -31,7 +32,7 @@ static void must_be_ok(enum rho_status status)
 
 /* ---- a step with updates ---- */
 
-static void open_filter(float variance)
+static void prepare_filter_and_measurement(float position_variance_m2)
 {
     static const struct rho_plot plot = {.x_m = 30000.0f,
                                          .y_m = 20000.0f,
@@ -41,34 +42,35 @@ static void open_filter(float variance)
                                          .sigma_up_m = 110.0f};
     rho_kalman_init(&kalman);
     for (int axis = 0; axis < 3; axis++) {
-        must_be_ok(rho_kalman_open_axis(&kalman, axis, 100.0f, variance, 1e4f));
+        note_failure_unless_ok(
+            rho_kalman_open_axis(&kalman, axis, 100.0f, position_variance_m2, 1e4f));
     }
     rho_measurement_from_plot(&plot, RHO_MEASURES_Z, NULL, &measurement);
 }
 
-static void update_axes(int updates)
+static void predict_and_update_elements(int num_elements)
 {
-    must_be_ok(rho_kalman_predict(&kalman, 1.0f, 1.0f));
-    for (int i = 0; i < updates; i++) {
-        must_be_ok(rho_kalman_update(&kalman, i, 100.0f, 100.0f, NULL));
+    note_failure_unless_ok(rho_kalman_predict(&kalman, 1.0f, 1.0f));
+    for (int i = 0; i < num_elements; i++) {
+        note_failure_unless_ok(rho_kalman_update(&kalman, i, 100.0f, 100.0f, NULL));
     }
 }
 
-static void update_polar(void)
+static void predict_and_update_by_polar_plot(void)
 {
-    must_be_ok(rho_kalman_predict(&kalman, 1.0f, 1.0f));
-    must_be_ok(rho_kalman_update_position(&kalman, &measurement, 1e4f));
-    must_be_ok(rho_kalman_update_range_rate(&kalman, NULL, 100.0f, 1.0f));
+    note_failure_unless_ok(rho_kalman_predict(&kalman, 1.0f, 1.0f));
+    note_failure_unless_ok(rho_kalman_update_position(&kalman, &measurement, 1e4f));
+    note_failure_unless_ok(rho_kalman_update_range_rate(&kalman, NULL, 100.0f, 1.0f));
 }
 
-/* ---- the literature's step: target and clutter of one scan ---- */
+/* ---- a step with input estimation: a target's plot and clutter plots of one scan ---- */
 
 static struct rho_input_config config;
 static struct rho_input input;
 static float before_mps[3], newest_mps[3];
 static float seen[PLOTS][RHO_KALMAN_STATES];
 
-static void estimate_input(void)
+static void estimate_input_and_keep_velocity(void)
 {
     struct rho_kalman estimate;
     rho_input_decide_presence(&input, &config);
@@ -77,21 +79,21 @@ static void estimate_input(void)
     memcpy(newest_mps, &estimate.state[3], sizeof newest_mps);
 }
 
-static void update_input(const float plot[RHO_KALMAN_STATES])
+static void update_input_filter_by_plot(const float plot[RHO_KALMAN_STATES])
 {
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        must_be_ok(rho_input_update(&input, &config, i, plot[i], 1.0f));
+        note_failure_unless_ok(rho_input_update(&input, &config, i, plot[i], 1.0f));
     }
 }
 
-static void step_input(void)
+static void step_input_filter_by_hough_gate(void)
 {
     struct rho_gate_hough hough;
     int best = 0;
-    must_be_ok(rho_input_predict(&input, &config, 0.25f));
-    must_be_ok(rho_gate_hough_init(&hough,
-                                   RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
-                                   0.0872664626f, before_mps, newest_mps));
+    note_failure_unless_ok(rho_input_predict(&input, &config, 0.25f));
+    note_failure_unless_ok(
+        rho_gate_hough_init(&hough, RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
+                            0.0872664626f, before_mps, newest_mps));
     float least = rho_gate_hough_residual_mps(&hough, &seen[0][3]);
     for (int i = 1; i < PLOTS; i++) {
         float off = rho_gate_hough_residual_mps(&hough, &seen[i][3]);
@@ -100,19 +102,19 @@ static void step_input(void)
             best = i;
         }
     }
-    update_input(seen[best]);
-    estimate_input();
+    update_input_filter_by_plot(seen[best]);
+    estimate_input_and_keep_velocity();
 }
 
-/* Three scans, of which the last begins a turn on all axes: the inputs of all three are present. */
-static void open_input(void)
+/* Starts the filter with three scans; the last begins a turn, so that all axes have an input. */
+static void start_input_filter_in_turn(void)
 {
     rho_input_config_default(&config);
     rho_kalman_init(&kalman);
     for (int axis = 0; axis < 3; axis++) {
-        must_be_ok(rho_kalman_open_axis(&kalman, axis, 100.0f, 500.0f, 500.0f));
+        note_failure_unless_ok(rho_kalman_open_axis(&kalman, axis, 100.0f, 500.0f, 500.0f));
     }
-    must_be_ok(rho_input_start(&input, &config, &kalman));
+    note_failure_unless_ok(rho_input_start(&input, &config, &kalman));
     for (int scan = 1; scan <= 4; scan++) {
         float speed_mps = scan < 3 ? 0.0f : 20.0f * (float)(scan - 2);
         for (int i = 0; i < RHO_KALMAN_STATES; i++) {
@@ -122,9 +124,9 @@ static void open_input(void)
             }
         }
         if (scan < 4) {
-            must_be_ok(rho_input_predict(&input, &config, 0.25f));
-            update_input(seen[0]);
-            estimate_input();
+            note_failure_unless_ok(rho_input_predict(&input, &config, 0.25f));
+            update_input_filter_by_plot(seen[0]);
+            estimate_input_and_keep_velocity();
         }
     }
     failed |= input.present != 7;
@@ -132,26 +134,26 @@ static void open_input(void)
 
 /* ---- jobs ---- */
 
-static void open_job_filter(const char *name)
+static void prepare_filter_of_job(const char *job)
 {
-    if (strcmp(name, "input+hough") == 0) {
-        open_input();
+    if (strcmp(job, "input+hough") == 0) {
+        start_input_filter_in_turn();
         return;
     }
-    open_filter(100.0f);
-    if (strcmp(name, "coupled+6") == 0) {
-        update_polar();
+    prepare_filter_and_measurement(100.0f);
+    if (strcmp(job, "coupled+6") == 0) {
+        predict_and_update_by_polar_plot();
     }
 }
 
-__attribute__((noinline)) static void step(const char *name)
+__attribute__((noinline)) static void run_step_of_job(const char *job)
 {
-    if (strcmp(name, "input+hough") == 0) {
-        step_input();
-    } else if (strcmp(name, "predict+polar") == 0) {
-        update_polar();
+    if (strcmp(job, "input+hough") == 0) {
+        step_input_filter_by_hough_gate();
+    } else if (strcmp(job, "predict+polar") == 0) {
+        predict_and_update_by_polar_plot();
     } else {
-        update_axes(name[strlen(name) - 1] - '0');
+        predict_and_update_elements(job[strlen(job) - 1] - '0');
     }
 }
 
@@ -162,9 +164,9 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (argc == 2 && strcmp(argv[1], names[i]) == 0) {
             for (int k = 0; k < STEPS; k++) {
-                open_job_filter(names[i]);
+                prepare_filter_of_job(names[i]);
                 count_begin();
-                step(names[i]);
+                run_step_of_job(names[i]);
                 count_end();
             }
             printf("\n");

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * growth: steps of a whole tracker in clutter spread evenly over 500 x 500 km, a scan every 10 s,
- * for tools/gates/instructions.sh to count the instructions of: how they grow with the plots.
+ * growth: steps of a whole tracker in clutter that is uniform over 500 x 500 km, a scan every 10 s;
+ * tools/gates/instructions.sh counts how the instructions grow with the number of plots.
  *
- * Arguments: plots a scan; v_min and v_max in m/s. Counts the steps whose window is full. Prints
- * the partial ones.
+ * Arguments: plots a scan; v_min and v_max in m/s. Only steps with a full window are counted.
+ * Prints how many steps were partial because the work limit was reached.
  */
 #include <stdlib.h>
 
@@ -23,7 +23,7 @@ static struct rho_initiator initiator;
 static struct rho_report report;
 static struct rho_plot plots[RHO_MAX_PLOTS];
 
-static int open_tracker(float v_min_mps, float v_max_mps)
+static int failed_to_open_tracker(float v_min_mps, float v_max_mps)
 {
     static const struct rho_sensor sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = 400e3f};
     struct rho_tracker_config config;
@@ -44,7 +44,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "growth: give 1 .. %d plots, v_min and v_max in m/s\n", RHO_MAX_PLOTS);
         return 2;
     }
-    int failed = open_tracker((float)atof(argv[2]), (float)atof(argv[3]));
+    int failed = failed_to_open_tracker((float)atof(argv[2]), (float)atof(argv[3]));
     for (int k = 0; k < START_STEPS + STEPS && !failed; k++) {
         for (int i = 0; i < count; i++) {
             plots[i] = (struct rho_plot){.x_m = draw_uniform(-0.5f * SIDE_M, 0.5f * SIDE_M),

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hough: one search of the accumulator, for tools/gates/instructions.sh to count the instructions
- * of: `hough POINTS plain|pruned`. As in `rhotrack bench hough`: 30 x 30 km, 7 scans, 5 votes,
- * cells of 5 m x 1 mrad. Prints the votes, points times rows of theta.
+ * hough: one search of the Hough accumulator (`hough POINTS plain|pruned`);
+ * tools/gates/instructions.sh counts its instructions. As in `rhotrack bench hough`, the area is
+ * 30 x 30 km, with 7 scans, 5 votes and cells of 5 m x 1 mrad. Prints the number of votes, which is
+ * the number of points times the rows of theta.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * initiation: searches of a full window, for tools/gates/instructions.sh to count the instructions
- * of.
+ * initiation: searches of a full initiation window; tools/gates/instructions.sh counts their
+ * instructions.
  *
- * Arguments: batch or newest; isotropic, own or rate (nearly the same noise, but a plot's own; and
- * range rates); clutter plots a scan; windows, each with other plots. Three targets cross the area
- * of the literature's Table 1, 4 x 2.5 km. Prints seeds, look-ups, distances and candidates of the
- * last search.
+ * Arguments: the search (batch or newest); the plots' noise (isotropic; own, where each plot's
+ * covariance is slightly anisotropic; or rate, anisotropic and with range rates); clutter plots a
+ * scan; the number of windows, each with other plots. Three targets cross the 4 x 2.5 km of the
+ * literature's Table 1. Prints seeds, look-ups, distances and candidates of the last search.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +26,7 @@ static struct rho_plot plots[SCANS][TARGETS + CLUTTER_MAX];
 static const struct rho_sensor sensor = {
     .x_m = -20000.0f, .y_m = -15000.0f, .pd = 0.9f, .range_max_m = 1e5f};
 
-static struct rho_plot plot_at(float x_m, float y_m, float sigma_cross_m)
+static struct rho_plot plot_with_random_range_rate(float x_m, float y_m, float sigma_cross_m)
 {
     return (struct rho_plot){.x_m = x_m,
                              .y_m = y_m,
@@ -37,23 +37,23 @@ static struct rho_plot plot_at(float x_m, float y_m, float sigma_cross_m)
                              .sigma_range_rate_mps = 1.0f};
 }
 
-static void draw_plots(int clutter, float sigma_cross_m)
+static void draw_plots_of_all_scans(int num_clutter, float sigma_cross_m)
 {
     for (int scan = 0; scan < SCANS; scan++) {
         for (int i = 0; i < TARGETS; i++) {
             float along_m = 400.0f * (float)scan; /* 200 m/s */
-            plots[scan][i] =
-                plot_at(200.0f + along_m + draw_normal(SIGMA_M),
-                        -800.0f + 800.0f * (float)i + draw_normal(SIGMA_M), sigma_cross_m);
+            plots[scan][i] = plot_with_random_range_rate(
+                200.0f + along_m + draw_normal(SIGMA_M),
+                -800.0f + 800.0f * (float)i + draw_normal(SIGMA_M), sigma_cross_m);
         }
-        for (int i = 0; i < clutter; i++) {
+        for (int i = 0; i < num_clutter; i++) {
             float x_m = draw_uniform(0.0f, 4000.0f), y_m = draw_uniform(-1000.0f, 1500.0f);
-            plots[scan][TARGETS + i] = plot_at(x_m, y_m, sigma_cross_m);
+            plots[scan][TARGETS + i] = plot_with_random_range_rate(x_m, y_m, sigma_cross_m);
         }
     }
 }
 
-static int fill_window(int clutter, uint32_t measures, uint16_t min_scans)
+static int failed_to_fill_window(int num_clutter, uint32_t measures, uint16_t min_scans)
 {
     struct rho_initiator_config config;
     uint8_t fates[RHO_MAX_PLOTS];
@@ -69,7 +69,7 @@ static int fill_window(int clutter, uint32_t measures, uint16_t min_scans)
     for (int scan = 0; scan < SCANS; scan++) {
         struct rho_scan from = {.time_us = (int64_t)INTERVAL_US * scan,
                                 .measures = measures,
-                                .num_plots = (uint32_t)(TARGETS + clutter),
+                                .num_plots = (uint32_t)(TARGETS + num_clutter),
                                 .plots = plots[scan]};
         memset(fates, RHO_FATE_HELD, sizeof fates);
         failed |= rho_initiator_push(&initiator, &from, &sensor, fates, &unused) != RHO_OK;
@@ -92,8 +92,8 @@ int main(int argc, char **argv)
     float sigma_cross_m = strcmp(argv[2], "isotropic") == 0 ? SIGMA_M : 1.01f * SIGMA_M;
     uint32_t measures = strcmp(argv[2], "rate") == 0 ? RHO_MEASURES_RANGE_RATE : 0;
     for (int i = 0; i < windows && !failed; i++) {
-        draw_plots(clutter, sigma_cross_m);
-        failed |= fill_window(clutter, measures, kind == RHO_SEARCH_NEWEST ? 0 : 5);
+        draw_plots_of_all_scans(clutter, sigma_cross_m);
+        failed |= failed_to_fill_window(clutter, measures, kind == RHO_SEARCH_NEWEST ? 0 : 5);
         count_begin();
         failed |= rho_initiator_search(&initiator, kind) != RHO_OK;
         count_end();

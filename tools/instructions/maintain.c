@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * maintain: the default's step of one track, for tools/gates/instructions.sh to count the
- * instructions of: a target that flies straight, and clutter uniform in its gate, each scan the
- * same number of plots.
+ * maintain: the step of one track by hypotheses, the default gate; tools/gates/instructions.sh
+ * counts its instructions. The target flies straight, clutter is uniform in its gate, and each scan
+ * has the same number of plots.
  *
- * Arguments: plots in the gate, the target's among them; 0 for isotropic noise, 1 for noise along a
- * line of sight. Prints the hypotheses, and the plots that were in a gate, a scan.
+ * Arguments: plots in the gate, including the target's; 0 for isotropic noise, 1 for noise along a
+ * line of sight. Prints the mean numbers of hypotheses and of plots in a gate per scan.
  */
 #include <stdlib.h>
 
@@ -14,7 +14,7 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/hypotheses.h"
 
-#define SCANS 100 /* the mean of whole numbers has two decimals */
+#define SCANS 100 /* a mean over 100 scans has two decimals */
 #define PLOTS_MAX 32
 #define INTERVAL_US 250000
 #define SIGMA_M 10.0f
@@ -26,7 +26,7 @@ static struct rho_plot plots[PLOTS_MAX];
 static struct rho_hypotheses_clutter clutter;
 static struct rho_hypotheses_estimate estimate;
 static uint16_t slot;
-static float log_pd, log_miss; /* the tracker has them once a scan, too */
+static float log_pd, log_miss; /* log P_D and log(1 - P_D), as the tracker computes once a scan */
 static int num_plots, num_in_gate, num_hypotheses;
 
 static void draw_in_ball(float radius, float out[3])
@@ -65,8 +65,8 @@ static void draw_scan(int scan, float sigma_cross_m)
     }
 }
 
-/* A whole step, from the prediction to the estimate that is reported. */
-static int step_hypotheses(int64_t time_us)
+/* Runs a whole step, from the prediction to the reported estimate; 0 when all calls succeed. */
+static int failed_to_step_hypotheses(int64_t time_us)
 {
     const struct rho_hypotheses_scan scan = {
         .time_us = time_us, .measures = RHO_MEASURES_Z, .plots = plots, .log_miss = log_miss};
@@ -87,7 +87,7 @@ static int step_hypotheses(int64_t time_us)
     return failed | (rho_hypotheses_estimate(&pool, slot, time_us, &estimate) != RHO_OK);
 }
 
-static int start_hypotheses(void)
+static int failed_to_start_hypotheses(void)
 {
     const float place_m[3] = {50000.0f, 35000.0f, 300.0f}, speed_mps[3] = {-600.0f, -500.0f, 0.0f};
     struct rho_imm_model model;
@@ -114,11 +114,11 @@ int main(int argc, char **argv)
     clutter.log_per_m2 = rho_log((num_plots > 1 ? (float)num_plots - 1.0f : 0.1f) / volume_m3);
     log_pd = rho_log(PD);
     log_miss = rho_log(1.0f - PD);
-    int failed = start_hypotheses();
+    int failed = failed_to_start_hypotheses();
     for (int scan = 1; scan <= SCANS && !failed; scan++) {
         draw_scan(scan, atoi(argv[2]) ? 1.2f * SIGMA_M : SIGMA_M);
         count_begin();
-        failed |= step_hypotheses((int64_t)INTERVAL_US * scan);
+        failed |= failed_to_step_hypotheses((int64_t)INTERVAL_US * scan);
         count_end();
         num_hypotheses += (int)rho_hypotheses_count(&pool, slot);
     }

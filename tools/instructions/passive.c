@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive: searches of a full batch of bearings, for tools/gates/instructions.sh to count the
- * instructions of. Arguments: targets; false bearings a look; batches, each with other bearings.
- * Three sensors, eight frames 10 s apart, 0.1 degrees. Prints the tracks and the hypotheses of the
- * last search.
+ * passive: searches of a full batch of bearings; tools/gates/instructions.sh counts their
+ * instructions. Three sensors give eight frames 10 s apart, with a bearing noise of 0.1 degrees.
+ * Arguments: the number of targets; false bearings a look; batches, each with other bearings.
+ * Prints the tracks and the fits of the last search.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -70,7 +70,7 @@ static struct rho_frame draw_frame(int frame, int num_targets, int num_false)
     return (struct rho_frame){.time_us = time_us, .num_scans = SENSORS, .scans = scans};
 }
 
-static int fill_batch(int num_targets, int num_false)
+static int failed_to_fill_batch(int num_targets, int num_false)
 {
     struct rho_passive_config config;
     uint8_t fates[SENSORS * RHO_MAX_BEARINGS];
@@ -96,7 +96,7 @@ int main(int argc, char **argv)
         return 2;
     }
     for (int i = 0; i < batches && !failed; i++) {
-        failed = fill_batch(num_targets, atoi(argv[2]));
+        failed = failed_to_fill_batch(num_targets, atoi(argv[2]));
         count_begin();
         failed |= rho_passive_search(&passive) != RHO_OK;
         count_end();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* random_draws: random numbers for the jobs beside it, the same ones everywhere. */
+/* random_draws: random numbers for the programs in this folder, the same ones on every machine. */
 #ifndef RANDOM_DRAWS_H
 #define RANDOM_DRAWS_H
 
@@ -13,7 +13,7 @@ static inline float draw_uniform(float low, float high)
     return low + (high - low) * (float)(draw_state >> 8) / 16777216.0f;
 }
 
-/* Nearly normal, by the sum of twelve. */
+/* Nearly normal with mean 0: the sum of twelve uniform numbers. */
 static inline float draw_normal(float sigma)
 {
     float sum = 0.0f;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene: eight targets on a ring about a radar, flying round it, for the jobs beside it; and plots
- * of them, polar (15 m x 3 mrad, range rates) or Cartesian (places and velocities, isotropic
- * noise). Clutter is 1.3 to 2.2 standard deviations off on each axis: in the gate, and seldom the
- * nearest.
+ * scene: eight targets that start on a ring about a radar and fly along its tangents, for the
+ * programs in this folder; and plots of them, polar (15 m x 3 mrad, range rates) or Cartesian
+ * (positions and velocities, isotropic noise). Clutter lies 1.3 to 2.2 standard deviations from the
+ * target on each axis: in the gate, and seldom the nearest plot.
  */
 #ifndef SCENE_H
 #define SCENE_H
@@ -36,7 +36,7 @@ static struct target target_at(int target, float t_s)
                            range_m * rho_sin(bearing_rad) + vy_mps * t_s, vx_mps, vy_mps};
 }
 
-/* The noise of the target's own plot; of clutter far enough out. */
+/* Normal for the target's own plot; for clutter 1.3 to 2.2 sigma to either side. */
 static float draw_noise(int is_clutter, float sigma)
 {
     float size = is_clutter ? draw_uniform(1.3f, 2.2f) : 0.0f;
@@ -44,7 +44,7 @@ static float draw_noise(int is_clutter, float sigma)
                       : draw_normal(sigma);
 }
 
-static struct rho_plot polar_plot(const struct target *target, int is_clutter)
+static struct rho_plot draw_polar_plot(const struct target *target, int is_clutter)
 {
     float range_m = rho_sqrt(target->x_m * target->x_m + target->y_m * target->y_m);
     struct rho_polar_plot polar = {
@@ -61,7 +61,7 @@ static struct rho_plot polar_plot(const struct target *target, int is_clutter)
     return plot;
 }
 
-static struct rho_plot cartesian_plot(const struct target *target, int is_clutter)
+static struct rho_plot draw_cartesian_plot(const struct target *target, int is_clutter)
 {
     return (struct rho_plot){.x_m = target->x_m + draw_noise(is_clutter, SIGMA_M),
                              .y_m = target->y_m + draw_noise(is_clutter, SIGMA_M),
@@ -77,7 +77,7 @@ static struct rho_plot cartesian_plot(const struct target *target, int is_clutte
 
 static struct rho_plot draw_plot(const struct target *target, int is_polar, int is_clutter)
 {
-    return is_polar ? polar_plot(target, is_clutter) : cartesian_plot(target, is_clutter);
+    return is_polar ? draw_polar_plot(target, is_clutter) : draw_cartesian_plot(target, is_clutter);
 }
 
 static uint32_t measured_quantities(int is_polar)

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * track: a step of one track by itself, for tools/gates/instructions.sh to count the instructions
- * of: prediction, the gate over its plots, the update with the one that is chosen. No assignment,
- * life cycle and report.
+ * track: a step of one track alone; tools/gates/instructions.sh counts its instructions. The step
+ * is prediction, gating of all plots and the update with the chosen plot, without assignment, life
+ * cycle and report.
  *
- * Arguments: nearest or hough (with input estimation); polar or cartesian; plots, the target's own
- * among them. Prints the plots that were in the gate, a step.
+ * Arguments: the gate, nearest or hough (with input estimation); polar or cartesian; the number of
+ * plots, including the target's own. Prints the mean number of plots in the gate per step.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,7 @@
 #include "scene.h"
 
 #define START_STEPS 6
-#define STEPS 100 /* the mean of whole numbers has two decimals */
+#define STEPS 100 /* a mean over 100 steps has two decimals */
 #define PLOTS_MAX 10
 #define SPEED_SIGMA_MPS 700.0f
 #define NOISE_DENSITY 25.0f
@@ -42,8 +42,8 @@ static void draw_plots(int step, int is_polar, int count)
     }
 }
 
-/* The plot in the gate that is likeliest, or changes the velocity's line least. */
-static int choose_plot(int by_hough)
+/* The plot in the gate that is likeliest or, by the Hough gate, bends the velocity's line least. */
+static int choose_plot_in_gate(int by_hough_gate)
 {
     struct rho_kalman expected;
     struct rho_gate gate;
@@ -54,7 +54,7 @@ static int choose_plot(int by_hough)
     rho_track_expect_for_gate(&track, &expected);
     rho_gate_open(&gate, &expected, model.input ? input.noise_density : NOISE_DENSITY, &sensor,
                   plots[0].measures);
-    if (by_hough) {
+    if (by_hough_gate) {
         failed |=
             rho_gate_hough_init(&hough, RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
                                 0.0872664626f, track.before_mps, track.newest_mps) != RHO_OK;
@@ -63,8 +63,8 @@ static int choose_plot(int by_hough)
         const struct rho_plot *plot = &plots[i].plot;
         if (rho_gate_test(&gate, plot, &result)) {
             const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
-            float cost = by_hough ? rho_gate_hough_residual_mps(&hough, velocity_mps)
-                                  : result.distance2 + result.log_det;
+            float cost = by_hough_gate ? rho_gate_hough_residual_mps(&hough, velocity_mps)
+                                       : result.distance2 + result.log_det;
             num_in_gate++;
             if (cost < least) {
                 least = cost;
@@ -75,10 +75,11 @@ static int choose_plot(int by_hough)
     return best;
 }
 
-static void step_track(int by_hough)
+static void predict_and_update_track(int by_hough_gate)
 {
     failed |= rho_track_predict(&track, plots[0].time_us, &model) != RHO_OK;
-    failed |= rho_track_update(&track, &plots[choose_plot(by_hough)], &model, 1000) != RHO_OK;
+    failed |= rho_track_update(&track, &plots[choose_plot_in_gate(by_hough_gate)], &model, 1000) !=
+              RHO_OK;
 }
 
 int main(int argc, char **argv)
@@ -98,12 +99,12 @@ int main(int argc, char **argv)
         int is_start = i <= START_STEPS;
         draw_plots(i, is_polar, is_start ? 1 : count);
         if (is_start) {
-            step_track(0);
+            predict_and_update_track(0);
             num_in_gate = 0;
             continue;
         }
         count_begin();
-        step_track(by_hough);
+        predict_and_update_track(by_hough);
         count_end();
     }
     printf("%d.%02d plots in the gate\n", num_in_gate / STEPS, num_in_gate % STEPS);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * tracker: whole steps of a tracker that maintains eight tracks, for tools/gates/instructions.sh to
- * count the instructions of: prediction, gates, assignment, updates, report; no initiation.
+ * tracker: whole steps of a tracker that maintains eight tracks; tools/gates/instructions.sh counts
+ * their instructions. A step is prediction, gates, assignment, updates and report, without
+ * initiation.
  *
  * Arguments: the gate (best, hough or nearest); polar (a radar's plots of 15 m x 3 mrad in range
  * and azimuth, with range rates) or cartesian (positions and velocities with isotropic noise); the
- * plots of each target; sectors of a turn, a step each. The target's own plot comes with clutter
- * around it (scene.h). Prints tracks and plots a turn.
+ * plots of each target; the sectors of a turn, each a step. A target's own plot comes with clutter
+ * around it (scene.h). Prints the mean number of tracks, and the plots of a turn.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -18,29 +19,29 @@
 #define EACH_MAX 10
 #define START_TURNS 10
 #define SECTORS_MAX 64
-#define TURNS 100 /* the mean of whole numbers has two decimals */
+#define TURNS 100 /* a mean over 100 turns has two decimals */
 
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_report report;
 static struct rho_plot plots[TARGETS * EACH_MAX], looked_at[TARGETS * EACH_MAX];
 
-static struct rho_scan draw_scan(int step, int is_polar, int each)
+static struct rho_scan draw_scan_of_turn(int turn, int is_polar, int plots_a_target)
 {
     for (int i = 0; i < TARGETS; i++) {
-        struct target target = target_at(i, INTERVAL_S * (float)step);
-        for (int k = 0; k < each; k++) {
-            plots[each * i + k] = draw_plot(&target, is_polar, k > 0);
+        struct target target = target_at(i, INTERVAL_S * (float)turn);
+        for (int k = 0; k < plots_a_target; k++) {
+            plots[plots_a_target * i + k] = draw_plot(&target, is_polar, k > 0);
         }
     }
-    return (struct rho_scan){.time_us = (int64_t)(1e6f * INTERVAL_S) * step,
+    return (struct rho_scan){.time_us = (int64_t)(1e6f * INTERVAL_S) * turn,
                              .sensor_id = sensor.sensor_id,
                              .measures = measured_quantities(is_polar),
-                             .num_plots = (uint32_t)(TARGETS * each),
+                             .num_plots = (uint32_t)(TARGETS * plots_a_target),
                              .plots = plots};
 }
 
-static int open_tracker(const char *gate)
+static int failed_to_open_tracker(const char *gate)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start;
@@ -55,15 +56,15 @@ static int open_tracker(const char *gate)
            rho_tracker_set_sensor(&tracker, &sensor) != RHO_OK;
 }
 
-/* The part of a turn that the radar looks at in one of so many sectors. */
-static struct rho_scan sector_of(const struct rho_scan *turn, int sector, int sectors)
+/* The scan of one of num_sectors equal sectors of a turn, with the plots that lie in it. */
+static struct rho_scan scan_of_sector(const struct rho_scan *turn, int sector, int num_sectors)
 {
     struct rho_scan scan = *turn;
-    const float width_rad = RHO_TWO_PI / (float)sectors;
-    if (sectors == 1) {
+    const float width_rad = RHO_TWO_PI / (float)num_sectors;
+    if (num_sectors == 1) {
         return scan;
     }
-    scan.time_us += (int64_t)(1e6f * INTERVAL_S) * sector / sectors;
+    scan.time_us += (int64_t)(1e6f * INTERVAL_S) * sector / num_sectors;
     scan.sector_from_rad = width_rad * (float)sector - RHO_PI;
     scan.sector_to_rad = width_rad * (float)(sector + 1) - RHO_PI;
     scan.plots = looked_at;
@@ -77,7 +78,8 @@ static struct rho_scan sector_of(const struct rho_scan *turn, int sector, int se
     return scan;
 }
 
-static void step_tracker(const struct rho_scan *scan, int is_start)
+/* Steps with the initiator and uncounted at the start; afterwards without it, and counted. */
+static void step_and_count_unless_start(const struct rho_scan *scan, int is_start)
 {
     if (is_start) {
         failed |= rho_tracker_step(&tracker, &initiator, scan, &report) != RHO_OK;
@@ -98,13 +100,14 @@ int main(int argc, char **argv)
                 EACH_MAX, SECTORS_MAX);
         return 2;
     }
-    failed = open_tracker(argv[1]);
+    failed = failed_to_open_tracker(argv[1]);
     for (int turn = 0; turn < START_TURNS + TURNS && !failed; turn++) {
         int is_start = turn < START_TURNS;
-        struct rho_scan whole = draw_scan(turn, strcmp(argv[2], "polar") == 0, is_start ? 1 : each);
+        struct rho_scan whole =
+            draw_scan_of_turn(turn, strcmp(argv[2], "polar") == 0, is_start ? 1 : each);
         for (int sector = 0; sector < (is_start ? 1 : sectors); sector++) {
-            struct rho_scan scan = sector_of(&whole, sector, is_start ? 1 : sectors);
-            step_tracker(&scan, is_start);
+            struct rho_scan scan = scan_of_sector(&whole, sector, is_start ? 1 : sectors);
+            step_and_count_unless_start(&scan, is_start);
         }
         tracks += is_start ? 0 : report.num_tracks;
     }

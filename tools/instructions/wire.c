@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * wire: messages to bytes and back, for tools/gates/instructions.sh to count the instructions of.
- * Argument: the job's name. Prints the message's bytes.
+ * wire: encodes, decodes, validates, assembles or publishes one full message;
+ * tools/gates/instructions.sh counts the instructions. The argument is encode, decode, validate,
+ * take or publish. Prints the message's size in bytes.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -33,7 +34,7 @@ static void validate_scan(void)
     status = rho_message_plot_scan_validate(&scan, NULL);
 }
 
-static void take_scan(void)
+static void assemble_scan_from_message(void)
 {
     status = rho_scan_assembler_take(&assembler, "RHO_PLOTS_1", bytes, size, 0);
     if (status == RHO_OK && assembler.counters.scans_accepted != 1) {
@@ -41,12 +42,12 @@ static void take_scan(void)
     }
 }
 
-static void publish_tracks(void)
+static void encode_track_report(void)
 {
     status = rho_publish_tracks(&report, 1, 1, 0, bytes, sizeof bytes, &size);
 }
 
-static void fill_messages(void)
+static void fill_messages_and_open_assembler(void)
 {
     struct rho_scan_assembler_config config;
 
@@ -76,10 +77,10 @@ int main(int argc, char **argv)
     } jobs[] = {{"encode", encode_scan},
                 {"decode", decode_scan},
                 {"validate", validate_scan},
-                {"take", take_scan},
-                {"publish", publish_tracks}};
+                {"take", assemble_scan_from_message},
+                {"publish", encode_track_report}};
 
-    fill_messages();
+    fill_messages_and_open_assembler();
     encode_scan();
     for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++) {
         if (argc == 2 && status == RHO_OK && strcmp(argv[1], jobs[i].name) == 0) {

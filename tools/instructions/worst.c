@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * worst: a guided search for the scans that cost a tracker's step the most instructions, in the
- * configuration that this is compiled with (tools/firmware/nodes): `worst search SEED SKIES`, and
- * `worst sky GENES` for one that was found before.
+ * worst: a genetic search for the scans that cost a step of the tracker the most instructions, in
+ * the configuration of a firmware node (tools/firmware/nodes): `worst search SEED SKIES` searches,
+ * `worst sky GENES` measures a sky that was found before.
  *
- * A sky is written as genes: how many targets, how near each other, how clutter lies (spread, in
- * heaps, on a line, on the targets), whether it comes back, noise, measures, own times, sensors.
- * Eight parents; a child has a parent's genes with some drawn anew or moved, or of two parents, and
- * replaces the cheapest one where it costs more. The same seed finds the same skies. Prints for
- * each better one, and at the end, the instructions of its worst step, that step's work and the
- * genes.
+ * A sky, a series of scans, is coded as genes: the number of targets and their spacing, how clutter
+ * lies (spread, in heaps, on lines, on the targets), whether it comes back in the next scan, noise,
+ * measured quantities, plots' own times, sensors. There are eight parents. A child has the genes of
+ * a parent, some of them drawn anew, moved or from another parent, and replaces the parent of the
+ * lowest cost when it costs more. The same seed finds the same skies. Each sky that is worse than
+ * all before is printed: the instructions of its worst step, that step's work and the genes.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -31,30 +31,30 @@ static int failed;
 /* ---- genes ----------------------------------------------------------------------------------- */
 
 enum gene {
-    TARGETS,       /* of the tracks that there is room for */
-    TARGET_PLOTS,  /* of each */
-    TARGET_SIGMAS, /* spread of these */
-    SPACING_M,     /* from target to target */
-    SPEED_SHARE,   /* of v_max */
-    SEEN,          /* share of the scans */
-    PLOTS,         /* of a scan, with clutter, of the plots that there is room for */
-    SHAPE,         /* of clutter */
-    HEAPS,         /* or lines */
-    HEAP_M,        /* their size */
+    TARGETS,       /* number of targets, as a share of RHO_MAX_TRACKS */
+    TARGET_PLOTS,  /* plots of each target */
+    TARGET_SIGMAS, /* spread of a target's plots, in standard deviations of range */
+    SPACING_M,     /* distance from target to target */
+    SPEED_SHARE,   /* targets' speed, as a share of v_max */
+    SEEN,          /* share of the scans that detect a target */
+    PLOTS,         /* plots of a scan with clutter, as a share of RHO_MAX_PLOTS */
+    SHAPE,         /* shape of the clutter: SPREAD, HEAPED, LINED or ON_TARGETS */
+    HEAPS,         /* number of heaps or lines of clutter */
+    HEAP_M,        /* size of a heap, or distance of the lines */
     STAYS,         /* share of the clutter that comes back in the next scan */
-    DRIFTS,        /* and moves as targets do */
-    PLACE,         /* of the first target, on the range of the sensor */
+    DRIFTS,        /* odd: clutter that comes back has moved at its velocity */
+    PLACE,         /* x of the first target, as a share of the sensor's range */
     SIGMA_RANGE_M,
     SIGMA_RAD,
     SIGMA_RATE_MPS,
     MEASURES,
-    SPAN_MPS, /* of range rates that are told apart */
-    RATE_MPS, /* spread of clutter's */
-    OWN_TIMES,
-    INTERVAL, /* of the usual one */
+    SPAN_MPS,  /* ambiguity span of range rates; 1000 and above: not ambiguous */
+    RATE_MPS,  /* standard deviation of the clutter's velocity on each axis */
+    OWN_TIMES, /* odd: plots have times of their own */
+    INTERVAL,  /* time between scans, as a share of NODE_INTERVAL_S */
     SENSORS,
-    QUIET, /* scans without clutter at first */
-    DRAW,  /* of the random numbers */
+    QUIET, /* number of first scans without clutter */
+    DRAW,  /* seed of the random numbers */
     GENES
 };
 
@@ -78,7 +78,7 @@ static const struct range {
 
 struct sky {
     uint8_t genes[GENES];
-    uint32_t instructions, work; /* of the worst step */
+    uint32_t instructions, work; /* of the step with the most instructions */
 };
 
 static float gene_value(const struct sky *sky, enum gene gene)
@@ -89,7 +89,7 @@ static float gene_value(const struct sky *sky, enum gene gene)
                          : range->low + (range->high - range->low) * share;
 }
 
-static unsigned gene_count(const struct sky *sky, enum gene gene)
+static unsigned gene_as_whole_number(const struct sky *sky, enum gene gene)
 {
     return (unsigned)gene_value(sky, gene);
 }
@@ -118,12 +118,12 @@ static struct place target_at(const struct sky *sky, unsigned target, float t_s)
 
 static uint32_t measured_quantities(const struct sky *sky)
 {
-    const unsigned of = gene_count(sky, MEASURES);
+    const unsigned of = gene_as_whole_number(sky, MEASURES);
     return (of & 1u ? RHO_MEASURES_RANGE_RATE : 0u) | (of & 2u ? RHO_MEASURES_Z : 0u) |
            (of & 4u ? RHO_MEASURES_VELOCITY : 0u);
 }
 
-static struct rho_plot plot_at(const struct sky *sky, const struct place *at)
+static struct rho_plot make_plot_at(const struct sky *sky, const struct place *at)
 {
     const float range_m = rho_sqrt(at->x_m * at->x_m + at->y_m * at->y_m) + 1.0f;
     const float sigma_m = gene_value(sky, SIGMA_RANGE_M);
@@ -149,16 +149,16 @@ static unsigned num_targets(const struct sky *sky)
     return (unsigned)(gene_value(sky, TARGETS) * RHO_MAX_TRACKS);
 }
 
-/* The targets' plots. Returns how many they are. */
+/* Writes the plots of detected targets and returns how many there are. */
 static unsigned add_target_plots(const struct sky *sky, float t_s)
 {
-    const unsigned each = gene_count(sky, TARGET_PLOTS), targets = num_targets(sky);
+    const unsigned each = gene_as_whole_number(sky, TARGET_PLOTS), targets = num_targets(sky);
     unsigned count = 0;
     for (unsigned i = 0; i < targets; i++) {
         const struct place at = target_at(sky, i, t_s);
         const int is_seen = draw_uniform(0.0f, 1.0f) < gene_value(sky, SEEN);
         for (unsigned k = 0; is_seen && k < each && count < RHO_MAX_PLOTS; k++) {
-            struct rho_plot plot = plot_at(sky, &at);
+            struct rho_plot plot = make_plot_at(sky, &at);
             const float spread_m = gene_value(sky, TARGET_SIGMAS) * plot.sigma_range_m;
             plot.x_m += draw_normal(spread_m);
             plot.y_m += draw_normal(spread_m);
@@ -168,9 +168,10 @@ static unsigned add_target_plots(const struct sky *sky, float t_s)
     return count;
 }
 
-static struct place draw_clutter(const struct sky *sky, float t_s)
+static struct place draw_place_of_clutter(const struct sky *sky, float t_s)
 {
-    const unsigned shape = gene_count(sky, SHAPE), heaps = gene_count(sky, HEAPS);
+    const unsigned shape = gene_as_whole_number(sky, SHAPE),
+                   heaps = gene_as_whole_number(sky, HEAPS);
     const unsigned targets = num_targets(sky);
     const unsigned heap = (unsigned)draw_uniform(0.0f, (float)heaps);
     const float heap_m = gene_value(sky, HEAP_M), rate_mps = gene_value(sky, RATE_MPS);
@@ -191,32 +192,32 @@ static struct place draw_clutter(const struct sky *sky, float t_s)
 }
 
 /*
- * Behind `first` plots. What stays is the plot of the scan before, moved as targets move or not at
- * all.
+ * Fills the scan with clutter up to its number of plots and returns how many plots it then has. A
+ * share of the clutter repeats a plot of the scan before, in place or moved at its velocity.
  */
-static unsigned add_clutter_plots(const struct sky *sky, unsigned first, unsigned scan, float t_s,
-                                  float after_s)
+static unsigned add_clutter_after_target_plots(const struct sky *sky, unsigned num_target_plots,
+                                               unsigned scan, float t_s, float interval_s)
 {
     const unsigned most = (unsigned)(gene_value(sky, PLOTS) * RHO_MAX_PLOTS);
-    unsigned count = first;
-    for (; scan >= gene_count(sky, QUIET) && count < most; count++) {
+    unsigned count = num_target_plots;
+    for (; scan >= gene_as_whole_number(sky, QUIET) && count < most; count++) {
         if (draw_uniform(0.0f, 1.0f) < gene_value(sky, STAYS) && before[count].sigma_range_m > 0) {
-            const float moved_s = sky->genes[DRIFTS] & 1 ? after_s : 0.0f;
+            const float moved_s = sky->genes[DRIFTS] & 1 ? interval_s : 0.0f;
             plots[count] = before[count];
             plots[count].x_m += moved_s * plots[count].vx_mps;
             plots[count].y_m += moved_s * plots[count].vy_mps;
         } else {
-            const struct place at = draw_clutter(sky, t_s);
-            plots[count] = plot_at(sky, &at);
+            const struct place at = draw_place_of_clutter(sky, t_s);
+            plots[count] = make_plot_at(sky, &at);
         }
     }
     memcpy(before, plots, count * sizeof *plots);
     return count;
 }
 
-/* ---- what a sky costs ------------------------------------------------------------------------ */
+/* ---- the cost of a sky ----------------------------------------------------------------------- */
 
-static int open_tracker(const struct sky *sky)
+static int try_open_tracker(const struct sky *sky)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start;
@@ -226,7 +227,8 @@ static int open_tracker(const struct sky *sky)
         rho_tracker_init(&tracker, sizeof tracker, &config) == RHO_OK &&
         rho_initiator_init(&initiator, sizeof initiator, &start) == RHO_OK &&
         (NODE_BODY_MAX_M <= 0.0f || rho_tracker_set_body_max(&tracker, NODE_BODY_MAX_M) == RHO_OK);
-    for (unsigned i = 0; i < gene_count(sky, SENSORS) && i < RHO_MAX_SENSORS && is_open; i++) {
+    for (unsigned i = 0; i < gene_as_whole_number(sky, SENSORS) && i < RHO_MAX_SENSORS && is_open;
+         i++) {
         struct rho_sensor sensor = {.sensor_id = (int32_t)i + 1,
                                     .pd = 0.9f,
                                     .x_m = 3000.0f * (float)i,
@@ -240,7 +242,7 @@ static int open_tracker(const struct sky *sky)
     return is_open;
 }
 
-static uint32_t step_counted(const struct rho_scan *scan)
+static uint32_t step_tracker_counting_instructions(const struct rho_scan *scan)
 {
     const uint32_t from = count_instructions_now();
     count_begin();
@@ -249,25 +251,25 @@ static uint32_t step_counted(const struct rho_scan *scan)
     return count_instructions_between(from, count_instructions_now());
 }
 
-/* The sky's instructions and work, of its worst step. */
-static void measure_sky(struct sky *sky)
+/* Tracks through the scans of a sky and stores instructions and work of its worst step. */
+static void measure_worst_step_of_sky(struct sky *sky)
 {
     const float interval_s = gene_value(sky, INTERVAL) * NODE_INTERVAL_S;
     const float middle_s = 0.5f * SCANS * interval_s;
     sky->instructions = sky->work = 0;
     draw_state = 1u + 7919u * sky->genes[DRAW];
-    failed |= !open_tracker(sky);
+    failed |= !try_open_tracker(sky);
     for (unsigned i = 0; i < SCANS && !failed; i++) {
         const float t_s = interval_s * (float)i - middle_s;
         const unsigned targets = add_target_plots(sky, t_s);
         const struct rho_scan scan = {
             .time_us = (int64_t)(1e6f * interval_s) * i,
-            .sensor_id = (int32_t)(i % gene_count(sky, SENSORS)) + 1,
+            .sensor_id = (int32_t)(i % gene_as_whole_number(sky, SENSORS)) + 1,
             .measures = measured_quantities(sky),
-            .num_plots = add_clutter_plots(sky, targets, i, t_s, interval_s),
+            .num_plots = add_clutter_after_target_plots(sky, targets, i, t_s, interval_s),
             .plots = plots,
         };
-        const uint32_t instructions = step_counted(&scan);
+        const uint32_t instructions = step_tracker_counting_instructions(&scan);
         if (instructions > sky->instructions) {
             sky->instructions = instructions;
             sky->work = tracker.work.work;
@@ -305,7 +307,7 @@ static void draw_genes(struct sky *sky)
     }
 }
 
-/* A gene anew, moved, or the other parent's. */
+/* A copy of a parent with 1 to 3 genes drawn anew, moved by up to 20, or taken from the other. */
 static void draw_child(struct sky *child, const struct sky *parent, const struct sky *other)
 {
     *child = *parent;
@@ -329,18 +331,18 @@ static struct sky *cheapest_parent(struct sky *parents)
     return least;
 }
 
-static void search_skies(unsigned skies)
+static void search_for_worst_sky(unsigned num_skies)
 {
     static struct sky parents[PARENTS];
     uint32_t worst = 0;
-    for (unsigned n = 0; n < skies && !failed; n++) {
+    for (unsigned n = 0; n < num_skies && !failed; n++) {
         struct sky child, *least = cheapest_parent(parents);
         if (n < FIRST_SKIES) {
             draw_genes(&child);
         } else {
             draw_child(&child, &parents[draw_below(PARENTS)], &parents[draw_below(PARENTS)]);
         }
-        measure_sky(&child);
+        measure_worst_step_of_sky(&child);
         if (child.instructions > worst) {
             worst = child.instructions;
             print_sky(&child);
@@ -351,7 +353,7 @@ static void search_skies(unsigned skies)
     }
 }
 
-static int read_genes(struct sky *sky, const char *text)
+static int parse_genes(struct sky *sky, const char *text)
 {
     for (int i = 0; i < GENES; i++, text += 2) {
         const char byte[3] = {text[0], text[0] ? text[1] : '\0', '\0'};
@@ -369,9 +371,9 @@ int main(int argc, char **argv)
     struct sky sky;
     if (argc == 4 && strcmp(argv[1], "search") == 0) {
         search_state = (uint32_t)strtoul(argv[2], NULL, 10);
-        search_skies((unsigned)strtoul(argv[3], NULL, 10));
-    } else if (argc == 3 && strcmp(argv[1], "sky") == 0 && read_genes(&sky, argv[2])) {
-        measure_sky(&sky);
+        search_for_worst_sky((unsigned)strtoul(argv[3], NULL, 10));
+    } else if (argc == 3 && strcmp(argv[1], "sky") == 0 && parse_genes(&sky, argv[2])) {
+        measure_worst_step_of_sky(&sky);
         print_sky(&sky);
         count_report();
     } else {

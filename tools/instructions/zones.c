@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * zones: a step of 16 zones, for tools/gates/instructions.sh to count the instructions of: as many
- * tracks as there is room for drive along four roads of four zones each, lanes of 100 m by 4 m.
+ * zones: a step of 16 zones; tools/gates/instructions.sh counts its instructions. RHO_MAX_TRACKS
+ * tracks drive along four lanes of four zones each; a zone is 100 m long and 4 m wide.
  */
 #include "rhotrack/zones.h"
 #include "count.h"
@@ -14,7 +14,7 @@
 static struct rho_zones zones;
 static struct rho_report report;
 
-static int open_zones(void)
+static int failed_to_open_zones(void)
 {
     int failed = rho_zones_init(&zones, sizeof zones) != RHO_OK;
     for (int i = 0; i < ZONES; i++) {
@@ -31,8 +31,8 @@ static int open_zones(void)
     return failed;
 }
 
-/* A twentieth of a second further; who has passed all zones begins anew. */
-static void move_tracks(void)
+/* Tracks that have passed all zones begin again 20 m before the first ones. */
+static void move_tracks_by_50_ms(void)
 {
     report.time_us += 50000;
     for (int i = 0; i < report.num_tracks; i++) {
@@ -47,7 +47,7 @@ static void move_tracks(void)
 
 int main(void)
 {
-    int failed = open_zones();
+    int failed = failed_to_open_zones();
     report.num_tracks = RHO_MAX_TRACKS;
     for (int i = 0; i < report.num_tracks; i++) {
         report.tracks[i].track_id = (uint32_t)i + 1;
@@ -57,7 +57,7 @@ int main(void)
         report.tracks[i].state[RHO_VX] = draw_uniform(0.5f, 30.0f);
     }
     for (int k = 0; k < STEPS; k++) {
-        move_tracks();
+        move_tracks_by_50_ms();
         count_begin();
         failed |= rho_zones_step(&zones, &report) != RHO_OK;
         count_end();

@@ -28,8 +28,9 @@
 /* ---- Failures ---- */
 
 /*
- * The program ends where a call fails; here the call returns. Files that it has open are closed
- * (the linker's --wrap counts them); its memory, of a reader some kilobytes, is lost.
+ * A call that fails ends the command-line program; here it returns to the caller. The files that it
+ * has open are closed (the linker's --wrap lists them); its memory, of a reader some kilobytes, is
+ * lost.
  */
 #define FILES_MAX 16
 
@@ -41,7 +42,8 @@ static _Thread_local struct {
     int files[FILES_MAX]; /* 0: none */
 } failure;
 
-static _Noreturn void on_failure(int exit_code, const char *message)
+/* Stores the failure, closes open files and jumps back to the function that armed the handler. */
+static _Noreturn void store_failure_and_jump_back(int exit_code, const char *message)
 {
     failure.exit_code = exit_code;
     snprintf(failure.message, sizeof failure.message, "%s", message);
@@ -56,17 +58,17 @@ static _Noreturn void on_failure(int exit_code, const char *message)
     longjmp(failure.back, 1);
 }
 
-static jmp_buf *arm(void)
+static jmp_buf *arm_failure_handler(void)
 {
     memset(failure.streams, 0, sizeof failure.streams);
     memset(failure.files, 0, sizeof failure.files);
-    fail_handler = on_failure;
+    fail_handler = store_failure_and_jump_back;
     return &failure.back;
 }
 
-/* The rest of the function: where a call in it fails, the function returns `value`. */
+/* Makes the function return `value` when a later call in it fails. */
 #define RETURN_ON_FAILURE(value)                                                                   \
-    if (setjmp(*arm())) {                                                                          \
+    if (setjmp(*arm_failure_handler())) {                                                          \
         return value;                                                                              \
     }
 
@@ -199,9 +201,9 @@ bool program_settings_at(const struct parameters *settings, int index,
     return true;
 }
 
-/* A copy with what is suggested, and with places of sensors in metres. */
-static struct parameters *ready(const struct parameters *settings, char *const *paths,
-                                int num_paths)
+/* A copy with the origin that ASTERIX files suggest and the places of sensors in metres. */
+static struct parameters *copy_settings_and_locate_sensors(const struct parameters *settings,
+                                                           char *const *paths, int num_paths)
 {
     struct parameters *copy = must_alloc(sizeof *copy);
     struct asterix_place place = {.is_given = false};
@@ -222,36 +224,36 @@ static struct parameters *ready(const struct parameters *settings, char *const *
 
 /* ---- Scans from files ---- */
 
-static void *copied(const void *list, size_t count, size_t size)
+static void *copy_list(const void *list, size_t count, size_t size)
 {
     return count ? memcpy(must_calloc(count, size), list, count * size) : NULL;
 }
 
-static struct program_scan *add_scan(struct program_scans *scans)
+static struct program_scan *add_empty_scan(struct program_scans *scans)
 {
     scans->list = must_grow(scans->list, scans->count, &scans->capacity, sizeof *scans->list);
     scans->list[scans->count] = (struct program_scan){.is_frame = false};
     return &scans->list[scans->count++];
 }
 
-static void copy_input(struct program_scans *scans, const struct input *input)
+static void add_copy_of_input(struct program_scans *scans, const struct input *input)
 {
-    struct program_scan *scan = add_scan(scans);
+    struct program_scan *scan = add_empty_scan(scans);
 
     if (input->scan) {
         scan->scan = *input->scan;
         scan->scan.plots =
-            copied(input->scan->plots, input->scan->num_plots, sizeof *input->scan->plots);
+            copy_list(input->scan->plots, input->scan->num_plots, sizeof *input->scan->plots);
         scan->has_sensor = input->sensor;
         scan->sensor = input->sensor ? *input->sensor : scan->sensor;
         return;
     }
     struct rho_bearing_scan *looks =
-        copied(input->frame->scans, input->frame->num_scans, sizeof *looks);
+        copy_list(input->frame->scans, input->frame->num_scans, sizeof *looks);
 
     for (uint32_t i = 0; i < input->frame->num_scans; i++) {
         looks[i].bearings =
-            copied(looks[i].bearings, looks[i].num_bearings, sizeof *looks[i].bearings);
+            copy_list(looks[i].bearings, looks[i].num_bearings, sizeof *looks[i].bearings);
     }
     scan->is_frame = true;
     scan->frame = *input->frame;
@@ -262,13 +264,13 @@ struct program_scans *program_read(char *const *paths, int num_paths,
                                    const struct parameters *settings, bool keep_going)
 {
     RETURN_ON_FAILURE(NULL)
-    struct parameters *parameters = ready(settings, paths, num_paths);
+    struct parameters *parameters = copy_settings_and_locate_sensors(settings, paths, num_paths);
     struct inputs *inputs = inputs_open(paths, num_paths, parameters, keep_going);
     struct program_scans *scans = must_calloc(1, sizeof *scans);
 
     for (struct input input = inputs_next(inputs); input.scan || input.frame;
          input = inputs_next(inputs)) {
-        copy_input(scans, &input);
+        add_copy_of_input(scans, &input);
     }
     inputs_close(inputs);
     free(parameters);
@@ -292,20 +294,20 @@ void program_scans_free(struct program_scans *scans)
 
 /* ---- Rows of scans ---- */
 
-static double seconds(int64_t time_us)
+static double us_to_seconds(int64_t time_us)
 {
     return (double)time_us / 1e6;
 }
 
-static int64_t microseconds(double time_s)
+static int64_t seconds_to_us(double time_s)
 {
     return llround(time_s * 1e6);
 }
 
-/* A row that says nothing but whose it is. */
-static struct program_row row_of(int64_t time_us, int32_t sensor_id)
+/* A row with a time and a sensor; all other cells are NAN. */
+static struct program_row make_empty_row(int64_t time_us, int32_t sensor_id)
 {
-    return (struct program_row){.t_s = seconds(time_us),
+    return (struct program_row){.t_s = us_to_seconds(time_us),
                                 .sensor_id = sensor_id,
                                 .x_m = NAN,
                                 .y_m = NAN,
@@ -335,13 +337,14 @@ static struct program_row row_of(int64_t time_us, int32_t sensor_id)
                                 .sensor_z_m = NAN};
 }
 
-/* Plots do not tell their scan's time where the first one has another; a row without one does. */
-static bool needs_own_row(const struct rho_scan *scan)
+/* True if the first plot does not give the scan's time, so that a row without a plot must. */
+static bool scan_needs_time_row(const struct rho_scan *scan)
 {
     return scan->num_plots == 0 || scan->plots[0].offset_us != 0;
 }
 
-static bool look_needs_own_row(const struct rho_bearing_scan *look)
+/* True if the first bearing does not give the look's time, so that a row without one must. */
+static bool look_needs_time_row(const struct rho_bearing_scan *look)
 {
     return look->num_bearings == 0 || look->bearings[0].offset_us != 0;
 }
@@ -351,10 +354,10 @@ uint32_t program_scan_num_rows(const struct program_scan *scan)
     uint32_t count = 0;
 
     if (!scan->is_frame) {
-        return scan->scan.num_plots + needs_own_row(&scan->scan);
+        return scan->scan.num_plots + scan_needs_time_row(&scan->scan);
     }
     for (uint32_t i = 0; i < scan->frame.num_scans; i++) {
-        count += scan->frame.scans[i].num_bearings + look_needs_own_row(&scan->frame.scans[i]);
+        count += scan->frame.scans[i].num_bearings + look_needs_time_row(&scan->frame.scans[i]);
     }
     return count;
 }
@@ -367,7 +370,8 @@ static void set_sector(struct program_row *row, float from_rad, float to_rad)
     }
 }
 
-static void put_plot(struct program_row *row, const struct rho_plot *plot, uint32_t measures)
+static void write_plot_to_row(struct program_row *row, const struct rho_plot *plot,
+                              uint32_t measures)
 {
     row->x_m = plot->x_m;
     row->y_m = plot->y_m;
@@ -390,10 +394,10 @@ static void put_plot(struct program_row *row, const struct rho_plot *plot, uint3
     }
 }
 
-static void plot_rows(const struct program_scan *from, struct program_row *rows)
+static void write_rows_of_plots(const struct program_scan *from, struct program_row *rows)
 {
     const struct rho_scan *scan = &from->scan;
-    struct program_row common = row_of(scan->time_us, scan->sensor_id);
+    struct program_row common = make_empty_row(scan->time_us, scan->sensor_id);
 
     set_sector(&common, scan->sector_from_rad, scan->sector_to_rad);
     if (from->has_sensor) {
@@ -403,17 +407,19 @@ static void plot_rows(const struct program_scan *from, struct program_row *rows)
     }
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         rows[i] = common;
-        rows[i].t_s = seconds(scan->time_us + scan->plots[i].offset_us);
-        put_plot(&rows[i], &scan->plots[i], scan->measures);
+        rows[i].t_s = us_to_seconds(scan->time_us + scan->plots[i].offset_us);
+        write_plot_to_row(&rows[i], &scan->plots[i], scan->measures);
     }
-    if (needs_own_row(scan)) {
+    if (scan_needs_time_row(scan)) {
         rows[scan->num_plots] = common;
     }
 }
 
-static struct program_row *look_rows(const struct rho_bearing_scan *look, struct program_row *rows)
+/* Writes a row for each bearing, and one for the time if needed; returns the end of the rows. */
+static struct program_row *write_rows_of_look(const struct rho_bearing_scan *look,
+                                              struct program_row *rows)
 {
-    struct program_row common = row_of(look->time_us, look->sensor_id);
+    struct program_row common = make_empty_row(look->time_us, look->sensor_id);
 
     set_sector(&common, look->sector_from_rad, look->sector_to_rad);
     common.sensor_x_m = look->x_m;
@@ -422,12 +428,12 @@ static struct program_row *look_rows(const struct rho_bearing_scan *look, struct
         const struct rho_bearing *bearing = &look->bearings[i];
 
         *rows = common;
-        rows->t_s = seconds(look->time_us + bearing->offset_us);
+        rows->t_s = us_to_seconds(look->time_us + bearing->offset_us);
         rows->bearing_rad = bearing->bearing_rad;
         rows->sigma_rad = bearing->sigma_rad;
         rows++->snr_db = bearing->snr_db != 0.0f ? bearing->snr_db : NAN;
     }
-    if (look_needs_own_row(look)) {
+    if (look_needs_time_row(look)) {
         *rows++ = common;
     }
     return rows;
@@ -436,30 +442,30 @@ static struct program_row *look_rows(const struct rho_bearing_scan *look, struct
 void program_scan_rows(const struct program_scan *scan, struct program_row *rows)
 {
     if (!scan->is_frame) {
-        plot_rows(scan, rows);
+        write_rows_of_plots(scan, rows);
         return;
     }
     for (uint32_t i = 0; i < scan->frame.num_scans; i++) {
-        rows = look_rows(&scan->frame.scans[i], rows);
+        rows = write_rows_of_look(&scan->frame.scans[i], rows);
     }
 }
 
 /* ---- Scans from rows ---- */
 
-/* Rows on their way to a scan; messages name the scan and the row, from 0. */
+/* The scan that is made of rows; messages of failures name the scan and the row, from 0. */
 struct making {
     const struct parameters *settings;
     size_t scan;
-    const struct program_row *first; /* of the scan */
+    const struct program_row *first; /* the scan's first row */
 };
 
-static _Noreturn void refuse(const struct making *making, const struct program_row *row,
-                             const char *why)
+static _Noreturn void fail_at_row(const struct making *making, const struct program_row *row,
+                                  const char *why)
 {
     fail(EXIT_USAGE, "scan %zu, row %td: %s", making->scan, row - making->first, why);
 }
 
-/* What a plot's fields may hold; the library refuses a plot without saying which field it is. */
+/* The limits of a plot's fields; the library refuses a plot without naming the field. */
 #define FIELD(name, min, max)                                                                      \
     {                                                                                              \
 #name, offsetof(struct program_row, name), min, max                                        \
@@ -493,8 +499,9 @@ static const struct {
     ANGLE_SIGMA(sigma_elevation_rad),
 };
 
-static _Noreturn void refuse_plot(const struct making *making, const struct program_row *row,
-                                  const char *why)
+/* Ends the call with a message that names the first field outside its limits, else with `why`. */
+static _Noreturn void fail_at_plot_row(const struct making *making, const struct program_row *row,
+                                       const char *why)
 {
     for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
         float value;
@@ -506,77 +513,78 @@ static _Noreturn void refuse_plot(const struct making *making, const struct prog
                  (double)limits[i].max);
         }
     }
-    refuse(making, row, why);
+    fail_at_row(making, row, why);
 }
 
-static bool is_polar(const struct program_row *row)
+static bool is_row_polar(const struct program_row *row)
 {
     return !isnan(row->range_m);
 }
 
-static bool has_plot(const struct program_row *row)
+static bool row_has_plot(const struct program_row *row)
 {
-    return is_polar(row) || !isnan(row->x_m) || !isnan(row->y_m);
+    return is_row_polar(row) || !isnan(row->x_m) || !isnan(row->y_m);
 }
 
-static float said(float value, double otherwise)
+static float value_or_default(float value, double default_value)
 {
-    return isnan(value) ? (float)otherwise : value;
+    return isnan(value) ? (float)default_value : value;
 }
 
-static double of_sensor(const struct making *making, int32_t sensor_id, enum sensor_parameter_id id,
-                        enum parameter_id otherwise)
+static double sensor_value_or_general(const struct making *making, int32_t sensor_id,
+                                      enum sensor_parameter_id id, enum parameter_id general_id)
 {
     return parameters_value_of_sensor(making->settings, sensor_id, id,
-                                      making->settings->value[otherwise]);
+                                      making->settings->value[general_id]);
 }
 
-static int64_t time_of(const struct making *making, const struct program_row *row)
+static int64_t row_time_us(const struct making *making, const struct program_row *row)
 {
     if (!(fabs(row->t_s) <= 1e-6 * (double)RHO_LIMIT_TIME_US)) {
-        refuse(making, row, "t_s is not a time");
+        fail_at_row(making, row, "t_s is not a time");
     }
-    return microseconds(row->t_s);
+    return seconds_to_us(row->t_s);
 }
 
-static int32_t offset_of(const struct making *making, const struct program_row *row,
-                         int64_t time_us)
+static int32_t row_offset_us(const struct making *making, const struct program_row *row,
+                             int64_t scan_us)
 {
-    const int64_t offset_us = time_of(making, row) - time_us;
+    const int64_t offset_us = row_time_us(making, row) - scan_us;
 
     if (offset_us < -RHO_LIMIT_OFFSET_US || offset_us > RHO_LIMIT_OFFSET_US) {
-        refuse(making, row, "t_s is more than a minute from the scan's");
+        fail_at_row(making, row, "t_s is more than a minute from the scan's");
     }
     return (int32_t)offset_us;
 }
 
-static uint32_t measures_of(const struct program_row *row)
+static uint32_t row_measures(const struct program_row *row)
 {
-    return (isnan(is_polar(row) ? row->elevation_rad : row->z_m) ? 0 : RHO_MEASURES_Z) |
-           (isnan(row->vx_mps) || is_polar(row) ? 0 : RHO_MEASURES_VELOCITY) |
+    return (isnan(is_row_polar(row) ? row->elevation_rad : row->z_m) ? 0 : RHO_MEASURES_Z) |
+           (isnan(row->vx_mps) || is_row_polar(row) ? 0 : RHO_MEASURES_VELOCITY) |
            (isnan(row->range_rate_mps) ? 0 : RHO_MEASURES_RANGE_RATE);
 }
 
-static void check_row(const struct making *making, const struct program_row *row,
-                      const struct rho_scan *scan)
+static void check_row_fits_scan(const struct making *making, const struct program_row *row,
+                                const struct rho_scan *scan)
 {
-    const uint32_t differing = measures_of(row) ^ scan->measures;
+    const uint32_t differing = row_measures(row) ^ scan->measures;
 
     if (row->sensor_id != scan->sensor_id) {
-        refuse(making, row, "sensor_id is not that of the scan's first row");
+        fail_at_row(making, row, "sensor_id is not that of the scan's first row");
     }
     if (differing) {
-        refuse(making, row,
-               differing & RHO_MEASURES_Z ? "z_m or elevation_rad is in some rows of the scan alone"
-               : differing & RHO_MEASURES_VELOCITY
-                   ? "vx_mps is in some rows of the scan alone"
-                   : "range_rate_mps is in some rows of the scan alone");
+        fail_at_row(making, row,
+                    differing & RHO_MEASURES_Z
+                        ? "z_m or elevation_rad is in some rows of the scan alone"
+                    : differing & RHO_MEASURES_VELOCITY
+                        ? "vx_mps is in some rows of the scan alone"
+                        : "range_rate_mps is in some rows of the scan alone");
     }
 }
 
-static void polar_plot(const struct making *making, const struct program_row *row,
-                       const struct rho_scan *scan, const struct rho_sensor *sensor,
-                       struct rho_plot *plot)
+static void make_polar_plot(const struct making *making, const struct program_row *row,
+                            const struct rho_scan *scan, const struct rho_sensor *sensor,
+                            struct rho_plot *plot)
 {
     const int32_t id = row->sensor_id;
     struct rho_sensor seen_from = *sensor;
@@ -585,103 +593,109 @@ static void polar_plot(const struct making *making, const struct program_row *ro
         .azimuth_rad = row->azimuth_rad,
         .elevation_rad = row->elevation_rad,
         .range_rate_mps = row->range_rate_mps,
-        .sigma_range_m = said(row->sigma_range_m,
-                              of_sensor(making, id, SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M)),
-        .sigma_azimuth_rad =
-            said(row->sigma_azimuth_rad,
-                 of_sensor(making, id, SENSOR_SIGMA_AZIMUTH_RAD, PARAMETER_SIGMA_AZIMUTH_RAD)),
+        .sigma_range_m = value_or_default(
+            row->sigma_range_m,
+            sensor_value_or_general(making, id, SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M)),
+        .sigma_azimuth_rad = value_or_default(
+            row->sigma_azimuth_rad, sensor_value_or_general(making, id, SENSOR_SIGMA_AZIMUTH_RAD,
+                                                            PARAMETER_SIGMA_AZIMUTH_RAD)),
         .sigma_elevation_rad =
-            said(row->sigma_elevation_rad,
-                 of_sensor(making, id, SENSOR_SIGMA_ELEVATION_RAD, PARAMETER_SIGMA_ELEVATION_RAD)),
+            value_or_default(row->sigma_elevation_rad,
+                             sensor_value_or_general(making, id, SENSOR_SIGMA_ELEVATION_RAD,
+                                                     PARAMETER_SIGMA_ELEVATION_RAD)),
         .sigma_range_rate_mps =
-            said(row->sigma_range_rate_mps, of_sensor(making, id, SENSOR_SIGMA_RANGE_RATE_MPS,
-                                                      PARAMETER_SIGMA_RANGE_RATE_MPS)),
-        .snr_db = said(row->snr_db, 0.0)};
+            value_or_default(row->sigma_range_rate_mps,
+                             sensor_value_or_general(making, id, SENSOR_SIGMA_RANGE_RATE_MPS,
+                                                     PARAMETER_SIGMA_RANGE_RATE_MPS)),
+        .snr_db = value_or_default(row->snr_db, 0.0)};
 
     seen_from.time_bias_s = 0.0f;
     if (isnan(row->azimuth_rad)) {
-        refuse(making, row, "azimuth_rad is missing or not a number");
+        fail_at_row(making, row, "azimuth_rad is missing or not a number");
     }
     if (rho_measurement_from_polar(&polar, scan->measures, &seen_from, plot) != RHO_OK) {
-        refuse_plot(making, row, "range_m, azimuth_rad, elevation_rad or a sigma is out of range");
+        fail_at_plot_row(making, row,
+                         "range_m, azimuth_rad, elevation_rad or a sigma is out of range");
     }
 }
 
-static void cartesian_plot(const struct making *making, const struct program_row *row,
-                           struct rho_plot *plot)
+static void make_cartesian_plot(const struct making *making, const struct program_row *row,
+                                struct rho_plot *plot)
 {
     const int32_t id = row->sensor_id;
-    const float sigma_m =
-        said(row->sigma_m, of_sensor(making, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M));
+    const float sigma_m = value_or_default(
+        row->sigma_m, sensor_value_or_general(making, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M));
 
     *plot = (struct rho_plot){
         .x_m = row->x_m,
         .y_m = row->y_m,
-        .z_m = said(row->z_m, 0.0),
-        .vx_mps = said(row->vx_mps, 0.0),
-        .vy_mps = said(row->vy_mps, 0.0),
-        .vz_mps = said(row->vz_mps, 0.0),
-        .range_rate_mps = said(row->range_rate_mps, 0.0),
-        .sigma_range_m = said(row->sigma_range_m, (double)sigma_m),
-        .sigma_cross_m = said(row->sigma_cross_m, (double)sigma_m),
-        .sigma_up_m = said(row->sigma_up_m, (double)sigma_m),
+        .z_m = value_or_default(row->z_m, 0.0),
+        .vx_mps = value_or_default(row->vx_mps, 0.0),
+        .vy_mps = value_or_default(row->vy_mps, 0.0),
+        .vz_mps = value_or_default(row->vz_mps, 0.0),
+        .range_rate_mps = value_or_default(row->range_rate_mps, 0.0),
+        .sigma_range_m = value_or_default(row->sigma_range_m, (double)sigma_m),
+        .sigma_cross_m = value_or_default(row->sigma_cross_m, (double)sigma_m),
+        .sigma_up_m = value_or_default(row->sigma_up_m, (double)sigma_m),
         .sigma_mps =
-            said(row->sigma_mps, of_sensor(making, id, SENSOR_SIGMA_MPS, PARAMETER_SIGMA_MPS)),
+            value_or_default(row->sigma_mps, sensor_value_or_general(making, id, SENSOR_SIGMA_MPS,
+                                                                     PARAMETER_SIGMA_MPS)),
         .sigma_range_rate_mps =
-            said(row->sigma_range_rate_mps, of_sensor(making, id, SENSOR_SIGMA_RANGE_RATE_MPS,
-                                                      PARAMETER_SIGMA_RANGE_RATE_MPS)),
-        .snr_db = said(row->snr_db, 0.0)};
+            value_or_default(row->sigma_range_rate_mps,
+                             sensor_value_or_general(making, id, SENSOR_SIGMA_RANGE_RATE_MPS,
+                                                     PARAMETER_SIGMA_RANGE_RATE_MPS)),
+        .snr_db = value_or_default(row->snr_db, 0.0)};
     if (isnan(row->x_m) || isnan(row->y_m)) {
-        refuse(making, row,
-               isnan(row->x_m) ? "x_m is missing or not a number"
-                               : "y_m is missing or not a number");
+        fail_at_row(making, row,
+                    isnan(row->x_m) ? "x_m is missing or not a number"
+                                    : "y_m is missing or not a number");
     }
-    if (!rho_measurement_is_valid_plot(plot, measures_of(row))) {
-        refuse_plot(making, row, "x_m, y_m, z_m, a velocity or a sigma is out of range");
+    if (!rho_measurement_is_valid_plot(plot, row_measures(row))) {
+        fail_at_plot_row(making, row, "x_m, y_m, z_m, a velocity or a sigma is out of range");
     }
 }
 
-/* Counts of scans and of rows are the same; a NULL list has none. */
-static void make_scan(const struct making *making, const struct program_row *rows, uint32_t count,
-                      struct program_scan *made)
+/* Makes a scan of rows; a row without a plot gives the scan's time, else the first plot does. */
+static void make_scan_of_plots(const struct making *making, const struct program_row *rows,
+                               uint32_t count, struct program_scan *made)
 {
     struct rho_scan *scan = &made->scan;
     struct rho_plot *plots;
     const struct program_row *measured = NULL, *own = NULL;
 
     for (uint32_t i = 0; i < count; i++) {
-        measured = !measured && has_plot(&rows[i]) ? &rows[i] : measured;
-        own = !own && !has_plot(&rows[i]) ? &rows[i] : own;
+        measured = !measured && row_has_plot(&rows[i]) ? &rows[i] : measured;
+        own = !own && !row_has_plot(&rows[i]) ? &rows[i] : own;
     }
-    scan->time_us = time_of(making, own ? own : rows);
+    scan->time_us = row_time_us(making, own ? own : rows);
     scan->sensor_id = rows->sensor_id;
-    scan->sector_from_rad = said(rows->sector_from_rad, 0.0);
-    scan->sector_to_rad = said(rows->sector_to_rad, 0.0);
-    scan->measures = measured ? measures_of(measured) : 0;
+    scan->sector_from_rad = value_or_default(rows->sector_from_rad, 0.0);
+    scan->sector_to_rad = value_or_default(rows->sector_to_rad, 0.0);
+    scan->measures = measured ? row_measures(measured) : 0;
     made->has_sensor = parameters_to_sensor(making->settings, rows->sensor_id, &made->sensor) ||
                        !isnan(rows->sensor_x_m) || !isnan(rows->sensor_z_m);
     parameters_to_sensor_or_defaults(making->settings, rows->sensor_id, &made->sensor);
-    made->sensor.x_m = said(rows->sensor_x_m, (double)made->sensor.x_m);
-    made->sensor.y_m = said(rows->sensor_y_m, (double)made->sensor.y_m);
-    made->sensor.z_m = said(rows->sensor_z_m, (double)made->sensor.z_m);
+    made->sensor.x_m = value_or_default(rows->sensor_x_m, (double)made->sensor.x_m);
+    made->sensor.y_m = value_or_default(rows->sensor_y_m, (double)made->sensor.y_m);
+    made->sensor.z_m = value_or_default(rows->sensor_z_m, (double)made->sensor.z_m);
     scan->plots = plots = must_calloc(count, sizeof *plots);
     for (uint32_t i = 0; i < count; i++) {
-        if (has_plot(&rows[i])) {
+        if (row_has_plot(&rows[i])) {
             struct rho_plot *plot = &plots[scan->num_plots++];
 
-            check_row(making, &rows[i], scan);
-            if (is_polar(&rows[i])) {
-                polar_plot(making, &rows[i], scan, &made->sensor, plot);
+            check_row_fits_scan(making, &rows[i], scan);
+            if (is_row_polar(&rows[i])) {
+                make_polar_plot(making, &rows[i], scan, &made->sensor, plot);
             } else {
-                cartesian_plot(making, &rows[i], plot);
+                make_cartesian_plot(making, &rows[i], plot);
             }
-            plot->offset_us = offset_of(making, &rows[i], scan->time_us);
+            plot->offset_us = row_offset_us(making, &rows[i], scan->time_us);
         }
     }
 }
 
-static void make_look(const struct making *making, const struct program_row *rows, uint32_t count,
-                      struct rho_bearing_scan *look)
+static void make_look_of_rows(const struct making *making, const struct program_row *rows,
+                              uint32_t count, struct rho_bearing_scan *look)
 {
     struct rho_bearing *bearings = must_calloc(count, sizeof *bearings);
     const struct program_row *own = rows;
@@ -689,36 +703,38 @@ static void make_look(const struct making *making, const struct program_row *row
     for (uint32_t i = count; i-- > 0;) {
         own = isnan(rows[i].bearing_rad) ? &rows[i] : own;
     }
-    *look = (struct rho_bearing_scan){.time_us = time_of(making, own),
-                                      .sensor_id = rows->sensor_id,
-                                      .x_m = rows->sensor_x_m,
-                                      .y_m = rows->sensor_y_m,
-                                      .sector_from_rad = said(rows->sector_from_rad, 0.0),
-                                      .sector_to_rad = said(rows->sector_to_rad, 0.0),
-                                      .bearings = bearings};
+    *look =
+        (struct rho_bearing_scan){.time_us = row_time_us(making, own),
+                                  .sensor_id = rows->sensor_id,
+                                  .x_m = rows->sensor_x_m,
+                                  .y_m = rows->sensor_y_m,
+                                  .sector_from_rad = value_or_default(rows->sector_from_rad, 0.0),
+                                  .sector_to_rad = value_or_default(rows->sector_to_rad, 0.0),
+                                  .bearings = bearings};
     if (!rho_is_coordinate(look->x_m) || !rho_is_coordinate(look->y_m)) {
-        refuse(making, rows, "sensor_x_m and sensor_y_m are not a place");
+        fail_at_row(making, rows, "sensor_x_m and sensor_y_m are not a place");
     }
     for (uint32_t i = 0; i < count; i++) {
         if (!isnan(rows[i].bearing_rad)) {
-            const double sigma_rad =
-                of_sensor(making, rows->sensor_id, SENSOR_SIGMA_RAD, PARAMETER_SIGMA_RAD);
+            const double sigma_rad = sensor_value_or_general(making, rows->sensor_id,
+                                                             SENSOR_SIGMA_RAD, PARAMETER_SIGMA_RAD);
             struct rho_bearing *bearing = &bearings[look->num_bearings++];
 
-            *bearing = (struct rho_bearing){.offset_us = offset_of(making, &rows[i], look->time_us),
-                                            .bearing_rad = rows[i].bearing_rad,
-                                            .sigma_rad = said(rows[i].sigma_rad, sigma_rad),
-                                            .snr_db = said(rows[i].snr_db, 0.0)};
+            *bearing =
+                (struct rho_bearing){.offset_us = row_offset_us(making, &rows[i], look->time_us),
+                                     .bearing_rad = rows[i].bearing_rad,
+                                     .sigma_rad = value_or_default(rows[i].sigma_rad, sigma_rad),
+                                     .snr_db = value_or_default(rows[i].snr_db, 0.0)};
             if (!rho_measurement_is_valid_bearing(bearing)) {
-                refuse(making, &rows[i], "bearing_rad or sigma_rad is out of range");
+                fail_at_row(making, &rows[i], "bearing_rad or sigma_rad is out of range");
             }
         }
     }
 }
 
-/* Rows of one sensor stand together. */
-static void make_frame(const struct making *making, const struct program_row *rows, uint32_t count,
-                       struct program_scan *made)
+/* Makes a frame of looks; successive rows of one sensor are a look. */
+static void make_frame_of_looks(const struct making *making, const struct program_row *rows,
+                                uint32_t count, struct program_scan *made)
 {
     struct rho_bearing_scan *looks = must_calloc(count, sizeof *looks);
     struct rho_frame *frame = &made->frame;
@@ -729,26 +745,26 @@ static void make_frame(const struct making *making, const struct program_row *ro
         if (i == count || rows[i].sensor_id != rows[first].sensor_id) {
             struct rho_bearing_scan *look = &looks[frame->num_scans++];
 
-            make_look(making, &rows[first], i - first, look);
+            make_look_of_rows(making, &rows[first], i - first, look);
             frame->time_us = look->time_us < frame->time_us ? look->time_us : frame->time_us;
             first = i;
         }
     }
 }
 
-struct program_scans *program_scans(const struct program_row *rows, const uint32_t *counts,
-                                    const bool *are_frames, size_t count,
-                                    const struct parameters *settings)
+struct program_scans *program_scans_from_rows(const struct program_row *rows,
+                                              const uint32_t *counts, const bool *are_frames,
+                                              size_t count, const struct parameters *settings)
 {
     struct program_scans *volatile scans = NULL;
 
-    if (setjmp(*arm())) {
+    if (setjmp(*arm_failure_handler())) {
         if (scans) {
             program_scans_free(scans);
         }
         return NULL;
     }
-    struct parameters *parameters = ready(settings, NULL, 0);
+    struct parameters *parameters = copy_settings_and_locate_sensors(settings, NULL, 0);
 
     scans = must_calloc(1, sizeof *scans);
     for (size_t i = 0; i < count; i++) {
@@ -758,7 +774,8 @@ struct program_scans *program_scans(const struct program_row *rows, const uint32
             fail(EXIT_USAGE, "scan %zu has no row: a scan that saw nothing is a row without a plot",
                  i);
         }
-        (are_frames[i] ? make_frame : make_scan)(&making, rows, counts[i], add_scan(scans));
+        (are_frames[i] ? make_frame_of_looks : make_scan_of_plots)(&making, rows, counts[i],
+                                                                   add_empty_scan(scans));
         rows += counts[i];
     }
     free(parameters);
@@ -785,11 +802,11 @@ const char *program_kind(const char *path)
     return kind;
 }
 
-struct program_table *program_table(const char *path, const char *kind_name,
-                                    const struct parameters *settings, bool keep_going)
+struct program_table *program_read_table(const char *path, const char *kind_name,
+                                         const struct parameters *settings, bool keep_going)
 {
     RETURN_ON_FAILURE(NULL)
-    struct parameters *parameters = ready(settings, NULL, 0);
+    struct parameters *parameters = copy_settings_and_locate_sensors(settings, NULL, 0);
     const struct rows_kind *kind =
         strcmp(kind_name, "truth") == 0 ? &rows_kind_truth : &rows_kind_tracks;
     struct table *table = log_table_or_csv(path, kind, keep_going);
@@ -810,7 +827,7 @@ struct program_table *program_table(const char *path, const char *kind_name,
     for (size_t i = 0; i < made->num_rows; i++) {
         const struct row *row = &file.rows.list[i];
 
-        made->t_s[i] = seconds(row->time_us);
+        made->t_s[i] = us_to_seconds(row->time_us);
         memcpy(&made->cells[i * (size_t)kind->num_columns], rows_cells(&file.rows, row),
                (size_t)kind->num_columns * sizeof(double));
     }
@@ -849,7 +866,7 @@ static void add_track(struct program_tracks *tracks, int64_t time_us,
     }
     struct program_track *row = &tracks->list[tracks->count];
 
-    *row = (struct program_track){.t_s = seconds(time_us),
+    *row = (struct program_track){.t_s = us_to_seconds(time_us),
                                   .track_id = track->track_id,
                                   .x_m = track->state[RHO_X],
                                   .y_m = track->state[RHO_Y],
@@ -878,9 +895,9 @@ static void add_track(struct program_tracks *tracks, int64_t time_us,
     tracks->count++;
 }
 
-/* With the bodies that the tracker knows, where it was told of any. */
-static void add_tracks(struct program_tracks *tracks, const struct rho_report *report,
-                       const struct rho_tracker *tracker)
+/* Appends the report's tracks, with their bodies if the tracker estimates bodies. */
+static void add_tracks_of_report(struct program_tracks *tracks, const struct rho_report *report,
+                                 const struct rho_tracker *tracker)
 {
     tracks->has_bodies = tracker->bodies.length_max_m > 0.0f;
     for (unsigned i = 0; i < report->num_tracks; i++) {
@@ -901,14 +918,15 @@ void program_tracks_free(struct program_tracks *tracks)
     free(tracks->bodies);
 }
 
-struct program_pipeline *program_pipeline(const struct parameters *settings, bool has_covariances)
+struct program_pipeline *program_pipeline_new(const struct parameters *settings,
+                                              bool has_covariances)
 {
     RETURN_ON_FAILURE(NULL)
     parameters_check_together(settings);
     pipeline_options_to_parameters((struct parameters *)settings, &(struct pipeline_options){NULL});
     struct program_pipeline *made = must_calloc(1, sizeof *made);
 
-    made->settings = ready(settings, NULL, 0);
+    made->settings = copy_settings_and_locate_sensors(settings, NULL, 0);
     made->pipeline = must_alloc(sizeof *made->pipeline);
     *made->pipeline = pipeline_allocate();
     made->tracker = made->pipeline->tracker;
@@ -928,7 +946,8 @@ void program_pipeline_free(struct program_pipeline *made)
     free(made);
 }
 
-static void describe(const struct program_pipeline *made, const struct rho_sensor *sensor)
+static void set_sensor_of_tracker(const struct program_pipeline *made,
+                                  const struct rho_sensor *sensor)
 {
     must_succeed(rho_tracker_set_sensor(made->tracker, sensor), "sensor");
 }
@@ -940,8 +959,9 @@ static int compare_looks(const void *a, const void *b)
     return ((*one)->sensor_id > (*other)->sensor_id) - ((*one)->sensor_id < (*other)->sensor_id);
 }
 
-/* Passive sensors stand still, and are known before the first step. */
-static void describe_passive(const struct program_pipeline *made, const struct program_scans *scans)
+/* Tells the tracker all passive sensors of the scans before the first step. */
+static void set_passive_sensors(const struct program_pipeline *made,
+                                const struct program_scans *scans)
 {
     const struct rho_bearing_scan *known[RHO_MAX_SENSORS];
     size_t num_known = 0;
@@ -968,13 +988,14 @@ static void describe_passive(const struct program_pipeline *made, const struct p
             sensor.x_m = known[i]->x_m;
             sensor.y_m = known[i]->y_m;
             sensor.range_max_m = (float)parameters_range_max_m(made->settings, id);
-            describe(made, &sensor);
+            set_sensor_of_tracker(made, &sensor);
         }
     }
 }
 
-/* What the first scans hold decides what is customary, as it does for the files of `track`. */
-static void open_for(struct program_pipeline *made, const struct program_scans *scans)
+/* Opens the pipeline; bearings alone in the first scans suggest the parameters of `passive`. */
+static void open_pipeline_for_scans(struct program_pipeline *made,
+                                    const struct program_scans *scans)
 {
     bool has_plots = false, has_bearings = false;
 
@@ -993,7 +1014,7 @@ static void open_for(struct program_pipeline *made, const struct program_scans *
         pipeline_open_passive(made->pipeline, made->settings);
     }
     if (has_bearings) {
-        describe_passive(made, scans);
+        set_passive_sensors(made, scans);
     }
 }
 
@@ -1002,7 +1023,7 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
 {
     RETURN_ON_FAILURE(false)
     made->tracks.count = 0;
-    open_for(made, scans);
+    open_pipeline_for_scans(made, scans);
     for (size_t i = 0; i < scans->count; i++) {
         const struct program_scan *scan = &scans->list[i];
 
@@ -1010,13 +1031,13 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
             pipeline_step_frame(made->pipeline, &scan->frame);
         } else {
             if (scan->has_sensor) {
-                describe(made, &scan->sensor);
+                set_sensor_of_tracker(made, &scan->sensor);
             }
             pipeline_step(made->pipeline, &scan->scan);
             made->min_scans = made->pipeline->initiator->min_scans;
         }
         if (collects_tracks) {
-            add_tracks(&made->tracks, made->report, made->tracker);
+            add_tracks_of_report(&made->tracks, made->report, made->tracker);
         }
     }
     return true;
@@ -1026,12 +1047,12 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
 
 struct program_maintainer {
     struct maintainer *maintainer;
-    struct random random; /* for the gate none */
+    struct random random; /* draws plots for the gate "none" */
 };
 
-struct program_maintainers *program_maintainers(const struct parameters *settings, size_t count,
-                                                bool has_input_estimation, uint64_t seed,
-                                                bool has_covariances)
+struct program_maintainers *program_maintainers_new(const struct parameters *settings, size_t count,
+                                                    bool has_input_estimation, uint64_t seed,
+                                                    bool has_covariances)
 {
     RETURN_ON_FAILURE(NULL)
     parameters_check_together(settings);
@@ -1056,7 +1077,7 @@ struct program_maintainers *program_maintainers(const struct parameters *setting
 
 void program_maintainers_free(struct program_maintainers *made)
 {
-    for (size_t i = made->count; i-- > 0;) { /* the first of a pool last */
+    for (size_t i = made->count; i-- > 0;) { /* the first of a pool is freed last */
         maintainer_free(made->list[i].maintainer);
     }
     program_tracks_free(&made->tracks);
@@ -1066,8 +1087,8 @@ void program_maintainers_free(struct program_maintainers *made)
     free(made);
 }
 
-/* Nothing, of a track that has not started. */
-static void tell(struct program_maintainers *made, size_t index, int64_t time_us)
+/* Appends the track with its numbers of hypotheses and refused updates, if it has started. */
+static void add_track_if_started(struct program_maintainers *made, size_t index, int64_t time_us)
 {
     struct maintainer *maintainer = made->list[index].maintainer;
     struct maintainer_estimate estimate;
@@ -1095,9 +1116,9 @@ bool program_maintainers_predict(struct program_maintainers *made, double t_s, d
 
         place_m[0] = place_m[1] = place_m[2] = NAN;
         if (maintainer_is_started(made->list[i].maintainer)) {
-            maintainer_predict(made->list[i].maintainer, microseconds(t_s));
+            maintainer_predict(made->list[i].maintainer, seconds_to_us(t_s));
             maintainer_predicted_place(made->list[i].maintainer, place_m);
-            tell(made, i, microseconds(t_s));
+            add_track_if_started(made, i, seconds_to_us(t_s));
         }
     }
     return true;
@@ -1117,14 +1138,15 @@ bool program_maintainers_run(struct program_maintainers *made, const struct prog
         }
         (void)maintainer_step(one->maintainer, &scan->scan, scan->has_sensor ? &scan->sensor : NULL,
                               log_densities ? log_densities[i] : NAN, &one->random);
-        tell(made, i % made->count, scan->scan.time_us);
+        add_track_if_started(made, i % made->count, scan->scan.time_us);
     }
     return true;
 }
 
 /* ---- Initiation ---- */
 
-static struct parameters customary(const struct parameters *settings, enum method method)
+static struct parameters copy_with_method_suggestions(const struct parameters *settings,
+                                                      enum method method)
 {
     struct parameters copy = *settings;
 
@@ -1144,7 +1166,7 @@ bool program_hough_config(const struct parameters *settings, const char *method,
                           struct rho_hough_config *config)
 {
     RETURN_ON_FAILURE(false)
-    const struct parameters copy = customary(settings, method_must_find(method));
+    const struct parameters copy = copy_with_method_suggestions(settings, method_must_find(method));
 
     *config = method_hough_config(method_must_find(method), &copy, range_m);
     return true;
@@ -1153,7 +1175,7 @@ bool program_hough_config(const struct parameters *settings, const char *method,
 bool program_passive_config(const struct parameters *settings, struct rho_passive_config *config)
 {
     RETURN_ON_FAILURE(false)
-    const struct parameters copy = customary(settings, METHOD_PASSIVE);
+    const struct parameters copy = copy_with_method_suggestions(settings, METHOD_PASSIVE);
 
     *config = method_passive_config(&copy);
     return true;
@@ -1163,7 +1185,7 @@ bool program_passive_paper_config(const struct parameters *settings,
                                   struct rho_passive_paper_config *config)
 {
     RETURN_ON_FAILURE(false)
-    const struct parameters copy = customary(settings, METHOD_PASSIVE_PAPER);
+    const struct parameters copy = copy_with_method_suggestions(settings, METHOD_PASSIVE_PAPER);
 
     *config = method_passive_paper_config(&copy);
     return true;
@@ -1176,14 +1198,14 @@ struct program_node {
     struct node_core *core;
 };
 
-struct program_node *program_node(const struct parameters *settings, int32_t epoch,
-                                  program_send *send, void *context)
+struct program_node *program_node_new(const struct parameters *settings, int32_t epoch,
+                                      program_send *send, void *context)
 {
     RETURN_ON_FAILURE(NULL)
     const struct node_core_events events = {.context = context, .send = send};
     struct program_node *node = must_calloc(1, sizeof *node);
 
-    node->settings = ready(settings, NULL, 0);
+    node->settings = copy_settings_and_locate_sensors(settings, NULL, 0);
     node->core = node_core_open(node->settings, epoch, &events);
     return node;
 }
@@ -1227,6 +1249,7 @@ bool program_node_tracks(struct program_node *node, struct program_tracks *track
 {
     RETURN_ON_FAILURE(false)
     tracks->count = 0;
-    add_tracks(tracks, node_core_last_report(node->core), node_core_tracker_state(node->core));
+    add_tracks_of_report(tracks, node_core_last_report(node->core),
+                         node_core_tracker_state(node->core));
     return true;
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * program: what Python has of the program: its parameters, its readers and its pipeline. All that
- * the package needs of tools/rhotrack is in program.c; native.py reads this file too.
+ * program: the interface of the Python package to the command-line program: parameters, readers and
+ * the pipeline. program.c contains all calls of tools/rhotrack; native.py reads this header, too.
  *
- * A call that fails returns NULL or false, and program_failure tells why. Memory is given back with
- * program_..._free. Objects are not for two threads at a time.
+ * A call that fails returns NULL or false, and program_failure gives the reason. Memory is released
+ * with program_..._free. An object must not be used by two threads at a time.
  */
 #ifndef RHOTRACK_PYTHON_PROGRAM_H
 #define RHOTRACK_PYTHON_PROGRAM_H
@@ -15,7 +15,7 @@
 
 #include "rhotrack/rhotrack.h"
 
-/* The message of this thread's last failure. True: a fault of what was given (exit code 2). */
+/* The message of this thread's last failure; *is_usage: the caller's input was at fault. */
 const char *program_failure(bool *is_usage);
 
 /* ---- Settings ---- */
@@ -25,25 +25,25 @@ struct program_parameter {
     const char *name, *unit, *text;
     double min, max;
     bool is_number;
-    char initial[32], value[32], range[48]; /* as text; empty: unset */
+    char initial[32], value[32], range[48]; /* as text; initial is the default; empty: unset */
 };
 
-/* A copy, or the defaults (NULL). */
+/* A copy of the settings, or the defaults for NULL. */
 struct parameters *program_settings(const struct parameters *from);
 void program_settings_free(struct parameters *settings);
 bool program_settings_set(struct parameters *settings, const char *key, const char *value);
 bool program_settings_load(struct parameters *settings, const char *path);
 
-/* What only holds together is so. */
+/* False if values contradict each other, as a lower limit above its upper limit. */
 bool program_settings_check(const struct parameters *settings);
 
-/* The parameter of this number, from 0; false: there are fewer. */
+/* Describes the parameter of this index, from 0; false if there are fewer. */
 bool program_settings_at(const struct parameters *settings, int index,
                          struct program_parameter *parameter);
 
 /* ---- Scans ---- */
 
-/* A plot or a bearing, by its columns. NaN: not said. */
+/* A plot or a bearing, with a field for each column; NaN: not given. */
 struct program_row {
     double t_s;
     int32_t sensor_id;
@@ -66,39 +66,39 @@ struct program_scans {
     size_t count, capacity;
 };
 
-/* All scans of files, as `track` takes them. */
+/* Reads all scans of the files as the command `track` does. */
 struct program_scans *program_read(char *const *paths, int num_paths,
                                    const struct parameters *settings, bool keep_going);
 
-/* Scans of rows: counts[i] rows of each, which are bearings where are_frames[i]. */
-struct program_scans *program_scans(const struct program_row *rows, const uint32_t *counts,
-                                    const bool *are_frames, size_t count,
-                                    const struct parameters *settings);
+/* Makes scans of rows: counts[i] rows for scan i, which are bearings if are_frames[i]. */
+struct program_scans *program_scans_from_rows(const struct program_row *rows,
+                                              const uint32_t *counts, const bool *are_frames,
+                                              size_t count, const struct parameters *settings);
 void program_scans_free(struct program_scans *scans);
 
-/* How many rows a scan has, and the rows. */
+/* The number of rows of a scan, and the rows, written to an array of this length. */
 uint32_t program_scan_num_rows(const struct program_scan *scan);
 void program_scan_rows(const struct program_scan *scan, struct program_row *rows);
 
 /* ---- Tables of truth and tracks ---- */
 
 struct program_table {
-    int num_columns; /* all but the first one, t_s */
+    int num_columns; /* without the first column, t_s */
     size_t num_rows;
-    const char *const *names; /* the program's */
-    double *t_s, *cells;      /* num_rows; num_rows x num_columns, NaN where one is empty */
+    const char *const *names; /* of the columns */
+    double *t_s, *cells;      /* num_rows; num_rows x num_columns, NaN: empty */
 };
 
-/* What a file holds by its columns: "truth", "tracks", or else "scans". */
+/* The kind of a file by its columns: "truth", "tracks", or else "scans". */
 const char *program_kind(const char *path);
-/* kind: "truth" or "tracks". */
-struct program_table *program_table(const char *path, const char *kind,
-                                    const struct parameters *settings, bool keep_going);
+/* Reads a table of the kind "truth" or "tracks". */
+struct program_table *program_read_table(const char *path, const char *kind,
+                                         const struct parameters *settings, bool keep_going);
 void program_table_free(struct program_table *table);
 
 /* ---- The tracker ---- */
 
-/* A row of the tracks file, but for its covariance. */
+/* A row of the tracks file without the covariance. */
 struct program_track {
     double t_s;
     uint32_t track_id;
@@ -112,7 +112,7 @@ struct program_track {
 struct program_tracks {
     struct program_track *list;
     float (*covariances)[RHO_TRIANGLE(RHO_KALMAN_STATES)]; /* NULL: not wanted */
-    struct rho_body *bodies; /* NULL: targets are points; NaN: none of this track */
+    struct rho_body *bodies; /* NULL: not estimated; NaN: unknown for this track */
     size_t count, capacity;
     bool has_covariances, has_bodies;
 };
@@ -123,46 +123,48 @@ struct program_pipeline {
     struct pipeline *pipeline;
     struct parameters *settings;
     bool is_open;
-    struct rho_tracker *tracker;                   /* in memory of the pipeline, as */
-    const struct rho_report *report;               /* of the last step */
+    struct rho_tracker *tracker;                   /* owned by the pipeline */
+    const struct rho_report *report;               /* of the last step; owned by the pipeline */
     const struct rho_reflector_learning *learning; /* NULL: walls are not learned */
-    uint16_t min_scans;           /* M of the initiator of the newest plots; 0: none yet */
+    uint16_t min_scans;           /* M of the initiator of the last scan of plots; 0: none yet */
     struct program_tracks tracks; /* of the last program_pipeline_run */
 };
 
-struct program_pipeline *program_pipeline(const struct parameters *settings, bool has_covariances);
+struct program_pipeline *program_pipeline_new(const struct parameters *settings,
+                                              bool has_covariances);
 void program_pipeline_free(struct program_pipeline *pipeline);
 
-/* Steps all scans; with collects_tracks all their tracks are in pipeline->tracks. */
+/* Steps all scans; with collects_tracks the tracks of all steps go to pipeline->tracks. */
 bool program_pipeline_run(struct program_pipeline *pipeline, const struct program_scans *scans,
                           bool collects_tracks);
 
-/* ---- Tracks alone, each with scans of its own, as `maintain` steps one ---- */
+/* ---- Single tracks, each with scans of its own, as in the command `maintain` ---- */
 
 struct program_maintainers {
     size_t count;
-    uint64_t *refused;            /* of each: updates that were refused */
-    uint32_t *hypotheses;         /* of each */
-    struct program_tracks tracks; /* of the last call, of those that have started */
+    uint64_t *refused;            /* for each track: number of refused updates */
+    uint32_t *hypotheses;         /* for each track: number of hypotheses */
+    struct program_tracks tracks; /* the started tracks after the last call */
     struct program_maintainer *list;
 };
 
-struct program_maintainers *program_maintainers(const struct parameters *settings, size_t count,
-                                                bool has_input_estimation, uint64_t seed,
-                                                bool has_covariances);
+struct program_maintainers *program_maintainers_new(const struct parameters *settings, size_t count,
+                                                    bool has_input_estimation, uint64_t seed,
+                                                    bool has_covariances);
 void program_maintainers_free(struct program_maintainers *maintainers);
 
-/* Moves all to a time. places_m, 3 each: where a beam should look; NaN: has not started. */
+/* Predicts all tracks to a time; places_m gets 3 coordinates each, NaN if not started. */
 bool program_maintainers_predict(struct program_maintainers *maintainers, double t_s,
                                  double *places_m);
 
 /*
- * Scans of the first track, the second, ... in turn. log_densities: of each scan; NULL: estimated.
+ * Steps tracks by scans: scan i is for track i modulo count. log_densities is the log of each
+ * scan's clutter density; NULL: it is estimated.
  */
 bool program_maintainers_run(struct program_maintainers *maintainers,
                              const struct program_scans *scans, const double *log_densities);
 
-/* ---- Initiation: the configs of its methods, by name ---- */
+/* ---- Initiation: configurations of its methods ---- */
 
 bool program_initiator_config(const struct parameters *settings,
                               struct rho_initiator_config *config);
@@ -177,20 +179,20 @@ bool program_passive_paper_config(const struct parameters *settings,
 struct program_node;
 typedef void program_send(void *context, const char *channel, const uint8_t *data, size_t size);
 
-/* send is called from within program_node_take, and must not call the node. */
-struct program_node *program_node(const struct parameters *settings, int32_t epoch,
-                                  program_send *send, void *context);
+/* Opens a node; its messages go to send, which runs within calls and must not call the node. */
+struct program_node *program_node_new(const struct parameters *settings, int32_t epoch,
+                                      program_send *send, void *context);
 void program_node_free(struct program_node *node);
 
-/* Takes a message, or without a channel steps what is due; at INT64_MAX all that is there. */
+/* Takes a message or, if channel is NULL, steps all due input; at INT64_MAX all held input. */
 bool program_node_take(struct program_node *node, const char *channel, const uint8_t *data,
                        size_t size, int64_t now_us);
 
-/* The node's own messages of its state; what is due next. */
+/* Sends the messages of the node's state; the time at which it next has to step. */
 bool program_node_status(struct program_node *node);
 int64_t program_node_due_us(const struct program_node *node);
 
-/* The tracks of its last step. */
+/* Replaces `tracks` by the tracks of the last step. */
 bool program_node_tracks(struct program_node *node, struct program_tracks *tracks);
 
 #endif

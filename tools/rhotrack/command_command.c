@@ -308,9 +308,9 @@ static const char *command_refusal_reason(int8_t status)
 }
 
 /* Sends a command or setting and waits for the node's answer; exit 1 where none comes in wait_s. */
-static void send_and_await_answer(struct transport *transport, const char *channel,
-                                  const uint8_t *data, size_t size, int32_t number, double wait_s,
-                                  struct answer *answer)
+static void send_and_await_answer_or_fail(struct transport *transport, const char *channel,
+                                          const uint8_t *data, size_t size, int32_t number,
+                                          double wait_s, struct answer *answer)
 {
     if (!transport_send(transport, channel, data, size)) {
         fail(EXIT_RUNTIME, "%s: the command is not sent: %s", transport_url(transport),
@@ -355,7 +355,7 @@ int command_command(struct command_line *line)
                      ? rho_message_setting_encode(&setting, buffer, sizeof buffer, &size)
                      : rho_message_command_encode(&command, buffer, sizeof buffer, &size),
                  "command");
-    send_and_await_answer(
+    send_and_await_answer_or_fail(
         transport, answer.is_setting ? RHO_MESSAGE_SETTING_CHANNEL : RHO_MESSAGE_COMMAND_CHANNEL,
         buffer, size, command.number, wait_s, &answer);
     if (answer.is_setting) {

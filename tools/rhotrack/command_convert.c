@@ -35,7 +35,7 @@ static bool may_be_regular_file(const char *path)
 }
 
 /* An input that cannot be looked into (a pipe) is taken for a log where the output is NAME.csv. */
-static bool input_is_log(const char *input, const char *output)
+static bool is_input_taken_for_log(const char *input, const char *output)
 {
     return lcm_log_is_log(input) ||
            (!may_be_regular_file(input) && !path_ends_with(input, ".csv") &&
@@ -342,7 +342,7 @@ static void convert_tracks_to_geojson(const struct command_line *line)
 }
 
 /* Only tracks can be written as GeoJSON: other kinds and --covariance exit 2; selects the kind. */
-static void select_tracks_for_geojson(struct command_line *line)
+static void select_tracks_for_geojson_or_fail(struct command_line *line)
 {
     if (line->covariance) {
         fail(EXIT_USAGE, "convert: --covariance has no place in GeoJSON");
@@ -368,7 +368,7 @@ void command_convert_refuse_radar_recording(const struct command_line *line)
 
 int command_convert(struct command_line *line)
 {
-    bool from_log = input_is_log(line->arguments[0], line->arguments[1]);
+    bool from_log = is_input_taken_for_log(line->arguments[0], line->arguments[1]);
     bool to_map = geojson_path_is_geojson(line->arguments[1]);
 
     parameters_check_together(&line->parameters);
@@ -394,7 +394,7 @@ int command_convert(struct command_line *line)
     }
     check_output_format_differs(line->arguments[0], line->arguments[1], from_log);
     if (to_map) {
-        select_tracks_for_geojson(line);
+        select_tracks_for_geojson_or_fail(line);
     }
     if (to_map && !from_log) {
         convert_tracks_to_geojson(line);

@@ -351,19 +351,20 @@ static bool lacks_origin(const struct parameters *parameters)
  * Suggests the origin of the local frame where none is set: the place of a recording's first radar,
  * or the first place of a CSV file.
  */
-static void suggest_origin(struct command_line *line, const char *path, struct asterix_place place)
+static void suggest_origin_if_lacking(struct command_line *line, const char *path,
+                                      struct asterix_place place)
 {
     if (place.is_given && lacks_origin(&line->parameters)) {
         asterix_plot_rows_suggest_origin(path, &place, &line->parameters);
     }
 }
 
-static void suggest_origin_and_check_azimuths(struct command_line *line, const char *path)
+static void suggest_origin_and_warn_of_compass(struct command_line *line, const char *path)
 {
     const struct origin_and_azimuth_sense look = origin_and_azimuth_sense_of(path);
 
-    suggest_origin(line, path,
-                   (struct asterix_place){look.has_place, look.lat_deg, look.lon_deg, look.alt_m});
+    suggest_origin_if_lacking(
+        line, path, (struct asterix_place){look.has_place, look.lat_deg, look.lon_deg, look.alt_m});
     if (look.runs_clockwise) {
         fprintf(stderr,
                 "rhotrack: %s: azimuth_rad goes from 0 to 2 pi and rises with time, as that of a "
@@ -471,10 +472,11 @@ static bool are_plot_files_regular(const struct command_line *line)
 void command_line_set_origin_and_places(struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments && lacks_origin(&line->parameters); i++) {
-        suggest_origin(line, line->arguments[i], asterix_file_radar_place(line->arguments[i]));
+        suggest_origin_if_lacking(line, line->arguments[i],
+                                  asterix_file_radar_place(line->arguments[i]));
     }
     for (int i = 0; i < line->num_plot_files; i++) {
-        suggest_origin_and_check_azimuths(line, line->plot_files[i]);
+        suggest_origin_and_warn_of_compass(line, line->plot_files[i]);
     }
     if (line->num_plot_files > 0 && are_plot_files_regular(line)) {
         table_dialect_check_columns_option();

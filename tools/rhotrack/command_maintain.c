@@ -33,7 +33,8 @@ static enum maintainer_gate apply_gate_option(struct command_line *line)
     return (enum maintainer_gate)line->parameters.value[PARAMETER_GATE];
 }
 
-static void warn_of_unused_option(const struct command_line *line, enum maintainer_gate gate)
+static void warn_of_unused_input_estimation(const struct command_line *line,
+                                            enum maintainer_gate gate)
 {
     if (gate == MAINTAIN_BEST && line->no_input_estimation) {
         fputs("rhotrack: --no-input-estimation says nothing to --gate best\n", stderr);
@@ -144,8 +145,8 @@ static cJSON *plot_fates_json(const struct maintaining *maintaining)
     return object;
 }
 
-static void print_json(const struct maintaining *maintaining, const struct command_line *line,
-                       const struct scan_reader_counts *counts)
+static void print_run_json(const struct maintaining *maintaining, const struct command_line *line,
+                           const struct scan_reader_counts *counts)
 {
     struct parameter_text gate = parameters_text(PARAMETER_GATE);
     char word[PARAMETER_VALUE_BYTES];
@@ -186,7 +187,7 @@ int command_maintain(struct command_line *line)
     struct scan_reader_counts counts;
     struct tracks_output *tracks;
 
-    warn_of_unused_option(line, maintaining.gate);
+    warn_of_unused_input_estimation(line, maintaining.gate);
     maintaining.maintainer =
         maintainer_new(maintaining.gate, !line->no_input_estimation, &line->parameters);
     reader = open_plot_reader(line);
@@ -200,7 +201,7 @@ int command_maintain(struct command_line *line)
     tracks_output_close(tracks);
     print_summary(&maintaining, &counts);
     if (line->json) {
-        print_json(&maintaining, line, &counts);
+        print_run_json(&maintaining, line, &counts);
     }
     scan_reader_close(reader);
     maintainer_free(maintaining.maintainer);

@@ -99,8 +99,8 @@ static bool is_printable_channel(const char *channel)
     return *channel == '\0';
 }
 
-static void log_message(struct node *node, int64_t time_us, const char *channel,
-                        const uint8_t *data, size_t size)
+static void log_message_if_printable(struct node *node, int64_t time_us, const char *channel,
+                                     const uint8_t *data, size_t size)
 {
     if (node->log && is_printable_channel(channel)) {
         node_log_put_event(node->log, time_us, channel, data, size);
@@ -110,7 +110,7 @@ static void log_message(struct node *node, int64_t time_us, const char *channel,
 /* ---- Files that are saved ---- */
 
 /* Makes the exit code a failure where a file could not be saved; tracking goes on. */
-static void set_exit_code_of_save(struct node *node, bool is_saved)
+static void set_exit_code_unless_saved(struct node *node, bool is_saved)
 {
     node->exit_code = is_saved ? node->exit_code : EXIT_RUNTIME;
 }
@@ -185,7 +185,7 @@ static bool reap_clutter_writer(struct node *node, int options)
     int code;
     const bool is_ended = reap_writer_process(&node->clutter_writer, options, &code);
 
-    set_exit_code_of_save(node, !is_ended || code == 0);
+    set_exit_code_unless_saved(node, !is_ended || code == 0);
     return is_ended;
 }
 
@@ -203,7 +203,7 @@ static void save_clutter_map_when_due(struct node *node)
                       ? 0
                       : EXIT_RUNTIME);
         }
-        set_exit_code_of_save(node, node->clutter_writer > 0);
+        set_exit_code_unless_saved(node, node->clutter_writer > 0);
         node->clutter_writer = node->clutter_writer > 0 ? node->clutter_writer : 0;
     }
 }
@@ -211,8 +211,8 @@ static void save_clutter_map_when_due(struct node *node)
 static void save_clutter_map_at_end(struct node *node)
 {
     (void)reap_clutter_writer(node, 0);
-    set_exit_code_of_save(node,
-                          clutter_file_save(&node->clutter, node_core_clutter_map(node->core)));
+    set_exit_code_unless_saved(
+        node, clutter_file_save(&node->clutter, node_core_clutter_map(node->core)));
 }
 
 /* ---- Calls of the core ---- */
@@ -225,7 +225,7 @@ static void send_and_log_message(void *context, const char *channel, const uint8
     /* failures are counted by the transport */
     (void)transport_send(node->transport, channel, data, size);
     if (node->log) {
-        log_message(node, transport_now_us(node->transport), channel, data, size);
+        log_message_if_printable(node, transport_now_us(node->transport), channel, data, size);
     }
 }
 
@@ -257,7 +257,7 @@ static void print_wall_changes(struct node *node)
     }
 }
 
-static void on_step(void *context, const struct rho_report *report)
+static void print_step_and_changes(void *context, const struct rho_report *report)
 {
     struct node *node = context;
 
@@ -269,7 +269,7 @@ static void on_step(void *context, const struct rho_report *report)
 }
 
 /* Reports a sensor's restart; at most RESTARTS_SAID restarts within WARNING_US are printed. */
-static void on_sensor_restart(void *context, int16_t sensor_id)
+static void print_sensor_restart(void *context, int16_t sensor_id)
 {
     struct node *node = context;
     const int64_t now_us = clock_us();
@@ -284,7 +284,7 @@ static void on_sensor_restart(void *context, int16_t sensor_id)
     }
 }
 
-static void on_clock_change(void *context)
+static void print_clock_change(void *context)
 {
     const struct node *node = context;
 
@@ -433,7 +433,7 @@ static int block_signals_to_descriptor(const sigset_t *set)
  * signals stay blocked: the handler that removes unfinished outputs (common.c) is not needed, as
  * the log is written under its own name.
  */
-static void set_up_signals(struct node *node)
+static void block_signals_and_open_descriptors(struct node *node)
 {
     sigset_t ends, hang_ups;
 
@@ -452,7 +452,7 @@ static void set_up_signals(struct node *node)
 /*
  * SIGHUP: a log rotation asks to reopen the log, or the terminal was closed, which ends the node.
  */
-static void handle_hang_up(struct node *node)
+static void reopen_log_or_end_on_hangup(struct node *node)
 {
     struct signalfd_siginfo info;
 
@@ -518,7 +518,7 @@ static void wait_and_serve_descriptors(struct node *node)
     if (ppoll(here, 4, &wait, NULL) > 0) {
         node->is_over |= here[0].revents != 0;
         if (here[1].revents) {
-            handle_hang_up(node);
+            reopen_log_or_end_on_hangup(node);
         }
         if (here[2].revents) {
             page_server_serve(node->pages);
@@ -526,7 +526,7 @@ static void wait_and_serve_descriptors(struct node *node)
     }
 }
 
-static void end_at_end_of_input(struct node *node)
+static void end_node_at_end_of_input(struct node *node)
 {
     if (transport_url_is_live(transport_url(node->transport))) {
         fprintf(stderr, "rhotrack: %s: the connection is gone\n", transport_url(node->transport));
@@ -570,7 +570,7 @@ static void update_scan_interval_hint(struct node *node, const struct transport_
  * Passes a received message to the core. The log gets channels that begin with RHO_; messages that
  * the node published are already logged where they were sent.
  */
-static void process_message(struct node *node, const struct transport_message *message)
+static void pass_message_to_core_and_log(struct node *node, const struct transport_message *message)
 {
     senders_note_message(&node->senders, message, clock_us(),
                          node->print.is_terminal ? NULL : stderr);
@@ -581,14 +581,15 @@ static void process_message(struct node *node, const struct transport_message *m
     node->taken++;
     update_scan_interval_hint(node, message);
     if (strncmp(message->channel, "RHO_", 4) == 0) {
-        log_message(node, message->received_us, message->channel, message->data, message->size);
+        log_message_if_printable(node, message->received_us, message->channel, message->data,
+                                 message->size);
     }
     node_core_take_message(node->core, message->channel, message->data, message->size,
                            message->received_us);
     attribute_losses_to_sensor(node, message->channel);
 }
 
-static void receive_messages(struct node *node)
+static void receive_and_process_messages(struct node *node)
 {
     struct transport_message message;
     enum transport_found found = TRANSPORT_MESSAGE;
@@ -599,14 +600,14 @@ static void receive_messages(struct node *node)
         }
         found = transport_receive(node->transport, &message);
         if (found == TRANSPORT_MESSAGE) {
-            process_message(node, &message);
+            pass_message_to_core_and_log(node, &message);
         }
     }
     node->is_waiting = found == TRANSPORT_NOTHING;
     if (found == TRANSPORT_NOTHING) {
         node_core_tick(node->core, transport_now_us(node->transport));
     } else if (found == TRANSPORT_END) {
-        end_at_end_of_input(node);
+        end_node_at_end_of_input(node);
     }
 }
 
@@ -657,7 +658,11 @@ static void refresh_track_table(struct node *node, bool is_end)
     }
 }
 
-static void do_periodic_work(struct node *node)
+/*
+ * Sends the status once a second, refreshes the table, prints warnings, starts due saves, and ends
+ * the node at the time of --for.
+ */
+static void report_save_and_end_when_due(struct node *node)
 {
     int64_t now_us = clock_us();
 
@@ -674,16 +679,16 @@ static void do_periodic_work(struct node *node)
     refresh_track_table(node, false);
     warn_of_losses(node);
     print_sensor_changes(node);
-    set_exit_code_of_save(node, node_log_report_and_retry(node->log));
+    set_exit_code_unless_saved(node, node_log_report_and_retry(node->log));
     save_clutter_map_when_due(node);
 }
 
-static void run_node(struct node *node)
+static void run_node_until_over(struct node *node)
 {
     while (!node->is_over) {
-        do_periodic_work(node);
+        report_save_and_end_when_due(node);
         wait_and_serve_descriptors(node);
-        receive_messages(node);
+        receive_and_process_messages(node);
     }
     node->finish_us = clock_us() + END_US;
     node_core_flush(node->core);
@@ -697,13 +702,13 @@ static void finish_and_save_outputs(struct node *node)
 {
     node_print_finish(&node->print, node->finish_us);
     node_log_finish_queue(node->log, node->finish_us);
-    set_exit_code_of_save(node, node_log_report_and_retry(node->log));
+    set_exit_code_unless_saved(node, node_log_report_and_retry(node->log));
     print_summary(node);
     write_snapshot_at_end(node);
     save_clutter_map_at_end(node);
 }
 
-static struct node_log_limits log_limits(const struct parameters *parameters)
+static struct node_log_limits log_limits_of_parameters(const struct parameters *parameters)
 {
     const double *value = parameters->value;
 
@@ -717,10 +722,10 @@ int command_node(struct command_line *line)
 {
     struct node node = {
         .status_us = clock_us(), .end_us = INT64_MAX, .parameters = &line->parameters};
-    const struct node_core_events events = {&node, send_and_log_message, on_step, on_sensor_restart,
-                                            on_clock_change};
+    const struct node_core_events events = {&node, send_and_log_message, print_step_and_changes,
+                                            print_sensor_restart, print_clock_change};
     const bool is_live = transport_url_is_live(line->lcm);
-    const struct node_log_limits limits = log_limits(&line->parameters);
+    const struct node_log_limits limits = log_limits_of_parameters(&line->parameters);
     bool is_restored = false; /* from the snapshot, which has the clutter map */
     int exit_code;
 
@@ -749,7 +754,7 @@ int command_node(struct command_line *line)
     }
     node.clutter = clutter_file_open(line->clutter_map, &line->parameters,
                                      is_restored ? NULL : node_core_clutter_map(node.core));
-    set_up_signals(&node);
+    block_signals_and_open_descriptors(&node);
     start_end_watchdog(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
     node.pages = page_server_open(line->metrics, "/metrics",
@@ -759,7 +764,7 @@ int command_node(struct command_line *line)
     if (line->seconds > 0) {
         node.end_us = node.status_us + llround(line->seconds * 1e6);
     }
-    run_node(&node);
+    run_node_until_over(&node);
     finish_and_save_outputs(&node);
     exit_code = node.exit_code;
     page_server_close(node.pages);

@@ -28,7 +28,7 @@ static void require_points(const struct plot_points *points, const char *kind, c
 /*
  * Exit 2 where the data have no times but the truth's, at which the slider of an HTML page stops.
  */
-static void require_times_for_page(const struct plot_data *data)
+static void require_times_besides_truth(const struct plot_data *data)
 {
     if (data->plots.count + data->tracks.count + data->bearings.count == 0) {
         fail(EXIT_USAGE, "plot: a page needs plots, tracks or bearings beside the truth; "
@@ -166,7 +166,7 @@ int command_plot(struct command_line *line)
         plot_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_data_for_kind(kind, &data);
     if (page_path_is_html(line->output)) {
-        require_times_for_page(&data);
+        require_times_besides_truth(&data);
         page_write(line->output, &data, &line->parameters);
         plot_data_free(&data);
         return 0;

@@ -150,6 +150,7 @@ static double pass_duration_us(const struct player *player)
                : 1e6;
 }
 
+/* Number by which a channel's scan numbers advance from pass to pass. */
 static uint32_t scans_in_pass(const struct channel *channel)
 {
     return (uint32_t)channel->last_scan - (uint32_t)channel->first_scan + 1;

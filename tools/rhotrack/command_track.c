@@ -131,8 +131,9 @@ static void step_and_write_input(struct tracking *tracking, const struct input *
     }
 }
 
+/* Steps and writes all inputs; shows progress unless the tracks are written on the terminal. */
 static void step_and_write_all_inputs(struct tracking *tracking, struct inputs *inputs,
-                                      struct tracks_output *tracks, bool is_on_terminal)
+                                      struct tracks_output *tracks, bool are_tracks_on_terminal)
 {
     struct progress progress = progress_start("scans", 0);
     uint64_t done = 0;
@@ -141,7 +142,7 @@ static void step_and_write_all_inputs(struct tracking *tracking, struct inputs *
          input = inputs_next(inputs)) {
         step_and_write_input(tracking, &input, tracks);
         done++;
-        if (!is_on_terminal) {
+        if (!are_tracks_on_terminal) {
             progress_show_by_bytes(&progress, done, inputs_bytes_read(inputs),
                                    inputs_total_bytes(inputs));
         }
@@ -159,7 +160,7 @@ static void on_stop_signal(int number)
     is_stopped = 1;
 }
 
-static void install_stop_signal(int number)
+static void stop_at_signal_unless_ignored(int number)
 {
     struct sigaction action = {.sa_handler = on_stop_signal};
 
@@ -239,8 +240,8 @@ static const char *follow_input_to_end(struct tracking *tracking, struct inputs 
     struct input input;
     const char *why;
 
-    install_stop_signal(SIGINT);
-    install_stop_signal(SIGTERM);
+    stop_at_signal_unless_ignored(SIGINT);
+    stop_at_signal_unless_ignored(SIGTERM);
     if (tracks) {
         tracks_output_flush(tracks);
     }
@@ -402,8 +403,8 @@ static double count_known_echoes(const struct rho_clutter_map *map)
     return num;
 }
 
-static void print_json(const struct tracking *tracking, const struct inputs *inputs,
-                       const struct inputs_counts *counts, const struct parameters *parameters)
+static void print_run_json(const struct tracking *tracking, const struct inputs *inputs,
+                           const struct inputs_counts *counts, const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
     cJSON *object = cJSON_CreateObject();
@@ -498,8 +499,9 @@ static struct zones_output open_zone_events_output(const struct command_line *li
     return zones_output_open(line->zone_events);
 }
 
-static void print_results(const struct tracking *tracking, const struct inputs *inputs,
-                          const struct command_line *line)
+static void print_summary_zones_and_json(const struct tracking *tracking,
+                                         const struct inputs *inputs,
+                                         const struct command_line *line)
 {
     struct inputs_counts counts = inputs_counts(inputs);
 
@@ -512,7 +514,7 @@ static void print_results(const struct tracking *tracking, const struct inputs *
         zones_print_counts(tracking->pipeline.zones);
     }
     if (line->json) {
-        print_json(tracking, inputs, &counts, &line->parameters);
+        print_run_json(tracking, inputs, &counts, &line->parameters);
     }
 }
 
@@ -573,7 +575,7 @@ int command_track(struct command_line *line)
     tracks_output_close(tracks);
     zones_output_close(&tracking.zones);
     is_saved = clutter_file_save(&tracking.clutter, &tracking.pipeline.tracker->clutter_map);
-    print_results(&tracking, inputs, line);
+    print_summary_zones_and_json(&tracking, inputs, line);
     has_tracks = tracking.pipeline.tracker->counters.tracks_confirmed > 0;
     inputs_close(inputs);
     pipeline_show_close(tracking.show);

@@ -77,7 +77,7 @@ static void add(struct register_data *data, const struct scene_run *run,
     sensor.range_bias_m = telling->biases.range_bias_m;
     sensor.azimuth_bias_rad = telling->biases.azimuth_bias_rad;
     sensor.time_bias_s = telling->biases.time_bias_s;
-    scan = scene_scan(run, seen, &sensor, chain.plots);
+    scan = scene_scan_for_tracker(run, seen, &sensor, chain.plots);
     for (uint32_t i = 0; telling->sigma_factor > 0.0 && i < scan.num_plots; i++) {
         chain.plots[i].sigma_range_m *= (float)telling->sigma_factor;
         chain.plots[i].sigma_cross_m *= (float)telling->sigma_factor;

@@ -45,7 +45,7 @@ static unsigned fold_checksum(uint32_t sum)
 }
 
 /* Checksum sum of a UDP datagram with its pseudo header: 0xffff where its checksum is right. */
-static unsigned udp_checksum_sum(const uint8_t *ip, const uint8_t *udp, size_t size)
+static unsigned folded_udp_checksum_sum(const uint8_t *ip, const uint8_t *udp, size_t size)
 {
     return fold_checksum(
         add_to_checksum(add_to_checksum(PROTOCOL_UDP + (uint32_t)size, ip + 12, 8), udp, size));
@@ -90,7 +90,7 @@ size_t udp_frame_build(uint8_t *frame, const struct udp_frame_host *from, uint16
     put_be16(udp + 2, RHO_UDPM_PORT);
     put_be16(udp + 4, (unsigned)size);
     put_be16(udp + 6, 0);
-    checksum = ~udp_checksum_sum(ip, udp, size) & 0xffffu;
+    checksum = ~folded_udp_checksum_sum(ip, udp, size) & 0xffffu;
     put_be16(udp + 6, checksum ? checksum : 0xffffu); /* in UDP a checksum of 0 means none */
     return ETHERNET_HEAD + IP_HEAD + size;
 }
@@ -128,7 +128,7 @@ size_t udp_frame_parse(const uint8_t *frame, size_t size, const uint8_t **payloa
     length = get_be16(udp + 4);
     if (get_be16(udp + 2) != RHO_UDPM_PORT || length < UDP_HEAD ||
         length > get_be16(ip + 2) - head ||
-        (get_be16(udp + 6) != 0 && udp_checksum_sum(ip, udp, length) != 0xffff)) {
+        (get_be16(udp + 6) != 0 && folded_udp_checksum_sum(ip, udp, length) != 0xffff)) {
         return 0;
     }
     *payload = udp + UDP_HEAD;

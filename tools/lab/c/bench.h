@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* bench: what the parts of `rhotrack bench` share. */
+/* bench: declarations that the parts of `rhotrack bench` share. */
 #ifndef RHOTRACK_TOOL_BENCH_H
 #define RHOTRACK_TOOL_BENCH_H
 
@@ -9,26 +9,26 @@
 #define BENCH_ROUNDS 7
 
 struct bench {
-    cJSON *json; /* NULL: tables are wanted */
+    cJSON *json; /* results go here; NULL: tables are printed */
     uint64_t seed;
 };
 
 /*
- * The Hough accumulator against a dense one, and against OpenCV where tests/bench/hough_opencv.cpp
- * was built.
+ * Compares the Hough accumulator with a dense one, and with OpenCV's where
+ * tests/bench/hough_opencv.cpp was built.
  */
 void bench_hough(const struct bench *bench);
 
-/* Searches of bearings; in JSON an object of its own. */
+/* Times searches of batches of bearings; the JSON gets an object "passive". */
 void bench_passive(const struct bench *bench);
 
 /*
- * From a scan's datagrams to its tracks, with a node as a process of its own; and the codec. In
- * JSON an object.
+ * Times the way from a scan's datagrams to its tracks through a node in another process, and the
+ * codec of messages; the JSON gets an object "node".
  */
 void bench_node(const struct bench *bench);
 
-/* The worst scans of 5000 plots, however they lie, over the median of evenly spread ones. */
+/* Compares the slowest scan of 5000 plots of several shapes with the median of uniform clutter. */
 void bench_work(const struct bench *bench);
 
 #endif

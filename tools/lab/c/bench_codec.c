@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* bench_codec: what a message costs to write, to read and to check. */
+/* bench_codec: the time to encode, decode and validate a message of the greatest length. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static double now_ns(void)
 
 /* ---- The longest messages ---- */
 
-static void fill_plots(struct rho_message_plot_scan *scan)
+static void fill_longest_plot_scan(struct rho_message_plot_scan *scan)
 {
     struct random random = random_start(1, 0, 0);
 
@@ -45,7 +45,7 @@ static void fill_plots(struct rho_message_plot_scan *scan)
     }
 }
 
-static void fill_tracks(struct rho_message_track_list *list)
+static void fill_longest_track_list(struct rho_message_track_list *list)
 {
     *list = (struct rho_message_track_list){.utime = 1,
                                             .num_tracks_total = RHO_MESSAGE_TRACK_LIST_MAX_TRACKS,
@@ -62,12 +62,13 @@ static void fill_tracks(struct rho_message_track_list *list)
 
 /* ---- Calls ---- */
 
-static enum rho_status do_plots(enum action action, uint8_t *bytes, size_t *size)
+static enum rho_status encode_decode_or_validate_plots(enum action action, uint8_t *bytes,
+                                                       size_t *size)
 {
     static struct rho_message_plot_scan scan;
 
     if (scan.num_plots == 0) {
-        fill_plots(&scan);
+        fill_longest_plot_scan(&scan);
     }
     return action == ENCODE
                ? rho_message_plot_scan_encode(&scan, bytes, RHO_MESSAGE_PLOT_SCAN_MAX_SIZE, size)
@@ -75,12 +76,13 @@ static enum rho_status do_plots(enum action action, uint8_t *bytes, size_t *size
                               : rho_message_plot_scan_validate(&scan, NULL);
 }
 
-static enum rho_status do_tracks(enum action action, uint8_t *bytes, size_t *size)
+static enum rho_status encode_decode_or_validate_tracks(enum action action, uint8_t *bytes,
+                                                        size_t *size)
 {
     static struct rho_message_track_list list;
 
     if (list.num_tracks == 0) {
-        fill_tracks(&list);
+        fill_longest_track_list(&list);
     }
     return action == ENCODE
                ? rho_message_track_list_encode(&list, bytes, RHO_MESSAGE_TRACK_LIST_MAX_SIZE, size)
@@ -91,11 +93,11 @@ static enum rho_status do_tracks(enum action action, uint8_t *bytes, size_t *siz
 static const struct message {
     const char *name, *json_name;
     enum rho_status (*run)(enum action action, uint8_t *bytes, size_t *size);
-} messages[] = {{"plot_scan_t, 34 plots", "plot_scan", do_plots},
-                {"track_list_t, 9 tracks", "track_list", do_tracks}};
+} messages[] = {{"plot_scan_t, 34 plots", "plot_scan", encode_decode_or_validate_plots},
+                {"track_list_t, 9 tracks", "track_list", encode_decode_or_validate_tracks}};
 
-static double cost_ns(const struct message *message, enum action action, uint8_t *bytes,
-                      size_t *size)
+static double fastest_call_ns(const struct message *message, enum action action, uint8_t *bytes,
+                              size_t *size)
 {
     double best_ns = INFINITY;
 
@@ -119,7 +121,7 @@ void bench_codec(cJSON *json, struct text_table *table, struct verdicts *verdict
         size_t size = 0;
 
         for (int action = 0; action < NUM_ACTIONS; action++) {
-            ns[action] = cost_ns(&messages[i], (enum action)action, bytes, &size);
+            ns[action] = fastest_call_ns(&messages[i], (enum action)action, bytes, &size);
             if (json) {
                 char name[48];
 

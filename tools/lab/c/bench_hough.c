@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench_hough: the streamed accumulator with and without pruning, a dense one in plain C, and
- * OpenCV's, all on the same points in one run: 30 x 30 km, 7 scans. A call clears, votes and finds
- * the peaks.
+ * bench_hough: times of the streamed accumulator with and without pruning, of a dense accumulator
+ * in plain C, and of OpenCV's, all on the same points in one run: 30 x 30 km, 7 scans. A call
+ * clears the cells, votes and finds the peaks.
  */
 #include "bench_hough.h"
 
@@ -18,9 +18,9 @@
 #include "verdicts.h"
 
 #define PEAKS_MAX 1024
-#define ROUND_US 500 /* at least so long: the clock has microseconds */
+#define ROUND_US 500 /* shortest round; the clock counts microseconds */
 
-/* What a vote may cost; vectors of 32 bytes make it cheaper. */
+/* The bar for the time of a vote; vectors of 32 bytes make a vote faster. */
 #ifdef __AVX2__
 #define NS_A_VOTE_MOST 0.7
 #else
@@ -36,7 +36,7 @@ static const struct {
 } kinds[] = {[FINE] = {"5 m x 1 mrad", "fine", 5.0f, 0.001f, 2, 3},
              [COARSE] = {"100 m x 0.5 deg", "coarse", 100.0f, 0.0087266463f, 20, 50}};
 
-/* Clutter, and targets among it: a point a scan each. */
+/* A number of points, of which each target has one in every scan; the others are clutter. */
 struct job {
     enum kind kind;
     unsigned points, targets;
@@ -51,16 +51,16 @@ static const struct job jobs[] = {{FINE, 30, 0},    {FINE, 30, 3},   {FINE, 300,
 #define COUNTERS_BYTES_MOST 65536.0
 
 struct figures {
-    double votes; /* points times cells of theta */
+    double votes; /* number of points times cells of theta */
     double us, plain_us, dense_us;
     double bytes, dense_bytes;
-    double counters_bytes; /* in use: three rows, and one for a scan's own votes */
+    double counters_bytes; /* memory of counters in use: four rows of rho */
     struct hough_cost opencv;
 };
 
 /* ---- points ---------------------------------------------------------------------------------- */
 
-static void scatter(struct hough_cloud *cloud, unsigned count, uint64_t seed)
+static void scatter_points_over_scans(struct hough_cloud *cloud, unsigned count, uint64_t seed)
 {
     struct random random = random_start(seed, 77, count);
     cloud->count = count;
@@ -73,8 +73,8 @@ static void scatter(struct hough_cloud *cloud, unsigned count, uint64_t seed)
     }
 }
 
-/* The first points of each scan become those of targets with up to 1 km a scan along each axis. */
-static void lay_targets(struct hough_cloud *cloud, unsigned targets, uint64_t seed)
+/* Replaces the first points of each scan by targets that move up to 1 km a scan on each axis. */
+static void replace_points_by_targets(struct hough_cloud *cloud, unsigned targets, uint64_t seed)
 {
     struct random random = random_start(seed, 78, targets);
     for (unsigned target = 0; target < targets; target++) {
@@ -91,8 +91,8 @@ static void lay_targets(struct hough_cloud *cloud, unsigned targets, uint64_t se
 
 /* ---- times ----------------------------------------------------------------------------------- */
 
-static double calls_us(struct rho_accumulator *accumulator, const struct hough_cloud *cloud,
-                       int calls)
+static double total_us_of_searches(struct rho_accumulator *accumulator,
+                                   const struct hough_cloud *cloud, int calls)
 {
     static struct rho_accumulator_peak peaks[PEAKS_MAX];
     const struct rho_accumulator_points points = {cloud->x_m, cloud->y_m, HOUGH_SCANS,
@@ -106,20 +106,22 @@ static double calls_us(struct rho_accumulator *accumulator, const struct hough_c
     return (double)(clock_us() - start_us);
 }
 
-static double streamed_us(struct rho_accumulator *accumulator, const struct hough_cloud *cloud)
+static double fastest_search_us(struct rho_accumulator *accumulator,
+                                const struct hough_cloud *cloud)
 {
     int calls = 1;
-    while (calls_us(accumulator, cloud, calls) < ROUND_US) {
+    while (total_us_of_searches(accumulator, cloud, calls) < ROUND_US) {
         calls *= 2;
     }
     double best_us = INFINITY;
     for (int round = 0; round < BENCH_ROUNDS; round++) {
-        best_us = fmin(best_us, calls_us(accumulator, cloud, calls) / calls);
+        best_us = fmin(best_us, total_us_of_searches(accumulator, cloud, calls) / calls);
     }
     return best_us;
 }
 
-static void prepare(struct rho_accumulator *accumulator, enum kind kind, int no_pruning)
+static void init_accumulator_of_kind(struct rho_accumulator *accumulator, enum kind kind,
+                                     int no_pruning)
 {
     struct rho_accumulator_config config = {.rho_max_m = HOUGH_RHO_MAX_M,
                                             .rho_cell_m = kinds[kind].rho_cell_m,
@@ -130,20 +132,20 @@ static void prepare(struct rho_accumulator *accumulator, enum kind kind, int no_
     must_succeed(rho_accumulator_init(accumulator, sizeof *accumulator, &config), "accumulator");
 }
 
-static struct figures measure(struct rho_accumulator *accumulator, const struct job *job,
-                              uint64_t seed)
+static struct figures measure_job_and_rivals(struct rho_accumulator *accumulator,
+                                             const struct job *job, uint64_t seed)
 {
     static struct hough_cloud cloud;
     struct figures figures;
-    scatter(&cloud, job->points, seed);
-    lay_targets(&cloud, job->targets, seed);
-    prepare(accumulator, job->kind, 1);
-    figures.plain_us = streamed_us(accumulator, &cloud);
-    prepare(accumulator, job->kind, 0);
-    figures.us = streamed_us(accumulator, &cloud);
+    scatter_points_over_scans(&cloud, job->points, seed);
+    replace_points_by_targets(&cloud, job->targets, seed);
+    init_accumulator_of_kind(accumulator, job->kind, 1);
+    figures.plain_us = fastest_search_us(accumulator, &cloud);
+    init_accumulator_of_kind(accumulator, job->kind, 0);
+    figures.us = fastest_search_us(accumulator, &cloud);
     figures.votes = (double)job->points * accumulator->theta_cells;
     figures.dense_us = hough_dense_us(accumulator, &cloud, kinds[job->kind].dense_rounds);
-    figures.opencv = hough_opencv(accumulator, &cloud, kinds[job->kind].opencv_rounds);
+    figures.opencv = hough_opencv_cost(accumulator, &cloud, kinds[job->kind].opencv_rounds);
     double points_bytes = 2.0 * sizeof(float) * job->points;
     figures.bytes = sizeof *accumulator + points_bytes;
     figures.counters_bytes = 4.0 * (accumulator->rho_cells + RHO_ACCUMULATOR_PADDING);
@@ -153,13 +155,15 @@ static struct figures measure(struct rho_accumulator *accumulator, const struct 
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-static const char *or_dash(char text[32], const char *format, double value)
+/* The value as text by the format, or "-" when it is NAN. */
+static const char *format_or_dash(char text[32], const char *format, double value)
 {
     snprintf(text, 32, format, value);
     return isnan(value) ? "-" : text;
 }
 
-static void add_row(struct text_table *table, const struct job *job, const struct figures *figures)
+static void add_job_row(struct text_table *table, const struct job *job,
+                        const struct figures *figures)
 {
     char points[32], opencv[32], over[32], bytes[32];
     snprintf(points, sizeof points, job->targets > 0 ? "%u (%u)" : "%u", job->points,
@@ -168,12 +172,13 @@ static void add_row(struct text_table *table, const struct job *job, const struc
         table, "%s|%s|%.3f|%.3f|%.3f|%.2f|%.1f|%.0f|%s|%s|%.0f|%.0f|%s", kinds[job->kind].name,
         points, figures->us / 1e3, 1e3 * figures->us / figures->votes, figures->plain_us / 1e3,
         1e3 * figures->plain_us / figures->votes, figures->dense_us / 1e3,
-        figures->dense_us / figures->us, or_dash(opencv, "%.2f", figures->opencv.us / 1e3),
-        or_dash(over, "%.1f", figures->opencv.us / figures->us), figures->bytes / 1024.0,
-        figures->dense_bytes / 1024.0, or_dash(bytes, "%.0f", figures->opencv.bytes / 1024.0));
+        figures->dense_us / figures->us, format_or_dash(opencv, "%.2f", figures->opencv.us / 1e3),
+        format_or_dash(over, "%.1f", figures->opencv.us / figures->us), figures->bytes / 1024.0,
+        figures->dense_bytes / 1024.0,
+        format_or_dash(bytes, "%.0f", figures->opencv.bytes / 1024.0));
 }
 
-static void add_numbers(cJSON *json, const struct job *job, const struct figures *figures)
+static void add_job_json(cJSON *json, const struct job *job, const struct figures *figures)
 {
     const struct {
         const char *name;
@@ -199,8 +204,8 @@ static void add_numbers(cJSON *json, const struct job *job, const struct figures
 
 /* ---- bars ------------------------------------------------------------------------------------ */
 
-static void judge_opencv(struct verdicts *verdicts, const struct job *job,
-                         const struct figures *figures)
+static void add_verdict_on_opencv(struct verdicts *verdicts, const struct job *job,
+                                  const struct figures *figures)
 {
     static const struct {
         struct job job;
@@ -219,7 +224,8 @@ static void judge_opencv(struct verdicts *verdicts, const struct job *job,
     }
 }
 
-static void judge(struct verdicts *verdicts, const struct job *job, const struct figures *figures)
+static void add_verdicts_on_job(struct verdicts *verdicts, const struct job *job,
+                                const struct figures *figures)
 {
     if (job->kind == FINE && job->points == 30) {
         verdicts_at_most(verdicts, figures->us / 1e3, 0.25, "%s, %u points%s: ms a call",
@@ -231,12 +237,13 @@ static void judge(struct verdicts *verdicts, const struct job *job, const struct
         verdicts_at_most(verdicts, 1e3 * figures->us / figures->votes, NS_A_VOTE_MOST,
                          "%s, %u points: ns a vote", kinds[FINE].name, job->points);
     }
-    judge_opencv(verdicts, job, figures);
+    add_verdict_on_opencv(verdicts, job, figures);
 }
 
-/* ---- all ------------------------------------------------------------------------------------- */
+/* ---- all jobs -------------------------------------------------------------------------------- */
 
-static void print(const struct text_table *table, const struct verdicts *verdicts, int has_opencv)
+static void print_table_and_verdicts(const struct text_table *table,
+                                     const struct verdicts *verdicts, int has_opencv)
 {
     printf(
         "hough: 30 x 30 km, 7 scans, distinct scans count, %d votes; (21): so many are on 3 lines\n"
@@ -260,18 +267,18 @@ void bench_hough(const struct bench *bench)
                             "OpenCV ms|over|KiB|dense|OpenCV");
     int has_opencv = 1;
     for (size_t i = 0; i < NUM_JOBS; i++) {
-        struct figures figures = measure(accumulator, &jobs[i], bench->seed);
-        add_row(&table, &jobs[i], &figures);
-        judge(&verdicts, &jobs[i], &figures);
+        struct figures figures = measure_job_and_rivals(accumulator, &jobs[i], bench->seed);
+        add_job_row(&table, &jobs[i], &figures);
+        add_verdicts_on_job(&verdicts, &jobs[i], &figures);
         has_opencv = has_opencv && !isnan(figures.opencv.us);
         if (bench->json) {
-            add_numbers(bench->json, &jobs[i], &figures);
+            add_job_json(bench->json, &jobs[i], &figures);
         }
     }
     if (bench->json) {
         verdicts_to_json(&verdicts, bench->json);
     } else {
-        print(&table, &verdicts, has_opencv);
+        print_table_and_verdicts(&table, &verdicts, has_opencv);
     }
     verdicts_free(&verdicts);
     text_table_free(&table);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench_hough: the points of `rhotrack bench hough`, and what the accumulator is compared with on
- * them.
+ * bench_hough: the points of `rhotrack bench hough`, and the rivals of the accumulator on these
+ * points: a dense accumulator and OpenCV's.
  */
 #ifndef RHOTRACK_TOOL_BENCH_HOUGH_H
 #define RHOTRACK_TOOL_BENCH_HOUGH_H
@@ -13,7 +13,7 @@
 
 #define HOUGH_SCANS 7
 #define HOUGH_HALF_SIDE_M 15000.0
-#define HOUGH_RHO_MAX_M 21220.0f /* of its corners */
+#define HOUGH_RHO_MAX_M 21220.0f /* distance of the area's corners from its centre */
 #define HOUGH_MIN_VOTES 5
 #define HOUGH_POINTS_MAX 3000
 
@@ -24,19 +24,19 @@ struct hough_cloud {
 };
 
 struct hough_cost {
-    double us, bytes; /* NAN: not known */
+    double us, bytes; /* time of a call and memory; NAN: not known */
 };
 
-/* A whole plane in plain C: clears, votes, finds the peaks; the least time of a call. */
+/* The least time, of all rounds, to clear a dense plane, vote and count its peaks. */
 double hough_dense_us(const struct rho_accumulator *accumulator, const struct hough_cloud *cloud,
                       int rounds);
 size_t hough_dense_bytes(const struct rho_accumulator *accumulator);
 
 /*
- * OpenCV's; NAN where tests/bench/hough_opencv.cpp was not built. The bytes are the whole
- * program's.
+ * The time and memory of OpenCV's Hough transform, NAN where tests/bench/hough_opencv.cpp was not
+ * built. The bytes are those of the whole program.
  */
-struct hough_cost hough_opencv(const struct rho_accumulator *accumulator,
-                               const struct hough_cloud *cloud, int rounds);
+struct hough_cost hough_opencv_cost(const struct rho_accumulator *accumulator,
+                                    const struct hough_cloud *cloud, int rounds);
 
 #endif

@@ -10,9 +10,9 @@
 #include "base/common.h"
 #include "bench_hough.h"
 
-/* ---- the whole plane ------------------------------------------------------------------------- */
+/* ---- the dense accumulator ------------------------------------------------------------------- */
 
-static unsigned bits(unsigned mask)
+static unsigned count_bits(unsigned mask)
 {
     unsigned n = 0;
     for (; mask; mask &= mask - 1u) {
@@ -21,8 +21,8 @@ static unsigned bits(unsigned mask)
     return n;
 }
 
-static void vote_dense(const struct rho_accumulator *accumulator, const struct hough_cloud *cloud,
-                       uint16_t *plane, size_t width)
+static void vote_in_dense_plane(const struct rho_accumulator *accumulator,
+                                const struct hough_cloud *cloud, uint16_t *plane, size_t width)
 {
     float per_m = 1.0f / accumulator->config.rho_cell_m, first = HOUGH_RHO_MAX_M * per_m;
     for (unsigned theta = 0; theta < accumulator->theta_cells; theta++) {
@@ -39,16 +39,16 @@ static void vote_dense(const struct rho_accumulator *accumulator, const struct h
     }
 }
 
-/* Cells with min_votes that no neighbour beats; the ends of theta do not matter for the time. */
+/* Counts cells with enough votes and no greater neighbour; the edges of the plane are left out. */
 static unsigned count_peaks(const uint16_t *plane, size_t width, size_t height)
 {
     unsigned count = 0;
     for (size_t theta = 1; theta + 1 < height; theta++) {
         const uint16_t *row = plane + theta * width;
         for (size_t rho = 1; rho + 1 < width; rho++) {
-            unsigned votes = row[rho] ? bits(row[rho]) : 0u, most = 0;
+            unsigned votes = row[rho] ? count_bits(row[rho]) : 0u, most = 0;
             for (size_t i = 0; i < 9 && votes >= HOUGH_MIN_VOTES; i++) {
-                unsigned other = bits(row[rho + i % 3 - 1 + (i / 3) * width - width]);
+                unsigned other = count_bits(row[rho + i % 3 - 1 + (i / 3) * width - width]);
                 most = other > most ? other : most;
             }
             count += votes >= HOUGH_MIN_VOTES && votes >= most;
@@ -57,26 +57,26 @@ static unsigned count_peaks(const uint16_t *plane, size_t width, size_t height)
     return count;
 }
 
-static size_t dense_width(const struct rho_accumulator *accumulator)
+static size_t dense_plane_width(const struct rho_accumulator *accumulator)
 {
     return accumulator->rho_cells + 2u;
 }
 
 size_t hough_dense_bytes(const struct rho_accumulator *accumulator)
 {
-    return dense_width(accumulator) * accumulator->theta_cells * sizeof(uint16_t);
+    return dense_plane_width(accumulator) * accumulator->theta_cells * sizeof(uint16_t);
 }
 
 double hough_dense_us(const struct rho_accumulator *accumulator, const struct hough_cloud *cloud,
                       int rounds)
 {
-    size_t width = dense_width(accumulator), height = accumulator->theta_cells;
+    size_t width = dense_plane_width(accumulator), height = accumulator->theta_cells;
     uint16_t *plane = must_calloc(width * height, sizeof *plane);
     double best_us = INFINITY;
     for (int round = 0; round < rounds; round++) {
         int64_t start_us = clock_us();
         memset(plane, 0, width * height * sizeof *plane);
-        vote_dense(accumulator, cloud, plane, width);
+        vote_in_dense_plane(accumulator, cloud, plane, width);
         if (count_peaks(plane, width, height) > width * height) {
             fail(EXIT_RUNTIME, "more peaks than cells");
         }
@@ -86,10 +86,10 @@ double hough_dense_us(const struct rho_accumulator *accumulator, const struct ho
     return best_us;
 }
 
-/* ---- OpenCV's -------------------------------------------------------------------------------- */
+/* ---- OpenCV ---------------------------------------------------------------------------------- */
 
-/* BUILD/tests/bench/hough_opencv beside this program; NULL where it was not built. */
-static const char *opencv_path(char path[512])
+/* The path of tests/bench/hough_opencv beside this program; NULL where it was not built. */
+static const char *find_opencv_program(char path[512])
 {
     char self[400];
     ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
@@ -116,10 +116,10 @@ static void write_points(const struct hough_cloud *cloud, const char *path)
 }
 
 /*
- * What the program prints on its standard output, as a number; NAN where it prints none. *bytes:
- * the most memory it had.
+ * Runs a program and returns the number that it prints on standard output, or NAN when it prints
+ * none; *bytes_max is the greatest memory that the program used.
  */
-static double run_for_number(char *const arguments[], double *bytes)
+static double run_program_for_number(char *const arguments[], double *bytes_max)
 {
     char answer[64] = "";
     struct rusage usage = {0};
@@ -139,18 +139,18 @@ static double run_for_number(char *const arguments[], double *bytes)
     if (child > 0) {
         wait4(child, NULL, 0, &usage);
     }
-    *bytes = 1024.0 * (double)usage.ru_maxrss;
+    *bytes_max = 1024.0 * (double)usage.ru_maxrss;
     char *end = answer;
     double value = length > 0 ? strtod(answer, &end) : 0.0;
     return end == answer ? NAN : value;
 }
 
-struct hough_cost hough_opencv(const struct rho_accumulator *accumulator,
-                               const struct hough_cloud *cloud, int rounds)
+struct hough_cost hough_opencv_cost(const struct rho_accumulator *accumulator,
+                                    const struct hough_cloud *cloud, int rounds)
 {
     char program[512], points[64], rho_max[32], rho_cell[32], theta_cell[32], votes[16], times[16];
     struct hough_cost cost = {NAN, NAN};
-    if (!opencv_path(program)) {
+    if (!find_opencv_program(program)) {
         return cost;
     }
     snprintf(points, sizeof points, "/tmp/rhotrack-hough-%ld", (long)getpid());
@@ -161,7 +161,7 @@ struct hough_cost hough_opencv(const struct rho_accumulator *accumulator,
     snprintf(times, sizeof times, "%d", rounds);
     char *const arguments[] = {program, points, rho_max, rho_cell, theta_cell, votes, times, NULL};
     write_points(cloud, points);
-    cost.us = 1e3 * run_for_number(arguments, &cost.bytes);
+    cost.us = 1e3 * run_program_for_number(arguments, &cost.bytes);
     remove(points);
     return cost;
 }

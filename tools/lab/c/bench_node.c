@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench_node: how long a node takes from a scan's last datagram to its tracks, over UDP multicast
- * on this machine. The node is a process of its own, as it would be; the bench is the sensor and
- * the viewer.
+ * bench_node: the time from a scan's last datagram to its tracks, over UDP multicast on this
+ * machine. The node runs in a process of its own, as in use; this program is the sensor and the
+ * viewer.
  */
 #include "bench_node.h"
 
@@ -30,9 +30,9 @@
 #include "transport/transport.h"
 
 /*
- * 50 scans a second of 100 plots each, in three parts. Scans are 10 s apart by their own clock, as
- * those of `bench track`, so that the tracker has a surveillance radar's work: targets move on, and
- * clutter does not stand still.
+ * Sends 50 scans a second of 100 plots each, in three parts. By their time stamps scans are 10 s
+ * apart, as those of `bench track`, so that the tracker has the work of a surveillance radar:
+ * targets move from scan to scan, and clutter lies elsewhere in each.
  */
 enum { SCANS = 550, WARM_UP = 50, SCANS_PER_S = 50, PLOTS = 100, TARGETS = 8, PARTS = 3 };
 enum { PERIOD_NS = 1000000000 / SCANS_PER_S, READY_NS = 2000000000, NS_PER_US = 1000 };
@@ -46,8 +46,8 @@ enum { PERIOD_NS = 1000000000 / SCANS_PER_S, READY_NS = 2000000000, NS_PER_US = 
 struct session {
     struct transport *transport;
     struct random random;
-    int64_t sent_ns[SCANS], done_ns[SCANS]; /* CLOCK_MONOTONIC; done 0: nothing came */
-    int tracks;                             /* of the last list */
+    int64_t sent_ns[SCANS], done_ns[SCANS]; /* CLOCK_MONOTONIC; done 0: no tracks came */
+    int tracks;                             /* number in the last track list */
     bool is_ready;
 };
 
@@ -61,8 +61,9 @@ static int64_t now_ns(void)
 
 /* ---- The scene ---- */
 
-/* Targets fly lines that all lie inside; the other plots are clutter, evenly spread. */
-static struct rho_message_plot plot_of(struct session *session, int scan, int index)
+/* The first plots are targets on parallel lines through the area; the others uniform clutter. */
+static struct rho_message_plot draw_target_or_clutter_plot(struct session *session, int scan,
+                                                           int index)
 {
     double x_m = random_between(&session->random, -HALF_AREA_M, HALF_AREA_M);
     double y_m = random_between(&session->random, -HALF_AREA_M, HALF_AREA_M);
@@ -77,7 +78,7 @@ static struct rho_message_plot plot_of(struct session *session, int scan, int in
         .x_m = (float)x_m, .y_m = (float)y_m, .sigma_m = (float)SIGMA_M};
 }
 
-static void send_part(struct session *session, int scan, int part)
+static void send_scan_part(struct session *session, int scan, int part)
 {
     static struct rho_message_plot_scan message;
     uint8_t bytes[RHO_MESSAGE_PLOT_SCAN_MAX_SIZE];
@@ -95,10 +96,10 @@ static void send_part(struct session *session, int scan, int part)
     message.num_plots =
         (int16_t)(left < RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS ? left : RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS);
     for (int i = 0; i < message.num_plots; i++) {
-        message.plots[i] = plot_of(session, scan, first + i);
+        message.plots[i] = draw_target_or_clutter_plot(session, scan, first + i);
     }
     must_succeed(rho_message_plot_scan_encode(&message, bytes, sizeof bytes, &size), "plots");
-    session->sent_ns[scan] = now_ns(); /* the last part's stays */
+    session->sent_ns[scan] = now_ns(); /* the time of the last part remains */
     if (!transport_send(session->transport, RHO_MESSAGE_PLOT_SCAN_CHANNEL "1", bytes, size)) {
         fail(EXIT_RUNTIME, "%s: %s", transport_url(session->transport), strerror(errno));
     }
@@ -106,14 +107,15 @@ static void send_part(struct session *session, int scan, int part)
 
 /* ---- The node ---- */
 
-/* Its parameters: those of the scene, as a user would give them. */
-static void set_parameters(struct parameters *parameters)
+/* Sets the defaults, then the values of the scene, as a user of the node would set them. */
+static void set_parameters_of_scene(struct parameters *parameters)
 {
     parameters_set_defaults(parameters);
     scenario_suggest("traffic", parameters);
     parameters_suggest(parameters, PARAMETER_SIGMA_M, SIGMA_M);
 }
 
+/* Runs a silent node in this process until its time limit, unless the parent has ended. */
 static _Noreturn void run_node(const char *url, pid_t parent)
 {
     static struct command_line line;
@@ -124,11 +126,11 @@ static _Noreturn void run_node(const char *url, pid_t parent)
         dup2(nowhere, STDOUT_FILENO);
     }
     line = (struct command_line){.lcm = url, .seconds = READY_NS / 1e9 + 3.0 * SCANS / SCANS_PER_S};
-    set_parameters(&line.parameters);
+    set_parameters_of_scene(&line.parameters);
     _exit(getppid() == parent ? command_node(&line) : EXIT_RUNTIME);
 }
 
-static void find_url(char *url, size_t bytes)
+static void find_free_udp_url(char *url, size_t bytes)
 {
     struct sockaddr_in address = {.sin_family = AF_INET};
     socklen_t size = sizeof address;
@@ -144,7 +146,7 @@ static void find_url(char *url, size_t bytes)
 
 /* ---- The viewer ---- */
 
-static void take_tracks(struct session *session, const struct transport_message *message)
+static void note_time_of_tracks(struct session *session, const struct transport_message *message)
 {
     static struct rho_message_track_list list;
     int64_t scan;
@@ -172,7 +174,7 @@ static void listen_until(struct session *session, int64_t end_ns)
         }
         while (transport_receive(session->transport, &message) == TRANSPORT_MESSAGE) {
             if (strcmp(message.channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0) {
-                take_tracks(session, &message);
+                note_time_of_tracks(session, &message);
             } else if (strcmp(message.channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
                 session->is_ready = true;
             }
@@ -180,7 +182,7 @@ static void listen_until(struct session *session, int64_t end_ns)
     }
 }
 
-static void play(struct session *session)
+static void send_scans_when_node_ready(struct session *session)
 {
     int64_t start_ns = now_ns(), give_up_ns = start_ns + READY_NS;
 
@@ -190,19 +192,19 @@ static void play(struct session *session)
     }
     for (int scan = 0; scan < SCANS; scan++) {
         for (int part = 0; part < PARTS; part++) {
-            send_part(session, scan, part);
+            send_scan_part(session, scan, part);
         }
         listen_until(session, start_ns + (int64_t)(scan + 1) * PERIOD_NS);
     }
     listen_until(session, now_ns() + READY_NS / 4);
 }
 
-static void run_session(struct session *session)
+static void fork_node_and_run_session(struct session *session)
 {
     char url[64];
     pid_t parent = getpid(), child;
 
-    find_url(url, sizeof url);
+    find_free_udp_url(url, sizeof url);
     fflush(stdout);
     child = fork();
     if (child < 0) {
@@ -212,7 +214,7 @@ static void run_session(struct session *session)
         run_node(url, parent);
     }
     session->transport = transport_open(url, TRANSPORT_SEND_AND_RECEIVE);
-    play(session);
+    send_scans_when_node_ready(session);
     transport_close(session->transport);
     kill(child, SIGTERM);
     waitpid(child, NULL, 0);
@@ -225,14 +227,14 @@ struct latency {
     int lost, counted;
 };
 
-static int compare(const void *a, const void *b)
+static int compare_numbers(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
 
     return (x > y) - (x < y);
 }
 
-static struct latency latency_of(const struct session *session)
+static struct latency latency_statistics(const struct session *session)
 {
     static double us[SCANS];
     struct latency latency = {NAN, NAN, NAN, 0, 0};
@@ -246,7 +248,7 @@ static struct latency latency_of(const struct session *session)
         }
     }
     if (latency.counted > 0) {
-        qsort(us, (size_t)latency.counted, sizeof us[0], compare);
+        qsort(us, (size_t)latency.counted, sizeof us[0], compare_numbers);
         latency.median_us = us[latency.counted / 2];
         latency.p99_us = us[latency.counted * 99 / 100];
         latency.max_us = us[latency.counted - 1];
@@ -254,7 +256,7 @@ static struct latency latency_of(const struct session *session)
     return latency;
 }
 
-static void add_numbers(cJSON *json, const struct latency *latency)
+static void add_latency_json(cJSON *json, const struct latency *latency)
 {
     json_add_number_or_null(json, "latency_median_us", latency->median_us);
     json_add_number_or_null(json, "latency_p99_us", latency->p99_us);
@@ -288,14 +290,14 @@ void bench_node(const struct bench *bench)
     struct latency latency;
 
     session.random = random_start(bench->seed, 0, 0);
-    run_session(&session);
-    latency = latency_of(&session);
+    fork_node_and_run_session(&session);
+    latency = latency_statistics(&session);
     verdicts_at_most(&verdicts, latency.median_us, MEDIAN_US_MOST, "latency: us, median");
     verdicts_at_most(&verdicts, latency.p99_us, P99_US_MOST, "latency: us, 99 %%");
     verdicts_at_most(&verdicts, latency.lost, 0, "scans without tracks");
     bench_codec(json, &table, &verdicts);
     if (json) {
-        add_numbers(json, &latency);
+        add_latency_json(json, &latency);
         verdicts_to_json(&verdicts, json);
     } else {
         print_latency(&session, &latency);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* bench_node: what the parts of `bench node` share. */
+/* bench_node: the bench of the codec, a part of `bench node`. */
 #ifndef RHOTRACK_TOOL_BENCH_NODE_H
 #define RHOTRACK_TOOL_BENCH_NODE_H
 
@@ -7,7 +7,10 @@
 #include "bench.h"
 #include "verdicts.h"
 
-/* Rows `message|bytes|encode ns|decode ns|validate ns` of full messages; json may be NULL. */
+/*
+ * Adds a row `message|bytes|encode ns|decode ns|validate ns` for each full message to the table,
+ * its bars to the verdicts and, unless json is NULL, its times to json.
+ */
 void bench_codec(cJSON *json, struct text_table *table, struct verdicts *verdicts);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench_passive: a search of bearings, and the push of a frame, over several batches of scene
- * passive-clutter; and of a batch as full as the capacities allow, bearings anywhere: sharp ones,
- * and the least certain that there may be, near to which everything is.
+ * bench_passive: times of a search of bearings and of the push of a frame, over several batches of
+ * scene passive-clutter, and over batches as full as the capacities allow with bearings in random
+ * directions: with a noise of 0.1 degrees, and with 0.5 rad, where every line is near every point.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@
 
 struct job {
     const char *name, *json_name;
-    unsigned sensors, targets; /* no sensors: a full batch */
+    unsigned sensors, targets; /* 0 sensors: a full batch */
     int batches;
     double sigma_rad;
 };
@@ -43,7 +43,7 @@ static const struct job jobs[] = {{"2 sensors, 2 targets", "2s2t", 2, 2, 20, SIG
 #define NUM_JOBS (sizeof jobs / sizeof jobs[0])
 #define JOB_WITH_A_BAR 3
 
-/* The frames of a batch, with what they point to. */
+/* The frames of a batch, with the scans and bearings that they point to. */
 struct recording {
     unsigned num_frames;
     struct rho_frame frames[RHO_MAX_PASSIVE_SCANS];
@@ -52,14 +52,14 @@ struct recording {
 };
 
 struct figures {
-    double mean_ms, worst_ms, push_us; /* of a search; of a frame */
-    double tracks, hypotheses, fits;   /* a batch */
+    double mean_ms, worst_ms, push_us; /* times of a search, and of a frame's push */
+    double tracks, hypotheses, fits;   /* mean numbers per batch */
 };
 
 /* ---- batches --------------------------------------------------------------------------------- */
 
-static struct rho_bearing_scan *add_scan(struct recording *recording, unsigned k, size_t sensor,
-                                         double x_m, double y_m)
+static struct rho_bearing_scan *add_scan_to_frame(struct recording *recording, unsigned k,
+                                                  size_t sensor, double x_m, double y_m)
 {
     struct rho_frame *frame = &recording->frames[k];
     struct rho_bearing_scan *scan = &recording->scans[k][frame->num_scans++];
@@ -74,8 +74,9 @@ static struct rho_bearing_scan *add_scan(struct recording *recording, unsigned k
     return scan;
 }
 
-static void add_bearing(struct recording *recording, unsigned k, size_t sensor,
-                        struct rho_bearing_scan *scan, double bearing_rad, double sigma_rad)
+static void add_bearing_unless_full(struct recording *recording, unsigned k, size_t sensor,
+                                    struct rho_bearing_scan *scan, double bearing_rad,
+                                    double sigma_rad)
 {
     if (scan->num_bearings < RHO_MAX_BEARINGS) {
         recording->bearings[k][sensor][scan->num_bearings++] =
@@ -83,8 +84,8 @@ static void add_bearing(struct recording *recording, unsigned k, size_t sensor,
     }
 }
 
-static void record_scene(struct recording *recording, const struct job *job, uint64_t seed,
-                         uint64_t run)
+static void record_simulated_batch(struct recording *recording, const struct job *job,
+                                   uint64_t seed, uint64_t run)
 {
     struct parameters parameters;
     parameters_set_defaults(&parameters);
@@ -97,29 +98,29 @@ static void record_scene(struct recording *recording, const struct job *job, uin
     for (size_t i = 0; i < simulation->num_looks; i++) {
         const struct simulated_look *look = &simulation->looks[i];
         unsigned k = (unsigned)(i / simulation->passive.num_sensors);
-        struct rho_bearing_scan *scan =
-            add_scan(recording, k, look->sensor, simulation->passive.sensors[look->sensor].x_m,
-                     simulation->passive.sensors[look->sensor].y_m);
+        struct rho_bearing_scan *scan = add_scan_to_frame(
+            recording, k, look->sensor, simulation->passive.sensors[look->sensor].x_m,
+            simulation->passive.sensors[look->sensor].y_m);
         for (size_t j = 0; j < look->num_bearings; j++) {
-            add_bearing(recording, k, look->sensor, scan, look->bearings[j].bearing_rad,
-                        job->sigma_rad);
+            add_bearing_unless_full(recording, k, look->sensor, scan, look->bearings[j].bearing_rad,
+                                    job->sigma_rad);
         }
     }
     simulation_free(simulation);
 }
 
-static void record_full(struct recording *recording, double sigma_rad, uint64_t seed)
+static void record_full_batch(struct recording *recording, double sigma_rad, uint64_t seed)
 {
     struct random random = random_start(seed, 79, 0);
     *recording = (struct recording){.num_frames = RHO_MAX_PASSIVE_SCANS};
     for (unsigned k = 0; k < RHO_MAX_PASSIVE_SCANS; k++) {
         for (size_t sensor = 0; sensor < RHO_MAX_PASSIVE_SENSORS; sensor++) {
             double direction_rad = 2.0 * PI * (double)sensor / RHO_MAX_PASSIVE_SENSORS;
-            struct rho_bearing_scan *scan =
-                add_scan(recording, k, sensor, 1e4 * cos(direction_rad), 1e4 * sin(direction_rad));
+            struct rho_bearing_scan *scan = add_scan_to_frame(
+                recording, k, sensor, 1e4 * cos(direction_rad), 1e4 * sin(direction_rad));
             for (int i = 0; i < RHO_MAX_BEARINGS; i++) {
-                add_bearing(recording, k, sensor, scan,
-                            random_between(&random, -PI / 2.0, PI / 2.0), sigma_rad);
+                add_bearing_unless_full(recording, k, sensor, scan,
+                                        random_between(&random, -PI / 2.0, PI / 2.0), sigma_rad);
             }
         }
     }
@@ -127,25 +128,26 @@ static void record_full(struct recording *recording, double sigma_rad, uint64_t 
 
 /* ---- times ----------------------------------------------------------------------------------- */
 
-static void push(struct rho_passive *passive, const struct rho_frame *frame)
+static void push_frame(struct rho_passive *passive, const struct rho_frame *frame)
 {
     uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
     memset(fates, RHO_FATE_HELD, sizeof fates);
     must_succeed(rho_passive_push(passive, frame, fates), "passive");
 }
 
-static void fill(struct rho_passive *passive, const struct recording *recording)
+static void fill_batch_from_recording(struct rho_passive *passive,
+                                      const struct recording *recording)
 {
     struct rho_passive_config config;
     rho_passive_config_default(&config);
     config.scans = (uint16_t)recording->num_frames;
     must_succeed(rho_passive_init(passive, sizeof *passive, &config), "passive");
     for (unsigned k = 0; k < recording->num_frames; k++) {
-        push(passive, &recording->frames[k]);
+        push_frame(passive, &recording->frames[k]);
     }
 }
 
-static double search_ms(struct rho_passive *passive)
+static double fastest_search_ms(struct rho_passive *passive)
 {
     double best_us = INFINITY;
     for (int round = 0; round < BENCH_ROUNDS; round++) {
@@ -156,8 +158,8 @@ static double search_ms(struct rho_passive *passive)
     return best_us / 1e3;
 }
 
-/* Frames go on and on; the batch is full, so that each drops one. */
-static double push_us(struct rho_passive *passive, const struct recording *recording)
+/* The batch is full, so that each pushed frame drops the oldest. */
+static double fastest_push_us(struct rho_passive *passive, const struct recording *recording)
 {
     double best_us = INFINITY;
     int64_t time_us = passive->batch.time_us[recording->num_frames - 1];
@@ -166,38 +168,39 @@ static double push_us(struct rho_passive *passive, const struct recording *recor
         for (unsigned i = 0; i < PUSHES; i++) {
             struct rho_frame frame = recording->frames[i % recording->num_frames];
             frame.time_us = time_us += SCAN_US;
-            push(passive, &frame);
+            push_frame(passive, &frame);
         }
         best_us = fmin(best_us, (double)(clock_us() - start_us) / PUSHES);
     }
     return best_us;
 }
 
-static struct figures measure(struct rho_passive *passive, const struct job *job, uint64_t seed)
+static struct figures measure_batches_of_job(struct rho_passive *passive, const struct job *job,
+                                             uint64_t seed)
 {
     static struct recording recording;
     struct figures figures = {.push_us = INFINITY};
     for (int run = 0; run < job->batches; run++) {
         if (job->sensors > 0) {
-            record_scene(&recording, job, seed, (uint64_t)run);
+            record_simulated_batch(&recording, job, seed, (uint64_t)run);
         } else {
-            record_full(&recording, job->sigma_rad, seed);
+            record_full_batch(&recording, job->sigma_rad, seed);
         }
-        fill(passive, &recording);
-        double ms = search_ms(passive);
+        fill_batch_from_recording(passive, &recording);
+        double ms = fastest_search_ms(passive);
         figures.mean_ms += ms / job->batches;
         figures.worst_ms = fmax(figures.worst_ms, ms);
         figures.tracks += (double)passive->num_tracks / job->batches;
         figures.hypotheses += (double)passive->work.hypotheses / job->batches;
         figures.fits += (double)passive->work.fits / job->batches;
     }
-    figures.push_us = push_us(passive, &recording);
+    figures.push_us = fastest_push_us(passive, &recording);
     return figures;
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-static void add_numbers(cJSON *json, const struct job *job, const struct figures *figures)
+static void add_job_json(cJSON *json, const struct job *job, const struct figures *figures)
 {
     const struct {
         const char *name;
@@ -215,7 +218,8 @@ static void add_numbers(cJSON *json, const struct job *job, const struct figures
     }
 }
 
-static void print(const struct text_table *table, const struct verdicts *verdicts)
+static void print_table_and_verdicts(const struct text_table *table,
+                                     const struct verdicts *verdicts)
 {
     printf("passive: batches of %d scans, 0.1 deg, P_D 0.9, a false bearing a look; full: %d "
            "sensors, %d scans, %d bearings\nobject: %zu bytes\n",
@@ -235,7 +239,7 @@ void bench_passive(const struct bench *bench)
     struct text_table table =
         text_table_start(1, "batch|ms a search|worst ms|us a push|tracks|hypotheses|fits");
     for (size_t i = 0; i < NUM_JOBS; i++) {
-        struct figures figures = measure(passive, &jobs[i], bench->seed);
+        struct figures figures = measure_batches_of_job(passive, &jobs[i], bench->seed);
         text_table_add_row(&table, "%s|%.2f|%.2f|%.2f|%.2f|%.0f|%.0f", jobs[i].name,
                            figures.mean_ms, figures.worst_ms, figures.push_us, figures.tracks,
                            figures.hypotheses, figures.fits);
@@ -244,14 +248,14 @@ void bench_passive(const struct bench *bench)
                              "%s: ms of the slowest of %d searches", jobs[i].name, jobs[i].batches);
         }
         if (json) {
-            add_numbers(json, &jobs[i], &figures);
+            add_job_json(json, &jobs[i], &figures);
         }
     }
     if (json) {
         cJSON_AddNumberToObject(json, "state_bytes", (double)sizeof *passive);
         verdicts_to_json(&verdicts, json);
     } else {
-        print(&table, &verdicts);
+        print_table_and_verdicts(&table, &verdicts);
     }
     verdicts_free(&verdicts);
     text_table_free(&table);

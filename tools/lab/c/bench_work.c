@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench_work: the worst scan of 5000 plots, however they lie, over the median scan of as many
- * spread evenly; and how the time grows from 1000 to 5000 of these.
+ * bench_work: the time of the slowest scan of 5000 plots of several shapes, divided by the median
+ * of uniform clutter; and how the time of uniform clutter grows from 1000 to 5000 plots.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +25,7 @@ static const struct sky {
     enum shape shape;
     size_t plots;
     double sigma_m;
-    bool has_rates; /* ambiguous every 20 m/s, noise along the line of sight */
+    bool has_rates; /* range rates, ambiguous by 20 m/s, and anisotropic noise */
 } skies[] = {
     {"evenly spread", "even", EVEN, PLOTS, SIGMA_M, false},
     {"evenly spread, 1000", "even_1000", EVEN, FEW, SIGMA_M, false},
@@ -44,19 +44,19 @@ static const struct sky {
 
 enum { NUM_SKIES = sizeof skies / sizeof skies[0] };
 
-static double within(struct random *random, double side_m)
+static double random_within_side(struct random *random, double side_m)
 {
     return random_between(random, -0.5 * side_m, 0.5 * side_m);
 }
 
-static void place(const struct sky *sky, struct random *random, size_t i, size_t scan,
-                  struct rho_plot *plot)
+static void draw_plot_of_shape(const struct sky *sky, struct random *random, size_t i, size_t scan,
+                               struct rho_plot *plot)
 {
     const size_t heap = i % HEAPS, heap_row = heap / 5, target = i % TARGETS, row = target / 40;
     const double heap_m = 100e3 * (double)(heap % 5) - 200e3;
     const double row_m = 100e3 * (double)heap_row - 150e3;
     const double turn_rad = random_between(random, 0.0, 2.0 * M_PI);
-    double x_m = within(random, SIDE_M), y_m = within(random, SIDE_M);
+    double x_m = random_within_side(random, SIDE_M), y_m = random_within_side(random, SIDE_M);
     if (sky->shape == PILE) {
         x_m = SIGMA_M * random_normal(random);
         y_m = 40e3 + SIGMA_M * random_normal(random);
@@ -84,7 +84,7 @@ static void place(const struct sky *sky, struct random *random, size_t i, size_t
     };
 }
 
-static struct rho_plot *draw(const struct sky *sky, uint64_t seed)
+static struct rho_plot *draw_plots_of_all_scans(const struct sky *sky, uint64_t seed)
 {
     struct rho_plot *plots = must_calloc(SCANS * sky->plots, sizeof *plots);
     struct random random = random_start(seed, (uint64_t)sky->shape, 0);
@@ -96,7 +96,7 @@ static struct rho_plot *draw(const struct sky *sky, uint64_t seed)
                 plot->x_m += (float)(SIGMA_M * random_normal(&random));
                 plot->y_m += (float)(SIGMA_M * random_normal(&random));
             } else {
-                place(sky, &random, i, scan, plot);
+                draw_plot_of_shape(sky, &random, i, scan, plot);
             }
         }
     }
@@ -105,16 +105,16 @@ static struct rho_plot *draw(const struct sky *sky, uint64_t seed)
 
 struct times {
     double median_us, worst_us;
-    unsigned partial; /* scans of a round */
+    unsigned partial; /* number of partial steps in a round */
 };
 
-static int by_size(const void *a, const void *b)
+static int compare_numbers(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
-static void open_sky(struct pipeline *chain, const struct sky *sky)
+static void open_pipeline_for_sky(struct pipeline *chain, const struct sky *sky)
 {
     const struct rho_sensor sensor = {.sensor_id = 1,
                                       .pd = 0.9f,
@@ -126,16 +126,16 @@ static void open_sky(struct pipeline *chain, const struct sky *sky)
     (void)!rho_tracker_set_sensor(chain->tracker, &sensor);
 }
 
-/* Each scan by its fastest round. */
-static struct times time_sky(const struct sky *sky, struct pipeline *chain, uint64_t seed)
+/* The median and the longest time of a scan; each scan counts with its fastest round. */
+static struct times time_scans_of_sky(const struct sky *sky, struct pipeline *chain, uint64_t seed)
 {
-    struct rho_plot *plots = draw(sky, seed);
+    struct rho_plot *plots = draw_plots_of_all_scans(sky, seed);
     double us[SCANS];
     for (size_t i = 0; i < SCANS; i++) {
         us[i] = INFINITY;
     }
     for (int round = 0; round < ROUNDS; round++) {
-        open_sky(chain, sky);
+        open_pipeline_for_sky(chain, sky);
         for (size_t i = 0; i < SCANS; i++) {
             const struct rho_scan scan = {
                 .time_us = llround(1e6 * INTERVAL_S * (double)i),
@@ -150,9 +150,9 @@ static struct times time_sky(const struct sky *sky, struct pipeline *chain, uint
         }
     }
     struct times times = {.partial = chain->tracker->work.partial_steps};
-    qsort(us + WARM_UP, SCANS - WARM_UP, sizeof us[0], by_size);
+    qsort(us + WARM_UP, SCANS - WARM_UP, sizeof us[0], compare_numbers);
     times.median_us = us[WARM_UP + (SCANS - WARM_UP) / 2];
-    qsort(us, SCANS, sizeof us[0], by_size);
+    qsort(us, SCANS, sizeof us[0], compare_numbers);
     times.worst_us = us[SCANS - 1];
     free(plots);
     return times;
@@ -165,7 +165,7 @@ void bench_work(const struct bench *bench)
         text_table_start(1, "5000 plots a scan|median us|worst us|over the even median|partial");
     double even_us = 1.0, few_us = 1.0;
     for (size_t i = 0; i < NUM_SKIES; i++) {
-        const struct times times = time_sky(&skies[i], &chain, bench->seed);
+        const struct times times = time_scans_of_sky(&skies[i], &chain, bench->seed);
         even_us = i == 0 ? times.median_us : even_us;
         few_us = skies[i].plots == FEW ? times.median_us : few_us;
         text_table_add_row(&table, "%s|%.0f|%.0f|%.2f|%u", skies[i].name, times.median_us,

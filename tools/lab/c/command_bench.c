@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench: what the library costs on this machine. Every figure is the minimum of rounds, all in one
- * run, so that their ratios can be trusted where the absolute times cannot.
+ * bench: times of the library on this machine. Every figure is the minimum of several rounds in one
+ * run, so that ratios of figures can be trusted where absolute times cannot.
  */
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -20,7 +20,7 @@
 
 /* ---- kalman ---------------------------------------------------------------------------------- */
 
-static void open_filter(struct rho_kalman *kalman)
+static void start_filter_on_axes(struct rho_kalman *kalman)
 {
     rho_kalman_init(kalman);
     for (int axis = 0; axis < 3; axis++) {
@@ -29,19 +29,19 @@ static void open_filter(struct rho_kalman *kalman)
 }
 
 /*
- * One predict and `updates` scalar updates, as a stream that the compiler cannot leave out. An axis
- * without updates would drift beyond its limits: the filter starts anew from time to time.
+ * The mean time of one prediction and num_updates scalar updates. An axis without updates would
+ * drift beyond its limits, so the filter is started again every FILTER_LIFE steps.
  */
-static double filter_ns(int updates)
+static double mean_filter_step_ns(int num_updates)
 {
     struct rho_kalman kalman;
     int64_t start_us = clock_us();
     for (int step = 0; step < FILTER_STEPS; step++) {
         if (step % FILTER_LIFE == 0) {
-            open_filter(&kalman);
+            start_filter_on_axes(&kalman);
         }
         must_succeed(rho_kalman_predict(&kalman, 1.0f, 1.0f), "predict");
-        for (int i = 0; i < updates; i++) {
+        for (int i = 0; i < num_updates; i++) {
             must_succeed(rho_kalman_update(&kalman, i, 100.0f + (float)(step & 7), 100.0f, NULL),
                          "update");
         }
@@ -57,7 +57,7 @@ static void bench_kalman(const struct bench *bench)
         double best = INFINITY;
         char name[48];
         for (int round = 0; round < BENCH_ROUNDS; round++) {
-            best = fmin(best, filter_ns(updates[i]));
+            best = fmin(best, mean_filter_step_ns(updates[i]));
         }
         snprintf(name, sizeof name, "predict + %d scalar updates", updates[i]);
         text_table_add_row(&table, "%s|%.0f", name, best);
@@ -75,7 +75,7 @@ static void bench_kalman(const struct bench *bench)
 
 /* ---- scans of a simulation ------------------------------------------------------------------- */
 
-/* All scans of a run, over one array of plots. */
+/* All scans of a run; their plots are in one array. */
 struct recording {
     struct rho_scan *scans;
     struct rho_plot *plots;
@@ -93,7 +93,7 @@ static size_t copy_plots(const struct simulated_scan *scan, double sigma_m, stru
     return scan->num_plots;
 }
 
-static struct recording record(const struct simulation *simulation)
+static struct recording copy_simulation_to_recording(const struct simulation *simulation)
 {
     size_t total = 0, used = 0;
     for (size_t i = 0; i < simulation->num_scans; i++) {
@@ -121,8 +121,9 @@ static void free_recording(struct recording *recording)
 
 /* ---- initiate -------------------------------------------------------------------------------- */
 
-static double window_us(struct rho_initiator *initiator, const struct recording *recording,
-                        const struct rho_initiator_config *config)
+static double time_window_search_us(struct rho_initiator *initiator,
+                                    const struct recording *recording,
+                                    const struct rho_initiator_config *config)
 {
     static uint8_t fates[RHO_MAX_PLOTS];
     uint32_t unused = 0;
@@ -137,8 +138,8 @@ static double window_us(struct rho_initiator *initiator, const struct recording 
     return (double)(clock_us() - start_us);
 }
 
-static void initiate_row(const struct bench *bench, struct text_table *table,
-                         struct rho_initiator *initiator, double clutter)
+static void bench_initiate_with_clutter(const struct bench *bench, struct text_table *table,
+                                        struct rho_initiator *initiator, double clutter)
 {
     struct parameters parameters;
     struct rho_initiator_config config;
@@ -147,7 +148,7 @@ static void initiate_row(const struct bench *bench, struct text_table *table,
     parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_KM2, clutter / 10.0);
     parameters_suggest(&parameters, PARAMETER_MIN_SCANS, 5);
     struct simulation *simulation = scenario_simulate("crossing", &parameters, bench->seed, 0);
-    struct recording recording = record(simulation);
+    struct recording recording = copy_simulation_to_recording(simulation);
     parameters_to_initiator(&parameters, &config);
     config.area_is_fixed = 1;
     config.area =
@@ -155,7 +156,7 @@ static void initiate_row(const struct bench *bench, struct text_table *table,
                             (float)simulation->area.y_min_m, (float)simulation->area.y_max_m};
     double best = INFINITY;
     for (int round = 0; round < BENCH_ROUNDS; round++) {
-        best = fmin(best, window_us(initiator, &recording, &config));
+        best = fmin(best, time_window_search_us(initiator, &recording, &config));
     }
     text_table_add_row(table, "%.0f|%.0f|%u|%u|%u|%u", clutter, best, initiator->work.seeds,
                        initiator->work.window.lookups, initiator->work.window.distances,
@@ -176,7 +177,7 @@ static void bench_initiate(const struct bench *bench)
     struct text_table table =
         text_table_start(0, "clutter plots a scan|us a window|seeds|look-ups|distances|fits");
     for (size_t i = 0; i < sizeof clutter / sizeof clutter[0]; i++) {
-        initiate_row(bench, &table, initiator, clutter[i]);
+        bench_initiate_with_clutter(bench, &table, initiator, clutter[i]);
     }
     if (!bench->json) {
         printf("initiate: one batch window, Table 1's targets, 7 scans, 5 votes\n");
@@ -194,8 +195,9 @@ struct cost {
     unsigned tracks;
 };
 
-static struct cost run_chain(struct pipeline *chain, const struct parameters *parameters,
-                             const struct recording *recording)
+static struct cost time_pipeline_on_recording(struct pipeline *chain,
+                                              const struct parameters *parameters,
+                                              const struct recording *recording)
 {
     struct cost cost = {0};
     pipeline_open(chain, parameters);
@@ -210,17 +212,18 @@ static struct cost run_chain(struct pipeline *chain, const struct parameters *pa
     return cost;
 }
 
-static struct cost track_cost(const struct bench *bench, struct pipeline *chain, double plots)
+static struct cost fastest_track_cost(const struct bench *bench, struct pipeline *chain,
+                                      double plots)
 {
     struct parameters parameters;
     parameters_set_defaults(&parameters);
     scenario_suggest("traffic", &parameters);
     parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, plots - 50.0);
     struct simulation *simulation = scenario_simulate("traffic", &parameters, bench->seed, 0);
-    struct recording recording = record(simulation);
+    struct recording recording = copy_simulation_to_recording(simulation);
     struct cost best = {.mean_us = INFINITY, .worst_us = INFINITY};
     for (int round = 0; round < BENCH_ROUNDS; round++) {
-        struct cost cost = run_chain(chain, &parameters, &recording);
+        struct cost cost = time_pipeline_on_recording(chain, &parameters, &recording);
         best.mean_us = fmin(best.mean_us, cost.mean_us);
         best.worst_us = fmin(best.worst_us, cost.worst_us);
         best.tracks = cost.tracks;
@@ -238,7 +241,7 @@ static void bench_track(const struct bench *bench)
         text_table_start(0, "plots a scan|us a scan|worst scan us|ratio|tracks confirmed");
     double first_us = 0.0;
     for (size_t i = 0; i < sizeof plots / sizeof plots[0]; i++) {
-        struct cost cost = track_cost(bench, &chain, plots[i]);
+        struct cost cost = fastest_track_cost(bench, &chain, plots[i]);
         first_us = i == 0 ? cost.mean_us : first_us;
         text_table_add_row(&table, "%.0f|%.0f|%.0f|%.1f|%u", plots[i], cost.mean_us, cost.worst_us,
                            cost.mean_us / first_us, cost.tracks);
@@ -257,7 +260,7 @@ static void bench_track(const struct bench *bench)
     pipeline_free(&chain);
 }
 
-/* ---- all ------------------------------------------------------------------------------------- */
+/* ---- the command ----------------------------------------------------------------------------- */
 
 static const struct {
     const char *name;
@@ -268,7 +271,7 @@ static const struct {
 
 #define NUM_BENCHES (sizeof benches / sizeof benches[0])
 
-static void read_machine(char *name, size_t size)
+static void read_processor_name(char *name, size_t size)
 {
     char line[256];
     FILE *file = fopen("/proc/cpuinfo", "r");
@@ -286,7 +289,7 @@ static void read_machine(char *name, size_t size)
     }
 }
 
-static void check_name(const char *name)
+static void check_bench_name(const char *name)
 {
     for (size_t i = 0; i < NUM_BENCHES; i++) {
         if (strcmp(benches[i].name, name) == 0) {
@@ -307,9 +310,9 @@ int command_bench(struct command_line *line)
                          "passive, node");
     }
     if (wanted) {
-        check_name(wanted);
+        check_bench_name(wanted);
     }
-    read_machine(machine, sizeof machine);
+    read_processor_name(machine, sizeof machine);
     if (line->json) {
         bench.json = cJSON_CreateObject();
         cJSON_AddStringToObject(bench.json, "machine", machine);

@@ -31,9 +31,9 @@ size_t lab_fill_clutter(struct pipeline *chain, const struct parameters *paramet
 
 struct rho_bearing_scan lab_look(const struct scenario_passive *passive,
                                  const struct simulated_look *look, struct rho_bearing *bearings,
-                                 size_t most)
+                                 size_t bearings_max)
 {
-    size_t count = look->num_bearings < most ? look->num_bearings : most;
+    size_t count = look->num_bearings < bearings_max ? look->num_bearings : bearings_max;
 
     for (size_t i = 0; i < count; i++) {
         bearings[i] = (struct rho_bearing){.bearing_rad = (float)look->bearings[i].bearing_rad,

@@ -11,18 +11,18 @@
 struct rho_plot lab_plot(double x_m, double y_m, double sigma_m);
 
 /*
- * Clutter alone, so many plots on average, even over the parameters' area, goes into the chain's
- * plots: how many it is.
+ * Draws clutter, uniform over the parameters' area, into the pipeline's plots and returns the
+ * number of plots, which is Poisson-distributed with this mean.
  */
 size_t lab_fill_clutter(struct pipeline *chain, const struct parameters *parameters, double mean,
                         struct random *random);
 
 /*
- * A simulated look as the library takes it, `most` bearings of it at most; these go into the
- * caller's array.
+ * Converts a simulated look of a passive sensor for the library; at most bearings_max of its
+ * bearings go into the caller's array.
  */
 struct rho_bearing_scan lab_look(const struct scenario_passive *passive,
                                  const struct simulated_look *look, struct rho_bearing *bearings,
-                                 size_t most);
+                                 size_t bearings_max);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* rhotrack-lab: the benches. `rhotrack bench` runs it. */
+/* rhotrack-lab: the program with the benches; `rhotrack bench` runs it. */
 #include <cjson/cJSON.h>
 #include <limits.h>
 #include <stdlib.h>

@@ -7,17 +7,17 @@
 #include "base/common.h"
 #include "scenario_plan.h"
 
-/* ---- their names and customary parameters ---------------------------------------------------- */
+/* ---- names and customary parameters of scenarios --------------------------------------------- */
 
 /*
- * What scenarios are customarily drawn with; several may share it. true_pd 0: what is assumed,
- * 0.95.
+ * Customary values of the parameters of a scenario; several scenarios may share them. true_pd 0:
+ * targets are detected with the P_D that the tracker assumes, 0.95.
  */
 struct customs {
     double num_scans, interval_s, sigma_m, true_pd, v_min_mps, v_max_mps, accel_max_mps2;
     struct scenario_box box;
-    double clutter_per_km2; /* where positive, else: */
-    double clutter_per_scan;
+    double clutter_per_km2;
+    double clutter_per_scan; /* used where clutter_per_km2 is 0 */
 };
 
 static const struct customs paper_targets = {.num_scans = 7,
@@ -58,7 +58,7 @@ static const struct customs formation = {.num_scans = 61,
 
 static const struct scenario {
     const char *name;
-    uint64_t stream; /* of random numbers: its place when there were more */
+    uint64_t stream; /* of random numbers; fixed, so that data stay the same */
     const struct customs *customs;
     struct scenario_plan (*plan)(const struct parameters *parameters, struct random *random);
 } scenarios[] = {
@@ -71,7 +71,7 @@ static const struct scenario {
 
 #define NUM_SCENARIOS (sizeof scenarios / sizeof scenarios[0])
 
-static const struct scenario *find_scenario(const char *name)
+static const struct scenario *must_find_scenario(const char *name)
 {
     char list[512] = "";
     size_t length = 0;
@@ -97,7 +97,7 @@ static void suggest_area(struct parameters *parameters, const struct scenario_bo
 
 void scenario_suggest(const char *name, struct parameters *parameters)
 {
-    const struct scenario *scenario = find_scenario(name);
+    const struct scenario *scenario = must_find_scenario(name);
     parameters_suggest(parameters, PARAMETER_NUM_SCANS, scenario->customs->num_scans);
     parameters_suggest(parameters, PARAMETER_INTERVAL_S, scenario->customs->interval_s);
     parameters_suggest(parameters, PARAMETER_SIGMA_M, scenario->customs->sigma_m);
@@ -118,7 +118,7 @@ void scenario_suggest(const char *name, struct parameters *parameters)
     }
     if (scenario->plan == plan_formation) {
         parameters_suggest(parameters, PARAMETER_STEADY_S,
-                           300); /* and the aircraft keep to a course */
+                           300); /* aircraft fly straight between turns */
     }
     parameters_suggest(parameters, PARAMETER_MERGE_M, 0);
     if (scenario->customs->clutter_per_km2 > 0.0) {
@@ -135,7 +135,7 @@ void scenario_suggest(const char *name, struct parameters *parameters)
 struct simulation *scenario_simulate(const char *name, const struct parameters *parameters,
                                      uint64_t seed, uint64_t run)
 {
-    const struct scenario *scenario = find_scenario(name);
+    const struct scenario *scenario = must_find_scenario(name);
     struct random random = random_start(seed, scenario->stream, run);
     struct scenario_plan plan = scenario->plan(parameters, &random);
     enum parameter_id pd =

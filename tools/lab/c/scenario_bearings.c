@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scenario_bearings: targets that come towards passive sensors around the origin, and the bearings
- * of these.
+ * scenario_bearings: targets that approach passive sensors around the origin, and the bearings that
+ * these sensors measure.
  */
 #include <math.h>
 
@@ -11,7 +11,7 @@
 #define PI 3.141592653589793
 #define START_FAR_M 78000.0
 #define END_X_MIN_M 2000.0
-#define STREAM 11 /* of random numbers, beside the scenarios' */
+#define STREAM 11 /* of random numbers; no scenario in scenario.c has this one */
 
 static const struct scenario_box starts = {
     .x_min_m = 20000.0, .x_max_m = 75000.0, .y_min_m = -50000.0, .y_max_m = 50000.0};
@@ -21,8 +21,9 @@ static const double places_m[SCENARIO_SENSORS_MAX][2] = {
 
 /* ---- targets --------------------------------------------------------------------------------- */
 
-/* Within 45 degrees of the way to the origin. */
-static struct scenario_state draw_state(const struct parameters *parameters, struct random *random)
+/* A random place and speed, with a heading within 45 degrees of the direction to the origin. */
+static struct scenario_state draw_inbound_state(const struct parameters *parameters,
+                                                struct random *random)
 {
     double x_m = random_between(random, starts.x_min_m, starts.x_max_m);
     double y_m = random_between(random, starts.y_min_m, starts.y_max_m);
@@ -35,12 +36,12 @@ static struct scenario_state draw_state(const struct parameters *parameters, str
                                    .vy_mps = speed_mps * sin(heading_rad)};
 }
 
-/* Drawn again until it starts near enough and does not reach the sensors. */
-static struct scenario_state approach(const struct parameters *parameters, double duration_s,
-                                      struct random *random)
+/* Draws until a target starts near enough and does not reach the sensors; exit 2 if none does. */
+static struct scenario_state draw_approaching_target(const struct parameters *parameters,
+                                                     double duration_s, struct random *random)
 {
     for (int i = 0; i < 10000; i++) {
-        struct scenario_state state = draw_state(parameters, random);
+        struct scenario_state state = draw_inbound_state(parameters, random);
         if (hypot(state.x_m, state.y_m) <= START_FAR_M &&
             state.x_m + state.vx_mps * duration_s >= END_X_MIN_M) {
             return state;
@@ -58,7 +59,7 @@ static struct scenario_plan plan_passive(const struct scenario_bearings *of,
         of->num_targets, (size_t)(value[PARAMETER_NUM_SCANS] + 0.5), value[PARAMETER_INTERVAL_S]);
     double duration_s = plan.interval_s * ((double)plan.num_scans - 1.0);
     for (size_t target = 0; target < plan.num_targets; target++) {
-        plan_straight(&plan, target, approach(parameters, duration_s, random));
+        plan_straight(&plan, target, draw_approaching_target(parameters, duration_s, random));
     }
     plan.passive = (struct scenario_passive){
         .is_used = true,
@@ -106,28 +107,30 @@ struct simulation *simulate_passive(const struct scenario_bearings *of,
 
 /* ---- bearings -------------------------------------------------------------------------------- */
 
-static void add_bearing(struct simulated_look *look, double bearing_rad, int target_id)
+static void append_bearing(struct simulated_look *look, double bearing_rad, int target_id)
 {
     look->bearings[look->num_bearings++] = (struct simulated_bearing){
         .bearing_rad = remainder(bearing_rad, 2.0 * PI), .target_id = target_id};
 }
 
 /*
- * A target that is missed uses up the same random numbers: the others' noise does not depend on it.
+ * A missed target takes as many random numbers as a detected one, so that the noise of other
+ * targets does not depend on it.
  */
-static void see_target(const struct scenario_plan *plan, const struct truth_point *truth,
-                       struct simulated_look *look, struct random *random)
+static void append_bearing_if_detected(const struct scenario_plan *plan,
+                                       const struct truth_point *truth, struct simulated_look *look,
+                                       struct random *random)
 {
     double dx_m = truth->x_m - plan->passive.sensors[look->sensor].x_m;
     double dy_m = truth->y_m - plan->passive.sensors[look->sensor].y_m;
     bool is_seen = random_uniform(random) < plan->pd;
     double noise_rad = plan->passive.sigma_rad * random_normal(random);
     if (is_seen) {
-        add_bearing(look, atan2(dy_m, dx_m) + noise_rad, truth->target_id);
+        append_bearing(look, atan2(dy_m, dx_m) + noise_rad, truth->target_id);
     }
 }
 
-static void shuffle(struct simulated_look *look, struct random *random)
+static void shuffle_bearings(struct simulated_look *look, struct random *random)
 {
     for (size_t i = look->num_bearings; i > 1; i--) {
         size_t j = random_below(random, i);
@@ -137,26 +140,26 @@ static void shuffle(struct simulated_look *look, struct random *random)
     }
 }
 
-static void look_around(const struct scenario_plan *plan, size_t index, struct simulated_look *look,
-                        struct random *random)
+static void simulate_look(const struct scenario_plan *plan, size_t scan,
+                          struct simulated_look *look, struct random *random)
 {
     uint64_t num_false = random_poisson(random, plan->passive.false_mean);
     look->bearings = must_calloc(plan->num_targets + num_false + 1, sizeof *look->bearings);
     for (size_t target = 0; target < plan->num_targets; target++) {
-        see_target(plan, plan_truth(plan, index, target), look, random);
+        append_bearing_if_detected(plan, plan_truth(plan, scan, target), look, random);
     }
     for (uint64_t i = 0; i < num_false; i++) {
-        add_bearing(look, random_between(random, -PI / 2.0, PI / 2.0), -1);
+        append_bearing(look, random_between(random, -PI / 2.0, PI / 2.0), -1);
     }
-    shuffle(look, random);
+    shuffle_bearings(look, random);
 }
 
-void plan_look_of_sensors(const struct scenario_plan *plan, size_t index,
+void plan_look_of_sensors(const struct scenario_plan *plan, size_t scan,
                           struct simulated_look *looks, struct random *random)
 {
     for (size_t sensor = 0; sensor < plan->passive.num_sensors; sensor++) {
-        looks[sensor].t_s = (double)index * plan->interval_s;
+        looks[sensor].t_s = (double)scan * plan->interval_s;
         looks[sensor].sensor = sensor;
-        look_around(plan, index, &looks[sensor], random);
+        simulate_look(plan, scan, &looks[sensor], random);
     }
 }

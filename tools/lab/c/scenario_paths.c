@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scenario_paths: where the targets of the small scenarios, and of traffic, fly. */
+/* scenario_paths: the paths of the targets of the named scenarios. */
 #include <math.h>
 
 #include "base/common.h"
@@ -7,23 +7,24 @@
 
 #define DEG_RAD 0.017453292519943295
 #define PAIR_MPS 250.0
-#define CROSSING_RAD (10.0 * DEG_RAD) /* of two paths */
+#define CROSSING_RAD (10.0 * DEG_RAD) /* angle between two crossing paths */
 
-static size_t count_of(const struct parameters *parameters, enum parameter_id id)
+static size_t parameter_as_count(const struct parameters *parameters, enum parameter_id id)
 {
     return (size_t)(parameters->value[id] + 0.5);
 }
 
-static struct scenario_plan plan_of(const struct parameters *parameters, size_t num_targets)
+static struct scenario_plan start_plan_by_parameters(const struct parameters *parameters,
+                                                     size_t num_targets)
 {
-    return plan_start(num_targets, count_of(parameters, PARAMETER_NUM_SCANS),
+    return plan_start(num_targets, parameter_as_count(parameters, PARAMETER_NUM_SCANS),
                       parameters->value[PARAMETER_INTERVAL_S]);
 }
 
 struct scenario_plan plan_crossing(const struct parameters *parameters, struct random *random)
 {
     (void)random;
-    struct scenario_plan plan = plan_of(parameters, 3);
+    struct scenario_plan plan = start_plan_by_parameters(parameters, 3);
     plan_straight(&plan, 0, (struct scenario_state){300, 280.0, 400, 49.0});
     plan_straight(&plan, 1, (struct scenario_state){3000, -173.2, 300, -100.0});
     plan_straight(&plan, 2, (struct scenario_state){2100, -173.2, 1300, -100.0});
@@ -33,7 +34,7 @@ struct scenario_plan plan_crossing(const struct parameters *parameters, struct r
 struct scenario_plan plan_parallel(const struct parameters *parameters, struct random *random)
 {
     (void)random;
-    struct scenario_plan plan = plan_of(parameters, 2);
+    struct scenario_plan plan = start_plan_by_parameters(parameters, 2);
     plan_straight(&plan, 0, (struct scenario_state){-1500, PAIR_MPS, 0, 0});
     plan_straight(
         &plan, 1,
@@ -41,11 +42,11 @@ struct scenario_plan plan_parallel(const struct parameters *parameters, struct r
     return plan;
 }
 
-/* Both are in the origin at half time. */
+/* Two targets that meet in the origin at half time. */
 struct scenario_plan plan_crossing_angle(const struct parameters *parameters, struct random *random)
 {
     (void)random;
-    struct scenario_plan plan = plan_of(parameters, 2);
+    struct scenario_plan plan = start_plan_by_parameters(parameters, 2);
     double half_s = plan.interval_s * ((double)plan.num_scans - 1.0) / 2.0;
     for (size_t target = 0; target < 2; target++) {
         double heading_rad = CROSSING_RAD * (target == 0 ? 0.5 : -0.5);
@@ -58,11 +59,11 @@ struct scenario_plan plan_crossing_angle(const struct parameters *parameters, st
 }
 
 /*
- * At t_s of one side of a formation: together from join_s to part_s, before and after at an angle.
- * side: 1 or -1.
+ * The state of one of two targets at t_s, on side 1 or -1 of their formation: parallel from join_s
+ * to part_s, converging before and diverging after.
  */
-static struct scenario_state formation_at(const struct parameters *parameters, double t_s,
-                                          double join_s, double part_s, double side)
+static struct scenario_state formation_state_at(const struct parameters *parameters, double t_s,
+                                                double join_s, double part_s, double side)
 {
     double speed_mps = PAIR_MPS, angle_rad = CROSSING_RAD / 2.0;
     double before_s = fmax(0.0, join_s - t_s), after_s = fmax(0.0, t_s - part_s);
@@ -84,25 +85,25 @@ static struct scenario_state formation_at(const struct parameters *parameters, d
 struct scenario_plan plan_formation(const struct parameters *parameters, struct random *random)
 {
     (void)random;
-    struct scenario_plan plan = plan_of(parameters, 2);
+    struct scenario_plan plan = start_plan_by_parameters(parameters, 2);
     double last_s = plan.interval_s * ((double)plan.num_scans - 1.0);
     for (size_t scan = 0; scan < plan.num_scans; scan++) {
         double t_s = plan.interval_s * (double)scan;
         for (size_t target = 0; target < 2; target++) {
             plan_put(&plan, scan, target,
-                     formation_at(parameters, t_s, 0.25 * last_s, 0.75 * last_s,
-                                  target == 0 ? 1.0 : -1.0));
+                     formation_state_at(parameters, t_s, 0.25 * last_s, 0.75 * last_s,
+                                        target == 0 ? 1.0 : -1.0));
         }
     }
     return plan;
 }
 
 /*
- * Anywhere, any heading, any speed between the limits, drawn again until the whole path lies in the
- * area.
+ * Draws place, heading and speed until the whole straight path lies in the area; exit 2 after 10000
+ * attempts.
  */
-static struct scenario_state straight_inside(const struct parameters *parameters, double duration_s,
-                                             struct random *random)
+static struct scenario_state draw_straight_path_in_area(const struct parameters *parameters,
+                                                        double duration_s, struct random *random)
 {
     struct scenario_box box = plan_box_of(parameters);
     for (int i = 0; i < 10000; i++) {
@@ -124,10 +125,11 @@ static struct scenario_state straight_inside(const struct parameters *parameters
 
 struct scenario_plan plan_traffic(const struct parameters *parameters, struct random *random)
 {
-    struct scenario_plan plan = plan_of(parameters, count_of(parameters, PARAMETER_TARGETS));
+    struct scenario_plan plan =
+        start_plan_by_parameters(parameters, parameter_as_count(parameters, PARAMETER_TARGETS));
     double duration_s = plan.interval_s * ((double)plan.num_scans - 1.0);
     for (size_t target = 0; target < plan.num_targets; target++) {
-        plan_straight(&plan, target, straight_inside(parameters, duration_s, random));
+        plan_straight(&plan, target, draw_straight_path_in_area(parameters, duration_s, random));
     }
     return plan;
 }

@@ -64,8 +64,8 @@ void plan_put(const struct scenario_plan *plan, size_t scan, size_t target,
 #define BOX_MARGIN_M 500.0
 
 /*
- * Longer or wider runs than the customary one carry their targets out of the box: it grows, unless
- * the user set it.
+ * Grows the box of the clutter around all true positions, unless the user set the area; targets of
+ * longer or wider runs than the customary one would leave it.
  */
 void plan_grow_box(struct scenario_plan *plan, const struct parameters *parameters)
 {
@@ -83,7 +83,7 @@ void plan_grow_box(struct scenario_plan *plan, const struct parameters *paramete
     }
 }
 
-/* The one that was set at the higher place counts. */
+/* Of the density per km2 and the number per scan, the one from the stronger source counts. */
 double plan_clutter_mean(const struct parameters *parameters, const struct scenario_box *box)
 {
     double area_km2 = (box->x_max_m - box->x_min_m) * (box->y_max_m - box->y_min_m) * 1e-6;
@@ -120,8 +120,8 @@ void plan_clutter(struct simulated_scan *scan, const struct scenario_box *box, u
     }
 }
 
-static void add_detection(const struct scenario_plan *plan, struct simulated_scan *scan,
-                          const struct truth_point *truth, double pd, struct random *random)
+static void add_plot_if_detected(const struct scenario_plan *plan, struct simulated_scan *scan,
+                                 const struct truth_point *truth, double pd, struct random *random)
 {
     bool is_seen = random_uniform(random) < pd;
     double noise_x_m = plan->noise_m * random_normal(random);
@@ -143,9 +143,9 @@ void plan_shuffle(struct simulated_scan *scan, struct random *random)
     }
 }
 
-/* Of two that are close, one plot between them where either is seen. */
-static bool add_merged(const struct scenario_plan *plan, struct simulated_scan *scan,
-                       const struct truth_point *truth, struct random *random)
+/* True if there are two targets closer than merge_m; either may then give one plot between them. */
+static bool add_merged_plot_if_close(const struct scenario_plan *plan, struct simulated_scan *scan,
+                                     const struct truth_point *truth, struct random *random)
 {
     struct truth_point middle = truth[0];
 
@@ -155,7 +155,7 @@ static bool add_merged(const struct scenario_plan *plan, struct simulated_scan *
     }
     middle.x_m = 0.5 * (truth[0].x_m + truth[1].x_m);
     middle.y_m = 0.5 * (truth[0].y_m + truth[1].y_m);
-    add_detection(plan, scan, &middle, 1.0 - (1.0 - plan->pd) * (1.0 - plan->pd), random);
+    add_plot_if_detected(plan, scan, &middle, 1.0 - (1.0 - plan->pd) * (1.0 - plan->pd), random);
     return true;
 }
 
@@ -166,9 +166,9 @@ static void simulate_scan(const struct scenario_plan *plan, size_t index,
     uint64_t num_spot = random_poisson(random, plan->spot_mean);
     scan->t_s = (double)index * plan->interval_s;
     scan->plots = must_calloc(plan->num_targets + num_clutter + num_spot + 1, sizeof *scan->plots);
-    if (!add_merged(plan, scan, plan_truth(plan, index, 0), random)) {
+    if (!add_merged_plot_if_close(plan, scan, plan_truth(plan, index, 0), random)) {
         for (size_t target = 0; target < plan->num_targets; target++) {
-            add_detection(plan, scan, plan_truth(plan, index, target), plan->pd, random);
+            add_plot_if_detected(plan, scan, plan_truth(plan, index, target), plan->pd, random);
         }
     }
     plan_clutter(scan, &plan->box, num_clutter, random);

@@ -9,9 +9,9 @@
 #include "base/portable_math.h"
 #include "pipeline/pipeline.h"
 
-/* ---- what trackers are told ------------------------------------------------------------------ */
+/* ---- parameters of a tracker ----------------------------------------------------------------- */
 
-static void suggest_settings(const struct scene *scene, struct parameters *parameters)
+static void suggest_settings_of_scene(const struct scene *scene, struct parameters *parameters)
 {
     char key[80], value[80], reason[PARAMETER_REASON_BYTES];
 
@@ -23,7 +23,8 @@ static void suggest_settings(const struct scene *scene, struct parameters *param
     }
 }
 
-static void suggest_radar(const struct scene_sensor *sensor, struct parameters *parameters)
+static void suggest_parameters_of_radar(const struct scene_sensor *sensor,
+                                        struct parameters *parameters)
 {
     const struct scene_stated *told = &sensor->told;
 
@@ -47,21 +48,21 @@ struct parameters scene_parameters(const struct scene *scene)
     struct parameters parameters;
 
     parameters_set_defaults(&parameters);
-    suggest_settings(scene, &parameters);
+    suggest_settings_of_scene(scene, &parameters);
     for (int i = 0; scene->has_area && i < 4; i++) {
         parameters_suggest(&parameters, (enum parameter_id)(PARAMETER_AREA_X_MIN_M + i),
                            scene->area_m[i]);
     }
     if (scene->num_sensors == 1) {
-        suggest_radar(&scene->sensors[0], &parameters);
+        suggest_parameters_of_radar(&scene->sensors[0], &parameters);
     }
     return parameters;
 }
 
 /* ---- one radar's scans and the truth --------------------------------------------------------- */
 
-static struct simulated_plot plot_of(const struct scene_sensor *sensor,
-                                     const struct scene_plot *plot, double scan_s)
+static struct simulated_plot simulated_plot_of_scene(const struct scene_sensor *sensor,
+                                                     const struct scene_plot *plot, double scan_s)
 {
     if (sensor->is_cartesian) {
         return (struct simulated_plot){
@@ -76,21 +77,21 @@ static struct simulated_plot plot_of(const struct scene_sensor *sensor,
                                    .range_rate_mps = plot->range_rate_mps};
 }
 
-static struct simulated_scan scan_of(const struct scene_sensor *sensor,
-                                     const struct scene_scan *scan)
+static struct simulated_scan simulated_scan_of_scene(const struct scene_sensor *sensor,
+                                                     const struct scene_scan *scan)
 {
     struct simulated_scan out = {.t_s = scan->end_s - (sensor->turns ? sensor->turn_s : 0.0),
                                  .num_plots = scan->num_plots,
                                  .plots = must_calloc(scan->num_plots + 1, sizeof *out.plots)};
 
     for (size_t i = 0; i < scan->num_plots; i++) {
-        out.plots[i] = plot_of(sensor, &scan->plots[i], out.t_s);
+        out.plots[i] = simulated_plot_of_scene(sensor, &scan->plots[i], out.t_s);
     }
     return out;
 }
 
-static void add_truth(const struct scene_run *run, double t_s, struct simulation *simulation,
-                      size_t *room)
+static void add_truth_at_time(const struct scene_run *run, double t_s,
+                              struct simulation *simulation, size_t *room)
 {
     for (size_t i = 0; i < run->num_paths; i++) {
         if (t_s >= run->paths[i].from_s && t_s < run->paths[i].until_s) {
@@ -108,7 +109,7 @@ static void add_truth(const struct scene_run *run, double t_s, struct simulation
     }
 }
 
-static struct scenario_radar radar_of(const struct scene_sensor *sensor)
+static struct scenario_radar scenario_radar_of_sensor(const struct scene_sensor *sensor)
 {
     return (struct scenario_radar){.is_used = !sensor->is_cartesian,
                                    .has_range_rate = sensor->has_range_rate,
@@ -119,7 +120,8 @@ static struct scenario_radar radar_of(const struct scene_sensor *sensor)
                                    .range_max_m = sensor->coverage.range_m.hi};
 }
 
-struct simulation *scene_simulation(const struct scene *scene, uint64_t seed, uint64_t run_number)
+struct simulation *scene_simulate_one_radar(const struct scene *scene, uint64_t seed,
+                                            uint64_t run_number)
 {
     const struct scene_sensor *sensor = &scene->sensors[0];
     struct scene_run *run = scene_observe(scene, seed, run_number);
@@ -132,11 +134,11 @@ struct simulation *scene_simulation(const struct scene *scene, uint64_t seed, ui
         .sigma_m = sensor->told.sigma_m,
         .area = {scene->area_m[0], scene->area_m[1], scene->area_m[2], scene->area_m[3]},
         .interval_s = sensor->turn_s,
-        .radar = radar_of(sensor),
+        .radar = scenario_radar_of_sensor(sensor),
         .scans = must_calloc(run->num_scans + 1, sizeof *simulation->scans)};
     for (size_t i = 0; i < run->num_scans; i++) {
-        simulation->scans[i] = scan_of(sensor, &run->scans[i]);
-        add_truth(run, simulation->scans[i].t_s, simulation, &room);
+        simulation->scans[i] = simulated_scan_of_scene(sensor, &run->scans[i]);
+        add_truth_at_time(run, simulation->scans[i].t_s, simulation, &room);
         simulation->targets_a_scan = i == 0 ? simulation->num_truth : simulation->targets_a_scan;
     }
     if (scene->num_sensors != 1 || sensor->sectors > 1 ||
@@ -147,7 +149,7 @@ struct simulation *scene_simulation(const struct scene *scene, uint64_t seed, ui
     return simulation;
 }
 
-/* ---- scans as trackers take them ------------------------------------------------------------- */
+/* ---- scans for a tracker --------------------------------------------------------------------- */
 
 int64_t scene_scan_us(const struct scene_run *run, const struct scene_scan *scan)
 {
@@ -164,8 +166,8 @@ struct rho_sensor scene_known_sensor(const struct scene_sensor *sensor)
                                .range_max_m = (float)sensor->told.coverage.range_m.hi};
 }
 
-struct rho_scan scene_scan(const struct scene_run *run, const struct scene_scan *scan,
-                           const struct rho_sensor *known, struct rho_plot *plots)
+struct rho_scan scene_scan_for_tracker(const struct scene_run *run, const struct scene_scan *scan,
+                                       const struct rho_sensor *known, struct rho_plot *plots)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[scan->sensor];
     struct rho_scan out = {.time_us = scene_scan_us(run, scan),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_simulation: scenes as experiments take them: parameters and scans in memory, what
- * `simulate` writes into files.
+ * scene_simulation: gives experiments the parameters and scans of a scene in memory, where the
+ * command `simulate` writes them into files.
  */
 #ifndef RHOTRACK_TOOL_SCENE_SIMULATION_H
 #define RHOTRACK_TOOL_SCENE_SIMULATION_H
@@ -12,28 +12,29 @@
 #include "scene/scene_observe.h"
 
 /*
- * The defaults, and what scenario.ini would tell a tracker; of the sensor where there is one radar
- * alone.
+ * The defaults, changed by the settings that scenario.ini would give a tracker and, when the scene
+ * has one sensor, by the values of that sensor.
  */
 struct parameters scene_parameters(const struct scene *scene);
 
 /*
- * A run of one radar that looks everywhere at once, or whose scan is a turn: times of scans are
- * where these begin. There are as many targets at each of them.
+ * Simulates a run of a scene with one radar, whose scan is a turn or a look at all directions at
+ * once; a scan's time is its begin. Exit 1 where the number of targets changes between scans.
  */
-struct simulation *scene_simulation(const struct scene *scene, uint64_t seed, uint64_t run);
+struct simulation *scene_simulate_one_radar(const struct scene *scene, uint64_t seed,
+                                            uint64_t run_number);
 
-/* A scan's time by its radar's clock. */
+/* A scan's time by its radar's clock, which includes the radar's time bias. */
 int64_t scene_scan_us(const struct scene_run *run, const struct scene_scan *scan);
 
-/* A radar as a tracker may know it: its biases 0. */
+/* A radar as the scene tells it to a tracker, with biases of 0. */
 struct rho_sensor scene_known_sensor(const struct scene_sensor *sensor);
 
 /*
- * A scan of a radar, as files have it, by what is known of the radar: that many plots go into
- * `plots`. Exit 1 where these are more than RHO_MAX_PLOTS.
+ * Converts a scan of the scene for a tracker, as files have it, with the radar's known place; its
+ * plots go into `plots`. Exit 1 where there are more than RHO_MAX_PLOTS.
  */
-struct rho_scan scene_scan(const struct scene_run *run, const struct scene_scan *scan,
-                           const struct rho_sensor *known, struct rho_plot *plots);
+struct rho_scan scene_scan_for_tracker(const struct scene_run *run, const struct scene_scan *scan,
+                                       const struct rho_sensor *known, struct rho_plot *plots);
 
 #endif

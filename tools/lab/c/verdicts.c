@@ -7,7 +7,7 @@
 
 #include "base/common.h"
 
-#define ROUNDING 1e-9 /* of sums of counts */
+#define ROUNDING 1e-9 /* tolerance for rounding in sums of counts */
 
 struct verdicts verdicts_start(void)
 {
@@ -21,8 +21,9 @@ struct bar {
     bool is_held;
 };
 
-static void add(struct verdicts *verdicts, double value, const struct bar *bar, const char *format,
-                va_list list)
+/* Adds the figure and its bar to the table, to the JSON and to the count held or missed. */
+static void add_verdict(struct verdicts *verdicts, double value, const struct bar *bar,
+                        const char *format, va_list list)
 {
     char what[160];
     cJSON *object = cJSON_CreateObject();
@@ -43,7 +44,7 @@ void verdicts_at_most(struct verdicts *verdicts, double value, double bar, const
     struct bar at_most = {"<=", bar, value <= bar + ROUNDING};
     va_list list;
     va_start(list, what);
-    add(verdicts, value, &at_most, what, list);
+    add_verdict(verdicts, value, &at_most, what, list);
     va_end(list);
 }
 
@@ -52,7 +53,7 @@ void verdicts_at_least(struct verdicts *verdicts, double value, double bar, cons
     struct bar at_least = {">=", bar, value >= bar - ROUNDING};
     va_list list;
     va_start(list, what);
-    add(verdicts, value, &at_least, what, list);
+    add_verdict(verdicts, value, &at_least, what, list);
     va_end(list);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * verdicts: the figures of an experiment that have bars, as a table with its count of bars held and
- * missed.
+ * verdicts: collects figures of an experiment that have a bar (an upper or lower limit), as a table
+ * and JSON with the numbers of bars held and missed.
  */
 #ifndef RHOTRACK_TOOL_VERDICTS_H
 #define RHOTRACK_TOOL_VERDICTS_H
@@ -18,16 +18,16 @@ struct verdicts {
 
 struct verdicts verdicts_start(void);
 
-/* One more figure, printf of what it is. A value that is no number is missed. */
+/* Adds a figure with its bar; `what` is a printf format of its name. NAN misses its bar. */
 void verdicts_at_most(struct verdicts *verdicts, double value, double bar, const char *what, ...)
     __attribute__((format(printf, 4, 5)));
 void verdicts_at_least(struct verdicts *verdicts, double value, double bar, const char *what, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* The array becomes `object`'s, with the counts beside it. */
+/* Moves the array into `object` and adds the counts; afterwards no figure can be added. */
 void verdicts_to_json(struct verdicts *verdicts, cJSON *object);
 
-/* The table and "N bars held, M missed". */
+/* Prints the table and "N bars held, M missed". */
 void verdicts_print(const struct verdicts *verdicts, FILE *out);
 void verdicts_free(struct verdicts *verdicts);
 

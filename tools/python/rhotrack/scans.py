@@ -60,7 +60,7 @@ class Scans(Sequence):
             rows, are_frames = _full(array), np.full(len(counts), "bearing_rad" in array.dtype.names)
             if counts.sum() != len(rows):
                 raise Error(f"counts of {counts.sum()} rows, and there are {len(rows)}")
-        handle = lib.program_scans(
+        handle = lib.program_scans_from_rows(
             pointer_to(rows, "struct program_row *"), pointer_to(counts, "uint32_t *"),
             pointer_to(are_frames, "bool *"), len(counts), settings.handle)
         self._own(must(handle))
@@ -160,7 +160,7 @@ STATUS = np.array(["", "tentative", "confirmed", "coasting", "deleted"])
 
 def _table(path: bytes, kind: str, settings: Settings, keep_going: bool) -> np.ndarray:
     """Columns that hold anything, with the types that Tracker gives."""
-    table = ffi.gc(must(lib.program_table(path, kind.encode(), settings.handle, keep_going)),
+    table = ffi.gc(must(lib.program_read_table(path, kind.encode(), settings.handle, keep_going)),
                    lib.program_table_free)
     count, width = table.num_rows, table.num_columns
     cells = array_of(table.cells, count * width, "f8").reshape(count, width)

@@ -63,7 +63,7 @@ class Tracker:
     def __init__(self, settings: Settings | None = None, covariance: bool = False,
                  **parameters: Any) -> None:
         self.settings = settings_of(settings, parameters)
-        self._pipeline = ffi.gc(must(lib.program_pipeline(self.settings.handle, covariance)),
+        self._pipeline = ffi.gc(must(lib.program_pipeline_new(self.settings.handle, covariance)),
                                 lib.program_pipeline_free)
 
     def step(self, scan: np.ndarray) -> np.ndarray:
@@ -154,7 +154,7 @@ class Maintainer:
         if tracks < 1 or seed < 0:
             raise Error("tracks is 1 at least, seed 0")
         self._all = ffi.gc(
-            must(lib.program_maintainers(self.settings.handle, tracks, input_estimation, seed,
+            must(lib.program_maintainers_new(self.settings.handle, tracks, input_estimation, seed,
                                          covariance)), lib.program_maintainers_free)
 
     def run(self, scans: Any, log_densities: Any = None) -> np.ndarray:
@@ -209,7 +209,7 @@ class Node:
         self.settings = settings_of(settings, parameters)
         self._sent: list[tuple[str, bytes]] = []
         self._context = ffi.new_handle(self._sent)
-        self._node = ffi.gc(must(lib.program_node(self.settings.handle, epoch, lib.node_sent,
+        self._node = ffi.gc(must(lib.program_node_new(self.settings.handle, epoch, lib.node_sent,
                                                   self._context)), lib.program_node_free)
         self._tracks = ffi.gc(ffi.new("struct program_tracks *"), lib.program_tracks_free)
 

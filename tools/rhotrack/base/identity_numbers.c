@@ -17,7 +17,7 @@ static size_t *find_identity_slot(const struct identity_numbers *identities, int
     return &identities->slots[at];
 }
 
-static void grow_slots(struct identity_numbers *identities)
+static void double_slots_and_rehash(struct identity_numbers *identities)
 {
     free(identities->slots);
     identities->num_slots = identities->num_slots == 0 ? 64 : 2 * identities->num_slots;
@@ -30,7 +30,7 @@ static void grow_slots(struct identity_numbers *identities)
 size_t identity_numbers_find_or_add(struct identity_numbers *identities, int32_t id)
 {
     if (2 * identities->count >= identities->num_slots) {
-        grow_slots(identities);
+        double_slots_and_rehash(identities);
     }
     size_t *slot = find_identity_slot(identities, id);
     if (*slot == 0) {

@@ -16,7 +16,7 @@ static char *copy_text(const char *text, size_t length)
     return copy;
 }
 
-static void add_row(struct text_table *table, const char *text)
+static void append_row_split_at_bars(struct text_table *table, const char *text)
 {
     table->cells = must_realloc(table->cells,
                                 (table->num_rows + 1) * table->num_columns * sizeof *table->cells);
@@ -34,7 +34,7 @@ struct text_table text_table_start(size_t left_columns, const char *head)
     for (const char *at = head; *at != '\0'; at++) {
         table.num_columns += *at == '|';
     }
-    add_row(&table, head);
+    append_row_split_at_bars(&table, head);
     return table;
 }
 
@@ -48,7 +48,7 @@ void text_table_add_row(struct text_table *table, const char *format, ...)
     if (length < 0) {
         fail(EXIT_RUNTIME, "out of memory");
     }
-    add_row(table, text);
+    append_row_split_at_bars(table, text);
     free(text);
 }
 

@@ -79,8 +79,8 @@ static void warn_of_long_search(const struct rho_hough *hough,
     }
 }
 
-static void find_peaks(struct hough_search *search, const struct command_line *line,
-                       enum method method)
+static void search_batch_for_peaks(struct hough_search *search, const struct command_line *line,
+                                   enum method method)
 {
     struct parameters fitted = line->parameters;
     struct rho_hough_points points = hough_batch_points(&search->batch);
@@ -145,7 +145,7 @@ static void write_found_tracks(const struct hough_search *search, const char *pa
     initiated_output_close(found);
 }
 
-static void add_peaks_json(cJSON *object, const struct hough_search *search)
+static void add_peak_votes_json(cJSON *object, const struct hough_search *search)
 {
     cJSON *list = cJSON_AddArrayToObject(object, "peak_votes");
 
@@ -169,7 +169,7 @@ static void print_search_json(const struct hough_search *search, enum method met
     cJSON_AddNumberToObject(object, "pairs", result->pairs);
     cJSON_AddNumberToObject(object, "candidates", result->candidates);
     cJSON_AddNumberToObject(object, "votes", result->votes);
-    add_peaks_json(object, search);
+    add_peak_votes_json(object, search);
     cJSON_AddNumberToObject(object, "tracks", result->num_peaks);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *search->hough);
     cJSON_AddNumberToObject(object, "wall_us", (double)search->wall_us);
@@ -188,7 +188,7 @@ void initiate_hough(const struct command_line *line, enum method method)
                                   .peaks = must_calloc(CELLS_MAX, sizeof *search.peaks)};
 
     read_batch(&search.batch, line);
-    find_peaks(&search, line, method);
+    search_batch_for_peaks(&search, line, method);
     if (line->output || !line->json) {
         write_found_tracks(&search, line->output);
     }

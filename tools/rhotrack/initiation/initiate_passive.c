@@ -50,7 +50,7 @@ static void write_found_tracks(const struct rho_passive *passive, int64_t time_u
 }
 
 /* Adds the number of bearings of each track, in descending order, and their sum. */
-static void add_votes_json(cJSON *object, const struct rho_passive *passive)
+static void add_track_hits_json(cJSON *object, const struct rho_passive *passive)
 {
     int hits[RHO_MAX_PASSIVE_TRACKS], sum = 0;
 
@@ -62,7 +62,7 @@ static void add_votes_json(cJSON *object, const struct rho_passive *passive)
     cJSON_AddItemToObject(object, "peak_votes", json_list_descending(hits, passive->num_tracks));
 }
 
-static void add_margins_json(cJSON *object, const struct rho_passive *passive)
+static void add_track_margins_json(cJSON *object, const struct rho_passive *passive)
 {
     cJSON *list = cJSON_AddArrayToObject(object, "margins_nat");
 
@@ -81,9 +81,9 @@ static void print_search_json(const struct rho_passive *passive, const struct la
     cJSON_AddNumberToObject(object, "plots", (double)batch->bearings);
     cJSON_AddNumberToObject(object, "pairs", work->crossings);
     cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
-    add_votes_json(object, passive);
+    add_track_hits_json(object, passive);
     cJSON_AddNumberToObject(object, "tracks", passive->num_tracks);
-    add_margins_json(object, passive);
+    add_track_margins_json(object, passive);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *passive);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
     cJSON_AddNumberToObject(object, "sensors", passive->batch.num_sensors);

@@ -72,7 +72,7 @@ static void open_pipeline(struct node_core *core)
     pipeline_open_passive(&core->pipeline, core->parameters);
 }
 
-static void open_frames(struct node_core *core)
+static void open_bearing_frames(struct node_core *core)
 {
     const double *value = core->parameters->value;
     struct rho_frames_config config;
@@ -86,7 +86,7 @@ static void open_frames(struct node_core *core)
     }
 }
 
-static void open_node(struct node_core *core, int32_t epoch)
+static void init_library_node(struct node_core *core, int32_t epoch)
 {
     const struct rho_node_config config = {
         .assembler = &core->assembler,
@@ -115,9 +115,9 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
     core->pipeline.is_live = true;
     memset(core->pipeline.report, 0, sizeof *core->pipeline.report);
     open_pipeline(core);
-    open_frames(core);
+    open_bearing_frames(core);
     parameters_to_assembler(parameters, &core->assembler);
-    open_node(core, epoch);
+    init_library_node(core, epoch);
     return core;
 }
 
@@ -142,7 +142,7 @@ enum pipeline_restored node_core_restore_snapshot(struct node_core *core, const 
         pipeline_restore_snapshot(&core->pipeline, core->parameters, path);
 
     parameters_update_assembler_sensors(core->parameters, &core->assembler);
-    open_node(core, core->node.epoch); /* the restored pipeline has new objects */
+    init_library_node(core, core->node.epoch); /* the restored pipeline has new objects */
     core->node.is_restored = restored == PIPELINE_RESTORED;
     return restored;
 }
@@ -354,8 +354,8 @@ static bool decode_command(struct waiting_command *waiting, const uint8_t *data,
 }
 
 /* Queues or counts an operator's command or setting; false where the channel is another one. */
-static bool queue_command_message(struct node_core *core, const char *channel, const uint8_t *data,
-                                  size_t size, int64_t now_us)
+static bool queue_if_command_message(struct node_core *core, const char *channel,
+                                     const uint8_t *data, size_t size, int64_t now_us)
 {
     struct waiting_command waiting = {
         .came_us = now_us, .is_setting = strcmp(channel, RHO_MESSAGE_SETTING_CHANNEL) == 0};
@@ -480,9 +480,11 @@ static void report_sensor_restarts(const struct node_core *core,
  * Updates counts after the assembler took a message: keeps it if it was refused, and where it
  * completes a sensor's restart feeds the refused messages again.
  */
-static void handle_taken_message(struct node_core *core, const char *channel, const uint8_t *data,
-                                 size_t size, const struct rho_scan_assembler_counters *before,
-                                 const struct newest_scan_positions *places, int64_t now_us)
+static void count_message_and_retry_refused(struct node_core *core, const char *channel,
+                                            const uint8_t *data, size_t size,
+                                            const struct rho_scan_assembler_counters *before,
+                                            const struct newest_scan_positions *places,
+                                            int64_t now_us)
 {
     const struct rho_scan_assembler_counters *after = &core->assembler.counters;
 
@@ -503,7 +505,7 @@ void node_core_take_message(struct node_core *core, const char *channel, const u
                             size_t size, int64_t now_us)
 {
     struct rho_scan_assembler_counters before;
-    bool has_room = queue_command_message(core, channel, data, size, now_us);
+    bool has_room = queue_if_command_message(core, channel, data, size, now_us);
     struct newest_scan_positions places;
 
     while (!has_room) {
@@ -513,7 +515,7 @@ void node_core_take_message(struct node_core *core, const char *channel, const u
         }
         has_room = rho_node_take(&core->node, channel, data, size, now_us) != RHO_ERROR_CAPACITY;
         if (has_room) {
-            handle_taken_message(core, channel, data, size, &before, &places, now_us);
+            count_message_and_retry_refused(core, channel, data, size, &before, &places, now_us);
         }
         step_all_due(core, now_us);
     }

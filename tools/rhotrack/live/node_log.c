@@ -340,7 +340,7 @@ static void end_file_at_queue_end(struct node_log *log, bool is_put_away)
     }
 }
 
-static void end_file_at_limits(struct node_log *log, uint64_t bytes, int64_t time_us)
+static void end_file_if_limits_reached(struct node_log *log, uint64_t bytes, int64_t time_us)
 {
     if (node_log_limits_reached(&log->limits, log->put - log->begin, log->begin_us, bytes,
                                 time_us)) {
@@ -369,7 +369,7 @@ void node_log_put_event(struct node_log *log, int64_t time_us, const char *chann
     if (log->error || !queue_has_room(log, bytes)) {
         log->events_left_out++;
     } else {
-        end_file_at_limits(log, bytes, time_us);
+        end_file_if_limits_reached(log, bytes, time_us);
         lcm_log_put_header(header, (int64_t)log->events_put++, time_us, length, size);
         queue_bytes(log, header, sizeof header);
         queue_bytes(log, channel, length);

@@ -89,7 +89,8 @@ static struct client *claim_client_place(struct page_server *server)
 
 /* ---- Answers ---- */
 
-static bool refresh_page(struct page_server *server)
+/* Makes the page anew unless it is younger than FRESH_US; false where memory is out. */
+static bool refresh_page_if_stale(struct page_server *server)
 {
     const int64_t now_us = clock_us();
     FILE *out;
@@ -180,7 +181,7 @@ static void prepare_answer_to_request(struct page_server *server, struct client 
         prepare_refusal(server, client, "405 Method Not Allowed", "Allow: GET, HEAD\r\n");
     } else if (strcmp(words[1], server->path) != 0) {
         prepare_refusal(server, client, "404 Not Found", "");
-    } else if (!refresh_page(server)) {
+    } else if (!refresh_page_if_stale(server)) {
         prepare_refusal(server, client, "503 Service Unavailable", "");
     } else {
         server->sent++;
@@ -277,13 +278,13 @@ static void serve_client(struct page_server *server, struct client *client)
 /*
  * Stops or resumes accepting: a connection that cannot be accepted would wake the poll endlessly.
  */
-static void set_accepting_paused(struct page_server *server, bool is_deaf)
+static void set_accepting_paused(struct page_server *server, bool is_paused)
 {
-    struct epoll_event event = {.events = is_deaf ? 0 : EPOLLIN};
+    struct epoll_event event = {.events = is_paused ? 0 : EPOLLIN};
 
-    if (is_deaf != server->is_deaf &&
+    if (is_paused != server->is_deaf &&
         epoll_ctl(server->poll, EPOLL_CTL_MOD, server->listener, &event) == 0) {
-        server->is_deaf = is_deaf;
+        server->is_deaf = is_paused;
     }
 }
 

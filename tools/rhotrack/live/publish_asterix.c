@@ -70,7 +70,8 @@ static bool is_radar_place_awaited(struct forwarding *forwarding, const struct a
                                             NAN));
 }
 
-static void suggest_origin(struct forwarding *forwarding, const struct asterix_place *place)
+static void suggest_origin_if_lacking(struct forwarding *forwarding,
+                                      const struct asterix_place *place)
 {
     struct parameters *parameters = &forwarding->parameters;
 
@@ -81,8 +82,8 @@ static void suggest_origin(struct forwarding *forwarding, const struct asterix_p
 
 /* ---- Scans to messages ---- */
 
-static struct table *table_of_scan(const struct forwarding *forwarding,
-                                   const struct asterix_scan *scan)
+static struct table *make_table_of_scan(const struct forwarding *forwarding,
+                                        const struct asterix_scan *scan)
 {
     const struct asterix_columns columns = {.has_place = scan->place.is_given, .has_scan = true};
     struct table *table = asterix_plot_rows_empty_table(forwarding->url, &columns);
@@ -111,7 +112,7 @@ static void send_scan_unless_early(struct forwarding *forwarding, const struct a
     struct rows_file file;
     struct table *table;
 
-    suggest_origin(forwarding, &scan->place);
+    suggest_origin_if_lacking(forwarding, &scan->place);
     if (!scan->is_numbered) {
         forwarding->scans_free++;
         return;
@@ -120,7 +121,7 @@ static void send_scan_unless_early(struct forwarding *forwarding, const struct a
         forwarding->scans_early++;
         return;
     }
-    table = table_of_scan(forwarding, scan);
+    table = make_table_of_scan(forwarding, scan);
     if (rows_read_table(&file, forwarding->url, table, &forwarding->parameters, true)) {
         send_rows_as_messages(forwarding, &file);
     }

@@ -367,8 +367,9 @@ static int choose_plot(const struct maintainer *maintainer, const struct rho_sca
 
 /* ---- Updates ---- */
 
-static bool update_by_velocity(struct rho_input *input, const struct rho_input_config *config,
-                               const struct rho_plot *plot, int axes)
+static bool update_by_measured_velocity(struct rho_input *input,
+                                        const struct rho_input_config *config,
+                                        const struct rho_plot *plot, int axes)
 {
     const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
     float variance = plot->sigma_mps * plot->sigma_mps;
@@ -397,7 +398,7 @@ static bool update_by_plot(const struct maintainer *maintainer, const struct rho
     if (!predict_to_plot_time(maintainer, plot, input) ||
         rho_input_update_position(input, config, &seen) != RHO_OK ||
         ((measures & RHO_MEASURES_VELOCITY) &&
-         !update_by_velocity(input, config, plot, seen.has_z ? 3 : 2)) ||
+         !update_by_measured_velocity(input, config, plot, seen.has_z ? 3 : 2)) ||
         ((measures & RHO_MEASURES_RANGE_RATE) &&
          rho_input_update_range_rate(input, config, sensor, plot->range_rate_mps,
                                      plot->sigma_range_rate_mps * plot->sigma_range_rate_mps) !=

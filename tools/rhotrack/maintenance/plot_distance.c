@@ -18,8 +18,8 @@ struct innovation {
     double noise[DIMENSIONS_MAX][DIMENSIONS_MAX];
 };
 
-static void add_state_element(struct innovation *innovation, int element, double off,
-                              double variance)
+static void add_scalar_innovation(struct innovation *innovation, int element, double off,
+                                  double variance)
 {
     int i = innovation->num++;
 
@@ -35,7 +35,7 @@ static void add_place_innovation(struct innovation *innovation, const struct rho
 
     rho_measurement_covariance(seen, noise);
     for (int i = 0; i < axes; i++) {
-        add_state_element(innovation, i, (double)seen->place_m[i] - (double)at->state[i], 0.0);
+        add_scalar_innovation(innovation, i, (double)seen->place_m[i] - (double)at->state[i], 0.0);
         for (int j = 0; j <= i; j++) {
             innovation->noise[i][j] = innovation->noise[j][i] = (double)noise[RHO_AT(i, j)];
         }
@@ -48,8 +48,8 @@ static void add_velocity_innovation(struct innovation *innovation, const struct 
     const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
 
     for (int i = 0; i < axes; i++) {
-        add_state_element(innovation, i + 3, (double)velocity_mps[i] - (double)at->state[i + 3],
-                          (double)plot->sigma_mps * (double)plot->sigma_mps);
+        add_scalar_innovation(innovation, i + 3, (double)velocity_mps[i] - (double)at->state[i + 3],
+                              (double)plot->sigma_mps * (double)plot->sigma_mps);
     }
 }
 
@@ -92,7 +92,8 @@ static double innovation_covariance(const struct innovation *innovation,
  * Squared Mahalanobis distance by a Cholesky factorisation with forward substitution; NAN where a
  * pivot is not positive.
  */
-static double mahalanobis2(const struct innovation *innovation, const struct rho_kalman *at)
+static double squared_mahalanobis_distance(const struct innovation *innovation,
+                                           const struct rho_kalman *at)
 {
     double factor[DIMENSIONS_MAX][DIMENSIONS_MAX] = {{0.0}};
     double white[DIMENSIONS_MAX] = {0.0}, sum = 0.0;
@@ -134,5 +135,5 @@ double plot_distance2(const struct rho_kalman *predicted, const struct rho_plot 
     if (dimensions) {
         *dimensions = innovation.num;
     }
-    return mahalanobis2(&innovation, predicted);
+    return squared_mahalanobis_distance(&innovation, predicted);
 }

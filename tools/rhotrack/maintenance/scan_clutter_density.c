@@ -204,7 +204,7 @@ static double determinant(double a[AXES][AXES], int axes)
            a[2][0] * (a[0][1] * a[1][2] - a[0][2] * a[1][1]);
 }
 
-static double log_clutter_volume(const struct spread *spread, int axes)
+static double log_volume_of_spread(const struct spread *spread, int axes)
 {
     double covariance[AXES][AXES] = {{0.0}}, d = axes;
     double log_ball = d / 2.0 * log(M_PI * (d + 2.0)) - lgamma(d / 2.0 + 1.0);
@@ -232,7 +232,7 @@ double scan_clutter_density_add_scan(struct scan_clutter_density *density,
 
         add_scan_to_spread(&seen->spreads[quantity], scan, (enum quantity)quantity, left_out);
         if (axes > 0) {
-            log_density -= log_clutter_volume(&seen->spreads[quantity], axes);
+            log_density -= log_volume_of_spread(&seen->spreads[quantity], axes);
         }
     }
     return log_density;

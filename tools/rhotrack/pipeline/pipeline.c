@@ -43,7 +43,7 @@ void pipeline_free(struct pipeline *pipeline)
     free(pipeline->plots);
 }
 
-static void suggest_paper_methods(struct parameters *parameters, const char *name)
+static void suggest_paper_methods_or_fail(struct parameters *parameters, const char *name)
 {
     if (strcmp(name, "paper") != 0) {
         fail(EXIT_USAGE, "--pipeline '%s' is not paper", name);
@@ -59,7 +59,7 @@ void pipeline_options_to_parameters(struct parameters *parameters,
                                     const struct pipeline_options *options)
 {
     if (options->pipeline) {
-        suggest_paper_methods(parameters, options->pipeline);
+        suggest_paper_methods_or_fail(parameters, options->pipeline);
     }
     if (options->method) {
         parameters_set_method(parameters, options->method);

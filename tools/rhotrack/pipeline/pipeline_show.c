@@ -25,7 +25,7 @@ static bool uses_paper_starts(const struct parameters *parameters)
     return method_of_plots(parameters) != METHOD_KERNEL;
 }
 
-static unsigned show_kind_of_word(const char *word, size_t length)
+static unsigned must_find_show_kind(const char *word, size_t length)
 {
     unsigned kind = 0;
 
@@ -64,7 +64,7 @@ struct pipeline_show *pipeline_show_open(const char *kinds, const struct paramet
     config.kinds = 0;
     for (const char *word = kinds;; word++) {
         const size_t length = strcspn(word, ",");
-        const unsigned kind = show_kind_of_word(word, length);
+        const unsigned kind = must_find_show_kind(word, length);
 
         check_show_kind(kind, parameters);
         config.kinds = (uint16_t)(config.kinds | 1u << kind);

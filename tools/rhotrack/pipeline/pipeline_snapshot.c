@@ -24,7 +24,8 @@ enum { OTHERS = 4 };
 /* Identifiers of the settings' parts: as at the start, and as changed by operators. */
 enum { SETTINGS_TOLD, SETTINGS_NOW };
 
-static int32_t initiator_sharing(const struct pipeline *pipeline)
+/* The code of how sensors share initiators, stored as the identifier of the tracker's part. */
+static int32_t initiator_sharing_code(const struct pipeline *pipeline)
 {
     return pipeline->has_one_initiator ? OF_ALL
            : !pipeline->has_sensor     ? OF_NOBODY
@@ -42,8 +43,9 @@ static struct rho_snapshot_part *list_snapshot_parts(struct pipeline *pipeline, 
         must_calloc(pipeline->num_initiators + OTHERS + 1, sizeof *parts);
     unsigned count = 0;
 
-    parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, initiator_sharing(pipeline),
-                                                pipeline->tracker, sizeof *pipeline->tracker};
+    parts[count++] =
+        (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, initiator_sharing_code(pipeline),
+                                   pipeline->tracker, sizeof *pipeline->tracker};
     for (size_t i = 0; i < pipeline->num_initiators; i++) {
         const struct pipeline_initiator *of = &pipeline->initiators[i];
 
@@ -189,7 +191,7 @@ static bool add_initiators_of_snapshot(struct pipeline *pipeline,
         (void)pipeline_find_or_add_initiator(pipeline, parts[i].id);
     }
     return num_parts == pipeline->num_initiators + others &&
-           parts[0].id == initiator_sharing(pipeline);
+           parts[0].id == initiator_sharing_code(pipeline);
 }
 
 static bool is_same_memory(const void *one, const void *other, size_t size)

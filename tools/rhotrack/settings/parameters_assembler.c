@@ -23,8 +23,8 @@ static struct rho_scan_assembler_noise sensor_noise(const struct parameters *par
 #undef OF_SENSOR
 }
 
-static struct rho_scan_assembler_sensor describe_sensor(const struct parameters *parameters,
-                                                        int32_t sensor_id)
+static struct rho_scan_assembler_sensor
+assembler_sensor_of_parameters(const struct parameters *parameters, int32_t sensor_id)
 {
     struct rho_scan_assembler_sensor known = {.noise = sensor_noise(parameters, sensor_id)};
 
@@ -35,14 +35,14 @@ static struct rho_scan_assembler_sensor describe_sensor(const struct parameters 
 /* Number of a sensor that no parameter mentions, outside the range of messages' sensor numbers. */
 #define NO_SENSOR INT32_MAX
 
-static enum rho_status describe_all_sensors(const struct parameters *parameters,
-                                            struct rho_scan_assembler *assembler)
+static enum rho_status set_sensors_of_assembler(const struct parameters *parameters,
+                                                struct rho_scan_assembler *assembler)
 {
     enum rho_status status = RHO_OK;
 
     for (size_t i = 0; i < parameters->num_sensors && status == RHO_OK; i++) {
         struct rho_scan_assembler_sensor known =
-            describe_sensor(parameters, parameters->sensors[i].sensor_id);
+            assembler_sensor_of_parameters(parameters, parameters->sensors[i].sensor_id);
 
         status = rho_scan_assembler_set_sensor(assembler, &known);
     }
@@ -55,8 +55,8 @@ void parameters_update_assembler_sensors(const struct parameters *parameters,
     struct rho_sensor any;
 
     assembler->config.gives_other = parameters_to_sensor(parameters, NO_SENSOR, &any);
-    assembler->config.other = describe_sensor(parameters, NO_SENSOR);
-    must_succeed(describe_all_sensors(parameters, assembler), "assembler");
+    assembler->config.other = assembler_sensor_of_parameters(parameters, NO_SENSOR);
+    must_succeed(set_sensors_of_assembler(parameters, assembler), "assembler");
 }
 
 void parameters_to_assembler(const struct parameters *parameters,
@@ -73,12 +73,12 @@ void parameters_to_assembler(const struct parameters *parameters,
         .stranger_plots_per_s = (uint32_t)value[PARAMETER_STRANGER_PLOTS_PER_S],
         .num_allowed = parameters->num_allowed,
         .gives_other = parameters_to_sensor(parameters, NO_SENSOR, &any),
-        .other = describe_sensor(parameters, NO_SENSOR),
+        .other = assembler_sensor_of_parameters(parameters, NO_SENSOR),
     };
     enum rho_status status;
 
     memcpy(config.allowed, parameters->allowed, sizeof config.allowed);
     status = rho_scan_assembler_init(assembler, sizeof *assembler, &config);
-    must_succeed(status == RHO_OK ? describe_all_sensors(parameters, assembler) : status,
+    must_succeed(status == RHO_OK ? set_sensors_of_assembler(parameters, assembler) : status,
                  "assembler");
 }

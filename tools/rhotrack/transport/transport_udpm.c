@@ -256,7 +256,7 @@ static int receiver_descriptor(const void *object)
     return ((const struct udpm *)object)->receiver;
 }
 
-static void receive_batch(struct udpm *udpm)
+static void receive_batch_of_datagrams(struct udpm *udpm)
 {
     int count;
 
@@ -356,7 +356,7 @@ static enum transport_found receive_message(struct transport *transport, void *o
     struct udpm *udpm = object;
 
     if (udpm->next == udpm->num_here) {
-        receive_batch(udpm);
+        receive_batch_of_datagrams(udpm);
     }
     while (udpm->next < udpm->num_here) {
         int i = udpm->next++;

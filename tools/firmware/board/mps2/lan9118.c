@@ -48,7 +48,7 @@ static int wait_for_bits_clear(volatile uint32_t *chip_register, uint32_t bits)
     return 0;
 }
 
-static int write_mac_register(uint32_t mac_register, uint32_t value)
+static int try_to_write_mac_register(uint32_t mac_register, uint32_t value)
 {
     MAC_VALUE = value;
     MAC_COMMAND = MAC_BUSY | mac_register;
@@ -70,10 +70,10 @@ int lan9118_open(const uint8_t mac[6])
     IRQ_ENABLE = IRQ_RX_LEVEL;
     IRQ_CONFIG = IRQ_LINE_ON;
     TX_CONFIG = TX_ON;
-    return write_mac_register(MAC_HIGH, (uint32_t)mac[5] << 8 | mac[4]) &&
-           write_mac_register(MAC_LOW, (uint32_t)mac[3] << 24 | (uint32_t)mac[2] << 16 |
-                                           (uint32_t)mac[1] << 8 | mac[0]) &&
-           write_mac_register(MAC_CONTROL, MAC_RX_TX_MULTICAST);
+    return try_to_write_mac_register(MAC_HIGH, (uint32_t)mac[5] << 8 | mac[4]) &&
+           try_to_write_mac_register(MAC_LOW, (uint32_t)mac[3] << 24 | (uint32_t)mac[2] << 16 |
+                                                  (uint32_t)mac[1] << 8 | mac[0]) &&
+           try_to_write_mac_register(MAC_CONTROL, MAC_RX_TX_MULTICAST);
 }
 
 static void discard_received_words(size_t words)
