@@ -125,7 +125,7 @@ codegen:
 
 # The votes' loops want vector code, which gcc makes at -O3 only.
 ifeq ($(OPT),-O2)
-vote_objects := $(foreach part,accumulator_plane accumulator_rows accumulator_prune,%/src/papers/$(part).o)
+vote_objects := $(foreach part,accumulator_geometry accumulator_rows accumulator_prune,%/src/papers/$(part).o)
 $(filter $(vote_objects),$(embedded_objects) $(workstation_objects)): override OPT := -O3
 endif
 
@@ -143,9 +143,9 @@ $(BUILD)/program/scenes.c: $(scenes) Makefile
 	  done; echo '{0, 0}};'; } > $@
 
 # The page of `plot -o NAME.html` in the program: its text, its script, and d3 (ISC licence, beside it).
-page_folder := tools/rhotrack/picture/page
+page_folder := tools/rhotrack/picture/html_page
 $(BUILD)/program/page_parts.c: $(wildcard $(page_folder)/*) Makefile
-	@mkdir -p $(@D) && { echo '#include "picture/page_parts.h"'; \
+	@mkdir -p $(@D) && { echo '#include "picture/html_page_parts.h"'; \
 	  for part in licence:d3.LICENSE d3:d3.min.js html:page.html style:page.css script:page.js; do \
 	    echo "const char page_$${part%%:*}[] ="; \
 	    sed -e 's/[\\"?]/\\&/g' -e 's/.*/"&\\n"/' $(page_folder)/$${part#*:}; echo ';'; \
@@ -303,7 +303,7 @@ quick_scripts := $(addprefix tests/integration/,claims.sh command_line.sh docume
 quick_scripts := $(wildcard $(quick_scripts)) $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \
                  $(addprefix tools/gates/,layers.py tested.py forbidden_words.sh extract_example.sh)
 # What the embedded profile leaves out is tested in the other one.
-left_out := tracker/test_plot_ownership bodies/test_body_extents bodies/test_body_split_evidence bodies/test_plot_groups step/test_split_bodies
+left_out := tracker/test_plot_ownership_probability bodies/test_body_extents bodies/test_body_split_evidence bodies/test_plot_groups step/test_split_bodies
 quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) $(filter-out $(BUILD)/tests/lab/%,$(tool_programs)) \
                   $(left_out:%=$(BUILD)/tests/workstation/unit/%)
 other_programs := $(filter-out $(quick_programs),$(unit_programs) $(tool_programs))
@@ -399,7 +399,7 @@ sanitized-tests: $(program) $(unit_programs) $(tool_programs)
 # linked as it is. In src/wire an unsigned number that wraps is a finding,
 # too; elsewhere loops and the square root wrap on purpose.
 fuzz_readers := $(wildcard $(addprefix tools/rhotrack/,io/asterix/*.c io/csv/*.c io/rows/*.c io/scans/*.c io/turns/*.c io/log/*.c \
-                  settings/parameters*.c scene/*.c base/name_hint.c picture/plot_data.c))
+                  settings/parameters*.c scene/*.c base/name_hint.c picture/picture_data.c))
 fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers) tools/firmware/board/udp_frame.c
 fuzz_objects := $(fuzz_parts:%.c=$(BUILD)/fuzz/parts/%.o)
 fuzz_sources := $(sort $(wildcard tests/fuzz/fuzz_*.c))

@@ -36,7 +36,7 @@
 
 #include "rhotrack/config.h"
 #include "rhotrack/detail/accumulator.h"
-#include "rhotrack/detail/parameter_plane.h"
+#include "rhotrack/detail/votes_picture.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus
@@ -263,14 +263,14 @@ RHO_MUST_CHECK enum rho_status rho_hough_track(struct rho_hough *hough,
  *   plane  the window and its picture, in the caller's memory
  * Sums are over all candidate pairs, eq. (20), of the third scan and later, spread like votes with
  * reading C. The sums of RHO_HOUGH_VOTES are the votes that rho_hough_find compares.
- * Errors: as rho_hough_find, those of rho_plane_init_picture, and VALUE (no such component, or
+ * Errors: as rho_hough_find, those of rho_votes_picture_init, and VALUE (no such component, or
  * memberships of a method other than NHT); nothing but *hough's scratch and the picture is changed.
  * Cost: that of rho_hough_find. Stack: 2.9 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_hough_plane(struct rho_hough *hough,
                                                const struct rho_hough_points *points,
                                                enum rho_hough_component component,
-                                               struct rho_plane *plane);
+                                               struct rho_votes_picture *plane);
 
 /*
  * Computes the memberships of the vote of a pair of plots of successive scans. All are 0 where the

@@ -30,7 +30,7 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
-#include "rhotrack/detail/bearing_batch.h"
+#include "rhotrack/detail/bearing_frame_batch.h"
 #include "rhotrack/detail/ghost_matrix.h"
 #include "rhotrack/types.h"
 

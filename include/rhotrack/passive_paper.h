@@ -35,9 +35,9 @@
 
 #include "rhotrack/config.h"
 #include "rhotrack/detail/accumulator.h"
-#include "rhotrack/detail/bearing_batch.h"
+#include "rhotrack/detail/bearing_frame_batch.h"
 #include "rhotrack/detail/ghost_matrix.h"
-#include "rhotrack/detail/parameter_plane.h"
+#include "rhotrack/detail/votes_picture.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus
@@ -215,12 +215,12 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_ghosts(const struct rho_passive
  * of the votes of all pairs, in the cells that every pair confirms, and 0 in the others. The votes
  * are those of the last search until the next frame is pushed; the lines stay as they are.
  * Errors: NULL (paper), STATE (not initialised, or too little in the batch to search), VALUE (no
- * such pair), and those of rho_plane_init_picture. Cost: the voting of rho_passive_paper_search.
+ * such pair), and those of rho_votes_picture_init. Cost: the voting of rho_passive_paper_search.
  * Stack: 1.6 KB with 8 bearings a scan, 4 KB with 16.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
                                                        const struct rho_passive_paper_pair *pair,
-                                                       struct rho_plane *plane);
+                                                       struct rho_votes_picture *plane);
 
 /*
  * Step 3 for one pair of sensors: the cells with T votes or more in its accumulator, best first,

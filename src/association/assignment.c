@@ -258,8 +258,8 @@ enum rho_status rho_assignment_begin(struct rho_assignment *assignment, unsigned
     return RHO_OK;
 }
 
-enum rho_status rho_assignment_add(struct rho_assignment *assignment, unsigned row, unsigned column,
-                                   int32_t cost)
+enum rho_status rho_assignment_offer_pair(struct rho_assignment *assignment, unsigned row,
+                                          unsigned column, int32_t cost)
 {
     const struct rho_assignment_pair pair = {.cost = cost, .column = (int16_t)column};
     uint16_t *num_pairs;

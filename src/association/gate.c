@@ -193,7 +193,7 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
     if ((gate->measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
         sigma_m = plot->sigma_up_m;
     }
-    sigma_m *= rho_measurement_largest_sigma_factor(gate->sensor);
+    sigma_m *= rho_measurement_sigma_factor_at_least_one(gate->sensor);
     if (is_outside_on_axis(gate, 0, plot->x_m, offset_s, sigma_m * sigma_m) ||
         is_outside_on_axis(gate, 1, plot->y_m, offset_s, sigma_m * sigma_m)) {
         return 0;

@@ -28,12 +28,12 @@ int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
     return is_ready(pool) && slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
 }
 
-uint16_t rho_hypotheses_allot_node(struct rho_hypotheses *pool)
+uint16_t rho_hypotheses_pop_free_node(struct rho_hypotheses *pool)
 {
     return pool->spare[--pool->num_free];
 }
 
-void rho_hypotheses_release_node(struct rho_hypotheses *pool, uint16_t node)
+void rho_hypotheses_push_free_node(struct rho_hypotheses *pool, uint16_t node)
 {
     pool->spare[pool->num_free++] = node;
 }
@@ -54,7 +54,8 @@ static uint16_t slot_with_most_hypotheses(const struct rho_hypotheses *pool, uin
     return found;
 }
 
-unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted)
+unsigned rho_hypotheses_cut_others_for_slot(struct rho_hypotheses *pool, uint16_t slot,
+                                            unsigned wanted)
 {
     unsigned own = slot < RHO_HYPOTHESES_SLOTS ? pool->num_of[slot] : 0;
     while (own + pool->num_free < wanted) {
@@ -66,7 +67,7 @@ unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, un
         }
         pool->hypotheses_cut = rho_count(pool->hypotheses_cut, 1);
         pool->num_of[giver]--;
-        rho_hypotheses_release_node(pool, pool->node_of[giver][pool->num_of[giver]]);
+        rho_hypotheses_push_free_node(pool, pool->node_of[giver][pool->num_of[giver]]);
     }
     return wanted;
 }
@@ -95,8 +96,8 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t object_s
     return RHO_OK;
 }
 
-enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
-                                         const struct rho_imm_model *model)
+enum rho_status rho_hypotheses_set_model_keeping_calm(struct rho_hypotheses *pool,
+                                                      const struct rho_imm_model *model)
 {
     if (!pool || !model) {
         return RHO_ERROR_NULL;
@@ -111,7 +112,7 @@ enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
     return RHO_OK;
 }
 
-void rho_hypotheses_set_calm_interval(struct rho_hypotheses *pool, float calm_s)
+void rho_hypotheses_set_mean_manoeuvre_interval(struct rho_hypotheses *pool, float calm_s)
 {
     if (pool->model.calm_s > 0.0f && (calm_s < pool->model.calm_s || calm_s > pool->model.calm_s)) {
         pool->model.calm_s = calm_s;
@@ -142,10 +143,10 @@ enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rh
         return RHO_ERROR_STATE;
     }
     uint16_t found = 0;
-    if (!find_free_slot(pool, &found) || rho_hypotheses_make_room(pool, found, 1) < 1) {
+    if (!find_free_slot(pool, &found) || rho_hypotheses_cut_others_for_slot(pool, found, 1) < 1) {
         return RHO_ERROR_CAPACITY;
     }
-    uint16_t node = rho_hypotheses_allot_node(pool);
+    uint16_t node = rho_hypotheses_pop_free_node(pool);
     struct rho_hypothesis *first = &pool->nodes[node];
     memset(first, 0, sizeof *first);
     rho_imm_start(&first->imm, &pool->model, estimate);
@@ -166,7 +167,7 @@ void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot)
         return;
     }
     for (unsigned i = pool->num_of[slot]; i > 0; i--) {
-        rho_hypotheses_release_node(pool, pool->node_of[slot][i - 1]);
+        rho_hypotheses_push_free_node(pool, pool->node_of[slot][i - 1]);
     }
     pool->num_of[slot] = 0;
 }
@@ -195,8 +196,9 @@ static const struct rho_imm_step *cached_step_of_interval(struct rho_hypotheses 
     return &pool->step;
 }
 
-enum rho_status rho_hypotheses_predict_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
-                                              int64_t from_us, int64_t to_us)
+enum rho_status rho_hypotheses_predict_filter_unmixed(struct rho_hypotheses *pool,
+                                                      struct rho_imm *imm, int64_t from_us,
+                                                      int64_t to_us)
 {
     return from_us == to_us
                ? RHO_OK
@@ -210,7 +212,8 @@ const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
         return &at->imm;
     }
     pool->scratch = at->imm;
-    return rho_hypotheses_predict_filter(pool, &pool->scratch, at->time_us, time_us) == RHO_OK
+    return rho_hypotheses_predict_filter_unmixed(pool, &pool->scratch, at->time_us, time_us) ==
+                   RHO_OK
                ? &pool->scratch
                : 0;
 }
@@ -255,7 +258,7 @@ static enum rho_status predict_hypotheses_or_remove(struct rho_hypotheses *pool,
                  ? predict_filter_without_noise(pool, at, time_us)
                  : rho_imm_predict(
                        &at->imm, cached_step_of_interval(pool, at->time_us, time_us))) != RHO_OK) {
-            rho_hypotheses_release_node(pool, node);
+            rho_hypotheses_push_free_node(pool, node);
             continue;
         }
         at->time_us = time_us;

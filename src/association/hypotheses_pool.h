@@ -14,19 +14,21 @@
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot);
 
 /* Takes a node off the pool's stack of free nodes; num_free must not be 0. */
-uint16_t rho_hypotheses_allot_node(struct rho_hypotheses *pool);
+uint16_t rho_hypotheses_pop_free_node(struct rho_hypotheses *pool);
 /* Puts a node, which no slot lists any more, on the pool's stack of free nodes. */
-void rho_hypotheses_release_node(struct rho_hypotheses *pool, uint16_t node);
+void rho_hypotheses_push_free_node(struct rho_hypotheses *pool, uint16_t node);
 
 /*
  * Makes room for `wanted` hypotheses of a slot: removes the least likely hypotheses of the slots
  * with the most. Returns how many the slot can have, at most `wanted`.
  */
-unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted);
+unsigned rho_hypotheses_cut_others_for_slot(struct rho_hypotheses *pool, uint16_t slot,
+                                            unsigned wanted);
 
 /* Predicts one filter to another time without mixing its models: to a plot's own time, or back. */
-enum rho_status rho_hypotheses_predict_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
-                                              int64_t from_us, int64_t to_us);
+enum rho_status rho_hypotheses_predict_filter_unmixed(struct rho_hypotheses *pool,
+                                                      struct rho_imm *imm, int64_t from_us,
+                                                      int64_t to_us);
 
 /*
  * Filter of a hypothesis at a given time: its own, or a copy in the pool's scratch that was

@@ -130,7 +130,7 @@ static void prepare_gates(struct rho_hypotheses *pool, uint16_t slot, float vari
         const struct rho_hypothesis *at = &pool->nodes[pool->node_of[slot][i]];
         pool->gate_is_usable =
             pool->gate_is_usable && at->time_us == time_us &&
-            rho_imm_prepare_gate(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
+            rho_imm_prepare_gate_if_uncoupled(&pool->opened.gates[i], &at->imm, variance_m2, has_z);
     }
 }
 
@@ -334,7 +334,7 @@ static unsigned select_children_and_make_room(struct rho_hypotheses *pool, uint1
     while (num > 1 && pool->children[num - 1].weight_nat < least) {
         num--;
     }
-    return rho_hypotheses_make_room(pool, slot, num);
+    return rho_hypotheses_cut_others_for_slot(pool, slot, num);
 }
 
 /*
@@ -346,7 +346,7 @@ static int16_t update_with_plot_or_miss(struct rho_hypotheses *pool, struct rho_
                                         const struct rho_imm_plot *seen, int64_t time_us,
                                         const struct rho_imm_match *match, int16_t row)
 {
-    if (rho_hypotheses_predict_filter(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
+    if (rho_hypotheses_predict_filter_unmixed(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
         rho_imm_update(&at->imm, &pool->model, seen, match) == RHO_OK) {
         at->time_us = time_us;
         return row;
@@ -421,7 +421,7 @@ static uint16_t make_child_node(struct rho_hypotheses *pool, uint16_t parent_nod
 {
     struct rho_hypothesis *from = &pool->nodes[parent_node];
     if (!is_last_of_parent) {
-        const uint16_t node = rho_hypotheses_allot_node(pool);
+        const uint16_t node = rho_hypotheses_pop_free_node(pool);
         pool->nodes[node] = *from;
         advance_hypothesis(pool, &pool->nodes[node], &from->imm, scan, child, seen);
         return node;
@@ -449,7 +449,7 @@ static void replace_parents_by_children(struct rho_hypotheses *pool, uint16_t sl
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         if (uses[i] == 0) {
-            rho_hypotheses_release_node(pool, pool->node_of[slot][i]);
+            rho_hypotheses_push_free_node(pool, pool->node_of[slot][i]);
         }
     }
     for (unsigned i = 0; i < num; i++) {
@@ -486,7 +486,7 @@ static float sort_rebase_and_prune(struct rho_hypotheses *pool, uint16_t slot)
     const float best = rho_hypotheses_rebase_weights(pool, slot);
     for (unsigned i = pool->num_of[slot] - 1u;
          pool->nodes[nodes[i]].weight_nat < RHO_HYPOTHESES_WEIGHT_MIN; i--) {
-        rho_hypotheses_release_node(pool, nodes[i]);
+        rho_hypotheses_push_free_node(pool, nodes[i]);
         pool->num_of[slot] = (uint8_t)i;
     }
     return best;
@@ -517,7 +517,7 @@ static int try_move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesi
                                int64_t time_us)
 {
     pool->scratch = at->imm;
-    if (rho_hypotheses_predict_filter(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (rho_hypotheses_predict_filter_unmixed(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
         at->imm = pool->scratch;
         return 0;
     }

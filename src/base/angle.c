@@ -62,7 +62,7 @@ float rho_angle_difference(float a_rad, float b_rad)
     return rho_angle_wrap(rho_angle_wrap(a_rad) - rho_angle_wrap(b_rad));
 }
 
-int rho_angle_is_sector(float from_rad, float to_rad)
+int rho_angle_are_sector_ends_valid(float from_rad, float to_rad)
 {
     return rho_is_within(from_rad, -RHO_TWO_PI, RHO_TWO_PI) &&
            rho_is_within(to_rad, -RHO_TWO_PI, RHO_TWO_PI);
@@ -153,7 +153,7 @@ struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy)
     return line;
 }
 
-int32_t rho_angle_theta_cell(float theta_rad, int32_t num_cells)
+int32_t rho_angle_clamped_theta_cell(float theta_rad, int32_t num_cells)
 {
     const float cell = theta_rad * ((float)num_cells / RHO_PI);
 

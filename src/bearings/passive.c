@@ -117,7 +117,7 @@ enum rho_status rho_passive_accepts(const struct rho_passive *passive,
 uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track)
 {
     return passive && track && passive->magic == PASSIVE_MAGIC
-               ? rho_batch_remove(&passive->batch, track->claim)
+               ? rho_batch_mark_bearings_removed(&passive->batch, track->claim)
                : 0;
 }
 
@@ -179,7 +179,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     }
     struct rho_passive_search search = {.passive = passive};
     clear_results(passive);
-    rho_batch_compact(&passive->batch);
+    rho_batch_compact_bearings(&passive->batch);
     if (passive->batch.num_scans < SCANS_MIN || passive->batch.num_sensors < 2) {
         return RHO_OK;
     }
@@ -188,7 +188,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     /* first pass: only crossings that a third sensor supports */
     find_line_candidates(&search, FIRST_VOTES_SHARE);
     rho_passive_claim_best_set(&search);
-    rho_passive_set_start_score(&search);
+    rho_passive_set_score_to_start_track(&search);
 
     /* second pass: all crossings of the bearings that no track of the first pass has claimed */
     search.is_second = 1;

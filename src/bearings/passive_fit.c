@@ -155,8 +155,8 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search, float stat
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
 }
 
-void rho_passive_fit_claimed(const struct rho_passive_search *search, float state_m[N],
-                             rho_passive_const_claim *claim)
+void rho_passive_step_to_claimed_bearings(const struct rho_passive_search *search, float state_m[N],
+                                          rho_passive_const_claim *claim)
 {
     struct equations equations = equations_of_claimed_bearings(search, state_m, claim);
     (void)try_gauss_newton_step(search, &equations, state_m);
@@ -275,9 +275,9 @@ struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_sear
     return score;
 }
 
-struct rho_passive_score rho_passive_score_nearest(const struct rho_passive_search *search,
-                                                   const float state_m[N], int include_claimed,
-                                                   rho_passive_claim *claim)
+struct rho_passive_score
+rho_passive_claim_and_score_nearest(const struct rho_passive_search *search, const float state_m[N],
+                                    int include_claimed, rho_passive_claim *claim)
 {
     const struct rho_batch *batch = &search->passive->batch;
     memset(claim, 0, sizeof(uint8_t[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]));

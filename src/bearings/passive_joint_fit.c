@@ -164,8 +164,8 @@ static void assign_and_fit(const struct rho_passive_search *search, struct rho_p
         assign_bearings_of_all_looks(search, set);
         for (unsigned t = 0; t < set->num; t++) {
             struct rho_passive_candidate *track = &set->tracks[t];
-            rho_passive_fit_claimed(search, track->state_m,
-                                    (rho_passive_const_claim *)track->claim);
+            rho_passive_step_to_claimed_bearings(search, track->state_m,
+                                                 (rho_passive_const_claim *)track->claim);
         }
     }
     score_set(search, set);
@@ -246,7 +246,7 @@ static void fit_tracks_in_turn(const struct rho_passive_search *search, struct r
     for (unsigned t = 0; t < set->num; t++) {
         struct rho_passive_candidate *track = &set->tracks[t];
         rho_passive_fit_nearest(search, track->state_m, 0);
-        (void)rho_passive_score_nearest(search, track->state_m, 0, track->claim);
+        (void)rho_passive_claim_and_score_nearest(search, track->state_m, 0, track->claim);
         rho_passive_mark_claims(search->passive, (rho_passive_const_claim *)track->claim, 1);
     }
     for (unsigned t = 0; t < set->num; t++) {

@@ -92,9 +92,9 @@ static float best_total_without_target(const struct rho_passive_search *search,
  * All margins refer to one best set: they are computed anew when another set becomes the best,
  * which happens at most CHANGES_MAX times.
  */
-void rho_passive_find_margins(const struct rho_passive_search *search,
-                              struct rho_passive_choice *choice,
-                              float margins_nat[RHO_MAX_PASSIVE_TRACKS])
+void rho_passive_find_margins_and_improve(const struct rho_passive_search *search,
+                                          struct rho_passive_choice *choice,
+                                          float margins_nat[RHO_MAX_PASSIVE_TRACKS])
 {
     const struct rho_passive_set *best = &search->passive->best;
     unsigned changes = 0;

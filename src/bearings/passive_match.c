@@ -198,8 +198,8 @@ static float look_agreement(const struct rho_passive_match *nearest)
     return nearest->bearing >= 0 && share < 1.0f ? 1.0f - share : 0.0f;
 }
 
-float rho_passive_agreement(const struct rho_passive_search *search, const float state_m[N],
-                            float least)
+float rho_passive_agreement_if_above(const struct rho_passive_search *search,
+                                     const float state_m[N], float least)
 {
     const struct rho_passive *passive = search->passive;
     uint8_t is_near[RHO_MAX_PASSIVE_SCANS] = {0};

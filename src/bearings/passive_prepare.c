@@ -113,7 +113,7 @@ void rho_passive_prepare(struct rho_passive_search *search)
  * most one of e^s pairs of crossings. Hence the start score is the score of four bearings plus ln
  * (pairs of crossings / false tracks allowed in a scan interval).
  */
-void rho_passive_set_start_score(const struct rho_passive_search *search)
+void rho_passive_set_score_to_start_track(const struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
     float points = (float)(passive->work.crossings - passive->work.ghosts);

@@ -5,7 +5,7 @@
  *
  *   passive_match.c        the bearings that match a state
  *   passive_fit.c          Gauss-Newton fit, score and covariance of a state
- *   passive_candidates.c   the list of candidates for tracks
+ *   passive_candidate_list.c   the list of candidates for tracks
  *   passive_best_subset.c       the subset of candidates with the highest total score
  *   passive_joint_fit.c    one-to-one assignment of bearings to the chosen tracks, and their fits
  *   passive_margins.c      margins of the tracks against the best other sets
@@ -13,10 +13,10 @@
  *   passive_prepare.c      geometry, times, likelihood ratios
  *   passive_crossings.c    phase 1: crossings of all pairs of sensors
  *   passive_line_votes.c        phase 2: votes, and the lines with the most votes
- *   passive_hypotheses.c   phase 3: constant velocities through pairs of a line's crossings
- *   passive_selection.c    phases 4 and 5: the best set of candidates, and the tracks
- *   bearing_swap.c         candidates from bearings swapped between two candidates
- *   passive.c              configuration, frames, the sequence of phases of a search
+ *   passive_velocity_hypotheses.c   phase 3: constant velocities through pairs of a line's
+ * crossings passive_tracks_from_best_subset.c    phases 4 and 5: the best set of candidates, and
+ * the tracks passive_targets_behind_ghosts.c         candidates from bearings swapped between two
+ * candidates passive.c              configuration, frames, the sequence of phases of a search
  */
 #ifndef RHOTRACK_PASSIVE_SEARCH_H
 #define RHOTRACK_PASSIVE_SEARCH_H
@@ -72,7 +72,7 @@ void rho_passive_prepare(struct rho_passive_search *search);
  * Sets passive->start_mnat, the score at which false tracks have the allowed rate, from the number
  * of crossings of the first pass.
  */
-void rho_passive_set_start_score(const struct rho_passive_search *search);
+void rho_passive_set_score_to_start_track(const struct rho_passive_search *search);
 
 /* ---- phase 1: crossings ---- */
 
@@ -169,8 +169,8 @@ void rho_passive_mark_bearing_directions(struct rho_passive_search *search);
  * nearest bearing, or 0 beyond nine sigmas. Stops early, with a value of at most `least`, once the
  * sum cannot exceed `least`.
  */
-float rho_passive_agreement(const struct rho_passive_search *search,
-                            const float state_m[RHO_PASSIVE_STATES], float least);
+float rho_passive_agreement_if_above(const struct rho_passive_search *search,
+                                     const float state_m[RHO_PASSIVE_STATES], float least);
 
 /* The bearings that a track claims in one scan: for each sensor an index from 1; 0: no bearing. */
 typedef uint8_t rho_passive_claim[RHO_MAX_PASSIVE_SENSORS];
@@ -186,8 +186,9 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search,
                              float state_m[RHO_PASSIVE_STATES], int include_claimed);
 
 /* Improves a state by one Gauss-Newton step towards the claimed bearings. */
-void rho_passive_fit_claimed(const struct rho_passive_search *search,
-                             float state_m[RHO_PASSIVE_STATES], rho_passive_const_claim *claim);
+void rho_passive_step_to_claimed_bearings(const struct rho_passive_search *search,
+                                          float state_m[RHO_PASSIVE_STATES],
+                                          rho_passive_const_claim *claim);
 
 struct rho_passive_score {
     float score_nat, chi2;
@@ -201,9 +202,10 @@ struct rho_passive_score {
  * Claims for a state the nearest bearing of each look within 3.5 sigmas, and scores the state with
  * these claims.
  */
-struct rho_passive_score rho_passive_score_nearest(const struct rho_passive_search *search,
-                                                   const float state_m[RHO_PASSIVE_STATES],
-                                                   int include_claimed, rho_passive_claim *claim);
+struct rho_passive_score
+rho_passive_claim_and_score_nearest(const struct rho_passive_search *search,
+                                    const float state_m[RHO_PASSIVE_STATES], int include_claimed,
+                                    rho_passive_claim *claim);
 
 /* Scores a state with given claims: log-likelihood ratio, chi-square, hits, test of a track. */
 struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_search *search,
@@ -235,8 +237,8 @@ void rho_passive_rank_candidates(const struct rho_passive *passive,
  * Scores a fitted state, and adds it to the candidates if it passes the tests of a track and has no
  * better duplicate. Returns whether it passes the tests.
  */
-int rho_passive_offer_candidate(struct rho_passive_search *search,
-                                const float state_m[RHO_PASSIVE_STATES]);
+int rho_passive_offer_if_track(struct rho_passive_search *search,
+                               const float state_m[RHO_PASSIVE_STATES]);
 
 /* Number of bearings that two candidates both claim. */
 unsigned rho_passive_count_shared_bearings(const struct rho_passive_search *search,
@@ -245,7 +247,7 @@ unsigned rho_passive_count_shared_bearings(const struct rho_passive_search *sear
 
 /*
  * Offers candidates for targets whose bearings two ghost candidates share: one sensor's bearings of
- * one candidate with another sensor's bearings of the other (bearing_swap.c).
+ * one candidate with another sensor's bearings of the other (passive_targets_behind_ghosts.c).
  */
 void rho_passive_offer_swapped_candidates(struct rho_passive_search *search);
 
@@ -296,9 +298,9 @@ void rho_passive_fit_jointly(const struct rho_passive_search *search,
  * Margin of each track: total score of passive->best minus that of the best set without the track's
  * target. A set with a higher total that is found becomes passive->best.
  */
-void rho_passive_find_margins(const struct rho_passive_search *search,
-                              struct rho_passive_choice *choice,
-                              float margins_nat[RHO_MAX_PASSIVE_TRACKS]);
+void rho_passive_find_margins_and_improve(const struct rho_passive_search *search,
+                                          struct rho_passive_choice *choice,
+                                          float margins_nat[RHO_MAX_PASSIVE_TRACKS]);
 
 /* ---- phases 4 and 5: selection ---- */
 

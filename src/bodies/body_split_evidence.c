@@ -110,7 +110,7 @@ static struct look_sums sum_look_of_body(const struct step *step, const struct r
              groups, groups->first[step->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
         const struct rho_plot *plot = &scan->plots[i];
-        if (!rho_tracker_locate_plot_on_body(step, scan, row, i, &at) &&
+        if (!rho_tracker_locate_plot_and_has_rate(step, scan, row, i, &at) &&
             (scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue; /* a plot at the sensor has no line of sight */
         }

@@ -146,7 +146,7 @@ static void end_new_duplicates(struct step *step)
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         int goes_on = is_new_track(step, row);
         for (unsigned other = row + 1u;
-             goes_on && other < tracker->num_tracks && !rho_tracker_is_work_share_spent(step);
+             goes_on && other < tracker->num_tracks && !rho_tracker_is_phase_work_spent(step);
              other++) {
             rho_tracker_spend_work(step, PASS_UNITS);
             if (are_tracks_near(step, row, other) && is_new_track(step, other) &&

@@ -204,7 +204,7 @@ static void find_owners_and_end_duplicates(struct step *step)
         }
         const struct predicted_body outline = predict_body(step, row);
         struct plots_near near = plots_near_body(step, &outline, half_search_box_m(step, &outline));
-        for (uint32_t i; !rho_tracker_is_work_share_spent(step) &&
+        for (uint32_t i; !rho_tracker_is_phase_work_spent(step) &&
                          rho_tracker_next_plot_near(step, &near, &i);) {
             const struct rho_plot *plot = &step->scan->plots[i];
             if (step->report->fates[i] != RHO_FATE_HELD ||
@@ -260,7 +260,7 @@ static void add_near_plots_to_group(struct step *step, unsigned group)
     struct plots_near near = rho_tracker_plots_near(step, plot->x_m - most_m, plot->x_m + most_m,
                                                     plot->y_m - most_m, plot->y_m + most_m);
     for (uint32_t i;
-         !rho_tracker_is_work_share_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
+         !rho_tracker_is_phase_work_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
         rho_tracker_spend_work(step, PASS_UNITS);
         if (step->report->fates[i] == RHO_FATE_HELD && groups->of[i] == RHO_NO_ROW &&
             groups->owner[i] == RHO_NO_ROW && !rho_tracker_is_plot_excluded(step, i) &&
@@ -445,10 +445,10 @@ void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped)
     rho_tracker_align_bodies_with_tracks(step);
     init_groups_and_fates(step);
     rho_tracker_index_plots(step);
-    rho_tracker_begin_work_share(step, RHO_WORK_GROUPS_SHARE);
+    rho_tracker_begin_work_phase(step, RHO_WORK_GROUPS_SHARE);
     find_owners_and_end_duplicates(step);
     form_groups(step);
-    step->is_partial |= rho_tracker_is_work_share_spent(step);
+    step->is_partial |= rho_tracker_is_phase_work_spent(step);
     for (unsigned group = 0; group < groups->count; group++) {
         make_group_plot(step, group, &groups->plots[group]);
     }

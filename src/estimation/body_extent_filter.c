@@ -77,8 +77,8 @@ void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float
     };
 }
 
-void rho_body_set_heading(struct rho_body_filter *body, const float velocity_mps[2],
-                          const float covariance[3])
+void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float velocity_mps[2],
+                                    const float covariance[3])
 {
     const float speed_mps =
         rho_sqrt(velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1]);

@@ -8,7 +8,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "imm_axes.h"
+#include "imm_axis_access.h"
 #include "rhotrack/detail/approx.h"
 
 /* Predicted variances are raised by thirty-two units of rounding, as in kalman.c. */

@@ -561,8 +561,8 @@ static void fill_gate_of_model(struct rho_imm_gate *gate, int model, const float
         rho_log(share * rho_inverse_sqrt(det)) - 0.5f * LOG_TWO_PI * (float)gate->num_axes;
 }
 
-int rho_imm_prepare_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
-                         int has_z)
+int rho_imm_prepare_gate_if_uncoupled(struct rho_imm_gate *gate, const struct rho_imm *imm,
+                                      float variance_m2, int has_z)
 {
     if (imm->is_coupled) {
         return 0;

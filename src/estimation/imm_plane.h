@@ -9,7 +9,7 @@
 #ifndef RHOTRACK_IMM_PLANE_H
 #define RHOTRACK_IMM_PLANE_H
 
-#include "imm_axes.h"
+#include "imm_axis_access.h"
 
 /* Numbers of states on two axes, in the steady and in the manoeuvring model. */
 #define RHO_PLANE_STEADY (2 * 2)

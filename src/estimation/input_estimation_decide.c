@@ -152,7 +152,7 @@ static uint32_t end_weak_independent_inputs(struct rho_input *input, float nis_l
     return left;
 }
 
-void rho_input_decide_presence(struct rho_input *input, const struct rho_input_config *config)
+void rho_input_test_and_end_inputs(struct rho_input *input, const struct rho_input_config *config)
 {
     if (input == NULL || config == NULL || !config->is_estimated) {
         return;

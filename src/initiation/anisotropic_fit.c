@@ -42,7 +42,7 @@ int rho_initiator_nearest_plot_anisotropic(struct search *search, const struct l
                      (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
-    return rho_window_nearest_anisotropic(scan, &place, &search->initiator->work.window);
+    return rho_window_nearest_plot_anisotropic(scan, &place, &search->initiator->work.window);
 }
 
 /* ---- regression ------------------------------------------------------------------------------ */
@@ -152,7 +152,7 @@ static int make_range_rate_equation(const struct regression *of, unsigned m,
     for (int i = 0; i < of->unknowns; i++) {
         equation->value += equation->row[i] * of->unknown[i];
     }
-    float sigma_mps = rho_window_sigma(plot->sigma_range_rate);
+    float sigma_mps = rho_window_decode_sigma(plot->sigma_range_rate);
     equation->variance = sigma_mps * sigma_mps;
     return 1;
 }
@@ -473,8 +473,9 @@ int rho_initiator_fit_anisotropic(const struct search *search, const struct plot
  * and heights and range rates relative to their density as clutter. Also sets the residual's
  * chi-square and dimensions. Returns 0 where the plots do not determine a track.
  */
-int rho_initiator_likelihood_anisotropic(const struct search *search, const struct plot_set *set,
-                                         struct set_score *score, float *nat)
+int rho_initiator_log_likelihood_anisotropic(const struct search *search,
+                                             const struct plot_set *set, struct set_score *score,
+                                             float *nat)
 {
     struct regression of = {.search = search, .set = set};
     unsigned rows = 0, heights = 0, range_rates = 0;

@@ -79,13 +79,13 @@ static int remake_candidate_from_untaken_plots(struct search *search,
     struct line_fit fit;
     struct plot_set set;
     uint16_t skip = search->skip_flags;
-    if (!rho_initiator_unpack_candidate(search, candidate, &set, &fit)) {
+    if (!rho_initiator_unpack_and_set_turning(search, candidate, &set, &fit)) {
         return 0;
     }
     search->skip_flags = (uint16_t)(skip | RHO_WINDOW_TAKEN);
     rho_initiator_associate_plots(search, &fit, SECOND_GATE_FACTOR, &set);
-    int found =
-        set.hits >= search->min_scans && rho_initiator_make_candidate(search, &set, candidate);
+    int found = set.hits >= search->min_scans &&
+                rho_initiator_make_unlisted_candidate(search, &set, candidate);
     search->skip_flags = skip;
     return found;
 }
@@ -126,7 +126,7 @@ static void sort_candidates_by_score(struct rho_initiator *initiator)
 static int charge_choice_or_drop_rest(struct search *search, unsigned num_accepted)
 {
     struct rho_initiator *initiator = search->initiator;
-    if (rho_initiator_is_work_spent(search)) {
+    if (rho_initiator_is_work_limit_exceeded(search)) {
         initiator->work.candidates_dropped =
             rho_count(initiator->work.candidates_dropped, initiator->num_candidates - num_accepted);
         initiator->num_candidates = (uint16_t)num_accepted;
@@ -192,7 +192,7 @@ static int rescore_candidate(struct search *search, struct rho_candidate *candid
     struct line_fit fit;
     struct set_score score;
     search->is_left_out = candidate->score_mnat >= LIKELY_MNAT;
-    if (!rho_initiator_unpack_candidate(search, candidate, &set, &fit) ||
+    if (!rho_initiator_unpack_and_set_turning(search, candidate, &set, &fit) ||
         set.hits < search->min_scans || !rho_initiator_score_set(search, &set, &fit, &score)) {
         return 0;
     }
@@ -204,7 +204,7 @@ static int rescore_candidate(struct search *search, struct rho_candidate *candid
  * Scores the accepted candidates again, with thresholds and clutter density measured without the
  * plots of likely targets, and drops those below the threshold.
  */
-void rho_initiator_rescore_candidates(struct search *search)
+void rho_initiator_rescore_and_drop_weak(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     float more_plots = mark_plots_mean_hits_per_target(search);

@@ -39,8 +39,8 @@ int rho_initiator_passes_thresholds(const struct search *search, const struct se
  * Makes a candidate of a set of plots: fits, associates and scores it. Returns 0 where its score or
  * its fit is not good enough, or where a listed candidate has the same plots.
  */
-int rho_initiator_make_candidate(struct search *search, struct plot_set *set,
-                                 struct rho_candidate *candidate)
+int rho_initiator_make_unlisted_candidate(struct search *search, struct plot_set *set,
+                                          struct rho_candidate *candidate)
 {
     struct line_fit fit;
     struct set_score score;
@@ -79,11 +79,11 @@ static unsigned lowest_score_candidate(const struct rho_initiator *initiator)
     return low;
 }
 
-void rho_initiator_add_candidate(struct search *search, struct plot_set *set)
+void rho_initiator_add_set_as_candidate(struct search *search, struct plot_set *set)
 {
     struct rho_initiator *initiator = search->initiator;
     struct rho_candidate candidate;
-    if (!rho_initiator_make_candidate(search, set, &candidate)) {
+    if (!rho_initiator_make_unlisted_candidate(search, set, &candidate)) {
         return;
     }
     if (initiator->num_candidates < RHO_MAX_CANDIDATES) {
@@ -102,8 +102,9 @@ void rho_initiator_add_candidate(struct search *search, struct plot_set *set)
  * Unpacks the plots and the track of a candidate. The search then assumes turning targets where the
  * candidate turns, and straight ones where not. Returns 0 where the plots do not determine a track.
  */
-int rho_initiator_unpack_candidate(struct search *search, const struct rho_candidate *candidate,
-                                   struct plot_set *set, struct line_fit *fit)
+int rho_initiator_unpack_and_set_turning(struct search *search,
+                                         const struct rho_candidate *candidate,
+                                         struct plot_set *set, struct line_fit *fit)
 {
     *set = (struct plot_set){.mask = candidate->mask, .hits = candidate->hits};
     for (unsigned m = 0; m < search->num_scans; m++) {

@@ -141,7 +141,8 @@ static int list_radars_for_polar_maps(const struct search *search, struct radars
     struct rho_window *window = &search->initiator->window;
     int is_radar = 0;
     radars->count = 0;
-    for (unsigned m = 0; m < window->num_scans && !rho_initiator_is_isotropic(search); m++) {
+    for (unsigned m = 0; m < window->num_scans && !rho_initiator_takes_isotropic_path(search);
+         m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
         is_radar |= !scan->is_isotropic;
         if (!add_fixed_radar(radars, &scan->sensor)) {
@@ -433,7 +434,7 @@ void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, f
     set_sensor_density_ratios(search, by_scan, plots);
 }
 
-void rho_initiator_prepare_density(struct search *search)
+void rho_initiator_measure_or_keep_density(struct search *search)
 {
     if (search->is_continued) {
         for (unsigned m = 0; m < search->num_scans; m++) {
@@ -488,7 +489,8 @@ static float density_of_held_scans(const struct rho_initiator *initiator, float 
     return sum > 0.0f ? sum / scans : first;
 }
 
-float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m)
+float rho_initiator_mean_clutter_density(const struct rho_initiator *initiator, float x_m,
+                                         float y_m)
 {
     return rho_initiator_density_with_memory(initiator, x_m, y_m,
                                              density_of_held_scans(initiator, x_m, y_m));
@@ -523,7 +525,7 @@ float rho_initiator_density(const struct rho_initiator *initiator, int32_t senso
             break;
         }
     }
-    return rho_initiator_mean_density(initiator, x_m, y_m) * ratio;
+    return rho_initiator_mean_clutter_density(initiator, x_m, y_m) * ratio;
 }
 
 /*

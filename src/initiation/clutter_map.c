@@ -3,7 +3,7 @@
  * clutter_map: the table of echoes, places that return clutter again and again: their estimated
  * places, the probabilities of their return, and which of them a full table drops.
  */
-#include "rhotrack/detail/clutter_map_echoes.h"
+#include "rhotrack/detail/clutter_map_update.h"
 
 #include <string.h>
 
@@ -175,7 +175,7 @@ struct echo_view rho_clutter_map_view_from_sensor(const struct rho_sensor *senso
     return (struct echo_view){dx_m / range_m, dy_m / range_m, range_m};
 }
 
-float rho_clutter_map_azimuth_share(const struct echo_view *view)
+float rho_clutter_map_azimuth_in_turns(const struct echo_view *view)
 {
     return (rho_atan2(view->along_y, view->along_x) + RHO_PI) / RHO_TWO_PI;
 }
@@ -192,7 +192,8 @@ uint8_t rho_clutter_map_region_of_place(const struct rho_sensor *sensor, float r
                                         float x_m, float y_m)
 {
     const struct echo_view view = rho_clutter_map_view_from_sensor(sensor, x_m, y_m);
-    return (uint8_t)(region_index_on_axis(rho_clutter_map_azimuth_share(&view)) * RHO_ECHO_REGIONS +
+    return (uint8_t)(region_index_on_axis(rho_clutter_map_azimuth_in_turns(&view)) *
+                         RHO_ECHO_REGIONS +
                      region_index_on_axis(rho_sqrt(view.range_m / range_max_m)));
 }
 

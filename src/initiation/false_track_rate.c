@@ -30,7 +30,7 @@
 
 static float log_of_sigma_code(uint16_t code)
 {
-    return rho_log(rho_window_sigma(code));
+    return rho_log(rho_window_decode_sigma(code));
 }
 
 static struct place_class place_class_of_plot(const struct false_tracks *model,
@@ -39,7 +39,8 @@ static struct place_class place_class_of_plot(const struct false_tracks *model,
     const struct search *search = model->search;
     const struct rho_window_plot *plot = &scan->plots[index];
     struct place_class place = {
-        .log_density = rho_log(rho_initiator_mean_density(search->initiator, plot->x_m, plot->y_m)),
+        .log_density =
+            rho_log(rho_initiator_mean_clutter_density(search->initiator, plot->x_m, plot->y_m)),
         .log_range = log_of_sigma_code(plot->sigma_range),
         .log_cross = log_of_sigma_code(plot->sigma_cross),
     };
@@ -328,7 +329,7 @@ static struct place_class noise_widened_by_bend(const struct false_tracks *model
     }
     const float bend_m2 = model->bend_m2[first];
     const float scans = (float)(model->search->num_scans - first);
-    if (rho_initiator_is_isotropic(model->search)) {
+    if (rho_initiator_takes_isotropic_path(model->search)) {
         wide.log_range =
             log_sigma_widened_by_modes(place->log_range, bend_m2 * (float)hits / scans, hits - 2u);
         wide.log_cross = wide.log_range;
@@ -363,7 +364,8 @@ static void list_and_score_patterns(struct false_tracks *model)
     model->least_hits = 3;
     for (unsigned first = 0; first + 3u <= num_scans; first++) {
         if (model->search->fit_process_m2 > 0.0f) {
-            (void)rho_initiator_bend_variance_m2(model->search, first, &model->bend_m2[first]);
+            (void)rho_initiator_largest_bend_variance_m2(model->search, first,
+                                                         &model->bend_m2[first]);
         }
         for (unsigned hits = 3; hits <= num_scans - first; hits++) {
             add_pattern(model, first, hits);
@@ -478,8 +480,8 @@ static float false_sets_of_pattern(const struct false_tracks *model, unsigned pa
     return sum;
 }
 
-float rho_initiator_false_sets_above(const struct false_tracks *model, float score_nat,
-                                     float start_nat, float stop_above)
+float rho_initiator_false_sets_newly_above(const struct false_tracks *model, float score_nat,
+                                           float start_nat, float stop_above)
 {
     float sum = 0.0f;
     for (unsigned k = 0; k < model->num_patterns && sum <= stop_above; k++) {
@@ -488,7 +490,7 @@ float rho_initiator_false_sets_above(const struct false_tracks *model, float sco
     return sum;
 }
 
-float rho_initiator_share_staying_inside(const struct false_tracks *model, float start_nat)
+float rho_initiator_share_of_false_tracks_staying(const struct false_tracks *model, float start_nat)
 {
     const struct search *search = model->search;
     unsigned newest = search->num_scans - 1u;
@@ -506,7 +508,7 @@ float rho_initiator_share_staying_inside(const struct false_tracks *model, float
     return all > 0.0f ? sum / all : 1.0f;
 }
 
-float rho_initiator_gain_of_hit(const struct false_tracks *model)
+float rho_initiator_least_gain_of_hit(const struct false_tracks *model)
 {
     const struct search *search = model->search;
     float least = FLT_MAX;
@@ -539,7 +541,7 @@ static float best_score_in_any_class(const struct false_tracks *model, unsigned 
  * True where a pattern with the least number of hits has a margin over start_nat of its mean chi2 /
  * 2 or more, so that at least half of the targets with this pattern start.
  */
-int rho_initiator_lets_targets_start(const struct false_tracks *model, float start_nat)
+int rho_initiator_lets_half_of_targets_start(const struct false_tracks *model, float start_nat)
 {
     for (unsigned k = 0; k < model->num_patterns; k++) {
         const struct pattern *pattern = &model->patterns[k];
@@ -564,7 +566,7 @@ unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigne
     return model->search->num_scans + 1u;
 }
 
-float rho_initiator_thinnest_clutter(const struct false_tracks *model)
+float rho_initiator_least_clutter_within_noise(const struct false_tracks *model)
 {
     float least = 0.0f;
     for (unsigned i = 0; i < model->num_classes; i++) {

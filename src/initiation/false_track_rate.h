@@ -76,17 +76,18 @@ void rho_initiator_model_false_tracks(const struct search *search, struct false_
  * Expected number of false tracks of one search whose score reaches s_nat at once, and which had
  * not reached start_nat before. Counting ends at `stop_above`; FLT_MAX counts all.
  */
-float rho_initiator_false_sets_above(const struct false_tracks *model, float score_nat,
-                                     float start_nat, float stop_above);
+float rho_initiator_false_sets_newly_above(const struct false_tracks *model, float score_nat,
+                                           float start_nat, float stop_above);
 
 /* Share of the false tracks started at start_nat that are still in the area at the next scan. */
-float rho_initiator_share_staying_inside(const struct false_tracks *model, float start_nat);
+float rho_initiator_share_of_false_tracks_staying(const struct false_tracks *model,
+                                                  float start_nat);
 
 /*
  * Score that one more perfect hit adds to a tentative track, in the class of places where that is
  * least.
  */
-float rho_initiator_gain_of_hit(const struct false_tracks *model);
+float rho_initiator_least_gain_of_hit(const struct false_tracks *model);
 
 /*
  * Fewest hits, at least the model's least_hits, with which sets from scan `first` to the newest
@@ -96,9 +97,9 @@ unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigne
                                        float start_nat);
 
 /* Clutter plots within the noise of a plot, in the class of places with the fewest; at most 1. */
-float rho_initiator_thinnest_clutter(const struct false_tracks *model);
+float rho_initiator_least_clutter_within_noise(const struct false_tracks *model);
 
 /* True where at least half of the targets with the least number of hits reach start_nat. */
-int rho_initiator_lets_targets_start(const struct false_tracks *model, float start_nat);
+int rho_initiator_lets_half_of_targets_start(const struct false_tracks *model, float start_nat);
 
 #endif

@@ -139,7 +139,7 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
      */
     if (RHO_MAX_CLUTTER_CELLS > 0 && initiator->window.num_scans == initiator->config.scans &&
         rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK &&
-        !rho_window_continues(&initiator->window, scan, sensor)) {
+        !rho_window_is_continued_by_scan(&initiator->window, scan, sensor)) {
         rho_initiator_remember_oldest_scan(initiator);
     }
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);
@@ -315,17 +315,17 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
         return RHO_OK;
     }
     set_up_search(&search);
-    rho_initiator_prepare_process_noise(&search);
-    rho_initiator_prepare_density(&search);
-    rho_initiator_prepare_vote_gates(&search);
-    rho_initiator_prepare_prior(&search);
+    rho_initiator_set_process_noise(&search);
+    rho_initiator_measure_or_keep_density(&search);
+    rho_initiator_bound_noise_by_range(&search);
+    rho_initiator_set_pd_and_birth_prior(&search);
     rho_initiator_set_thresholds(&search);
     if (search.num_scans >= 3 && search.num_scans >= search.min_scans) {
-        rho_initiator_try_kernels(&search);
+        rho_initiator_try_straight_kernels(&search);
         try_turning_targets(&search);
         rho_initiator_select_candidates(&search);
         if (search.keeps_rate) {
-            rho_initiator_rescore_candidates(&search);
+            rho_initiator_rescore_and_drop_weak(&search);
         }
     }
     rho_initiator_record_work(&search);

@@ -84,7 +84,7 @@ int rho_initiator_nearest_plot_isotropic(struct search *search, const struct lin
             RHO_GATE_CHI2_2D * (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
-    return rho_window_nearest_isotropic(scan, &query, &search->initiator->work.window);
+    return rho_window_nearest_plot_isotropic(scan, &query, &search->initiator->work.window);
 }
 
 /* ---- likelihood ------------------------------------------------------------------------------ */
@@ -214,8 +214,8 @@ static int likelihood_with_process_noise(const struct search *search, const stru
  * The sum over both axes has no factor 1/2, except for chi-square. Also sets the residual's
  * chi-square and dimensions. Returns 0 where the plots do not determine a line.
  */
-int rho_initiator_likelihood_isotropic(const struct search *search, const struct plot_set *set,
-                                       struct set_score *score, float *nat)
+int rho_initiator_log_likelihood_isotropic(const struct search *search, const struct plot_set *set,
+                                           struct set_score *score, float *nat)
 {
     struct likelihood_terms terms;
     if (!(search->fit_process_m2 > 0.0f)) {

@@ -68,7 +68,7 @@ static struct voter make_voter(const struct search *search, const struct span *s
     float low_m2 = interpolated_variance_m2(span, al - slack),
           high_m2 = interpolated_variance_m2(span, al + slack);
     if (search->fit_process_m2 > 0.0f) {
-        voter.process_m2 = rho_initiator_process_variance_m2(search, span->a, m, span->b);
+        voter.process_m2 = rho_initiator_process_variance_off_line_m2(search, span->a, m, span->b);
     }
     float bend_m = 0.5f * search->turn_mps2 * (search->time_s[m] - search->time_s[span->a]) *
                    (search->time_s[span->b] - search->time_s[m]);
@@ -106,7 +106,7 @@ static void set_up_span(struct search *search, struct span *span, struct voter *
     }
     span->voters = voters;
     span->slack_m = 0.0f;
-    if (!rho_initiator_is_isotropic(search)) {
+    if (!rho_initiator_takes_isotropic_path(search)) {
         span->slack_m =
             rho_sqrt(RHO_GATE_CHI2_2D * (span->scan_a->sigma_max_m * span->scan_a->sigma_max_m +
                                          span->scan_b->sigma_max_m * span->scan_b->sigma_max_m));
@@ -144,7 +144,7 @@ static int do_some_spans_need_more_votes(struct search *search, const struct spa
  * Lists the spans of kernels that end in scan b: a kernel of M votes spans at least M scans. Scans
  * of one time make no span.
  */
-void rho_initiator_list_spans(struct search *search, unsigned b, struct span_list *list)
+void rho_initiator_list_spans_ending_at(struct search *search, unsigned b, struct span_list *list)
 {
     struct voter *voters = list->voters;
     list->num_spans = list->ordered = 0;
@@ -230,7 +230,7 @@ static void add_candidates_of_pair(struct search *search, const struct span *spa
     int next = 0;
     do {
         if (rho_initiator_collect_kernel_votes(search, span, ending, first, i, &next, &set)) {
-            rho_initiator_add_candidate(search, &set);
+            rho_initiator_add_set_as_candidate(search, &set);
         }
     } while (next > 0);
 }
@@ -251,7 +251,7 @@ static int add_candidates_of_all_pairs(struct search *search, const struct span 
         for (unsigned i = start[bins.column_first]; i < end; i++) {
             add_candidates_of_pair(search, span, ending, &any, i);
         }
-        if (rho_initiator_is_work_spent(search)) {
+        if (rho_initiator_is_work_limit_exceeded(search)) {
             return 0;
         }
     }
@@ -516,14 +516,14 @@ static int add_candidates_by_third_plots(struct search *search, const struct spa
             if (passed >= CHARGED_UNITS) {
                 rho_initiator_charge_work(search, passed);
                 passed = 0;
-                if (rho_initiator_is_work_spent(search)) {
+                if (rho_initiator_is_work_limit_exceeded(search)) {
                     return 0;
                 }
             }
         }
     }
     rho_initiator_charge_work(search, passed);
-    return !rho_initiator_is_work_spent(search);
+    return !rho_initiator_is_work_limit_exceeded(search);
 }
 
 /* ---- which way ------------------------------------------------------------------------------- */
@@ -567,8 +567,8 @@ static int is_cheaper_by_third_plots(struct search *search, const struct span *s
  * Where the box has many rows of bins all plots of these rows count, as their number is known at
  * once.
  */
-unsigned rho_initiator_count_near_in_previous(struct search *search, const struct span_list *list,
-                                              unsigned j)
+unsigned rho_initiator_count_previous_plots_near(struct search *search,
+                                                 const struct span_list *list, unsigned j)
 {
     const struct span *widest = &list->spans[0];
     const struct ending ending = {.plot = &widest->scan_b->plots[j]};
@@ -612,8 +612,9 @@ static void count_reachable_plots_by_gap(struct search *search, const struct spa
 static int is_in_thin_clutter(const struct search *search, const struct rho_window_plot *plot)
 {
     const struct rho_initiator *initiator = search->initiator;
-    return rho_initiator_mean_density(initiator, plot->x_m, plot->y_m) *
-               rho_window_sigma(plot->sigma_range) * rho_window_sigma(plot->sigma_cross) <
+    return rho_initiator_mean_clutter_density(initiator, plot->x_m, plot->y_m) *
+               rho_window_decode_sigma(plot->sigma_range) *
+               rho_window_decode_sigma(plot->sigma_cross) <
            initiator->thin_clutter;
 }
 
@@ -623,16 +624,16 @@ int rho_initiator_try_kernels_ending_at(struct search *search, const struct span
     const struct span *widest = &list->spans[0];
     struct ending ending = {.plot = &widest->scan_b->plots[j]};
     unsigned counts[RHO_MAX_SCANS] = {0}, by_votes = 0;
-    if (rho_initiator_is_work_spent(search)) {
+    if (rho_initiator_is_work_limit_exceeded(search)) {
         return 0;
     }
     float far_m = target_travel_max_m(search, &ending, widest->b, widest->a);
     ending.rounding_m = ROUNDING_SHARE * (rho_larger(ending.plot->x_m, -ending.plot->x_m) +
                                           rho_larger(ending.plot->y_m, -ending.plot->y_m) + far_m);
-    if (!rho_initiator_is_isotropic(search)) {
+    if (!rho_initiator_takes_isotropic_path(search)) {
         ending.noise = rho_window_noise(widest->scan_b, ending.plot);
     }
-    rho_initiator_narrow_vote_gate(
+    rho_initiator_set_vote_gate_shares(
         search, far_m + widest->slack_m + widest->voters[0].gate_radius_m, &ending);
     ending.gate_rounded = GATE_ROUNDING * ending.gate_share;
     ending.is_clear =

@@ -69,7 +69,8 @@ static unsigned set_cost_classes_count_plots(struct search *search, const struct
         unsigned class = CLASSES;
         if (!(scan->marks[j] & search->skip_flags) &&
             is_of_newest_sector(search, &scan->plots[j])) {
-            class = cost_class_by_near_plots(rho_initiator_count_near_in_previous(search, list, j));
+            class =
+                cost_class_by_near_plots(rho_initiator_count_previous_plots_near(search, list, j));
             count++;
         }
         search->initiator->cost_class[j] = (uint8_t) class;
@@ -138,7 +139,7 @@ static void try_kernels_ending_in_scan(struct search *search, unsigned b, uint32
                                        const struct rho_initiator_resume *begin)
 {
     struct span_list list;
-    rho_initiator_list_spans(search, b, &list);
+    rho_initiator_list_spans_ending_at(search, b, &list);
     if (list.num_spans == 0) {
         return;
     }
@@ -160,7 +161,7 @@ static void try_kernels_ending_in_scan(struct search *search, unsigned b, uint32
  * Tries the kernels of straight targets. In a batch, each scan at which kernels may end has its own
  * work.
  */
-void rho_initiator_try_kernels(struct search *search)
+void rho_initiator_try_straight_kernels(struct search *search)
 {
     static const struct rho_initiator_resume cheapest = {0, 0};
     struct rho_initiator *initiator = search->initiator;

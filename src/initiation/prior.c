@@ -28,7 +28,7 @@ float rho_initiator_log_height_rate_volume(const struct search *search, int has_
     return room;
 }
 
-void rho_initiator_prepare_prior(struct search *search)
+void rho_initiator_set_pd_and_birth_prior(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     const struct rho_initiator_config *config = &initiator->config;

@@ -21,7 +21,8 @@ static float displacement_per_acceleration_s2(const struct search *search, unsig
  * the diagonal of H K H, K the covariance of process noise, H the projection off straight lines.
  * Returns the largest; *sum_m2: their sum.
  */
-float rho_initiator_bend_variance_m2(const struct search *search, unsigned first, float *sum_m2)
+float rho_initiator_largest_bend_variance_m2(const struct search *search, unsigned first,
+                                             float *sum_m2)
 {
     unsigned end = search->num_scans;
     float n = (float)(end - first), mean_s = 0.0f, spread_s2 = 0.0f, largest_m2 = 0.0f;
@@ -50,7 +51,7 @@ float rho_initiator_bend_variance_m2(const struct search *search, unsigned first
     return largest_m2;
 }
 
-void rho_initiator_prepare_process_noise(struct search *search)
+void rho_initiator_set_process_noise(struct search *search)
 {
     float variance = search->initiator->config.process_noise_mps2;
     variance *= variance;
@@ -65,11 +66,11 @@ void rho_initiator_prepare_process_noise(struct search *search)
         }
     }
     search->fit_process_m2 =
-        variance > 0.0f ? rho_initiator_bend_variance_m2(search, 0, &(float){0.0f}) : 0.0f;
+        variance > 0.0f ? rho_initiator_largest_bend_variance_m2(search, 0, &(float){0.0f}) : 0.0f;
 }
 
-float rho_initiator_process_variance_m2(const struct search *search, unsigned a, unsigned m,
-                                        unsigned b)
+float rho_initiator_process_variance_off_line_m2(const struct search *search, unsigned a,
+                                                 unsigned m, unsigned b)
 {
     float al = (search->time_s[m] - search->time_s[a]) / (search->time_s[b] - search->time_s[a]);
     const unsigned scan[3] = {a, m, b};

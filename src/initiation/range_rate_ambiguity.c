@@ -19,9 +19,10 @@ static int limited_whole_spans(float spans)
     return spans < (float)ALIASES_MAX ? (int)spans : ALIASES_MAX;
 }
 
-int rho_initiator_find_aliases(const struct rho_window_scan *scan,
-                               const struct rho_window_plot *plot,
-                               const struct rho_window_place *place, struct aliases *aliases)
+int rho_initiator_find_aliases_if_ambiguous(const struct rho_window_scan *scan,
+                                            const struct rho_window_plot *plot,
+                                            const struct rho_window_place *place,
+                                            struct aliases *aliases)
 {
     if (!(scan->measures & RHO_MEASURES_RANGE_RATE) ||
         !rho_measurement_has_ambiguous_range_rates(&scan->sensor) ||

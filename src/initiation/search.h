@@ -59,7 +59,7 @@ struct search {
     float sigma_near_m, sigma_per_m, sigma_least_m;
     int has_one_noise; /* every plot has isotropic noise, and no height or range rate */
     /*
-     * noise is isotropic and sets are straight; ask rho_initiator_is_isotropic, which
+     * noise is isotropic and sets are straight; ask rho_initiator_takes_isotropic_path, which
      * knows the build
      */
     int is_isotropic;
@@ -89,7 +89,7 @@ struct search {
  * True where the search takes the fast path: isotropic noise in every scan, positions alone
  * measured, straight sets. Constant 0 in a build without Cartesian plots.
  */
-static inline int rho_initiator_is_isotropic(const struct search *search)
+static inline int rho_initiator_takes_isotropic_path(const struct search *search)
 {
     return (RHO_SCAN_KINDS & 1) != 0 && search->is_isotropic;
 }
@@ -137,17 +137,19 @@ static inline float rho_initiator_plot_time_s(const struct search *search,
 /*
  * Measures the clutter density, or takes that of the revolution's first sector (clutter_density.c).
  */
-void rho_initiator_prepare_density(struct search *search);
+void rho_initiator_measure_or_keep_density(struct search *search);
 /* Measures the clutter density without plots of these marks, but with more_plots added. */
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots);
 /* Area over which clutter is spread: the window's extent, at least 1 m^2. */
 float rho_initiator_area_m2(const struct rho_initiator *initiator);
 /* Clutter density at a place, mean over the scans held, raised by the clutter memory. */
-float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m);
+float rho_initiator_mean_clutter_density(const struct rho_initiator *initiator, float x_m,
+                                         float y_m);
 float rho_initiator_log_density_of_hit(const struct search *search, const struct plot_set *set,
                                        unsigned m);
 
-/* Adds the window's oldest scan to the clutter memory before it leaves (clutter_memory.c). */
+/* Adds the window's oldest scan to the clutter memory before it leaves
+ * (clutter_density_long_term.c). */
 void rho_initiator_remember_oldest_scan(struct rho_initiator *initiator);
 /*
  * Clutter density at a place: density_per_m2, or the remembered density where that is significantly
@@ -157,21 +159,22 @@ float rho_initiator_density_with_memory(const struct rho_initiator *initiator, f
                                         float density_per_m2);
 
 /* Sets the covariance of displacements by process noise (process_noise.c). */
-void rho_initiator_prepare_process_noise(struct search *search);
-float rho_initiator_bend_variance_m2(const struct search *search, unsigned first, float *sum_m2);
+void rho_initiator_set_process_noise(struct search *search);
+float rho_initiator_largest_bend_variance_m2(const struct search *search, unsigned first,
+                                             float *sum_m2);
 /*
  * Variance by process noise of the place in scan m about the line between the places in scans a and
  * b.
  */
-float rho_initiator_process_variance_m2(const struct search *search, unsigned a, unsigned m,
-                                        unsigned b);
+float rho_initiator_process_variance_off_line_m2(const struct search *search, unsigned a,
+                                                 unsigned m, unsigned b);
 
 /* Sets the detection probabilities and the density of births (prior.c). */
-void rho_initiator_prepare_prior(struct search *search);
+void rho_initiator_set_pd_and_birth_prior(struct search *search);
 float rho_initiator_log_height_rate_volume(const struct search *search, int has_z, unsigned heights,
                                            unsigned range_rates);
 
-/* Quantile of chi-square at a normal deviate of `sigmas` (distributions.c). */
+/* Quantile of chi-square at a normal deviate of `sigmas` (chi_square_and_log_factorial.c). */
 float rho_initiator_chi2_limit(unsigned dimensions, float sigmas);
 /* Natural logarithm of n factorial. */
 float rho_initiator_log_factorial(unsigned n);
@@ -189,7 +192,7 @@ void rho_initiator_assume_turns(struct search *search, int turns);
 /* Units of work that the search has done so far (search_budget.c). */
 uint32_t rho_initiator_work_spent(const struct search *search);
 /* True where the work exceeds its current limit. */
-int rho_initiator_is_work_spent(const struct search *search);
+int rho_initiator_is_work_limit_exceeded(const struct search *search);
 /* Adds units to the work done. */
 void rho_initiator_charge_work(const struct search *search, uint32_t units);
 void rho_initiator_record_work(struct search *search);
@@ -266,10 +269,10 @@ struct span_list {
     struct voter voters[SPANS_MAX * (SPANS_MAX + 1) / 2]; /* voters of all spans, span by span */
 };
 
-/* Bounds the noise of a single radar by range, for narrower gates (vote_gate.c). */
-void rho_initiator_prepare_vote_gates(struct search *search);
-void rho_initiator_narrow_vote_gate(const struct search *search, float far_m,
-                                    struct ending *ending);
+/* Bounds the noise of a single radar by range, for narrower gates (vote_gate_narrowing.c). */
+void rho_initiator_bound_noise_by_range(struct search *search);
+void rho_initiator_set_vote_gate_shares(const struct search *search, float far_m,
+                                        struct ending *ending);
 
 /*
  * Aliases of an ambiguous range rate: its error is seen.error_mps + i span_mps, i from first to
@@ -285,9 +288,10 @@ struct aliases {
  * Lists the aliases of a plot's range rate that agree with the velocity of a place. Returns 0 where
  * the range rate is not ambiguous (range_rate_ambiguity.c).
  */
-int rho_initiator_find_aliases(const struct rho_window_scan *scan,
-                               const struct rho_window_plot *plot,
-                               const struct rho_window_place *place, struct aliases *aliases);
+int rho_initiator_find_aliases_if_ambiguous(const struct rho_window_scan *scan,
+                                            const struct rho_window_plot *plot,
+                                            const struct rho_window_place *place,
+                                            struct aliases *aliases);
 /* Sets *known to the place with its velocity corrected by alias i of the range rate. */
 void rho_initiator_apply_alias(const struct aliases *aliases, int i,
                                const struct rho_window_place *place,
@@ -296,26 +300,26 @@ void rho_initiator_apply_alias(const struct aliases *aliases, int i,
 /*
  * Collects the votes for the kernel from plot i of the span's first scan to `ending`. Returns 0
  * where they are too few. An ambiguous range rate makes several kernels of one pair: *next_alias, 0
- * at first, tells with which alias to continue, and is 0 after the last (kernels.c).
+ * at first, tells with which alias to continue, and is 0 after the last (kernel_votes.c).
  */
 int rho_initiator_collect_kernel_votes(struct search *search, const struct span *span,
                                        const struct ending *ending, const struct first_vote *first,
                                        unsigned i, int *next_alias, struct plot_set *set);
 
 /* Lists the spans of kernels that end in scan b (kernel_enumeration.c). */
-void rho_initiator_list_spans(struct search *search, unsigned b, struct span_list *list);
+void rho_initiator_list_spans_ending_at(struct search *search, unsigned b, struct span_list *list);
 /*
  * Number of plots, in the scan before the last, that a target in plot j may have come from: a
  * measure of the cost of the kernels that end there.
  */
-unsigned rho_initiator_count_near_in_previous(struct search *search, const struct span_list *list,
-                                              unsigned j);
+unsigned rho_initiator_count_previous_plots_near(struct search *search,
+                                                 const struct span_list *list, unsigned j);
 /* Tries all kernels that end in plot j. Returns 0 where the work is spent. */
 int rho_initiator_try_kernels_ending_at(struct search *search, const struct span_list *list,
                                         unsigned j);
 
 /* Tries all kernels of straight targets within the limit of work (kernel_schedule.c). */
-void rho_initiator_try_kernels(struct search *search);
+void rho_initiator_try_straight_kernels(struct search *search);
 /* Tries kernels of turning targets that end in the newest scan, with the work that is left. */
 void rho_initiator_try_turning_kernels(struct search *search);
 
@@ -339,14 +343,15 @@ int rho_initiator_fit_isotropic(const struct search *search, const struct plot_s
                                 struct line_fit *fit);
 int rho_initiator_nearest_plot_isotropic(struct search *search, const struct line_fit *fit,
                                          float variance_factor, unsigned m);
-int rho_initiator_likelihood_isotropic(const struct search *search, const struct plot_set *set,
-                                       struct set_score *score, float *nat);
+int rho_initiator_log_likelihood_isotropic(const struct search *search, const struct plot_set *set,
+                                           struct set_score *score, float *nat);
 int rho_initiator_fit_anisotropic(const struct search *search, const struct plot_set *set,
                                   struct line_fit *fit);
 int rho_initiator_nearest_plot_anisotropic(struct search *search, const struct line_fit *fit,
                                            float variance_factor, unsigned m);
-int rho_initiator_likelihood_anisotropic(const struct search *search, const struct plot_set *set,
-                                         struct set_score *score, float *nat);
+int rho_initiator_log_likelihood_anisotropic(const struct search *search,
+                                             const struct plot_set *set, struct set_score *score,
+                                             float *nat);
 
 /*
  * Numbers of candidates that make a unit of work: when a list is passed, and when plots are
@@ -355,19 +360,20 @@ int rho_initiator_likelihood_anisotropic(const struct search *search, const stru
 #define PASSED_IN_UNIT 8u
 #define COMPARED_IN_UNIT 2u
 
-int rho_initiator_make_candidate(struct search *search, struct plot_set *set,
-                                 struct rho_candidate *candidate);
+int rho_initiator_make_unlisted_candidate(struct search *search, struct plot_set *set,
+                                          struct rho_candidate *candidate);
 /* Makes a candidate of a set and lists it; a full list drops the lowest score (candidates.c). */
-void rho_initiator_add_candidate(struct search *search, struct plot_set *set);
+void rho_initiator_add_set_as_candidate(struct search *search, struct plot_set *set);
 /* True where a score reaches the start threshold and, if a rate is kept, chi-square is small. */
 int rho_initiator_passes_thresholds(const struct search *search, const struct set_score *score);
-int rho_initiator_unpack_candidate(struct search *search, const struct rho_candidate *candidate,
-                                   struct plot_set *set, struct line_fit *fit);
+int rho_initiator_unpack_and_set_turning(struct search *search,
+                                         const struct rho_candidate *candidate,
+                                         struct plot_set *set, struct line_fit *fit);
 
 /* Keeps candidates by score so that no two share more than one plot (candidate_selection.c). */
 void rho_initiator_select_candidates(struct search *search);
 /* Scores candidates anew, likely targets' plots left out of the clutter, and drops low scores. */
-void rho_initiator_rescore_candidates(struct search *search);
+void rho_initiator_rescore_and_drop_weak(struct search *search);
 
 /* True where every field of a configuration is within its range (initiator.c). */
 int rho_initiator_is_usable_config(const struct rho_initiator_config *config);

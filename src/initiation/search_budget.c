@@ -18,7 +18,7 @@ uint32_t rho_initiator_work_spent(const struct search *search)
     return units < UINT32_MAX ? (uint32_t)units : UINT32_MAX;
 }
 
-int rho_initiator_is_work_spent(const struct search *search)
+int rho_initiator_is_work_limit_exceeded(const struct search *search)
 {
     return rho_initiator_work_spent(search) > search->limit_units;
 }

@@ -153,10 +153,10 @@ static struct clutter_gain gain_by_clutter(const struct false_tracks *model, flo
 {
     const struct search *search = model->search;
     unsigned newest = search->num_scans - 1u;
-    struct clutter_gain gain = {.gain_nat = rho_initiator_gain_of_hit(model),
+    struct clutter_gain gain = {.gain_nat = rho_initiator_least_gain_of_hit(model),
                                 .gains = (unsigned)(0.5f * RHO_GATE_CHI2_2D / CLIMB_STEP),
                                 .miss_nat = -search->log_miss[newest]};
-    gain.each = rho_initiator_share_staying_inside(model, start_nat) * CLIMB_STEP *
+    gain.each = rho_initiator_share_of_false_tracks_staying(model, start_nat) * CLIMB_STEP *
                 rho_exp(search->log_pd[newest] - gain.gain_nat);
     if (gain.each * (float)gain.gains > 1.0f) {
         /* clutter in every gate: the track takes only one of several plots */
@@ -197,7 +197,8 @@ static int clutter_confirms_more_than(const struct climb_table *climbs,
                                       const struct false_tracks *model, float s_nat,
                                       float start_nat, float at_start, float wanted)
 {
-    float above = rho_initiator_false_sets_above(model, s_nat, start_nat, FLT_MAX), sum = above;
+    float above = rho_initiator_false_sets_newly_above(model, s_nat, start_nat, FLT_MAX),
+          sum = above;
     float lowest = s_nat - start_nat < CLIMB_STEP * (float)CLIMBS
                        ? start_nat
                        : s_nat - CLIMB_STEP * (float)CLIMBS;
@@ -207,8 +208,8 @@ static int clutter_confirms_more_than(const struct climb_table *climbs,
         if (sum > wanted || sum + (at_start - above) * climbs_up <= wanted) {
             break;
         }
-        float below =
-            rho_initiator_false_sets_above(model, s_nat - step * (float)i, start_nat, FLT_MAX);
+        float below = rho_initiator_false_sets_newly_above(model, s_nat - step * (float)i,
+                                                           start_nat, FLT_MAX);
         sum += (below - above) * climbs_up;
         above = below;
     }
@@ -221,12 +222,13 @@ static int clutter_confirms_more_than(const struct climb_table *climbs,
 static float find_start_threshold(const struct false_tracks *model)
 {
     float low = THRESHOLD_MIN_NAT, high = THRESHOLD_MAX_NAT;
-    if (rho_initiator_false_sets_above(model, low, low, FALSE_STARTS_MAX) <= FALSE_STARTS_MAX) {
+    if (rho_initiator_false_sets_newly_above(model, low, low, FALSE_STARTS_MAX) <=
+        FALSE_STARTS_MAX) {
         return low;
     }
     for (int i = 0; i < BISECTIONS; i++) {
         float middle = 0.5f * (low + high);
-        if (rho_initiator_false_sets_above(model, middle, middle, FALSE_STARTS_MAX) >
+        if (rho_initiator_false_sets_newly_above(model, middle, middle, FALSE_STARTS_MAX) >
             FALSE_STARTS_MAX) {
             low = middle;
         } else {
@@ -240,7 +242,7 @@ static float find_confirm_threshold(const struct false_tracks *model, float want
 {
     struct climb_table climbs;
     float low = start_nat, high = THRESHOLD_MAX_NAT;
-    float at_start = rho_initiator_false_sets_above(model, start_nat, start_nat, FLT_MAX);
+    float at_start = rho_initiator_false_sets_newly_above(model, start_nat, start_nat, FLT_MAX);
     if (at_start <= wanted) {
         return low;
     }
@@ -268,7 +270,8 @@ static unsigned choose_least_hits_and_start(struct false_tracks *model, float *s
     for (model->least_hits = wanted > 3u ? wanted : 3u; model->least_hits <= num_scans;
          model->least_hits++) {
         *start_nat = find_start_threshold(model);
-        if (model->num_classes == 0 || rho_initiator_lets_targets_start(model, *start_nat)) {
+        if (model->num_classes == 0 ||
+            rho_initiator_lets_half_of_targets_start(model, *start_nat)) {
             return model->least_hits;
         }
     }
@@ -283,7 +286,7 @@ static unsigned choose_least_hits_and_start(struct false_tracks *model, float *s
 static void set_span_hits(struct rho_initiator *initiator, const struct false_tracks *model,
                           float start_nat)
 {
-    initiator->thin_clutter = THIN_SHARE * rho_initiator_thinnest_clutter(model);
+    initiator->thin_clutter = THIN_SHARE * rho_initiator_least_clutter_within_noise(model);
     for (unsigned first = 0; first < RHO_MAX_SCANS; first++) {
         initiator->span_hits[first] =
             (uint8_t)rho_initiator_least_hits_from(model, first, start_nat);

@@ -29,8 +29,9 @@
 int rho_initiator_fit_track(const struct search *search, const struct plot_set *set,
                             struct line_fit *fit)
 {
-    return rho_initiator_is_isotropic(search) ? rho_initiator_fit_isotropic(search, set, fit)
-                                              : rho_initiator_fit_anisotropic(search, set, fit);
+    return rho_initiator_takes_isotropic_path(search)
+               ? rho_initiator_fit_isotropic(search, set, fit)
+               : rho_initiator_fit_anisotropic(search, set, fit);
 }
 
 /*
@@ -42,7 +43,7 @@ void rho_initiator_associate_plots(struct search *search, const struct line_fit 
 {
     set->mask = set->hits = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        int plot = rho_initiator_is_isotropic(search)
+        int plot = rho_initiator_takes_isotropic_path(search)
                        ? rho_initiator_nearest_plot_isotropic(search, fit, variance_factor, m)
                        : rho_initiator_nearest_plot_anisotropic(search, fit, variance_factor, m);
         set->plot[m] = (uint16_t)(plot < 0 ? 0 : plot);
@@ -125,7 +126,7 @@ static int did_scan_cover_track(const struct search *search, const struct line_f
 {
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
     float t_s = search->time_s[m];
-    return rho_measurement_covers(rho_window_sensor(scan), scan->sector_from_rad,
+    return rho_measurement_covers(rho_window_sensor_if_described(scan), scan->sector_from_rad,
                                   scan->sector_to_rad,
                                   fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s,
                                   fit->y_m + (fit->vy_mps + 0.5f * fit->ay_mps2 * t_s) * t_s);
@@ -160,9 +161,9 @@ int rho_initiator_score_set(const struct search *search, const struct plot_set *
                             const struct line_fit *fit, struct set_score *score)
 {
     float nat;
-    const int is_line = rho_initiator_is_isotropic(search)
-                            ? rho_initiator_likelihood_isotropic(search, set, score, &nat)
-                            : rho_initiator_likelihood_anisotropic(search, set, score, &nat);
+    const int is_line = rho_initiator_takes_isotropic_path(search)
+                            ? rho_initiator_log_likelihood_isotropic(search, set, score, &nat)
+                            : rho_initiator_log_likelihood_anisotropic(search, set, score, &nat);
     if (!is_line) {
         return 0;
     }

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#include "accumulator_pass.h"
+#include "accumulator_search.h"
 #include "rhotrack/types.h"
 
 #define ACCUMULATOR_MAGIC 0x41434355u /* "ACCU" in ASCII */
@@ -188,7 +188,7 @@ enum rho_status rho_accumulator_find_peaks(struct rho_accumulator *accumulator,
     } else {
         rho_accumulator_search_all_rows(&pass);
     }
-    rho_peak_list_finish(&pass.list);
+    rho_peak_list_drop_weak_and_sort(&pass.list);
     *result = (struct rho_accumulator_result){.num_peaks = pass.list.num_peaks,
                                               .peaks_dropped = pass.list.peaks_dropped,
                                               .votes = pass.votes,

@@ -15,7 +15,7 @@
  */
 #include <string.h>
 
-#include "accumulator_pass.h"
+#include "accumulator_search.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
@@ -219,7 +219,7 @@ static void find_peaks_of_last_filled_row(struct prune *prune, unsigned next)
     if (row + 1u == pass->accumulator->theta_cells) {
         rho_accumulator_fill_row(pass, slot, 0, 1);
     } else if (next != row + 1u) {
-        rho_accumulator_clear_row(pass, slot);
+        rho_accumulator_clear_sparse_row(pass, slot);
     }
     rho_accumulator_find_row_peaks(pass, row);
 }
@@ -236,7 +236,7 @@ static void prepare_first_row_after_gap(struct prune *prune, unsigned row)
         if (row == 0) {
             rho_accumulator_fill_row(prune->pass, 2, prune->pass->accumulator->theta_cells - 1u, 1);
         } else {
-            rho_accumulator_clear_row(prune->pass, (row - 1u) % 3u);
+            rho_accumulator_clear_sparse_row(prune->pass, (row - 1u) % 3u);
         }
     }
 }

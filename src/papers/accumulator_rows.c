@@ -2,7 +2,7 @@
 /* accumulator_rows: votes of the points in each row of theta, and the peaks of the row. */
 #include <string.h>
 
-#include "accumulator_pass.h"
+#include "accumulator_search.h"
 #include "rhotrack/types.h"
 
 #define BLOCK 64  /* cells of a dense row that are tested together */
@@ -40,7 +40,7 @@ static void add_peak(struct rho_accumulator_pass *pass, unsigned cell, unsigned 
                                         .theta_cell = (uint16_t)pass->middle_theta_cell,
                                         .rho_cell = (uint16_t)(cell - 1u),
                                         .mask = pass->counts_points ? 0u : mask};
-    rho_peak_list_add(&pass->list, peak);
+    rho_peak_list_offer(&pass->list, peak);
 }
 
 /*
@@ -99,7 +99,7 @@ static void project_points_and_count_votes(struct rho_accumulator_pass *pass, un
     unsigned outside = 0;
     if (pass->scans_outside & scans) {
         float last = (float)(pass->accumulator->rho_cells + 1u);
-        outside = rho_accumulator_project_clamped(x_m, y_m, n, place, last, cells);
+        outside = rho_accumulator_project_count_outside(x_m, y_m, n, place, last, cells);
     } else {
         rho_accumulator_project(x_m, y_m, n, place, cells);
     }
@@ -211,7 +211,7 @@ void rho_accumulator_fill_row_with_kept(struct rho_accumulator_pass *pass, unsig
     accumulator->num_reached[slot] = (uint16_t)num_reached;
 }
 
-void rho_accumulator_clear_row(struct rho_accumulator_pass *pass, unsigned slot)
+void rho_accumulator_clear_sparse_row(struct rho_accumulator_pass *pass, unsigned slot)
 {
     clear_sparse_row(pass, slot);
     pass->accumulator->num_touched[slot] = pass->accumulator->num_reached[slot] = 0;

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "hough_votes.h"
+#include "hough_search.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
@@ -294,7 +294,7 @@ static int32_t rows_of_next_pass(const struct rho_hough_pass *pass, int32_t rows
  * plane where list is NULL. A pass that overflows is repeated with half its rows.
  */
 static void run_all_passes(struct rho_hough *hough, const struct rho_hough_points *points,
-                           enum rho_hough_component component, struct rho_plane *plane,
+                           enum rho_hough_component component, struct rho_votes_picture *plane,
                            struct rho_peak_list *list, struct rho_hough_result *result)
 {
     int32_t all = hough->theta_cells, rows = all;
@@ -320,7 +320,7 @@ static void find_pair_peaks(struct rho_hough *hough, const struct rho_hough_poin
                             struct rho_peak_list *list, struct rho_hough_result *result)
 {
     run_all_passes(hough, points, RHO_HOUGH_VOTES, NULL, list, result);
-    rho_peak_list_finish(list);
+    rho_peak_list_drop_weak_and_sort(list);
     result->num_peaks = list->num_peaks;
     result->cells_dropped = list->peaks_dropped;
     result->votes_max = list->votes_max;
@@ -388,7 +388,7 @@ static void fill_ht_row(const struct rho_hough *hough, const struct rho_hough_po
 
 /* Method HT: notes the votes of all rows of theta in the plane. */
 static enum rho_status note_ht_votes(struct rho_hough *hough, const struct rho_hough_points *points,
-                                     struct rho_plane *plane)
+                                     struct rho_votes_picture *plane)
 {
     const enum rho_status status = init_accumulator(hough);
     uint16_t *row = hough->work.accumulator.rows[0];
@@ -397,14 +397,14 @@ static enum rho_status note_ht_votes(struct rho_hough *hough, const struct rho_h
         for (unsigned cell = 0; cell < hough->rho_cells; cell++) {
             const uint32_t votes =
                 hough->config.votes == RHO_VOTES_SCANS ? rho_count_bits(row[cell]) : row[cell];
-            rho_plane_note_votes(plane, theta, cell, votes * RHO_HOUGH_VOTE);
+            rho_votes_picture_enter_cell(plane, theta, cell, votes * RHO_HOUGH_VOTE);
         }
     }
     return status;
 }
 
 enum rho_status rho_hough_plane(struct rho_hough *hough, const struct rho_hough_points *points,
-                                enum rho_hough_component component, struct rho_plane *plane)
+                                enum rho_hough_component component, struct rho_votes_picture *plane)
 {
     struct rho_hough_result result;
     enum rho_status status = check_points(hough, points);
@@ -415,7 +415,7 @@ enum rho_status rho_hough_plane(struct rho_hough *hough, const struct rho_hough_
         (component != RHO_HOUGH_VOTES && !rho_hough_uses_kernels(hough))) {
         return RHO_ERROR_VALUE;
     }
-    status = rho_plane_init_picture(plane, hough->theta_cells, hough->rho_cells);
+    status = rho_votes_picture_init(plane, hough->theta_cells, hough->rho_cells);
     if (status == RHO_OK && hough->config.method == RHO_HOUGH_HT) {
         status = note_ht_votes(hough, points, plane);
     } else if (status == RHO_OK) {

@@ -3,7 +3,7 @@
  * hough_pairs: pairs of plots of successive scans, the lines through them, and their votes, which
  * in NHT depend on kernels, the pairs of the two scans before.
  */
-#include "hough_votes.h"
+#include "hough_search.h"
 
 #include <string.h>
 
@@ -183,7 +183,7 @@ static int32_t bin_of_rho(const struct rho_hough *hough, float rho_m)
 
 static struct bin bin_of_line(const struct rho_hough *hough, struct rho_line line)
 {
-    return (struct bin){rho_angle_theta_cell(line.theta_rad, count_theta_bins(hough)),
+    return (struct bin){rho_angle_clamped_theta_cell(line.theta_rad, count_theta_bins(hough)),
                         bin_of_rho(hough, line.rho_m)};
 }
 
@@ -259,7 +259,7 @@ static struct rho_hough_nearest find_nearest_kernels(const struct rho_hough_pass
 {
     struct rho_hough_nearest nearest = {.count = 0};
     int32_t bins = count_theta_bins(pass->hough);
-    int32_t middle = rho_angle_theta_cell(line.theta_rad, bins);
+    int32_t middle = rho_angle_clamped_theta_cell(line.theta_rad, bins);
     for (int32_t theta = middle - 1; theta <= middle + 1; theta++) {
         int is_turned = theta < 0 || theta >= bins;
         int32_t rho = bin_of_rho(pass->hough, is_turned ? -line.rho_m : line.rho_m);

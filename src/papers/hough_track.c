@@ -3,7 +3,7 @@
  * hough_track: finds the plots that voted for a cell, and fits a track through them; memberships of
  * a pair's vote.
  */
-#include "hough_votes.h"
+#include "hough_search.h"
 
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"

@@ -107,8 +107,8 @@ static int has_scan_in_batch(const struct rho_batch *batch, unsigned sensor)
     return looks > 0;
 }
 
-void rho_passive_paper_set_sensors(const struct rho_batch *batch,
-                                   struct rho_passive_paper_search *search)
+void rho_passive_paper_set_reporting_sensors(const struct rho_batch *batch,
+                                             struct rho_passive_paper_search *search)
 {
     for (unsigned s = 0; s < batch->num_sensors; s++) {
         if (has_scan_in_batch(batch, s)) {
@@ -133,7 +133,7 @@ static void set_scan_times(struct rho_passive_paper_search *search)
     }
 }
 
-int rho_passive_paper_set_cells(struct rho_passive_paper_search *search)
+int rho_passive_paper_set_cells_if_searchable(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
     search->rows = (int)rho_passive_paper_count_rows(&paper->config);
@@ -155,13 +155,13 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
     struct rho_passive_paper_search search = {.paper = paper};
     memset(&paper->work, 0, sizeof paper->work);
     paper->num_lines = 0;
-    rho_batch_compact(&paper->batch);
-    rho_passive_paper_set_sensors(&paper->batch, &search);
-    if (!rho_passive_paper_set_cells(&search)) {
+    rho_batch_compact_bearings(&paper->batch);
+    rho_passive_paper_set_reporting_sensors(&paper->batch, &search);
+    if (!rho_passive_paper_set_cells_if_searchable(&search)) {
         return RHO_OK;
     }
     set_scan_times(&search);
-    rho_passive_paper_vote_for_cells(&search);
+    rho_passive_paper_vote_and_confirm_cells(&search);
     rho_passive_paper_choose_lines(&search);
     rho_passive_paper_fit_lines(&search);
     return RHO_OK;

@@ -20,7 +20,7 @@ int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned numbe
     if (!paper || !pair || !is_initialised(paper)) {
         return 0;
     }
-    rho_passive_paper_set_sensors(&paper->batch, &search);
+    rho_passive_paper_set_reporting_sensors(&paper->batch, &search);
     for (unsigned i = 0; i + 1u < search.num_sensors; i++) {
         const unsigned behind = search.num_sensors - 1u - i;
         if (number < behind) {
@@ -63,7 +63,7 @@ enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
     if (scan >= paper->batch.num_scans || !is_pair_of_search(paper, pair)) {
         return RHO_ERROR_VALUE;
     }
-    rho_passive_paper_set_sensors(&paper->batch, &search);
+    rho_passive_paper_set_reporting_sensors(&paper->batch, &search);
     return rho_passive_paper_set_base(&search, &paper->batch, pair->a, pair->b, &base) &&
                    rho_passive_paper_make_ghost_matrix(&paper->config, &paper->batch, &base, scan,
                                                        *pair, &bearings, matrix)
@@ -81,7 +81,7 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
         return RHO_ERROR_NULL;
     }
     if (is_initialised(paper)) {
-        rho_passive_paper_set_sensors(&paper->batch, &search);
+        rho_passive_paper_set_reporting_sensors(&paper->batch, &search);
     }
     if (search.num_sensors == 0) {
         return RHO_ERROR_STATE;
@@ -100,18 +100,20 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
  * of all pairs, which count from 1 where 0 is a cell that is not confirmed.
  */
 static void note_row_votes(const struct rho_passive_paper_search *search, int row,
-                           const uint8_t *cells, unsigned subtracted, struct rho_plane *plane)
+                           const uint8_t *cells, unsigned subtracted,
+                           struct rho_votes_picture *plane)
 {
     for (int column = 0; column < search->columns; column++) {
         if (cells[column] > subtracted) {
-            rho_plane_note_votes(plane, (unsigned)row, (unsigned)column,
-                                 cells[column] - subtracted);
+            rho_votes_picture_enter_cell(plane, (unsigned)row, (unsigned)column,
+                                         cells[column] - subtracted);
         }
     }
 }
 
 static void note_pair_votes(struct rho_passive_paper_search *search,
-                            const struct rho_passive_paper_pair *pair, struct rho_plane *plane)
+                            const struct rho_passive_paper_pair *pair,
+                            struct rho_votes_picture *plane)
 {
     uint8_t *counts = search->paper->rows[0];
     rho_passive_paper_cross_sensors(search, pair->a, pair->b);
@@ -122,10 +124,10 @@ static void note_pair_votes(struct rho_passive_paper_search *search,
 }
 
 static void note_votes_of_all_pairs(struct rho_passive_paper_search *search,
-                                    struct rho_plane *plane)
+                                    struct rho_votes_picture *plane)
 {
     const struct rho_passive_paper_work work = search->paper->work;
-    rho_passive_paper_vote_for_cells(search);
+    rho_passive_paper_vote_and_confirm_cells(search);
     search->paper->work = work;
     for (int row = 0; row < search->rows; row++) {
         note_row_votes(search, row, search->paper->cells[row], 1, plane);
@@ -144,8 +146,8 @@ static enum rho_status prepare_search(struct rho_passive_paper *paper,
     if (!is_initialised(paper)) {
         return RHO_ERROR_STATE;
     }
-    rho_passive_paper_set_sensors(&paper->batch, search);
-    if (!rho_passive_paper_set_cells(search)) {
+    rho_passive_paper_set_reporting_sensors(&paper->batch, search);
+    if (!rho_passive_paper_set_cells_if_searchable(search)) {
         return RHO_ERROR_STATE;
     }
     return !pair || is_pair_of_search(paper, pair) ? RHO_OK : RHO_ERROR_VALUE;
@@ -153,7 +155,7 @@ static enum rho_status prepare_search(struct rho_passive_paper *paper,
 
 enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
                                         const struct rho_passive_paper_pair *pair,
-                                        struct rho_plane *plane)
+                                        struct rho_votes_picture *plane)
 {
     struct rho_passive_paper_search search;
     if (!paper) {
@@ -161,7 +163,7 @@ enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
     }
     enum rho_status status = prepare_search(paper, pair, &search);
     if (status == RHO_OK) {
-        status = rho_plane_init_picture(plane, (unsigned)search.rows, (unsigned)search.columns);
+        status = rho_votes_picture_init(plane, (unsigned)search.rows, (unsigned)search.columns);
     }
     if (status == RHO_OK && pair) {
         note_pair_votes(&search, pair, plane);
@@ -198,12 +200,12 @@ static void list_pair_cells(const struct rho_passive_paper_search *search,
     for (int row = 0; row < search->rows; row++) {
         rho_passive_paper_count_row_votes(search, row, counts);
         for (int column = 0; column < search->columns; column++) {
-            rho_peak_list_add(list, (struct rho_accumulator_peak){.votes = counts[column],
-                                                                  .theta_cell = (uint16_t)row,
-                                                                  .rho_cell = (uint16_t)column});
+            rho_peak_list_offer(list, (struct rho_accumulator_peak){.votes = counts[column],
+                                                                    .theta_cell = (uint16_t)row,
+                                                                    .rho_cell = (uint16_t)column});
         }
     }
-    rho_peak_list_finish(list);
+    rho_peak_list_drop_weak_and_sort(list);
 }
 
 enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,

@@ -214,7 +214,7 @@ static void add_pair_counters(struct rho_passive_paper_search *search)
                                              (unsigned)search->rows);
 }
 
-void rho_passive_paper_vote_for_cells(struct rho_passive_paper_search *search)
+void rho_passive_paper_vote_and_confirm_cells(struct rho_passive_paper_search *search)
 {
     int is_first = 1;
     for (unsigned i = 0; i + 1u < search->num_sensors; i++) {

@@ -72,10 +72,10 @@ void rho_tracker_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_score_second_plots(step);
+        rho_tracker_learn_second_plots_end_duplicates(step);
     }
     const struct rho_track_limits limits = rho_tracker_track_limits(step);
-    rho_tracker_update_evidence_needed(step);
+    rho_tracker_fade_counts_set_evidence_needed(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || rho_tracker_is_track_frozen(track)) {
@@ -83,7 +83,7 @@ void rho_tracker_age(struct step *step)
         }
         int is_missed = track->plot < 0 && rho_tracker_is_track_in_view(step, row) &&
                         rho_tracker_may_count_miss(step, track);
-        if (is_missed && rho_tracker_is_mostly_blind_to(track) && track->was_confirmed) {
+        if (is_missed && rho_tracker_is_sensor_mostly_blind_to(track) && track->was_confirmed) {
             is_missed = 0;
             rho_tracker_coast_blind_track(step, track);
         }

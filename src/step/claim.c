@@ -23,7 +23,7 @@
 static void widen_noise_and_time_bounds(struct step *step, const struct rho_plot *plot)
 {
     float offset_s = (float)plot->offset_us * 1e-6f;
-    const float factor = rho_measurement_largest_sigma_factor(step->sensor);
+    const float factor = rho_measurement_sigma_factor_at_least_one(step->sensor);
     step->sigma_max_m = rho_larger(step->sigma_max_m, factor * rho_plot_sigma_m(plot));
     step->offset_max_s = rho_larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
     if (step->scan->measures & RHO_MEASURES_Z) {
@@ -191,19 +191,19 @@ static void offer_plots_scored_by_hypotheses(struct step *step, unsigned row)
 
 /* ---- the phase ------------------------------------------------------------------------------- */
 
-void rho_tracker_claim(struct step *step)
+void rho_tracker_assign_plots_to_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     validate_plots(step);
     rho_tracker_index_plots(step);
     if (RHO_CLAIMS_BEYOND && step->first_row > 0) {
-        rho_tracker_measure_part_density(step);
+        rho_tracker_measure_clutter_of_part(step);
     } else if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_find_clutter_at_plots(step);
+        rho_tracker_predict_clutter_at_plots(step);
     }
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
-    rho_tracker_begin_tracks_work(step);
+    rho_tracker_begin_work_per_track(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         if (tracker->tracks[row].status == RHO_TRACK_FREE ||
             !rho_tracker_is_track_in_view(step, row)) {

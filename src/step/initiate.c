@@ -36,7 +36,7 @@ static void start_track_from_candidate(struct step *step, const struct rho_candi
         tracker->counters.plots_initiated = rho_count(
             tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
         if (RHO_MAX_ECHOES > 0) {
-            rho_tracker_raise_density_near_start_plots(step, candidate);
+            rho_tracker_raise_clutter_near_start_plots(step, candidate);
         }
     }
 }
@@ -88,7 +88,7 @@ static void search_and_start_tracks(struct step *step)
         rho_tracker_merge_sensor_thresholds(step);
     }
     const struct rho_track_limits limits = rho_tracker_track_limits(step);
-    rho_tracker_begin_work_share(step, RHO_WORK_STARTS_SHARE);
+    rho_tracker_begin_work_phase(step, RHO_WORK_STARTS_SHARE);
     /* a suspect sensor starts no tracks: plots of it alone are no evidence of a target */
     for (unsigned i = 0; i < initiator->num_candidates && !step->is_suspect; i++) {
         if (!is_newest_plot_used(initiator, &initiator->candidates[i])) {
@@ -97,7 +97,7 @@ static void search_and_start_tracks(struct step *step)
     }
 }
 
-void rho_tracker_initiate(struct step *step)
+void rho_tracker_start_tracks_from_plots(struct step *step)
 {
     if (RHO_SEARCHES && step->initiator) {
         search_and_start_tracks(step);

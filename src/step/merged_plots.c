@@ -100,8 +100,8 @@ static int find_track_to_share_with(const struct step *step, unsigned row, struc
     const float *from = pair->first->kalman.state, *to = pair->second->kalman.state;
     const float half_m[2] = {0.5f * (to[0] - from[0]), 0.5f * (to[1] - from[1])};
     rotate_to_line_of_sight(&pair->seen, half_m, pair->half_m);
-    rho_tracker_resolution_cell_at_plot(step, &step->scan->plots[pair->plot], &pair->seen,
-                                        pair->near_m2);
+    rho_tracker_unresolved_variances_at_plot(step, &step->scan->plots[pair->plot], &pair->seen,
+                                             pair->near_m2);
     return 1;
 }
 
@@ -144,7 +144,7 @@ static float unresolved_probability_on_axis(float unresolved_variance, float apa
 static float unresolved_probability_by_range_rate(const struct step *step,
                                                   const struct track_pair *pair)
 {
-    const float near_mps2 = rho_tracker_range_rate_cell_variance(step->sensor);
+    const float near_mps2 = rho_tracker_unresolved_range_rate_variance(step->sensor);
     const float first_mps = rho_track_sigma_mps(pair->first),
                 second_mps = rho_track_sigma_mps(pair->second);
     return near_mps2 > 0.0f
@@ -271,7 +271,7 @@ static void learn_cell_from_resolved_pairs(struct step *step, unsigned row)
                                   .second = &tracker->tracks[other]};
         rho_measurement_from_plot(from, 0, step->sensor, &pair.seen);
         rotate_to_line_of_sight(&pair.seen, half_m, pair.half_m);
-        rho_tracker_resolution_cell_at_plot(step, from, &pair.seen, pair.near_m2);
+        rho_tracker_unresolved_variances_at_plot(step, from, &pair.seen, pair.near_m2);
         learn_resolution_cell_from_pair(step, &pair, none_m2, 0.0f);
     }
 }

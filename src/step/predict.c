@@ -15,7 +15,7 @@ void rho_tracker_predict_or_end_track(struct step *step, struct rho_track *track
     }
 }
 
-void rho_tracker_predict(struct step *step)
+void rho_tracker_predict_tracks_in_view(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -24,7 +24,7 @@ void rho_tracker_predict(struct step *step)
         if (RHO_SECTORS) {
             rho_tracker_store_track_time(track);
         }
-        if (!rho_tracker_is_track_frozen(track) && rho_tracker_may_see_track(step, track) &&
+        if (!rho_tracker_is_track_frozen(track) && rho_tracker_may_scan_see_track(step, track) &&
             !(RHO_SECTORS && rho_tracker_was_seen_in_last_sector(step, track)) &&
             !rho_tracker_is_only_seen_by_suspect_sensor(step, track)) {
             step->in_view[i / 32] |= 1u << i % 32;

@@ -21,7 +21,7 @@ static enum rho_status check_step_inputs(const struct rho_tracker *tracker,
     if (!RHO_SEARCHES && initiator) {
         return RHO_ERROR_CONFIG;
     }
-    if (!rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
+    if (!rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad) ||
         !rho_tracker_is_usable_time(scan->time_us)) {
         return RHO_ERROR_VALUE;
     }
@@ -37,12 +37,12 @@ static enum rho_status check_step_inputs(const struct rho_tracker *tracker,
 /* Sets the step's sensor with its pd, notch and noise, and notes the scan in its history. */
 static void apply_sensor_to_step(struct step *step)
 {
-    const unsigned place = rho_tracker_place_of_sensor(step->tracker, step->scan->sensor_id);
+    const unsigned place = rho_tracker_index_of_sensor(step->tracker, step->scan->sensor_id);
     if (place < step->tracker->num_sensors) {
         step->sensor = &step->tracker->sensors[place];
         step->learned = &step->tracker->learned[place];
     }
-    rho_tracker_set_pd(step);
+    rho_tracker_set_log_pd_of_step(step);
     if (RHO_SECTORS) {
         rho_tracker_record_scan_and_turning(step);
     }
@@ -84,7 +84,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
                         .num_inputs = scan->num_plots};
     if (rho_tracker_begin_step(&step)) {
         apply_sensor_to_step(&step);
-        rho_tracker_predict(&step);
+        rho_tracker_predict_tracks_in_view(&step);
         if (rho_notch_sensor_has_notch(step.sensor)) {
             rho_tracker_set_blind_percents(&step);
         }
@@ -93,10 +93,10 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
             rho_tracker_group_plots(&step, &grouped);
         }
         if (RHO_CLAIMS_BEYOND && step.num_inputs > RHO_MAX_PLOTS) {
-            rho_tracker_claim_and_update_parts(&step); /* claims and updates, part by part */
+            rho_tracker_assign_and_update_by_parts(&step); /* claims and updates, part by part */
         } else {
-            rho_tracker_claim(&step);
-            rho_tracker_update(&step);
+            rho_tracker_assign_plots_to_tracks(&step);
+            rho_tracker_update_by_assigned_plots(&step);
         }
         rho_tracker_age(&step);
         if (rho_notch_sensor_has_notch(step.sensor)) {
@@ -110,7 +110,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
             rho_tracker_mark_excluded_plots_as_ghosts(&step);
         }
         if (may_start_tracks(&step)) {
-            rho_tracker_initiate(&step);
+            rho_tracker_start_tracks_from_plots(&step);
         } else if (RHO_SECTORS) {
             rho_tracker_mark_held_plots_stale(&step);
         }
@@ -129,6 +129,6 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         }
         rho_tracker_record_work(&step);
     }
-    rho_tracker_report(&step);
+    rho_tracker_count_fates_and_report(&step);
     return RHO_OK;
 }

@@ -110,7 +110,7 @@ static int are_usable_plots(const struct rho_tracker *tracker, const struct rho_
             plots[i].time_us - tracker->time_us > RHO_LIMIT_OFFSET_US || plots[i].row < -1 ||
             plots[i].row >= (int32_t)report->num_plots ||
             !rho_measurement_is_valid_plot(&plots[i].plot, plots[i].measures) ||
-            (plots[i].sensor && !rho_measurement_is_valid_sensor(plots[i].sensor))) {
+            (plots[i].sensor && !rho_measurement_are_place_biases_span_valid(plots[i].sensor))) {
             return 0;
         }
     }
@@ -137,8 +137,8 @@ static enum rho_status resume_step_for_start(struct rho_tracker *tracker, struct
     if (status != RHO_OK) {
         return status;
     }
-    rho_tracker_set_pd(step);
-    return rho_tracker_is_score(score_mnat) &&
+    rho_tracker_set_log_pd_of_step(step);
+    return rho_tracker_is_score_in_range(score_mnat) &&
                    score_mnat >= rho_tracker_track_limits(step).tentative_mnat
                ? RHO_OK
                : RHO_ERROR_VALUE;

@@ -99,7 +99,7 @@ static void update_hypotheses_of_track(struct step *step, unsigned row)
         rho_tracker_release_reserved_work(step);
     }
     /* cannot fail: the track has hypotheses */
-    (void)!rho_track_commit_scan(track, &scan, step->scan->sensor_id, &step->model);
+    (void)!rho_track_commit_hypotheses_to_scan(track, &scan, step->scan->sensor_id, &step->model);
     refused = tracker->hypotheses.updates_refused - refused;
     tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, refused);
     if (assigned != RHO_ASSIGNMENT_NONE && assigned != track->plot) {
@@ -114,14 +114,14 @@ static void update_hypotheses_of_track(struct step *step, unsigned row)
 
 /* ---- the phase ------------------------------------------------------------------------------- */
 
-void rho_tracker_update(struct step *step)
+void rho_tracker_update_by_assigned_plots(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (RHO_SECTORS) {
         rho_tracker_update_sensor_health(step);
     }
     rho_tracker_learn_sensor(step);
-    rho_tracker_begin_tracks_work(step);
+    rho_tracker_begin_work_per_track(step);
     if (RHO_SHARES_PLOTS) {
         rho_tracker_share_merged_plots(step);
     }

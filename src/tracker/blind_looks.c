@@ -86,7 +86,7 @@ static int may_stand_in_notch(const struct step *step, const struct rho_track *t
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float most_mps = RHO_NOTCH_STAND_WIDTHS * step->sensor->notch_mps;
-    return rho_tracker_is_mostly_blind_to(track) &&
+    return rho_tracker_is_sensor_mostly_blind_to(track) &&
            velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] <=
                most_mps * most_mps;
 }

@@ -81,7 +81,7 @@ int rho_tracker_coverage_holds_bearing(const struct rho_sensor *sensor, float be
     return is_near_sector(bearing_rad, sensor->sector_from_rad, sensor->sector_to_rad, margin_rad);
 }
 
-int rho_tracker_may_see_track(const struct step *step, const struct rho_track *track)
+int rho_tracker_may_scan_see_track(const struct step *step, const struct rho_track *track)
 {
     const struct rho_sensor *sensor = step->sensor;
     const float *state = track->kalman.state;
@@ -127,7 +127,7 @@ int rho_tracker_sector_covers_track(const struct step *step, float sector_from_r
 int rho_tracker_may_count_miss(const struct step *step, const struct rho_track *track)
 {
     if (RHO_SECTORS) {
-        return !step->is_suspect && rho_tracker_has_passed_gate(step, track);
+        return !step->is_suspect && rho_tracker_has_antenna_passed_gate(step, track);
     }
     return rho_tracker_sector_covers_track(step, step->scan->sector_from_rad,
                                            step->scan->sector_to_rad, track);

@@ -69,7 +69,7 @@ float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct
  * a later part is that of its held plots over their extent, or that of the first part times the
  * scan's plots over RHO_MAX_PLOTS, whichever is larger.
  */
-void rho_tracker_measure_part_density(struct step *step)
+void rho_tracker_measure_clutter_of_part(struct step *step)
 {
     struct rho_extent extent = {0.0f, 0.0f, 0.0f, 0.0f};
     float num = 0.0f;

@@ -21,7 +21,7 @@ void rho_tracker_open_track_gate(const struct step *step, const struct rho_track
                                  uint32_t measures, struct rho_gate *gate)
 {
     struct rho_kalman expected;
-    rho_track_expect_for_gate(track, &expected);
+    rho_track_estimate_for_gate(track, &expected);
     rho_gate_open(gate, &expected,
                   RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? step->model.input->noise_density
                                                           : step->model.noise_density,
@@ -32,7 +32,8 @@ void rho_tracker_add_assignment_pair(struct step *step, unsigned row, uint32_t c
                                      float gain_nat)
 {
     int32_t gain = rho_tracker_nat_to_mnat(gain_nat);
-    (void)!rho_assignment_add(&step->tracker->assignment, row, column, gain > 1 ? -gain : -1);
+    (void)!rho_assignment_offer_pair(&step->tracker->assignment, row, column,
+                                     gain > 1 ? -gain : -1);
 }
 
 int rho_tracker_find_pair_gain(const struct step *step, unsigned row, int column, float *gain_nat)
@@ -173,7 +174,7 @@ void rho_tracker_begin_plot_scores(struct step *step, unsigned row, struct plot_
         .log_per_range_rate = -step->log_range_rates,
     };
     rho_hypotheses_begin_scan(&tracker->hypotheses, track->slot, &scores->box);
-    scores->box.sigma_factor = rho_measurement_largest_sigma_factor(step->sensor);
+    scores->box.sigma_factor = rho_measurement_sigma_factor_at_least_one(step->sensor);
     scores->near = plots_near_track(step, track, &scores->box);
     choose_plots_to_score(step, track, scores);
 }

@@ -198,7 +198,7 @@ static void mark_plots_at_image_as_ghosts(struct step *step, const struct rho_ka
         step, image->state[RHO_X] - half_m[0], image->state[RHO_X] + half_m[0],
         image->state[RHO_Y] - half_m[1], image->state[RHO_Y] + half_m[1]);
     for (uint32_t i;
-         rho_tracker_next_plot_near(step, &near, &i) && !rho_tracker_is_work_share_spent(step);) {
+         rho_tracker_next_plot_near(step, &near, &i) && !rho_tracker_is_phase_work_spent(step);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         const float dx_m = plot->x_m - image->state[RHO_X], dy_m = plot->y_m - image->state[RHO_Y];
         if (step->report->fates[i] == RHO_FATE_HELD && dx_m <= half_m[0] && dx_m >= -half_m[0] &&
@@ -214,10 +214,10 @@ static void mark_plots_at_image_as_ghosts(struct step *step, const struct rho_ka
 void rho_tracker_mark_image_plots_as_ghosts(struct step *step)
 {
     struct rho_kalman image;
-    rho_tracker_begin_work_share(step, RHO_WORK_IMAGES_SHARE);
+    rho_tracker_begin_work_phase(step, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
         for (unsigned i = 0; may_have_images(step, row) && i < step->tracker->num_reflectors; i++) {
-            if (rho_tracker_is_work_share_spent(step)) {
+            if (rho_tracker_is_phase_work_spent(step)) {
                 step->is_partial = 1;
                 return;
             }
@@ -262,7 +262,7 @@ static int is_image_of_other_track(struct step *step, unsigned row)
         const struct rho_track *of = &tracker->tracks[other];
         for (unsigned i = 0;
              other != row && may_have_images(step, other) && i < tracker->num_reflectors; i++) {
-            if (rho_tracker_is_work_share_spent(step)) {
+            if (rho_tracker_is_phase_work_spent(step)) {
                 step->is_partial = 1;
                 return 0;
             }
@@ -278,7 +278,7 @@ static int is_image_of_other_track(struct step *step, unsigned row)
 void rho_tracker_end_image_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    rho_tracker_begin_work_share(step, RHO_WORK_IMAGES_SHARE);
+    rho_tracker_begin_work_phase(step, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (may_be_image_track(step, track) && is_image_of_other_track(step, row)) {

@@ -51,8 +51,8 @@ static float stated_cell_m(const struct rho_sensor *sensor, const struct rho_plo
                      : sensor->resolution_azimuth_rad * rho_sqrt(x_m * x_m + y_m * y_m);
 }
 
-void rho_tracker_resolution_cell_at_plot(const struct step *step, const struct rho_plot *plot,
-                                         const struct rho_measurement *seen, float near_m2[2])
+void rho_tracker_unresolved_variances_at_plot(const struct step *step, const struct rho_plot *plot,
+                                              const struct rho_measurement *seen, float near_m2[2])
 {
     for (int axis = 0; axis < 2; axis++) {
         if (is_cell_stated(step->sensor, axis)) {
@@ -64,13 +64,13 @@ void rho_tracker_resolution_cell_at_plot(const struct step *step, const struct r
     }
 }
 
-float rho_tracker_range_rate_cell_variance(const struct rho_sensor *sensor)
+float rho_tracker_unresolved_range_rate_variance(const struct rho_sensor *sensor)
 {
     const float cell_mps = sensor ? sensor->resolution_range_rate_mps : 0.0f;
     return NEAR_OF_CELL * cell_mps * cell_mps;
 }
 
-int rho_tracker_is_usable_resolution_cell(const struct rho_sensor *sensor)
+int rho_tracker_has_usable_resolution_cell(const struct rho_sensor *sensor)
 {
     return rho_is_within(sensor->resolution_range_m, 0.0f, RHO_LIMIT_POSITION_M) &&
            rho_is_within(sensor->resolution_azimuth_rad, 0.0f, 7.0f) &&

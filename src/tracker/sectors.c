@@ -189,7 +189,7 @@ static int is_scan_less_than_full_turn(const struct rho_scan *scan)
     return rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad) < RHO_TWO_PI;
 }
 
-int rho_tracker_has_passed_gate(const struct step *step, const struct rho_track *track)
+int rho_tracker_has_antenna_passed_gate(const struct step *step, const struct rho_track *track)
 {
     const struct rho_scan *scan = step->scan;
     if (is_antenna_turning(step)) {
@@ -212,7 +212,7 @@ float rho_tracker_scans_per_turn(const struct step *step)
                : 1.0f;
 }
 
-int rho_tracker_is_last_seeing_sensor(const struct rho_track *track, int32_t sensor_id)
+int rho_tracker_is_among_last_two_sensors(const struct rho_track *track, int32_t sensor_id)
 {
     return (track->look[0] > 0 && track->look_sensor_id[0] == sensor_id) ||
            (track->look[1] > 0 && track->look_sensor_id[1] == sensor_id);
@@ -233,9 +233,10 @@ int rho_tracker_has_sound_looks(const struct rho_tracker *tracker)
     }
     for (unsigned i = 0; i < tracker->num_looks; i++) {
         const struct rho_tracker_look *look = &tracker->looks[i];
-        if (!rho_angle_is_sector(look->sector_from_rad, look->sector_to_rad) ||
-            !rho_is_stored_time(look->time_us) || !rho_tracker_is_score(look->start_mnat) ||
-            !rho_tracker_is_score(look->confirm_mnat) ||
+        if (!rho_angle_are_sector_ends_valid(look->sector_from_rad, look->sector_to_rad) ||
+            !rho_is_stored_time(look->time_us) ||
+            !rho_tracker_is_score_in_range(look->start_mnat) ||
+            !rho_tracker_is_score_in_range(look->confirm_mnat) ||
             !rho_is_within(look->seen_share, 0.0f, 1e9f) ||
             !rho_is_within(look->distance2, 0.0f, 1e30f) ||
             !rho_is_within(look->sigma_m, 0.0f, 1e9f)) {

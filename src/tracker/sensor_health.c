@@ -75,8 +75,8 @@ static void add_track_to_sensor_means(const struct step *step, struct rho_tracke
         look->sigma_m = rho_plot_sigma_m(&step->scan->plots[plot]);
         add_to_running_mean(&look->distance2, nis_per_dimension_of_plot(step, track, plot),
                             &look->watched_hits);
-    } else if (!step->has_more_parts && !rho_tracker_is_mostly_blind_to(track) &&
-               rho_tracker_has_passed_gate(step, track)) {
+    } else if (!step->has_more_parts && !rho_tracker_is_sensor_mostly_blind_to(track) &&
+               rho_tracker_has_antenna_passed_gate(step, track)) {
         add_to_running_mean(&look->seen_share, 0.0f, &look->watched);
     }
 }

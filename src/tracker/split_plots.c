@@ -7,7 +7,7 @@
 
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/clutter_map_echoes.h"
+#include "rhotrack/detail/clutter_map_update.h"
 #include "step.h"
 
 /*
@@ -153,10 +153,10 @@ static float likelihood_ratio_of_range_rates(const struct step *step, uint32_t m
     if (!(measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
     }
-    return rho_tracker_range_rate_ratio(step, second->range_rate_mps - first->range_rate_mps,
-                                        first->sigma_range_rate_mps * first->sigma_range_rate_mps +
-                                            second->sigma_range_rate_mps *
-                                                second->sigma_range_rate_mps);
+    return rho_tracker_range_rate_likelihood_ratio(
+        step, second->range_rate_mps - first->range_rate_mps,
+        first->sigma_range_rate_mps * first->sigma_range_rate_mps +
+            second->sigma_range_rate_mps * second->sigma_range_rate_mps);
 }
 
 /* Adds a density ratio to a window plot's stored one, both coded as ln in steps of `repeats`. */
@@ -420,7 +420,7 @@ static void count_plot_not_tried(struct step *step)
     step->plots_not_tried = rho_count(step->plots_not_tried, 1);
 }
 
-void rho_tracker_score_second_plots(struct step *step)
+void rho_tracker_learn_second_plots_end_duplicates(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_second_plots *table = find_or_claim_table(tracker, step->scan->sensor_id);
@@ -439,13 +439,13 @@ void rho_tracker_score_second_plots(struct step *step)
             test_and_end_younger_track(step, table, row);
         }
     }
-    rho_tracker_begin_work_share(step, RHO_WORK_SECOND_SHARE);
+    rho_tracker_begin_work_phase(step, RHO_WORK_SECOND_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || track->plot < 0) {
             continue;
         }
-        if (rho_tracker_is_work_share_spent(step)) {
+        if (rho_tracker_is_phase_work_spent(step)) {
             count_plot_not_tried(step);
             continue;
         }
@@ -473,7 +473,7 @@ static void raise_stored_clutter_near_plot(struct step *step, const struct rho_s
                                            struct rho_window_scan *scan, unsigned claimed)
 {
     const struct rho_plot first = rho_window_unpack_plot(scan, claimed);
-    const struct rho_sensor *sensor = rho_window_sensor(scan);
+    const struct rho_sensor *sensor = rho_window_sensor_if_described(scan);
     const float half_m = NEAR_SIGMAS * 1.4142136f * rho_plot_sigma_m(&first);
     for (unsigned i = 0; i < scan->num_plots; i++) {
         const float dx_m = scan->plots[i].x_m - first.x_m, dy_m = scan->plots[i].y_m - first.y_m;
@@ -494,7 +494,7 @@ static void raise_stored_clutter_near_plot(struct step *step, const struct rho_s
     }
 }
 
-void rho_tracker_raise_density_near_start_plots(struct step *step,
+void rho_tracker_raise_clutter_near_start_plots(struct step *step,
                                                 const struct rho_candidate *candidate)
 {
     struct rho_window *window = &step->initiator->window;
@@ -503,7 +503,7 @@ void rho_tracker_raise_density_near_start_plots(struct step *step,
         const struct rho_second_plots *table =
             find_or_claim_table(step->tracker, scan->sensor.sensor_id);
         if (((unsigned)candidate->mask >> m & 1u) && table &&
-            rho_tracker_is_work_share_spent(step)) {
+            rho_tracker_is_phase_work_spent(step)) {
             count_plot_not_tried(step);
         } else if (((unsigned)candidate->mask >> m & 1u) && table) {
             rho_tracker_spend_work(step, scan->num_plots / RHO_WORK_PASSED_A_UNIT);

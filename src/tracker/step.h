@@ -90,7 +90,7 @@ static inline int rho_tracker_is_ready(const struct rho_tracker *tracker)
 /* Largest track score either way, mnat: sums of two scores fit 32 bits. */
 #define RHO_SCORE_MAX_MNAT 1000000000
 
-static inline int rho_tracker_is_score(int32_t mnat)
+static inline int rho_tracker_is_score_in_range(int32_t mnat)
 {
     return mnat >= -RHO_SCORE_MAX_MNAT && mnat <= RHO_SCORE_MAX_MNAT;
 }
@@ -159,7 +159,7 @@ static inline uint32_t rho_tracker_max_num_plots_near(const struct step *step,
 /* ---- sensors --------------------------------------------------------------------------------- */
 
 /* sensor_table.c: descriptions of sensors. Index in tracker->sensors; num_sensors: not described */
-unsigned rho_tracker_place_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id);
+unsigned rho_tracker_index_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id);
 const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
                                                  int32_t sensor_id); /* NULL: not described */
 int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor);
@@ -174,7 +174,7 @@ int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struc
 int rho_tracker_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_rad,
                                        float margin_rad);
 /* True where the scan may see a track, by sector and range, with a margin. */
-int rho_tracker_may_see_track(const struct step *step, const struct rho_track *track);
+int rho_tracker_may_scan_see_track(const struct step *step, const struct rho_track *track);
 /* True where the scan may see the track of this row, as found when tracks were predicted. */
 int rho_tracker_is_track_in_view(const struct step *step, unsigned row);
 /* True where the sensor, looking at this sector, covers the track's place. */
@@ -194,7 +194,7 @@ void rho_tracker_record_scan_and_turning(struct step *step);
 /* Stores in a track with a plot of this scan that the scan's sensor saw it last. */
 void rho_tracker_record_seeing_sensor(const struct step *step, struct rho_track *track);
 /* True of the two sensors that saw the track last. */
-int rho_tracker_is_last_seeing_sensor(const struct rho_track *track, int32_t sensor_id);
+int rho_tracker_is_among_last_two_sensors(const struct rho_track *track, int32_t sensor_id);
 /* Sets the tracker's thresholds: lowest start and highest confirm threshold of all sensors. */
 void rho_tracker_merge_sensor_thresholds(struct step *step);
 /* True where the track claimed a plot in the previous sector of the same turn of the antenna. */
@@ -203,7 +203,7 @@ int rho_tracker_was_seen_in_last_sector(const struct step *step, const struct rh
  * True where the antenna has passed the end of the track's gate in this scan, or, with an antenna
  * that does not turn, the scan covers the track's place.
  */
-int rho_tracker_has_passed_gate(const struct step *step, const struct rho_track *track);
+int rho_tracker_has_antenna_passed_gate(const struct step *step, const struct rho_track *track);
 /* Number of scans of this sector's width in one turn of the antenna; 1 where it does not turn. */
 float rho_tracker_scans_per_turn(const struct step *step);
 /* True of a plot of the window's newest scan that came with an earlier sector of the same turn. */
@@ -266,7 +266,7 @@ static inline struct detection rho_tracker_detection_of_track(const struct step 
                : rho_tracker_detection_without_notch(step, track);
 }
 /* True where at least half of the looks at the track are blind: no plot is no miss then. */
-static inline int rho_tracker_is_mostly_blind_to(const struct rho_track *track)
+static inline int rho_tracker_is_sensor_mostly_blind_to(const struct rho_track *track)
 {
     return RHO_DOPPLER_NOTCH && track->blind_percent >= 50;
 }
@@ -304,18 +304,18 @@ static inline int rho_tracker_is_track_frozen(const struct rho_track *track)
 /* ---- resolution ------------------------------------------------------------------------------ */
 
 /* resolution_cell.c (RHO_SHARES_PLOTS): distances at which a sensor does not resolve two targets */
-int rho_tracker_is_usable_resolution_cell(const struct rho_sensor *sensor);
+int rho_tracker_has_usable_resolution_cell(const struct rho_sensor *sensor);
 /* Variances of such distances at a plot's place, along the line of sight and across it. */
-void rho_tracker_resolution_cell_at_plot(const struct step *step, const struct rho_plot *plot,
-                                         const struct rho_measurement *seen, float near_m2[2]);
+void rho_tracker_unresolved_variances_at_plot(const struct step *step, const struct rho_plot *plot,
+                                              const struct rho_measurement *seen, float near_m2[2]);
 /* Variance of differences of range rate that are not resolved, (m/s)^2; 0: the rate is not used. */
-float rho_tracker_range_rate_cell_variance(const struct rho_sensor *sensor);
+float rho_tracker_unresolved_range_rate_variance(const struct rho_sensor *sensor);
 /* A pair of near tracks that the resolution cell is learned from; [2]: along, across. */
 struct apart {
     float is_one;       /* probability that a plot is merged, of both targets */
     float of_one_m2[2]; /* expected squared distance of the targets if it is merged */
     float of_two_m2[2]; /* expected squared distance of the targets if it is of one of them */
-    float near_m2[2];   /* variances by rho_tracker_resolution_cell_at_plot */
+    float near_m2[2];   /* variances by rho_tracker_unresolved_variances_at_plot */
 };
 void rho_tracker_learn_resolution_cell(struct step *step, const struct apart *apart);
 /* Learned resolution cell on an axis, in sigmas of a plot; 0: not learned yet. */
@@ -360,14 +360,15 @@ int rho_tracker_range_rate_residual(const struct step *step, const struct rho_sc
                                     struct range_rate_residual *rate);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
- * rate by rho_tracker_range_rate_residual, whose result rho_tracker_locate_plot_on_body returns.
+ * rate by rho_tracker_range_rate_residual, whose result rho_tracker_locate_plot_and_has_rate
+ * returns.
  */
 struct body_plot {
     float dx_m, dy_m, along_m, across_m;
     struct range_rate_residual rate;
 };
-int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_scan *scan,
-                                    unsigned row, unsigned plot, struct body_plot *at);
+int rho_tracker_locate_plot_and_has_rate(const struct step *step, const struct rho_scan *scan,
+                                         unsigned row, unsigned plot, struct body_plot *at);
 
 /* Variances of a plot's own noise in the axes of a body: along, cross, across. */
 void rho_tracker_plot_noise_on_body(const struct step *step, const struct rho_body_filter *body,
@@ -437,9 +438,9 @@ struct plot_choice {
     uint16_t in_octave[RHO_WORK_OCTAVES]; /* plots counted in each octave */
 };
 /* Begins a phase in which tracks score plots, with a reserved share for each track in view. */
-void rho_tracker_begin_tracks_work(struct step *step);
+void rho_tracker_begin_work_per_track(struct step *step);
 /* Begins a phase that may do work_max / divisor units of work. */
-void rho_tracker_begin_work_share(struct step *step, uint32_t divisor);
+void rho_tracker_begin_work_phase(struct step *step, uint32_t divisor);
 static inline void rho_tracker_spend_work(struct step *step, uint32_t units)
 {
     step->work = rho_count(step->work, units);
@@ -451,7 +452,7 @@ static inline void rho_tracker_release_reserved_work(struct step *step)
     step->share.waiting -= step->share.waiting > 0 ? 1u : 0u;
 }
 
-static inline int rho_tracker_is_work_share_spent(const struct step *step)
+static inline int rho_tracker_is_phase_work_spent(const struct step *step)
 {
     return step->work > step->share.end;
 }
@@ -479,18 +480,18 @@ float rho_tracker_log_clutter_density_at_track(const struct step *step,
 /* Clutter plots expected within three standard deviations of the track's place; 0 in a frame. */
 float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct rho_track *track);
 /* Measures the clutter density of a later part of the scan, from its held plots. */
-void rho_tracker_measure_part_density(struct step *step);
+void rho_tracker_measure_clutter_of_part(struct step *step);
 /* Smooths the number of unclaimed plots, after new tracks have started. */
 void rho_tracker_smooth_unclaimed_count(struct step *step);
 /* Moves a mean of ten scans by a tenth of its difference to the newest value. */
 void rho_tracker_smooth_mean(float *mean, float newest);
 
-/* clutter_update.c (RHO_MAX_ECHOES): the clutter map in a step */
+/* clutter_map_in_step.c (RHO_MAX_ECHOES): the clutter map in a step */
 void rho_tracker_init_clutter_map(struct rho_tracker *tracker);
 int rho_tracker_has_sound_clutter_map(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_echo_returns(const struct rho_track *track);
 /* Computes the density of echoes and strobes at the plots of a scan (first part), before claims. */
-void rho_tracker_find_clutter_at_plots(struct step *step);
+void rho_tracker_predict_clutter_at_plots(struct step *step);
 /*
  * ln of the clutter density at a plot with echoes, strobes and second plots, over that without; 0
  * in later parts of a scan.
@@ -506,7 +507,8 @@ void rho_tracker_update_clutter_map(struct step *step);
  * uniform in all range rates. Half of such rates are taken to be as expected, with the variance and
  * that of 1 m/s, and half to be uniform, too.
  */
-float rho_tracker_range_rate_ratio(const struct step *step, float off_mps, float variance);
+float rho_tracker_range_rate_likelihood_ratio(const struct step *step, float off_mps,
+                                              float variance);
 /* Stores the place where a track starts, to tell later whether it has moved. */
 void rho_tracker_store_start_place(struct rho_track *track);
 /* Sums into a new track the probabilities that its candidate's plots were returns of echoes. */
@@ -520,7 +522,7 @@ int rho_tracker_is_known_moving_target(const struct rho_track *track);
  * plots of a target come, raises the clutter density there, and ends the younger of two tracks of
  * one target
  */
-void rho_tracker_score_second_plots(struct step *step);
+void rho_tracker_learn_second_plots_end_duplicates(struct step *step);
 void rho_tracker_remove_second_plots_of_sensor(struct rho_tracker *tracker, int32_t sensor_id);
 int rho_tracker_has_sound_second_plots(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_track_second_plots(const struct rho_track *track);
@@ -528,7 +530,7 @@ int rho_tracker_has_sound_track_second_plots(const struct rho_track *track);
  * After a start: raises the clutter density at the window's plots near the candidate's plots, as
  * they may be second plots of the same target.
  */
-void rho_tracker_raise_density_near_start_plots(struct step *step,
+void rho_tracker_raise_clutter_near_start_plots(struct step *step,
                                                 const struct rho_candidate *candidate);
 
 /* ---- plots and tracks ------------------------------------------------------------------------ */
@@ -583,7 +585,7 @@ struct rho_track_plot rho_tracker_make_track_plot(const struct step *step, int r
 
 /* ---- life cycle ------------------------------------------------------------------------------ */
 
-/* life_cycle.c: limits of score and misses that confirm and end the tracks of a step */
+/* confirm_and_end_track.c: limits of score and misses that confirm and end the tracks of a step */
 struct rho_track_limits rho_tracker_track_limits(const struct step *step);
 /* Confirms a track, makes it tentative or ends it, and counts it. */
 void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
@@ -593,22 +595,23 @@ void rho_tracker_end_track(struct step *step, struct rho_track *track);
 /* Removes the FREE tracks from the table, with their rows of the assignment. */
 void rho_tracker_remove_ended_tracks(struct rho_tracker *tracker);
 
-/* short_lived_tracks.c: more evidence for new tracks where many end early */
+/* evidence_after_short_lived_tracks.c: more evidence for new tracks where many end early */
 #define RHO_ESTABLISHED_HITS 16
 static inline int rho_tracker_is_established(const struct rho_track *track)
 {
     return track->hits >= RHO_ESTABLISHED_HITS;
 }
 /* Fades the counts of tracks, learns the manoeuvre interval, and sets needed_nat and miss_nat. */
-void rho_tracker_update_evidence_needed(struct step *step);
+void rho_tracker_fade_counts_set_evidence_needed(struct step *step);
 /* True of a track that is not established and has less evidence than needed_nat. */
 int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track);
 /* Counts a track that becomes established in this step. */
-void rho_tracker_count_if_established(struct step *step, const struct rho_track *track);
+void rho_tracker_count_if_newly_established(struct step *step, const struct rho_track *track);
 /* Counts an ended track if it ended early. */
 void rho_tracker_count_if_ended_early(struct step *step, const struct rho_track *track);
 
-/* manoeuvre_interval.c: mean time between manoeuvres; learned from established tracks over dt_s */
+/* manoeuvre_interval_learning.c: mean time between manoeuvres; learned from established tracks over
+ * dt_s */
 void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s);
 /* Sets the mean time between manoeuvres to its default where no scan came for long. */
 void rho_tracker_reset_manoeuvre_interval_after_silence(struct rho_tracker *tracker,
@@ -629,7 +632,7 @@ int rho_tracker_update_and_test_unobserved(const struct step *step, struct rho_t
 /* True where sigma of the track's place exceeds the maximum range of its last sensor. */
 int rho_tracker_is_place_too_uncertain(const struct step *step, const struct rho_track *track);
 
-/* tracker.c: the filter that a configuration gives to tracks of plots */
+/* tracker_setup.c: the filter that a configuration gives to tracks of plots */
 enum rho_track_filter rho_tracker_filter_of_config(const struct rho_tracker_config *config);
 int rho_tracker_is_usable_config(const struct rho_tracker_config *config);
 

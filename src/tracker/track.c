@@ -242,7 +242,7 @@ static enum rho_status predict_and_update_input(struct rho_track *track,
         status = update_input_by_plot(&input, seen, model->input);
     }
     if (status == RHO_OK) {
-        rho_input_decide_presence(&input, model->input);
+        rho_input_test_and_end_inputs(&input, model->input);
         track->input = input;
         track->is_undecided = 0;
         copy_input_estimate_to_track(track);
@@ -257,7 +257,7 @@ static enum rho_status predict_and_update_input(struct rho_track *track,
 static void decide_undecided_inputs(struct rho_track *track, const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
-        rho_input_decide_presence(&track->input, model->input);
+        rho_input_test_and_end_inputs(&track->input, model->input);
         copy_input_estimate_to_track(track);
         track->is_undecided = 0;
     }
@@ -295,7 +295,7 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
     track->maneuver_probability = estimate.maneuver_probability;
 }
 
-void rho_track_expect_for_gate(const struct rho_track *track, struct rho_kalman *expected)
+void rho_track_estimate_for_gate(const struct rho_track *track, struct rho_kalman *expected)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         rho_input_estimate_for_gate(&track->input, expected);
@@ -573,9 +573,10 @@ enum rho_status rho_track_update(struct rho_track *track, const struct rho_track
     return RHO_OK;
 }
 
-enum rho_status rho_track_commit_scan(struct rho_track *track,
-                                      const struct rho_hypotheses_scan *scan, int32_t sensor_id,
-                                      const struct rho_track_model *model)
+enum rho_status rho_track_commit_hypotheses_to_scan(struct rho_track *track,
+                                                    const struct rho_hypotheses_scan *scan,
+                                                    int32_t sensor_id,
+                                                    const struct rho_track_model *model)
 {
     struct rho_hypotheses_outcome outcome;
     if (!track || !scan || !model) {

@@ -47,7 +47,8 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
            (!RHO_DOPPLER_NOTCH || track->blind_percent == 0) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || track->is_frozen <= 1) &&
            track->status > RHO_TRACK_FREE && track->status < RHO_NUM_TRACK_STATUS &&
-           rho_tracker_is_score(track->score_mnat) && rho_tracker_is_score(track->score_max_mnat) &&
+           rho_tracker_is_score_in_range(track->score_mnat) &&
+           rho_tracker_is_score_in_range(track->score_max_mnat) &&
            rho_is_stored_time(track->time_us) && rho_is_stored_time(track->updated_us) &&
            rho_is_stored_time(track->seen_us) && rho_is_within(track->seen_every_s, 0.0f, 1e13f) &&
            is_sound_filter(tracker, track) && is_sound_input(track) &&
@@ -135,8 +136,9 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
 {
     return rho_tracker_is_ready(tracker) && rho_tracker_is_usable_config(&tracker->config) &&
            rho_assignment_is_ready(&tracker->assignment) && tracker->next_track_id > 0 &&
-           rho_is_stored_time(tracker->time_us) && rho_tracker_is_score(tracker->start_mnat) &&
-           rho_tracker_is_score(tracker->confirm_mnat) && tracker->looks_max > 0 &&
+           rho_is_stored_time(tracker->time_us) &&
+           rho_tracker_is_score_in_range(tracker->start_mnat) &&
+           rho_tracker_is_score_in_range(tracker->confirm_mnat) && tracker->looks_max > 0 &&
            rho_is_within(tracker->unclaimed_plots, 0.0f, 1e9f) &&
            rho_is_within(tracker->unclaimed_bearings, 0.0f, 1e9f) &&
            rho_is_within(tracker->ended_early, 0.0f, 1e9f) &&

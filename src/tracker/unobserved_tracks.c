@@ -153,7 +153,7 @@ static int may_sensor_see_place(const struct rho_tracker *tracker,
 static int is_among_last_seeing_sensors(const struct rho_track *track, int32_t sensor_id)
 {
     return track->sensor_id == sensor_id ||
-           (RHO_SECTORS && rho_tracker_is_last_seeing_sensor(track, sensor_id));
+           (RHO_SECTORS && rho_tracker_is_among_last_two_sensors(track, sensor_id));
 }
 
 static struct expected_looks expect_looks_at_track(const struct step *step,

@@ -37,13 +37,13 @@ static uint32_t num_parts_of_scan(const struct step *step)
                                             : RHO_TRACKER_PARTS_MAX;
 }
 
-void rho_tracker_begin_work_share(struct step *step, uint32_t divisor)
+void rho_tracker_begin_work_phase(struct step *step, uint32_t divisor)
 {
     const uint32_t work_max = step->tracker->config.work_max;
     step->share.end = work_max > 0 ? rho_count(step->work, work_max / divisor) : UINT32_MAX;
 }
 
-void rho_tracker_begin_tracks_work(struct step *step)
+void rho_tracker_begin_work_per_track(struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts_of_scan(step);
@@ -52,7 +52,7 @@ void rho_tracker_begin_tracks_work(struct step *step)
         waiting += tracker->tracks[row].status != RHO_TRACK_FREE &&
                    rho_tracker_is_track_in_view(step, row);
     }
-    rho_tracker_begin_work_share(step, part);
+    rho_tracker_begin_work_phase(step, part);
     step->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
     step->share.waiting = waiting;
 }

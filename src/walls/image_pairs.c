@@ -172,9 +172,10 @@ static void add_pair_to_lines(struct rho_reflector_learning *learning,
     }
 }
 
-void rho_reflector_learning_note_pairs(struct rho_reflector_learning *learning,
-                                       const struct rho_sensor *sensor, const struct rho_scan *scan,
-                                       const struct rho_report *report)
+void rho_reflector_learning_update_by_pairs(struct rho_reflector_learning *learning,
+                                            const struct rho_sensor *sensor,
+                                            const struct rho_scan *scan,
+                                            const struct rho_report *report)
 {
     const uint32_t num_tracks = report->num_tracks, all = num_tracks * num_tracks;
     struct mirror_line mirror;

@@ -99,8 +99,9 @@ static inline float variance_along(const float *covariance, int first, float cos
  * way between them refines a learned line, or begins one (image_pairs.c).
  *   sensor  of the scan; NULL: at the origin
  */
-void rho_reflector_learning_note_pairs(struct rho_reflector_learning *learning,
-                                       const struct rho_sensor *sensor, const struct rho_scan *scan,
-                                       const struct rho_report *report);
+void rho_reflector_learning_update_by_pairs(struct rho_reflector_learning *learning,
+                                            const struct rho_sensor *sensor,
+                                            const struct rho_scan *scan,
+                                            const struct rho_report *report);
 
 #endif

@@ -589,7 +589,7 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
                                           of_plots < IMAGES_MAX ? of_plots + 1u : IMAGES_MAX};
     const int has_walls = learning->num_used > 0;
     learning->steps++;
-    rho_reflector_learning_note_pairs(learning, observation.sensor, scan, report);
+    rho_reflector_learning_update_by_pairs(learning, observation.sensor, scan, report);
     look_for_images_in_lines(learning, &observation, report);
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
         accept_or_forget_line(learning, tracker, &learning->lines[i]);

@@ -271,8 +271,8 @@ static int is_sensor_changed(const struct rho_window_scan *held, const struct rh
            !is_equal(was->z_m, sensor->z_m);
 }
 
-int rho_window_continues(const struct rho_window *window, const struct rho_scan *scan,
-                         const struct rho_sensor *sensor)
+int rho_window_is_continued_by_scan(const struct rho_window *window, const struct rho_scan *scan,
+                                    const struct rho_sensor *sensor)
 {
     if (!RHO_SECTORS || window->magic != WINDOW_MAGIC || window->num_scans == 0) {
         return 0;
@@ -399,7 +399,8 @@ enum rho_status rho_window_check_push(const struct rho_window *window, const str
     if (!window || !scan || !left_unused || (scan->num_plots && (!scan->plots || !fates))) {
         return RHO_ERROR_NULL;
     }
-    if (RHO_SECTORS && !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad)) {
+    if (RHO_SECTORS &&
+        !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad)) {
         return RHO_ERROR_VALUE;
     }
     return rho_window_accepts(window, scan->time_us) ? RHO_OK : RHO_ERROR_STATE;
@@ -430,7 +431,7 @@ static void add_scan(struct rho_window *window, const struct rho_scan *scan,
     copy_plots_into_bins(window, &entry);
     slot->num_plots = slot->num_unused = (uint16_t)held;
     if (!window->area_is_fixed) {
-        rho_window_follow_extent(window);
+        rho_window_update_extent(window);
     }
 }
 
@@ -442,7 +443,7 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     if (status != RHO_OK) {
         return status;
     }
-    window->is_continued = rho_window_continues(window, scan, sensor) != 0;
+    window->is_continued = rho_window_is_continued_by_scan(window, scan, sensor) != 0;
     window->is_remeasured = 0;
     if (window->is_continued) {
         add_sector_to_newest(window, scan, sensor, fates);

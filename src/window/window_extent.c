@@ -106,7 +106,7 @@ static float bound_shrinking_slowly(float was, float is, int is_wider)
  * Updates the extent by the held plots without outliers, which would make clutter look thin: it
  * grows at once and shrinks slowly.
  */
-void rho_window_follow_extent(struct rho_window *window)
+void rho_window_update_extent(struct rho_window *window)
 {
     struct plot_spread spread = {0}, before;
     for (int round = 0; round < OUTLIER_ROUNDS; round++) {

@@ -6,6 +6,6 @@
 #include "rhotrack/detail/window.h"
 
 /* Updates the extent of a window without a given area by the plots held, after a push. */
-void rho_window_follow_extent(struct rho_window *window);
+void rho_window_update_extent(struct rho_window *window);
 
 #endif

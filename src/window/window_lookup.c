@@ -11,7 +11,7 @@
 
 /* ---- what is held ---------------------------------------------------------------------------- */
 
-float rho_window_sigma(uint16_t code)
+float rho_window_decode_sigma(uint16_t code)
 {
     return sigma_of_code(code);
 }
@@ -112,8 +112,9 @@ static struct rho_window_bins bins_around_gate(const struct rho_window_scan *sca
                                  y_m + gate_radius_m + largest_shift_m(scan, vy_mps));
 }
 
-int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
-                                 const struct rho_window_query *query, struct rho_window_work *work)
+int rho_window_nearest_plot_isotropic(const struct rho_window_scan *scan,
+                                      const struct rho_window_query *query,
+                                      struct rho_window_work *work)
 {
     struct rho_window_bins bins = bins_around_gate(scan, query->x_m, query->y_m, query->vx_mps,
                                                    query->vy_mps, query->gate_radius_m);
@@ -137,7 +138,7 @@ int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
 #define RANGE_LEAST_M2 1.0f /* least ground range, squared, at which a plot has a line of sight */
 #define ROUNDING_ALLOWANCE (1.0f / 4194304.0f)
 
-const struct rho_sensor *rho_window_sensor(const struct rho_window_scan *scan)
+const struct rho_sensor *rho_window_sensor_if_described(const struct rho_window_scan *scan)
 {
     return scan->sensor.pd > 0.0f ? &scan->sensor : 0;
 }
@@ -151,17 +152,17 @@ struct rho_plot rho_window_unpack_plot(const struct rho_window_scan *scan, unsig
         .y_m = held->y_m,
         .z_m = held->z_m,
         .range_rate_mps = held->range_rate_mps,
-        .sigma_range_m = rho_window_sigma(held->sigma_range),
-        .sigma_cross_m = rho_window_sigma(held->sigma_cross),
-        .sigma_up_m = rho_window_sigma(held->sigma_up),
-        .sigma_range_rate_mps = rho_window_sigma(held->sigma_range_rate),
+        .sigma_range_m = rho_window_decode_sigma(held->sigma_range),
+        .sigma_cross_m = rho_window_decode_sigma(held->sigma_cross),
+        .sigma_up_m = rho_window_decode_sigma(held->sigma_up),
+        .sigma_range_rate_mps = rho_window_decode_sigma(held->sigma_range_rate),
     };
     return plot;
 }
 
 static float squared_sigma_of_code(uint16_t code)
 {
-    float sigma = rho_window_sigma(code);
+    float sigma = rho_window_decode_sigma(code);
     return sigma * sigma;
 }
 
@@ -285,9 +286,9 @@ static float gate_chi2_of_scan(const struct rho_window_scan *scan,
 /* Units of work of comparing a plot by its own covariance, beyond those of a simple comparison. */
 #define OWN_NOISE_UNITS 2u
 
-int rho_window_nearest_anisotropic(const struct rho_window_scan *scan,
-                                   const struct rho_window_place *place,
-                                   struct rho_window_work *work)
+int rho_window_nearest_plot_anisotropic(const struct rho_window_scan *scan,
+                                        const struct rho_window_place *place,
+                                        struct rho_window_work *work)
 {
     struct rho_window_bins bins = bins_around_gate(scan, place->x_m, place->y_m, place->vx_mps,
                                                    place->vy_mps, place->gate_radius_m);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * publish_learned_sensor: fills the message with the noise and pd that the tracker has learned for a
- * sensor.
+ * publish_learned_sensor: fills the message with the noise and pd that the tracker has learned for
+ * a sensor.
  */
 #include "message_clamps.h"
 #include "rhotrack/publish.h"

@@ -307,10 +307,10 @@ static void update_heard_time(const struct rho_scan_assembler_config *config,
     source->heard_us = now_us;
 }
 
-uint32_t rho_scan_assembler_set_newest_scan(const struct rho_scan_assembler_config *config,
-                                            struct rho_scan_assembler_source *source,
-                                            const struct rho_scan_assembler_place *place,
-                                            enum scan_verdict verdict, int64_t now_us)
+uint32_t rho_scan_assembler_set_newest_count_skipped(const struct rho_scan_assembler_config *config,
+                                                     struct rho_scan_assembler_source *source,
+                                                     const struct rho_scan_assembler_place *place,
+                                                     enum scan_verdict verdict, int64_t now_us)
 {
     const struct rho_scan_assembler_stray *stray =
         verdict == SCAN_RESTARTS_SENSOR ? find_refused_series_to_continue(config, source, place)
@@ -342,7 +342,8 @@ void rho_scan_assembler_mark_number_received(struct rho_scan_assembler_source *s
     source->skipped &= ~bit;
 }
 
-int rho_scan_assembler_awaits_previous(const struct rho_scan_assembler_source *source, int32_t scan)
+int rho_scan_assembler_awaits_previous_number(const struct rho_scan_assembler_source *source,
+                                              int32_t scan)
 {
     int32_t behind = scan_number_difference(source->place.scan, scan);
 
@@ -383,8 +384,8 @@ static int is_still_sending(const struct rho_scan_assembler *assembler,
                                               silent_us <= PRESENT_INTERVALS * interval_us)));
 }
 
-uint32_t rho_scan_assembler_longest_known_us(const struct rho_scan_assembler *assembler,
-                                             int64_t now_us)
+uint32_t rho_scan_assembler_eldest_sensor_known_us(const struct rho_scan_assembler *assembler,
+                                                   int64_t now_us)
 {
     uint32_t eldest_us = 0;
 
@@ -430,11 +431,11 @@ static int64_t when_own_scan_would_come_us(const struct rho_scan_assembler *asse
     return source->heard_us > INT64_MAX - wait_us ? INT64_MAX : source->heard_us + wait_us;
 }
 
-int64_t rho_scan_assembler_newcomer_release_us(const struct rho_scan_assembler *assembler,
-                                               const struct rho_scan_assembler_slot *slot)
+int64_t rho_scan_assembler_newcomer_held_until_us(const struct rho_scan_assembler *assembler,
+                                                  const struct rho_scan_assembler_slot *slot)
 {
     uint32_t eldest_us =
-        HAS_OTHERS ? rho_scan_assembler_longest_known_us(assembler, slot->heard_us) : 0u;
+        HAS_OTHERS ? rho_scan_assembler_eldest_sensor_known_us(assembler, slot->heard_us) : 0u;
     int64_t first_us = INT64_MAX, until_us;
     int is_asked = 0;
 
@@ -492,7 +493,7 @@ static int is_time_off_most_clocks(const struct rho_scan_assembler *assembler,
                                    const struct rho_scan_assembler_source *source, int64_t time_us,
                                    int64_t now_us)
 {
-    uint32_t eldest_us = rho_scan_assembler_longest_known_us(assembler, now_us);
+    uint32_t eldest_us = rho_scan_assembler_eldest_sensor_known_us(assembler, now_us);
     int votes[2] = {0}, balance[2] = {0}, counts;
 
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
@@ -518,7 +519,7 @@ static int has_new_time_majority(const struct rho_scan_assembler *assembler,
 {
     int64_t offset_max_us =
         assembler->config.hold_us + assembler->config.jump_max_us / CLOCK_OFFSET_SHARE;
-    uint32_t eldest_us = rho_scan_assembler_longest_known_us(assembler, now_us);
+    uint32_t eldest_us = rho_scan_assembler_eldest_sensor_known_us(assembler, now_us);
     unsigned with = 1, against = 0;
 
     if (rho_scan_assembler_is_newcomer(source->known_us, eldest_us)) {
@@ -603,8 +604,8 @@ enum scan_clock rho_scan_assembler_update_common_clock(struct rho_scan_assembler
     }
     source->off_clock = 0;
     if (!assembler->has_clock || !HAS_OTHERS ||
-        !rho_scan_assembler_is_newcomer(source->known_us,
-                                        rho_scan_assembler_longest_known_us(assembler, now_us))) {
+        !rho_scan_assembler_is_newcomer(
+            source->known_us, rho_scan_assembler_eldest_sensor_known_us(assembler, now_us))) {
         assembler->clock_us = time_us;
     }
     assembler->has_clock = 1;

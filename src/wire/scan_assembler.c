@@ -49,7 +49,8 @@ static int is_usable_noise(const struct rho_scan_assembler_noise *noise)
 
 static int is_usable_sensor(const struct rho_scan_assembler_sensor *known)
 {
-    return is_usable_noise(&known->noise) && rho_measurement_is_valid_sensor(&known->sensor);
+    return is_usable_noise(&known->noise) &&
+           rho_measurement_are_place_biases_span_valid(&known->sensor);
 }
 
 static int is_usable_config(const struct rho_scan_assembler_config *config)
@@ -323,8 +324,8 @@ static void begin_newest_scan(struct rho_scan_assembler *assembler,
     rho_scan_assembler_complete_open_scans(assembler, source, verdict == SCAN_RESTARTS_SENSOR);
     assembler->counters.scans_lost =
         rho_count(assembler->counters.scans_lost,
-                  rho_scan_assembler_set_newest_scan(&assembler->config, source, &heading->place,
-                                                     verdict, now_us));
+                  rho_scan_assembler_set_newest_count_skipped(&assembler->config, source,
+                                                              &heading->place, verdict, now_us));
     if (verdict == SCAN_RESTARTS_SENSOR) {
         rho_scan_assembler_increment(&assembler->counters.sensor_restarts);
     }
@@ -389,7 +390,7 @@ static int may_release_scan_for_room(struct rho_scan_assembler *assembler,
 {
     return (source && rho_scan_assembler_is_proven(&assembler->config, source) && !is_newcomer) ||
            rho_scan_assembler_find_slot_in_state(assembler, SLOT_GIVEN) ||
-           rho_scan_assembler_find_releasable(assembler, now_us);
+           rho_scan_assembler_find_releasable_scan(assembler, now_us);
 }
 
 /* Takes a decoded part of a scan. CAPACITY: a waiting scan must go out to make room for it. */
@@ -421,7 +422,7 @@ static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
         return RHO_OK;
     }
     place = source ? source : find_free_or_replaceable_source(assembler, now_us);
-    is_free = place && rho_scan_assembler_make_free_slot(assembler, is_newcomer, now_us);
+    is_free = place && rho_scan_assembler_find_or_free_slot(assembler, is_newcomer, now_us);
     if (!place ||
         (!is_free && !may_release_scan_for_room(assembler, source, is_newcomer, now_us))) {
         rho_scan_assembler_increment(&assembler->counters.sensors_no_room);
@@ -484,8 +485,9 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
         return RHO_OK;
     }
     source = find_source(assembler, kind, sensor_id);
-    is_new = rho_scan_assembler_is_newcomer(source ? source->known_us : 0,
-                                            rho_scan_assembler_longest_known_us(assembler, now_us));
+    is_new = rho_scan_assembler_is_newcomer(
+        source ? source->known_us : 0,
+        rho_scan_assembler_eldest_sensor_known_us(assembler, now_us));
     bucket = source && !is_new ? &source->messages : &assembler->strangers;
     if (!rho_scan_assembler_take_tokens(bucket, 1, assembler->config.flood_per_s, now_us)) {
         rho_scan_assembler_increment(&assembler->counters.messages_flooded);
@@ -540,7 +542,7 @@ int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us
     if (rho_scan_assembler_find_slot_in_state(assembler, SLOT_FREE)) {
         assembler->is_pressed = 0; /* there is room: no scan has to go out early */
     }
-    slot = rho_scan_assembler_find_due(assembler, now_us);
+    slot = rho_scan_assembler_complete_and_find_due(assembler, now_us);
     if (!slot) {
         return 0;
     }
@@ -568,7 +570,7 @@ int64_t rho_scan_assembler_due_us(const struct rho_scan_assembler *assembler)
         if (waits && slot->heard_us <= INT64_MAX - assembler->config.hold_us) {
             int64_t held_us = slot->heard_us + assembler->config.hold_us;
             int64_t early_us = slot->state == SLOT_COMPLETE
-                                   ? rho_scan_assembler_newcomer_release_us(assembler, slot)
+                                   ? rho_scan_assembler_newcomer_held_until_us(assembler, slot)
                                    : INT64_MIN;
 
             held_us = early_us > held_us ? early_us : held_us;

@@ -68,10 +68,10 @@ void rho_scan_assembler_remember_refused_scan(const struct rho_scan_assembler_co
                                               const struct rho_scan_assembler_place *place);
 
 /* Makes an accepted scan its sensor's newest. Returns the number of skipped scan numbers. */
-uint32_t rho_scan_assembler_set_newest_scan(const struct rho_scan_assembler_config *config,
-                                            struct rho_scan_assembler_source *source,
-                                            const struct rho_scan_assembler_place *place,
-                                            enum scan_verdict verdict, int64_t now_us);
+uint32_t rho_scan_assembler_set_newest_count_skipped(const struct rho_scan_assembler_config *config,
+                                                     struct rho_scan_assembler_source *source,
+                                                     const struct rho_scan_assembler_place *place,
+                                                     enum scan_verdict verdict, int64_t now_us);
 
 /* 1 where time_us is at most late_max_us (bearings: 0) before the newest scan that went out. */
 int rho_scan_assembler_is_not_too_late(const struct rho_scan_assembler *assembler,
@@ -82,8 +82,8 @@ void rho_scan_assembler_mark_number_received(struct rho_scan_assembler_source *s
                                              int32_t scan);
 
 /* 1 where the scan number before `scan` was skipped, and may still come. */
-int rho_scan_assembler_awaits_previous(const struct rho_scan_assembler_source *source,
-                                       int32_t scan);
+int rho_scan_assembler_awaits_previous_number(const struct rho_scan_assembler_source *source,
+                                              int32_t scan);
 
 /* 1 in builds for several sensors: only these have newcomers, and votes on the clock. */
 #define HAS_OTHERS (RHO_MAX_SENSORS > 1)
@@ -101,8 +101,8 @@ int rho_scan_assembler_awaits_previous(const struct rho_scan_assembler_source *s
 #define FOLLOWS_REPEATS HAS_OTHERS
 
 /* Longest time for which any proven sensor that still sends was heard; 0: there is none. */
-uint32_t rho_scan_assembler_longest_known_us(const struct rho_scan_assembler *assembler,
-                                             int64_t now_us);
+uint32_t rho_scan_assembler_eldest_sensor_known_us(const struct rho_scan_assembler *assembler,
+                                                   int64_t now_us);
 
 /*
  * 1 where a sensor heard for known_us is a newcomer beside one heard for eldest_us: it has no vote
@@ -114,8 +114,8 @@ int rho_scan_assembler_is_newcomer(uint32_t known_us, uint32_t eldest_us);
  * Reception time until which a newcomer's scan is held. INT64_MIN: it may go out at once;
  * INT64_MAX: a part of an older scan of an established sensor is missing.
  */
-int64_t rho_scan_assembler_newcomer_release_us(const struct rho_scan_assembler *assembler,
-                                               const struct rho_scan_assembler_slot *slot);
+int64_t rho_scan_assembler_newcomer_held_until_us(const struct rho_scan_assembler *assembler,
+                                                  const struct rho_scan_assembler_slot *slot);
 
 /* 1 where a sensor has sent at least follow_scans accepted scans. */
 int rho_scan_assembler_is_proven(const struct rho_scan_assembler_config *config,
@@ -175,7 +175,7 @@ int rho_scan_assembler_has_open_out_of_sequence(const struct rho_scan_assembler 
  * established sensor's scan whose parts are still coming, nor makes it out of sequence. NULL: none.
  */
 struct rho_scan_assembler_slot *
-rho_scan_assembler_find_releasable(struct rho_scan_assembler *assembler, int64_t now_us);
+rho_scan_assembler_find_releasable_scan(struct rho_scan_assembler *assembler, int64_t now_us);
 
 /* Begins a scan in a free slot, without any of its parts. */
 void rho_scan_assembler_open_scan(struct rho_scan_assembler *assembler,
@@ -198,8 +198,8 @@ void rho_scan_assembler_complete_open_scans(struct rho_scan_assembler *assembler
  *   for_newcomer  1: the slot is for a newcomer's scan
  */
 struct rho_scan_assembler_slot *
-rho_scan_assembler_make_free_slot(struct rho_scan_assembler *assembler, int for_newcomer,
-                                  int64_t now_us);
+rho_scan_assembler_find_or_free_slot(struct rho_scan_assembler *assembler, int for_newcomer,
+                                     int64_t now_us);
 
 /* Drops all waiting scans: the common clock was set anew, and they are of the old one. */
 void rho_scan_assembler_drop_waiting_scans(struct rho_scan_assembler *assembler);
@@ -216,8 +216,8 @@ void rho_scan_assembler_add_part(struct rho_scan_assembler *assembler,
                                  const union scan_message *message, int64_t now_us);
 
 /* Completes overdue scans and drops late ones; returns the scan to go out now, or NULL. */
-struct rho_scan_assembler_slot *rho_scan_assembler_find_due(struct rho_scan_assembler *assembler,
-                                                            int64_t now_us);
+struct rho_scan_assembler_slot *
+rho_scan_assembler_complete_and_find_due(struct rho_scan_assembler *assembler, int64_t now_us);
 
 /* Describes a slot's scan to the caller; the item points into the slot. */
 void rho_scan_assembler_fill_item(const struct rho_scan_assembler_slot *slot,

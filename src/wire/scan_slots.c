@@ -90,20 +90,20 @@ void rho_scan_assembler_complete_open_scans(struct rho_scan_assembler *assembler
 static int is_newcomer_scan_held(const struct rho_scan_assembler *assembler,
                                  const struct rho_scan_assembler_slot *slot, int64_t now_us)
 {
-    return now_us < rho_scan_assembler_newcomer_release_us(assembler, slot);
+    return now_us < rho_scan_assembler_newcomer_held_until_us(assembler, slot);
 }
 
 static int is_of_established_sensor(const struct rho_scan_assembler *assembler,
                                     const struct rho_scan_assembler_slot *slot, int64_t now_us)
 {
-    return !HAS_OTHERS ||
-           !rho_scan_assembler_is_newcomer(assembler->sources[slot->source].known_us,
-                                           rho_scan_assembler_longest_known_us(assembler, now_us));
+    return !HAS_OTHERS || !rho_scan_assembler_is_newcomer(
+                              assembler->sources[slot->source].known_us,
+                              rho_scan_assembler_eldest_sensor_known_us(assembler, now_us));
 }
 
 struct rho_scan_assembler_slot *
-rho_scan_assembler_make_free_slot(struct rho_scan_assembler *assembler, int for_newcomer,
-                                  int64_t now_us)
+rho_scan_assembler_find_or_free_slot(struct rho_scan_assembler *assembler, int for_newcomer,
+                                     int64_t now_us)
 {
     struct rho_scan_assembler_slot *room =
         rho_scan_assembler_find_slot_in_state(assembler, SLOT_FREE);
@@ -254,7 +254,7 @@ static int awaits_skipped_older_scan(const struct rho_scan_assembler *assembler,
 
     return is_slot_waiting(slot) && slot->order == ORDER_NEXT &&
            rho_elapsed_us(slot->place.time_us, time_us) < source->interval_us &&
-           rho_scan_assembler_awaits_previous(source, slot->place.scan);
+           rho_scan_assembler_awaits_previous_number(source, slot->place.scan);
 }
 
 /*
@@ -369,12 +369,13 @@ older_open_scan_completed_or_slot(struct rho_scan_assembler *assembler,
 }
 
 struct rho_scan_assembler_slot *
-rho_scan_assembler_find_releasable(struct rho_scan_assembler *assembler, int64_t now_us)
+rho_scan_assembler_find_releasable_scan(struct rho_scan_assembler *assembler, int64_t now_us)
 {
     struct rho_scan_assembler_slot *spare =
                                        find_first_scan_in_state(assembler, SLOT_COMPLETE, now_us),
                                    *weak = NULL;
-    uint32_t eldest_us = HAS_OTHERS ? rho_scan_assembler_longest_known_us(assembler, now_us) : 0u;
+    uint32_t eldest_us =
+        HAS_OTHERS ? rho_scan_assembler_eldest_sensor_known_us(assembler, now_us) : 0u;
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
@@ -395,7 +396,8 @@ rho_scan_assembler_find_releasable(struct rho_scan_assembler *assembler, int64_t
 static struct rho_scan_assembler_slot *choose_scan_for_room(struct rho_scan_assembler *assembler,
                                                             int64_t now_us)
 {
-    struct rho_scan_assembler_slot *slot = rho_scan_assembler_find_releasable(assembler, now_us);
+    struct rho_scan_assembler_slot *slot =
+        rho_scan_assembler_find_releasable_scan(assembler, now_us);
 
     slot = slot ? slot : find_first_scan_in_state(assembler, SLOT_COMPLETE, now_us);
     slot = slot ? slot : find_first_scan_in_state(assembler, SLOT_OPEN, now_us);
@@ -419,8 +421,8 @@ static void drop_too_late_scans(struct rho_scan_assembler *assembler)
     }
 }
 
-struct rho_scan_assembler_slot *rho_scan_assembler_find_due(struct rho_scan_assembler *assembler,
-                                                            int64_t now_us)
+struct rho_scan_assembler_slot *
+rho_scan_assembler_complete_and_find_due(struct rho_scan_assembler *assembler, int64_t now_us)
 {
     struct rho_scan_assembler_slot *slot;
 

@@ -96,8 +96,8 @@ static struct shown_accumulator select_accumulator(const struct rho_show_source 
     return accumulator;
 }
 
-uint32_t rho_show_num_vote_messages(const struct rho_show *show,
-                                    const struct rho_show_source *source)
+uint32_t rho_show_count_accumulator_messages(const struct rho_show *show,
+                                             const struct rho_show_source *source)
 {
     const unsigned planes = searched_paper_starts(source) ? 1u : num_bearing_accumulators(source);
     if (planes == 0) {
@@ -110,7 +110,7 @@ uint32_t rho_show_num_vote_messages(const struct rho_show *show,
 /* ---- the picture ----------------------------------------------------------------------------- */
 
 static enum rho_status fill_picture(const struct shown_accumulator *accumulator,
-                                    struct rho_plane *picture)
+                                    struct rho_votes_picture *picture)
 {
     if (!accumulator->is_of_bearings) {
         const struct rho_hough_points points = rho_paper_starts_points(accumulator->source->starts);
@@ -124,9 +124,9 @@ static enum rho_status fill_picture(const struct shown_accumulator *accumulator,
 static void make_picture_and_votes_max(struct rho_show *show,
                                        const struct shown_accumulator *accumulator)
 {
-    struct rho_plane picture = {.height = (uint16_t)picture_height(accumulator),
-                                .width = (uint16_t)picture_width(accumulator),
-                                .votes = show->config.picture};
+    struct rho_votes_picture picture = {.height = (uint16_t)picture_height(accumulator),
+                                        .width = (uint16_t)picture_width(accumulator),
+                                        .votes = show->config.picture};
     show->votes_max = 0;
     if (!show->config.picture || fill_picture(accumulator, &picture) != RHO_OK) {
         return;
@@ -383,8 +383,10 @@ static const char *write_picture_rows(const struct rho_show *show,
                : NULL;
 }
 
-const char *rho_show_write_vote_message(struct rho_show *show, const struct rho_show_source *source,
-                                        uint32_t number, const struct rho_show_output *output)
+const char *rho_show_write_accumulator_or_picture(struct rho_show *show,
+                                                  const struct rho_show_source *source,
+                                                  uint32_t number,
+                                                  const struct rho_show_output *output)
 {
     const struct shown_accumulator first = select_accumulator(source, 0);
     const unsigned messages = num_messages_of_accumulator(show, &first);

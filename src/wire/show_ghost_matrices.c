@@ -62,7 +62,7 @@ static int find_pair_and_part_of_message(const struct rho_show_source *source, u
     return 0;
 }
 
-uint32_t rho_show_num_ghost_messages(const struct rho_show_source *source)
+uint32_t rho_show_count_ghost_matrix_messages(const struct rho_show_source *source)
 {
     struct rho_passive_paper_pair pair;
     uint32_t all;
@@ -99,7 +99,8 @@ static struct rho_message_ghost ghost_message_of_element(const struct rho_passiv
     struct rho_message_ghost ghost = {.row = (int16_t)row,
                                       .column = (int16_t)column,
                                       .reason = message_reason_of(reason),
-                                      .delta_rad = rho_crossing_angle_rad(base, a_rad, b_rad)};
+                                      .delta_rad =
+                                          rho_crossing_angle_or_minus_pi_rad(base, a_rad, b_rad)};
     struct rho_crossing crossing;
     if (reason != RHO_GHOST_SIDES && reason != RHO_GHOST_APART && reason != RHO_GHOST_RANGE &&
         rho_crossing_find(base, a_rad, b_rad, paper->config.range_max_m, &crossing) ==
@@ -136,8 +137,8 @@ ghost_matrix_head(const struct rho_show_source *source, const struct rho_passive
         .num_parts = (int16_t)num_matrix_parts(&paper->batch, pair)};
 }
 
-const char *rho_show_write_ghost_message(const struct rho_show_source *source, uint32_t number,
-                                         const struct rho_show_output *output)
+const char *rho_show_write_ghost_matrix_part(const struct rho_show_source *source, uint32_t number,
+                                             const struct rho_show_output *output)
 {
     struct rho_passive_paper_pair pair;
     struct rho_ghost_matrix matrix;

@@ -82,8 +82,8 @@ static uint32_t num_affordable_messages(const struct rho_show *show,
 static uint32_t num_messages_of_kind(const struct rho_show *show,
                                      const struct rho_show_source *source, unsigned kind)
 {
-    return kind == RHO_SHOW_GHOSTS  ? rho_show_num_ghost_messages(source)
-           : kind == RHO_SHOW_VOTES ? rho_show_num_vote_messages(show, source)
+    return kind == RHO_SHOW_GHOSTS  ? rho_show_count_ghost_matrix_messages(source)
+           : kind == RHO_SHOW_VOTES ? rho_show_count_accumulator_messages(show, source)
                                     : source->report->num_tracks;
 }
 
@@ -125,9 +125,9 @@ static const char *write_message(struct rho_show *show, const struct rho_show_so
                                  unsigned kind, uint32_t number,
                                  const struct rho_show_output *output)
 {
-    return kind == RHO_SHOW_GHOSTS ? rho_show_write_ghost_message(source, number, output)
+    return kind == RHO_SHOW_GHOSTS ? rho_show_write_ghost_matrix_part(source, number, output)
            : kind == RHO_SHOW_VOTES
-               ? rho_show_write_vote_message(show, source, number, output)
+               ? rho_show_write_accumulator_or_picture(show, source, number, output)
                : rho_show_write_hypotheses_message(
                      source, choose_next_track_to_show(show, source->report), output);
 }

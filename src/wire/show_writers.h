@@ -17,16 +17,18 @@ struct rho_show_output {
 };
 
 /* show_ghost_matrices.c: messages of the ghost matrices of the newest frame */
-uint32_t rho_show_num_ghost_messages(const struct rho_show_source *source);
-const char *rho_show_write_ghost_message(const struct rho_show_source *source, uint32_t number,
-                                         const struct rho_show_output *output);
+uint32_t rho_show_count_ghost_matrix_messages(const struct rho_show_source *source);
+const char *rho_show_write_ghost_matrix_part(const struct rho_show_source *source, uint32_t number,
+                                             const struct rho_show_output *output);
 
 /* show_accumulators.c: messages of accumulators; writing an accumulator's first one makes its
  * picture */
-uint32_t rho_show_num_vote_messages(const struct rho_show *show,
-                                    const struct rho_show_source *source);
-const char *rho_show_write_vote_message(struct rho_show *show, const struct rho_show_source *source,
-                                        uint32_t number, const struct rho_show_output *output);
+uint32_t rho_show_count_accumulator_messages(const struct rho_show *show,
+                                             const struct rho_show_source *source);
+const char *rho_show_write_accumulator_or_picture(struct rho_show *show,
+                                                  const struct rho_show_source *source,
+                                                  uint32_t number,
+                                                  const struct rho_show_output *output);
 
 /* show_hypotheses.c: the message of a track's hypotheses; track: its row in the tracker */
 const char *rho_show_write_hypotheses_message(const struct rho_show_source *source, unsigned track,

@@ -44,7 +44,7 @@ static const uint8_t *payload;
 static size_t open_frame(size_t size)
 {
     payload = NULL;
-    return udp_frame_parse(frame, size, &payload);
+    return udp_frame_find_payload(frame, size, &payload);
 }
 
 static void set_liblcm(void)
@@ -87,7 +87,7 @@ static void what_is_built_is_what_liblcm_sends(void **state)
     (void)state;
     memset(frame, 0xee, sizeof frame);
     memcpy(frame + UDP_FRAME_HEAD, of_liblcm + UDP_FRAME_HEAD, 12);
-    assert_int_equal(udp_frame_build(frame, &there, 0x67ba, 12), sizeof of_liblcm);
+    assert_int_equal(udp_frame_build_around_payload(frame, &there, 0x67ba, 12), sizeof of_liblcm);
     /* all but the port that it is sent from, and the checksum that this goes into */
     assert_memory_equal(frame, of_liblcm, 34);
     assert_memory_equal(frame + 36, of_liblcm + 36, 4);
@@ -103,7 +103,7 @@ static void what_is_built_opens_again(void **state)
             random = random * 1664525u + 1013904223u;
             frame[UDP_FRAME_HEAD + i] = (uint8_t)(random >> 24);
         }
-        size_t built = udp_frame_build(frame, &host, (uint16_t)random, size);
+        size_t built = udp_frame_build_around_payload(frame, &host, (uint16_t)random, size);
         assert_int_equal(built, UDP_FRAME_HEAD + size);
         assert_int_equal(open_frame(built), size);
         frame[UDP_FRAME_HEAD + random % size] ^= 0x10;
@@ -122,7 +122,7 @@ static void a_checksum_of_zero_is_not_left_out(void **state)
     for (unsigned value = 0; value < 0x10000; value++) {
         frame[UDP_FRAME_HEAD] = (uint8_t)(value >> 8);
         frame[UDP_FRAME_HEAD + 1] = (uint8_t)value;
-        assert_int_equal(open_frame(udp_frame_build(frame, &host, 0, 2)), 2);
+        assert_int_equal(open_frame(udp_frame_build_around_payload(frame, &host, 0, 2)), 2);
         assert_false(frame[AT_UDP_CHECKSUM] == 0 && frame[AT_UDP_CHECKSUM + 1] == 0);
         seen += frame[AT_UDP_CHECKSUM] == 0xff && frame[AT_UDP_CHECKSUM + 1] == 0xff;
     }

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "io/asterix/asterix_plot_rows.h"
-#include "io/asterix/asterix_udp.h"
+#include "io/asterix/asterix_udp_receiver.h"
 
 static void must(bool holds)
 {

@@ -11,8 +11,8 @@
 #include "io/csv/local_frame.h"
 #include "io/csv/table.h"
 #include "io/scans/bearing_frame_reader.h"
-#include "io/scans/scan_reader.h"
-#include "picture/plot_data.h"
+#include "io/scans/plot_scan_reader.h"
+#include "picture/picture_data.h"
 #include "refusal.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
@@ -67,20 +67,20 @@ static void check_scan(const struct rho_scan *scan)
 
 static void read_scans(char *path, const struct parameters *parameters, bool keep_going)
 {
-    struct scan_reader *reader = scan_reader_open(&path, 1, parameters, keep_going);
+    struct scan_reader *reader = plot_scan_reader_open(&path, 1, parameters, keep_going);
     const struct rho_scan *scan;
     int64_t before_us = INT64_MIN;
     uint64_t num_scans = 0;
 
-    while ((scan = scan_reader_next(reader))) {
+    while ((scan = plot_scan_reader_next(reader))) {
         must(scan->time_us >= before_us);
         before_us = scan->time_us;
         num_scans++;
         check_scan(scan);
-        (void)scan_reader_sensor(reader);
+        (void)plot_scan_reader_sensor(reader);
     }
-    must(num_scans == scan_reader_counts(reader).scans);
-    scan_reader_close(reader);
+    must(num_scans == plot_scan_reader_counts(reader).scans);
+    plot_scan_reader_close(reader);
 }
 
 static void check_frame(const struct rho_frame *frame)
@@ -118,9 +118,9 @@ static void read_frames(char *path, const struct parameters *parameters, bool ke
 
 static void read_drawing(char *path, const struct parameters *parameters)
 {
-    struct plot_data data = plot_data_read(&path, 1, parameters);
+    struct picture_data data = picture_data_read(&path, 1, parameters);
 
-    plot_data_free(&data);
+    picture_data_free(&data);
 }
 
 /* ---- One run ---- */

@@ -133,15 +133,15 @@ tracker_must_find src/step/report.c 'a fate that is not counted' \
     's/(NO_ROOM\] \+= others);/\1 - (others > 2);/'
 tracker_must_find src/step/report.c 'a covariance that is none' \
     's/^(    memcpy\(out->covariance, at->kalman.covariance.*)/\1 out->covariance[1] += 9.0f * (out->covariance[0] + out->covariance[2]);/'
-tracker_must_find src/step/step_begin.c 'a scan that is too late, and changes the density' \
+tracker_must_find src/step/begin_step_or_refuse_late_scan.c 'a scan that is too late, and changes the density' \
     's/(counters.scans_late = rho_count.*)/\1 step->tracker->unclaimed_plots += 1.0f;/'
-tracker_must_find src/tracker/life_cycle.c 'an end that is not told' \
+tracker_must_find src/tracker/confirm_and_end_track.c 'an end that is not told' \
     's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
 tracker_must_find src/step/track_starts.c 'an identity that comes again' \
     's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
 tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
     's/return rho_initiator_work_spent\(search\) > search->limit_units;/return 0;/'
-tracker_must_find src/bearings/bearing_batch_soundness.c 'a batch that is unsound for its times' \
+tracker_must_find src/bearings/bearing_frame_batch_soundness.c 'a batch that is unsound for its times' \
     's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
 must_pass fuzz_tracker_small src/step/report.c
 

@@ -107,7 +107,7 @@ def check_text():
 def check_counters():
     """Each counter of the library is in the text, or in the tallies that it also writes."""
     written = "".join((ROOT / "tools/rhotrack/live" / name).read_text()
-                      for name in ("metrics.c", "node_tally.c"))
+                      for name in ("prometheus_metrics.c", "node_loss_counts.c"))
     for header, struct in (("scan_assembler", "rho_scan_assembler_counters"),
                            ("frames", "rho_frames_counters"), ("node", "rho_node_counters"),
                            ("tracker", "rho_tracker_counters"), ("tracker", "rho_tracker_work")):

@@ -46,7 +46,7 @@ all_state() { # folder, version
 }
 mkdir other
 (cd "$root" && cp -r --parents include src tools/packaging tools/install CMakeLists.txt LICENSE \
-    CHANGELOG.md tools/rhotrack/picture/page "$folder/other")
+    CHANGELOG.md tools/rhotrack/picture/html_page "$folder/other")
 sed -i 's/\(VERSION_MAJOR\) .*/\1 7/; s/\(VERSION_MINOR\) .*/\1 8/; s/\(VERSION_PATCH\) .*/\1 9/' \
     other/include/rhotrack/rhotrack.h
 echo 'int rho_another;' >other/src/base/another.c

@@ -118,7 +118,7 @@ class Verdicts(unittest.TestCase):
                          ("cannot be known", "1 of 1 tests pass", "lost: the page"))
 
     def test_tests_are_run(self):
-        c, python = "tests/unit/papers/test_parameter_plane.c", "tests/lab/test_claims.py"
+        c, python = "tests/unit/papers/test_votes_picture.c", "tests/lab/test_claims.py"
         self.assertEqual(claims.results_in_c([c])[c, "windows_beyond_the_plane_are_refused"], True)
         test = "test_crossings_are_counted"
         self.assertEqual(claims.results_in_python({(python, test)}), {(python, test): True})

@@ -65,7 +65,7 @@ static struct parameters suggested(double pd)
     struct parameters parameters;
 
     parameters_set_defaults(&parameters);
-    suggest_passive(&parameters);
+    suggest_passive_parameters(&parameters);
     parameters_suggest(&parameters, PARAMETER_TRUE_PD, pd);
     return parameters;
 }

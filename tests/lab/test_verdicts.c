@@ -31,14 +31,14 @@ static int is_held(add_figure *add, double value, double bar)
 static void a_bar_is_held_up_to_itself(void **state)
 {
     (void)state;
-    assert_true(is_held(verdicts_at_most, 1.5, 2.0));
-    assert_true(is_held(verdicts_at_most, 2.0, 2.0));
-    assert_false(is_held(verdicts_at_most, 2.000001, 2.0));
-    assert_true(is_held(verdicts_at_most, -3.0, -2.0));
-    assert_true(is_held(verdicts_at_least, 2.5, 2.0));
-    assert_true(is_held(verdicts_at_least, 2.0, 2.0));
-    assert_false(is_held(verdicts_at_least, 1.999999, 2.0));
-    assert_false(is_held(verdicts_at_least, -3.0, -2.0));
+    assert_true(is_held(verdicts_add_at_most, 1.5, 2.0));
+    assert_true(is_held(verdicts_add_at_most, 2.0, 2.0));
+    assert_false(is_held(verdicts_add_at_most, 2.000001, 2.0));
+    assert_true(is_held(verdicts_add_at_most, -3.0, -2.0));
+    assert_true(is_held(verdicts_add_at_least, 2.5, 2.0));
+    assert_true(is_held(verdicts_add_at_least, 2.0, 2.0));
+    assert_false(is_held(verdicts_add_at_least, 1.999999, 2.0));
+    assert_false(is_held(verdicts_add_at_least, -3.0, -2.0));
 }
 
 /* Ten tenths, added one by one, are a little less than one. */
@@ -50,36 +50,36 @@ static void rounding_of_sums_is_no_miss(void **state)
         sum += 0.1;
     }
     assert_true(sum < 1.0);
-    assert_true(is_held(verdicts_at_least, sum, 1.0));
-    assert_true(is_held(verdicts_at_most, 2.0 - sum, 1.0));
+    assert_true(is_held(verdicts_add_at_least, sum, 1.0));
+    assert_true(is_held(verdicts_add_at_most, 2.0 - sum, 1.0));
 }
 
 /* A mean over nothing is NaN, a ratio to nothing is infinite. */
 static void what_is_no_number_is_missed(void **state)
 {
     (void)state;
-    assert_false(is_held(verdicts_at_most, NAN, 2.0));
-    assert_false(is_held(verdicts_at_least, NAN, 2.0));
-    assert_false(is_held(verdicts_at_most, INFINITY, 2.0));
-    assert_false(is_held(verdicts_at_least, -INFINITY, 2.0));
+    assert_false(is_held(verdicts_add_at_most, NAN, 2.0));
+    assert_false(is_held(verdicts_add_at_least, NAN, 2.0));
+    assert_false(is_held(verdicts_add_at_most, INFINITY, 2.0));
+    assert_false(is_held(verdicts_add_at_least, -INFINITY, 2.0));
 }
 
 /* Five figures: two held, three missed, two of which are no numbers. */
 static struct verdicts some_verdicts(void)
 {
     struct verdicts verdicts = verdicts_start();
-    verdicts_at_most(&verdicts, 1.25, 2.0, "%s at %g", "ratio", 10.0);
-    verdicts_at_least(&verdicts, 0.96, 0.95, "share of %d", 7);
-    verdicts_at_least(&verdicts, 0.5, 0.95, "\"quoted\"");
-    verdicts_at_most(&verdicts, NAN, 2.0, "mean of nothing");
-    verdicts_at_most(&verdicts, INFINITY, 2.0, "ratio to nothing");
+    verdicts_add_at_most(&verdicts, 1.25, 2.0, "%s at %g", "ratio", 10.0);
+    verdicts_add_at_least(&verdicts, 0.96, 0.95, "share of %d", 7);
+    verdicts_add_at_least(&verdicts, 0.5, 0.95, "\"quoted\"");
+    verdicts_add_at_most(&verdicts, NAN, 2.0, "mean of nothing");
+    verdicts_add_at_most(&verdicts, INFINITY, 2.0, "ratio to nothing");
     return verdicts;
 }
 
 static const cJSON *read_back(struct verdicts *verdicts)
 {
     cJSON *object = cJSON_CreateObject();
-    verdicts_to_json(verdicts, object);
+    verdicts_move_to_json(verdicts, object);
     char *text = cJSON_Print(object);
     cJSON_Delete(object);
     object = cJSON_Parse(text);

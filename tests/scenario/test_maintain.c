@@ -620,7 +620,7 @@ static double density_error(const struct region *region, int scans)
             plots[count++] = plot_at(place_m, start_mps);
         }
         scan = scan_of(step, plots, count, measures);
-        double found = scan_clutter_density_add_scan(density, &scan, place_m, region->pd);
+        double found = scan_clutter_density_add_and_estimate(density, &scan, place_m, region->pd);
         sum += step >= scans / 2 ? found - expected : 0.0;
     }
     scan_clutter_density_free(density);
@@ -670,7 +670,8 @@ static void a_strip_is_no_square(void **state)
 
             plots[i] = plot_at(p, start_mps);
         }
-        sum += scan_clutter_density_add_scan(density, &scan, start_m, 0.9) - log(39.1 / 4e6);
+        sum +=
+            scan_clutter_density_add_and_estimate(density, &scan, start_m, 0.9) - log(39.1 / 4e6);
     }
     assert_near(sum / 100.0, 0.0, 0.25);
     scan_clutter_density_free(density);
@@ -697,7 +698,7 @@ static void a_change_of_density_is_seen(void **state)
             p[1] += random_between(&random, -half_m, half_m);
             plots[i] = plot_at(p, start_mps);
         }
-        found = scan_clutter_density_add_scan(density, &scan, start_m, 0.9);
+        found = scan_clutter_density_add_and_estimate(density, &scan, start_m, 0.9);
         if (step == 199) {
             assert_near(found, log(9.1 / 1e6), 0.3);
         }
@@ -720,7 +721,7 @@ static void without_clutter_the_density_is_low(void **state)
     for (int step = 0; step < 20; step++) {
         struct rho_scan scan = scan_of(step, &plot, step % 3 ? 1 : 0, ALL);
 
-        assert_near(scan_clutter_density_add_scan(density, &scan, start_m, 0.9),
+        assert_near(scan_clutter_density_add_and_estimate(density, &scan, start_m, 0.9),
                     log(0.1) - 2.0 * (log_ball + 3.0 * log(1000.0)), 1e-9);
     }
     scan_clutter_density_free(density);
@@ -738,7 +739,7 @@ static void plots_in_one_place_fill_a_volume(void **state)
     for (int i = 0; i < 4; i++) {
         plots[i] = plot_at(start_m, start_mps);
     }
-    assert_near(scan_clutter_density_add_scan(density, &scan, start_m, 0.9),
+    assert_near(scan_clutter_density_add_and_estimate(density, &scan, start_m, 0.9),
                 log(3.1) - 2.0 * log_ball - 3.0 * log(10.0) - 3.0 * log(3.0), 1e-6);
     scan_clutter_density_free(density);
 }
@@ -758,12 +759,13 @@ static void each_sensor_has_a_density_of_its_own(void **state)
         double expected;
 
         fill_scan(plots, start_m, start_mps, &random);
-        expected = scan_clutter_density_add_scan(alone, &scan, start_m, 0.9);
-        assert_near(scan_clutter_density_add_scan(both, &scan, start_m, 0.9), expected, 0.0);
+        expected = scan_clutter_density_add_and_estimate(alone, &scan, start_m, 0.9);
+        assert_near(scan_clutter_density_add_and_estimate(both, &scan, start_m, 0.9), expected,
+                    0.0);
         fill_scan(plots, far_m, start_mps, &random);
         scan.sensor_id = 1;
         scan.num_plots = 3;
-        (void)scan_clutter_density_add_scan(both, &scan, far_m, 0.9);
+        (void)scan_clutter_density_add_and_estimate(both, &scan, far_m, 0.9);
     }
     scan_clutter_density_free(both);
     scan_clutter_density_free(alone);
@@ -788,9 +790,9 @@ static void range_rates_count(void **state)
             plots[i].range_rate_mps = (float)random_between(&random, -200.0, 200.0);
             plots[i].sigma_range_rate_mps = 1.0f;
         }
-        double plain = scan_clutter_density_add_scan(without, &scan, start_m, 0.9);
+        double plain = scan_clutter_density_add_and_estimate(without, &scan, start_m, 0.9);
         scan.measures = RHO_MEASURES_RANGE_RATE;
-        sum += scan_clutter_density_add_scan(with, &scan, start_m, 0.9) - plain;
+        sum += scan_clutter_density_add_and_estimate(with, &scan, start_m, 0.9) - plain;
     }
     assert_near(sum / 40.0, -log(400.0), 0.05);
     scan_clutter_density_free(with);

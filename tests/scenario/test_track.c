@@ -207,7 +207,7 @@ static struct parameters parameters_of(const char *scenario)
     struct parameters parameters;
 
     parameters_set_defaults(&parameters);
-    scenario_suggest(scenario, &parameters);
+    scenario_suggest_parameters(scenario, &parameters);
     return parameters;
 }
 

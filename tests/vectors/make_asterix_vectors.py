@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Records in ASTERIX as libasterix (EUROCONTROL's specifications by another hand) reads and writes
-them: what tests/tools/io/test_asterix.c compares the program's own reader and writer with.
+them: what tests/tools/io/test_asterix_codec.c compares the program's own reader and writer with.
 
 Usage: make_asterix_vectors.py > asterix_vectors.h   (in tests/vectors; needs the package libasterix; 0.36.3 made the file)
        make_asterix_vectors.py --check FILE.ast      (decodes every record of a recording of CAT034, CAT048, CAT062)

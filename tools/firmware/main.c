@@ -71,7 +71,7 @@ int main(void)
 {
     static uint8_t datagram[RHO_UDPM_MAX_DATAGRAM];
     int64_t report_us = 0;
-    if (!board_open()) {
+    if (!board_try_to_open()) {
         board_print_line("the network does not answer");
         return 1;
     }
@@ -93,7 +93,7 @@ int main(void)
             print_grown_counters();
         }
         if (size == 0) {
-            board_wait(node_due_us());
+            board_sleep_until_event_or_time(node_due_us());
         }
     }
 }

@@ -117,7 +117,7 @@ static enum rho_status init_tracker_keeping_counters(void)
 static void step_and_publish(void)
 {
     int64_t start_us = settings.clock_us(settings.context);
-    if (track_starts_step(&node) == RHO_OK) {
+    if (track_starts_step_node(&node) == RHO_OK) {
         if (NODE_LEARNS_REFLECTORS && node.stepped == RHO_NODE_SCAN) {
             (void)!rho_reflector_learning_step(&learning, &tracker, &node.scan, &report);
         }

@@ -26,7 +26,7 @@ RHO_MUST_CHECK enum rho_status track_starts_init(const struct node_config *confi
 void track_starts_configure_bearings(struct rho_node_config *config);
 
 /* Calls rho_node_step, and starts tracks from its scan or frame. */
-RHO_MUST_CHECK enum rho_status track_starts_step(struct rho_node *node);
+RHO_MUST_CHECK enum rho_status track_starts_step_node(struct rho_node *node);
 
 /* The initiator whose state the node publishes; NULL where there is none. */
 const struct rho_initiator *track_starts_initiator(void);

@@ -23,7 +23,7 @@ void track_starts_configure_bearings(struct rho_node_config *config)
     }
 }
 
-enum rho_status track_starts_step(struct rho_node *node)
+enum rho_status track_starts_step_node(struct rho_node *node)
 {
     return rho_node_step(node, &initiator);
 }

@@ -55,7 +55,7 @@ static enum rho_status start_tracks_from_closed_frame(const struct rho_node_conf
     return init_passive_paper();
 }
 
-enum rho_status track_starts_step(struct rho_node *node)
+enum rho_status track_starts_step_node(struct rho_node *node)
 {
     const struct rho_node_config *config = &node->config;
     const int is_frame = node->due == RHO_NODE_FRAME;

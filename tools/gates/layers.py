@@ -4,8 +4,8 @@
 for circular dependencies of files.
 
 A room is a folder of src/. A public header (include/rhotrack/, include/rhotrack/detail/) belongs to
-the room that has the source of its name, or of the longest name that it begins with; else to the
-first room. A file may include the headers of its own room, those of the rooms that the table lists
+the room that has the source of its name, or of the longest name that it begins with, or that bears
+this name; else to the first room. A file may include the headers of its own room, those of the rooms that the table lists
 for it (`all above`: every earlier row), a public header that declares a function which it defines,
 private headers of its own folder, and the system headers below. A function must not contain an #if:
 an option is an `if` on a constant, or a file that the build chooses.
@@ -188,7 +188,8 @@ def main():
         sys.exit(f"layers: {table} with the table of rooms is missing")
     allowed, problems = read_room_table(table)
     first = next(iter(allowed), None)
-    sources = {path.stem: path.parent.name for path in root.glob("src/*/*.c")}
+    sources = {room: room for room in allowed}
+    sources |= {path.stem: path.parent.name for path in root.glob("src/*/*.c")}
     headers = sorted(root.glob("include/**/*.h"))
     rooms = {path.stem: room_of_header(path.stem, sources) or first for path in headers}
     files = sorted(root.glob("src/**/*.[ch]"))

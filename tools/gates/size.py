@@ -44,7 +44,7 @@ ROWS = [
      "measurement/bearing_crossing bearings/* step/bearing_* -*_soundness -bearings/frames", "passive"),
     ("frames of bearing scans as they arrive, likewise", "bearings/frames", "frames"),
     ("papers: accumulator, likewise", "papers/accumulator*", "accumulator"),
-    ("papers: HT, MHT, IHT, NHT, likewise", "papers/hough* papers/parameter_plane step/paper_starts", "hough"),
+    ("papers: HT, MHT, IHT, NHT, likewise", "papers/hough* papers/votes_picture step/paper_starts", "hough"),
     ("papers: passive Hough transform, likewise", "papers/passive_paper*", "passive_paper"),
     ("papers: Hough gate, likewise", "papers/gate_hough", ""),
     ("snapshot, and the validation of images, likewise", IMAGES, ""),

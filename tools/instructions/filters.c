@@ -73,7 +73,7 @@ static float seen[PLOTS][RHO_KALMAN_STATES];
 static void estimate_input_and_keep_velocity(void)
 {
     struct rho_kalman estimate;
-    rho_input_decide_presence(&input, &config);
+    rho_input_test_and_end_inputs(&input, &config);
     rho_input_estimate(&input, &estimate);
     memcpy(before_mps, newest_mps, sizeof before_mps);
     memcpy(newest_mps, &estimate.state[3], sizeof newest_mps);

@@ -51,7 +51,7 @@ static int choose_plot_in_gate(int by_hough_gate)
     struct rho_gate_result result;
     float least = 1e9f;
     int best = 0;
-    rho_track_expect_for_gate(&track, &expected);
+    rho_track_estimate_for_gate(&track, &expected);
     rho_gate_open(&gate, &expected, model.input ? input.noise_density : NOISE_DENSITY, &sensor,
                   plots[0].measures);
     if (by_hough_gate) {

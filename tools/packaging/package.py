@@ -68,7 +68,7 @@ def kconfig():
 def licences():
     """The licences of Debian's copyright file: that of rhotrack, and that of d3."""
     texts = {"Expat": (HOME / "LICENSE").read_text(encoding="utf-8").split("\n\n", 2)[2],
-             "ISC": (HOME / "tools/rhotrack/picture/page/d3.LICENSE").read_text(
+             "ISC": (HOME / "tools/rhotrack/picture/html_page/d3.LICENSE").read_text(
                  encoding="utf-8").split("\n\n", 1)[1]}
     return "\n\n".join(f"License: {name}\n" + "\n".join(
         f" {line}" if line else " ." for line in text.strip().splitlines())

@@ -15,14 +15,14 @@
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/log/lcm_log.h"
 #include "io/log/log_table.h"
-#include "io/rows/rows_read.h"
+#include "io/rows/rows_from_csv.h"
 #include "io/scans/bearing_frame_reader.h"
-#include "io/scans/inputs.h"
+#include "io/scans/merged_inputs.h"
 #include "live/node_core.h"
 #include "maintenance/maintainer.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/measurement.h"
-#include "settings/method.h"
+#include "settings/initiation_method.h"
 #include "settings/parameters.h"
 
 /* ---- Failures ---- */
@@ -72,7 +72,7 @@ static jmp_buf *arm_failure_handler(void)
         return value;                                                                              \
     }
 
-const char *program_failure(bool *is_usage)
+const char *program_last_failure(bool *is_usage)
 {
     *is_usage = failure.exit_code == EXIT_USAGE;
     return failure.message;
@@ -133,7 +133,7 @@ int __wrap_fclose(FILE *stream)
 
 /* ---- Settings ---- */
 
-struct parameters *program_settings(const struct parameters *from)
+struct parameters *program_settings_new(const struct parameters *from)
 {
     RETURN_ON_FAILURE(NULL)
     struct parameters *settings = must_alloc(sizeof *settings);
@@ -176,8 +176,8 @@ bool program_settings_check(const struct parameters *settings)
     return true;
 }
 
-bool program_settings_at(const struct parameters *settings, int index,
-                         struct program_parameter *parameter)
+bool program_settings_get_parameter(const struct parameters *settings, int index,
+                                    struct program_parameter *parameter)
 {
     if (index < 0 || index >= NUM_PARAMETERS) {
         return false;
@@ -215,7 +215,7 @@ static struct parameters *copy_settings_and_locate_sensors(const struct paramete
          i++) {
         place = asterix_file_radar_place(paths[i]);
         if (place.is_given) {
-            asterix_plot_rows_suggest_origin(paths[i], &place, copy);
+            asterix_set_and_report_default_origin(paths[i], &place, copy);
         }
     }
     parameters_locate_sensors(copy);
@@ -231,7 +231,8 @@ static void *copy_list(const void *list, size_t count, size_t size)
 
 static struct program_scan *add_empty_scan(struct program_scans *scans)
 {
-    scans->list = must_grow(scans->list, scans->count, &scans->capacity, sizeof *scans->list);
+    scans->list =
+        must_make_room_for_one(scans->list, scans->count, &scans->capacity, sizeof *scans->list);
     scans->list[scans->count] = (struct program_scan){.is_frame = false};
     return &scans->list[scans->count++];
 }
@@ -260,19 +261,19 @@ static void add_copy_of_input(struct program_scans *scans, const struct input *i
     scan->frame.scans = looks;
 }
 
-struct program_scans *program_read(char *const *paths, int num_paths,
-                                   const struct parameters *settings, bool keep_going)
+struct program_scans *program_read_scans(char *const *paths, int num_paths,
+                                         const struct parameters *settings, bool keep_going)
 {
     RETURN_ON_FAILURE(NULL)
     struct parameters *parameters = copy_settings_and_locate_sensors(settings, paths, num_paths);
-    struct inputs *inputs = inputs_open(paths, num_paths, parameters, keep_going);
+    struct inputs *inputs = merged_inputs_open(paths, num_paths, parameters, keep_going);
     struct program_scans *scans = must_calloc(1, sizeof *scans);
 
-    for (struct input input = inputs_next(inputs); input.scan || input.frame;
-         input = inputs_next(inputs)) {
+    for (struct input input = merged_inputs_next(inputs); input.scan || input.frame;
+         input = merged_inputs_next(inputs)) {
         add_copy_of_input(scans, &input);
     }
-    inputs_close(inputs);
+    merged_inputs_close(inputs);
     free(parameters);
     return scans;
 }
@@ -439,7 +440,7 @@ static struct program_row *write_rows_of_look(const struct rho_bearing_scan *loo
     return rows;
 }
 
-void program_scan_rows(const struct program_scan *scan, struct program_row *rows)
+void program_scan_write_rows(const struct program_scan *scan, struct program_row *rows)
 {
     if (!scan->is_frame) {
         write_rows_of_plots(scan, rows);
@@ -784,7 +785,7 @@ struct program_scans *program_scans_from_rows(const struct program_row *rows,
 
 /* ---- Tables ---- */
 
-const char *program_kind(const char *path)
+const char *program_kind_of_file(const char *path)
 {
     RETURN_ON_FAILURE(NULL)
     if (lcm_log_is_log(path) || asterix_file_is_asterix(path)) {
@@ -1217,8 +1218,8 @@ void program_node_free(struct program_node *node)
     free(node);
 }
 
-bool program_node_take(struct program_node *node, const char *channel, const uint8_t *data,
-                       size_t size, int64_t now_us)
+bool program_node_take_or_step(struct program_node *node, const char *channel, const uint8_t *data,
+                               size_t size, int64_t now_us)
 {
     RETURN_ON_FAILURE(false)
     if (channel) {
@@ -1231,7 +1232,7 @@ bool program_node_take(struct program_node *node, const char *channel, const uin
     return true;
 }
 
-bool program_node_status(struct program_node *node)
+bool program_node_send_status(struct program_node *node)
 {
     static const struct node_core_losses none;
 
@@ -1245,7 +1246,7 @@ int64_t program_node_due_us(const struct program_node *node)
     return node_core_due_us(node->core);
 }
 
-bool program_node_tracks(struct program_node *node, struct program_tracks *tracks)
+bool program_node_get_tracks(struct program_node *node, struct program_tracks *tracks)
 {
     RETURN_ON_FAILURE(false)
     tracks->count = 0;

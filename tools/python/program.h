@@ -3,8 +3,8 @@
  * program: the interface of the Python package to the command-line program: parameters, readers and
  * the pipeline. program.c contains all calls of tools/rhotrack; native.py reads this header, too.
  *
- * A call that fails returns NULL or false, and program_failure gives the reason. Memory is released
- * with program_..._free. An object must not be used by two threads at a time.
+ * A call that fails returns NULL or false, and program_last_failure gives the reason. Memory is
+ * released with program_..._free. An object must not be used by two threads at a time.
  */
 #ifndef RHOTRACK_PYTHON_PROGRAM_H
 #define RHOTRACK_PYTHON_PROGRAM_H
@@ -16,7 +16,7 @@
 #include "rhotrack/rhotrack.h"
 
 /* The message of this thread's last failure; *is_usage: the caller's input was at fault. */
-const char *program_failure(bool *is_usage);
+const char *program_last_failure(bool *is_usage);
 
 /* ---- Settings ---- */
 
@@ -29,7 +29,7 @@ struct program_parameter {
 };
 
 /* A copy of the settings, or the defaults for NULL. */
-struct parameters *program_settings(const struct parameters *from);
+struct parameters *program_settings_new(const struct parameters *from);
 void program_settings_free(struct parameters *settings);
 bool program_settings_set(struct parameters *settings, const char *key, const char *value);
 bool program_settings_load(struct parameters *settings, const char *path);
@@ -38,8 +38,8 @@ bool program_settings_load(struct parameters *settings, const char *path);
 bool program_settings_check(const struct parameters *settings);
 
 /* Describes the parameter of this index, from 0; false if there are fewer. */
-bool program_settings_at(const struct parameters *settings, int index,
-                         struct program_parameter *parameter);
+bool program_settings_get_parameter(const struct parameters *settings, int index,
+                                    struct program_parameter *parameter);
 
 /* ---- Scans ---- */
 
@@ -67,8 +67,8 @@ struct program_scans {
 };
 
 /* Reads all scans of the files as the command `track` does. */
-struct program_scans *program_read(char *const *paths, int num_paths,
-                                   const struct parameters *settings, bool keep_going);
+struct program_scans *program_read_scans(char *const *paths, int num_paths,
+                                         const struct parameters *settings, bool keep_going);
 
 /* Makes scans of rows: counts[i] rows for scan i, which are bearings if are_frames[i]. */
 struct program_scans *program_scans_from_rows(const struct program_row *rows,
@@ -78,7 +78,7 @@ void program_scans_free(struct program_scans *scans);
 
 /* The number of rows of a scan, and the rows, written to an array of this length. */
 uint32_t program_scan_num_rows(const struct program_scan *scan);
-void program_scan_rows(const struct program_scan *scan, struct program_row *rows);
+void program_scan_write_rows(const struct program_scan *scan, struct program_row *rows);
 
 /* ---- Tables of truth and tracks ---- */
 
@@ -90,7 +90,7 @@ struct program_table {
 };
 
 /* The kind of a file by its columns: "truth", "tracks", or else "scans". */
-const char *program_kind(const char *path);
+const char *program_kind_of_file(const char *path);
 /* Reads a table of the kind "truth" or "tracks". */
 struct program_table *program_read_table(const char *path, const char *kind,
                                          const struct parameters *settings, bool keep_going);
@@ -185,14 +185,14 @@ struct program_node *program_node_new(const struct parameters *settings, int32_t
 void program_node_free(struct program_node *node);
 
 /* Takes a message or, if channel is NULL, steps all due input; at INT64_MAX all held input. */
-bool program_node_take(struct program_node *node, const char *channel, const uint8_t *data,
-                       size_t size, int64_t now_us);
+bool program_node_take_or_step(struct program_node *node, const char *channel, const uint8_t *data,
+                               size_t size, int64_t now_us);
 
 /* Sends the messages of the node's state; the time at which it next has to step. */
-bool program_node_status(struct program_node *node);
+bool program_node_send_status(struct program_node *node);
 int64_t program_node_due_us(const struct program_node *node);
 
 /* Replaces `tracks` by the tracks of the last step. */
-bool program_node_tracks(struct program_node *node, struct program_tracks *tracks);
+bool program_node_get_tracks(struct program_node *node, struct program_tracks *tracks);
 
 #endif

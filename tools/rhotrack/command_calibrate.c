@@ -6,7 +6,7 @@
 #include "base/common.h"
 #include "command_line.h"
 #include "commands.h"
-#include "io/scans/inputs.h"
+#include "io/scans/merged_inputs.h"
 #include "registration/calibrate.h"
 #include "registration/calibrate_output.h"
 #include "registration/register_data.h"
@@ -14,15 +14,16 @@
 static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                              struct register_data *data)
 {
-    struct inputs *inputs =
-        inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    struct inputs *inputs = merged_inputs_open(line->arguments, line->num_arguments,
+                                               &line->parameters, line->keep_going);
     struct progress progress = progress_start("scans", 0);
     uint64_t done = 0, skipped;
 
-    if (inputs_have_bearings(inputs)) {
+    if (merged_inputs_have_bearings(inputs)) {
         fail(EXIT_USAGE, "calibrate takes plots, and no bearings");
     }
-    for (struct input input = inputs_next(inputs); input.scan; input = inputs_next(inputs)) {
+    for (struct input input = merged_inputs_next(inputs); input.scan;
+         input = merged_inputs_next(inputs)) {
         struct rho_sensor sensor;
 
         if (input.sensor) {
@@ -31,12 +32,12 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
             parameters_to_sensor_or_defaults(&line->parameters, input.scan->sensor_id, &sensor);
         }
         register_add_unchecked_scan(data, input.scan, &sensor);
-        progress_show_by_bytes(&progress, ++done, inputs_bytes_read(inputs),
-                               inputs_total_bytes(inputs));
+        progress_show_by_bytes(&progress, ++done, merged_inputs_bytes_read(inputs),
+                               merged_inputs_total_bytes(inputs));
     }
     progress_end(&progress);
-    skipped = inputs_counts(inputs).rows_skipped;
-    inputs_close(inputs);
+    skipped = merged_inputs_counts(inputs).rows_skipped;
+    merged_inputs_close(inputs);
     return skipped;
 }
 
@@ -47,7 +48,7 @@ static void print_calibration(const struct command_line *line,
 
     if (line->json) {
         calibrate_print_json(result, rows_skipped);
-    } else if (is_output_to_stdout(line)) {
+    } else if (is_output_explicitly_stdout(line)) {
         calibrate_print(result, stderr);
     } else {
         output = output_open(NULL);

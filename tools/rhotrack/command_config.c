@@ -5,7 +5,7 @@
 
 #include "base/common.h"
 #include "commands.h"
-#include "settings/method.h"
+#include "settings/initiation_method.h"
 
 /* Adds a parameter's value to JSON: a string where the parameter has choices, else a number. */
 static void add_parameter_value(cJSON *object, const char *name, const struct parameter_text *text,

@@ -20,9 +20,9 @@
 #include "io/log/message_source.h"
 #include "io/output/geojson.h"
 #include "io/output/geojson_rows.h"
+#include "io/rows/rows_from_csv.h"
 #include "io/rows/rows_from_messages.h"
-#include "io/rows/rows_read.h"
-#include "io/rows/rows_write.h"
+#include "io/rows/rows_to_csv.h"
 
 /* ---- Which way ---- */
 
@@ -107,7 +107,7 @@ static void convert_asterix_plots_to_csv(const struct command_line *line)
     struct table *table = asterix_plot_rows_empty_table(path, asterix_plot_rows_columns(records));
     struct output output = output_open(line->arguments[1]);
     struct progress progress = progress_start("rows", 0);
-    uint64_t bytes = plain_file_size(path), rows = 0;
+    uint64_t bytes = regular_file_size_or_zero(path), rows = 0;
 
     table_write_header(output.file, table);
     while (asterix_plot_rows_next(records, table)) {
@@ -152,7 +152,7 @@ static void convert_tracks_to_asterix(const struct command_line *line)
     while (message_source_next(source, &event)) {
         if (strcmp(event.channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 &&
             rho_message_track_list_decode(event.data, event.size, &message) == RHO_OK) {
-            asterix_track_writer_add_list(tracks, &message);
+            asterix_track_writer_add_list_part(tracks, &message);
             lists++;
         } else {
             others++;
@@ -353,7 +353,7 @@ static void select_tracks_for_geojson_or_fail(struct command_line *line)
     line->kind = rows_kind_tracks.name;
 }
 
-void command_convert_refuse_radar_recording(const struct command_line *line)
+void command_convert_refuse_radar_as_tracks(const struct command_line *line)
 {
     const char *input = line->arguments[0], *output = line->arguments[1];
     bool to_map = geojson_path_is_geojson(output);

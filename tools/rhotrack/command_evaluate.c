@@ -10,7 +10,7 @@
 #include "evaluation/evaluation_report.h"
 #include "io/csv/table.h"
 #include "io/log/log_table.h"
-#include "next_command.h"
+#include "suggested_next_command.h"
 
 static void check_output_ending(const char *path)
 {
@@ -38,10 +38,10 @@ static struct evaluation *evaluate_files(const struct command_line *line)
 static void suggest_next_command(const struct command_line *line)
 {
     char *files[2] = {line->arguments[0],
-                      next_command_find_file_beside(line->arguments[0], "plots.csv")};
+                      suggested_next_command_find_file_beside(line->arguments[0], "plots.csv")};
 
     if (path_ends_with(line->arguments[1], ".csv")) {
-        next_command_suggest_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
+        suggested_next_command_suggest_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
     }
     free(files[1]);
 }

@@ -10,9 +10,9 @@
 #include "initiation/initiate_hough.h"
 #include "initiation/initiate_passive.h"
 #include "initiation/initiate_passive_paper.h"
-#include "io/output/initiated_output.h"
+#include "io/output/initiated_tracks_output.h"
 #include "io/scans/bearing_frame_reader.h"
-#include "io/scans/scan_reader.h"
+#include "io/scans/plot_scan_reader.h"
 #include "io/turns/revolutions.h"
 #include "rhotrack/tracker.h"
 
@@ -77,13 +77,13 @@ static void read_and_search_batch(struct batch *batch, const struct command_line
     parameters_to_initiator(&line->parameters, &config);
     batch->initiator = must_alloc(sizeof *batch->initiator);
     fail_unless_ok(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config));
-    reader =
-        scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    reader = plot_scan_reader_open(line->arguments, line->num_arguments, &line->parameters,
+                                   line->keep_going);
     push_last_scans(batch, reader);
     start_us = clock_us();
     fail_unless_ok(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH));
     batch->wall_us += clock_us() - start_us;
-    scan_reader_report_skipped(reader);
+    plot_scan_reader_report_skipped(reader);
     if (batch->plots_no_room) {
         fprintf(stderr, "rhotrack: %" PRIu64 " plots beyond %d a scan are left out\n",
                 batch->plots_no_room, RHO_MAX_PLOTS);
@@ -92,22 +92,22 @@ static void read_and_search_batch(struct batch *batch, const struct command_line
         fprintf(stderr, "rhotrack: of %" PRIu32 " plots not all was tried for tracks (work_max)\n",
                 batch->initiator->budget.plots_not_tried);
     }
-    scan_reader_close(reader);
+    plot_scan_reader_close(reader);
 }
 
 /* ---- What it found ---- */
 
 static void write_found_tracks(const struct batch *batch, const char *path)
 {
-    struct initiated_output *found = initiated_output_open(path);
+    struct initiated_output *found = initiated_tracks_output_open(path);
 
     for (unsigned i = 0; i < batch->initiator->num_candidates; i++) {
         struct initiated row =
             initiated_from_candidate(i + 1, batch->time_us, &batch->initiator->candidates[i]);
 
-        initiated_output_add_row(found, &row);
+        initiated_tracks_output_add_row(found, &row);
     }
-    initiated_output_close(found);
+    initiated_tracks_output_close(found);
 }
 
 /* Hits of each track found, in descending order, as JSON; *sum gets the sum of all hits. */
@@ -120,7 +120,7 @@ static cJSON *track_hits_json(const struct rho_initiator *initiator, double *sum
         hits[i] = initiator->candidates[i].hits;
         *sum += hits[i];
     }
-    return json_list_descending(hits, initiator->num_candidates);
+    return sort_descending_into_json_list(hits, initiator->num_candidates);
 }
 
 static void print_found_json(const struct batch *batch)

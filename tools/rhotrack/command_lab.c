@@ -102,7 +102,7 @@ static _Noreturn void run_bench(char **argv)
          argv[1], strerror(errno));
 }
 
-void command_lab_execute(char **argv)
+void command_lab_execute_without_return(char **argv)
 {
     if (strcmp(argv[1], "experiment") == 0) {
         run_experiment(argv);

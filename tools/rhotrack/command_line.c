@@ -10,9 +10,9 @@
 #include "base/name_hint.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
-#include "io/csv/origin_and_azimuth_sense.h"
+#include "io/csv/guess_origin_and_azimuth_sense.h"
 #include "io/csv/table_dialect.h"
-#include "settings/method.h"
+#include "settings/initiation_method.h"
 
 enum { NUM_OPTIONS = 29, RUNS_MAX = 1000000 };
 
@@ -332,8 +332,8 @@ static void read_options(struct command_line *line, const struct command *comman
         }
         /* --set of simulate changes the scene */
         if (letter == 's' && strcmp(command->name, "simulate") == 0) {
-            line->scene_sets =
-                must_grow(line->scene_sets, line->num_scene_sets, &room, sizeof *line->scene_sets);
+            line->scene_sets = must_make_room_for_one(line->scene_sets, line->num_scene_sets, &room,
+                                                      sizeof *line->scene_sets);
             line->scene_sets[line->num_scene_sets++] = optarg;
         } else {
             store_option(line, (char)letter, optarg);
@@ -355,7 +355,7 @@ static void suggest_origin_if_lacking(struct command_line *line, const char *pat
                                       struct asterix_place place)
 {
     if (place.is_given && lacks_origin(&line->parameters)) {
-        asterix_plot_rows_suggest_origin(path, &place, &line->parameters);
+        asterix_set_and_report_default_origin(path, &place, &line->parameters);
     }
 }
 
@@ -443,7 +443,7 @@ static void refuse_ending_of_other_format(const struct command_line *line, const
     }
 }
 
-bool is_output_to_stdout(const struct command_line *line)
+bool is_output_explicitly_stdout(const struct command_line *line)
 {
     return line->output && strcmp(line->output, "-") == 0;
 }
@@ -453,7 +453,7 @@ void command_line_check_ini_output(const struct command_line *line, const char *
     refuse_output_that_is_an_input(line);
     refuse_inputs_given_twice(line, command);
     refuse_ending_of_other_format(line, command);
-    if (line->json && is_output_to_stdout(line)) {
+    if (line->json && is_output_explicitly_stdout(line)) {
         fail(EXIT_USAGE, "%s: --json and -o - both write on standard output", command);
     }
 }
@@ -462,7 +462,7 @@ void command_line_check_ini_output(const struct command_line *line, const char *
 static bool are_plot_files_regular(const struct command_line *line)
 {
     for (int i = 0; i < line->num_plot_files; i++) {
-        if (plain_file_size(line->plot_files[i]) == 0) {
+        if (regular_file_size_or_zero(line->plot_files[i]) == 0) {
             return false;
         }
     }

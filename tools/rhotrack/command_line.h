@@ -42,7 +42,7 @@ void command_line_print_help(const struct command *command, FILE *file);
 void refuse_output_that_is_an_input(const struct command_line *line);
 
 /* True for -o -: standard output gets the output file alone, so that no report may go there. */
-bool is_output_to_stdout(const struct command_line *line);
+bool is_output_explicitly_stdout(const struct command_line *line);
 
 /*
  * Checks the options of commands that write an INI file. Exit 2 where --output names an input or

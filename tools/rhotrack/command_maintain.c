@@ -9,7 +9,7 @@
 #include "commands.h"
 #include "io/output/tracks_output.h"
 #include "io/scans/bearing_frame_reader.h"
-#include "io/scans/scan_reader.h"
+#include "io/scans/plot_scan_reader.h"
 #include "maintenance/maintainer.h"
 #include "rhotrack/detail/measurement.h"
 
@@ -90,13 +90,13 @@ static void step_and_write_all_scans(struct maintaining *maintaining, struct sca
                                      const struct command_line *line, struct tracks_output *tracks)
 {
     struct progress progress = progress_start("scans", 0);
-    uint64_t bytes = plain_file_size(line->arguments[0]);
+    uint64_t bytes = regular_file_size_or_zero(line->arguments[0]);
     const struct rho_scan *scan;
 
-    while ((scan = scan_reader_next(reader))) {
+    while ((scan = plot_scan_reader_next(reader))) {
         bool was_started = maintainer_is_started(maintaining->maintainer);
 
-        step_and_time_scan(maintaining, scan, scan_reader_sensor(reader));
+        step_and_time_scan(maintaining, scan, plot_scan_reader_sensor(reader));
         bool is_started = maintainer_is_started(maintaining->maintainer);
         if (is_started && !was_started) {
             warn_of_unobservable_inputs(line, maintaining->gate, scan);
@@ -105,7 +105,8 @@ static void step_and_write_all_scans(struct maintaining *maintaining, struct sca
             tracks_output_write_track(tracks, scan->time_us,
                                       maintainer_report(maintaining->maintainer));
         }
-        progress_show_by_bytes(&progress, maintaining->scans, scan_reader_position(reader), bytes);
+        progress_show_by_bytes(&progress, maintaining->scans, plot_scan_reader_position(reader),
+                               bytes);
     }
     progress_end(&progress);
 }
@@ -118,7 +119,7 @@ static double mean_step_us(const struct maintaining *maintaining)
 }
 
 static void print_summary(const struct maintaining *maintaining,
-                          const struct scan_reader_counts *counts)
+                          const struct plot_scan_reader_counts *counts)
 {
     const struct rho_track_report *track = maintainer_report(maintaining->maintainer);
 
@@ -146,7 +147,7 @@ static cJSON *plot_fates_json(const struct maintaining *maintaining)
 }
 
 static void print_run_json(const struct maintaining *maintaining, const struct command_line *line,
-                           const struct scan_reader_counts *counts)
+                           const struct plot_scan_reader_counts *counts)
 {
     struct parameter_text gate = parameters_text(PARAMETER_GATE);
     char word[PARAMETER_VALUE_BYTES];
@@ -175,7 +176,7 @@ static struct scan_reader *open_plot_reader(const struct command_line *line)
     if (bearing_frame_reader_file_has_bearings(line->arguments[0])) {
         fail(EXIT_USAGE, "%s: maintain takes plots, and these are bearings", line->arguments[0]);
     }
-    return scan_reader_open(line->arguments, 1, &line->parameters, line->keep_going);
+    return plot_scan_reader_open(line->arguments, 1, &line->parameters, line->keep_going);
 }
 
 int command_maintain(struct command_line *line)
@@ -184,7 +185,7 @@ int command_maintain(struct command_line *line)
     struct maintaining maintaining = {.gate = apply_gate_option(line),
                                       .random = random_start(line->seed, 0, 0)};
     struct scan_reader *reader;
-    struct scan_reader_counts counts;
+    struct plot_scan_reader_counts counts;
     struct tracks_output *tracks;
 
     warn_of_unused_input_estimation(line, maintaining.gate);
@@ -194,7 +195,7 @@ int command_maintain(struct command_line *line)
     tracks =
         has_file ? tracks_output_open(line->output, &line->parameters, line->covariance) : NULL;
     step_and_write_all_scans(&maintaining, reader, line, tracks);
-    counts = scan_reader_counts(reader);
+    counts = plot_scan_reader_counts(reader);
     if (counts.plots == 0) {
         fail(EXIT_USAGE, "%s: not one plot to start the track from", line->arguments[0]);
     }
@@ -203,7 +204,7 @@ int command_maintain(struct command_line *line)
     if (line->json) {
         print_run_json(&maintaining, line, &counts);
     }
-    scan_reader_close(reader);
+    plot_scan_reader_close(reader);
     maintainer_free(maintaining.maintainer);
     return 0;
 }

@@ -16,17 +16,17 @@
 
 #include "base/common.h"
 #include "commands.h"
-#include "io/output/clutter_file.h"
+#include "io/output/clutter_map_file.h"
 #include "io/scans/scan_interval_hint.h"
+#include "live/duplicate_senders.h"
 #include "live/error_lines.h"
-#include "live/metrics.h"
 #include "live/node_core.h"
 #include "live/node_log.h"
+#include "live/node_loss_counts.h"
 #include "live/node_print.h"
 #include "live/node_sensor_warnings.h"
-#include "live/node_tally.h"
 #include "live/page_server.h"
-#include "live/senders.h"
+#include "live/prometheus_metrics.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
 #include "transport/transport.h"
@@ -68,9 +68,9 @@ struct node {
     pid_t clutter_writer;      /* process that saves the clutter map; 0: none is running */
     struct warning warnings[NODE_TALLIES];
     struct node_sensors sensors;
-    struct senders senders;
+    struct duplicate_senders senders;
     struct scan_interval_hint plots; /* scan intervals of the first HINT_SCANS scans */
-    struct clutter_file clutter;
+    struct clutter_map_file clutter;
     /* signal descriptors: `signals` of SIGTERM and SIGINT, `hang_ups` of SIGHUP */
     int signals, hang_ups;
     bool has_terminal;         /* the node was started from a terminal, and ends with it */
@@ -195,11 +195,11 @@ static bool reap_clutter_writer(struct node *node, int options)
  */
 static void save_clutter_map_when_due(struct node *node)
 {
-    if (clutter_file_is_save_due(&node->clutter) && reap_clutter_writer(node, WNOHANG)) {
+    if (clutter_map_file_is_save_due(&node->clutter) && reap_clutter_writer(node, WNOHANG)) {
         node->clutter.saved_us = clock_us();
         node->clutter_writer = fork();
         if (node->clutter_writer == 0) {
-            _exit(clutter_file_save(&node->clutter, node_core_clutter_map(node->core))
+            _exit(clutter_map_file_save(&node->clutter, node_core_clutter_map(node->core))
                       ? 0
                       : EXIT_RUNTIME);
         }
@@ -212,7 +212,7 @@ static void save_clutter_map_at_end(struct node *node)
 {
     (void)reap_clutter_writer(node, 0);
     set_exit_code_unless_saved(
-        node, clutter_file_save(&node->clutter, node_core_clutter_map(node->core)));
+        node, clutter_map_file_save(&node->clutter, node_core_clutter_map(node->core)));
 }
 
 /* ---- Calls of the core ---- */
@@ -244,7 +244,7 @@ static void print_wall_changes(struct node *node)
     struct rho_reflector wall;
 
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
-        const bool is_known = node_core_learned_wall(node->core, i, &wall);
+        const bool is_known = node_core_get_learned_wall(node->core, i, &wall);
 
         if (is_known && !node->knows_wall[i]) {
             fprintf(stderr, "rhotrack: a wall is learned: %.1f %.1f %.1f %.1f\n",
@@ -261,7 +261,7 @@ static void print_step_and_changes(void *context, const struct rho_report *repor
 {
     struct node *node = context;
 
-    node_print_step(&node->print, report);
+    node_print_report_or_mark_changed(&node->print, report);
     print_sensor_changes(node);
     if (!node->print.is_terminal) {
         print_wall_changes(node);
@@ -299,7 +299,7 @@ static void print_clock_change(void *context)
  * The count of losses that is certain by now. A count that may fall again gives its least value of
  * the last MISSING_US: a skipped scan number is lost only if its scan does not arrive later.
  */
-static uint64_t certain_loss_count(struct warning *warning, const struct node_tally *tally,
+static uint64_t certain_loss_count(struct warning *warning, const struct node_loss_counts *tally,
                                    int64_t now_us)
 {
     bool was_more = warning->is_more;
@@ -315,7 +315,7 @@ static uint64_t certain_loss_count(struct warning *warning, const struct node_ta
     return now_us >= warning->more_us + MISSING_US ? warning->least : warning->said;
 }
 
-static void warn_when_tally_rose(struct warning *warning, const struct node_tally *tally,
+static void warn_when_tally_rose(struct warning *warning, const struct node_loss_counts *tally,
                                  int64_t now_us)
 {
     uint64_t count = certain_loss_count(warning, tally, now_us);
@@ -336,11 +336,11 @@ static void warn_when_tally_rose(struct warning *warning, const struct node_tall
 /* Attributes the counts that rose with the last message to the sensor of its channel. */
 static void attribute_losses_to_sensor(struct node *node, const char *channel)
 {
-    struct node_tally tallies[NODE_TALLIES];
+    struct node_loss_counts tallies[NODE_TALLIES];
     int16_t sensor_id = 0;
-    const bool has_sensor = senders_sensor_id_of_channel(channel, &sensor_id);
+    const bool has_sensor = duplicate_senders_sensor_id_of_channel(channel, &sensor_id);
 
-    node_tally_collect(node->core, node->transport, tallies);
+    node_loss_counts_collect(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         struct warning *warning = &node->warnings[i];
 
@@ -355,13 +355,13 @@ static void attribute_losses_to_sensor(struct node *node, const char *channel)
 /* Warns of each cause at most once a second; prints nothing while the terminal shows a table. */
 static void warn_of_losses(struct node *node)
 {
-    struct node_tally tallies[NODE_TALLIES];
+    struct node_loss_counts tallies[NODE_TALLIES];
     int64_t now_us = clock_us();
 
     if (node->print.is_terminal) {
         return;
     }
-    node_tally_collect(node->core, node->transport, tallies);
+    node_loss_counts_collect(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         warn_when_tally_rose(&node->warnings[i], &tallies[i], now_us);
     }
@@ -371,7 +371,7 @@ static void print_summary(const struct node *node)
 {
     const struct rho_tracker_counters *tracker = node_core_tracker_counters(node->core);
     struct transport_counters network = transport_counters(node->transport);
-    struct node_tally tallies[NODE_TALLIES];
+    struct node_loss_counts tallies[NODE_TALLIES];
     const uint64_t events_left_out = node_log_events_left_out(node->log);
 
     fprintf(stderr,
@@ -382,7 +382,7 @@ static void print_summary(const struct node *node)
             node_core_max_step_us(node->core));
     node_core_print_learned(node->core, stderr);
     fprintf(stderr, "\n");
-    node_tally_collect(node->core, node->transport, tallies);
+    node_loss_counts_collect(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         if (tallies[i].count) {
             fprintf(stderr, "rhotrack: %s: %" PRIu64 "\n", tallies[i].name, tallies[i].count);
@@ -572,8 +572,8 @@ static void update_scan_interval_hint(struct node *node, const struct transport_
  */
 static void pass_message_to_core_and_log(struct node *node, const struct transport_message *message)
 {
-    senders_note_message(&node->senders, message, clock_us(),
-                         node->print.is_terminal ? NULL : stderr);
+    duplicate_senders_note_message(&node->senders, message, clock_us(),
+                                   node->print.is_terminal ? NULL : stderr);
     if (is_output_channel(message->channel)) {
         return;
     }
@@ -623,7 +623,7 @@ static struct node_core_losses collect_losses(const struct node *node)
 static void write_metrics(FILE *out, void *context)
 {
     const struct node *node = context;
-    const struct metrics_source source = {
+    const struct prometheus_metrics_source source = {
         .core = node->core,
         .transport = node->transport,
         .parameters = node->parameters,
@@ -633,7 +633,7 @@ static void write_metrics(FILE *out, void *context)
         .clients_refused = page_server_num_refused(node->pages),
     };
 
-    metrics_write(out, &source);
+    prometheus_metrics_write(out, &source);
 }
 
 static void send_status_and_clutter(struct node *node)
@@ -642,13 +642,14 @@ static void send_status_and_clutter(struct node *node)
 
     node_core_send_status(node->core, &losses);
     if (node->statuses++ % CLUTTER_STATUSES == 0) {
-        node_core_send_clutter(node->core);
+        node_core_send_clutter_map(node->core);
     }
 }
 
 static void refresh_track_table(struct node *node, bool is_end)
 {
-    if (!node_print_refresh(&node->print, node->core, transport_url(node->transport), is_end)) {
+    if (!node_print_refresh_table(&node->print, node->core, transport_url(node->transport),
+                                  is_end)) {
         if (errno != EPIPE) {
             fprintf(stderr, "rhotrack: standard output: %s\n", strerror(errno));
             node->exit_code = EXIT_RUNTIME;
@@ -729,13 +730,13 @@ int command_node(struct command_line *line)
     bool is_restored = false; /* from the snapshot, which has the clutter map */
     int exit_code;
 
-    if (line->log && transport_url_is_file(line->lcm, line->log)) {
+    if (line->log && transport_url_is_same_file(line->lcm, line->log)) {
         fail(EXIT_USAGE, "node: %s would be written over what is read", line->log);
     }
     pipeline_options_to_parameters(
         &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
-    clutter_file_refuse_same_file(line->clutter_map, line->log, "log");
-    if (line->clutter_map && transport_url_is_file(line->lcm, line->clutter_map)) {
+    clutter_map_file_refuse_same_file(line->clutter_map, line->log, "log");
+    if (line->clutter_map && transport_url_is_same_file(line->lcm, line->clutter_map)) {
         fail(EXIT_USAGE, "%s: the input cannot be the clutter map", line->clutter_map);
     }
     struct pipeline_show *show = pipeline_show_open(line->show, &line->parameters);
@@ -752,8 +753,8 @@ int command_node(struct command_line *line)
         fprintf(stderr, "rhotrack: %s: tracks go on\n", line->snapshot);
         is_restored = true;
     }
-    node.clutter = clutter_file_open(line->clutter_map, &line->parameters,
-                                     is_restored ? NULL : node_core_clutter_map(node.core));
+    node.clutter = clutter_map_file_open(line->clutter_map, &line->parameters,
+                                         is_restored ? NULL : node_core_clutter_map(node.core));
     block_signals_and_open_descriptors(&node);
     start_end_watchdog(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);

@@ -7,12 +7,12 @@
 #include "base/common.h"
 #include "command_line.h"
 #include "commands.h"
-#include "io/output/clutter_file.h"
-#include "picture/page.h"
+#include "io/output/clutter_map_file.h"
+#include "picture/html_page.h"
 #include "picture/picture.h"
+#include "picture/picture_data.h"
 #include "picture/plot_bearings.h"
-#include "picture/plot_clutter.h"
-#include "picture/plot_data.h"
+#include "picture/plot_clutter_map.h"
 #include "picture/plot_errors.h"
 #include "picture/plot_parameter_space.h"
 #include "picture/plot_tracks.h"
@@ -28,7 +28,7 @@ static void require_points(const struct plot_points *points, const char *kind, c
 /*
  * Exit 2 where the data have no times but the truth's, at which the slider of an HTML page stops.
  */
-static void require_times_besides_truth(const struct plot_data *data)
+static void require_times_besides_truth(const struct picture_data *data)
 {
     if (data->plots.count + data->tracks.count + data->bearings.count == 0) {
         fail(EXIT_USAGE, "plot: a page needs plots, tracks or bearings beside the truth; "
@@ -36,7 +36,7 @@ static void require_times_besides_truth(const struct plot_data *data)
     }
 }
 
-static void check_data_for_kind(const char *kind, const struct plot_data *data)
+static void check_data_for_kind(const char *kind, const struct picture_data *data)
 {
     const bool shows_bearings = strcmp(kind, "scans") == 0 || strcmp(kind, "tracks") == 0;
     if (data->bearings.has_own_file && !shows_bearings) {
@@ -71,7 +71,7 @@ struct drawn_results {
     struct plot_votes *votes; /* accumulator of --method; NULL: no method */
 };
 
-static void compute_votes_of_method(struct drawn_results *results, const struct plot_data *data,
+static void compute_votes_of_method(struct drawn_results *results, const struct picture_data *data,
                                     struct command_line *line)
 {
     const enum method method = method_must_find(line->method);
@@ -88,7 +88,8 @@ static void compute_votes_of_method(struct drawn_results *results, const struct 
     results->votes = plot_votes_find(method, &results->revolutions, &line->parameters);
 }
 
-static struct drawn_results compute_results_to_draw(const char *kind, const struct plot_data *data,
+static struct drawn_results compute_results_to_draw(const char *kind,
+                                                    const struct picture_data *data,
                                                     struct command_line *line)
 {
     const struct parameters *parameters = &line->parameters;
@@ -104,7 +105,8 @@ static struct drawn_results compute_results_to_draw(const char *kind, const stru
 }
 
 static void draw_picture_of_kind(const char *kind, struct picture *picture,
-                                 const struct plot_data *data, const struct drawn_results *results)
+                                 const struct picture_data *data,
+                                 const struct drawn_results *results)
 {
     if (strcmp(kind, "scans") == 0 && data->bearings.num_sensors) {
         plot_bearings(picture, data);
@@ -126,9 +128,9 @@ static int plot_clutter_map(const struct command_line *line)
 {
     size_t count;
     struct clutter_echo *echoes =
-        clutter_file_read_echoes(line->arguments[1], &line->parameters, &count);
-    struct plot_data data =
-        plot_data_read(line->arguments + 2, line->num_arguments - 2, &line->parameters);
+        clutter_map_file_read_echoes(line->arguments[1], &line->parameters, &count);
+    struct picture_data data =
+        picture_data_read(line->arguments + 2, line->num_arguments - 2, &line->parameters);
     if (line->num_arguments > 2) {
         require_points(&data.plots, "clutter-map", "plots (t_s, x_m, y_m)");
     }
@@ -136,7 +138,7 @@ static int plot_clutter_map(const struct command_line *line)
     plot_clutter(&picture, echoes, count, &data, &line->parameters);
     picture_close(&picture);
     free(echoes);
-    plot_data_free(&data);
+    picture_data_free(&data);
     return 0;
 }
 
@@ -148,7 +150,7 @@ int command_plot(struct command_line *line)
     }
     const char *kind = line->arguments[0];
     const bool is_map = strcmp(kind, "scans") == 0 || strcmp(kind, "tracks") == 0;
-    if (page_path_is_html(line->output) && !is_map) {
+    if (html_page_path_is_html(line->output) && !is_map) {
         fail(EXIT_USAGE,
              "%s: plot scans and plot tracks alone make a page; plot %s makes "
              "NAME.svg or NAME.png",
@@ -162,13 +164,13 @@ int command_plot(struct command_line *line)
     if (strcmp(kind, "clutter-map") == 0) {
         return plot_clutter_map(line);
     }
-    struct plot_data data =
-        plot_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
+    struct picture_data data =
+        picture_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_data_for_kind(kind, &data);
-    if (page_path_is_html(line->output)) {
+    if (html_page_path_is_html(line->output)) {
         require_times_besides_truth(&data);
-        page_write(line->output, &data, &line->parameters);
-        plot_data_free(&data);
+        html_page_write(line->output, &data, &line->parameters);
+        picture_data_free(&data);
         return 0;
     }
     struct drawn_results results = compute_results_to_draw(kind, &data, line);
@@ -178,6 +180,6 @@ int command_plot(struct command_line *line)
     revolutions_free(&results.revolutions);
     plot_errors_free(&results.errors);
     plot_votes_free(results.votes);
-    plot_data_free(&data);
+    picture_data_free(&data);
     return 0;
 }

@@ -9,7 +9,7 @@
 
 #include "base/common.h"
 #include "commands.h"
-#include "io/asterix/asterix_udp.h"
+#include "io/asterix/asterix_udp_receiver.h"
 #include "io/log/lcm_log.h"
 #include "io/log/message_shift.h"
 #include "io/log/message_source.h"
@@ -113,8 +113,8 @@ static struct channel *find_or_add_channel(struct player *player, const char *na
             return &player->channels[i];
         }
     }
-    player->channels = must_grow(player->channels, player->num_channels, &player->capacity,
-                                 sizeof *player->channels);
+    player->channels = must_make_room_for_one(player->channels, player->num_channels,
+                                              &player->capacity, sizeof *player->channels);
     channel = &player->channels[player->num_channels++];
     *channel = (struct channel){.has_scans = false};
     snprintf(channel->name, sizeof channel->name, "%s", name);
@@ -280,11 +280,11 @@ int command_publish(struct command_line *line)
     struct player player = {.line = line, .epoch = epoch_for_csv_inputs(line)};
     struct message_source *source;
 
-    if (asterix_udp_is_url(line->arguments[0])) {
+    if (asterix_udp_receiver_is_url(line->arguments[0])) {
         return publish_asterix(line);
     }
     for (int i = 0; i < line->num_arguments; i++) {
-        if (transport_url_is_file(line->lcm, line->arguments[i])) {
+        if (transport_url_is_same_file(line->lcm, line->arguments[i])) {
             fail(EXIT_USAGE, "publish: %s would be written over what is read", line->arguments[i]);
         }
     }

@@ -5,7 +5,7 @@
 #include "base/common.h"
 #include "command_line.h"
 #include "commands.h"
-#include "io/scans/inputs.h"
+#include "io/scans/merged_inputs.h"
 #include "pipeline/pipeline.h"
 #include "registration/register.h"
 #include "registration/register_output.h"
@@ -44,23 +44,24 @@ static void add_scan_or_fail(struct register_data *data, const struct input *inp
 static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                              struct register_data *data)
 {
-    struct inputs *inputs =
-        inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    struct inputs *inputs = merged_inputs_open(line->arguments, line->num_arguments,
+                                               &line->parameters, line->keep_going);
     struct progress progress = progress_start("scans", 0);
     struct unplaced unplaced = {.is_any = false};
     uint64_t done = 0, skipped;
 
-    if (inputs_have_bearings(inputs)) {
+    if (merged_inputs_have_bearings(inputs)) {
         fail(EXIT_USAGE, "register takes plots in range and azimuth, and no bearings");
     }
-    for (struct input input = inputs_next(inputs); input.scan; input = inputs_next(inputs)) {
+    for (struct input input = merged_inputs_next(inputs); input.scan;
+         input = merged_inputs_next(inputs)) {
         add_scan_or_fail(data, &input, &line->parameters, &unplaced);
-        progress_show_by_bytes(&progress, ++done, inputs_bytes_read(inputs),
-                               inputs_total_bytes(inputs));
+        progress_show_by_bytes(&progress, ++done, merged_inputs_bytes_read(inputs),
+                               merged_inputs_total_bytes(inputs));
     }
     progress_end(&progress);
-    skipped = inputs_counts(inputs).rows_skipped;
-    inputs_close(inputs);
+    skipped = merged_inputs_counts(inputs).rows_skipped;
+    merged_inputs_close(inputs);
     return skipped;
 }
 
@@ -82,7 +83,7 @@ static void print_biases(const struct command_line *line, const struct register_
 
     if (line->json) {
         register_print_json(result, rows_skipped);
-    } else if (is_output_to_stdout(line)) {
+    } else if (is_output_explicitly_stdout(line)) {
         register_print(result, stderr);
     } else {
         output = output_open(NULL);

@@ -5,8 +5,8 @@
 #include "base/common.h"
 #include "base/name_hint.h"
 #include "commands.h"
-#include "next_command.h"
 #include "scene/scene.h"
+#include "suggested_next_command.h"
 
 static void simulate_runs(const struct command_line *line, const struct scene *scene)
 {
@@ -71,16 +71,16 @@ static void suggest_next_command(const struct command_line *line)
     size_t count = 1;
 
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        if (plain_file_size(files[i]) > 0) {
+        if (regular_file_size_or_zero(files[i]) > 0) {
             words[count++] = files[i];
         }
     }
-    if (count > 1 && plain_file_size(config) > 0) {
+    if (count > 1 && regular_file_size_or_zero(config) > 0) {
         words[count++] = "--config";
         words[count++] = config;
         words[count++] = "-o";
         words[count++] = tracks;
-        next_command_suggest(line, words);
+        suggested_next_command_suggest_on_terminal(line, words);
     }
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         free(files[i]);

@@ -13,24 +13,24 @@
 #include "command_line.h"
 #include "commands.h"
 #include "initiation/last_bearings.h"
-#include "io/output/clutter_file.h"
+#include "io/output/clutter_map_file.h"
 #include "io/output/tracks_output.h"
-#include "io/output/zones_output.h"
+#include "io/output/zone_events_output.h"
 #include "io/scans/bearing_frame_reader.h"
-#include "io/scans/inputs.h"
-#include "io/scans/scan_reader.h"
-#include "next_command.h"
+#include "io/scans/merged_inputs.h"
+#include "io/scans/plot_scan_reader.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/pipeline_show.h"
-#include "settings/method.h"
+#include "settings/initiation_method.h"
+#include "suggested_next_command.h"
 
 struct tracking {
     struct pipeline pipeline;
     struct pipeline_show *show; /* messages of --show; NULL: none */
-    struct clutter_file clutter;
-    struct zones_output zones;
+    struct clutter_map_file clutter;
+    struct zone_events_output zones;
     struct no_tracks seen;
     int64_t sum_us, max_us;
 };
@@ -57,7 +57,7 @@ static void check_and_set_passive_sensors(struct tracking *tracking, const struc
                                           const struct parameters *parameters)
 {
     size_t count;
-    const struct frame_sensor *sensors = inputs_passive_sensors(inputs, &count);
+    const struct frame_sensor *sensors = merged_inputs_passive_sensors(inputs, &count);
 
     if (count > 0) {
         struct parameters customary = *parameters;
@@ -116,7 +116,7 @@ static void step_and_write_input(struct tracking *tracking, const struct input *
 {
     step_and_time_input(tracking, input);
     if (tracking->pipeline.zones) {
-        zones_output_write_events(&tracking->zones, tracking->pipeline.zones);
+        zone_events_output_write_events(&tracking->zones, tracking->pipeline.zones);
     }
     if (tracks) {
         tracks_output_write_report(tracks, tracking->pipeline.report);
@@ -138,13 +138,13 @@ static void step_and_write_all_inputs(struct tracking *tracking, struct inputs *
     struct progress progress = progress_start("scans", 0);
     uint64_t done = 0;
 
-    for (struct input input = inputs_next(inputs); input.scan || input.frame;
-         input = inputs_next(inputs)) {
+    for (struct input input = merged_inputs_next(inputs); input.scan || input.frame;
+         input = merged_inputs_next(inputs)) {
         step_and_write_input(tracking, &input, tracks);
         done++;
         if (!are_tracks_on_terminal) {
-            progress_show_by_bytes(&progress, done, inputs_bytes_read(inputs),
-                                   inputs_total_bytes(inputs));
+            progress_show_by_bytes(&progress, done, merged_inputs_bytes_read(inputs),
+                                   merged_inputs_total_bytes(inputs));
         }
     }
     progress_end(&progress);
@@ -176,7 +176,7 @@ static bool step_complete_scans(struct tracking *tracking, struct inputs *inputs
     struct input input = {.scan = NULL};
     bool has_any = false;
 
-    while (!is_stopped && (input = inputs_next(inputs)).scan) {
+    while (!is_stopped && (input = merged_inputs_next(inputs)).scan) {
         step_and_write_input(tracking, &input, tracks);
         if (tracks) {
             tracks_output_flush(tracks);
@@ -194,25 +194,26 @@ static const char *follow_growing_file(struct tracking *tracking, struct inputs 
                                        struct tracks_output *tracks, int64_t quiet_us)
 {
     const struct timespec pause = {.tv_nsec = 100000000};
-    struct scan_reader *reader = inputs_scan_reader(inputs);
+    struct scan_reader *reader = merged_inputs_scan_reader(inputs);
     uint64_t position = 0;
     int64_t since_us = clock_us();
     const char *why = NULL;
 
     while (!is_stopped) {
-        (void)clutter_file_save_if_due(&tracking->clutter,
-                                       &tracking->pipeline.tracker->clutter_map);
-        why = scan_reader_why_ended(reader); /* rows added before the file ended are still read */
+        (void)clutter_map_file_save_if_due(&tracking->clutter,
+                                           &tracking->pipeline.tracker->clutter_map);
+        why = plot_scan_reader_why_ended(
+            reader); /* rows added before the file ended are still read */
         if (step_complete_scans(tracking, inputs, tracks) ||
-            position != inputs_bytes_read(inputs) || scan_reader_is_mid_row(reader)) {
+            position != merged_inputs_bytes_read(inputs) || plot_scan_reader_is_mid_row(reader)) {
             since_us = clock_us();
-            position = inputs_bytes_read(inputs);
+            position = merged_inputs_bytes_read(inputs);
         }
-        if (why || !scan_reader_waits_for_rows(reader)) {
+        if (why || !plot_scan_reader_waits_for_rows(reader)) {
             break;
         }
         if (clock_us() - since_us >= quiet_us) {
-            scan_reader_complete_scans(reader);
+            plot_scan_reader_complete_scans(reader);
         }
         nanosleep(&pause, NULL);
     }
@@ -246,8 +247,8 @@ static const char *follow_input_to_end(struct tracking *tracking, struct inputs 
         tracks_output_flush(tracks);
     }
     why = follow_growing_file(tracking, inputs, tracks, follow_quiet_us(parameters));
-    scan_reader_end_reading(inputs_scan_reader(inputs));
-    while ((input = inputs_next(inputs)).scan) {
+    plot_scan_reader_end_reading(merged_inputs_scan_reader(inputs));
+    while ((input = merged_inputs_next(inputs)).scan) {
         step_and_write_input(tracking, &input, tracks);
     }
     return why;
@@ -255,7 +256,8 @@ static const char *follow_input_to_end(struct tracking *tracking, struct inputs 
 
 /* ---- What it comes to ---- */
 
-static double mean_step_us(const struct tracking *tracking, const struct inputs_counts *counts)
+static double mean_step_us(const struct tracking *tracking,
+                           const struct merged_inputs_counts *counts)
 {
     return counts->steps ? (double)tracking->sum_us / (double)counts->steps : 0;
 }
@@ -272,7 +274,8 @@ static const char *advice_on_late_scans(const struct parameters *parameters, uin
                : "";
 }
 
-static void print_summary(const struct tracking *tracking, const struct inputs_counts *counts,
+static void print_summary(const struct tracking *tracking,
+                          const struct merged_inputs_counts *counts,
                           const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
@@ -385,10 +388,10 @@ static cJSON *origin_json(const struct parameters *parameters)
 static size_t state_memory_bytes(const struct tracking *tracking, const struct inputs *inputs)
 {
     return sizeof *tracking->pipeline.tracker +
-           (inputs_have_plots(inputs)
+           (merged_inputs_have_plots(inputs)
                 ? tracking->pipeline.num_initiators * sizeof *tracking->pipeline.initiator
                 : 0) +
-           (inputs_have_bearings(inputs) ? sizeof *tracking->pipeline.passive : 0);
+           (merged_inputs_have_bearings(inputs) ? sizeof *tracking->pipeline.passive : 0);
 }
 
 /* Number of known echoes in the clutter map. */
@@ -404,7 +407,8 @@ static double count_known_echoes(const struct rho_clutter_map *map)
 }
 
 static void print_run_json(const struct tracking *tracking, const struct inputs *inputs,
-                           const struct inputs_counts *counts, const struct parameters *parameters)
+                           const struct merged_inputs_counts *counts,
+                           const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
     cJSON *object = cJSON_CreateObject();
@@ -443,13 +447,13 @@ static void print_run_json(const struct tracking *tracking, const struct inputs 
 static void open_pipeline(struct tracking *tracking, const struct inputs *inputs,
                           struct parameters *parameters)
 {
-    if (!inputs_have_plots(inputs)) {
+    if (!merged_inputs_have_plots(inputs)) {
         method_suggest_parameters(METHOD_PASSIVE, parameters);
     }
     pipeline_open(&tracking->pipeline, parameters);
-    if (inputs_have_bearings(inputs)) {
+    if (merged_inputs_have_bearings(inputs)) {
         size_t count;
-        const struct frame_sensor *sensors = inputs_passive_sensors(inputs, &count);
+        const struct frame_sensor *sensors = merged_inputs_passive_sensors(inputs, &count);
 
         parameters->passive_apart_m = bearing_sensors_max_distance_m(sensors, count);
         pipeline_open_passive(&tracking->pipeline, parameters);
@@ -462,22 +466,22 @@ static void open_pipeline(struct tracking *tracking, const struct inputs *inputs
 static void check_clutter_map_is_separate(const struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments; i++) {
-        clutter_file_refuse_same_file(line->clutter_map, line->arguments[i], "input");
+        clutter_map_file_refuse_same_file(line->clutter_map, line->arguments[i], "input");
     }
-    clutter_file_refuse_same_file(line->clutter_map, line->output, "output");
+    clutter_map_file_refuse_same_file(line->clutter_map, line->output, "output");
 }
 
 static struct inputs *open_inputs(const struct command_line *line)
 {
     if (!line->follow) {
-        return inputs_open(line->arguments, line->num_arguments, &line->parameters,
-                           line->keep_going);
+        return merged_inputs_open(line->arguments, line->num_arguments, &line->parameters,
+                                  line->keep_going);
     }
     if (line->num_arguments > 1) {
         fail(EXIT_USAGE, "--follow takes one input");
     }
     refuse_output_that_is_an_input(line); /* --follow writes the output in place */
-    return inputs_follow(line->arguments[0], &line->parameters, line->keep_going);
+    return merged_inputs_follow(line->arguments[0], &line->parameters, line->keep_going);
 }
 
 static struct tracks_output *open_tracks_output(const struct command_line *line)
@@ -490,20 +494,20 @@ static struct tracks_output *open_tracks_output(const struct command_line *line)
                : tracks_output_open(line->output, &line->parameters, line->covariance);
 }
 
-static struct zones_output open_zone_events_output(const struct command_line *line)
+static struct zone_events_output open_zone_events_output(const struct command_line *line)
 {
     if (line->zone_events && line->parameters.num_zones == 0) {
         fail(EXIT_USAGE, "--zone-events: no zone is set; a --config file has them as [zone N] with "
                          "corners_m = x y, x y, x y");
     }
-    return zones_output_open(line->zone_events);
+    return zone_events_output_open(line->zone_events);
 }
 
 static void print_summary_zones_and_json(const struct tracking *tracking,
                                          const struct inputs *inputs,
                                          const struct command_line *line)
 {
-    struct inputs_counts counts = inputs_counts(inputs);
+    struct merged_inputs_counts counts = merged_inputs_counts(inputs);
 
     print_summary(tracking, &counts, &line->parameters);
     if (tracking->pipeline.tracker->counters.tracks_confirmed == 0 && counts.frames == 0) {
@@ -525,18 +529,20 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
 static void suggest_next_command(const struct command_line *line)
 {
     const char *plots = line->arguments[0];
-    char *truth = next_command_find_file_beside(plots, "truth.csv");
-    char *config = next_command_find_file_beside(plots, "scenario.ini");
+    char *truth = suggested_next_command_find_file_beside(plots, "truth.csv");
+    char *config = suggested_next_command_find_file_beside(plots, "scenario.ini");
 
     if (config && line->num_settings == 0 && isatty(STDERR_FILENO)) {
         fprintf(stderr, "rhotrack: %s stands beside the plots and was not used (--config)\n",
                 config);
     }
     if (line->output && path_ends_with(line->output, ".csv") && truth &&
-        next_command_can_read_file(line, truth)) {
-        next_command_suggest(line, (const char *[]){"evaluate", truth, line->output, NULL});
+        suggested_next_command_can_read_file(line, truth)) {
+        suggested_next_command_suggest_on_terminal(
+            line, (const char *[]){"evaluate", truth, line->output, NULL});
     } else if (line->output && path_ends_with(line->output, ".csv") && strcmp(plots, "-") != 0) {
-        next_command_suggest_page(line, line->arguments, line->num_arguments, line->output);
+        suggested_next_command_suggest_page(line, line->arguments, line->num_arguments,
+                                            line->output);
     }
     free(truth);
     free(config);
@@ -559,8 +565,8 @@ int command_track(struct command_line *line)
     tracking.show = pipeline_show_open(line->show, &line->parameters);
     inputs = open_inputs(line);
     open_pipeline(&tracking, inputs, &line->parameters);
-    tracking.clutter = clutter_file_open(line->clutter_map, &line->parameters,
-                                         &tracking.pipeline.tracker->clutter_map);
+    tracking.clutter = clutter_map_file_open(line->clutter_map, &line->parameters,
+                                             &tracking.pipeline.tracker->clutter_map);
     tracks = open_tracks_output(line);
     if (tracks && line->parameters.value[PARAMETER_BODY_MAX_M] > 0.0) {
         tracks_output_add_body_columns(tracks, tracking.pipeline.tracker);
@@ -573,11 +579,11 @@ int command_track(struct command_line *line)
                                   !line->output && isatty(STDOUT_FILENO));
     }
     tracks_output_close(tracks);
-    zones_output_close(&tracking.zones);
-    is_saved = clutter_file_save(&tracking.clutter, &tracking.pipeline.tracker->clutter_map);
+    zone_events_output_close(&tracking.zones);
+    is_saved = clutter_map_file_save(&tracking.clutter, &tracking.pipeline.tracker->clutter_map);
     print_summary_zones_and_json(&tracking, inputs, line);
     has_tracks = tracking.pipeline.tracker->counters.tracks_confirmed > 0;
-    inputs_close(inputs);
+    merged_inputs_close(inputs);
     pipeline_show_close(tracking.show);
     pipeline_free(&tracking.pipeline);
     if (why) {

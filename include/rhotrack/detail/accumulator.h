@@ -194,13 +194,13 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_find_peaks(
  * Adds a peak to the list, unless it has fewer votes than min_votes; a full list drops its worst
  * peak. Cost: the logarithm of max_peaks. Stack: 120 bytes.
  */
-void rho_peak_list_add(struct rho_peak_list *list, struct rho_accumulator_peak peak);
+void rho_peak_list_offer(struct rho_peak_list *list, struct rho_accumulator_peak peak);
 
 /*
  * Sorts the peaks, best first, and drops those with less than min_share of the final votes_max.
  * Cost: n log n.
  */
-void rho_peak_list_finish(struct rho_peak_list *list);
+void rho_peak_list_drop_weak_and_sort(struct rho_peak_list *list);
 
 /*
  * Suppresses peaks near a better one. The list is sorted, best first: each peak that is kept drops

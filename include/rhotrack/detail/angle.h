@@ -54,7 +54,7 @@ unsigned rho_angle_continued_ends(float from_rad, float to_rad, float next_from_
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad);
 
 /* True where both ends of a sector are finite and within -2 pi .. 2 pi. */
-int rho_angle_is_sector(float from_rad, float to_rad);
+int rho_angle_are_sector_ends_valid(float from_rad, float to_rad);
 
 /*
  * The line through (x_m, y_m) along (dx, dy), which is not (0, 0) but finite (else NaN); theta =
@@ -68,7 +68,7 @@ struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy);
  * Index of the theta cell, 0 .. num_cells - 1, for num_cells equal cells over [0, pi). theta
  * outside: the nearest cell; NaN, or num_cells < 1: 0.
  */
-int32_t rho_angle_theta_cell(float theta_rad, int32_t num_cells);
+int32_t rho_angle_clamped_theta_cell(float theta_rad, int32_t num_cells);
 
 #ifdef __cplusplus
 }

@@ -68,8 +68,9 @@ RHO_MUST_CHECK enum rho_status rho_assignment_begin(struct rho_assignment *assig
  * pairs_dropped counts it. Errors: NULL, STATE, VALUE (row, column, cost magnitude, a column that
  * the row holds). Cost: RHO_MAX_GATE_PLOTS.
  */
-RHO_MUST_CHECK enum rho_status rho_assignment_add(struct rho_assignment *assignment, unsigned row,
-                                                  unsigned column, int32_t cost);
+RHO_MUST_CHECK enum rho_status rho_assignment_offer_pair(struct rho_assignment *assignment,
+                                                         unsigned row, unsigned column,
+                                                         int32_t cost);
 
 /*
  * Finds the assignment of least total cost, which rho_assignment_column then returns. An object

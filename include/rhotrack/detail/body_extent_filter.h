@@ -37,8 +37,8 @@ void rho_body_filter_init(struct rho_body_filter *body, uint32_t track_id, float
  * Sets the heading by a velocity (x, y) with its covariance xx, yx, yy, where the speed is three
  * times its sigma across the velocity. Constant cost.
  */
-void rho_body_set_heading(struct rho_body_filter *body, const float velocity_mps[2],
-                          const float covariance[3]);
+void rho_body_set_heading_if_moving(struct rho_body_filter *body, const float velocity_mps[2],
+                                    const float covariance[3]);
 
 /*
  * Rotates a covariance of x and y into the body's axes: along, cross term, across. Constant cost.

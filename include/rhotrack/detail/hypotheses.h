@@ -171,14 +171,15 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, 
  * Sets the motion model, except for calm_s, whose learned value is kept. Errors: NULL, CONFIG;
  * nothing is changed. Cost: one rho_imm_prepare_step. Stack: 300 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
-                                                        const struct rho_imm_model *model);
+RHO_MUST_CHECK enum rho_status
+rho_hypotheses_set_model_keeping_calm(struct rho_hypotheses *pool,
+                                      const struct rho_imm_model *model);
 
 /*
  * Sets the model's calm_s, > 0, the mean time between manoeuvres of calm targets, if the model has
  * such targets. Cost: one rho_imm_prepare_step where calm_s changes. Stack: 160 bytes.
  */
-void rho_hypotheses_set_calm_interval(struct rho_hypotheses *pool, float calm_s);
+void rho_hypotheses_set_mean_manoeuvre_interval(struct rho_hypotheses *pool, float calm_s);
 
 /*
  * Opens a slot with one hypothesis that starts from an estimate. Errors: NULL, STATE, CAPACITY (all

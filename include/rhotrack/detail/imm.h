@@ -217,8 +217,8 @@ struct rho_imm_gate {
  * Fills *gate for plots of position noise variance_m2 on each axis. Returns 0 if the axes are
  * coupled, or a density is not finite. Cost: 250 instructions.
  */
-int rho_imm_prepare_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, float variance_m2,
-                         int has_z);
+int rho_imm_prepare_gate_if_uncoupled(struct rho_imm_gate *gate, const struct rho_imm *imm,
+                                      float variance_m2, int has_z);
 
 /*
  * Scores a position of the gate's noise: returns 1 and fills ln of its density and the manoeuvring

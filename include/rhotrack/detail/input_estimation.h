@@ -22,7 +22,7 @@
  *
  *     rho_input_predict(&input, &config, dt_s);
  *     rho_input_update_position(&input, &config, &measurement);   further measurements follow
- *     rho_input_decide_presence(&input, &config);                 once per scan with a plot
+ *     rho_input_test_and_end_inputs(&input, &config);                 once per scan with a plot
  *     rho_input_estimate(&input, &kalman);                        at any time
  *
  * Source: the input estimation of "a novel tracking algorithm by integrating the Kalman filter,
@@ -170,7 +170,7 @@ RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
  * others conditioned on its absence. Cost: about 110 instructions, 300 where three inputs end, 1500
  * where they are coupled. Stack: 140 bytes.
  */
-void rho_input_decide_presence(struct rho_input *input, const struct rho_input_config *config);
+void rho_input_test_and_end_inputs(struct rho_input *input, const struct rho_input_config *config);
 
 /*
  * Fills *estimate with the corrected estimate, the paper's (14) to (18). Cost: about 260

@@ -73,7 +73,7 @@ struct rho_sigma_factors {
 struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *sensor);
 
 /* The larger one of a sensor's two sigma factors, at least 1. Constant cost. */
-float rho_measurement_largest_sigma_factor(const struct rho_sensor *sensor);
+float rho_measurement_sigma_factor_at_least_one(const struct rho_sensor *sensor);
 
 /*
  * Fills *out from a valid plot of a scan that measures `measures`, seen from `sensor` (NULL: from
@@ -89,7 +89,7 @@ void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
  * True where a sensor's place, biases and span of range rates are finite and within the limits of
  * types.h. Constant cost.
  */
-int rho_measurement_is_valid_sensor(const struct rho_sensor *sensor);
+int rho_measurement_are_place_biases_span_valid(const struct rho_sensor *sensor);
 
 /*
  * Covariance of a plot's noise in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant

@@ -227,10 +227,9 @@ RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
  * `plot` is -1 where the best hypothesis has no plot, or its plot is refused.
  * Errors: NULL, STATE (another filter). Stack: 880 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_track_commit_scan(struct rho_track *track,
-                                                     const struct rho_hypotheses_scan *scan,
-                                                     int32_t sensor_id,
-                                                     const struct rho_track_model *model);
+RHO_MUST_CHECK enum rho_status
+rho_track_commit_hypotheses_to_scan(struct rho_track *track, const struct rho_hypotheses_scan *scan,
+                                    int32_t sensor_id, const struct rho_track_model *model);
 
 /*
  * At the end of a step: merges the hypotheses into `kalman`, acceleration and manoeuvre
@@ -241,7 +240,7 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
                                const struct rho_track_model *model);
 
 /* The prediction for a gate, widened as an input may have begun since. Stack: 140 bytes. */
-void rho_track_expect_for_gate(const struct rho_track *track, struct rho_kalman *expected);
+void rho_track_estimate_for_gate(const struct rho_track *track, struct rho_kalman *expected);
 
 /* A bearing with its time, sensor and row. */
 struct rho_track_bearing {

@@ -37,7 +37,7 @@ struct rho_window_plot {
     float range_rate_mps;
     /*
      * codes of the sigmas along, across and above the line of sight, and of the range rate:
-     * rho_window_sigma() decodes them
+     * rho_window_decode_sigma() decodes them
      */
     uint16_t sigma_range, sigma_cross, sigma_up, sigma_range_rate;
 };
@@ -177,8 +177,8 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us);
  * within RHO_LIMIT_OFFSET_US of their time. The scan then measures what all its sectors with plots
  * measure. Constant cost.
  */
-int rho_window_continues(const struct rho_window *window, const struct rho_scan *scan,
-                         const struct rho_sensor *sensor);
+int rho_window_is_continued_by_scan(const struct rho_window *window, const struct rho_scan *scan,
+                                    const struct rho_sensor *sensor);
 
 /* The status that rho_window_push would return; nothing is changed. Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *window,
@@ -213,9 +213,9 @@ struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m
  * Index of the plot nearest to the query's place, or -1 where none is in the gate. Ties go to the
  * lower index. Cost: bins under the gate's square, and their plots. Stack: 104 bytes.
  */
-int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
-                                 const struct rho_window_query *query,
-                                 struct rho_window_work *work);
+int rho_window_nearest_plot_isotropic(const struct rho_window_scan *scan,
+                                      const struct rho_window_query *query,
+                                      struct rho_window_work *work);
 
 /*
  * Index of the plot with the least NIS about a place with its own covariance: position plus height
@@ -223,9 +223,9 @@ int rho_window_nearest_isotropic(const struct rho_window_scan *scan,
  * gate. Correlations of height and range rate with the position are neglected. Cost: bins under the
  * gate's square, 60 instructions a plot in them. Stack: 272 bytes.
  */
-int rho_window_nearest_anisotropic(const struct rho_window_scan *scan,
-                                   const struct rho_window_place *place,
-                                   struct rho_window_work *work);
+int rho_window_nearest_plot_anisotropic(const struct rho_window_scan *scan,
+                                        const struct rho_window_place *place,
+                                        struct rho_window_work *work);
 
 /*
  * Covariance of a held plot's place, by its sigmas and its line of sight. Cost: a division, with z
@@ -267,14 +267,14 @@ float rho_window_range_rate_nis(const struct rho_window_scan *scan,
 struct rho_plot rho_window_unpack_plot(const struct rho_window_scan *scan, unsigned index);
 
 /* The sensor of a held scan, or NULL where it has no description. */
-const struct rho_sensor *rho_window_sensor(const struct rho_window_scan *scan);
+const struct rho_sensor *rho_window_sensor_if_described(const struct rho_window_scan *scan);
 
 /*
  * Decodes a standard deviation: 5 bits of exponent and 11 of mantissa, 2^-12 relative error from
  * RHO_LIMIT_SIGMA_MIN to RHO_LIMIT_SIGMA_MAX; numbers of 12 significant bits are exact. Constant
  * cost.
  */
-float rho_window_sigma(uint16_t code);
+float rho_window_decode_sigma(uint16_t code);
 
 /* The larger of a held plot's sigmas along and across. Constant cost. */
 float rho_window_larger_sigma_m(const struct rho_window_plot *plot);

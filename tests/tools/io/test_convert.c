@@ -18,7 +18,7 @@
 #include "io/log/lcm_log.h"
 #include "io/log/message_source.h"
 #include "io/rows/rows_from_messages.h"
-#include "io/rows/rows_write.h"
+#include "io/rows/rows_to_csv.h"
 #include "rhotrack/message.h"
 
 #define MAX_MESSAGES 400

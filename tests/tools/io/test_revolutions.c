@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/scans/scan_reader.h"
+#include "io/scans/plot_scan_reader.h"
 #include "io/turns/revolutions.h"
 
 #define HEADER                                                                                     \
@@ -49,9 +49,9 @@ static struct revolutions read_text(const char *text, size_t max)
     assert_int_equal(write(file, text, strlen(text)), (long)strlen(text));
     close(file);
     parameters_set_defaults(&parameters);
-    reader = scan_reader_open(paths, 1, &parameters, false);
+    reader = plot_scan_reader_open(paths, 1, &parameters, false);
     revolutions = revolutions_read_last(reader, max);
-    scan_reader_close(reader);
+    plot_scan_reader_close(reader);
     unlink(path);
     return revolutions;
 }

@@ -71,7 +71,7 @@ struct telling {
 static void add(struct register_data *data, const struct scene_run *run,
                 const struct scene_scan *seen, const struct telling *telling)
 {
-    struct rho_sensor sensor = scene_known_sensor(&run->scene->sensors[seen->sensor]);
+    struct rho_sensor sensor = scene_sensor_without_biases(&run->scene->sensors[seen->sensor]);
     struct rho_scan scan;
 
     sensor.range_bias_m = telling->biases.range_bias_m;
@@ -285,7 +285,7 @@ static void test_refuses_what_it_cannot_use(void **state)
     struct parameters parameters;
     parameters_set_defaults(&parameters);
     struct register_data *data = register_start(&parameters);
-    struct rho_plot plot = lab_plot(1000.0, 2000.0, 10.0);
+    struct rho_plot plot = lab_isotropic_plot(1000.0, 2000.0, 10.0);
     struct rho_scan scan = {.sensor_id = 5, .num_plots = 1, .plots = &plot};
     struct rho_sensor sensor = {.sensor_id = 5, .pd = 0.9f, .range_max_m = 1e5f};
 

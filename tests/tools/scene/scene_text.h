@@ -20,7 +20,7 @@
 #include <string.h>
 
 #include "base/portable_math.h"
-#include "scene/scene_mover.h"
+#include "scene/scene_objects.h"
 #include "scene/scene_observe.h"
 
 /*

@@ -240,7 +240,7 @@ static void a_clock_that_is_off(void **state)
     for (size_t i = 0; i < run->num_scans; i++) {
         const struct scene_scan *seen = &run->scans[i];
         const struct scene_sensor *radar = &scene->sensors[seen->sensor];
-        struct rho_sensor known = scene_known_sensor(radar);
+        struct rho_sensor known = scene_sensor_without_biases(radar);
         struct rho_scan scan = scene_scan_for_tracker(run, seen, &known, plots);
 
         assert_near((double)scan.time_us * 1e-6, seen->end_s - (seen->sensor == 1 ? 0.5 : 0.0),

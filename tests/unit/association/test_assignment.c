@@ -37,7 +37,7 @@ static void begin(unsigned num_rows, unsigned num_columns)
 
 static void add(unsigned row, unsigned column, int32_t cost)
 {
-    assert_int_equal(rho_assignment_add(&assignment, row, column, cost), RHO_OK);
+    assert_int_equal(rho_assignment_offer_pair(&assignment, row, column, cost), RHO_OK);
 }
 
 static int answer(unsigned row)
@@ -356,7 +356,7 @@ static void pose_full_problem(void)
             const int32_t cost = -(int32_t)(1 + next_random(9000));
 
             /* Twice the same column is refused: as good as one pair fewer. */
-            const enum rho_status status = rho_assignment_add(&assignment, i, near, cost);
+            const enum rho_status status = rho_assignment_offer_pair(&assignment, i, near, cost);
             assert_true(status == RHO_OK || status == RHO_ERROR_VALUE);
         }
     }
@@ -434,7 +434,7 @@ static void an_object_without_init_is_refused(void **state)
         memset(&assignment, filling, sizeof assignment);
         before = assignment;
         assert_int_equal(rho_assignment_begin(&assignment, 1, 1), RHO_ERROR_STATE);
-        assert_int_equal(rho_assignment_add(&assignment, 0, 0, -1), RHO_ERROR_STATE);
+        assert_int_equal(rho_assignment_offer_pair(&assignment, 0, 0, -1), RHO_ERROR_STATE);
         rho_assignment_solve(&assignment);
         assert_int_equal(answer(0), RHO_ASSIGNMENT_NONE);
         assert_memory_equal(&assignment, &before, sizeof before);
@@ -445,7 +445,7 @@ static void null_is_refused(void **state)
 {
     (void)state;
     assert_int_equal(rho_assignment_begin(NULL, 1, 1), RHO_ERROR_NULL);
-    assert_int_equal(rho_assignment_add(NULL, 0, 0, -1), RHO_ERROR_NULL);
+    assert_int_equal(rho_assignment_offer_pair(NULL, 0, 0, -1), RHO_ERROR_NULL);
     rho_assignment_solve(NULL);
     assert_int_equal(rho_assignment_column(NULL, 0), RHO_ASSIGNMENT_NONE);
 }
@@ -471,17 +471,18 @@ static void refused_pairs_change_nothing(void **state)
     begin(2, 3);
     add(0, 0, -5);
     before = assignment;
-    assert_int_equal(rho_assignment_add(&assignment, 2, 0, -1), RHO_ERROR_VALUE);
-    assert_int_equal(rho_assignment_add(&assignment, UINT32_MAX, 0, -1), RHO_ERROR_VALUE);
-    assert_int_equal(rho_assignment_add(&assignment, 0, 3, -1), RHO_ERROR_VALUE);
-    assert_int_equal(rho_assignment_add(&assignment, 0, 65536, -1), RHO_ERROR_VALUE);
-    assert_int_equal(rho_assignment_add(&assignment, 0, UINT32_MAX, -1), RHO_ERROR_VALUE);
-    assert_int_equal(rho_assignment_add(&assignment, 1, 1, too_large), RHO_ERROR_VALUE);
-    assert_int_equal(rho_assignment_add(&assignment, 1, 1, -too_large), RHO_ERROR_VALUE);
-    assert_int_equal(rho_assignment_add(&assignment, 1, 1, INT32_MIN), RHO_ERROR_VALUE);
-    assert_int_equal(rho_assignment_add(&assignment, 1, 1, INT32_MAX), RHO_ERROR_VALUE);
-    assert_int_equal(rho_assignment_add(&assignment, 0, 0, -9), RHO_ERROR_VALUE); /* has it */
-    assert_int_equal(rho_assignment_add(&assignment, 1, 1, 0), RHO_OK);           /* ignored */
+    assert_int_equal(rho_assignment_offer_pair(&assignment, 2, 0, -1), RHO_ERROR_VALUE);
+    assert_int_equal(rho_assignment_offer_pair(&assignment, UINT32_MAX, 0, -1), RHO_ERROR_VALUE);
+    assert_int_equal(rho_assignment_offer_pair(&assignment, 0, 3, -1), RHO_ERROR_VALUE);
+    assert_int_equal(rho_assignment_offer_pair(&assignment, 0, 65536, -1), RHO_ERROR_VALUE);
+    assert_int_equal(rho_assignment_offer_pair(&assignment, 0, UINT32_MAX, -1), RHO_ERROR_VALUE);
+    assert_int_equal(rho_assignment_offer_pair(&assignment, 1, 1, too_large), RHO_ERROR_VALUE);
+    assert_int_equal(rho_assignment_offer_pair(&assignment, 1, 1, -too_large), RHO_ERROR_VALUE);
+    assert_int_equal(rho_assignment_offer_pair(&assignment, 1, 1, INT32_MIN), RHO_ERROR_VALUE);
+    assert_int_equal(rho_assignment_offer_pair(&assignment, 1, 1, INT32_MAX), RHO_ERROR_VALUE);
+    assert_int_equal(rho_assignment_offer_pair(&assignment, 0, 0, -9),
+                     RHO_ERROR_VALUE);                                         /* has it */
+    assert_int_equal(rho_assignment_offer_pair(&assignment, 1, 1, 0), RHO_OK); /* ignored */
     assert_memory_equal(&assignment, &before, sizeof before);
     add(1, 1, -RHO_ASSIGNMENT_COST_MAX);
     rho_assignment_solve(&assignment);

@@ -778,7 +778,7 @@ static void calm_targets_get_another_mean_time(void **state)
     begin();
     const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
     predict(&pool, slot, 2.0);
-    rho_hypotheses_set_calm_interval(&pool, 90.0f);
+    rho_hypotheses_set_mean_manoeuvre_interval(&pool, 90.0f);
     model.calm_s = 90.0f;
     rho_imm_prepare_step(&expected, &model, 2.0f);
     assert_memory_equal(&pool.model, &model, sizeof model);
@@ -786,7 +786,7 @@ static void calm_targets_get_another_mean_time(void **state)
 
     model.calm_s = 0.0f;
     assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
-    rho_hypotheses_set_calm_interval(&pool, 90.0f);
+    rho_hypotheses_set_mean_manoeuvre_interval(&pool, 90.0f);
     assert_memory_equal(&pool.model, &model, sizeof model);
 }
 
@@ -801,9 +801,9 @@ static void a_pool_gets_another_model(void **state)
     begin();
     const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
     predict(&pool, slot, 2.0);
-    rho_hypotheses_set_calm_interval(&pool, 90.0f);
+    rho_hypotheses_set_mean_manoeuvre_interval(&pool, 90.0f);
     model.drive_density *= 9.0f;
-    assert_int_equal(rho_hypotheses_set_model(&pool, &model), RHO_OK);
+    assert_int_equal(rho_hypotheses_set_model_keeping_calm(&pool, &model), RHO_OK);
     model.calm_s = 90.0f;
     rho_imm_prepare_step(&expected, &model, 2.0f);
     assert_memory_equal(&pool.model, &model, sizeof model);
@@ -812,9 +812,9 @@ static void a_pool_gets_another_model(void **state)
 
     memcpy(&before, &pool, sizeof pool);
     model.memory_s = NAN;
-    assert_int_equal(rho_hypotheses_set_model(&pool, &model), RHO_ERROR_CONFIG);
-    assert_int_equal(rho_hypotheses_set_model(&pool, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_hypotheses_set_model(NULL, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_set_model_keeping_calm(&pool, &model), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_hypotheses_set_model_keeping_calm(&pool, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_set_model_keeping_calm(NULL, &model), RHO_ERROR_NULL);
     assert_memory_equal(&pool, &before, sizeof pool);
 }
 

@@ -291,7 +291,7 @@ static void cells_divide_the_half_turn(void **state)
         for (int32_t k = 0; k < n; ++k) {
             const float middle = (float)((k + 0.5) * HALF_TURN / n);
 
-            assert_int_equal(rho_angle_theta_cell(middle, n), k);
+            assert_int_equal(rho_angle_clamped_theta_cell(middle, n), k);
         }
     }
 }
@@ -304,21 +304,21 @@ static void cells_outside_are_the_nearest(void **state)
     for (size_t i = 0; i < NUM(counts); ++i) {
         const int32_t n = counts[i];
 
-        assert_int_equal(rho_angle_theta_cell(0.0f, n), 0);
-        assert_int_equal(rho_angle_theta_cell(-1e-6f, n), 0);
-        assert_int_equal(rho_angle_theta_cell(-FLT_MAX, n), 0);
-        assert_int_equal(rho_angle_theta_cell(-INFINITY, n), 0);
-        assert_int_equal(rho_angle_theta_cell(NAN, n), 0);
-        assert_int_equal(rho_angle_theta_cell(RHO_PI, n), n - 1);
-        assert_int_equal(rho_angle_theta_cell(4.0f, n), n - 1);
-        assert_int_equal(rho_angle_theta_cell(FLT_MAX, n), n - 1);
-        assert_int_equal(rho_angle_theta_cell(INFINITY, n), n - 1);
-        assert_in_range(rho_angle_theta_cell(nextafterf(RHO_PI, 0.0f), n), 0, n - 1);
+        assert_int_equal(rho_angle_clamped_theta_cell(0.0f, n), 0);
+        assert_int_equal(rho_angle_clamped_theta_cell(-1e-6f, n), 0);
+        assert_int_equal(rho_angle_clamped_theta_cell(-FLT_MAX, n), 0);
+        assert_int_equal(rho_angle_clamped_theta_cell(-INFINITY, n), 0);
+        assert_int_equal(rho_angle_clamped_theta_cell(NAN, n), 0);
+        assert_int_equal(rho_angle_clamped_theta_cell(RHO_PI, n), n - 1);
+        assert_int_equal(rho_angle_clamped_theta_cell(4.0f, n), n - 1);
+        assert_int_equal(rho_angle_clamped_theta_cell(FLT_MAX, n), n - 1);
+        assert_int_equal(rho_angle_clamped_theta_cell(INFINITY, n), n - 1);
+        assert_in_range(rho_angle_clamped_theta_cell(nextafterf(RHO_PI, 0.0f), n), 0, n - 1);
     }
-    assert_int_equal(rho_angle_theta_cell(nextafterf(RHO_PI, 0.0f), 180), 179);
-    assert_int_equal(rho_angle_theta_cell(1.0f, 0), 0);
-    assert_int_equal(rho_angle_theta_cell(1.0f, -5), 0);
-    assert_int_equal(rho_angle_theta_cell(1.0f, INT32_MIN), 0);
+    assert_int_equal(rho_angle_clamped_theta_cell(nextafterf(RHO_PI, 0.0f), 180), 179);
+    assert_int_equal(rho_angle_clamped_theta_cell(1.0f, 0), 0);
+    assert_int_equal(rho_angle_clamped_theta_cell(1.0f, -5), 0);
+    assert_int_equal(rho_angle_clamped_theta_cell(1.0f, INT32_MIN), 0);
 }
 
 static void ends_of_sectors_are_within_a_turn_either_way(void **state)
@@ -326,13 +326,13 @@ static void ends_of_sectors_are_within_a_turn_either_way(void **state)
     const float most_rad = RHO_TWO_PI, beyond_rad = nextafterf(RHO_TWO_PI, INFINITY);
 
     (void)state;
-    assert_true(rho_angle_is_sector(-most_rad, most_rad));
-    assert_true(rho_angle_is_sector(1.0f, 1.0f));
-    assert_false(rho_angle_is_sector(beyond_rad, 0.0f));
-    assert_false(rho_angle_is_sector(0.0f, beyond_rad));
-    assert_false(rho_angle_is_sector(-beyond_rad, 0.0f));
-    assert_false(rho_angle_is_sector(0.0f, NAN));
-    assert_false(rho_angle_is_sector(INFINITY, 0.0f));
+    assert_true(rho_angle_are_sector_ends_valid(-most_rad, most_rad));
+    assert_true(rho_angle_are_sector_ends_valid(1.0f, 1.0f));
+    assert_false(rho_angle_are_sector_ends_valid(beyond_rad, 0.0f));
+    assert_false(rho_angle_are_sector_ends_valid(0.0f, beyond_rad));
+    assert_false(rho_angle_are_sector_ends_valid(-beyond_rad, 0.0f));
+    assert_false(rho_angle_are_sector_ends_valid(0.0f, NAN));
+    assert_false(rho_angle_are_sector_ends_valid(INFINITY, 0.0f));
 }
 
 int main(void)

@@ -36,8 +36,8 @@ static struct rho_body_look look_of(unsigned n, double sigma_m)
 
 static void moves(struct rho_body_filter *body, float vx_mps, float vy_mps, float variance)
 {
-    rho_body_set_heading(body, (const float[2]){vx_mps, vy_mps},
-                         (const float[3]){variance, 0, variance});
+    rho_body_set_heading_if_moving(body, (const float[2]){vx_mps, vy_mps},
+                                   (const float[3]){variance, 0, variance});
 }
 
 static void sides_without_noise(void **state)

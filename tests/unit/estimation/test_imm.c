@@ -807,7 +807,8 @@ static void a_gate_weighs_as_one_plot_does(void **state)
             imm.steady.covariance[i % 21] *= i < 21 ? less : 1.0f;
         }
         assert_int_equal(rho_imm_predict(&imm, &step), RHO_OK);
-        assert_true(rho_imm_prepare_gate(&gate, &imm, sigma_m * sigma_m, measures != 0));
+        assert_true(
+            rho_imm_prepare_gate_if_uncoupled(&gate, &imm, sigma_m * sigma_m, measures != 0));
         for (int k = 0; k < 5; ++k) {
             const double reach = 4.0 * k * sqrt(imm.covariance[0] + sigma_m * sigma_m) / 3.0;
             const struct rho_plot plot = {.x_m = imm.state[0] + (float)(reach * normal()),
@@ -845,7 +846,8 @@ static void a_gate_weighs_as_one_plot_does(void **state)
             num_in_gate++;
         }
         imm.is_coupled = 1;
-        assert_false(rho_imm_prepare_gate(&gate, &imm, sigma_m * sigma_m, measures != 0));
+        assert_false(
+            rho_imm_prepare_gate_if_uncoupled(&gate, &imm, sigma_m * sigma_m, measures != 0));
     }
     assert_true(num_in_gate > 3000);
 }

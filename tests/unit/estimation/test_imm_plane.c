@@ -11,7 +11,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "../../src/estimation/imm_axes.h"
+#include "../../src/estimation/imm_axis_access.h"
 #include "../../src/estimation/imm_plane.h"
 
 static void a_range_rate_needs_a_metre(void **state)

@@ -250,7 +250,7 @@ static int decide_pair(struct pair *pair, const struct scene *scene)
     const double margin = ref_augmented_decide(&pair->augmented, &scene->setting);
     struct rho_kalman estimate;
 
-    rho_input_decide_presence(&pair->input, &pair->config);
+    rho_input_test_and_end_inputs(&pair->input, &pair->config);
     if (margin < TOSS_UP && (int)pair->input.present != pair->augmented.present) {
         return 0;
     }
@@ -378,7 +378,7 @@ static void the_library_is_the_augmented_filter(void **state)
                 const struct look look = look_at(truth, &scene);
                 update_input(&pair, &look);
                 ref_augmented_update(&pair.augmented, &look.reference);
-                rho_input_decide_presence(&pair.input, &pair.config);
+                rho_input_test_and_end_inputs(&pair.input, &pair.config);
                 assert_int_equal(pair.input.present, 7);
                 pair.augmented.present = 7;
                 rho_input_estimate(&pair.input, &estimate);

@@ -48,7 +48,7 @@ static void follow(struct rho_input *input, const struct rho_input_config *confi
         for (int i = 0; i < STATES; ++i) {
             assert_int_equal(rho_input_update(input, config, i, truth[i], 1.0f), RHO_OK);
         }
-        rho_input_decide_presence(input, config);
+        rho_input_test_and_end_inputs(input, config);
     }
 }
 
@@ -200,7 +200,7 @@ static void the_literal_model_is_blind_to_positions(void **state)
                     rho_input_update(&input, &config, axis, 100.0f + 40.0f * (float)(k * k), 1.0f),
                     RHO_OK);
             }
-            rho_input_decide_presence(&input, &config);
+            rho_input_test_and_end_inputs(&input, &config);
             seen |= input.present;
         }
         assert_int_equal(seen, model == RHO_INPUT_PHYSICAL ? 7 : 0);
@@ -260,7 +260,7 @@ static void without_estimation_it_is_a_plain_filter(void **state)
         assert_int_equal(rho_kalman_update(&kalman, k % 6, 50.0f, 30.0f, NULL), RHO_OK);
         assert_int_equal(rho_input_update_range_rate(&input, &config, NULL, 20.0f, 4.0f), RHO_OK);
         assert_int_equal(rho_kalman_update_range_rate(&kalman, NULL, 20.0f, 4.0f), RHO_OK);
-        rho_input_decide_presence(&input, &config);
+        rho_input_test_and_end_inputs(&input, &config);
         rho_input_estimate(&input, &estimate);
         assert_memory_equal(&estimate, &kalman, sizeof kalman);
     }
@@ -333,11 +333,11 @@ static void an_axis_that_opens_later_can_have_an_input(void **state)
         assert_int_equal(rho_input_predict(&input, &config, DT_S), RHO_OK);
         assert_true(input.sensitivity[2][5] == 0.0f && input.bare.covariance[RHO_AT(2, 2)] == 0.0f);
         assert_int_equal(rho_input_update(&input, &config, 0, 100.0f, 1.0f), RHO_OK);
-        rho_input_decide_presence(&input, &config);
+        rho_input_test_and_end_inputs(&input, &config);
     }
     assert_int_equal(rho_input_update_position(&input, &config, &seen), RHO_OK);
     assert_true(rho_kalman_is_axis_open(&input.bare, 2));
-    rho_input_decide_presence(&input, &config);
+    rho_input_test_and_end_inputs(&input, &config);
     follow(&input, &config, 21, 21, 98.0f);
     assert_int_equal(input.present, 4);
 }
@@ -410,8 +410,8 @@ static void null_is_refused(void **state)
                      RHO_ERROR_NULL);
     assert_int_equal(rho_input_update_bearing(&input, NULL, 0.0f, 0.0f, 1.0f, 0.1f),
                      RHO_ERROR_NULL);
-    rho_input_decide_presence(NULL, &config);
-    rho_input_decide_presence(&input, NULL);
+    rho_input_test_and_end_inputs(NULL, &config);
+    rho_input_test_and_end_inputs(&input, NULL);
     rho_input_config_default(NULL);
     assert_memory_equal(&input, &before, sizeof input);
 }
@@ -564,7 +564,7 @@ static enum rho_status hostile_call(struct rho_input *input, const struct rho_in
         return rho_input_update_bearing(input, config, first, second, (float)uniform(-3.0, 3.0),
                                         1e-3f);
     case 8:
-        rho_input_decide_presence(input, config);
+        rho_input_test_and_end_inputs(input, config);
         return RHO_OK;
     default:
         return rho_input_update(input, config, element, first, second);
@@ -621,7 +621,7 @@ static void a_vague_input_with_a_sharp_sensor(void **state)
                                               100.0f * (float)(axis + 1) + 20.0f * t_s * t_s, 1.0f),
                              RHO_OK);
         }
-        rho_input_decide_presence(&input, &config);
+        rho_input_test_and_end_inputs(&input, &config);
         assert_sound(&input);
         assert_int_equal(input.present, 7);
     }
@@ -659,7 +659,7 @@ static void an_onset_that_a_sharp_sensor_sees(void **state)
                                1e-4 * v * variance / (v * s * s + variance));
             assert_sound(&input);
         }
-        rho_input_decide_presence(&input, &config);
+        rho_input_test_and_end_inputs(&input, &config);
         assert_int_equal(input.present, k == 25 ? 7 : 0);
         assert_sound(&input);
     }

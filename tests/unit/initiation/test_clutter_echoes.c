@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "rhotrack/detail/clutter_map_echoes.h"
+#include "rhotrack/detail/clutter_map_update.h"
 
 #define PI 3.14159265358979323846
 #define V_MIN_MPS 20.0f
@@ -44,7 +44,7 @@ static void a_place_has_a_direction_and_a_range(void **state)
 
     (void)state;
     assert_true(view.along_x == 0.0f && view.along_y == 1.0f && view.range_m == 1000.0f);
-    assert_true(fabsf(rho_clutter_map_azimuth_share(&view) - 0.75f) < 1e-6f);
+    assert_true(fabsf(rho_clutter_map_azimuth_in_turns(&view) - 0.75f) < 1e-6f);
     assert_true(at_origin.along_x == -1.0f && at_origin.range_m == 3.0f);
     assert_true(none.range_m == 0.0f);
 }

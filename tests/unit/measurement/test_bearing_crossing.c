@@ -164,10 +164,11 @@ static void delta_is_the_angle_between(void **state)
 {
     (void)state;
     set_base(0, -10e3, 0, 10e3);
-    assert_float_equal(rho_crossing_angle_rad(&base, 0.1f, -0.2f), 0.3, 1e-6);
-    assert_float_equal(rho_crossing_angle_rad(&base, -0.2f, 0.1f), -0.3, 1e-6);
-    assert_float_equal(rho_crossing_angle_rad(&base, 3.0f, -3.0f), 2.0 * PI - 6.0, 1e-6);
-    assert_float_equal(rho_crossing_angle_rad(&base, 0.1f, 3.0f), -PI, 1e-6);
+    assert_float_equal(rho_crossing_angle_or_minus_pi_rad(&base, 0.1f, -0.2f), 0.3, 1e-6);
+    assert_float_equal(rho_crossing_angle_or_minus_pi_rad(&base, -0.2f, 0.1f), -0.3, 1e-6);
+    assert_float_equal(rho_crossing_angle_or_minus_pi_rad(&base, 3.0f, -3.0f), 2.0 * PI - 6.0,
+                       1e-6);
+    assert_float_equal(rho_crossing_angle_or_minus_pi_rad(&base, 0.1f, 3.0f), -PI, 1e-6);
 }
 
 /* Which sensor is called a does not matter. */

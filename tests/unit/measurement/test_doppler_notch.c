@@ -87,8 +87,9 @@ static void shares_and_moments_are_those_of_sums(void **state)
         const struct sums sums = sum_up(&sensor, (double)cases[i][2], (double)cases[i][3], 0.9);
         assert_float_equal(rho_notch_blind_probability(&sensor, at.state, at.covariance),
                            sums.share, 2e-3);
-        assert_float_equal(rho_notch_update_by_miss(&sensor, &look, 6, at.state, at.covariance),
-                           sums.missed, 2e-3);
+        assert_float_equal(
+            rho_notch_update_return_miss_probability(&sensor, &look, 6, at.state, at.covariance),
+            sums.missed, 2e-3);
         assert_float_equal(at.state[3], sums.mean, 0.01 * (double)cases[i][3]);
         assert_float_equal(at.covariance[RHO_AT(3, 3)] / (cases[i][3] * cases[i][3]),
                            sums.variance / (double)(cases[i][3] * cases[i][3]), 0.02);
@@ -103,8 +104,9 @@ static void many_blind_speeds_are_a_share(void **state)
     struct estimate at = estimate_of(130.0f, 0.0f, 200.0f);
     (void)state;
     assert_float_equal(rho_notch_blind_probability(&sensor, at.state, at.covariance), 0.2f, 1e-6);
-    assert_float_equal(rho_notch_update_by_miss(&sensor, &look, 6, at.state, at.covariance), 0.28f,
-                       1e-6);
+    assert_float_equal(
+        rho_notch_update_return_miss_probability(&sensor, &look, 6, at.state, at.covariance), 0.28f,
+        1e-6);
     assert_float_equal(at.state[3], 130.0f, 1e-4);
     assert_float_equal(at.covariance[RHO_AT(3, 3)], 40000.0f, 40.0f);
 }
@@ -117,7 +119,7 @@ static void the_rest_follows(void **state)
     const struct estimate before = estimate_of(6.0f, 80.0f, 4.0f);
     struct estimate at = before;
     (void)state;
-    (void)rho_notch_update_by_miss(&sensor, &look, 9, at.state, at.covariance);
+    (void)rho_notch_update_return_miss_probability(&sensor, &look, 9, at.state, at.covariance);
     const float off = at.state[3] - before.state[3];
     assert_true(off < -1.0f);
     assert_float_equal(at.state[0] - before.state[0], off * 20.0f / 16.0f, 0.06);
@@ -129,7 +131,7 @@ static void the_rest_follows(void **state)
     assert_float_equal(at.covariance[RHO_AT(4, 4)], 16.0f, 0.01);
     /* six elements know of no accelerations */
     struct estimate six = before;
-    (void)rho_notch_update_by_miss(&sensor, &look, 6, six.state, six.covariance);
+    (void)rho_notch_update_return_miss_probability(&sensor, &look, 6, six.state, six.covariance);
     assert_float_equal(six.state[6], 0.0f, 0.0f);
     assert_float_equal(six.state[3], at.state[3], 1e-6);
 }
@@ -159,8 +161,9 @@ static void without_a_notch_nothing_changes(void **state)
     assert_false(rho_notch_sensor_has_notch(NULL));
     assert_float_equal(rho_notch_blind_probability(&sensor, at.state, at.covariance), 0.0f, 0.0f);
     assert_float_equal(rho_notch_blind_probability(NULL, at.state, at.covariance), 0.0f, 0.0f);
-    assert_float_equal(rho_notch_update_by_miss(&sensor, &look, 9, at.state, at.covariance), 0.2f,
-                       1e-6);
+    assert_float_equal(
+        rho_notch_update_return_miss_probability(&sensor, &look, 9, at.state, at.covariance), 0.2f,
+        1e-6);
     assert_memory_equal(&at, &before, sizeof at);
 }
 
@@ -173,9 +176,12 @@ static void the_slow_stand(void **state)
     struct estimate fast = estimate_of(0.1f, 6.0f, 0.4f);
     (void)state;
     for (int i = 0; i < 3; i++) {
-        (void)rho_notch_update_by_miss(&sensor, &may, 9, slow.state, slow.covariance);
-        (void)rho_notch_update_by_miss(&sensor, &may_not, 9, other.state, other.covariance);
-        (void)rho_notch_update_by_miss(&sensor, &may, 9, fast.state, fast.covariance);
+        (void)rho_notch_update_return_miss_probability(&sensor, &may, 9, slow.state,
+                                                       slow.covariance);
+        (void)rho_notch_update_return_miss_probability(&sensor, &may_not, 9, other.state,
+                                                       other.covariance);
+        (void)rho_notch_update_return_miss_probability(&sensor, &may, 9, fast.state,
+                                                       fast.covariance);
     }
     assert_true(fabsf(slow.state[4]) < 0.15f);
     assert_true(slow.covariance[RHO_AT(4, 4)] < 0.04f);
@@ -189,7 +195,7 @@ static int stands(float along_mps, float across_mps)
     const struct rho_sensor sensor = radar_of(0.3f, 0.0f);
     const struct rho_notch_look look = {.pd = 0.9f, .may_stand = 1};
     struct estimate at = estimate_of(along_mps, across_mps, 0.4f);
-    (void)rho_notch_update_by_miss(&sensor, &look, 9, at.state, at.covariance);
+    (void)rho_notch_update_return_miss_probability(&sensor, &look, 9, at.state, at.covariance);
     return at.state[4] < 0.5f * across_mps;
 }
 
@@ -234,7 +240,7 @@ static float kept_after(float notch_mps, float blind_speed_mps, struct estimate 
     const struct rho_sensor sensor = radar_of(notch_mps, blind_speed_mps);
     const struct rho_notch_look look = {.pd = 1.0f};
     const float before = at->covariance[RHO_AT(3, 3)];
-    (void)rho_notch_update_by_miss(&sensor, &look, 6, at->state, at->covariance);
+    (void)rho_notch_update_return_miss_probability(&sensor, &look, 6, at->state, at->covariance);
     return at->covariance[RHO_AT(3, 3)] / before;
 }
 
@@ -283,8 +289,8 @@ static void nothing_breaks(void **state)
             const struct rho_notch_look look = {.pd = 0.999f, .may_stand = 1};
             struct estimate at = estimate_of(rates[k], 0.1f, sigmas[i]);
             for (int n = 0; n < 50; n++) {
-                const float missed =
-                    rho_notch_update_by_miss(&sensor, &look, 9, at.state, at.covariance);
+                const float missed = rho_notch_update_return_miss_probability(
+                    &sensor, &look, 9, at.state, at.covariance);
                 assert_true(missed > 0.0f && missed <= 1.0f);
             }
             assert_true(rho_are_finite(at.state, 9) && rho_are_finite(at.covariance, 45));

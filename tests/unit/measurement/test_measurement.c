@@ -521,9 +521,9 @@ static void percentages_are_factors_of_sigmas(void **state)
     assert_true(factors.range == 0.5f && factors.cross == 2.5f);
     assert_true(rho_measurement_sigma_factors(&stated).range == 1.0f);
     assert_true(rho_measurement_sigma_factors(NULL).cross == 1.0f);
-    assert_true(rho_measurement_largest_sigma_factor(&learned) == 2.5f);
-    assert_true(rho_measurement_largest_sigma_factor(&sharper) == 1.0f);
-    assert_true(rho_measurement_largest_sigma_factor(NULL) == 1.0f);
+    assert_true(rho_measurement_sigma_factor_at_least_one(&learned) == 2.5f);
+    assert_true(rho_measurement_sigma_factor_at_least_one(&sharper) == 1.0f);
+    assert_true(rho_measurement_sigma_factor_at_least_one(NULL) == 1.0f);
 }
 
 static void time_biases_are_rounded_to_microseconds(void **state)

@@ -188,9 +188,9 @@ static void the_most_votes_are_their_own_share(void **state)
     for (size_t i = 0; i < sizeof votes / sizeof votes[0]; i++) {
         struct rho_accumulator_peak room[2];
         struct rho_peak_list list = {.peaks = room, .max_peaks = 2, .min_share = 1.0f};
-        rho_peak_list_add(&list, (struct rho_accumulator_peak){.votes = votes[i]});
-        rho_peak_list_add(&list, (struct rho_accumulator_peak){.votes = votes[i] / 2u});
-        rho_peak_list_finish(&list);
+        rho_peak_list_offer(&list, (struct rho_accumulator_peak){.votes = votes[i]});
+        rho_peak_list_offer(&list, (struct rho_accumulator_peak){.votes = votes[i] / 2u});
+        rho_peak_list_drop_weak_and_sort(&list);
         assert_int_equal(list.num_peaks, 1);
         assert_int_equal(room[0].votes, votes[i]);
     }

@@ -23,9 +23,9 @@ static void coarse(enum rho_hough_method method)
     config.eps_theta_rad = 0.02f;
 }
 
-static struct rho_plane whole(enum rho_hough_component component)
+static struct rho_votes_picture whole(enum rho_hough_component component)
 {
-    struct rho_plane plane = {
+    struct rho_votes_picture plane = {
         .height = hough.theta_cells, .width = hough.rho_cells, .votes = pictures[component]};
     assert_true(hough.theta_cells <= ROWS_MAX && hough.rho_cells <= COLUMNS_MAX);
     return plane;
@@ -33,7 +33,7 @@ static struct rho_plane whole(enum rho_hough_component component)
 
 static void draw_plane(enum rho_hough_component component)
 {
-    struct rho_plane plane = whole(component);
+    struct rho_votes_picture plane = whole(component);
     assert_int_equal(rho_hough_plane(&hough, &points, component, &plane), RHO_OK);
 }
 
@@ -295,13 +295,13 @@ static void a_window_has_the_most_of_each_block(void **state)
     coarse(RHO_HOUGH_NHT_C);
     prepare_hough();
     draw_plane(RHO_HOUGH_VOTES);
-    struct rho_plane plane = {.first_theta = 40,
-                              .theta_cells = 200,
-                              .first_rho = 100,
-                              .rho_cells = 250,
-                              .height = 4,
-                              .width = 5,
-                              .votes = small};
+    struct rho_votes_picture plane = {.first_theta = 40,
+                                      .theta_cells = 200,
+                                      .first_rho = 100,
+                                      .rho_cells = 250,
+                                      .height = 4,
+                                      .width = 5,
+                                      .votes = small};
     assert_int_equal(rho_hough_plane(&hough, &points, RHO_HOUGH_VOTES, &plane), RHO_OK);
     for (unsigned y = 0; y < 4; y++) {
         for (unsigned x = 0; x < 5; x++) {
@@ -325,7 +325,7 @@ static void what_is_no_vote_and_no_plane_is_refused(void **state)
     add_plot(500.0, 3000.0, 4.0);
     coarse(RHO_HOUGH_IHT);
     prepare_hough();
-    struct rho_plane plane = whole(RHO_HOUGH_TRUTH);
+    struct rho_votes_picture plane = whole(RHO_HOUGH_TRUTH);
     assert_int_equal(rho_hough_plane(&hough, &points, RHO_HOUGH_TRUTH, &plane), RHO_ERROR_VALUE);
     assert_int_equal(rho_hough_plane(&hough, &points, RHO_NUM_HOUGH_COMPONENTS, &plane),
                      RHO_ERROR_VALUE);

@@ -35,9 +35,9 @@ static void search_drawn(unsigned sensors, enum rho_ghost_rule rule)
     } while (is_doubtful);
 }
 
-static struct rho_plane whole(void)
+static struct rho_votes_picture whole(void)
 {
-    return (struct rho_plane){.height = (uint16_t)rows, .width = COLUMNS, .votes = picture};
+    return (struct rho_votes_picture){.height = (uint16_t)rows, .width = COLUMNS, .votes = picture};
 }
 
 /* ---- pairs and space ------------------------------------------------------------------------- */
@@ -124,7 +124,7 @@ static void a_pairs_plane_has_its_votes(void **state)
         struct rho_passive_paper_pair pair;
         search_drawn(3, RHO_GHOST_LITERAL);
         for (unsigned i = 0; rho_passive_paper_pair(&paper, i, &pair); i++) {
-            struct rho_plane plane = whole();
+            struct rho_votes_picture plane = whole();
             assert_int_equal(rho_passive_paper_plane(&paper, &pair, &plane), RHO_OK);
             for (int row = 0; row < rows; row++) {
                 for (int column = 0; column < COLUMNS; column++) {
@@ -149,7 +149,7 @@ static void the_plane_of_all_pairs_has_the_confirmed_cells(void **state)
     random_state = 45;
     for (int run = 0; run < 12; run++) {
         uint32_t confirmed = 0, most = 0;
-        struct rho_plane plane = whole();
+        struct rho_votes_picture plane = whole();
         search_drawn(run % 2 ? 3 : 2, RHO_GHOST_LITERAL);
         memcpy(&paper_then, &paper, sizeof paper);
         plane.height = (uint16_t)rows;
@@ -186,7 +186,7 @@ static void a_pairs_cells_have_enough_votes_and_their_scans(void **state)
         search_drawn(3, RHO_GHOST_LITERAL);
         for (unsigned i = 0; rho_passive_paper_pair(&paper, i, &pair); i++) {
             uint32_t num = 99;
-            struct rho_plane plane = whole();
+            struct rho_votes_picture plane = whole();
             assert_int_equal(
                 rho_passive_paper_cells(&paper, &pair, peaks, RHO_MAX_PASSIVE_LINES, &num), RHO_OK);
             assert_int_equal(rho_passive_paper_plane(&paper, &pair, &plane), RHO_OK);
@@ -229,7 +229,7 @@ static void views_of_nothing_are_refused(void **state)
     uint32_t num;
     random_state = 47;
     search_drawn(3, RHO_GHOST_LITERAL);
-    struct rho_plane plane = whole();
+    struct rho_votes_picture plane = whole();
     assert_int_equal(rho_passive_paper_ghosts(&paper, &good, scene.scans, &matrix),
                      RHO_ERROR_VALUE);
     assert_int_equal(rho_passive_paper_ghosts(&paper, &turned, 0, &matrix), RHO_ERROR_VALUE);

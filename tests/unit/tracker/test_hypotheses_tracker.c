@@ -186,7 +186,7 @@ static void a_track_that_takes_no_plot_claims_none(void **state)
     assert_int_equal(track.plot, 7);
     assert_int_equal(rho_track_predict(&track, SCAN_US, &model), RHO_OK);
     rho_hypotheses_begin_scan(&pool, track.slot, NULL);
-    assert_int_equal(rho_track_commit_scan(&track, &scan, 0, &model), RHO_OK);
+    assert_int_equal(rho_track_commit_hypotheses_to_scan(&track, &scan, 0, &model), RHO_OK);
     assert_int_equal(track.plot, -1);
 }
 

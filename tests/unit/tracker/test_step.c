@@ -194,11 +194,11 @@ static void an_antenna_has_passed_where_the_gate_ends(void **state)
         prepare();
         scan.sector_to_rad = 0.5f;
         at.turning = 1.0f;
-        assert_int_equal(rho_tracker_has_passed_gate(&at, have_track(i ? 0.475 : 0.465, 200.0)),
-                         !i);
+        assert_int_equal(
+            rho_tracker_has_antenna_passed_gate(&at, have_track(i ? 0.475 : 0.465, 200.0)), !i);
         at.turning = -1.0f;
-        assert_int_equal(rho_tracker_has_passed_gate(&at, have_track(i ? 0.025 : 0.035, 200.0)),
-                         !i);
+        assert_int_equal(
+            rho_tracker_has_antenna_passed_gate(&at, have_track(i ? 0.025 : 0.035, 200.0)), !i);
     }
 }
 
@@ -443,10 +443,10 @@ static uint32_t share_after(void (*phase)(struct step *step))
 static void each_phase_has_its_share(void **state)
 {
     (void)state;
-    assert_int_equal(share_after(rho_tracker_begin_tracks_work), WORK_MAX / 4);
+    assert_int_equal(share_after(rho_tracker_begin_work_per_track), WORK_MAX / 4);
     if (RHO_MAX_ECHOES > 0) {
-        assert_int_equal(share_after(rho_tracker_find_clutter_at_plots), WORK_MAX / 8);
-        assert_int_equal(share_after(rho_tracker_score_second_plots), WORK_MAX / 16);
+        assert_int_equal(share_after(rho_tracker_predict_clutter_at_plots), WORK_MAX / 8);
+        assert_int_equal(share_after(rho_tracker_learn_second_plots_end_duplicates), WORK_MAX / 16);
     }
     if (RHO_MAX_REFLECTORS > 0) {
         assert_int_equal(share_after(rho_tracker_mark_image_plots_as_ghosts), WORK_MAX / 16);
@@ -491,7 +491,7 @@ static void a_scan_has_four_parts(void **state)
         prepare();
         tracker.config.work_max = WORK_MAX;
         at.num_inputs = parts * RHO_MAX_PLOTS;
-        rho_tracker_begin_tracks_work(&at);
+        rho_tracker_begin_work_per_track(&at);
         assert_int_equal(at.share.end, WORK_MAX / (4 * (parts < 4 ? parts : 4)));
     }
 }
@@ -500,8 +500,10 @@ static void a_scan_has_four_parts(void **state)
 static void scores_have_limits(void **state)
 {
     (void)state;
-    assert_true(rho_tracker_is_score(1000000000) && rho_tracker_is_score(-1000000000));
-    assert_false(rho_tracker_is_score(1000000001) || rho_tracker_is_score(-1000000001));
+    assert_true(rho_tracker_is_score_in_range(1000000000) &&
+                rho_tracker_is_score_in_range(-1000000000));
+    assert_false(rho_tracker_is_score_in_range(1000000001) ||
+                 rho_tracker_is_score_in_range(-1000000001));
     prepare();
     initiator.confirm_mnat = 1000000000;
     assert_true(rho_initiator_is_sound(&initiator));

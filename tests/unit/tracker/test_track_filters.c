@@ -186,7 +186,7 @@ static enum rho_status commit(struct rho_track *track, const struct rho_plot *pl
 {
     const struct rho_hypotheses_scan scan = {
         .time_us = track->time_us, .plots = plots, .log_miss = log_miss};
-    return rho_track_commit_scan(track, &scan, 8, &model);
+    return rho_track_commit_hypotheses_to_scan(track, &scan, 8, &model);
 }
 
 static void commit_and_settle_are_for_hypotheses(void **state)
@@ -209,9 +209,9 @@ static void commit_and_settle_are_for_hypotheses(void **state)
     }
     start_with(RHO_TRACK_HYPOTHESES);
     struct rho_track track = started();
-    assert_int_equal(rho_track_commit_scan(NULL, &scan, 8, &model), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_commit_scan(&track, NULL, 8, &model), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_commit_scan(&track, &scan, 8, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit_hypotheses_to_scan(NULL, &scan, 8, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit_hypotheses_to_scan(&track, NULL, 8, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_commit_hypotheses_to_scan(&track, &scan, 8, NULL), RHO_ERROR_NULL);
 }
 
 /* One step of a track of hypotheses with the plots of a scan; own row 0. */
@@ -382,7 +382,7 @@ static void only_inputs_widen_the_gate(void **state)
         start_with((enum rho_track_filter)filter);
         struct rho_track track = started();
         assert_int_equal(rho_track_predict(&track, 4 * SCAN_US, &model), RHO_OK);
-        rho_track_expect_for_gate(&track, &expected);
+        rho_track_estimate_for_gate(&track, &expected);
         if (filter == RHO_TRACK_INPUT) {
             rho_input_estimate_for_gate(&track.input, &of_input);
             assert_memory_equal(&expected, &of_input, sizeof expected);

@@ -203,7 +203,7 @@ static void the_nearest_plot_is_the_nearest_of_all(void **state)
         for (int i = 0; i < 50; i++) {
             struct rho_window_work work = {0};
             struct rho_window_query query = random_query(scan);
-            int nearest = rho_window_nearest_isotropic(scan, &query, &work);
+            int nearest = rho_window_nearest_plot_isotropic(scan, &query, &work);
             assert_int_equal(nearest, brute_nearest(scan, &query));
             assert_int_equal(work.lookups, 1);
             found += nearest >= 0;
@@ -227,7 +227,7 @@ static void bins_save_distance_tests(void **state)
                                          .sigma_factor = 1.0f,
                                          .gate_chi2 = 13.8f,
                                          .gate_radius_m = 40.0f};
-        (void)rho_window_nearest_isotropic(rho_window_scan_at(&window, 0), &query, &work);
+        (void)rho_window_nearest_plot_isotropic(rho_window_scan_at(&window, 0), &query, &work);
     }
     assert_in_range(work.distances, 1, 200 * 100 / 50);
 }
@@ -271,7 +271,8 @@ static void sigmas_are_kept_to_twelve_bits(void **state)
     push(0, 202);
     const struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
     for (int i = 0; i < 202; i++) {
-        float given = plots[i].sigma_range_m, held = rho_window_sigma(scan->plots[i].sigma_range);
+        float given = plots[i].sigma_range_m,
+              held = rho_window_decode_sigma(scan->plots[i].sigma_range);
         assert_float_equal(held, given, i < 8 ? 0.0f : given / 4096.0f);
     }
     assert_int_equal(scan->is_isotropic, 1);
@@ -401,7 +402,7 @@ static void own_covariances_heights_and_range_rates_decide(void **state)
             struct rho_window_place place = random_place(measures);
             struct rho_window_work work = {0};
             double best = limit, chosen = limit;
-            int nearest = rho_window_nearest_anisotropic(scan, &place, &work);
+            int nearest = rho_window_nearest_plot_anisotropic(scan, &place, &work);
             for (int k = 0; k < scan->num_plots; k++) {
                 struct rho_plot plot = rho_window_unpack_plot(scan, (unsigned)k);
                 double d2 = distance2_of(&plot, measures, &place);
@@ -438,12 +439,12 @@ static void covariances_follow_the_line_of_sight(void **state)
             }
         }
         assert_int_equal(scan->is_isotropic, 0);
-        assert_int_equal(rho_window_sensor(scan)->sensor_id, 4);
+        assert_int_equal(rho_window_sensor_if_described(scan)->sensor_id, 4);
     }
     start(1);
     scatter(500.0f);
     push(0, PLOTS);
-    assert_null(rho_window_sensor(rho_window_scan_at(&window, 0)));
+    assert_null(rho_window_sensor_if_described(rho_window_scan_at(&window, 0)));
 }
 
 static void an_extent_grows_and_has_sides(void **state)
@@ -513,20 +514,20 @@ static void the_next_sector_of_a_turn_continues_its_scan(void **state)
     (void)state;
     start(3);
     struct rho_scan scan = quarter(0, 0.0f);
-    assert_false(rho_window_continues(&window, &scan, &turning)); /* nothing is held */
+    assert_false(rho_window_is_continued_by_scan(&window, &scan, &turning)); /* nothing is held */
     assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
     scan = quarter(1000000, 90.0f);
-    assert_int_equal(rho_window_continues(&window, &scan, &turning) != 0, RHO_SECTORS);
-    assert_false(rho_window_continues(&window, &scan, &moved));
+    assert_int_equal(rho_window_is_continued_by_scan(&window, &scan, &turning) != 0, RHO_SECTORS);
+    assert_false(rho_window_is_continued_by_scan(&window, &scan, &moved));
     scan.sensor_id = 6;
-    assert_false(
-        rho_window_continues(&window, &scan, &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
+    assert_false(rho_window_is_continued_by_scan(&window, &scan,
+                                                 &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
     scan = quarter(1000000, 90.0f + 40.0f); /* an eighth of a turn is missing */
-    assert_int_equal(rho_window_continues(&window, &scan, &turning) != 0, RHO_SECTORS);
+    assert_int_equal(rho_window_is_continued_by_scan(&window, &scan, &turning) != 0, RHO_SECTORS);
     scan = quarter(1000000, 90.0f + 50.0f);
-    assert_false(rho_window_continues(&window, &scan, &turning));
+    assert_false(rho_window_is_continued_by_scan(&window, &scan, &turning));
     scan = quarter(RHO_LIMIT_OFFSET_US + INT64_C(1), 90.0f);
-    assert_false(rho_window_continues(&window, &scan, &turning));
+    assert_false(rho_window_is_continued_by_scan(&window, &scan, &turning));
 }
 
 static void a_damaged_window_is_not_sound(void **state)

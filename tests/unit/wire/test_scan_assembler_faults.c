@@ -29,7 +29,7 @@ static const int64_t phase_us[NUM_RADARS] = {0, 500000};
  * What the tracker says of the good radar's reach when that has looked. Identities are dealt out to
  * all tracks.
  */
-struct record {
+struct measurement_row {
     int64_t time_us;
     unsigned num_tracks;
     uint32_t fates[RHO_NUM_FATES];
@@ -39,7 +39,7 @@ struct record {
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_report report;
-static struct record clean[SCANS + 1], records[SCANS + 1];
+static struct measurement_row clean[SCANS + 1], records[SCANS + 1];
 static unsigned num_records, steps_of[NUM_RADARS];
 
 /*
@@ -114,7 +114,7 @@ static size_t write_message(const struct message *message, uint8_t *buffer)
 
 static void record_good(void)
 {
-    struct record *record = &records[num_records++];
+    struct measurement_row *record = &records[num_records++];
 
     assert_true(num_records <= SCANS);
     memset(record, 0, sizeof *record);

@@ -184,7 +184,7 @@ static void a_plane_is_the_picture_of_its_cells(void **state)
         collect(0, report.time_us);
     }
     const struct rho_hough_points points = rho_paper_starts_points(&starts);
-    struct rho_plane whole = {.height = 158, .width = 400, .votes = all};
+    struct rho_votes_picture whole = {.height = 158, .width = 400, .votes = all};
     assert_int_equal(rho_hough_plane(&starts.hough, &points, RHO_HOUGH_VOTES, &whole), RHO_OK);
     unsigned filled = 0, fullest = 0;
     for (unsigned part = 0; part < 4; part++) {

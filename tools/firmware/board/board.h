@@ -10,11 +10,11 @@
 #include <stdint.h>
 
 /* Opens network and clock. Returns 0 where the network chip does not answer. */
-int board_open(void);
+int board_try_to_open(void);
 
 /*
- * Microseconds since the start. This function or board_wait must be called at least once a minute,
- * or time is lost.
+ * Microseconds since the start. This function or board_sleep_until_event_or_time must be called at
+ * least once a minute, or time is lost.
  */
 int64_t board_time_us(void);
 
@@ -37,7 +37,7 @@ uint32_t board_num_unsent(void);
 int32_t board_count_start(void);
 
 /* Sleeps until a datagram may have arrived or the time is until_us; may return earlier. */
-void board_wait(int64_t until_us);
+void board_sleep_until_event_or_time(int64_t until_us);
 
 /* Prints a line on the board's console. */
 void board_print_line(const char *text);

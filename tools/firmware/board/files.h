@@ -17,8 +17,8 @@ int files_open_to_write(const char *path);
 size_t files_read(int file, uint8_t *bytes, size_t size);
 
 /* Return 0 on failure, such as a full disk. */
-int files_write(int file, const uint8_t *bytes, size_t size);
-int files_close(int file);
+int files_try_to_write(int file, const uint8_t *bytes, size_t size);
+int files_try_to_close(int file);
 
 /* Prints the text on the console, without adding a newline. */
 void files_print(const char *text);

@@ -78,8 +78,8 @@ static void put_ip_head(uint8_t *ip, const struct udp_frame_host *from, uint8_t 
     put_be16(ip + 10, ~fold_checksum(add_to_checksum(0, ip, head_size)) & 0xffffu);
 }
 
-size_t udp_frame_build(uint8_t *frame, const struct udp_frame_host *from, uint16_t number,
-                       size_t payload_size)
+size_t udp_frame_build_around_payload(uint8_t *frame, const struct udp_frame_host *from,
+                                      uint16_t number, size_t payload_size)
 {
     uint8_t *ip = frame + ETHERNET_HEAD, *udp = ip + IP_HEAD;
     size_t size = UDP_HEAD + payload_size;
@@ -113,7 +113,7 @@ static size_t checked_ip_head_size(const uint8_t *ip, size_t size)
                : 0;
 }
 
-size_t udp_frame_parse(const uint8_t *frame, size_t size, const uint8_t **payload)
+size_t udp_frame_find_payload(const uint8_t *frame, size_t size, const uint8_t **payload)
 {
     const uint8_t *ip = frame + ETHERNET_HEAD, *udp;
     size_t head, length;

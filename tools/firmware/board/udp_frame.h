@@ -23,16 +23,17 @@ struct udp_frame_host {
  * Writes the headers of a frame whose payload_size bytes (at most 1472) are already at frame +
  * UDP_FRAME_HEAD. number: IPv4 identification, any. Returns the frame's size.
  */
-size_t udp_frame_build(uint8_t *frame, const struct udp_frame_host *from, uint16_t number,
-                       size_t payload_size);
+size_t udp_frame_build_around_payload(uint8_t *frame, const struct udp_frame_host *from,
+                                      uint16_t number, size_t payload_size);
 
 /*
  * Parses a frame of any content. Returns the payload's size and sets *payload; 0 where it is no
  * complete datagram to LCM's group and port, or a checksum is wrong.
  */
-size_t udp_frame_parse(const uint8_t *frame, size_t size, const uint8_t **payload);
+size_t udp_frame_find_payload(const uint8_t *frame, size_t size, const uint8_t **payload);
 
-/* Sender's IPv4 address (10.9.0.1 as 0x0a090001) of a frame that udp_frame_parse accepted. */
+/* Sender's IPv4 address (10.9.0.1 as 0x0a090001) of a frame that udp_frame_find_payload accepted.
+ */
 uint32_t udp_frame_source_ipv4(const uint8_t *frame);
 
 /* Writes an IGMP version 2 report for the group, UDP_FRAME_JOIN bytes. */

@@ -144,7 +144,7 @@ static struct figures measure_job_and_rivals(struct rho_accumulator *accumulator
     init_accumulator_of_kind(accumulator, job->kind, 0);
     figures.us = fastest_search_us(accumulator, &cloud);
     figures.votes = (double)job->points * accumulator->theta_cells;
-    figures.dense_us = hough_dense_us(accumulator, &cloud, kinds[job->kind].dense_rounds);
+    figures.dense_us = hough_dense_fastest_us(accumulator, &cloud, kinds[job->kind].dense_rounds);
     figures.opencv = hough_opencv_cost(accumulator, &cloud, kinds[job->kind].opencv_rounds);
     double points_bytes = 2.0 * sizeof(float) * job->points;
     figures.bytes = sizeof *accumulator + points_bytes;
@@ -217,9 +217,9 @@ static void add_verdict_on_opencv(struct verdicts *verdicts, const struct job *j
     for (size_t i = 0; i < sizeof bars / sizeof bars[0]; i++) {
         if (bars[i].job.kind == job->kind && bars[i].job.points == job->points &&
             bars[i].job.targets == job->targets && !isnan(figures->opencv.us)) {
-            verdicts_at_least(verdicts, figures->opencv.us / figures->us, bars[i].least,
-                              "%s, %u points: times OpenCV's speed", kinds[job->kind].name,
-                              job->points);
+            verdicts_add_at_least(verdicts, figures->opencv.us / figures->us, bars[i].least,
+                                  "%s, %u points: times OpenCV's speed", kinds[job->kind].name,
+                                  job->points);
         }
     }
 }
@@ -228,14 +228,15 @@ static void add_verdicts_on_job(struct verdicts *verdicts, const struct job *job
                                 const struct figures *figures)
 {
     if (job->kind == FINE && job->points == 30) {
-        verdicts_at_most(verdicts, figures->us / 1e3, 0.25, "%s, %u points%s: ms a call",
-                         kinds[FINE].name, job->points, job->targets > 0 ? " with targets" : "");
+        verdicts_add_at_most(verdicts, figures->us / 1e3, 0.25, "%s, %u points%s: ms a call",
+                             kinds[FINE].name, job->points,
+                             job->targets > 0 ? " with targets" : "");
     }
     if (job->kind == FINE && job->points == 3000) {
-        verdicts_at_most(verdicts, figures->counters_bytes, COUNTERS_BYTES_MOST,
-                         "%s, %u points: bytes of counters", kinds[FINE].name, job->points);
-        verdicts_at_most(verdicts, 1e3 * figures->us / figures->votes, NS_A_VOTE_MOST,
-                         "%s, %u points: ns a vote", kinds[FINE].name, job->points);
+        verdicts_add_at_most(verdicts, figures->counters_bytes, COUNTERS_BYTES_MOST,
+                             "%s, %u points: bytes of counters", kinds[FINE].name, job->points);
+        verdicts_add_at_most(verdicts, 1e3 * figures->us / figures->votes, NS_A_VOTE_MOST,
+                             "%s, %u points: ns a vote", kinds[FINE].name, job->points);
     }
     add_verdict_on_opencv(verdicts, job, figures);
 }
@@ -276,7 +277,7 @@ void bench_hough(const struct bench *bench)
         }
     }
     if (bench->json) {
-        verdicts_to_json(&verdicts, bench->json);
+        verdicts_move_to_json(&verdicts, bench->json);
     } else {
         print_table_and_verdicts(&table, &verdicts, has_opencv);
     }

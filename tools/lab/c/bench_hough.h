@@ -28,8 +28,8 @@ struct hough_cost {
 };
 
 /* The least time, of all rounds, to clear a dense plane, vote and count its peaks. */
-double hough_dense_us(const struct rho_accumulator *accumulator, const struct hough_cloud *cloud,
-                      int rounds);
+double hough_dense_fastest_us(const struct rho_accumulator *accumulator,
+                              const struct hough_cloud *cloud, int rounds);
 size_t hough_dense_bytes(const struct rho_accumulator *accumulator);
 
 /*

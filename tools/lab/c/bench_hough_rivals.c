@@ -67,8 +67,8 @@ size_t hough_dense_bytes(const struct rho_accumulator *accumulator)
     return dense_plane_width(accumulator) * accumulator->theta_cells * sizeof(uint16_t);
 }
 
-double hough_dense_us(const struct rho_accumulator *accumulator, const struct hough_cloud *cloud,
-                      int rounds)
+double hough_dense_fastest_us(const struct rho_accumulator *accumulator,
+                              const struct hough_cloud *cloud, int rounds)
 {
     size_t width = dense_plane_width(accumulator), height = accumulator->theta_cells;
     uint16_t *plane = must_calloc(width * height, sizeof *plane);

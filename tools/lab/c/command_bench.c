@@ -144,7 +144,7 @@ static void bench_initiate_with_clutter(const struct bench *bench, struct text_t
     struct parameters parameters;
     struct rho_initiator_config config;
     parameters_set_defaults(&parameters);
-    scenario_suggest("crossing", &parameters);
+    scenario_suggest_parameters("crossing", &parameters);
     parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_KM2, clutter / 10.0);
     parameters_suggest(&parameters, PARAMETER_MIN_SCANS, 5);
     struct simulation *simulation = scenario_simulate("crossing", &parameters, bench->seed, 0);
@@ -217,7 +217,7 @@ static struct cost fastest_track_cost(const struct bench *bench, struct pipeline
 {
     struct parameters parameters;
     parameters_set_defaults(&parameters);
-    scenario_suggest("traffic", &parameters);
+    scenario_suggest_parameters("traffic", &parameters);
     parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, plots - 50.0);
     struct simulation *simulation = scenario_simulate("traffic", &parameters, bench->seed, 0);
     struct recording recording = copy_simulation_to_recording(simulation);

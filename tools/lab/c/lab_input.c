@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-struct rho_plot lab_plot(double x_m, double y_m, double sigma_m)
+struct rho_plot lab_isotropic_plot(double x_m, double y_m, double sigma_m)
 {
     return (struct rho_plot){.x_m = (float)x_m,
                              .y_m = (float)y_m,
@@ -12,8 +12,8 @@ struct rho_plot lab_plot(double x_m, double y_m, double sigma_m)
                              .sigma_up_m = (float)sigma_m};
 }
 
-size_t lab_fill_clutter(struct pipeline *chain, const struct parameters *parameters, double mean,
-                        struct random *random)
+size_t lab_draw_clutter_plots(struct pipeline *chain, const struct parameters *parameters,
+                              double mean, struct random *random)
 {
     size_t count = random_poisson(random, mean);
     double sigma_m = parameters->value[PARAMETER_SIGMA_M];
@@ -24,14 +24,14 @@ size_t lab_fill_clutter(struct pipeline *chain, const struct parameters *paramet
                                     parameters->value[PARAMETER_AREA_X_MAX_M]);
         double y_m = random_between(random, parameters->value[PARAMETER_AREA_Y_MIN_M],
                                     parameters->value[PARAMETER_AREA_Y_MAX_M]);
-        chain->plots[i] = lab_plot(x_m, y_m, sigma_m);
+        chain->plots[i] = lab_isotropic_plot(x_m, y_m, sigma_m);
     }
     return count;
 }
 
-struct rho_bearing_scan lab_look(const struct scenario_passive *passive,
-                                 const struct simulated_look *look, struct rho_bearing *bearings,
-                                 size_t bearings_max)
+struct rho_bearing_scan lab_bearing_scan_of_look(const struct scenario_passive *passive,
+                                                 const struct simulated_look *look,
+                                                 struct rho_bearing *bearings, size_t bearings_max)
 {
     size_t count = look->num_bearings < bearings_max ? look->num_bearings : bearings_max;
 

@@ -95,7 +95,7 @@ static void suggest_area(struct parameters *parameters, const struct scenario_bo
     }
 }
 
-void scenario_suggest(const char *name, struct parameters *parameters)
+void scenario_suggest_parameters(const char *name, struct parameters *parameters)
 {
     const struct scenario *scenario = must_find_scenario(name);
     parameters_suggest(parameters, PARAMETER_NUM_SCANS, scenario->customs->num_scans);
@@ -144,8 +144,8 @@ struct simulation *scenario_simulate(const char *name, const struct parameters *
     plan.pd = parameters->value[pd];
     plan.sigma_m = plan.noise_m = parameters->value[PARAMETER_SIGMA_M];
     plan.merge_m = parameters->value[PARAMETER_MERGE_M];
-    plan.box = plan_box_of(parameters);
-    plan_grow_box(&plan, parameters);
+    plan.box = plan_box_of_parameters(parameters);
+    plan_grow_box_around_truth(&plan, parameters);
     plan.clutter_mean = plan_clutter_mean(parameters, &plan.box);
     struct simulation *simulation = plan_simulate(&plan, &random);
     plan_free(&plan);

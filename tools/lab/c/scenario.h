@@ -92,7 +92,7 @@ struct simulation {
  * Suggests the scenario's customary parameters, which --set overrides. An unknown name ends the
  * program with exit code 2 and the list of names.
  */
-void scenario_suggest(const char *name, struct parameters *parameters);
+void scenario_suggest_parameters(const char *name, struct parameters *parameters);
 
 /* Simulates one run; its data depend on seed and run only. End: simulation_free. */
 struct simulation *scenario_simulate(const char *name, const struct parameters *parameters,

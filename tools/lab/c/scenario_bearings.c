@@ -55,11 +55,12 @@ static struct scenario_plan plan_passive(const struct scenario_bearings *of,
                                          const struct parameters *parameters, struct random *random)
 {
     const double *value = parameters->value;
-    struct scenario_plan plan = plan_start(
+    struct scenario_plan plan = plan_allocate(
         of->num_targets, (size_t)(value[PARAMETER_NUM_SCANS] + 0.5), value[PARAMETER_INTERVAL_S]);
     double duration_s = plan.interval_s * ((double)plan.num_scans - 1.0);
     for (size_t target = 0; target < plan.num_targets; target++) {
-        plan_straight(&plan, target, draw_approaching_target(parameters, duration_s, random));
+        plan_set_straight_path(&plan, target,
+                               draw_approaching_target(parameters, duration_s, random));
     }
     plan.passive = (struct scenario_passive){
         .is_used = true,
@@ -74,7 +75,7 @@ static struct scenario_plan plan_passive(const struct scenario_bearings *of,
     return plan;
 }
 
-void suggest_passive(struct parameters *parameters)
+void suggest_passive_parameters(struct parameters *parameters)
 {
     const struct {
         enum parameter_id id;
@@ -154,8 +155,8 @@ static void simulate_look(const struct scenario_plan *plan, size_t scan,
     shuffle_bearings(look, random);
 }
 
-void plan_look_of_sensors(const struct scenario_plan *plan, size_t scan,
-                          struct simulated_look *looks, struct random *random)
+void plan_simulate_looks(const struct scenario_plan *plan, size_t scan,
+                         struct simulated_look *looks, struct random *random)
 {
     for (size_t sensor = 0; sensor < plan->passive.num_sensors; sensor++) {
         looks[sensor].t_s = (double)scan * plan->interval_s;

@@ -17,17 +17,17 @@ static size_t parameter_as_count(const struct parameters *parameters, enum param
 static struct scenario_plan start_plan_by_parameters(const struct parameters *parameters,
                                                      size_t num_targets)
 {
-    return plan_start(num_targets, parameter_as_count(parameters, PARAMETER_NUM_SCANS),
-                      parameters->value[PARAMETER_INTERVAL_S]);
+    return plan_allocate(num_targets, parameter_as_count(parameters, PARAMETER_NUM_SCANS),
+                         parameters->value[PARAMETER_INTERVAL_S]);
 }
 
 struct scenario_plan plan_crossing(const struct parameters *parameters, struct random *random)
 {
     (void)random;
     struct scenario_plan plan = start_plan_by_parameters(parameters, 3);
-    plan_straight(&plan, 0, (struct scenario_state){300, 280.0, 400, 49.0});
-    plan_straight(&plan, 1, (struct scenario_state){3000, -173.2, 300, -100.0});
-    plan_straight(&plan, 2, (struct scenario_state){2100, -173.2, 1300, -100.0});
+    plan_set_straight_path(&plan, 0, (struct scenario_state){300, 280.0, 400, 49.0});
+    plan_set_straight_path(&plan, 1, (struct scenario_state){3000, -173.2, 300, -100.0});
+    plan_set_straight_path(&plan, 2, (struct scenario_state){2100, -173.2, 1300, -100.0});
     return plan;
 }
 
@@ -35,8 +35,8 @@ struct scenario_plan plan_parallel(const struct parameters *parameters, struct r
 {
     (void)random;
     struct scenario_plan plan = start_plan_by_parameters(parameters, 2);
-    plan_straight(&plan, 0, (struct scenario_state){-1500, PAIR_MPS, 0, 0});
-    plan_straight(
+    plan_set_straight_path(&plan, 0, (struct scenario_state){-1500, PAIR_MPS, 0, 0});
+    plan_set_straight_path(
         &plan, 1,
         (struct scenario_state){-1500, PAIR_MPS, parameters->value[PARAMETER_SPACING_M], 0});
     return plan;
@@ -52,8 +52,9 @@ struct scenario_plan plan_crossing_angle(const struct parameters *parameters, st
         double heading_rad = CROSSING_RAD * (target == 0 ? 0.5 : -0.5);
         double vx_mps = PAIR_MPS * cos(heading_rad);
         double vy_mps = PAIR_MPS * sin(heading_rad);
-        plan_straight(&plan, target,
-                      (struct scenario_state){-vx_mps * half_s, vx_mps, -vy_mps * half_s, vy_mps});
+        plan_set_straight_path(
+            &plan, target,
+            (struct scenario_state){-vx_mps * half_s, vx_mps, -vy_mps * half_s, vy_mps});
     }
     return plan;
 }
@@ -90,9 +91,9 @@ struct scenario_plan plan_formation(const struct parameters *parameters, struct 
     for (size_t scan = 0; scan < plan.num_scans; scan++) {
         double t_s = plan.interval_s * (double)scan;
         for (size_t target = 0; target < 2; target++) {
-            plan_put(&plan, scan, target,
-                     formation_state_at(parameters, t_s, 0.25 * last_s, 0.75 * last_s,
-                                        target == 0 ? 1.0 : -1.0));
+            plan_set_truth(&plan, scan, target,
+                           formation_state_at(parameters, t_s, 0.25 * last_s, 0.75 * last_s,
+                                              target == 0 ? 1.0 : -1.0));
         }
     }
     return plan;
@@ -105,7 +106,7 @@ struct scenario_plan plan_formation(const struct parameters *parameters, struct 
 static struct scenario_state draw_straight_path_in_area(const struct parameters *parameters,
                                                         double duration_s, struct random *random)
 {
-    struct scenario_box box = plan_box_of(parameters);
+    struct scenario_box box = plan_box_of_parameters(parameters);
     for (int i = 0; i < 10000; i++) {
         double speed_mps = random_between(random, parameters->value[PARAMETER_V_MIN_MPS],
                                           parameters->value[PARAMETER_V_MAX_MPS]);
@@ -129,7 +130,8 @@ struct scenario_plan plan_traffic(const struct parameters *parameters, struct ra
         start_plan_by_parameters(parameters, parameter_as_count(parameters, PARAMETER_TARGETS));
     double duration_s = plan.interval_s * ((double)plan.num_scans - 1.0);
     for (size_t target = 0; target < plan.num_targets; target++) {
-        plan_straight(&plan, target, draw_straight_path_in_area(parameters, duration_s, random));
+        plan_set_straight_path(&plan, target,
+                               draw_straight_path_in_area(parameters, duration_s, random));
     }
     return plan;
 }

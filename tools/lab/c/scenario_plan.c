@@ -14,7 +14,7 @@ struct truth_point *plan_truth(const struct scenario_plan *plan, size_t scan, si
     return &plan->truth[scan * plan->num_targets + target];
 }
 
-struct scenario_plan plan_start(size_t num_targets, size_t num_scans, double interval_s)
+struct scenario_plan plan_allocate(size_t num_targets, size_t num_scans, double interval_s)
 {
     struct scenario_plan plan = {.num_scans = num_scans,
                                  .num_targets = num_targets,
@@ -38,7 +38,7 @@ void plan_free(struct scenario_plan *plan)
     plan->truth = NULL;
 }
 
-struct scenario_box plan_box_of(const struct parameters *parameters)
+struct scenario_box plan_box_of_parameters(const struct parameters *parameters)
 {
     return (struct scenario_box){.x_min_m = parameters->value[PARAMETER_AREA_X_MIN_M],
                                  .x_max_m = parameters->value[PARAMETER_AREA_X_MAX_M],
@@ -51,8 +51,8 @@ bool plan_box_holds(const struct scenario_box *box, double x_m, double y_m)
     return x_m >= box->x_min_m && x_m <= box->x_max_m && y_m >= box->y_min_m && y_m <= box->y_max_m;
 }
 
-void plan_put(const struct scenario_plan *plan, size_t scan, size_t target,
-              struct scenario_state state)
+void plan_set_truth(const struct scenario_plan *plan, size_t scan, size_t target,
+                    struct scenario_state state)
 {
     struct truth_point *point = plan_truth(plan, scan, target);
     point->x_m = state.x_m;
@@ -67,7 +67,7 @@ void plan_put(const struct scenario_plan *plan, size_t scan, size_t target,
  * Grows the box of the clutter around all true positions, unless the user set the area; targets of
  * longer or wider runs than the customary one would leave it.
  */
-void plan_grow_box(struct scenario_plan *plan, const struct parameters *parameters)
+void plan_grow_box_around_truth(struct scenario_plan *plan, const struct parameters *parameters)
 {
     if (parameters->source[PARAMETER_AREA_X_MIN_M] > SOURCE_METHOD) {
         return;
@@ -96,21 +96,21 @@ double plan_clutter_mean(const struct parameters *parameters, const struct scena
 
 /* ---- paths ----------------------------------------------------------------------------------- */
 
-void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_state start)
+void plan_set_straight_path(struct scenario_plan *plan, size_t target, struct scenario_state start)
 {
     for (size_t scan = 0; scan < plan->num_scans; scan++) {
         double t_s = (double)scan * plan->interval_s;
         struct scenario_state now = start;
         now.x_m += start.vx_mps * t_s;
         now.y_m += start.vy_mps * t_s;
-        plan_put(plan, scan, target, now);
+        plan_set_truth(plan, scan, target, now);
     }
 }
 
 /* ---- plots ----------------------------------------------------------------------------------- */
 
-void plan_clutter(struct simulated_scan *scan, const struct scenario_box *box, uint64_t count,
-                  struct random *random)
+void plan_add_clutter(struct simulated_scan *scan, const struct scenario_box *box, uint64_t count,
+                      struct random *random)
 {
     for (uint64_t i = 0; i < count; i++) {
         struct simulated_plot *plot = &scan->plots[scan->num_plots++];
@@ -133,7 +133,7 @@ static void add_plot_if_detected(const struct scenario_plan *plan, struct simula
     }
 }
 
-void plan_shuffle(struct simulated_scan *scan, struct random *random)
+void plan_shuffle_plots(struct simulated_scan *scan, struct random *random)
 {
     for (size_t i = scan->num_plots; i > 1; i--) {
         size_t j = random_below(random, i);
@@ -171,9 +171,9 @@ static void simulate_scan(const struct scenario_plan *plan, size_t index,
             add_plot_if_detected(plan, scan, plan_truth(plan, index, target), plan->pd, random);
         }
     }
-    plan_clutter(scan, &plan->box, num_clutter, random);
-    plan_clutter(scan, &plan->spot, num_spot, random);
-    plan_shuffle(scan, random);
+    plan_add_clutter(scan, &plan->box, num_clutter, random);
+    plan_add_clutter(scan, &plan->spot, num_spot, random);
+    plan_shuffle_plots(scan, random);
 }
 
 struct simulation *plan_simulate(const struct scenario_plan *plan, struct random *random)
@@ -196,7 +196,7 @@ struct simulation *plan_simulate(const struct scenario_plan *plan, struct random
         if (plan->passive.is_used) {
             size_t first = scan * plan->passive.num_sensors;
             simulation->scans[scan].t_s = (double)scan * plan->interval_s;
-            plan_look_of_sensors(plan, scan, &simulation->looks[first], random);
+            plan_simulate_looks(plan, scan, &simulation->looks[first], random);
         } else {
             simulate_scan(plan, scan, &simulation->scans[scan], random);
         }

@@ -31,32 +31,32 @@ struct scenario_state {
 };
 
 /* Allocates the truth, with times and identities; P_D is 1, all else 0. End: plan_free. */
-struct scenario_plan plan_start(size_t num_targets, size_t num_scans, double interval_s);
+struct scenario_plan plan_allocate(size_t num_targets, size_t num_scans, double interval_s);
 void plan_free(struct scenario_plan *plan);
 
 struct truth_point *plan_truth(const struct scenario_plan *plan, size_t scan, size_t target);
 
 /* Sets the true state of a target at a scan. */
-void plan_put(const struct scenario_plan *plan, size_t scan, size_t target,
-              struct scenario_state state);
+void plan_set_truth(const struct scenario_plan *plan, size_t scan, size_t target,
+                    struct scenario_state state);
 
 /* The area of the parameters, and whether a place is in it. */
-struct scenario_box plan_box_of(const struct parameters *parameters);
+struct scenario_box plan_box_of_parameters(const struct parameters *parameters);
 bool plan_box_holds(const struct scenario_box *box, double x_m, double y_m);
-void plan_grow_box(struct scenario_plan *plan, const struct parameters *parameters);
+void plan_grow_box_around_truth(struct scenario_plan *plan, const struct parameters *parameters);
 
 /* The mean number of clutter plots a scan in the box, by the parameters. */
 double plan_clutter_mean(const struct parameters *parameters, const struct scenario_box *box);
 
 /* Sets the truth of a target at all scans: straight from `start` at constant velocity. */
-void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_state start);
+void plan_set_straight_path(struct scenario_plan *plan, size_t target, struct scenario_state start);
 
 /* Puts the plots of a scan in random order. */
-void plan_shuffle(struct simulated_scan *scan, struct random *random);
+void plan_shuffle_plots(struct simulated_scan *scan, struct random *random);
 
 /* Appends clutter plots, uniform in the box, for which the scan must have room. */
-void plan_clutter(struct simulated_scan *scan, const struct scenario_box *box, uint64_t count,
-                  struct random *random);
+void plan_add_clutter(struct simulated_scan *scan, const struct scenario_box *box, uint64_t count,
+                      struct random *random);
 
 /* Draws the plots or bearings of all scans: detections with noise and clutter, shuffled. */
 struct simulation *plan_simulate(const struct scenario_plan *plan, struct random *random);
@@ -82,13 +82,13 @@ struct scenario_bearings {
  * Suggests parameters of a passive scenario (eight scans with misses), and simulates targets that
  * approach the origin and the bearings that sensors there measure (scenario_bearings.c).
  */
-void suggest_passive(struct parameters *parameters);
+void suggest_passive_parameters(struct parameters *parameters);
 struct simulation *simulate_passive(const struct scenario_bearings *of,
                                     const struct parameters *parameters, uint64_t seed,
                                     uint64_t run);
 
 /* Simulates one look of each of the plan's passive sensors (scenario_bearings.c). */
-void plan_look_of_sensors(const struct scenario_plan *plan, size_t scan,
-                          struct simulated_look *looks, struct random *random);
+void plan_simulate_looks(const struct scenario_plan *plan, size_t scan,
+                         struct simulated_look *looks, struct random *random);
 
 #endif

@@ -97,8 +97,8 @@ static void add_truth_at_time(const struct scene_run *run, double t_s,
         if (t_s >= run->paths[i].from_s && t_s < run->paths[i].until_s) {
             struct motion at = path_motion_at(&run->paths[i], t_s);
 
-            simulation->truth = must_grow(simulation->truth, simulation->num_truth, room,
-                                          sizeof *simulation->truth);
+            simulation->truth = must_make_room_for_one(simulation->truth, simulation->num_truth,
+                                                       room, sizeof *simulation->truth);
             simulation->truth[simulation->num_truth++] = (struct truth_point){.t_s = t_s,
                                                                               .target_id = (int)i,
                                                                               .x_m = at.x_m,
@@ -151,12 +151,12 @@ struct simulation *scene_simulate_one_radar(const struct scene *scene, uint64_t 
 
 /* ---- scans for a tracker --------------------------------------------------------------------- */
 
-int64_t scene_scan_us(const struct scene_run *run, const struct scene_scan *scan)
+int64_t scene_scan_time_us(const struct scene_run *run, const struct scene_scan *scan)
 {
     return llround((scan->end_s + run->scene->sensors[scan->sensor].time_bias_s) * 1e6);
 }
 
-struct rho_sensor scene_known_sensor(const struct scene_sensor *sensor)
+struct rho_sensor scene_sensor_without_biases(const struct scene_sensor *sensor)
 {
     return (struct rho_sensor){.sensor_id = sensor->sensor_id,
                                .x_m = (float)sensor->told.x_m,
@@ -170,7 +170,7 @@ struct rho_scan scene_scan_for_tracker(const struct scene_run *run, const struct
                                        const struct rho_sensor *known, struct rho_plot *plots)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[scan->sensor];
-    struct rho_scan out = {.time_us = scene_scan_us(run, scan),
+    struct rho_scan out = {.time_us = scene_scan_time_us(run, scan),
                            .sensor_id = sensor->sensor_id,
                            .measures = sensor->has_range_rate ? RHO_MEASURES_RANGE_RATE : 0u,
                            .sector_from_rad = (float)scan->from_rad,

@@ -25,10 +25,10 @@ struct simulation *scene_simulate_one_radar(const struct scene *scene, uint64_t 
                                             uint64_t run_number);
 
 /* A scan's time by its radar's clock, which includes the radar's time bias. */
-int64_t scene_scan_us(const struct scene_run *run, const struct scene_scan *scan);
+int64_t scene_scan_time_us(const struct scene_run *run, const struct scene_scan *scan);
 
 /* A radar as the scene tells it to a tracker, with biases of 0. */
-struct rho_sensor scene_known_sensor(const struct scene_sensor *sensor);
+struct rho_sensor scene_sensor_without_biases(const struct scene_sensor *sensor);
 
 /*
  * Converts a scan of the scene for a tracker, as files have it, with the radar's known place; its

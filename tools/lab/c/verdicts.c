@@ -39,7 +39,8 @@ static void add_verdict(struct verdicts *verdicts, double value, const struct ba
     verdicts->missed += !bar->is_held;
 }
 
-void verdicts_at_most(struct verdicts *verdicts, double value, double bar, const char *what, ...)
+void verdicts_add_at_most(struct verdicts *verdicts, double value, double bar, const char *what,
+                          ...)
 {
     struct bar at_most = {"<=", bar, value <= bar + ROUNDING};
     va_list list;
@@ -48,7 +49,8 @@ void verdicts_at_most(struct verdicts *verdicts, double value, double bar, const
     va_end(list);
 }
 
-void verdicts_at_least(struct verdicts *verdicts, double value, double bar, const char *what, ...)
+void verdicts_add_at_least(struct verdicts *verdicts, double value, double bar, const char *what,
+                           ...)
 {
     struct bar at_least = {">=", bar, value >= bar - ROUNDING};
     va_list list;
@@ -57,7 +59,7 @@ void verdicts_at_least(struct verdicts *verdicts, double value, double bar, cons
     va_end(list);
 }
 
-void verdicts_to_json(struct verdicts *verdicts, cJSON *object)
+void verdicts_move_to_json(struct verdicts *verdicts, cJSON *object)
 {
     cJSON_AddItemToObject(object, "bars", verdicts->json);
     cJSON_AddNumberToObject(object, "bars_held", verdicts->held);

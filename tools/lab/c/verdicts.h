@@ -19,13 +19,13 @@ struct verdicts {
 struct verdicts verdicts_start(void);
 
 /* Adds a figure with its bar; `what` is a printf format of its name. NAN misses its bar. */
-void verdicts_at_most(struct verdicts *verdicts, double value, double bar, const char *what, ...)
-    __attribute__((format(printf, 4, 5)));
-void verdicts_at_least(struct verdicts *verdicts, double value, double bar, const char *what, ...)
-    __attribute__((format(printf, 4, 5)));
+void verdicts_add_at_most(struct verdicts *verdicts, double value, double bar, const char *what,
+                          ...) __attribute__((format(printf, 4, 5)));
+void verdicts_add_at_least(struct verdicts *verdicts, double value, double bar, const char *what,
+                           ...) __attribute__((format(printf, 4, 5)));
 
 /* Moves the array into `object` and adds the counts; afterwards no figure can be added. */
-void verdicts_to_json(struct verdicts *verdicts, cJSON *object);
+void verdicts_move_to_json(struct verdicts *verdicts, cJSON *object);
 
 /* Prints the table and "N bars held, M missed". */
 void verdicts_print(const struct verdicts *verdicts, FILE *out);

@@ -20,7 +20,7 @@ def must(result: Any) -> Any:
     if result:
         return result
     is_usage = ffi.new("bool *")
-    message = ffi.string(lib.program_failure(is_usage)).decode(errors="replace")
+    message = ffi.string(lib.program_last_failure(is_usage)).decode(errors="replace")
     raise (Error if is_usage[0] else RuntimeError)(message)
 
 

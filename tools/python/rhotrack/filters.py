@@ -176,7 +176,7 @@ class InputEstimation:
 
     def decide(self) -> None:
         """Tests each axis for an input; once a scan, after its updates."""
-        lib.rho_input_decide_presence(self.struct, self.config)
+        lib.rho_input_test_and_end_inputs(self.struct, self.config)
 
     @property
     def estimate(self) -> Kalman:

@@ -91,7 +91,7 @@ class Scans(Sequence):
     def _rows(self, index: int) -> np.ndarray:
         scan = ffi.addressof(self.handle.list[index])
         rows = np.empty(lib.program_scan_num_rows(scan), ROW)
-        lib.program_scan_rows(scan, pointer_to(rows, "struct program_row *"))
+        lib.program_scan_write_rows(scan, pointer_to(rows, "struct program_row *"))
         return rows
 
     def _find_columns(self, is_frame: bool) -> list[str]:
@@ -145,10 +145,10 @@ def read(*paths: str | os.PathLike, settings: Settings | None = None, kind: str 
         is_table = isinstance(found, np.ndarray) and files.kind_of(found.dtype.names) != "scans"
         return found if is_table else Scans(found, given)
     names = [os.fsencode(path) for path in paths]
-    kind = kind or ffi.string(must(lib.program_kind(names[0]))).decode()
+    kind = kind or ffi.string(must(lib.program_kind_of_file(names[0]))).decode()
     if kind == "scans":
         texts = [ffi.new("char[]", name) for name in names]
-        return Scans._of(must(lib.program_read(texts, len(texts), given.handle, keep_going)))
+        return Scans._of(must(lib.program_read_scans(texts, len(texts), given.handle, keep_going)))
     if kind not in ("tracks", "truth"):
         raise Error(f"kind {kind!r} is neither 'scans', 'tracks' nor 'truth'")
     tables = [_table(name, kind, given, keep_going) for name in names]

@@ -107,12 +107,12 @@ def settings_of(settings: Settings | None, given: dict[str, Any]) -> Settings:
 
 
 def _handle(other: Any) -> Any:
-    return ffi.gc(must(lib.program_settings(other)), lib.program_settings_free)
+    return ffi.gc(must(lib.program_settings_new(other)), lib.program_settings_free)
 
 
 def _parameters(handle: Any) -> Iterator[Any]:
     parameter, index = ffi.new("struct program_parameter *"), 0
-    while lib.program_settings_at(handle, index, parameter):
+    while lib.program_settings_get_parameter(handle, index, parameter):
         yield parameter
         index += 1
 

@@ -228,12 +228,12 @@ class Node:
     def status(self) -> list[tuple[str, bytes]]:
         """The messages RHO_STATUS, RHO_WORK, RHO_SENSORS and RHO_LEARNED of now."""
         self._sent.clear()
-        must(lib.program_node_status(self._node))
+        must(lib.program_node_send_status(self._node))
         return list(self._sent)
 
     def _do(self, channel: Any, data: bytes, now_us: int) -> list[tuple[str, bytes]]:
         self._sent.clear()
-        must(lib.program_node_take(self._node, channel, data, len(data), now_us))
+        must(lib.program_node_take_or_step(self._node, channel, data, len(data), now_us))
         return list(self._sent)
 
     @property
@@ -245,5 +245,5 @@ class Node:
     @property
     def tracks(self) -> np.ndarray:
         """The tracks of the last step, as Tracker gives them."""
-        must(lib.program_node_tracks(self._node, self._tracks))
+        must(lib.program_node_get_tracks(self._node, self._tracks))
         return _array(self._tracks)

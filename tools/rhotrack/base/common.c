@@ -108,7 +108,7 @@ void *must_realloc(void *memory, size_t bytes)
     return memory_or_fail(realloc(memory, bytes ? bytes : 1), bytes);
 }
 
-void *must_grow(void *array, size_t count, size_t *capacity, size_t size)
+void *must_make_room_for_one(void *array, size_t count, size_t *capacity, size_t size)
 {
     if (count < *capacity) {
         return array;
@@ -267,7 +267,7 @@ void output_close(struct output *output)
 
 /* ---- Folders and names ---- */
 
-void make_folder(const char *path)
+void make_folder_with_parents(const char *path)
 {
     char *partial = must_copy_text(path);
     struct stat status;
@@ -293,7 +293,7 @@ void make_folder(const char *path)
     free(partial);
 }
 
-uint64_t plain_file_size(const char *path)
+uint64_t regular_file_size_or_zero(const char *path)
 {
     struct stat status;
 
@@ -332,7 +332,7 @@ char *path_join(const char *folder, const char *name)
 
 /* ---- Numbers and JSON ---- */
 
-const char *float_text(float value, char text[FLOAT_TEXT_BYTES])
+const char *shortest_float_text(float value, char text[FLOAT_TEXT_BYTES])
 {
     if (value == 0.0f) {
         value = 0.0f; /* -0 becomes 0 */
@@ -351,7 +351,7 @@ static int compare_descending(const void *a, const void *b)
     return *(const int *)b - *(const int *)a;
 }
 
-struct cJSON *json_list_descending(int *values, int count)
+struct cJSON *sort_descending_into_json_list(int *values, int count)
 {
     cJSON *list;
 
@@ -403,7 +403,7 @@ void json_print_and_delete(struct cJSON *object)
 
 /* ---- Time and progress ---- */
 
-void print_only_last_taken(uint64_t taken, uint64_t total, const char *what)
+void print_if_only_last_taken(uint64_t taken, uint64_t total, const char *what)
 {
     if (total > taken) {
         fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " %s are taken\n", taken,

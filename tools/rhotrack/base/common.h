@@ -35,7 +35,7 @@ void *must_calloc(size_t count, size_t size);
 void *must_realloc(void *memory, size_t bytes);
 
 /* Returns the array, reallocated if needed, with room for one element more than `count`. */
-void *must_grow(void *array, size_t count, size_t *capacity, size_t size);
+void *must_make_room_for_one(void *array, size_t count, size_t *capacity, size_t size);
 
 /* Copy of a text in new memory. */
 char *must_copy_text(const char *text);
@@ -68,7 +68,7 @@ bool is_signal_ignored(int number);
 bool is_end_signal_pending(void);
 
 /* Creates a folder and its missing parents; exit 1 with the reason on failure. */
-void make_folder(const char *path);
+void make_folder_with_parents(const char *path);
 
 /* Prints a JSON object (cJSON) to standard output with a newline, and deletes the object. */
 struct cJSON;
@@ -85,11 +85,11 @@ struct rho_tracker_work;
 void json_add_work(struct cJSON *object, const struct rho_tracker_work *work);
 
 /* Sorts the values in descending order, in place, and returns them as a JSON list. */
-struct cJSON *json_list_descending(int *values, int count);
+struct cJSON *sort_descending_into_json_list(int *values, int count);
 
 /* Writes a float with the fewest digits that read back as the same float; "0" for -0. */
 #define FLOAT_TEXT_BYTES 24
-const char *float_text(float value, char text[FLOAT_TEXT_BYTES]);
+const char *shortest_float_text(float value, char text[FLOAT_TEXT_BYTES]);
 
 bool text_begins_with(const char *text, const char *prefix);
 
@@ -97,7 +97,7 @@ bool text_begins_with(const char *text, const char *prefix);
 bool path_ends_with(const char *path, const char *suffix);
 
 /* Size of a regular file in bytes; 0 for anything else. */
-uint64_t plain_file_size(const char *path);
+uint64_t regular_file_size_or_zero(const char *path);
 
 /* True where both paths name the same regular file. */
 bool is_same_file(const char *path, const char *other);
@@ -109,7 +109,7 @@ char *path_join(const char *folder, const char *name);
  * Notes on standard error: that only the last `taken` of `total` things are used, and how many bad
  * rows were skipped; print nothing where nothing was left out.
  */
-void print_only_last_taken(uint64_t taken, uint64_t total, const char *what);
+void print_if_only_last_taken(uint64_t taken, uint64_t total, const char *what);
 void print_rows_skipped(uint64_t rows);
 
 /* Monotonic clock, in microseconds. */

@@ -34,8 +34,8 @@ size_t identity_numbers_find_or_add(struct identity_numbers *identities, int32_t
     }
     size_t *slot = find_identity_slot(identities, id);
     if (*slot == 0) {
-        identities->ids = must_grow(identities->ids, identities->count, &identities->capacity,
-                                    sizeof *identities->ids);
+        identities->ids = must_make_room_for_one(identities->ids, identities->count,
+                                                 &identities->capacity, sizeof *identities->ids);
         identities->ids[identities->count++] = id;
         *slot = identities->count;
     }

@@ -90,7 +90,7 @@ double portable_hypot(double x, double y)
     return sqrt(x * x + y * y);
 }
 
-double portable_wrap(double angle_rad)
+double portable_wrap_angle(double angle_rad)
 {
     return remainder(angle_rad, PORTABLE_TURN);
 }

@@ -17,6 +17,6 @@ double portable_atan2(double y, double x); /* -pi .. pi; 0 where x and y are 0 *
 double portable_hypot(double x, double y);
 
 /* Wraps an angle into -pi .. pi. */
-double portable_wrap(double angle_rad);
+double portable_wrap_angle(double angle_rad);
 
 #endif

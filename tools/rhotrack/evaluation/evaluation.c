@@ -16,7 +16,8 @@ static size_t find_or_add_target(struct evaluation *e, int32_t id, int64_t time_
     size_t known = e->target_ids.count;
     size_t number = identity_numbers_find_or_add(&e->target_ids, id);
     if (number == known) {
-        e->targets = must_grow(e->targets, known, &e->targets_capacity, sizeof *e->targets);
+        e->targets =
+            must_make_room_for_one(e->targets, known, &e->targets_capacity, sizeof *e->targets);
         e->targets[number] = (struct target_life){.first_us = time_us,
                                                   .last_us = time_us,
                                                   .track = NO_TRACK,
@@ -31,7 +32,8 @@ static size_t find_or_add_track(struct evaluation *e, int32_t id)
     size_t known = e->track_ids.count;
     size_t number = identity_numbers_find_or_add(&e->track_ids, id);
     if (number == known) {
-        e->tracks = must_grow(e->tracks, known, &e->tracks_capacity, sizeof *e->tracks);
+        e->tracks =
+            must_make_room_for_one(e->tracks, known, &e->tracks_capacity, sizeof *e->tracks);
         e->tracks[number] = (struct track_life){0};
     }
     return number;
@@ -130,7 +132,7 @@ struct time_sums {
 static void add_pair_errors(struct evaluation *e, const struct pair_error *error,
                             struct time_sums *sums)
 {
-    e->pairs = must_grow(e->pairs, e->num_pairs, &e->pairs_capacity, sizeof *e->pairs);
+    e->pairs = must_make_room_for_one(e->pairs, e->num_pairs, &e->pairs_capacity, sizeof *e->pairs);
     e->pairs[e->num_pairs++] = *error;
     if (isfinite(error->error_mps)) {
         sums->error2_m2ps2 += error->error_mps * error->error_mps;
@@ -221,7 +223,7 @@ void evaluation_add_time(struct evaluation *e, int64_t time_us,
         e->tracks[number].scans++;
     }
     record_targets_at_time(e, targets, num_targets, tracks, track_of, &scan);
-    e->scans = must_grow(e->scans, e->num_scans, &e->scans_capacity, sizeof *e->scans);
+    e->scans = must_make_room_for_one(e->scans, e->num_scans, &e->scans_capacity, sizeof *e->scans);
     e->scans[e->num_scans++] = scan;
     free(track_of);
 }

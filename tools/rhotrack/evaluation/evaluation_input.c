@@ -132,7 +132,7 @@ static void align_tracks_to_truth(struct points *tracks, const struct points *tr
     if (unmatched < tracks->count) {
         alignment_fail_unmatched(tracks->table, tracks->list[unmatched].row, most_us);
     }
-    struct alignment alignment = alignment_to_truth(track_times, truth_times, most_us);
+    struct alignment alignment = alignment_list_rows_for_truth(track_times, truth_times, most_us);
     struct points aligned = *tracks;
     aligned.list = must_calloc(alignment.count + 1, sizeof *aligned.list);
     aligned.count = alignment.count;
@@ -181,7 +181,7 @@ static bool mark_id_if_unseen_now(struct last_times *last, int32_t id)
 {
     size_t known = last->ids.count, number = identity_numbers_find_or_add(&last->ids, id);
     if (number == known) {
-        last->time = must_grow(last->time, known, &last->capacity, sizeof *last->time);
+        last->time = must_make_room_for_one(last->time, known, &last->capacity, sizeof *last->time);
         last->time[number] = 0;
     }
     bool is_first = last->time[number] != last->now;

@@ -28,14 +28,14 @@ static void print_targets(const struct evaluation *e, FILE *file)
         text_table_add_row(
             &table, "%d|%.1f|%.1f|%s|%s|%.3f|%zu|%zu|%s|%s|%s|%s|%s", t->id,
             (double)t->first_us * 1e-6, (double)t->last_us * 1e-6,
-            text_table_format_number(found_s, 1, is_found ? (double)t->found_us * 1e-6 : NAN),
-            text_table_format_number(until_s, 1, is_found ? (double)t->kept_until_us * 1e-6 : NAN),
+            text_table_number_or_dash(found_s, 1, is_found ? (double)t->found_us * 1e-6 : NAN),
+            text_table_number_or_dash(until_s, 1, is_found ? (double)t->kept_until_us * 1e-6 : NAN),
             (double)t->paired / (double)t->scans, t->switches, t->fragments,
-            text_table_format_number(texts[0], 1, t->errors.rmse_m),
-            text_table_format_number(texts[1], 1, t->errors.median_m),
-            text_table_format_number(texts[2], 1, t->errors.p95_m),
-            text_table_format_number(texts[3], 2, t->errors.rmse_mps),
-            text_table_format_number(texts[4], 2, t->errors.nees));
+            text_table_number_or_dash(texts[0], 1, t->errors.rmse_m),
+            text_table_number_or_dash(texts[1], 1, t->errors.median_m),
+            text_table_number_or_dash(texts[2], 1, t->errors.p95_m),
+            text_table_number_or_dash(texts[3], 2, t->errors.rmse_mps),
+            text_table_number_or_dash(texts[4], 2, t->errors.nees));
     }
     fputc('\n', file);
     text_table_print(&table, file);
@@ -55,12 +55,12 @@ static void add_motion_row(struct text_table *table, const char *name,
 {
     char texts[6][TEXT_TABLE_NUMBER];
     text_table_add_row(table, "%s|%zu|%s|%s|%s|%s|%s|%s", name, of->pairs,
-                       text_table_format_number(texts[0], 1, of->rmse_m),
-                       text_table_format_number(texts[1], 2, of->rmse_mps),
-                       text_table_format_number(texts[2], 2, of->nees / EVALUATION_AXES),
-                       text_table_format_number(texts[3], 3, of->nees_inside),
-                       text_table_format_number(texts[4], 2, of->velocity_ratio),
-                       text_table_format_number(texts[5], 3, of->velocity_inside));
+                       text_table_number_or_dash(texts[0], 1, of->rmse_m),
+                       text_table_number_or_dash(texts[1], 2, of->rmse_mps),
+                       text_table_number_or_dash(texts[2], 2, of->nees / EVALUATION_AXES),
+                       text_table_number_or_dash(texts[3], 3, of->nees_inside),
+                       text_table_number_or_dash(texts[4], 2, of->velocity_ratio),
+                       text_table_number_or_dash(texts[5], 3, of->velocity_inside));
 }
 
 /*

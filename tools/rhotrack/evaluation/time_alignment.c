@@ -52,8 +52,8 @@ void alignment_fail_unmatched(const struct table *tracks, size_t row, int64_t mo
                       (double)most_us * 1e-3);
 }
 
-struct alignment alignment_to_truth(struct alignment_times tracks, struct alignment_times truth,
-                                    int64_t most_us)
+struct alignment alignment_list_rows_for_truth(struct alignment_times tracks,
+                                               struct alignment_times truth, int64_t most_us)
 {
     struct alignment alignment = {.count = 0};
     size_t capacity = 0, from = 0;
@@ -69,8 +69,8 @@ struct alignment alignment_to_truth(struct alignment_times tracks, struct alignm
         for (size_t k = from;
              k < tracks.count && tracks.list_us[k] == at_us && llabs(at_us - time_us) <= most_us;
              k++) {
-            alignment.list =
-                must_grow(alignment.list, alignment.count, &capacity, sizeof *alignment.list);
+            alignment.list = must_make_room_for_one(alignment.list, alignment.count, &capacity,
+                                                    sizeof *alignment.list);
             alignment.list[alignment.count++] = (struct aligned_row){.row = k, .to_us = time_us};
         }
     }

@@ -49,7 +49,7 @@ _Noreturn void alignment_fail_unmatched(const struct table *tracks, size_t row, 
  * Lists the track rows that are used at each truth time. A row may be used at no truth time or at
  * several.
  */
-struct alignment alignment_to_truth(struct alignment_times tracks, struct alignment_times truth,
-                                    int64_t most_us);
+struct alignment alignment_list_rows_for_truth(struct alignment_times tracks,
+                                               struct alignment_times truth, int64_t most_us);
 
 #endif

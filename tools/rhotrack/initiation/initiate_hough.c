@@ -7,9 +7,9 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/output/initiated_output.h"
+#include "io/output/initiated_tracks_output.h"
 #include "io/scans/hough_batch.h"
-#include "io/scans/scan_reader.h"
+#include "io/scans/plot_scan_reader.h"
 #include "io/turns/revolutions.h"
 #include "pipeline/pipeline.h"
 
@@ -27,16 +27,16 @@ struct hough_search {
 
 static void read_batch(struct hough_batch *batch, const struct command_line *line)
 {
-    struct scan_reader *reader =
-        scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
+    struct scan_reader *reader = plot_scan_reader_open(line->arguments, line->num_arguments,
+                                                       &line->parameters, line->keep_going);
     struct revolutions revolutions =
         revolutions_read_last(reader, (size_t)line->parameters.value[PARAMETER_SCANS]);
 
     *batch = hough_batch_from_revolutions(&revolutions);
     revolutions_free(&revolutions);
-    scan_reader_report_skipped(reader);
+    plot_scan_reader_report_skipped(reader);
     hough_batch_report_left_out(batch);
-    scan_reader_close(reader);
+    plot_scan_reader_close(reader);
 }
 
 /* ---- The search ---- */
@@ -86,7 +86,7 @@ static void search_batch_for_peaks(struct hough_search *search, const struct com
     struct rho_hough_points points = hough_batch_points(&search->batch);
     struct rho_hough_config config;
 
-    method_fit_cells(&fitted, search->batch.range_m);
+    method_widen_cells_to_range(&fitted, search->batch.range_m);
     config = method_hough_config(method, &fitted, search->batch.range_m);
     must_succeed(rho_hough_init(search->hough, sizeof *search->hough, &config), "hough");
     warn_of_long_search(search->hough, &points);
@@ -132,17 +132,17 @@ static struct initiated fit_track_of_peak(const struct hough_search *search, uin
 
 static void write_found_tracks(const struct hough_search *search, const char *path)
 {
-    struct initiated_output *found = initiated_output_open(path);
+    struct initiated_output *found = initiated_tracks_output_open(path);
     struct progress progress = progress_start("tracks", search->result.num_peaks);
 
     for (uint32_t i = 0; i < search->result.num_peaks; i++) {
         struct initiated row = fit_track_of_peak(search, i);
 
-        initiated_output_add_row(found, &row);
+        initiated_tracks_output_add_row(found, &row);
         progress_show(&progress, i + 1);
     }
     progress_end(&progress);
-    initiated_output_close(found);
+    initiated_tracks_output_close(found);
 }
 
 static void add_peak_votes_json(cJSON *object, const struct hough_search *search)

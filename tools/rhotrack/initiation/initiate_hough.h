@@ -4,7 +4,7 @@
 #define RHOTRACK_TOOL_INITIATE_HOUGH_H
 
 #include "commands.h"
-#include "settings/method.h"
+#include "settings/initiation_method.h"
 
 void initiate_hough(const struct command_line *line, enum method method);
 

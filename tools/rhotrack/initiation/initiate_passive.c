@@ -6,10 +6,10 @@
 
 #include "base/common.h"
 #include "initiation/last_bearings.h"
-#include "io/output/initiated_output.h"
+#include "io/output/initiated_tracks_output.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/angle.h"
-#include "settings/method.h"
+#include "settings/initiation_method.h"
 
 static enum rho_status push_passive_frame(void *object, const struct rho_frame *frame,
                                           uint8_t *fates)
@@ -26,7 +26,7 @@ static enum rho_status search_passive_batch(void *object)
 
 static void write_found_tracks(const struct rho_passive *passive, int64_t time_us, const char *path)
 {
-    struct initiated_output *found = initiated_output_open(path);
+    struct initiated_output *found = initiated_tracks_output_open(path);
 
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *track = &passive->tracks[i];
@@ -44,9 +44,9 @@ static void write_found_tracks(const struct rho_passive *passive, int64_t time_u
                                 .sensor_pairs = rho_passive_sensor_pairs(track),
                                 .score = (double)((float)track->score_mnat / 1000.0f)};
 
-        initiated_output_add_row(found, &row);
+        initiated_tracks_output_add_row(found, &row);
     }
-    initiated_output_close(found);
+    initiated_tracks_output_close(found);
 }
 
 /* Adds the number of bearings of each track, in descending order, and their sum. */
@@ -59,7 +59,8 @@ static void add_track_hits_json(cJSON *object, const struct rho_passive *passive
         sum += hits[i];
     }
     cJSON_AddNumberToObject(object, "votes", sum);
-    cJSON_AddItemToObject(object, "peak_votes", json_list_descending(hits, passive->num_tracks));
+    cJSON_AddItemToObject(object, "peak_votes",
+                          sort_descending_into_json_list(hits, passive->num_tracks));
 }
 
 static void add_track_margins_json(cJSON *object, const struct rho_passive *passive)

@@ -6,9 +6,9 @@
 
 #include "base/common.h"
 #include "initiation/last_bearings.h"
-#include "io/output/initiated_output.h"
+#include "io/output/initiated_tracks_output.h"
 #include "pipeline/pipeline.h"
-#include "settings/method.h"
+#include "settings/initiation_method.h"
 
 static enum rho_status push_paper_frame(void *object, const struct rho_frame *frame, uint8_t *fates)
 {
@@ -25,7 +25,7 @@ static enum rho_status search_paper_batch(void *object)
 static void write_found_tracks(const struct rho_passive_paper *paper, int64_t time_us,
                                const char *path)
 {
-    struct initiated_output *found = initiated_output_open(path);
+    struct initiated_output *found = initiated_tracks_output_open(path);
 
     for (unsigned i = 0; i < paper->num_lines; i++) {
         const struct rho_passive_paper_line *line = &paper->lines[i];
@@ -43,9 +43,9 @@ static void write_found_tracks(const struct rho_passive_paper *paper, int64_t ti
                                     paper->batch.num_sensors * (paper->batch.num_sensors - 1u) / 2u,
                                 .score = line->votes};
 
-        initiated_output_add_row(found, &row);
+        initiated_tracks_output_add_row(found, &row);
     }
-    initiated_output_close(found);
+    initiated_tracks_output_close(found);
 }
 
 static void add_votes_json(cJSON *object, const struct rho_passive_paper *paper)
@@ -56,7 +56,8 @@ static void add_votes_json(cJSON *object, const struct rho_passive_paper *paper)
         votes[i] = paper->lines[i].votes;
     }
     cJSON_AddNumberToObject(object, "votes", paper->work.votes);
-    cJSON_AddItemToObject(object, "peak_votes", json_list_descending(votes, paper->num_lines));
+    cJSON_AddItemToObject(object, "peak_votes",
+                          sort_descending_into_json_list(votes, paper->num_lines));
 }
 
 static void print_search_json(const struct rho_passive_paper *paper,

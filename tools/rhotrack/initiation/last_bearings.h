@@ -8,7 +8,7 @@
 
 #include "commands.h"
 #include "io/scans/bearing_frame_reader.h"
-#include "rhotrack/detail/bearing_batch.h"
+#include "rhotrack/detail/bearing_frame_batch.h"
 
 /* A method's initiator for bearings, initialised, and the calls to feed and search it. */
 struct bearings_search {

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/output/clutter_file.h"
-#include "live/refused_messages.h"
+#include "io/output/clutter_map_file.h"
+#include "live/refused_message_buffer.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/command.h"
@@ -53,7 +53,7 @@ struct node_core {
     struct out_of_sequence_counts order;
     struct node_core_times step_times, latencies;
     struct rho_scan_assembler assembler;
-    struct refused_messages refused;
+    struct refused_message_buffer refused;
     /* taken: counts of refused scans that were taken later; shown: counters less `taken` */
     struct rho_scan_assembler_counters taken, shown;
     struct rho_frames frames;
@@ -177,7 +177,7 @@ static void reset_tracking(struct node_core *core)
     memcpy(excluded, core->pipeline.tracker->excluded, sizeof excluded);
     pipeline_open(&core->pipeline, core->parameters);
     pipeline_reopen_passive_paper(&core->pipeline);
-    clutter_file_copy_echoes(&core->pipeline.tracker->clutter_map, clutter);
+    clutter_map_file_copy_saved_content(&core->pipeline.tracker->clutter_map, clutter);
     free(clutter);
     restore_excluded_areas(core->pipeline.tracker, excluded, num_excluded);
     core->pipeline.tracker->counters = counters;
@@ -279,7 +279,7 @@ static void send_setting_answer(struct node_core *core, struct rho_message_setti
 static void apply_setting_and_answer(struct node_core *core,
                                      const struct rho_message_setting *setting)
 {
-    struct rho_settings settings = parameters_settings(core->parameters);
+    struct rho_settings settings = parameters_to_settings(core->parameters);
     struct rho_message_setting_answer answer;
 
     if (rho_command_set(setting, &settings, &answer) == RHO_OK) {
@@ -490,15 +490,15 @@ static void count_message_and_retry_refused(struct node_core *core, const char *
 
     out_of_sequence_counts_note_message(&core->order, before, &core->assembler);
     if (after->sensor_restarts == before->sensor_restarts) {
-        refused_messages_note(&core->refused, channel, data, size, before, after);
+        refused_message_buffer_note(&core->refused, channel, data, size, before, after);
     } else {
         report_sensor_restarts(core, places);
         if (core->assembler.is_restart) { /* no scan since the restart has been stepped yet */
-            refused_messages_feed_again(&core->refused, channel, &core->assembler, now_us,
-                                        &core->taken);
+            refused_message_buffer_feed_again(&core->refused, channel, &core->assembler, now_us,
+                                              &core->taken);
         }
     }
-    core->shown = refused_messages_remaining_counters(after, &core->taken);
+    core->shown = refused_message_buffer_remaining_counters(after, &core->taken);
 }
 
 void node_core_take_message(struct node_core *core, const char *channel, const uint8_t *data,
@@ -635,7 +635,7 @@ void node_core_send_status(struct node_core *core, const struct node_core_losses
     send_zone_counts(core);
 }
 
-void node_core_send_clutter(const struct node_core *core)
+void node_core_send_clutter_map(const struct node_core *core)
 {
     struct rho_message_clutter_map list;
     uint8_t buffer[RHO_MESSAGE_CLUTTER_MAP_MAX_SIZE];
@@ -687,7 +687,8 @@ const struct rho_report *node_core_last_report(const struct node_core *core)
     return core->pipeline.report;
 }
 
-int node_core_learned_wall(const struct node_core *core, unsigned place, struct rho_reflector *wall)
+int node_core_get_learned_wall(const struct node_core *core, unsigned place,
+                               struct rho_reflector *wall)
 {
     return rho_reflector_learning_wall(core->pipeline.learning, place, wall);
 }
@@ -722,7 +723,7 @@ const struct node_core_commands *node_core_command_counts(const struct node_core
     return &core->counters;
 }
 
-const struct out_of_sequence_counts *node_core_sequence_counts(const struct node_core *core)
+const struct out_of_sequence_counts *node_core_used_out_of_sequence(const struct node_core *core)
 {
     return &core->order;
 }

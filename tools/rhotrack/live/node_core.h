@@ -113,7 +113,7 @@ const struct rho_tracker_counters *node_core_tracker_counters(const struct node_
 const struct rho_node_counters *node_core_node_counters(const struct node_core *core);
 
 /* Counts of scans that arrived out of sequence and were used. */
-const struct out_of_sequence_counts *node_core_sequence_counts(const struct node_core *core);
+const struct out_of_sequence_counts *node_core_used_out_of_sequence(const struct node_core *core);
 
 /*
  * Lists the sensors that are heard, as published in RHO_SENSORS, at the time of the last message or
@@ -129,11 +129,11 @@ bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id);
 int node_core_scans_to_establish(const struct node_core *core);
 
 /* Gets the learned wall (reflectors.h) with this index; returns 0 where there is none. */
-int node_core_learned_wall(const struct node_core *core, unsigned place,
-                           struct rho_reflector *wall);
+int node_core_get_learned_wall(const struct node_core *core, unsigned place,
+                               struct rho_reflector *wall);
 
 /* Publishes the clutter map, RHO_CLUTTER. */
-void node_core_send_clutter(const struct node_core *core);
+void node_core_send_clutter_map(const struct node_core *core);
 
 /* The tracker's clutter map. */
 struct rho_clutter_map *node_core_clutter_map(struct node_core *core);

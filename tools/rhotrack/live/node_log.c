@@ -238,7 +238,7 @@ static void *run_writer_thread(void *object)
     struct file file;
 
     pthread_mutex_lock(&log->mutex);
-    if (node_log_limits_are_set(&log->limits)) { /* keeps the log of an earlier run */
+    if (node_log_has_rotation_limit(&log->limits)) { /* keeps the log of an earlier run */
         rotate_file(log, node_log_files_last_write_us(log->path));
     }
     open_file(log, &file, log->refusal ? O_APPEND : O_TRUNC);

@@ -17,7 +17,7 @@
 #define STAMP_BYTES (sizeof STAMP - 1)
 #define US_PER_MS 1000
 
-bool node_log_limits_are_set(const struct node_log_limits *limits)
+bool node_log_has_rotation_limit(const struct node_log_limits *limits)
 {
     return limits->bytes_max > 0 || limits->period_us > 0;
 }

@@ -21,7 +21,7 @@ struct node_log_limits {
     unsigned files_max;
 };
 
-bool node_log_limits_are_set(const struct node_log_limits *limits);
+bool node_log_has_rotation_limit(const struct node_log_limits *limits);
 
 /*
  * True where an event must go into a new file, as the current file of file_bytes that began at

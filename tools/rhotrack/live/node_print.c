@@ -115,7 +115,7 @@ struct node_print node_print_start(bool is_on, bool is_live)
     return print;
 }
 
-void node_print_step(struct node_print *print, const struct rho_report *report)
+void node_print_report_or_mark_changed(struct node_print *print, const struct rho_report *report)
 {
     print->is_changed = print->is_on;
     if (print->is_on && !print->is_terminal && make_room_or_count_left_out(print)) {
@@ -183,7 +183,7 @@ static void print_node_and_table_head(const struct node_core *core, const char *
     const struct rho_report *report = node_core_last_report(core);
     const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
     const struct scan_losses losses =
-        out_of_sequence_counts_losses(node_core_sequence_counts(core), assembler);
+        out_of_sequence_counts_losses(node_core_used_out_of_sequence(core), assembler);
 
     fprintf(out, "\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
     fprintf(out,
@@ -242,8 +242,8 @@ static void print_track_table(const struct node_core *core, const char *url, FIL
     fputs("\033[J\033[?7h", out); /* erase the rest of the screen, and wrap long lines again */
 }
 
-bool node_print_refresh(struct node_print *print, const struct node_core *core, const char *url,
-                        bool is_end)
+bool node_print_refresh_table(struct node_print *print, const struct node_core *core,
+                              const char *url, bool is_end)
 {
     int64_t now_us = clock_us();
 

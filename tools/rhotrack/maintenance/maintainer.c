@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "maintenance/maintainer_best.h"
+#include "maintenance/maintainer_hypotheses.h"
 #include "maintenance/plot_distance.h"
 #include "maintenance/scan_clutter_density.h"
 #include "pipeline/pipeline.h"
@@ -84,7 +84,7 @@ struct maintainer *maintainer_new(enum maintainer_gate gate, bool has_input_esti
     maintainer->pd = parameters->value[PARAMETER_PD];
     maintainer->track.track_id = 1;
     if (gate == MAINTAIN_BEST) {
-        maintainer->best = maintainer_best_new(parameters);
+        maintainer->best = maintainer_hypotheses_new(parameters);
     }
     return maintainer;
 }
@@ -101,7 +101,7 @@ struct maintainer *maintainer_new_sharing_pool(const struct maintainer *first)
     maintainer->pd = first->pd;
     maintainer->track.track_id = 1;
     if (first->best) {
-        maintainer->best = maintainer_best_new_sharing_pool(first->best);
+        maintainer->best = maintainer_hypotheses_new_sharing_pool(first->best);
     }
     return maintainer;
 }
@@ -109,7 +109,7 @@ struct maintainer *maintainer_new_sharing_pool(const struct maintainer *first)
 void maintainer_free(struct maintainer *maintainer)
 {
     if (maintainer) {
-        maintainer_best_free(maintainer->best);
+        maintainer_hypotheses_free(maintainer->best);
         scan_clutter_density_free(maintainer->density);
         free(maintainer);
     }
@@ -118,7 +118,7 @@ void maintainer_free(struct maintainer *maintainer)
 size_t maintainer_state_bytes(const struct maintainer *maintainer)
 {
     if (maintainer->best) {
-        return maintainer_best_state_bytes();
+        return maintainer_hypotheses_state_bytes();
     }
     return sizeof maintainer->input +
            (maintainer->gate == MAINTAIN_HOUGH
@@ -178,8 +178,8 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
         set_measured_start_velocity(&kalman, plot);
     }
     if (maintainer->best) {
-        maintainer_best_start(maintainer->best, time_us + plot->offset_us, time_us, &kalman,
-                              sensor);
+        maintainer_hypotheses_start(maintainer->best, time_us + plot->offset_us, time_us, &kalman,
+                                    sensor);
         return;
     }
     if (maintainer->config.initial_variance > 0.0f) {
@@ -215,7 +215,7 @@ void maintainer_predict(struct maintainer *maintainer, int64_t time_us)
     maintainer->is_predicted = true;
     maintainer->predicted_us = time_us;
     if (maintainer->best) {
-        maintainer->is_lost = !maintainer_best_predict(maintainer->best, time_us);
+        maintainer->is_lost = !maintainer_hypotheses_predict(maintainer->best, time_us);
     } else {
         maintainer->is_lost = !predict_to_time(maintainer, time_us, &maintainer->predicted);
     }
@@ -227,7 +227,7 @@ void maintainer_predicted_place(const struct maintainer *maintainer, double plac
     struct rho_kalman kalman;
 
     if (maintainer->best) {
-        maintainer_best_predicted_place(maintainer->best, place_m);
+        maintainer_hypotheses_predicted_place(maintainer->best, place_m);
         return;
     }
     rho_input_estimate(&maintainer->predicted, &kalman);
@@ -259,7 +259,7 @@ static double squared_distance_to_plot(const struct maintainer *maintainer,
 
     if (predict_to_plot_time(maintainer, plot, &at)) {
         rho_input_estimate_for_gate(&at, &expected);
-        distance2 = plot_distance2(&expected, plot, measures, sensor, dimensions);
+        distance2 = plot_squared_mahalanobis(&expected, plot, measures, sensor, dimensions);
     }
     return isfinite(distance2) ? distance2 : INFINITY;
 }
@@ -271,7 +271,7 @@ double maintainer_nis_per_dimension(const struct maintainer *maintainer,
     double distance2;
 
     if (maintainer->best) {
-        return maintainer_best_nis_per_dimension(maintainer->best, plot, measures);
+        return maintainer_hypotheses_nis_per_dimension(maintainer->best, plot, measures);
     }
     distance2 =
         squared_distance_to_plot(maintainer, plot, measures,
@@ -405,7 +405,7 @@ static bool update_by_plot(const struct maintainer *maintainer, const struct rho
              RHO_OK)) {
         return false;
     }
-    rho_input_decide_presence(input, config);
+    rho_input_test_and_end_inputs(input, config);
     return true;
 }
 
@@ -475,9 +475,9 @@ int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan
     maintainer_predicted_place(maintainer, place_m);
     maintainer->is_predicted = false;
     if (isnan(log_density)) {
-        log_density = scan_clutter_density_add_scan(maintainer->density, scan, place_m, pd);
+        log_density = scan_clutter_density_add_and_estimate(maintainer->density, scan, place_m, pd);
     }
-    return maintainer_best_update(maintainer->best, scan, sensor, log_density, pd);
+    return maintainer_hypotheses_update(maintainer->best, scan, sensor, log_density, pd);
 }
 
 /* ---- The estimate ---- */
@@ -487,7 +487,7 @@ void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_
     struct rho_input now = maintainer->predicted;
 
     if (maintainer->best) {
-        maintainer_best_estimate(maintainer->best, estimate);
+        maintainer_hypotheses_estimate(maintainer->best, estimate);
         return;
     }
     if (!maintainer->is_predicted) {
@@ -598,5 +598,5 @@ const struct rho_track_report *maintainer_report(struct maintainer *maintainer)
 unsigned long maintainer_num_refused(const struct maintainer *maintainer)
 {
     return maintainer->refused +
-           (maintainer->best ? maintainer_best_num_refused(maintainer->best) : 0);
+           (maintainer->best ? maintainer_hypotheses_num_refused(maintainer->best) : 0);
 }

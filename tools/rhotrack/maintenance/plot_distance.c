@@ -116,8 +116,8 @@ static double squared_mahalanobis_distance(const struct innovation *innovation,
     return isfinite(sum) ? sum : NAN;
 }
 
-double plot_distance2(const struct rho_kalman *predicted, const struct rho_plot *plot,
-                      uint32_t measures, const struct rho_sensor *sensor, int *dimensions)
+double plot_squared_mahalanobis(const struct rho_kalman *predicted, const struct rho_plot *plot,
+                                uint32_t measures, const struct rho_sensor *sensor, int *dimensions)
 {
     struct innovation innovation = {.num = 0};
     struct rho_measurement seen;

@@ -17,7 +17,8 @@
  * prediction knows the height, too. NAN where the covariance is not positive definite. `predicted`
  * must be at the plot's own time: offset_us is ignored. sensor NULL: at the origin.
  */
-double plot_distance2(const struct rho_kalman *predicted, const struct rho_plot *plot,
-                      uint32_t measures, const struct rho_sensor *sensor, int *dimensions);
+double plot_squared_mahalanobis(const struct rho_kalman *predicted, const struct rho_plot *plot,
+                                uint32_t measures, const struct rho_sensor *sensor,
+                                int *dimensions);
 
 #endif

@@ -56,8 +56,8 @@ static struct sensor_statistics *find_or_add_sensor(struct scan_clutter_density 
             return &density->sensors[i];
         }
     }
-    density->sensors =
-        must_grow(density->sensors, density->count, &density->capacity, sizeof *density->sensors);
+    density->sensors = must_make_room_for_one(density->sensors, density->count, &density->capacity,
+                                              sizeof *density->sensors);
     density->sensors[density->count] = (struct sensor_statistics){.sensor_id = sensor_id};
     return &density->sensors[density->count++];
 }
@@ -216,9 +216,9 @@ static double log_volume_of_spread(const struct spread *spread, int axes)
     return log_ball + 0.5 * log(determinant(covariance, axes));
 }
 
-double scan_clutter_density_add_scan(struct scan_clutter_density *density,
-                                     const struct rho_scan *scan, const double place_m[3],
-                                     double pd)
+double scan_clutter_density_add_and_estimate(struct scan_clutter_density *density,
+                                             const struct rho_scan *scan, const double place_m[3],
+                                             double pd)
 {
     struct sensor_statistics *seen = find_or_add_sensor(density, scan->sensor_id);
     size_t left_out = find_nearest_plot(scan, place_m);

@@ -36,7 +36,7 @@ void map_box_include_points(struct map_box *box, const struct plot_points *point
     }
 }
 
-void map_box_include_radars(struct map_box *box, const struct plot_data *data)
+void map_box_include_radars(struct map_box *box, const struct picture_data *data)
 {
     for (size_t i = 0; i < data->num_radars; i++) {
         map_box_include(box, data->radars[i].x_m, data->radars[i].y_m);

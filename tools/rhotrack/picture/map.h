@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 #include "picture/picture.h"
-#include "picture/plot_data.h"
+#include "picture/picture_data.h"
 
 #define MAP_KILOMETRES_FROM_M 4000.0
 
@@ -28,7 +28,7 @@ struct map_box {
 struct map_box map_box_empty(void);
 void map_box_include(struct map_box *box, double x_m, double y_m);
 void map_box_include_points(struct map_box *box, const struct plot_points *points);
-void map_box_include_radars(struct map_box *box, const struct plot_data *data);
+void map_box_include_radars(struct map_box *box, const struct picture_data *data);
 
 struct map {
     FILE *script;        /* file to which gnuplot commands are written */

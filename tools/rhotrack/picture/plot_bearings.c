@@ -11,7 +11,7 @@
 /* ---- the visible area ---- */
 
 /* Box of sensors, plots and truth; without plots and truth also of the rays' ends. */
-static struct map_box map_box_of_data(const struct plot_data *data)
+static struct map_box map_box_of_data(const struct picture_data *data)
 {
     const struct plot_rays *rays = &data->bearings;
     struct map_box box = map_box_empty();
@@ -65,7 +65,7 @@ static void put_path_arrows(const struct map *map, const struct plot_points *tru
 {
     struct plot_points one;
     size_t at = 0;
-    while (plot_data_next_identity(truth, &at, &one)) {
+    while (picture_data_next_identity(truth, &at, &one)) {
         if (one.count > 1) {
             const struct plot_point *end = &one.list[one.count - 1], *before = end - 1;
             fprintf(map->script,
@@ -119,7 +119,7 @@ void plot_bearings_write_data(const struct map *map, const struct plot_rays *ray
             "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.5,0.3\n");
 }
 
-void plot_bearings(struct picture *picture, const struct plot_data *data)
+void plot_bearings(struct picture *picture, const struct picture_data *data)
 {
     const struct plot_rays *rays = &data->bearings;
     const struct map map = map_start(picture, map_box_of_data(data));

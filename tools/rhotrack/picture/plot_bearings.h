@@ -8,13 +8,13 @@
 
 #include "picture/map.h"
 #include "picture/picture.h"
-#include "picture/plot_data.h"
+#include "picture/picture_data.h"
 
 /*
  * Draws the map. With truth or plots it shows these and the sensors, and cuts the rays at its edge;
  * otherwise it shows the rays in full.
  */
-void plot_bearings(struct picture *picture, const struct plot_data *data);
+void plot_bearings(struct picture *picture, const struct picture_data *data);
 
 /*
  * Rays and sensors for another map: first the data blocks, then the clauses of the command plot

@@ -130,7 +130,7 @@ static struct plot_point extrapolated_to_time(const struct plot_point *point, in
  * The tracks' points extrapolated to the truth's times; exits with 2 where a track time has no
  * truth time within most_us.
  */
-static struct plot_points align_tracks_to_truth(const struct plot_data *data, int64_t most_us)
+static struct plot_points align_tracks_to_truth(const struct picture_data *data, int64_t most_us)
 {
     struct plot_points truth = confirmed_points_by_time(&data->truth);
     struct plot_points tracks = confirmed_points_by_time(&data->tracks);
@@ -140,7 +140,7 @@ static struct plot_points align_tracks_to_truth(const struct plot_data *data, in
     if (unmatched < tracks.count) {
         alignment_fail_unmatched(tracks.list[unmatched].table, tracks.list[unmatched].row, most_us);
     }
-    struct alignment alignment = alignment_to_truth(track_times, truth_times, most_us);
+    struct alignment alignment = alignment_list_rows_for_truth(track_times, truth_times, most_us);
     struct plot_points aligned = {.list = must_calloc(alignment.count + 1, sizeof *aligned.list),
                                   .count = alignment.count};
     for (size_t i = 0; i < alignment.count; i++) {
@@ -155,7 +155,7 @@ static struct plot_points align_tracks_to_truth(const struct plot_data *data, in
     return aligned;
 }
 
-struct plot_errors plot_errors_find(const struct plot_data *data,
+struct plot_errors plot_errors_find(const struct picture_data *data,
                                     const struct parameters *parameters)
 {
     struct plot_points aligned = align_tracks_to_truth(data, alignment_tolerance_us(parameters));
@@ -189,9 +189,10 @@ void plot_errors_free(struct plot_errors *errors)
 
 /* ---- the picture ---- */
 
-static void put_errors(FILE *script, const struct plot_data *data, const struct plot_errors *errors)
+static void put_errors(FILE *script, const struct picture_data *data,
+                       const struct plot_errors *errors)
 {
-    const int64_t zero_us = plot_data_time_origin_us(data);
+    const int64_t zero_us = picture_data_time_origin_us(data);
     fprintf(script, "$errors << EOD\n");
     for (size_t i = 0; i < data->truth.count; i++) {
         const struct plot_point *target = &data->truth.list[i];
@@ -208,21 +209,21 @@ static void put_errors(FILE *script, const struct plot_data *data, const struct 
     fprintf(script, "EOD\n");
 }
 
-void plot_errors(struct picture *picture, const struct plot_data *data,
+void plot_errors(struct picture *picture, const struct picture_data *data,
                  const struct plot_errors *errors)
 {
     struct plot_points one;
-    size_t at = 0, index = 0, many = plot_data_count_identities(&data->truth) > PLOT_LEGEND_MAX;
+    size_t at = 0, index = 0, many = picture_data_count_identities(&data->truth) > PLOT_LEGEND_MAX;
     char time[80];
-    plot_data_time_label(data, time, sizeof time);
+    picture_data_time_label(data, time, sizeof time);
     picture_set_title(picture, "Position errors of the tracks of %zu targets",
-                      plot_data_count_identities(&data->truth));
+                      picture_data_count_identities(&data->truth));
     put_errors(picture->script, data, errors);
     fprintf(picture->script,
             "set xlabel '%s'\nset ylabel 'position error (m)'\nset yrange [0:*]\n%splot NaN "
             "notitle",
             time, many ? "set key off\n" : "");
-    while (plot_data_next_identity(&data->truth, &at, &one)) {
+    while (picture_data_next_identity(&data->truth, &at, &one)) {
         fprintf(picture->script,
                 ", \\\n $errors index %zu using 1:2 with linespoints lw 1.2 pt %d ps %g pi %zu "
                 "lc rgb '%s' title 'target %d'",

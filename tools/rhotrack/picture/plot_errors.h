@@ -7,7 +7,7 @@
 #define RHOTRACK_TOOL_PLOT_ERRORS_H
 
 #include "picture/picture.h"
-#include "picture/plot_data.h"
+#include "picture/picture_data.h"
 #include "settings/parameters.h"
 
 struct plot_errors {
@@ -19,11 +19,11 @@ struct plot_errors {
  * targets within gospa_cutoff_m. Exits with 2 where a track time is no truth time, or no target has
  * a track. Time: number of truth times multiplied by the number of rows.
  */
-struct plot_errors plot_errors_find(const struct plot_data *data,
+struct plot_errors plot_errors_find(const struct picture_data *data,
                                     const struct parameters *parameters);
 void plot_errors_free(struct plot_errors *errors);
 
-void plot_errors(struct picture *picture, const struct plot_data *data,
+void plot_errors(struct picture *picture, const struct picture_data *data,
                  const struct plot_errors *errors);
 
 #endif

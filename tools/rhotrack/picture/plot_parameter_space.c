@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/scans/scan_reader.h"
+#include "io/scans/plot_scan_reader.h"
 #include "picture/map.h"
 #include "rhotrack/config.h"
 #include "rhotrack/detail/angle.h"
@@ -86,7 +86,7 @@ static void put_lines_of_tracks(FILE *script, const struct plot_points *tracks, 
     struct plot_points one;
     size_t at = 0;
     fprintf(script, "$lines << EOD\n");
-    while (plot_data_next_identity(tracks, &at, &one)) {
+    while (picture_data_next_identity(tracks, &at, &one)) {
         const struct plot_point *end = &one.list[one.count - 1];
         struct rho_line line = rho_angle_line((float)end->x_m, (float)end->y_m, (float)end->vx_mps,
                                               (float)end->vy_mps);
@@ -100,18 +100,18 @@ static void put_lines_of_tracks(FILE *script, const struct plot_points *tracks, 
  * Reads the plots again as scans and returns the last ones: the table of plots does not show which
  * belong to one scan.
  */
-struct revolutions plot_parameter_space_read(const struct plot_data *data,
+struct revolutions plot_parameter_space_read(const struct picture_data *data,
                                              const struct parameters *parameters, size_t scans)
 {
     uint32_t num_plots = 0;
     for (int i = 0; i < data->num_plot_paths; i++) {
-        if (plain_file_size(data->plot_paths[i]) == 0) {
+        if (regular_file_size_or_zero(data->plot_paths[i]) == 0) {
             fail(EXIT_USAGE, "plot parameter-space: %s: plots are read twice; give them as a file",
                  data->plot_paths[i]);
         }
     }
-    struct scan_reader *reader =
-        scan_reader_open_without_sensors(data->plot_paths, data->num_plot_paths, parameters);
+    struct scan_reader *reader = plot_scan_reader_open_sensor_id_optional(
+        data->plot_paths, data->num_plot_paths, parameters);
     struct revolutions revolutions = revolutions_read_last(reader, scans);
     for (size_t i = 0; i < revolutions.count; i++) {
         num_plots += revolutions.list[i].scan.num_plots;
@@ -120,11 +120,11 @@ struct revolutions plot_parameter_space_read(const struct plot_data *data,
         fail(EXIT_USAGE, "plot parameter-space: the last %zu scans have no plots",
              revolutions.count);
     }
-    scan_reader_close(reader);
+    plot_scan_reader_close(reader);
     return revolutions;
 }
 
-void plot_parameter_space(struct picture *picture, const struct plot_data *data,
+void plot_parameter_space(struct picture *picture, const struct picture_data *data,
                           const struct revolutions *revolutions)
 {
     struct votes *votes = must_calloc(1, sizeof *votes);

@@ -8,7 +8,7 @@
 
 #include "io/turns/revolutions.h"
 #include "picture/picture.h"
-#include "picture/plot_data.h"
+#include "picture/picture_data.h"
 #include "settings/parameters.h"
 
 /*
@@ -17,11 +17,11 @@
  * column sensor_id all plots are sensor 0's. Exits with 2, before a picture is begun, where there
  * are no plots or rows are refused. The caller frees the result with revolutions_free.
  */
-struct revolutions plot_parameter_space_read(const struct plot_data *data,
+struct revolutions plot_parameter_space_read(const struct picture_data *data,
                                              const struct parameters *parameters, size_t scans);
 
 /* Draws the votes of the scans' plots, and the lines of the tracks in data. */
-void plot_parameter_space(struct picture *picture, const struct plot_data *data,
+void plot_parameter_space(struct picture *picture, const struct picture_data *data,
                           const struct revolutions *revolutions);
 
 #endif

@@ -16,7 +16,8 @@
 #define ELLIPSE_SIGMAS 2.0
 #define WORDS_BYTES 160
 
-static struct map start_map_of_all_data(const struct picture *picture, const struct plot_data *data)
+static struct map start_map_of_all_data(const struct picture *picture,
+                                        const struct picture_data *data)
 {
     struct map_box box = map_box_empty();
     map_box_include_points(&box, &data->plots);
@@ -31,7 +32,7 @@ static struct map start_map_of_all_data(const struct picture *picture, const str
 /*
  * Time span of all data as text, such as ", 67 s from t_s = 3 on"; empty where nothing has a time.
  */
-static const char *format_time_span(const struct plot_data *data, char text[WORDS_BYTES])
+static const char *format_time_span(const struct picture_data *data, char text[WORDS_BYTES])
 {
     int64_t from_us = INT64_MAX, to_us = INT64_MIN;
     const struct plot_points *const all[] = {&data->plots, &data->tracks, &data->truth};
@@ -61,7 +62,7 @@ static const char *format_time_span(const struct plot_data *data, char text[WORD
  * Number of plots or bearings as text: "1526 plots", "48 bearings" or "20000 of 1000000 plots
  * drawn".
  */
-static const char *format_plot_count(const struct plot_data *data, char text[WORDS_BYTES])
+static const char *format_plot_count(const struct picture_data *data, char text[WORDS_BYTES])
 {
     const size_t count = data->plots.count, drawn = map_num_plots_drawn(count);
     if (count == 0 && data->bearings.count > 0) {
@@ -74,15 +75,15 @@ static const char *format_plot_count(const struct plot_data *data, char text[WOR
     return text;
 }
 
-void plot_scans(struct picture *picture, const struct plot_data *data)
+void plot_scans(struct picture *picture, const struct picture_data *data)
 {
     const struct map map = start_map_of_all_data(picture, data);
     const size_t drawn = map_num_plots_drawn(data->plots.count);
     char plots[WORDS_BYTES], times[WORDS_BYTES], time[WORDS_BYTES];
-    plot_data_time_label(data, time, sizeof time);
+    picture_data_time_label(data, time, sizeof time);
     picture_set_title(picture, "%s%s", format_plot_count(data, plots),
                       format_time_span(data, times));
-    map_write_plots(&map, &data->plots, plot_data_time_origin_us(data));
+    map_write_plots(&map, &data->plots, picture_data_time_origin_us(data));
     map_write_radars(&map, data->radars, data->num_radars);
     fprintf(map.script,
             "set cblabel '%s'\nset palette defined (0 '#00204d', 0.5 '#7c7b78', 1 '#ffd940')\n"
@@ -97,13 +98,13 @@ void plot_scans(struct picture *picture, const struct plot_data *data)
  * Writes the line that started each track: back from its first row with its first velocity, to the
  * time of the first plot or for at most six scans.
  */
-static void put_start_lines(const struct map *map, const struct plot_data *data)
+static void put_start_lines(const struct map *map, const struct picture_data *data)
 {
     struct plot_points one;
     size_t at = 0;
     int64_t first_us = data->plots.count ? data->plots.list[0].time_us : INT64_MAX;
     fprintf(map->script, "$starts << EOD\n");
-    while (plot_data_next_identity(&data->tracks, &at, &one)) {
+    while (picture_data_next_identity(&data->tracks, &at, &one)) {
         const struct plot_point *start = &one.list[0];
         double back_s = (double)(start->time_us - first_us) * 1e-6;
         struct plot_point origin = *start;
@@ -137,7 +138,7 @@ static void put_track_labels(const struct map *map, const struct plot_points *tr
     struct plot_points one;
     struct plot_point *labelled = must_calloc(tracks->count + 1, sizeof *labelled);
     size_t at = 0, count = 0;
-    while (plot_data_next_identity(tracks, &at, &one)) {
+    while (picture_data_next_identity(tracks, &at, &one)) {
         const struct plot_point *end = &one.list[one.count - 1];
         size_t i = 0;
         while (i < count && !do_labels_overlap(map, end, &labelled[i])) {
@@ -158,7 +159,7 @@ static double arrow_time_s(const struct map *map, const struct plot_points *trac
     struct plot_points one;
     size_t at = 0;
     double fastest_mps = 0.0;
-    while (plot_data_next_identity(tracks, &at, &one)) {
+    while (picture_data_next_identity(tracks, &at, &one)) {
         const struct plot_point *end = &one.list[one.count - 1];
         fastest_mps = fmax(fastest_mps, hypot(end->vx_mps, end->vy_mps));
     }
@@ -172,7 +173,7 @@ static void put_arrows_and_ellipses(const struct map *map, const struct plot_poi
     const double time_s = arrow_time_s(map, tracks);
     struct plot_points one;
     size_t at = 0, index = 0;
-    while (plot_data_next_identity(tracks, &at, &one)) {
+    while (picture_data_next_identity(tracks, &at, &one)) {
         const struct plot_point *end = &one.list[one.count - 1];
         const double x = end->x_m / map->unit_m, y = end->y_m / map->unit_m;
         struct plot_ellipse ellipse;
@@ -181,7 +182,7 @@ static void put_arrows_and_ellipses(const struct map *map, const struct plot_poi
                 "rgb '%s' front\n",
                 x, y, end->vx_mps * time_s / map->unit_m, end->vy_mps * time_s / map->unit_m,
                 picture_colour(index));
-        if (plot_data_sigma_ellipse(end, &ellipse) &&
+        if (picture_data_sigma_ellipse(end, &ellipse) &&
             ELLIPSE_SIGMAS * ellipse.major_m * map->pixels_per_m >= ELLIPSE_PIXELS) {
             const double axes = 2.0 * ELLIPSE_SIGMAS / map->unit_m;
             fprintf(map->script,
@@ -210,8 +211,8 @@ static void draw_track_lines(const struct map *map, const struct plot_points *tr
 {
     struct plot_points one;
     size_t at = 0, index = 0;
-    const size_t ids = plot_data_count_identities(tracks);
-    while (plot_data_next_identity(tracks, &at, &one)) {
+    const size_t ids = picture_data_count_identities(tracks);
+    while (picture_data_next_identity(tracks, &at, &one)) {
         char title[40];
         format_track_legend(title, sizeof title, one.list[0].id, index, ids > PLOT_LEGEND_MAX);
         fprintf(map->script, ", \\\n $tracks index %zu using 1:2 with ", index);
@@ -236,7 +237,7 @@ static void draw_truth_paths(const struct map *map, const struct plot_points *tr
 }
 
 static void set_tracks_title(const struct picture *picture, const struct map *map,
-                             const struct plot_data *data)
+                             const struct picture_data *data)
 {
     char plots[WORDS_BYTES], times[WORDS_BYTES], arrows[WORDS_BYTES] = "";
     const double time_s = arrow_time_s(map, &data->tracks);
@@ -244,11 +245,11 @@ static void set_tracks_title(const struct picture *picture, const struct map *ma
         snprintf(arrows, sizeof arrows, "; arrows: %g s of motion; ellipses: %g sigma", time_s,
                  ELLIPSE_SIGMAS);
     }
-    picture_set_title(picture, "%zu tracks, %s%s%s", plot_data_count_identities(&data->tracks),
+    picture_set_title(picture, "%zu tracks, %s%s%s", picture_data_count_identities(&data->tracks),
                       format_plot_count(data, plots), format_time_span(data, times), arrows);
 }
 
-void plot_tracks(struct picture *picture, const struct plot_data *data)
+void plot_tracks(struct picture *picture, const struct picture_data *data)
 {
     const struct map map = start_map_of_all_data(picture, data);
     const bool has_bearings = data->bearings.num_sensors > 0;

@@ -6,15 +6,15 @@
 #define RHOTRACK_TOOL_PLOT_TRACKS_H
 
 #include "picture/picture.h"
-#include "picture/plot_data.h"
+#include "picture/picture_data.h"
 
 /* Draws a map of plots coloured by time. */
-void plot_scans(struct picture *picture, const struct plot_data *data);
+void plot_scans(struct picture *picture, const struct picture_data *data);
 
 /*
  * Draws tracks with ids, arrows of the last velocity, two-sigma ellipses about the last position
  * and the lines that started them, over truth, plots and bearings.
  */
-void plot_tracks(struct picture *picture, const struct plot_data *data);
+void plot_tracks(struct picture *picture, const struct picture_data *data);
 
 #endif

@@ -64,8 +64,8 @@ static struct range range_with_margin(struct range range, unsigned cells)
  * Window of accumulator cells with any vote, plus a margin; `whole` holds the last picture's
  * component: of the neutrosophic method falsity, for which every candidate votes.
  */
-static struct rho_plane window_of_votes(const struct rho_hough *hough,
-                                        const struct rho_plane *whole)
+static struct rho_votes_picture window_of_votes(const struct rho_hough *hough,
+                                                const struct rho_votes_picture *whole)
 {
     struct range theta = {hough->theta_cells, 0}, rho = {hough->rho_cells, 0};
 
@@ -81,12 +81,12 @@ static struct rho_plane window_of_votes(const struct rho_hough *hough,
     rho = range_with_margin(rho, hough->rho_cells);
     const unsigned rows = theta.last - theta.first + 1, columns = rho.last - rho.first + 1;
 
-    return (struct rho_plane){.first_theta = (uint16_t)theta.first,
-                              .theta_cells = (uint16_t)rows,
-                              .first_rho = (uint16_t)rho.first,
-                              .rho_cells = (uint16_t)columns,
-                              .height = (uint16_t)smaller_of(rows, THETA_BLOCKS),
-                              .width = (uint16_t)smaller_of(columns, RHO_BLOCKS)};
+    return (struct rho_votes_picture){.first_theta = (uint16_t)theta.first,
+                                      .theta_cells = (uint16_t)rows,
+                                      .first_rho = (uint16_t)rho.first,
+                                      .rho_cells = (uint16_t)columns,
+                                      .height = (uint16_t)smaller_of(rows, THETA_BLOCKS),
+                                      .width = (uint16_t)smaller_of(columns, RHO_BLOCKS)};
 }
 
 static void compute_vote_pictures(struct plot_votes *votes, const struct rho_hough_config *config,
@@ -95,12 +95,13 @@ static void compute_vote_pictures(struct plot_votes *votes, const struct rho_hou
     struct rho_hough *hough = must_alloc(sizeof *hough);
 
     must_succeed(rho_hough_init(hough, sizeof *hough, config), "hough");
-    struct rho_plane whole = {.height = (uint16_t)smaller_of(hough->theta_cells, THETA_BLOCKS),
-                              .width = (uint16_t)smaller_of(hough->rho_cells, RHO_BLOCKS),
-                              .votes = votes->of[0]};
+    struct rho_votes_picture whole = {.height =
+                                          (uint16_t)smaller_of(hough->theta_cells, THETA_BLOCKS),
+                                      .width = (uint16_t)smaller_of(hough->rho_cells, RHO_BLOCKS),
+                                      .votes = votes->of[0]};
     must_succeed(rho_hough_plane(hough, points, pictures[votes->count - 1].component, &whole),
                  "hough");
-    struct rho_plane plane = window_of_votes(hough, &whole);
+    struct rho_votes_picture plane = window_of_votes(hough, &whole);
     for (unsigned i = 0; i < votes->count; i++) {
         plane.votes = votes->of[i];
         must_succeed(rho_hough_plane(hough, points, pictures[i].component, &plane), "hough");
@@ -124,7 +125,7 @@ struct plot_votes *plot_votes_find(enum method method, const struct revolutions 
     struct hough_batch batch = hough_batch_from_revolutions(revolutions);
     struct rho_hough_points points = hough_batch_points(&batch);
 
-    method_fit_cells(&fitted, batch.range_m);
+    method_widen_cells_to_range(&fitted, batch.range_m);
     struct rho_hough_config config = method_hough_config(method, &fitted, batch.range_m);
 
     hough_batch_report_left_out(&batch);

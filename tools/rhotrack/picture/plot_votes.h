@@ -8,7 +8,7 @@
 
 #include "io/turns/revolutions.h"
 #include "picture/picture.h"
-#include "settings/method.h"
+#include "settings/initiation_method.h"
 
 /* The votes to be drawn, computed before the picture is begun so that errors leave no file. */
 struct plot_votes;

@@ -6,12 +6,13 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "settings/method.h"
+#include "settings/initiation_method.h"
 
 static void allocate_initiator(struct pipeline *pipeline)
 {
-    pipeline->initiators = must_grow(pipeline->initiators, pipeline->num_allocated,
-                                     &pipeline->capacity, sizeof *pipeline->initiators);
+    pipeline->initiators =
+        must_make_room_for_one(pipeline->initiators, pipeline->num_allocated, &pipeline->capacity,
+                               sizeof *pipeline->initiators);
     pipeline->initiators[pipeline->num_allocated++].initiator =
         must_alloc(sizeof(struct rho_initiator));
 }
@@ -117,7 +118,8 @@ static void copy_held_scan_to_initiator(struct rho_initiator *initiator,
                                   .sector_to_rad = held->sector_to_rad,
                                   .num_plots = held->num_plots,
                                   .plots = plots};
-    must_succeed(rho_initiator_push(initiator, &scan, rho_window_sensor(held), fates, &left_unused),
+    must_succeed(rho_initiator_push(initiator, &scan, rho_window_sensor_if_described(held), fates,
+                                    &left_unused),
                  "initiator");
     free(plots);
     free(fates);
@@ -187,7 +189,7 @@ static void open_paper_starts_if_chosen(struct pipeline *pipeline,
     if (method_of_plots(parameters) == METHOD_KERNEL) {
         return;
     }
-    method_fit_cells(&fitted, range_m);
+    method_widen_cells_to_range(&fitted, range_m);
     config = (struct rho_paper_starts_config){
         .hough = method_hough_config(method_of_plots(parameters), &fitted, range_m),
         .scans = (uint16_t)parameters->value[PARAMETER_SCANS],
@@ -220,7 +222,7 @@ static void open_wall_learning_once(struct pipeline *pipeline, const struct para
 
 static void record_settings(struct pipeline *pipeline, const struct parameters *parameters)
 {
-    pipeline->settings = parameters_settings(parameters);
+    pipeline->settings = parameters_to_settings(parameters);
     if (!pipeline->is_told) {
         pipeline->is_told = true;
         pipeline->told = pipeline->settings;

@@ -149,8 +149,9 @@ static void add_segment_residuals(const struct register_data *data, const struct
              */
             continue;
         }
-        segments->residuals = must_grow(segments->residuals, segments->num_residuals,
-                                        &segments->residuals_room, sizeof *segments->residuals);
+        segments->residuals =
+            must_make_room_for_one(segments->residuals, segments->num_residuals,
+                                   &segments->residuals_room, sizeof *segments->residuals);
         segments->residuals[segments->num_residuals++] =
             (struct residual){.segment = segments->num_segments,
                               .track = (size_t)(track - data->tracks),
@@ -236,8 +237,9 @@ static void cut_track_into_segments(const struct register_data *data, size_t tra
             segments->num_left_out++;
             continue;
         }
-        segments->segments = must_grow(segments->segments, segments->num_segments,
-                                       &segments->segments_room, sizeof *segments->segments);
+        segments->segments =
+            must_make_room_for_one(segments->segments, segments->num_segments,
+                                   &segments->segments_room, sizeof *segments->segments);
         segments->segments[segments->num_segments++] = segment_from_path(&path, track_number);
     }
 }

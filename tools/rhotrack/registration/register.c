@@ -34,8 +34,8 @@ static struct radar_data *find_or_add_radar(struct register_data *data,
     if (at < data->num_radars && data->radars[at].sensor.sensor_id == sensor->sensor_id) {
         return &data->radars[at];
     }
-    data->radars =
-        must_grow(data->radars, data->num_radars, &data->radars_room, sizeof *data->radars);
+    data->radars = must_make_room_for_one(data->radars, data->num_radars, &data->radars_room,
+                                          sizeof *data->radars);
     for (size_t i = data->num_radars++; i > at; i--) {
         data->radars[i] = data->radars[i - 1];
     }
@@ -85,8 +85,8 @@ void register_add_unchecked_scan(struct register_data *data, const struct rho_sc
     if (data->num_radars == 1 && radar->num_scans == 0) {
         data->start_us = scan->time_us;
     }
-    radar->scans =
-        must_grow(radar->scans, radar->num_scans, &radar->scans_room, sizeof *radar->scans);
+    radar->scans = must_make_room_for_one(radar->scans, radar->num_scans, &radar->scans_room,
+                                          sizeof *radar->scans);
     radar->scans[radar->num_scans++] =
         (struct radar_scan){.time_us = scan->time_us,
                             .from_rad = (double)scan->sector_from_rad,
@@ -94,8 +94,8 @@ void register_add_unchecked_scan(struct register_data *data, const struct rho_sc
                             .first = radar->num_plots,
                             .count = scan->num_plots};
     for (uint32_t i = 0; i < scan->num_plots; i++) {
-        radar->plots =
-            must_grow(radar->plots, radar->num_plots, &radar->plots_room, sizeof *radar->plots);
+        radar->plots = must_make_room_for_one(radar->plots, radar->num_plots, &radar->plots_room,
+                                              sizeof *radar->plots);
         radar->plots[radar->num_plots++] =
             radar_plot_from_plot(&scan->plots[i], scan->time_us, sensor);
     }

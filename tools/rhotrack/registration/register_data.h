@@ -68,20 +68,21 @@ struct corrected register_correct_plot(const struct register_data *data,
 
 /*
  * Make the confirmed tracks of all radars, or of one: sort its scans by time, join sectors to turns
- * and step the tracker. In register_tracks.c.
+ * and step the tracker. In register_track_each_radar.c.
  */
 void register_track_all_radars(struct register_data *data, struct pipeline *pipeline);
 void register_track_one_radar(struct register_data *data, size_t radar_number,
                               struct pipeline *pipeline);
 
-/* Index one past the last scan of the turn that begins with scan `first`. In register_tracks.c. */
+/* Index one past the last scan of the turn that begins with scan `first`. In
+ * register_track_each_radar.c. */
 size_t register_find_turn_end(const struct radar_data *radar, size_t first);
 
 /*
  * Matches the tracks of different radars to targets with the biases estimated so far, and sets each
  * track's `target`; true where any changed. gate_m: largest rms distance of two matched tracks.
  * misfit: ratio of the plots' noise to their sigmas, with which tracks must also agree
- * statistically; 0: they need not. In register_match.c.
+ * statistically; 0: they need not. In register_match_tracks.c.
  */
 bool register_match_tracks(struct register_data *data, double gate_m, double misfit);
 
@@ -97,7 +98,7 @@ struct solution {
 };
 /*
  * Estimates the radars' biases by least squares and stores them in data; the reference radar's time
- * bias is kept. In register_solve.c.
+ * bias is kept. In register_solve_biases.c.
  */
 struct solution register_solve_biases(struct register_data *data, size_t reference);
 void bias_solution_free(struct solution *solution);

@@ -36,8 +36,8 @@ static void add_track_plots(const struct register_data *data, const struct radar
     for (size_t i = 0; i < track->count; i++) {
         struct corrected at = register_correct_plot(data, radar, &radar->plots[track->plots[i]]);
 
-        segments->plots = must_grow(segments->plots, segments->num_plots, &segments->plots_room,
-                                    sizeof *segments->plots);
+        segments->plots = must_make_room_for_one(segments->plots, segments->num_plots,
+                                                 &segments->plots_room, sizeof *segments->plots);
         segments->plots[segments->num_plots++] = (struct segment_plot){
             .radar = track->radar, .plot = track->plots[i], .t_s = at.t_s, .weight = 1.0};
     }
@@ -79,8 +79,9 @@ static void cut_target_path(const struct register_data *data, struct segments *s
         }
         segment.count = first - segment.first;
         if (has_enough_radars(data, segments, &segment)) {
-            segments->segments = must_grow(segments->segments, segments->num_segments,
-                                           &segments->segments_room, sizeof *segments->segments);
+            segments->segments =
+                must_make_room_for_one(segments->segments, segments->num_segments,
+                                       &segments->segments_room, sizeof *segments->segments);
             segments->segments[segments->num_segments++] = segment;
         }
     }
@@ -305,8 +306,8 @@ static void update_weights_and_chi2(struct segment_plot *plots, const struct plo
     }
 }
 
-bool segment_fit(const struct register_data *data, struct segments *segments,
-                 struct segment *segment, struct normal_equations *normal)
+bool segment_fit_and_add_equations(const struct register_data *data, struct segments *segments,
+                                   struct segment *segment, struct normal_equations *normal)
 {
     struct segment_plot *plots = &segments->plots[segment->first];
     struct plot_terms *plot_terms = must_calloc(segment->count, sizeof *plot_terms);

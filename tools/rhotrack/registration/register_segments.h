@@ -49,7 +49,7 @@ struct normal_equations {
  * Fits the segment's parabola with the present biases and weights, adds the segment to the normal
  * equations (unless NULL), and updates the plots' weights. False where it cannot be fitted.
  */
-bool segment_fit(const struct register_data *data, struct segments *segments,
-                 struct segment *segment, struct normal_equations *normal);
+bool segment_fit_and_add_equations(const struct register_data *data, struct segments *segments,
+                                   struct segment *segment, struct normal_equations *normal);
 
 #endif

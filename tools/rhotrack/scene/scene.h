@@ -5,7 +5,7 @@
  *
  * Positions are in metres, x east, y north; angles counter-clockwise from +x; times in seconds from
  * the scene's start. Each sensor, target and clutter source draws from its own stream of random
- * numbers (scene_random.h): a change of one does not change the others.
+ * numbers (scene_random_streams.h): a change of one does not change the others.
  */
 #ifndef RHOTRACK_TOOL_SCENE_H
 #define RHOTRACK_TOOL_SCENE_H
@@ -14,8 +14,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "scene/scene_doppler_notch.h"
 #include "scene/scene_json.h"
-#include "scene/scene_notch.h"
 #include "scene/scene_path.h"
 #include "scene/scene_reflectors.h"
 #include "settings/parameters.h"

@@ -6,7 +6,7 @@
 
 #include "base/common.h"
 #include "base/portable_math.h"
-#include "scene/scene_mover.h"
+#include "scene/scene_objects.h"
 
 #define RANGE_LEAST_M 0.01 /* shortest range that a plot gets: the last digit in the file */
 /*
@@ -188,12 +188,12 @@ static void store_plot(struct observer *observer, struct scene_plot plot)
     plot.scan = sensor->turns ? (size_t)fmax(0.0, floor(scans)) : (size_t)floor(scans + 0.5);
     plot.scan = plot.scan > last ? last : plot.scan;
     plot.range_m = fmax(RANGE_LEAST_M, plot.range_m);
-    plot.azimuth_rad = portable_wrap(plot.azimuth_rad);
+    plot.azimuth_rad = portable_wrap_angle(plot.azimuth_rad);
     if (sensor->range_rate_span_mps > 0.0) {
         plot.range_rate_mps = remainder(plot.range_rate_mps, sensor->range_rate_span_mps);
     }
-    observer->plots =
-        must_grow(observer->plots, observer->num_plots, &observer->room, sizeof *observer->plots);
+    observer->plots = must_make_room_for_one(observer->plots, observer->num_plots, &observer->room,
+                                             sizeof *observer->plots);
     observer->plots[observer->num_plots++] = plot;
 }
 
@@ -332,7 +332,8 @@ static struct target_fades draw_fades_of_target(const struct scene *scene,
                 fade.from_s = random_between(&random, from_s, until_s);
                 fade.until_s = fade.from_s + random_in_span(&random, event->for_s);
             }
-            fades.fades = must_grow(fades.fades, fades.count, &fades.room, sizeof *fades.fades);
+            fades.fades =
+                must_make_room_for_one(fades.fades, fades.count, &fades.room, sizeof *fades.fades);
             fades.fades[fades.count++] = fade;
         }
     }
@@ -356,8 +357,9 @@ static void store_target_sighting(struct observer *observer, const struct scene_
 {
     (void)mover;
     (void)item;
-    observer->sightings = must_grow(observer->sightings, observer->num_sightings,
-                                    &observer->sightings_room, sizeof *observer->sightings);
+    observer->sightings =
+        must_make_room_for_one(observer->sightings, observer->num_sightings,
+                               &observer->sightings_room, sizeof *observer->sightings);
     observer->sightings[observer->num_sightings++] = *sighting;
 }
 
@@ -442,7 +444,8 @@ static bool are_unresolved(const struct scene_sensor *sensor, const struct sight
         return false;
     }
     return fabs(one->range_m - other->range_m) < sensor->resolution_m &&
-           fabs(portable_wrap(one->azimuth_rad - other->azimuth_rad)) < sensor->resolution_rad;
+           fabs(portable_wrap_angle(one->azimuth_rad - other->azimuth_rad)) <
+               sensor->resolution_rad;
 }
 
 /*
@@ -506,7 +509,7 @@ static struct sighting merge_sighting_group(const struct observer *observer, siz
         z_m += one->at.z_m;
         vz_mps += one->at.vz_mps;
         range_m += one->range_m;
-        way_rad += portable_wrap(one->azimuth_rad - middle.azimuth_rad);
+        way_rad += portable_wrap_angle(one->azimuth_rad - middle.azimuth_rad);
         t_s += one->t_s;
         n += 1.0;
     }
@@ -546,7 +549,8 @@ static struct sighting sighting_of_body_point(const struct scene_sensor *sensor,
 {
     const double t_s = centre->t_s, turn_rad = path_heading_rad(path, t_s);
     const double turn_radps =
-        portable_wrap(path_heading_rad(path, t_s + HEADING_RATE_S) - turn_rad) / HEADING_RATE_S;
+        portable_wrap_angle(path_heading_rad(path, t_s + HEADING_RATE_S) - turn_rad) /
+        HEADING_RATE_S;
     const double c = portable_cos(turn_rad), s = portable_sin(turn_rad);
     const double x_m = c * place_m[0] - s * place_m[1], y_m = s * place_m[0] + c * place_m[1];
     struct sighting on = *centre;
@@ -797,7 +801,7 @@ static void add_strobe_plot(struct observer *observer, const struct scene_clutte
     double rate_mps =
         random_between(random, -observer->scene->v_max_mps, observer->scene->v_max_mps);
 
-    azimuth_rad = portable_wrap(azimuth_rad);
+    azimuth_rad = portable_wrap_angle(azimuth_rad);
     store_clutter_plot(observer, turn, range_m, azimuth_rad,
                        sensor->x_m + range_m * portable_cos(azimuth_rad),
                        sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
@@ -946,7 +950,8 @@ static double sector_border_rad(const struct scene_sensor *sensor, size_t index)
 {
     double share = (double)(index % sensor->sectors) / (double)sensor->sectors;
 
-    return portable_wrap(sensor->start_rad + antenna_turn_sign(sensor) * PORTABLE_TURN * share);
+    return portable_wrap_angle(sensor->start_rad +
+                               antenna_turn_sign(sensor) * PORTABLE_TURN * share);
 }
 
 static struct scene_scan make_scan(const struct observer *observer, size_t number)
@@ -965,8 +970,9 @@ static struct scene_scan make_scan(const struct observer *observer, size_t numbe
         scan.from_rad = sensor->is_counter_clockwise ? first_rad : last_rad;
         scan.to_rad = sensor->is_counter_clockwise ? last_rad : first_rad;
     } else if (sensor->told.coverage.has_sector) {
-        scan.from_rad = portable_wrap(sensor->told.coverage.from_rad + sensor->azimuth_bias_rad);
-        scan.to_rad = portable_wrap(sensor->told.coverage.to_rad + sensor->azimuth_bias_rad);
+        scan.from_rad =
+            portable_wrap_angle(sensor->told.coverage.from_rad + sensor->azimuth_bias_rad);
+        scan.to_rad = portable_wrap_angle(sensor->told.coverage.to_rad + sensor->azimuth_bias_rad);
     }
     return scan;
 }
@@ -997,7 +1003,8 @@ static void store_scans_of_sensor(struct scene_run *run, const struct observer *
             scan.received_s += sensor->late_s;
         }
         if (!is_scan_lost_in_outage(run->scene, observer->index, scan.end_s - scan_s, scan.end_s)) {
-            run->scans = must_grow(run->scans, run->num_scans, room, sizeof *run->scans);
+            run->scans =
+                must_make_room_for_one(run->scans, run->num_scans, room, sizeof *run->scans);
             run->scans[run->num_scans++] = scan;
         }
     }

@@ -130,7 +130,8 @@ void path_free(struct scene_path *path)
 
 void path_add_leg(struct scene_path *path, struct path_leg leg)
 {
-    path->legs = must_grow(path->legs, path->num_legs, &path->room, sizeof *path->legs);
+    path->legs =
+        must_make_room_for_one(path->legs, path->num_legs, &path->room, sizeof *path->legs);
     path->legs[path->num_legs++] = leg;
 }
 
@@ -175,6 +176,7 @@ double path_last_leg_speed_mps(const struct scene_path *path, double t_s)
 
 void paths_add(struct scene_paths *paths, struct scene_path path)
 {
-    paths->paths = must_grow(paths->paths, paths->count, &paths->room, sizeof *paths->paths);
+    paths->paths =
+        must_make_room_for_one(paths->paths, paths->count, &paths->room, sizeof *paths->paths);
     paths->paths[paths->count++] = path;
 }

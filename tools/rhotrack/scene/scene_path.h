@@ -13,7 +13,7 @@
 
 #include "scene/scene_body.h"
 #include "scene/scene_json.h"
-#include "scene/scene_random.h"
+#include "scene/scene_random_streams.h"
 
 struct motion {
     double x_m, y_m, vx_mps, vy_mps, z_m, vz_mps;

@@ -23,7 +23,7 @@ static char *read_file(const char *path, size_t *length)
     }
     *length = 0;
     while ((byte = getc(file)) != EOF) {
-        text = must_grow(text, *length, &room, 1);
+        text = must_make_room_for_one(text, *length, &room, 1);
         text[(*length)++] = (char)byte;
         if (*length > SCENE_BYTES_MAX) {
             fail(EXIT_USAGE, "%s: no scene has more than 16 MiB", path);
@@ -33,7 +33,7 @@ static char *read_file(const char *path, size_t *length)
         fail(EXIT_USAGE, "%s: %s", path, strerror(errno));
     }
     fclose(file);
-    text = must_grow(text, *length, &room, 1);
+    text = must_make_room_for_one(text, *length, &room, 1);
     text[*length] = '\0';
     return text;
 }

@@ -187,7 +187,7 @@ static void draw_first_leg(const struct target_item *item, struct scene_path *pa
     if (item->is_relative) {
         heading_rad += portable_atan2(item->about_y_m - y_m, item->about_x_m - x_m);
     }
-    path_begin_first_leg(path, x_m, y_m, speed_mps, portable_wrap(heading_rad));
+    path_begin_first_leg(path, x_m, y_m, speed_mps, portable_wrap_angle(heading_rad));
 }
 
 /* Sign of a random turn: back to the centre where the target is far out, else either side. */

@@ -8,7 +8,7 @@
 
 #include "base/common.h"
 #include "base/name_hint.h"
-#include "base/number_text.h"
+#include "base/number_parsing.h"
 
 static const struct parameter_text texts[NUM_PARAMETERS] = {
 #define X(id, name, unit, value, min, max, is_integer, has_default, text)                          \
@@ -208,7 +208,7 @@ static bool parse_parameter_value(const struct parameter_text *text, const char 
     if (text->choices) {
         return parse_choice_value(text, cell, value, reason);
     }
-    why = text_to_number(cell, &number);
+    why = parse_number_or_give_reason(cell, &number);
     if (why) {
         snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' %s", text->name, cell, why);
     } else if (text->is_integer && number != floor(number)) {
@@ -363,7 +363,7 @@ static bool assign_sensor_parameter(struct parameters *parameters, const char *k
     if (dot && (size_t)(dot - key) < sizeof digits) {
         memcpy(digits, key, (size_t)(dot - key));
     }
-    if (!dot || text_to_int32(digits, &sensor_id)) {
+    if (!dot || parse_int32_or_give_reason(digits, &sensor_id)) {
         snprintf(reason, PARAMETER_REASON_BYTES,
                  "'sensor.%.60s' is not sensor.N.key with a whole number N", key);
         return false;
@@ -400,7 +400,7 @@ static bool assign_allowed_sensors(struct parameters *parameters, const char *va
         char digits[16];
 
         snprintf(digits, sizeof digits, "%.*s", bytes, value);
-        if (bytes >= (int)sizeof digits || text_to_int32(digits, &sensor_id) ||
+        if (bytes >= (int)sizeof digits || parse_int32_or_give_reason(digits, &sensor_id) ||
             sensor_id != (int16_t)sensor_id) {
             snprintf(reason, PARAMETER_REASON_BYTES,
                      "sensors_allowed '%.*s' is no number of a sensor", bytes < 60 ? bytes : 60,

@@ -350,8 +350,8 @@ struct local_frame *parameters_open_local_frame(const struct parameters *paramet
 extern const char parameters_no_origin[];
 
 /* Gets a sensor's latitude, longitude and altitude; false where its place was not given so. */
-bool parameters_sensor_on_earth(const struct parameters *parameters, int32_t sensor_id,
-                                double geodetic[3]);
+bool parameters_geodetic_place_of_sensor(const struct parameters *parameters, int32_t sensor_id,
+                                         double geodetic[3]);
 
 /*
  * Angle to add to a sensor's azimuths for azimuths in the local frame
@@ -445,7 +445,7 @@ void parameters_to_sensor_or_defaults(const struct parameters *parameters, int32
                                       struct rho_sensor *sensor);
 
 /* The library's settings from the parameters, checked by parameters_check_together; exit 2. */
-struct rho_settings parameters_settings(const struct parameters *parameters);
+struct rho_settings parameters_to_settings(const struct parameters *parameters);
 
 /*
  * Sets parameters to the values of settings that differ, with the precedence of --set. Returns

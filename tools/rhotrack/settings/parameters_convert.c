@@ -34,7 +34,7 @@
     FIELD(COAST_SCANS_MAX, coast_scans_max, uint16_t)                                              \
     FIELD(WORK_MAX, work_max, uint32_t)
 
-struct rho_settings parameters_settings(const struct parameters *parameters)
+struct rho_settings parameters_to_settings(const struct parameters *parameters)
 {
     const double *value = parameters->value;
     struct rho_settings settings;
@@ -73,7 +73,7 @@ static bool are_sensor_ranges_valid(const struct parameters *parameters,
 
 bool parameters_adopt_settings(struct parameters *parameters, const struct rho_settings *settings)
 {
-    const struct rho_settings before = parameters_settings(parameters);
+    const struct rho_settings before = parameters_to_settings(parameters);
     const struct {
         enum parameter_id id;
         double before, value;
@@ -101,7 +101,7 @@ void parameters_to_initiator(const struct parameters *parameters,
                              struct rho_initiator_config *config)
 {
     const double *value = parameters->value;
-    const struct rho_settings settings = parameters_settings(parameters);
+    const struct rho_settings settings = parameters_to_settings(parameters);
 
     rho_initiator_config_default(config);
     rho_settings_apply(&settings, NULL, config, NULL);
@@ -186,7 +186,7 @@ static void set_learning_bounds(const struct parameters *parameters,
 void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config)
 {
     const double *value = parameters->value;
-    const struct rho_settings settings = parameters_settings(parameters);
+    const struct rho_settings settings = parameters_to_settings(parameters);
 
     rho_tracker_config_default(config);
     rho_settings_apply(&settings, config, NULL, NULL);

@@ -102,7 +102,7 @@ static void locate_sensor(const struct parameters *parameters, const struct loca
     double geodetic[3] = {0, 0, 0}, place_m[3];
     struct local_frame *own;
 
-    parameters_sensor_on_earth(parameters, sensor->sensor_id, geodetic);
+    parameters_geodetic_place_of_sensor(parameters, sensor->sensor_id, geodetic);
     local_frame_to_local(origin, geodetic, place_m);
     if (!(hypot(hypot(place_m[0], place_m[1]), place_m[2]) <= (double)RHO_LIMIT_POSITION_M)) {
         fail(EXIT_USAGE, "sensor %d: lat_deg and lon_deg are more than %.0f km from the origin",
@@ -130,8 +130,8 @@ void parameters_locate_sensors(struct parameters *parameters)
     local_frame_close(origin);
 }
 
-bool parameters_sensor_on_earth(const struct parameters *parameters, int32_t sensor_id,
-                                double geodetic[3])
+bool parameters_geodetic_place_of_sensor(const struct parameters *parameters, int32_t sensor_id,
+                                         double geodetic[3])
 {
     const struct sensor_parameters *sensor = find_sensor_on_earth(parameters, sensor_id);
 

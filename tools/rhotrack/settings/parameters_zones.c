@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/number_text.h"
+#include "base/number_parsing.h"
 #include "settings/parameters.h"
 
 static const char *const keys[NUM_ZONE_PARAMETERS] = {"corners_m", "heading_rad", "margin_m",
@@ -39,7 +39,7 @@ static bool parse_zone_corners(const char *value, struct rho_zone *zone, char *r
     for (value += strspn(value, between); *value; value += strspn(value, between)) {
         double number;
 
-        if (count == 2 * RHO_ZONE_CORNERS || text_to_next_number(&value, &number)) {
+        if (count == 2 * RHO_ZONE_CORNERS || parse_next_number_or_give_reason(&value, &number)) {
             break;
         }
         numbers[count++] = (float)number;
@@ -72,7 +72,8 @@ static bool parse_zone_number(enum zone_parameter_id id, const char *value, stru
                                                 [ZONE_QUEUE_MPS] = &zone->queue_mps};
     double number;
 
-    if (text_to_number(value, &number) || !(number >= ranges[id].min && number <= ranges[id].max)) {
+    if (parse_number_or_give_reason(value, &number) ||
+        !(number >= ranges[id].min && number <= ranges[id].max)) {
         snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' is not a number of %.9g .. %.9g",
                  keys[id], value, ranges[id].min, ranges[id].max);
         return false;
@@ -107,7 +108,7 @@ bool parameters_assign_zone(struct parameters *parameters, const char *key, cons
     if (dot && (size_t)(dot - key) < sizeof digits) {
         memcpy(digits, key, (size_t)(dot - key));
     }
-    if (!dot || text_to_int32(digits, &zone_id)) {
+    if (!dot || parse_int32_or_give_reason(digits, &zone_id)) {
         snprintf(reason, PARAMETER_REASON_BYTES,
                  "'zone.%.60s' is not zone.N.key with a whole number N", key);
         return false;

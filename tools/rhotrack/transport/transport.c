@@ -16,7 +16,7 @@ static const char *url_or_default(const char *url)
     return url ? url : variable && *variable ? variable : TRANSPORT_DEFAULT_URL;
 }
 
-bool transport_url_is_file(const char *url, const char *path)
+bool transport_url_is_same_file(const char *url, const char *path)
 {
     struct stat one, other;
     char *name;

@@ -63,7 +63,7 @@ struct transport *transport_open(const char *url, enum transport_use use);
  * True where the URL (NULL: the default one) is that file. To be asked first, as opening a URL may
  * truncate its file.
  */
-bool transport_url_is_file(const char *url, const char *path);
+bool transport_url_is_same_file(const char *url, const char *path);
 
 /*
  * True where the URL (NULL: the default one) is a network; false for files, whose messages can wait

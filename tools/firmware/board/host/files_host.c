@@ -34,12 +34,12 @@ size_t files_read(int file, uint8_t *bytes, size_t size)
     return fread(bytes, 1, size, files[file - 1]);
 }
 
-int files_write(int file, const uint8_t *bytes, size_t size)
+int files_try_to_write(int file, const uint8_t *bytes, size_t size)
 {
     return fwrite(bytes, 1, size, files[file - 1]) == size;
 }
 
-int files_close(int file)
+int files_try_to_close(int file)
 {
     int failed = fclose(files[file - 1]);
     files[file - 1] = NULL;

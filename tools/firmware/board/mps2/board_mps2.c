@@ -63,22 +63,22 @@ int64_t board_time_us(void)
 /* ---- Network ---- */
 
 /*
- * Interrupt of the chip: disabled until the next board_wait, as it stays active until the frames
- * are read.
+ * Interrupt of the chip: disabled until the next board_sleep_until_event_or_time, as it stays
+ * active until the frames are read.
  */
 void mps2_ethernet_interrupt(void)
 {
     NVIC_DISABLE = 1u << MPS2_ETHERNET_IRQ;
 }
 
-int board_open(void)
+int board_try_to_open(void)
 {
     UART0_DIVIDER = 16;
     UART0_CONTROL = UART_SENDS;
     SYSTICK_RELOAD = TICKS_PER_MS - 1;
     SYSTICK_VALUE = 0;
     SYSTICK_CONTROL = SYSTICK_RUN;
-    return lan9118_open(host.mac);
+    return lan9118_try_to_open(host.mac);
 }
 
 /*
@@ -92,7 +92,7 @@ static void send_group_report_if_due(void)
     if (now_us >= join_due_us) {
         join_due_us = now_us + JOIN_INTERVAL_US;
         udp_frame_build_igmp_report(frame, &host);
-        (void)lan9118_send(frame, sizeof frame);
+        (void)lan9118_try_to_send(frame, sizeof frame);
     }
 }
 
@@ -103,7 +103,7 @@ size_t board_receive(uint8_t *buffer, size_t capacity, uint32_t *source_ipv4)
     size_t size, length;
     send_group_report_if_due();
     for (int i = 0; i < REJECTED_MAX && (size = lan9118_receive(frame, sizeof frame)) > 0; i++) {
-        length = udp_frame_parse(frame, size, &payload);
+        length = udp_frame_find_payload(frame, size, &payload);
         if (length > 0 && length <= capacity) {
             memcpy(buffer, payload, length);
             *source_ipv4 = udp_frame_source_ipv4(frame);
@@ -119,8 +119,8 @@ void board_send(const uint8_t *datagram, size_t size)
     int tries = SEND_TRIES;
     if (size <= sizeof frame - UDP_FRAME_HEAD) {
         memcpy(frame + UDP_FRAME_HEAD, datagram, size);
-        size = udp_frame_build(frame, &host, frames_sent++, size);
-        while (!lan9118_send(frame, size) && --tries > 0) {
+        size = udp_frame_build_around_payload(frame, &host, frames_sent++, size);
+        while (!lan9118_try_to_send(frame, size) && --tries > 0) {
         }
         unsent += tries == 0;
     }
@@ -131,7 +131,7 @@ uint32_t board_num_unsent(void)
     return unsent;
 }
 
-void board_wait(int64_t until_us)
+void board_sleep_until_event_or_time(int64_t until_us)
 {
     if (board_time_us() < until_us) {
         NVIC_UNPEND = 1u << MPS2_ETHERNET_IRQ;

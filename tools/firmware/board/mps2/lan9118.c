@@ -55,7 +55,7 @@ static int try_to_write_mac_register(uint32_t mac_register, uint32_t value)
     return wait_for_bits_clear(&MAC_COMMAND, MAC_BUSY);
 }
 
-int lan9118_open(const uint8_t mac[6])
+int lan9118_try_to_open(const uint8_t mac[6])
 {
     if (BYTE_TEST != BYTE_TEST_VALUE) {
         return 0;
@@ -106,7 +106,7 @@ size_t lan9118_receive(uint8_t *frame, size_t capacity)
     return size;
 }
 
-int lan9118_send(const uint8_t *frame, size_t size)
+int lan9118_try_to_send(const uint8_t *frame, size_t size)
 {
     /* discard the states of sent frames: a full state FIFO would stop the transmitter */
     while (TX_LEVEL >> 16 & 0xff) {

@@ -13,7 +13,7 @@
  * Starts the chip, which then receives all multicast frames and those to mac. Returns 0 where no
  * LAN9118 answers.
  */
-int lan9118_open(const uint8_t mac[6]);
+int lan9118_try_to_open(const uint8_t mac[6]);
 
 /*
  * Copies a received frame, without its checksum, and returns its size; 0 where there is none.
@@ -22,6 +22,6 @@ int lan9118_open(const uint8_t mac[6]);
 size_t lan9118_receive(uint8_t *frame, size_t capacity);
 
 /* Sends a frame; returns 0 where the chip's FIFO has no room for it. */
-int lan9118_send(const uint8_t *frame, size_t size);
+int lan9118_try_to_send(const uint8_t *frame, size_t size);
 
 #endif

@@ -68,13 +68,13 @@ size_t files_read(int file, uint8_t *bytes, size_t size)
     return size - call_debugger(SYS_READ, operands);
 }
 
-int files_write(int file, const uint8_t *bytes, size_t size)
+int files_try_to_write(int file, const uint8_t *bytes, size_t size)
 {
     const uint32_t operands[3] = {(uint32_t)file - 1, pointer_as_word(bytes), (uint32_t)size};
     return call_debugger(SYS_WRITE, operands) == 0;
 }
 
-int files_close(int file)
+int files_try_to_close(int file)
 {
     const uint32_t operands[1] = {(uint32_t)file - 1};
     return call_debugger(SYS_CLOSE, operands) == 0;

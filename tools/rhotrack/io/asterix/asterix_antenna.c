@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "io/asterix/asterix_antenna.h"
 
-#include "io/asterix/asterix.h"
+#include "io/asterix/asterix_codec.h"
 
 #define TURN_MAX_128                                                                               \
     (60 * ASTERIX_TIME_HZ)              /* longest interval of crossings: a longer one is a pause */

@@ -5,7 +5,7 @@
  */
 #include <math.h>
 
-#include "io/asterix/asterix_sensor.h"
+#include "io/asterix/asterix_radar_state.h"
 
 #define EARTH_RADIUS_M 6371000.0
 

@@ -15,7 +15,7 @@
 
 #include <stdio.h>
 
-#include "io/asterix/asterix.h"
+#include "io/asterix/asterix_codec.h"
 
 /*
  * Whether a file is an ASTERIX recording: its name ends with .ast or .asterix, or it is a plain

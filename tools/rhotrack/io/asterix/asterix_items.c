@@ -217,7 +217,7 @@ static const struct asterix_item i062[I062_ITEMS] = {
     EXPLICIT("SP"),
 };
 
-const struct asterix_category *asterix_category_find(uint8_t category, bool is_cat001_track)
+const struct asterix_category *asterix_category_find_profile(uint8_t category, bool is_cat001_track)
 {
     static const struct asterix_category tracks = {1, I001_TRACK_ITEMS, i001_track};
     static const struct asterix_category categories[] = {{1, I001_ITEMS, i001},

@@ -41,7 +41,8 @@ struct asterix_category {
  * Profile of a category, or NULL where it is not known. CAT001 has one profile for plots and one
  * for tracks.
  */
-const struct asterix_category *asterix_category_find(uint8_t category, bool is_cat001_track);
+const struct asterix_category *asterix_category_find_profile(uint8_t category,
+                                                             bool is_cat001_track);
 
 /* Indices of items in the profiles: Iccc_nnn is item nnn of category ccc. */
 enum { I001_020 = 1, I001_ITEMS = 21, I001_TRACK_ITEMS = 22 };

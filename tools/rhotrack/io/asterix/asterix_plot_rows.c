@@ -205,8 +205,8 @@ struct asterix_rules asterix_plot_rows_scan_rules(const struct parameters *param
     };
 }
 
-void asterix_plot_rows_suggest_origin(const char *path, const struct asterix_place *place,
-                                      struct parameters *parameters)
+void asterix_set_and_report_default_origin(const char *path, const struct asterix_place *place,
+                                           struct parameters *parameters)
 {
     parameters_suggest(parameters, PARAMETER_ORIGIN_LAT_DEG, place->lat_deg);
     parameters_suggest(parameters, PARAMETER_ORIGIN_LON_DEG, place->lon_deg);
@@ -364,8 +364,8 @@ static void queue_row_unless_late(struct asterix_plot_rows *records,
         return;
     }
     row.order = records->order++;
-    records->list =
-        must_grow(records->list, records->count, &records->capacity, sizeof *records->list);
+    records->list = must_make_room_for_one(records->list, records->count, &records->capacity,
+                                           sizeof *records->list);
     records->list[records->count++] = row;
 }
 

@@ -65,8 +65,8 @@ struct asterix_rules asterix_plot_rows_scan_rules(const struct parameters *param
                                                   double hold_s, double wait_s);
 
 /* Suggests a radar's place as the origin in the parameters, and reports it on standard error. */
-void asterix_plot_rows_suggest_origin(const char *path, const struct asterix_place *place,
-                                      struct parameters *parameters);
+void asterix_set_and_report_default_origin(const char *path, const struct asterix_place *place,
+                                           struct parameters *parameters);
 
 /* Reports the numbers of plots and messages left out, by reason, in one line on standard error. */
 void asterix_plot_rows_report_left_out(const char *path, const struct asterix_counts *counts);

@@ -16,8 +16,8 @@
 #ifndef RHOTRACK_TOOL_ASTERIX_SCANS_H
 #define RHOTRACK_TOOL_ASTERIX_SCANS_H
 
-#include "io/asterix/asterix.h"
 #include "io/asterix/asterix_antenna.h"
+#include "io/asterix/asterix_codec.h"
 
 struct asterix_scan_plot {
     int64_t time_128; /* 1/128 s since the midnight before the first record */

@@ -2,7 +2,7 @@
 /*
  * Encodes tracks as records of CAT062.
  */
-#include "io/asterix/asterix.h"
+#include "io/asterix/asterix_codec.h"
 
 #include <math.h>
 

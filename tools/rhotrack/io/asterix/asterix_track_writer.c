@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/asterix/asterix.h"
+#include "io/asterix/asterix_codec.h"
 #include "io/csv/local_frame.h"
 
 /* One track of a list. */
@@ -236,16 +236,16 @@ static void write_and_keep_list(struct asterix_track_writer *tracks, int64_t uti
     tracks->now.count = 0;
 }
 
-void asterix_track_writer_add_list(struct asterix_track_writer *tracks,
-                                   const struct rho_message_track_list *message)
+void asterix_track_writer_add_list_part(struct asterix_track_writer *tracks,
+                                        const struct rho_message_track_list *message)
 {
     for (int i = 0; i < message->num_tracks; i++) {
         const struct rho_message_track *track = &message->tracks[i];
         struct list *now = &tracks->now;
 
         if (track->status != RHO_MESSAGE_TRACK_DELETED) {
-            now->entries =
-                must_grow(now->entries, now->count, &now->capacity, sizeof *now->entries);
+            now->entries = must_make_room_for_one(now->entries, now->count, &now->capacity,
+                                                  sizeof *now->entries);
             now->entries[now->count++] =
                 (struct entry){track->track_id, asterix_track_of(tracks, message->utime, track)};
             note_sensor_of_track(tracks, track->sensor_id);

@@ -34,8 +34,8 @@ struct asterix_track_writer *asterix_track_writer_open(FILE *file,
                                                        const struct parameters *parameters);
 
 /* Adds a message of tracks; the last part of a list writes the whole list. */
-void asterix_track_writer_add_list(struct asterix_track_writer *tracks,
-                                   const struct rho_message_track_list *message);
+void asterix_track_writer_add_list_part(struct asterix_track_writer *tracks,
+                                        const struct rho_message_track_list *message);
 void asterix_track_writer_close(
     struct asterix_track_writer *tracks); /* Frees the writer; NULL is allowed. */
 

@@ -3,7 +3,7 @@
  * asterix_values: decodes the values of items. Lengths were checked before: an item that is there
  * has all bytes of its form.
  */
-#include "io/asterix/asterix.h"
+#include "io/asterix/asterix_codec.h"
 #include "io/asterix/asterix_items.h"
 
 /* ---- Numbers ---- */

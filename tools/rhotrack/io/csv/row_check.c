@@ -150,8 +150,8 @@ bool row_check_received_together(const struct row_check *check, int64_t received
                       (double)received_us * 1e-6, (double)scan_us * 1e-6);
 }
 
-bool row_read_number(const struct row_check *check, int scan_column, int epoch_column,
-                     struct row_number *number)
+bool row_read_scan_number(const struct row_check *check, int scan_column, int epoch_column,
+                          struct row_number *number)
 {
     const char *why;
 
@@ -181,7 +181,8 @@ bool row_joins_scan(const struct row_number *number, int64_t time_us, const stru
     return offset_us == 0 || (offset_us > 0 && offset_us < interval_us);
 }
 
-void row_need_both_columns(const struct table *table, const char *first, const char *second)
+void row_need_both_columns_or_neither(const struct table *table, const char *first,
+                                      const char *second)
 {
     bool has_first = table_find_column(table, first) >= 0,
          has_second = table_find_column(table, second) >= 0;

@@ -78,8 +78,8 @@ struct row_number {
     bool is_given;
     int32_t scan, epoch; /* epoch: 0 where not given */
 };
-bool row_read_number(const struct row_check *check, int scan_column, int epoch_column,
-                     struct row_number *number);
+bool row_read_scan_number(const struct row_check *check, int scan_column, int epoch_column,
+                          struct row_number *number);
 
 /*
  * Whether a row joins a scan that began at start_us: by their numbers where both have one, else by
@@ -89,6 +89,7 @@ bool row_joins_scan(const struct row_number *number, int64_t time_us, const stru
                     int64_t start_us, int64_t interval_us);
 
 /* Exit 2 where the table has one of two columns that have a meaning only together. */
-void row_need_both_columns(const struct table *table, const char *first, const char *second);
+void row_need_both_columns_or_neither(const struct table *table, const char *first,
+                                      const char *second);
 
 #endif

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/number_text.h"
+#include "base/number_parsing.h"
 #include "io/csv/table_dialect.h"
 
 void table_need_rows(const struct table *table)
@@ -104,7 +104,7 @@ const char *table_cell_text(const struct table *table, size_t row, int column,
     } else if (!isnan(number) && described->word) {
         return described->word((int)number);
     } else if (!isnan(number) && described->decimals == TABLE_SHORTEST) {
-        return float_text((float)number, buffer);
+        return shortest_float_text((float)number, buffer);
     } else if (!isnan(number)) {
         snprintf(buffer, TABLE_TEXT_BYTES, "%.*f", described->decimals, number);
     }
@@ -123,7 +123,7 @@ const char *table_read_number(const struct table *table, size_t row, int column,
     const char *text = cell_text(table, row, column);
 
     if (text) {
-        const char *why = text_to_number(text, value);
+        const char *why = parse_number_or_give_reason(text, value);
 
         if (!why && column_has_unit_factor(table, column)) {
             *value = *value * table->factors[column] + table->offsets[column];
@@ -153,7 +153,7 @@ const char *table_read_float(const struct table *table, size_t row, int column, 
 static const char *parse_time_us(const char *text, double factor, int64_t *time_us)
 {
     double seconds;
-    const char *why = text_to_time_us(text, time_us);
+    const char *why = parse_time_us_or_give_reason(text, time_us);
 
     if (why) {
         return iso_time_to_us(text, time_us) ? NULL : why;
@@ -161,7 +161,7 @@ static const char *parse_time_us(const char *text, double factor, int64_t *time_
     if (!(factor > 0)) {
         return NULL;
     }
-    why = text_to_number(text, &seconds);
+    why = parse_number_or_give_reason(text, &seconds);
     *time_us = why ? 0 : (int64_t)llround(seconds * factor * 1e6);
     return why;
 }
@@ -185,7 +185,7 @@ const char *table_read_int32(const struct table *table, size_t row, int column, 
     double number = 0.0;
 
     if (text) {
-        return text_to_int32(text, value);
+        return parse_int32_or_give_reason(text, value);
     }
     why = table_read_number(table, row, column, &number);
     if (!why && (number < INT32_MIN || number > INT32_MAX)) {

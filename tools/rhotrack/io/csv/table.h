@@ -85,8 +85,8 @@ int table_need_column(const struct table *table, const char *name);
 
 /*
  * Reading cells. The functions that return a text return NULL and set the value, or return the
- * reason why the cell is bad as a constant text (number_text.h). table_read_float gives the float32
- * nearest to the text, as the program that wrote it had it.
+ * reason why the cell is bad as a constant text (number_parsing.h). table_read_float gives the
+ * float32 nearest to the text, as the program that wrote it had it.
  */
 bool table_is_cell_empty(const struct table *table, size_t row, int column);
 const char *table_read_number(const struct table *table, size_t row, int column, double *value);

@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "base/number_text.h"
+#include "base/number_parsing.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_track_table.h"
@@ -272,7 +272,7 @@ static void process_header_row(struct table_stream *stream)
     table->names = must_alloc(stream->row_cells * sizeof *table->names);
     memcpy(table->names, stream->row, stream->row_cells * sizeof *table->names);
     stream->text_header = stream->text_used;
-    if (!text_to_number(table->names[0], &number)) {
+    if (!parse_number_or_give_reason(table->names[0], &number)) {
         table_fail_at_row(table, TABLE_HEADER, "no header row: the first row begins with a number");
     }
     for (size_t i = 0; i < table->num_columns; i++) {

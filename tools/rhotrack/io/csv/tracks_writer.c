@@ -20,7 +20,7 @@ static void write_comma_and_float(FILE *file, float value)
     char text[FLOAT_TEXT_BYTES];
 
     fputc(',', file);
-    fputs(float_text(value, text), file);
+    fputs(shortest_float_text(value, text), file);
 }
 
 void tracks_write_header(FILE *file, struct tracks_columns columns)

@@ -254,7 +254,7 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     scans->is_held = caller_holds_scans;
     scans->assembler = must_alloc(sizeof *scans->assembler);
     open_log_and_assembler(scans);
-    count_scans_and_find_restart(scans, plain_file_size(path), keep_going);
+    count_scans_and_find_restart(scans, regular_file_size_or_zero(path), keep_going);
     if (reports_faults) {
         const struct scan_losses losses =
             out_of_sequence_counts_losses(&scans->order, &scans->assembler->counters);
@@ -287,7 +287,7 @@ void log_scans_rewind(struct log_scans *scans)
     open_log_and_assembler(scans);
 }
 
-int64_t log_scans_clock_us(const struct log_scans *scans)
+int64_t log_scans_latest_event_us(const struct log_scans *scans)
 {
     return scans->clock_us;
 }

@@ -45,7 +45,7 @@ void log_scans_rewind(struct log_scans *scans);
  * Reception times: the latest time of the log's events so far, and the time at which the last part
  * of the newest scan that was given arrived.
  */
-int64_t log_scans_clock_us(const struct log_scans *scans);
+int64_t log_scans_latest_event_us(const struct log_scans *scans);
 int64_t log_scans_scan_received_us(const struct log_scans *scans);
 
 /*

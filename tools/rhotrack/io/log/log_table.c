@@ -9,7 +9,7 @@
 #include "io/asterix/asterix_track_table.h"
 #include "io/log/lcm_log.h"
 #include "io/rows/rows_from_messages.h"
-#include "io/rows/rows_write.h"
+#include "io/rows/rows_to_csv.h"
 
 static void collect_log_rows(struct lcm_log_reader *log, const char *path,
                              struct rows_collection *collection, bool keep_going)

@@ -6,9 +6,9 @@
 
 #include "base/common.h"
 #include "io/log/lcm_log.h"
-#include "io/rows/rows_read.h"
-#include "io/rows/rows_scans.h"
-#include "io/rows/rows_turns.h"
+#include "io/rows/rows_from_csv.h"
+#include "io/rows/rows_to_messages.h"
+#include "io/rows/rows_turn_numbers.h"
 
 /* One input file with its next message: a log, or a table's rows and their scans. */
 struct input {
@@ -16,7 +16,7 @@ struct input {
     struct lcm_log_reader *log; /* NULL: the file is a table of rows */
     struct lcm_log_event log_event;
     struct rows_file file;
-    struct rows_scans scans;
+    struct rows_to_messages scans;
     struct rows_at at;
     struct rows_output output;
     bool has_event;
@@ -40,7 +40,7 @@ static void next_log_event(struct input *input)
 
 static void next_rows_message(struct input *input)
 {
-    input->has_event = rows_scans_next_message(&input->scans, &input->at, &input->output);
+    input->has_event = rows_to_messages_next_message(&input->scans, &input->at, &input->output);
     input->event = (struct message_event){.utime = input->output.utime,
                                           .channel = input->output.channel,
                                           .data = input->output.data,
@@ -65,8 +65,8 @@ static void open_input(struct input *input, const char *path, const struct param
     } else {
         rows_read_csv(&input->file, path, parameters, keep_going);
         rows_turns_number_rows(&input->file, parameters);
-        rows_scans_make(&input->scans, &input->file,
-                        llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
+        rows_to_messages_make(&input->scans, &input->file,
+                              llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     }
     advance_to_next_message(input);
     if (!input->has_event) {
@@ -129,7 +129,7 @@ void message_source_close(struct message_source *source)
     }
     for (int i = 0; i < source->num_inputs; i++) {
         lcm_log_close(source->inputs[i].log);
-        rows_scans_free(&source->inputs[i].scans);
+        rows_to_messages_free(&source->inputs[i].scans);
         rows_file_free(&source->inputs[i].file);
     }
     free(source->inputs);

@@ -275,8 +275,8 @@ static struct track *find_or_add_track(struct geojson *geojson, int32_t track_id
     size_t number = identity_numbers_find_or_add(&geojson->ids, track_id);
 
     if (number == known) {
-        geojson->tracks =
-            must_grow(geojson->tracks, known, &geojson->capacity, sizeof(struct track *));
+        geojson->tracks = must_make_room_for_one(geojson->tracks, known, &geojson->capacity,
+                                                 sizeof(struct track *));
         geojson->tracks[number] = NULL;
     }
     if (!geojson->tracks[number]) {
@@ -295,7 +295,8 @@ void geojson_add_row(struct geojson *geojson, const struct geojson_row *row)
         track->is_over = true;
         return;
     }
-    track->points = must_grow(track->points, track->count, &track->capacity, sizeof *track->points);
+    track->points = must_make_room_for_one(track->points, track->count, &track->capacity,
+                                           sizeof *track->points);
     track->points[track->count] = (struct point){.time_us = row->time_us};
     memcpy(track->points[track->count++].place_m, row->state, sizeof(float[3]));
     track->last = *row;

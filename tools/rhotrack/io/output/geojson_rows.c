@@ -25,14 +25,16 @@ static void add_track_row(struct geojson *geojson, const struct rows *rows, cons
     const double *cells = rows_cells(rows, row);
     struct geojson_row track = {
         .time_us = row->time_us,
-        .track_id = (int32_t)cells[rows_find_column(rows->kind, "track_id")],
-        .status = rows_track_status_name((int)cells[rows_find_column(rows->kind, "status")]),
-        .sigma_m = rows_float_or_zero(cells[rows_find_column(rows->kind, "sigma_m")]),
-        .hits = int_of_cell(cells[rows_find_column(rows->kind, "hits")]),
-        .misses = int_of_cell(cells[rows_find_column(rows->kind, "misses")])};
+        .track_id = (int32_t)cells[rows_existing_column_index(rows->kind, "track_id")],
+        .status =
+            rows_track_status_name((int)cells[rows_existing_column_index(rows->kind, "status")]),
+        .sigma_m = rows_float_or_zero(cells[rows_existing_column_index(rows->kind, "sigma_m")]),
+        .hits = int_of_cell(cells[rows_existing_column_index(rows->kind, "hits")]),
+        .misses = int_of_cell(cells[rows_existing_column_index(rows->kind, "misses")])};
 
     for (int i = 0; i < 6; i++) {
-        track.state[i] = rows_float_or_zero(cells[rows_find_column(rows->kind, state[i])]);
+        track.state[i] =
+            rows_float_or_zero(cells[rows_existing_column_index(rows->kind, state[i])]);
     }
     geojson_add_row(geojson, &track);
 }

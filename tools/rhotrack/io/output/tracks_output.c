@@ -109,7 +109,7 @@ static void write_list_message(struct tracks_output *tracks, int64_t time_us, co
                            data, size);
     } else {
         must_succeed(rho_message_track_list_decode(data, size, &message), "track_list");
-        asterix_track_writer_add_list(tracks->asterix, &message);
+        asterix_track_writer_add_list_part(tracks->asterix, &message);
     }
 }
 

@@ -19,7 +19,7 @@ const char *rows_track_status_name(int status)
     return names[status];
 }
 
-int rows_find_column(const struct rows_kind *kind, const char *name)
+int rows_existing_column_index(const struct rows_kind *kind, const char *name)
 {
     int i = 0;
 
@@ -58,7 +58,8 @@ double *rows_add_row(struct rows *rows, const struct row *row)
 {
     double *cells;
 
-    rows->list = must_grow(rows->list, rows->count, &rows->capacity, sizeof *rows->list);
+    rows->list =
+        must_make_room_for_one(rows->list, rows->count, &rows->capacity, sizeof *rows->list);
     grow_cells(rows);
     rows->list[rows->count] = *row;
     rows->list[rows->count++].cells = rows->num_cells;
@@ -127,7 +128,7 @@ const double *rows_part_cells(const struct rows_part *part, size_t index)
     return rows_cells(part->rows, &part->rows->list[part->first + index]);
 }
 
-const double *rows_first_row_cells(const struct rows_part *part)
+const double *rows_scan_first_row_cells(const struct rows_part *part)
 {
     return rows_cells(part->rows, &part->scan->head);
 }

@@ -3,8 +3,8 @@
  * rows: the rows of one kind (plots, polar plots, bearings, truth or tracks) of a CSV file or of
  * LCM messages.
  *
- * Rows come from a file (rows_read.h) or from messages (rows_from_messages.h), and go to a file
- * (rows_write.h) or, scan by scan, to messages (rows_scans.h). Cells are doubles, which hold
+ * Rows come from a file (rows_from_csv.h) or from messages (rows_from_messages.h), and go to a file
+ * (rows_to_csv.h) or, scan by scan, to messages (rows_to_messages.h). Cells are doubles, which hold
  * float32 and int32 exactly; an empty cell is NaN. A value that is 0 in a message since it was not
  * given is an empty cell.
  */
@@ -150,7 +150,7 @@ const struct rows_kind *rows_kind_of_channel(const char *channel);
 const char *rows_track_status_name(int status);
 
 /* Index of a column, which the kind must have. */
-int rows_find_column(const struct rows_kind *kind, const char *name);
+int rows_existing_column_index(const struct rows_kind *kind, const char *name);
 
 /* Order of two numbers as qsort wants it: negative, 0 or positive. */
 int rows_compare_int64(int64_t one, int64_t other);
@@ -185,6 +185,6 @@ int32_t rows_plot_offset_us(const struct rows_part *part, size_t index);
 const double *rows_part_cells(const struct rows_part *part, size_t index);
 
 /* Cells of the scan's first row, which hold what all rows share. */
-const double *rows_first_row_cells(const struct rows_part *part);
+const double *rows_scan_first_row_cells(const struct rows_part *part);
 
 #endif

@@ -35,7 +35,7 @@ static size_t rows_in_one_message(const struct rows_part *rest)
 
 static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const char **field)
 {
-    const double *head = rows_first_row_cells(part);
+    const double *head = rows_scan_first_row_cells(part);
     const double *first = part->count ? rows_part_cells(part, 0) : head;
     struct rho_message_place place;
     size_t size;

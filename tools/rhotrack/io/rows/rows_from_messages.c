@@ -71,8 +71,9 @@ const char *rows_from_messages_add(struct rows_collection *collection, const cha
         return "sensor_id is not that of the channel";
     }
     message.received_us = message.key.time_us;
-    collection->messages = must_grow(collection->messages, collection->count, &collection->capacity,
-                                     sizeof *collection->messages);
+    collection->messages =
+        must_make_room_for_one(collection->messages, collection->count, &collection->capacity,
+                               sizeof *collection->messages);
     collection->messages[collection->count++] = message;
     return NULL;
 }

@@ -94,7 +94,7 @@ static struct rho_message_plot message_plot_of(const struct rows_part *part, siz
 
 static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const char **field)
 {
-    const double *head = rows_first_row_cells(part);
+    const double *head = rows_scan_first_row_cells(part);
     struct rho_message_place place;
     size_t size;
     struct rho_message_plot_scan message = {

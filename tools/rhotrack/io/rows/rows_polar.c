@@ -111,7 +111,7 @@ static struct rho_message_polar_plot message_plot_of(const struct rows_part *par
 
 static struct rho_message_polar_scan message_scan_of(const struct rows_part *part)
 {
-    const double *head = rows_first_row_cells(part);
+    const double *head = rows_scan_first_row_cells(part);
     const double *first = part->count ? rows_part_cells(part, 0) : head;
 
     return (struct rho_message_polar_scan){

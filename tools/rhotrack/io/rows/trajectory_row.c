@@ -9,8 +9,8 @@ struct trajectory_columns trajectory_columns_find(const struct table *table,
                                                   const struct parameters *parameters)
 {
     const bool is_tracks = table_find_column(table, "track_id") >= 0;
-    struct geodetic *geodetic = is_tracks ? NULL : geodetic_open(table, parameters);
-    const bool has_places = geodetic_has_place_columns(geodetic);
+    struct geodetic *geodetic = is_tracks ? NULL : geodetic_columns_open(table, parameters);
+    const bool has_places = geodetic_columns_has_place_columns(geodetic);
     return (struct trajectory_columns){
         .table = table,
         .time = table_need_column(table, "t_s"),
@@ -32,7 +32,7 @@ struct trajectory_columns trajectory_columns_find(const struct table *table,
 
 void trajectory_columns_free(struct trajectory_columns *columns)
 {
-    geodetic_close(columns->geodetic);
+    geodetic_columns_close(columns->geodetic);
     columns->geodetic = NULL;
 }
 
@@ -49,13 +49,13 @@ static void read_place(const struct trajectory_columns *columns, size_t row,
     const struct row_check check = {.table = table, .row = row, .reason = reason};
     double place_m[3];
     bool has_alt;
-    if (!geodetic_has_place_columns(columns->geodetic)) {
+    if (!geodetic_columns_has_place_columns(columns->geodetic)) {
         path->x_m = table_number_at(table, row, columns->x);
         path->y_m = table_number_at(table, row, columns->y);
         path->z_m = table_number_or(table, row, columns->z, 0.0);
         return;
     }
-    if (!geodetic_read_place(columns->geodetic, &check, place_m, &has_alt)) {
+    if (!geodetic_columns_read_place(columns->geodetic, &check, place_m, &has_alt)) {
         table_fail_at_row(table, row, "%s", reason);
     }
     path->x_m = place_m[0];

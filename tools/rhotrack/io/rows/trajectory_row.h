@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "io/csv/geodetic.h"
+#include "io/csv/geodetic_columns.h"
 #include "io/csv/table.h"
 #include "settings/parameters.h"
 

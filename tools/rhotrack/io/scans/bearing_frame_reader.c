@@ -9,10 +9,10 @@
 
 #include "base/common.h"
 #include "io/asterix/asterix_file.h"
-#include "io/csv/record.h"
+#include "io/csv/measurement_row.h"
 #include "io/log/lcm_log.h"
 #include "io/log/log_scans.h"
-#include "io/scans/scan_files.h"
+#include "io/scans/merged_scan_files.h"
 
 /* The scans of one time, to find duplicates: their sensors, files and lines. */
 struct scans_of_time {
@@ -28,8 +28,8 @@ struct scans_of_time {
 struct bearing_frame_reader {
     bool keep_going;
     int64_t tolerance_us;
-    struct scan_files files;
-    struct known_sensors known;
+    struct merged_scan_files files;
+    struct fixed_passive_sensors known;
     /* the sensors of `known` in the order of sensor_id */
     struct frame_sensor sensors[RHO_MAX_SENSORS];
     struct scans_of_time before;
@@ -59,7 +59,7 @@ bool bearing_frame_reader_file_has_bearings(const char *path)
         return false; /* a pipe could not be read again from its beginning */
     }
     table = table_read_header(path);
-    is_bearings = record_table_has_bearings(table);
+    is_bearings = measurement_row_table_has_bearings(table);
     table_free(table);
     return is_bearings;
 }
@@ -110,7 +110,7 @@ static bool refuse_if_duplicate_scan(struct bearing_frame_reader *reader, struct
 static bool read_next_scan(struct bearing_frame_reader *reader, struct sensor_scan *scan)
 {
     do {
-        if (!scan_files_next(&reader->files, scan)) {
+        if (!merged_scan_files_next(&reader->files, scan)) {
             return false;
         }
     } while (refuse_if_duplicate_scan(reader, scan));
@@ -203,7 +203,7 @@ static void sort_sensors(struct bearing_frame_reader *reader)
 static void rewind_files(struct bearing_frame_reader *reader)
 {
     for (int i = 0; i < reader->files.count; i++) {
-        scan_source_rewind(reader->files.list[i].source);
+        scans_of_one_file_rewind(reader->files.list[i].source);
     }
     reader->before.count = 0;
     reader->duplicates_skipped = 0;
@@ -230,7 +230,7 @@ static void count_frames_and_sensors(struct bearing_frame_reader *reader, uint64
         reader->total.frames_incomplete += frames_of[i];
     }
     reader->total.rows_skipped =
-        reader->duplicates_skipped + scan_files_rows_skipped(&reader->files);
+        reader->duplicates_skipped + merged_scan_files_rows_skipped(&reader->files);
     reader->known.is_closed = true;
     sort_sensors(reader);
 }
@@ -244,12 +244,12 @@ struct bearing_frame_reader *bearing_frame_reader_open(char *const *paths, int n
 
     reader->keep_going = keep_going;
     reader->tolerance_us = llround(parameters->value[PARAMETER_FRAME_TOLERANCE_S] * 1e6);
-    reader->files = scan_files_open(paths, num_paths, parameters,
-                                    (struct scan_source_options){.kind = RECORD_BEARINGS,
-                                                                 .keep_going = keep_going,
-                                                                 .known = &reader->known});
+    reader->files = merged_scan_files_open(
+        paths, num_paths, parameters,
+        (struct scans_of_one_file_options){
+            .kind = RECORD_BEARINGS, .keep_going = keep_going, .known = &reader->known});
     for (int i = 0; i < num_paths; i++) {
-        bytes += plain_file_size(paths[i]);
+        bytes += regular_file_size_or_zero(paths[i]);
     }
     count_frames_and_sensors(reader, bytes);
     rewind_files(reader);
@@ -271,7 +271,7 @@ void bearing_frame_reader_need_two_sensors(const struct bearing_frame_reader *re
 
 void bearing_frame_reader_keep_last(struct bearing_frame_reader *reader, uint64_t frames)
 {
-    print_only_last_taken(frames, reader->total.frames, "frames");
+    print_if_only_last_taken(frames, reader->total.frames, "frames");
     reader->skip = reader->total.frames > frames ? reader->total.frames - frames : 0;
 }
 
@@ -282,7 +282,7 @@ uint64_t bearing_frame_reader_num_frames(const struct bearing_frame_reader *read
 
 uint64_t bearing_frame_reader_position(const struct bearing_frame_reader *reader)
 {
-    return scan_files_position(&reader->files);
+    return merged_scan_files_position(&reader->files);
 }
 
 const struct frame_sensor *bearing_frame_reader_sensors(const struct bearing_frame_reader *reader,
@@ -321,6 +321,6 @@ void bearing_frame_reader_close(struct bearing_frame_reader *reader)
     if (reader->has_next) {
         sensor_scan_free(&reader->next);
     }
-    scan_files_close(&reader->files);
+    merged_scan_files_close(&reader->files);
     free(reader);
 }

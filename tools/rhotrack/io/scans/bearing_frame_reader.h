@@ -15,7 +15,7 @@
 
 #include <stdbool.h>
 
-#include "io/scans/known_sensors.h"
+#include "io/scans/fixed_passive_sensors.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 

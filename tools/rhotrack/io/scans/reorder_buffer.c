@@ -21,8 +21,8 @@ void sensor_scan_free(struct sensor_scan *scan)
 void reorder_buffer_put(struct reorder_buffer *buffer, const struct sensor_scan *scan,
                         int64_t heard_us, int64_t clock_us)
 {
-    buffer->scans =
-        must_grow(buffer->scans, buffer->count, &buffer->capacity, sizeof *buffer->scans);
+    buffer->scans = must_make_room_for_one(buffer->scans, buffer->count, &buffer->capacity,
+                                           sizeof *buffer->scans);
     buffer->scans[buffer->count++] = (struct waiting_scan){.scan = *scan, .heard_us = heard_us};
     buffer->clock_us = clock_us;
 }

@@ -85,8 +85,8 @@ void scan_interval_hint_add_message(struct scan_interval_hint *plots,
             sensor->longest_us = since_us > sensor->longest_us ? since_us : sensor->longest_us;
         }
     } else {
-        plots->sensors =
-            must_grow(plots->sensors, plots->count, &plots->capacity, sizeof *plots->sensors);
+        plots->sensors = must_make_room_for_one(plots->sensors, plots->count, &plots->capacity,
+                                                sizeof *plots->sensors);
         sensor = &plots->sensors[plots->count++];
         *sensor = (struct lone_scan_counts){.sensor_id = summary.sensor_id, .shortest_us = SOON_US};
     }

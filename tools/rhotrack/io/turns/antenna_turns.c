@@ -60,13 +60,14 @@ bool antenna_turns_collect_row(struct antenna_turns *turns, int32_t sensor_id, i
     struct antenna *antenna = find_antenna(turns, sensor_id);
 
     if (!antenna) {
-        turns->list = must_grow(turns->list, turns->count, &turns->capacity, sizeof *turns->list);
+        turns->list = must_make_room_for_one(turns->list, turns->count, &turns->capacity,
+                                             sizeof *turns->list);
         antenna = &turns->list[turns->count++];
         *antenna = (struct antenna){.sensor_id = sensor_id};
     }
     if (antenna->count < SENSOR_ROWS_MAX) {
-        antenna->plots =
-            must_grow(antenna->plots, antenna->count, &antenna->capacity, sizeof *antenna->plots);
+        antenna->plots = must_make_room_for_one(antenna->plots, antenna->count, &antenna->capacity,
+                                                sizeof *antenna->plots);
         antenna->plots[antenna->count++] = (struct turn_plot){time_us, x_m, y_m};
     }
     return ++turns->looked < ROWS_MAX;
@@ -120,7 +121,8 @@ static void report_rule(const struct antenna *antenna, const char *path)
                                     : "azimuth, counter-clockwise");
 }
 
-bool antenna_turns_find_rules(struct antenna_turns *turns, const char *path, double v_max_mps)
+bool antenna_turns_find_and_report_rules(struct antenna_turns *turns, const char *path,
+                                         double v_max_mps)
 {
     const bool was_said = test_and_set_file_reported(path);
     bool has_any = false;

@@ -29,7 +29,8 @@ bool antenna_turns_collect_row(struct antenna_turns *turns, int32_t sensor_id, i
  * Finds the rule of each sensor, and reports each on standard error, also for sensors whose scans
  * cannot be told. Returns false where no sensor has a rule.
  */
-bool antenna_turns_find_rules(struct antenna_turns *turns, const char *path, double v_max_mps);
+bool antenna_turns_find_and_report_rules(struct antenna_turns *turns, const char *path,
+                                         double v_max_mps);
 
 /*
  * Number of the turn that a row belongs to, from 1; 0 where its sensor has no rule. A sensor's

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/scans/scan_reader.h"
+#include "io/scans/plot_scan_reader.h"
 #include "rhotrack/detail/window.h"
 
 /* A sensor, and the place of its current turn in the list. */
@@ -37,8 +37,8 @@ static struct turning_sensor *find_or_add_sensor(struct reading *reading,
             return &reading->sensors[i];
         }
     }
-    reading->sensors = must_grow(reading->sensors, reading->num_sensors, &reading->capacity,
-                                 sizeof *reading->sensors);
+    reading->sensors = must_make_room_for_one(reading->sensors, reading->num_sensors,
+                                              &reading->capacity, sizeof *reading->sensors);
     turning = &reading->sensors[reading->num_sensors++];
     *turning = (struct turning_sensor){.sensor_id = scan->sensor_id, .last_us = INT64_MIN};
     return turning;
@@ -72,7 +72,7 @@ static bool push_and_test_turn_continues(struct turning_sensor *turning,
         }
     }
     bare.num_plots = 0;
-    is_further = rho_window_continues(turning->window, &bare, sensor) != 0;
+    is_further = rho_window_is_continued_by_scan(turning->window, &bare, sensor) != 0;
     if (rho_window_push(turning->window, &bare, sensor, NULL, &left_unused) != RHO_OK) {
         fail(EXIT_USAGE, "sensor %" PRId32 ": the sector %g .. %g rad is none", scan->sensor_id,
              (double)scan->sector_from_rad, (double)scan->sector_to_rad);
@@ -181,14 +181,14 @@ struct revolutions revolutions_read_last(struct scan_reader *reader, size_t max)
     const struct rho_scan *scan;
 
     reading.revolutions.list = must_calloc(max, sizeof *reading.revolutions.list);
-    while ((scan = scan_reader_next(reader))) {
-        add_scan_to_turns(&reading, scan, scan_reader_sensor(reader));
+    while ((scan = plot_scan_reader_next(reader))) {
+        add_scan_to_turns(&reading, scan, plot_scan_reader_sensor(reader));
     }
     for (size_t i = 0; i < reading.num_sensors; i++) {
         free(reading.sensors[i].window);
     }
     free(reading.sensors);
-    print_only_last_taken(max, reading.revolutions.total, "scans");
+    print_if_only_last_taken(max, reading.revolutions.total, "scans");
     if (reading.revolutions.late > 0) {
         fprintf(stderr, "rhotrack: %" PRIu64 " scans that came late are left out\n",
                 reading.revolutions.late);

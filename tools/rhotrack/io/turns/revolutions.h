@@ -3,10 +3,10 @@
  * revolutions: the last scans of files as one batch, in which the sectors of one turn are merged
  * into one scan.
  *
- * The library's window (rho_window_continues) tells, for each sensor by itself, which sectors form
- * one turn. A turn has the time of its first sector, and its plots' offsets count from there. A
- * scan of the whole circle is a turn. A scan older than one before it of the same sensor (files in
- * the order of reception) is left out.
+ * The library's window (rho_window_is_continued_by_scan) tells, for each sensor by itself, which
+ * sectors form one turn. A turn has the time of its first sector, and its plots' offsets count from
+ * there. A scan of the whole circle is a turn. A scan older than one before it of the same sensor
+ * (files in the order of reception) is left out.
  */
 #ifndef RHOTRACK_TOOL_REVOLUTIONS_H
 #define RHOTRACK_TOOL_REVOLUTIONS_H

@@ -1,0 +1,696 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * clutter_map_in_step: a step computes the clutter density at each plot from the clutter map, and
+ * updates the map with the plots.
+ *
+ *   look   before claims: echoes are predicted to the scan's time, and each adds the density of its
+ *          next plot at the plots near it
+ *   keep   when plots are held for initiation, the density ratios are stored with them
+ *   learn  after starts: each echo is updated with the plot that it explains best; plots that no
+ *          echo explains become new echoes
+ *
+ * The map also counts returns of echoes that were plots of targets, until a track is known to be of
+ * a target. So each track sums the probabilities that its plots were returns of echoes. Once the
+ * track has enough hits and moves as a target does, that sum is subtracted from the map.
+ */
+#include <string.h>
+
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/clutter_map_update.h"
+#include "rhotrack/detail/measurement.h"
+#include "step.h"
+
+/* Fewest hits of a track that is taken to be of a target; it must also move as targets do. */
+#define TARGET_HITS 12
+/*
+ * A track has moved when its distance from where it started exceeds this many standard deviations
+ * of both places. Five would be too few where one of its first plots was clutter.
+ */
+#define MOVED_SIGMAS 8.0f
+/* Gate of an echo: limit of the NIS of a plot, and its root. e^-(limit / 2) is cut off. */
+#define GATE_CHI2 18.0f
+#define GATE_SIGMAS 4.2426407f
+/* Longest silence of a sensor that still counts as scanning. */
+#define SILENT_S 60.0f
+/*
+ * Largest variance of an echo's predicted place, as a share of the squared maximum range of its
+ * sensor; an echo with a larger one is dropped.
+ */
+#define UNKNOWN_SHARE 0.01f
+/* Least share of the clutter density at a plot that an echo must explain to be updated with it. */
+#define WEIGHT_MIN 0.3f
+/*
+ * Range rates of an echo's plots: a learned share is exactly that of the echo's own speed; its
+ * prior, and the weight of the prior in plots. Of the rest half are near it (RATE_SIGMA_MPS), and
+ * half are any (blades, trees, water). The learned sums are halved at RATE_PLOTS_REMEMBERED.
+ */
+#define EXACT_PRIOR 0.3f
+#define EXACT_PRIOR_PLOTS 10.0f
+#define RATE_SIGMA_MPS 1.0f
+#define RATE_SHARE 0.5f
+#define RATE_PLOTS_REMEMBERED 1000.0f
+/*
+ * A jammer's strobe: three neighbouring directions with at least STROBE_PLOTS_MIN plots more than
+ * STROBE_TIMES_USUAL times the mean of other directions, in STROBE_RANGES_MIN eighths of the range.
+ */
+#define STROBE_PLOTS_MIN 8.0f
+#define STROBE_TIMES_USUAL 6.0f
+#define STROBE_RANGES 8.0f
+#define STROBE_RANGES_LAST 7u
+#define STROBE_RANGES_MIN 6u
+/* Units of work for an echo and a plot near it, and for their range rates. */
+#define ECHO_UNITS 4u
+#define RATE_UNITS 6u
+
+/* ---- look ------------------------------------------------------------------------------------ */
+
+static float range_max_of_sensor(const struct step *step)
+{
+    if (step->sensor) {
+        return step->sensor->range_max_m;
+    }
+    const struct rho_extent *extent = &step->tracker->extent;
+    const float width_m = rho_extent_width_m(extent, RHO_CLUTTER_SIDE_MIN_M);
+    const float height_m = rho_extent_height_m(extent, RHO_CLUTTER_SIDE_MIN_M);
+    return 0.5f * rho_sqrt(width_m * width_m + height_m * height_m);
+}
+
+/*
+ * Likelihood ratios of a plot's range rate, from the echo against clutter that is spread over all
+ * rates. exact: the rate is that of the echo's own speed, as of a mast; other: it is not.
+ */
+struct echo_rate_likelihood_ratios {
+    float exact, other;
+};
+
+/* Normal density of a range rate's deviation, over the density of clutter uniform in all rates. */
+static float normal_over_uniform_rate(const struct step *step, float off_mps, float variance)
+{
+    const float share = rho_exp(-0.5f * off_mps * off_mps / variance);
+    return share > 0.0f ? step->range_rates_mps * (share * rho_inverse_sqrt(RHO_TWO_PI * variance))
+                        : 0.0f; /* most plots: exp() has underflowed */
+}
+
+float rho_tracker_range_rate_likelihood_ratio(const struct step *step, float off_mps,
+                                              float variance)
+{
+    return 1.0f - RATE_SHARE +
+           RATE_SHARE *
+               normal_over_uniform_rate(step, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
+}
+
+static struct echo_rate_likelihood_ratios echo_rate_likelihood_ratios(const struct step *step,
+                                                                      const struct rho_echo *echo,
+                                                                      const struct echo_view *view,
+                                                                      const struct rho_plot *plot)
+{
+    const float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + echo->along[2];
+    const float off_mps =
+        plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
+    return (struct echo_rate_likelihood_ratios){
+        normal_over_uniform_rate(step, off_mps, variance),
+        rho_tracker_range_rate_likelihood_ratio(step, off_mps, variance)};
+}
+
+/* Learned share of echoes' plots that have exactly the range rate of the echo's own speed. */
+static float share_of_exact_rates(const struct rho_clutter_map *map)
+{
+    return (map->exact_plots + EXACT_PRIOR * EXACT_PRIOR_PLOTS) /
+           (map->rate_plots + EXACT_PRIOR_PLOTS);
+}
+
+/* Likelihood ratio of a plot's range rate, echo against clutter of any rate; 1: not measured. */
+static float echo_rate_likelihood_ratio(const struct step *step, const struct rho_echo *echo,
+                                        const struct echo_view *view, const struct rho_plot *plot)
+{
+    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
+        return 1.0f;
+    }
+    const struct echo_rate_likelihood_ratios ratios =
+        echo_rate_likelihood_ratios(step, echo, view, plot);
+    const float share = share_of_exact_rates(&step->tracker->clutter_map);
+    return share * ratios.exact + (1.0f - share) * ratios.other;
+}
+
+/* Learns from an echo's plot how often range rates are exactly those of the echo's own speed. */
+static void learn_exact_rate_share(struct step *step, const struct rho_echo *echo,
+                                   const struct rho_plot *plot)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
+        return;
+    }
+    const struct echo_view view =
+        rho_clutter_map_view_from_sensor(step->sensor, echo->x_m, echo->y_m);
+    const struct echo_rate_likelihood_ratios ratios =
+        echo_rate_likelihood_ratios(step, echo, &view, plot);
+    const float share = share_of_exact_rates(map);
+    const float exact = share * ratios.exact;
+    if (map->rate_plots >= RATE_PLOTS_REMEMBERED) {
+        map->rate_plots *= 0.5f;
+        map->exact_plots *= 0.5f;
+    }
+    map->rate_plots += 1.0f;
+    map->exact_plots += exact / (exact + (1.0f - share) * ratios.other);
+}
+
+/* Density, at a given plot, of an echo's next plot if the echo returns; 0 outside of its gate. */
+static float echo_density_at(const struct step *step, const struct rho_echo *echo,
+                             const struct echo_view *view, const struct rho_plot *plot)
+{
+    const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
+    const float along_m = dx_m * view->along_x + dy_m * view->along_y;
+    const float across_m = dy_m * view->along_x - dx_m * view->along_y;
+    const float along_m2 = echo->along[0] + plot->sigma_range_m * plot->sigma_range_m;
+    const float across_m2 = echo->across[0] + plot->sigma_cross_m * plot->sigma_cross_m;
+    const float chi2 = along_m * along_m / along_m2 + across_m * across_m / across_m2;
+    if (!(chi2 < GATE_CHI2)) {
+        return 0.0f;
+    }
+    return rho_exp(-0.5f * chi2) * rho_inverse_sqrt(along_m2 * across_m2) / RHO_TWO_PI *
+           echo_rate_likelihood_ratio(step, echo, view, plot);
+}
+
+static void add_echo_density_at_plots(struct step *step, unsigned place)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    struct rho_echo *echo = &map->echoes[place];
+    struct echo_view view = {0.0f, 0.0f, 0.0f};
+    float probability = -1.0f; /* of the echo's return; < 0: no plot near the echo yet */
+    const float sigma_m = step->sigma_max_m;
+    const float half_m =
+        GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
+    struct plots_near near = rho_tracker_plots_near(step, echo->x_m - half_m, echo->x_m + half_m,
+                                                    echo->y_m - half_m, echo->y_m + half_m);
+    const uint32_t units =
+        ECHO_UNITS + (step->scan->measures & RHO_MEASURES_RANGE_RATE ? RATE_UNITS : 0u);
+    uint32_t passed = 0;
+    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i); passed++) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
+        if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
+            step->report->fates[i] != RHO_FATE_HELD) {
+            continue;
+        }
+        if (probability < 0.0f) {
+            view = rho_clutter_map_view_from_sensor(step->sensor, echo->x_m, echo->y_m);
+            probability =
+                rho_clutter_map_return_probability(map, echo->region, echo->hits, echo->unseen);
+        }
+        rho_tracker_spend_work(step, units);
+        const float density = probability * echo_density_at(step, echo, &view, plot);
+        if (!(density > 0.0f)) {
+            continue;
+        }
+        map->denser[i] += density;
+        if (density > map->best_per_m2[i]) {
+            map->best_per_m2[i] = density;
+            map->best_echo[i] = (uint16_t)place;
+        }
+    }
+    rho_tracker_spend_work(step, passed / RHO_WORK_PASSED_A_UNIT);
+}
+
+/* Clears the echo's results of the last scan. Returns 1 where the new scan covers the echo. */
+static int clear_echo_and_is_covered(const struct step *step, struct rho_echo *echo)
+{
+    const struct rho_scan *scan = step->scan;
+    echo->was_looked_at = 0;
+    echo->plot = -1;
+    echo->weight = 0.0f;
+    return echo->hits > 0 && echo->sensor_id == scan->sensor_id &&
+           rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                  echo->x_m, echo->y_m);
+}
+
+/* Predicts the echo to the scan's time. Returns 0 where it is lost: its place becomes free. */
+static int predict_or_drop_echo(struct step *step, struct rho_echo *echo, float range_max_m)
+{
+    echo->was_looked_at = 1;
+    echo->unseen = (uint8_t)(echo->unseen < UINT8_MAX ? echo->unseen + 1 : UINT8_MAX);
+    if (rho_clutter_map_is_echo_lost(echo)) {
+        echo->hits = 0;
+        return 0;
+    }
+    if (echo->region == UINT8_MAX || echo->unseen == 1) {
+        echo->region =
+            rho_clutter_map_region_of_place(step->sensor, range_max_m, echo->x_m, echo->y_m);
+    }
+    rho_clutter_map_predict_echo(echo, step->time_us);
+    if (!(echo->along[0] + echo->across[0] < UNKNOWN_SHARE * range_max_m * range_max_m)) {
+        echo->hits = 0; /* the echo's place is unknown after a long silence of the sensor */
+        return 0;
+    }
+    return 1;
+}
+
+/*
+ * Predicts the echoes that the scan covers, and adds their densities at plots. The next scan begins
+ * with the echoes that were left out because the share of work was used up.
+ */
+static void predict_echoes_and_add_densities(struct step *step, float range_max_m)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    unsigned place = map->first_echo, left_out = 0;
+    rho_tracker_begin_work_phase(step, RHO_WORK_ECHOES_SHARE);
+    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
+        if (!clear_echo_and_is_covered(step, &map->echoes[place])) {
+            continue;
+        }
+        if (rho_tracker_is_phase_work_spent(step)) {
+            map->first_echo = (uint16_t)(left_out == 0 ? place : map->first_echo);
+            left_out++;
+        } else if (predict_or_drop_echo(step, &map->echoes[place], range_max_m)) {
+            add_echo_density_at_plots(step, place);
+        }
+    }
+    step->is_partial |= left_out > 0;
+    step->plots_not_tried = rho_count(step->plots_not_tried, left_out);
+}
+
+/* ---- strobes --------------------------------------------------------------------------------- */
+
+/* Bin of azimuth, of RHO_ECHO_STROBES, and range of a valid plot, as the sensor sees it. */
+struct direction {
+    unsigned bin;
+    float range_m;
+};
+
+static struct direction direction_of_plot(const struct step *step, uint32_t row)
+{
+    const struct rho_plot *plot = &step->scan->plots[row];
+    const struct echo_view view =
+        rho_clutter_map_view_from_sensor(step->sensor, plot->x_m, plot->y_m);
+    const unsigned bin =
+        (unsigned)(rho_clutter_map_azimuth_in_turns(&view) * (float)RHO_ECHO_STROBES);
+    return (struct direction){bin < RHO_ECHO_STROBES ? bin : 0, view.range_m};
+}
+
+/* Index 0 .. 7 of the eighth of the sensor's maximum range that a range lies in. */
+static unsigned eighth_of_range(float range_m, float range_max_m)
+{
+    const float eighth = STROBE_RANGES * range_m / range_max_m;
+    return eighth < STROBE_RANGES ? (unsigned)eighth : STROBE_RANGES_LAST;
+}
+
+/* Counts held plots by direction, and marks the ranges that have any. Returns their number. */
+static float count_plots_by_direction(struct step *step, float range_max_m)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    float plots = 0.0f;
+    memset(map->strobe_count, 0, sizeof map->strobe_count);
+    memset(map->strobe_ranges, 0, sizeof map->strobe_ranges);
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] != RHO_FATE_HELD) {
+            continue;
+        }
+        const struct direction at = direction_of_plot(step, i);
+        map->strobe_count[at.bin]++;
+        map->strobe_ranges[at.bin] |= (uint8_t)(1u << eighth_of_range(at.range_m, range_max_m));
+        plots += 1.0f;
+    }
+    return plots;
+}
+
+/* Width of the scan's sector, or of the sensor's stated sector where that is narrower, radians. */
+static float covered_sector_width(const struct step *step)
+{
+    const float scan_rad =
+        rho_angle_sector_width(step->scan->sector_from_rad, step->scan->sector_to_rad);
+    const float sensor_rad = step->sensor ? rho_angle_sector_width(step->sensor->sector_from_rad,
+                                                                   step->sensor->sector_to_rad)
+                                          : scan_rad;
+    return sensor_rad < scan_rad ? sensor_rad : scan_rad;
+}
+
+/*
+ * Plots per radian and metre of range that a strobe in this direction and the two beside it adds; 0
+ * where there is no strobe.
+ */
+static float strobe_density(const struct step *step, unsigned bin, float plots, float range_max_m)
+{
+    const struct rho_clutter_map *map = &step->tracker->clutter_map;
+    const unsigned bins[3] = {bin == 0 ? RHO_ECHO_STROBES - 1u : bin - 1u, bin,
+                              bin + 1u == RHO_ECHO_STROBES ? 0 : bin + 1u};
+    unsigned count = 0, ranges = 0;
+    for (int k = 0; k < 3; k++) {
+        count += map->strobe_count[bins[k]];
+        ranges |= map->strobe_ranges[bins[k]];
+    }
+    if (!((float)count > STROBE_PLOTS_MIN)) {
+        return 0.0f; /* most directions have too few plots for a strobe */
+    }
+    const float width_rad = 3.0f * RHO_TWO_PI / (float)RHO_ECHO_STROBES;
+    const float others_rad = covered_sector_width(step) - width_rad;
+    const float usual = others_rad > 0.0f ? (plots - (float)count) * width_rad / others_rad : plots;
+    return (float)count > STROBE_PLOTS_MIN + STROBE_TIMES_USUAL * usual &&
+                   rho_count_bits(ranges) >= STROBE_RANGES_MIN
+               ? ((float)count - usual) / (width_rad * range_max_m)
+               : 0.0f;
+}
+
+/* True where the scan has enough plots for a strobe, in enough eighths of the range. */
+static int may_have_strobes(const struct step *step, float range_max_m)
+{
+    float plots = 0.0f;
+    unsigned ranges = 0;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] == RHO_FATE_HELD) {
+            const struct rho_plot *plot = &step->scan->plots[i];
+            const struct echo_view view =
+                rho_clutter_map_view_from_sensor(step->sensor, plot->x_m, plot->y_m);
+            ranges |= 1u << eighth_of_range(view.range_m, range_max_m);
+            plots += 1.0f;
+        }
+    }
+    return plots > STROBE_PLOTS_MIN && rho_count_bits(ranges) >= STROBE_RANGES_MIN;
+}
+
+/*
+ * Adds the clutter density of strobes at plots. A jammer's strobe lies in one direction, at all
+ * ranges, and is too narrow for the initiator's density map.
+ */
+static void add_strobe_densities(struct step *step, float range_max_m)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    if (!may_have_strobes(step, range_max_m)) {
+        return;
+    }
+    const float plots = count_plots_by_direction(step, range_max_m);
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (step->report->fates[i] != RHO_FATE_HELD) {
+            continue;
+        }
+        const struct direction at = direction_of_plot(step, i);
+        float density = 0.0f;
+        for (unsigned k = 0; k < 3; k++) { /* a plot at a strobe's edge may be one bin beside it */
+            const float beside = strobe_density(
+                step, (at.bin + RHO_ECHO_STROBES + k - 1u) % RHO_ECHO_STROBES, plots, range_max_m);
+            density = beside > density ? beside : density;
+        }
+        if (density > 0.0f && at.range_m > 0.0f) {
+            map->denser[i] += density / at.range_m;
+        }
+    }
+}
+
+/* ---- clutter at each plot -------------------------------------------------------------------- */
+
+/*
+ * Gives each echo the plot of which it explains the largest share, and turns the density of echoes
+ * and strobes at each plot into ln of how much denser than the background clutter is there.
+ */
+static void match_echoes_and_take_log_ratios(struct step *step)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (!(map->denser[i] > 0.0f)) {
+            continue;
+        }
+        const struct rho_plot *plot = &step->scan->plots[i];
+        const float density = rho_tracker_background_density_at_plot(step, plot);
+        if (map->best_per_m2[i] > 0.0f) {
+            struct rho_echo *echo = &map->echoes[map->best_echo[i]];
+            const float weight = map->best_per_m2[i] / (density + map->denser[i]);
+            if (weight > echo->weight) {
+                echo->weight = weight;
+                echo->plot = (int16_t)i;
+            }
+        }
+        map->denser[i] = rho_log(1.0f + map->denser[i] / density);
+    }
+}
+
+void rho_tracker_predict_clutter_at_plots(struct step *step)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    map->is_looked = !step->is_late;
+    if (step->is_late) {
+        return;
+    }
+    map->time_us = step->time_us;
+    memset(map->denser, 0, step->num_gated * sizeof map->denser[0]);
+    memset(map->best_per_m2, 0, step->num_gated * sizeof map->best_per_m2[0]);
+    const float range_max_m = range_max_of_sensor(step);
+    predict_echoes_and_add_densities(step, range_max_m);
+    add_strobe_densities(step, range_max_m);
+    match_echoes_and_take_log_ratios(step);
+}
+
+float rho_tracker_log_echo_density_ratio(const struct step *step, uint32_t row)
+{
+    const struct rho_clutter_map *map = &step->tracker->clutter_map;
+    return map->is_looked && step->first_row == 0 ? map->denser[row] : 0.0f;
+}
+
+/* ---- keep ------------------------------------------------------------------------------------ */
+
+void rho_tracker_store_echo_ratios_in_window(struct step *step)
+{
+    struct rho_window *window = &step->initiator->window;
+    const struct rho_clutter_map *map = &step->tracker->clutter_map;
+    struct rho_window_scan *scan = rho_window_scan_at(window, window->num_scans - 1u);
+    for (unsigned i = 0; i < scan->num_plots && map->is_looked; i++) {
+        const unsigned row = scan->marks[i] & RHO_WINDOW_ROW;
+        if (row >= step->num_gated ||
+            (RHO_SECTORS && rho_tracker_is_plot_of_earlier_sector(window, scan, i))) {
+            continue; /* a plot of an earlier sector has its density ratio already */
+        }
+        const float repeats = RHO_WINDOW_REPEATS_PER_NAT * map->denser[row] + 0.5f;
+        scan->repeats[i] = (uint8_t)(repeats < 255.0f ? repeats : 255.0f);
+    }
+}
+
+/* ---- plots of targets ------------------------------------------------------------------------ */
+
+void rho_tracker_sum_echo_returns_at_start(struct step *step, const struct rho_candidate *candidate,
+                                           struct rho_track *track)
+{
+    struct rho_window *window = &step->initiator->window;
+    unsigned hits = 0;
+    /* the newest scan's plot is counted when the map is updated */
+    for (unsigned m = 0; m + 1u < window->num_scans; m++) {
+        if (!((unsigned)candidate->mask >> m & 1u)) {
+            continue;
+        }
+        const uint8_t repeats = rho_window_scan_at(window, m)->repeats[candidate->plot[m]];
+        if (hits > 0 && repeats > 0) {
+            track->returns[rho_clutter_map_hit_class(hits)] +=
+                1.0f - rho_exp((float)repeats / -RHO_WINDOW_REPEATS_PER_NAT);
+        }
+        hits++;
+    }
+}
+
+void rho_tracker_store_start_place(struct rho_track *track)
+{
+    track->start_m[0] = track->kalman.state[0];
+    track->start_m[1] = track->kalman.state[1];
+    track->start_sigma_m = rho_track_sigma_m(track);
+}
+
+static int has_left_its_start(const struct rho_track *track)
+{
+    const float dx_m = track->kalman.state[0] - track->start_m[0];
+    const float dy_m = track->kalman.state[1] - track->start_m[1];
+    const float far_m = MOVED_SIGMAS * (rho_track_sigma_m(track) + track->start_sigma_m);
+    return dx_m * dx_m + dy_m * dy_m > far_m * far_m;
+}
+
+/*
+ * True where a track is of a target: it is as fast as v_min, or, where targets may stand still, it
+ * has left its start place once, which is remembered in the track.
+ */
+static int update_moved_and_is_target(const struct step *step, struct rho_track *track)
+{
+    const float *velocity_mps = &track->kalman.state[3];
+    const float v_min_mps = step->tracker->config.v_min_mps;
+    if (!track->was_confirmed || track->hits < TARGET_HITS) {
+        return 0;
+    }
+    track->has_moved = track->has_moved || has_left_its_start(track);
+    return v_min_mps > 0.0f
+               ? velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] >=
+                     v_min_mps * v_min_mps
+               : track->has_moved != 0;
+}
+
+static void remove_track_returns_from_map(struct step *step, struct rho_track *track)
+{
+    if (track->has_taken_back) {
+        return;
+    }
+    rho_clutter_map_remove_returns(
+        &step->tracker->clutter_map,
+        rho_clutter_map_region_of_place(step->sensor, range_max_of_sensor(step),
+                                        track->kalman.state[0], track->kalman.state[1]),
+        track->returns);
+    track->has_taken_back = 1;
+}
+
+/* ---- learn ----------------------------------------------------------------------------------- */
+
+static int is_row_in_set(const uint32_t *set, uint32_t row)
+{
+    return (set[row / 32] >> row % 32 & 1u) != 0;
+}
+
+/* Adds to a track's sum of returns the probability that its plot is the return of an echo. */
+static void add_echo_return_to_track(const struct rho_clutter_map *map, struct rho_track *track)
+{
+    if (map->best_per_m2[track->plot] > 0.0f) {
+        const struct rho_echo *echo = &map->echoes[map->best_echo[track->plot]];
+        if (echo->plot == track->plot && echo->unseen == 1) {
+            track->returns[rho_clutter_map_hit_class(echo->hits)] += echo->weight;
+        }
+    }
+}
+
+/*
+ * Sets the bits of plots of targets. The returns of such a track are removed from the map once;
+ * other tracks fade theirs as the map does, and add the newest.
+ */
+static void update_returns_and_find_target_plots(struct step *step, uint32_t *targets,
+                                                 float turn_share)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        struct rho_track *track = &tracker->tracks[i];
+        for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
+            track->returns[c] *=
+                rho_clutter_map_decay_factor(turn_share); /* as the map's sums fade with time */
+        }
+        if (track->plot < 0 || (uint32_t)track->plot >= step->num_gated) {
+            continue;
+        }
+        if (update_moved_and_is_target(step, track)) {
+            remove_track_returns_from_map(step, track);
+            targets[track->plot / 32] |= 1u << track->plot % 32;
+        } else {
+            add_echo_return_to_track(&tracker->clutter_map, track);
+        }
+    }
+}
+
+/*
+ * Updates each echo with the plot that it explains best, and sets the plot's bit in `taken`. Where
+ * targets may stand still, no echo is updated with a plot of a target. An echo faster than v_min is
+ * dropped.
+ */
+static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *taken)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    const float v_min2 = map->v_min_mps * map->v_min_mps;
+    for (unsigned place = 0; place < RHO_ECHO_PLACES; place++) {
+        struct rho_echo *echo = &map->echoes[place];
+        const int is_seen = echo->hits > 0 && echo->was_looked_at && echo->plot >= 0;
+        const int by_target = is_seen && is_row_in_set(targets, (uint32_t)echo->plot);
+        if (echo->hits > 0 && echo->was_looked_at && !echo->is_target) {
+            rho_clutter_map_count_look(map, echo);
+            if (is_seen && !by_target) {
+                rho_clutter_map_count_return(map, echo);
+            }
+        }
+        if (is_seen && echo->weight > WEIGHT_MIN && !(by_target && !(v_min2 > 0.0f))) {
+            if (!by_target && !echo->is_target) {
+                learn_exact_rate_share(step, echo, &step->scan->plots[echo->plot]);
+            }
+            rho_clutter_map_update_echo(echo, step->sensor, &step->scan->plots[echo->plot]);
+            echo->is_target |= (uint8_t)by_target;
+            taken[echo->plot / 32] |= 1u << echo->plot % 32;
+            if (v_min2 > 0.0f && echo->hits >= 3 &&
+                echo->vx_mps * echo->vx_mps + echo->vy_mps * echo->vy_mps > v_min2) {
+                echo->hits = 0;
+            }
+        }
+    }
+}
+
+/* True of a valid plot of no echo and, where targets may stand still, of no target's track. */
+static int plot_becomes_echo(const struct step *step, const uint32_t *targets,
+                             const uint32_t *taken, uint32_t row)
+{
+    const int may_stand = !(step->tracker->clutter_map.v_min_mps > 0.0f);
+    return step->report->fates[row] != RHO_FATE_INVALID && !is_row_in_set(taken, row) &&
+           !(may_stand && is_row_in_set(targets, row));
+}
+
+static void add_echoes(struct step *step, const uint32_t *targets, const uint32_t *taken)
+{
+    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    const float range_max_m = range_max_of_sensor(step);
+    uint32_t num = 0;
+    unsigned place = 0;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        num += plot_becomes_echo(step, targets, taken, i) ? 1u : 0u;
+    }
+    rho_clutter_map_free_places(map, num, step->time_us);
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        if (!plot_becomes_echo(step, targets, taken, i)) {
+            continue;
+        }
+        while (place < RHO_ECHO_PLACES && map->echoes[place].hits > 0) {
+            place++;
+        }
+        if (place == RHO_ECHO_PLACES) {
+            map->echoes_dropped = rho_count(map->echoes_dropped, 1);
+            continue;
+        }
+        const struct rho_plot *plot = &step->scan->plots[i];
+        struct rho_echo *echo = &map->echoes[place];
+        rho_clutter_map_start_echo(map, echo, step->scan->sensor_id, step->time_us, plot);
+        echo->is_target = (uint8_t)is_row_in_set(targets, i);
+        echo->region =
+            rho_clutter_map_region_of_place(step->sensor, range_max_m, plot->x_m, plot->y_m);
+    }
+}
+
+/* Share of this scan in one turn of all sensors that are not silent. */
+static float turn_share_of_scan(const struct step *step)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    float sensors = 0.0f;
+    for (unsigned i = 0; i < tracker->num_paces; i++) {
+        const float silent_s = rho_seconds_between(tracker->paces[i].time_us, step->time_us);
+        sensors += silent_s < SILENT_S ? 1.0f : 0.0f;
+    }
+    return 1.0f / ((RHO_SECTORS ? rho_tracker_scans_per_turn(step) : 1.0f) *
+                   (sensors > 1.0f ? sensors : 1.0f));
+}
+
+void rho_tracker_update_clutter_map(struct step *step)
+{
+    uint32_t targets[(RHO_MAX_PLOTS + 31) / 32] = {0}, taken[(RHO_MAX_PLOTS + 31) / 32] = {0};
+    if (!step->tracker->clutter_map.is_looked) {
+        return;
+    }
+    const float share = turn_share_of_scan(step);
+    update_returns_and_find_target_plots(step, targets, share);
+    update_echoes(step, targets, taken);
+    add_echoes(step, targets, taken);
+    rho_clutter_map_age_counts(&step->tracker->clutter_map, share);
+}
+
+/* ---- the object ------------------------------------------------------------------------------ */
+
+void rho_tracker_init_clutter_map(struct rho_tracker *tracker)
+{
+    rho_clutter_map_init(&tracker->clutter_map, tracker->config.v_min_mps);
+}
+
+int rho_tracker_is_known_moving_target(const struct rho_track *track)
+{
+    return track->has_taken_back;
+}
+
+int rho_tracker_has_sound_clutter_map(const struct rho_tracker *tracker)
+{
+    return rho_clutter_map_is_sound(&tracker->clutter_map);
+}
+
+int rho_tracker_has_sound_echo_returns(const struct rho_track *track)
+{
+    return rho_are_finite(track->returns, RHO_ECHO_HIT_CLASSES) &&
+           rho_are_finite(track->start_m, 2) && rho_are_finite(&track->start_sigma_m, 1);
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * evidence_after_short_lived_tracks: where many tracks end soon after they were confirmed, new ones
+ * need more evidence.
+ *
+ * The track score compares a target with clutter that is independent from scan to scan. It does not
+ * model objects that move as targets do and are seldom seen: second-time-around echoes, sidelobes,
+ * the edge of a weather front. Such an object becomes a track whenever three of its plots follow
+ * each other by chance, and is missed then. Tracks that end so early are counted, and so are
+ * established ones, which have 16 hits. The evidence that a track with h hits and m misses is seen
+ * as often as targets are, and not 0.3 times as often, is
+ *
+ *      e = h ln(1 / 0.3) - m ln((1 - 0.3 p) / (1 - p))
+ *
+ * with p the detection probability of established tracks. Three hits are 3.6. Where D tracks ended
+ * early and G were established in the last half an hour, or soon will be (e is 7.2), a track is
+ * confirmed from
+ *
+ *      e = 3.6 + ln(10 (D - W - sqrt(D) / 2) / (G + 2))
+ *
+ * on, or from 16 hits on: one in ten of the confirmed tracks will be false (Wald). W is the number
+ * that false_tracks_per_hour allows, and half a standard deviation of D may be chance; where no
+ * more tracks end early, no evidence is needed. Until then a track is tentative.
+ *
+ * A track has ended early if its score had reached the confirm threshold, and misses ended it
+ * before 16 hits with e below 0. Targets that stay only for a short time are counted, too: with one
+ * false track in twenty instead of ten, all targets would be confirmed later where aircraft come
+ * and go.
+ */
+#include "rhotrack/detail/approx.h"
+#include "step.h"
+
+/* Detection probability of a seldom seen object that is no target, over that of a target. */
+#define SELDOM 0.3f
+/* Evidence of a hit, ln(1 / SELDOM), and of the three hits that start a track. */
+#define HIT_NAT 1.2039728f
+#define START_NAT (3.0f * HIT_NAT)
+/* Evidence from which a track counts as almost established. */
+#define ALMOST_ESTABLISHED_NAT (2.0f * START_NAT)
+
+/* Wanted number of true tracks for each false one, and prior number of established tracks. */
+#define TRUE_PER_FALSE 10.0f
+#define ESTABLISHED_PRIOR 2.0f
+
+/* Standard deviations by which the count of tracks that ended early may exceed its mean. */
+#define EXCESS_SIGMAS 0.5f
+
+/* Time in which the counts of ended and established tracks fade to 1/e. */
+#define MEMORY_S 1600.0f
+
+/* Prior hits and misses of established tracks, for the share of looks that see them. */
+#define PRIOR_HITS 9.0f
+#define PRIOR_MISSES 1.0f
+
+static float evidence_of_target(const struct step *step, const struct rho_track *track)
+{
+    return (float)track->hits * HIT_NAT - (float)track->misses * step->miss_nat;
+}
+
+/* Evidence that a miss takes from a track, by the hits and misses of the established tracks. */
+static float evidence_of_miss(const struct rho_tracker *tracker)
+{
+    float hits = PRIOR_HITS, misses = PRIOR_MISSES;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        const struct rho_track *track = &tracker->tracks[i];
+        if (rho_tracker_is_established(track) &&
+            track->hits < UINT16_MAX) { /* no saturated counts */
+            hits += (float)track->hits;
+            misses += (float)track->misses;
+        }
+    }
+    return rho_log(((1.0f - SELDOM) * hits + misses) / misses);
+}
+
+/* Number of tracks not yet established, but with the evidence ALMOST_ESTABLISHED_NAT or more. */
+static float count_almost_established_tracks(const struct step *step)
+{
+    float count = 0.0f;
+    for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
+        const struct rho_track *track = &step->tracker->tracks[i];
+        count += !rho_tracker_is_established(track) &&
+                         evidence_of_target(step, track) >= ALMOST_ESTABLISHED_NAT
+                     ? 1.0f
+                     : 0.0f;
+    }
+    return count;
+}
+
+void rho_tracker_fade_counts_set_evidence_needed(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    if (!(tracker->ended_early + tracker->established > 0.0f)) {
+        tracker->counted_us = step->time_us; /* no track was counted yet: nothing to fade */
+    } else if (step->time_us > tracker->counted_us) {
+        const float kept =
+            rho_exp(-rho_seconds_between(tracker->counted_us, step->time_us) / MEMORY_S);
+        tracker->ended_early *= kept;
+        tracker->established *= kept;
+        tracker->straight_s *= kept;
+        tracker->turning_s *= kept;
+        rho_tracker_learn_manoeuvre_interval(
+            step, rho_seconds_between(tracker->counted_us, step->time_us));
+        tracker->counted_us = step->time_us;
+    }
+    if (step->initiator) {
+        tracker->wanted_per_hour = step->initiator->config.false_tracks_per_hour;
+    }
+    const float sensors = tracker->num_paces > 1 ? (float)tracker->num_paces : 1.0f;
+    const float wanted = tracker->wanted_per_hour * sensors * (MEMORY_S / 3600.0f);
+    const float excess =
+        tracker->ended_early - wanted - EXCESS_SIGMAS * rho_sqrt(tracker->ended_early);
+    step->miss_nat = evidence_of_miss(tracker);
+    const float odds =
+        TRUE_PER_FALSE * excess /
+        (tracker->established + count_almost_established_tracks(step) + ESTABLISHED_PRIOR);
+    /* wanted_per_hour is 0 where score_min_nat sets the threshold: no evidence is needed then */
+    step->needed_nat =
+        odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;
+}
+
+int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track)
+{
+    return step->needed_nat > 0.0f && !rho_tracker_is_established(track) &&
+           evidence_of_target(step, track) < step->needed_nat;
+}
+
+void rho_tracker_count_if_newly_established(struct step *step, const struct rho_track *track)
+{
+    if (track->hits == RHO_ESTABLISHED_HITS && track->plot >= 0) {
+        step->tracker->established += 1.0f;
+    }
+}
+
+void rho_tracker_count_if_ended_early(struct step *step, const struct rho_track *track)
+{
+    if (!rho_tracker_is_established(track) && evidence_of_target(step, track) < 0.0f &&
+        track->score_max_mnat >= step->tracker->confirm_mnat) {
+        step->tracker->ended_early += 1.0f;
+    }
+}

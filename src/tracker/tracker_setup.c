@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * tracker_setup: initialises and reconfigures a tracker, and adds and removes descriptions of
+ * sensors. src/step/step.c processes a scan.
+ */
+#include "rhotrack/tracker.h"
+
+#include <string.h>
+
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "step.h"
+
+#define ALL_PLANES (RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ)
+
+/* The build fails where the RAM formula of config.h is no longer an upper bound. */
+typedef char rho_assert_tracker_ram[sizeof(struct rho_tracker) <= RHO_RAM_TRACKER_BYTES ? 1 : -1];
+
+enum rho_track_filter rho_tracker_filter_of_config(const struct rho_tracker_config *config)
+{
+    if (config->gate == RHO_TRACKER_BEST) {
+        return RHO_TRACK_HYPOTHESES;
+    }
+    return config->input.is_estimated ? RHO_TRACK_INPUT : RHO_TRACK_KALMAN;
+}
+
+void rho_tracker_config_default(struct rho_tracker_config *config)
+{
+    *config = (struct rho_tracker_config){
+        .pd = 0.9f,
+        .v_max_mps = 700.0f,
+        .accel_max_mps2 = 30.0f,
+        .learn_noise_min = 0.7f,
+        .learn_noise_max = 4.0f,
+        .learn_pd_min = 0.5f,
+        .coast_scans_max = 5,
+        .work_max = RHO_WORK_MAX,
+        .gate = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST,
+        .planes = RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
+        .theta_cell_rad = 5.0f * (RHO_PI / 180.0f),
+    };
+    if (RHO_SECTORS) {
+        rho_tracker_set_late_max_default(config);
+    }
+    rho_input_config_default(&config->input);
+    config->input.is_estimated = (RHO_FILTERS) == 1 << RHO_TRACK_INPUT;
+}
+
+int rho_tracker_is_usable_config(const struct rho_tracker_config *config)
+{
+    return rho_is_within(config->pd, 0.01f, 0.999f) &&
+           rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
+           rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) &&
+           rho_is_within(config->steady_s, 0.0f, 1e5f) &&
+           rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
+           (!RHO_SECTORS || rho_tracker_is_late_max_usable(config)) &&
+           rho_is_within(config->learn_noise_min, 0.1f, 1.0f) &&
+           rho_is_within(config->learn_noise_max, 1.0f, 10.0f) &&
+           rho_is_within(config->learn_pd_min, 0.1f, 1.0f) && config->coast_scans_max >= 1 &&
+           config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
+           RHO_HAS_FILTER(rho_tracker_filter_of_config(config)) &&
+           (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
+           (config->gate != RHO_TRACKER_HOUGH || RHO_HAS_FILTER(RHO_TRACK_INPUT)) &&
+           (!RHO_HAS_FILTER(RHO_TRACK_INPUT) || rho_input_is_usable(&config->input)) &&
+           config->planes > 0 && config->planes <= ALL_PLANES &&
+           rho_is_within(config->theta_cell_rad, 1e-3f, RHO_HALF_PI) &&
+           rho_is_within(config->hough_window_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
+           config->work_max <= RHO_LIMIT_WORK;
+}
+
+static struct rho_imm_model motion_model_of_config(const struct rho_tracker_config *config)
+{
+    struct rho_imm_model model;
+    rho_imm_model_default(&model, config->accel_max_mps2, config->v_max_mps);
+    model.speed_max_mps = config->v_max_mps;
+    if (config->steady_s > model.steady_s) {
+        model.steady_s = config->steady_s;
+    }
+    return model;
+}
+
+static enum rho_status init_hypotheses(struct rho_tracker *tracker)
+{
+    const struct rho_imm_model model = motion_model_of_config(&tracker->config);
+    return rho_hypotheses_init(&tracker->hypotheses, sizeof tracker->hypotheses, &model);
+}
+
+enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
+                                 const struct rho_tracker_config *config)
+{
+    if (!tracker || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *tracker) {
+        return RHO_ERROR_SIZE;
+    }
+    if (!rho_tracker_is_usable_config(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    enum rho_status status;
+    struct rho_tracker_config copy = *config;
+    memset(tracker, 0, sizeof *tracker);
+    tracker->config = copy;
+    tracker->next_track_id = 1;
+    tracker->looks_max = 1;
+    tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
+    if (RHO_MAX_ECHOES > 0) {
+        rho_tracker_init_clutter_map(tracker);
+    }
+    status = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? init_hypotheses(tracker) : RHO_OK;
+    if (status != RHO_OK) {
+        return status;
+    }
+    tracker->magic = RHO_TRACKER_MAGIC;
+    return rho_assignment_init(&tracker->assignment, sizeof tracker->assignment);
+}
+
+enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
+                                        const struct rho_tracker_config *config)
+{
+    if (!tracker || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!rho_tracker_is_usable_config(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    if (tracker->num_tracks > 0 &&
+        rho_tracker_filter_of_config(config) != rho_tracker_filter_of_config(&tracker->config)) {
+        return RHO_ERROR_STATE;
+    }
+    if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
+        const struct rho_imm_model model = motion_model_of_config(config);
+        const enum rho_status status =
+            rho_hypotheses_set_model_keeping_calm(&tracker->hypotheses, &model);
+        if (status != RHO_OK) {
+            return status;
+        }
+    }
+    tracker->config = *config;
+    if (RHO_MAX_ECHOES > 0) {
+        tracker->clutter_map.v_min_mps = config->v_min_mps;
+    }
+    return RHO_OK;
+}
+
+enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct rho_sensor *sensor)
+{
+    if (!tracker || !sensor) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!rho_tracker_is_usable_sensor(sensor)) {
+        return RHO_ERROR_CONFIG;
+    }
+    const unsigned place = rho_tracker_index_of_sensor(tracker, sensor->sensor_id);
+    if (place == RHO_MAX_SENSORS) {
+        return RHO_ERROR_CAPACITY;
+    }
+    tracker->sensors[place] = *sensor;
+    if (place == tracker->num_sensors) {
+        memset(&tracker->learned[place], 0, sizeof tracker->learned[place]);
+    }
+    tracker->num_sensors =
+        (uint16_t)(place < tracker->num_sensors ? tracker->num_sensors : place + 1u);
+    return RHO_OK;
+}
+
+enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    if (!tracker) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    const unsigned place = rho_tracker_index_of_sensor(tracker, sensor_id);
+    if (place == tracker->num_sensors) {
+        return RHO_ERROR_STATE;
+    }
+    tracker->num_sensors--;
+    tracker->sensors[place] = tracker->sensors[tracker->num_sensors];
+    memset(&tracker->sensors[tracker->num_sensors], 0, sizeof tracker->sensors[0]);
+    tracker->learned[place] = tracker->learned[tracker->num_sensors];
+    memset(&tracker->learned[tracker->num_sensors], 0, sizeof tracker->learned[0]);
+    rho_tracker_remove_scan_interval(tracker, sensor_id);
+    if (RHO_SECTORS) {
+        rho_tracker_remove_look_of_sensor(tracker, sensor_id);
+    }
+    if (RHO_MAX_ECHOES > 0) {
+        rho_tracker_remove_second_plots_of_sensor(tracker, sensor_id);
+    }
+    return RHO_OK;
+}

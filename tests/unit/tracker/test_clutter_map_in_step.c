@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What a step takes from the clutter map and teaches it: the density that an echo and a strobe add
+ * at a plot, by the formulas in double precision, at both sides of each limit. Echoes are made by
+ * hand, which takes the private header: those of a scene never stand at a limit.
+ */
+#include "../../src/tracker/step.h"
+#include "tracker_setup.h"
+
+#if RHO_MAX_ECHOES > 0
+
+#define RANGE_MAX_M 80000.0
+#define PI 3.14159265358979
+
+static const struct rho_sensor radar = {
+    .sensor_id = 1, .pd = 0.9f, .range_max_m = (float)RANGE_MAX_M};
+static struct rho_scan scan;
+static struct step at;
+
+static void prepare(uint32_t measures)
+{
+    use_usual_configs(1);
+    config.v_min_mps = initiation.v_min_mps = 30.0f;
+    config.work_max = 0;
+    begin_tracker();
+    memset(&report, 0, sizeof report);
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
+    scan = (struct rho_scan){.sensor_id = 1, .measures = measures, .plots = plots};
+}
+
+static void look(void)
+{
+    scan.num_plots = num_plots;
+    at = (struct step){.tracker = &tracker,
+                       .time_us = 4000000,
+                       .scan = &scan,
+                       .report = &report,
+                       .sensor = &radar,
+                       .num_inputs = num_plots,
+                       .num_gated = num_plots,
+                       .sigma_max_m = 10.0f,
+                       .range_rates_mps = 700.0f};
+    for (uint32_t i = 0; i < num_plots; i++) {
+        report.fates[i] = RHO_FATE_HELD;
+    }
+    tracker.unclaimed_plots = 100.0f; /* on 100 by 100 km */
+    tracker.extent = (struct rho_extent){-50000.0f, 50000.0f, -50000.0f, 50000.0f};
+    rho_tracker_index_plots(&at);
+    rho_tracker_predict_clutter_at_plots(&at);
+}
+
+static const double usual_per_m2 = 100.0 / 1e10;
+
+static struct rho_clutter_map *map_of(void)
+{
+    return &tracker.clutter_map;
+}
+
+static void expect_close(double is, double wanted)
+{
+    assert_true(fabs(is - wanted) <= 2e-4 * fabs(wanted) + 1e-7);
+}
+
+/* ---- echoes ---------------------------------------------------------------------------------- */
+
+/* 20 km east, seen 20 times and in the last scan, 20 m uncertain along and nearly sure across. */
+static struct rho_echo *have_echo(void)
+{
+    struct rho_echo *echo = &map_of()->echoes[0];
+    *echo = (struct rho_echo){.time_us = 4000000,
+                              .sensor_id = 1,
+                              .x_m = 20000.0f,
+                              .along = {400.0f, 0.0f, 4.0f},
+                              .across = {1.0f, 0.0f, 4.0f},
+                              .plot = -1,
+                              .hits = 20};
+    return echo;
+}
+
+/* Of a plot of 10 m, so many sigmas off along, root(400 + 100) m, and across, root(1 + 100) m. */
+static double denser_at(double along, double across)
+{
+    prepare(0);
+    have_echo();
+    (void)add_plot(20000.0 + along * sqrt(500.0), across * sqrt(101.0), 10.0);
+    look();
+    return (double)map_of()->denser[0];
+}
+
+static void an_echo_makes_clutter_denser_within_its_gate(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const double sigmas = i == 3 ? -4.2 : 1.5 * i, denser = denser_at(sigmas, 0.0);
+        const double probability = (double)rho_clutter_map_return_probability(map_of(), 0, 20, 1);
+        const double per_m2 =
+            probability * exp(-0.5 * sigmas * sigmas) / (2.0 * PI * sqrt(500.0 * 101.0));
+        expect_close(denser, log(1.0 + per_m2 / usual_per_m2));
+    }
+    /* the squares' sum is 18 */
+    assert_true(denser_at(2.9, 3.0) > 0.0);
+    assert_true(denser_at(3.1, 3.0) == 0.0);
+}
+
+/* Four units a plot in the box, of which there is none six sigmas off; ten with range rates. */
+static void work_is_counted(void **state)
+{
+    (void)state;
+    (void)denser_at(1.0, 0.0);
+    assert_int_equal(at.work, 4);
+    (void)denser_at(6.5, 0.0);
+    assert_int_equal(at.work, 0);
+    prepare(RHO_MEASURES_RANGE_RATE);
+    have_echo();
+    add_plot(20000.0, 0.0, 10.0)->sigma_range_rate_mps = 1.0f;
+    look();
+    assert_int_equal(at.work, 10);
+}
+
+/* Density of a normal range rate over an even one. */
+static double over_all(double off_mps, double variance)
+{
+    return 700.0 * exp(-0.5 * off_mps * off_mps / variance) / sqrt(2.0 * PI * variance);
+}
+
+/* A share has the echo's own rate, of the others half are within 1 m/s, and half are any. */
+static void range_rates_tell_an_echo(void **state)
+{
+    static const double rates_mps[] = {0.0, 1.5, 4.0, 9.0}, plots_seen[] = {0.0, 20.0};
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        const double rate_mps = rates_mps[i % 4], seen = plots_seen[i / 4];
+        prepare(RHO_MEASURES_RANGE_RATE);
+        have_echo();
+        struct rho_plot *plot = add_plot(20000.0, 0.0, 10.0);
+        plot->range_rate_mps = (float)rate_mps;
+        plot->sigma_range_rate_mps = 1.0f;
+        map_of()->rate_plots = (float)seen;
+        map_of()->exact_plots = (float)seen / 4.0f;
+        look();
+        const double variance = 1.0 + 4.0, share = (seen / 4.0 + 0.3 * 10.0) / (seen + 10.0);
+        const double ratio = share * over_all(rate_mps, variance) +
+                             (1.0 - share) * (0.5 + 0.5 * over_all(rate_mps, variance + 1.0));
+        const double probability = (double)rho_clutter_map_return_probability(map_of(), 0, 20, 1);
+        const double per_m2 = probability * ratio / (2.0 * PI * sqrt(500.0 * 101.0));
+        expect_close((double)map_of()->denser[0], log(1.0 + per_m2 / usual_per_m2));
+    }
+}
+
+/* A hundredth of the range's square, 8 km, is no place any more. */
+static void an_echo_that_may_be_anywhere_is_lost(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        prepare(0);
+        have_echo()->along[0] = i ? 6.41e7f : 6.38e7f;
+        (void)add_plot(0.0, 20000.0, 10.0);
+        look();
+        assert_int_equal(map_of()->echoes[0].hits, i ? 0 : 20);
+    }
+}
+
+/* From a share of 0.3 on, and whichever row the plot has. */
+static void an_echo_takes_the_plot_that_it_explains(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        for (int row = 0; row < 2; row++) {
+            prepare(0);
+            struct rho_echo *echo = have_echo();
+            if (row == 1) {
+                (void)add_plot(0.0, 20000.0, 10.0);
+            }
+            (void)add_plot(20000.0, 0.0, 10.0);
+            look();
+            assert_int_equal(echo->plot, row);
+            assert_true(echo->weight > 0.0f);
+            echo->weight = i ? 0.31f : 0.29f;
+            rho_tracker_update_clutter_map(&at);
+            assert_int_equal(echo->hits, 20 + i);
+            assert_int_equal(map_of()->echoes[1].hits, row == 1 || i == 0);
+        }
+    }
+}
+
+/* Sums of range rates are halved at a thousand plots. */
+static void range_rates_are_remembered_for_a_thousand_plots(void **state)
+{
+    static const float before[] = {999.0f, 1000.0f}, after[] = {1000.0f, 501.0f};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        prepare(RHO_MEASURES_RANGE_RATE);
+        have_echo();
+        add_plot(20000.0, 0.0, 10.0)->sigma_range_rate_mps = 1.0f;
+        look();
+        map_of()->echoes[0].weight = 0.9f;
+        map_of()->rate_plots = before[i];
+        rho_tracker_update_clutter_map(&at);
+        assert_true(map_of()->rate_plots == after[i]);
+    }
+}
+
+/* ---- turns ----------------------------------------------------------------------------------- */
+
+/* A scan is half of a turn where two sensors were heard in the last minute. */
+static void a_sensor_that_was_silent_for_a_minute_is_not_there(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        prepare(0);
+        look();
+        at.time_us = 100000000;
+        tracker.num_paces = 2;
+        tracker.paces[0].time_us = at.time_us;
+        tracker.paces[1].time_us = at.time_us - (i ? 61000000 : 59000000);
+        const float before = map_of()->scans_to_blocks;
+        rho_tracker_update_clutter_map(&at);
+        assert_float_equal(before - map_of()->scans_to_blocks, i ? 1.0 : 0.5, 1e-6);
+    }
+}
+
+/* ---- targets --------------------------------------------------------------------------------- */
+
+/* Twelve hits make a target of a confirmed track that is fast, or has left its start. */
+static int is_target(uint16_t hits, float v_min_mps, float moved_m)
+{
+    struct rho_track *track = &tracker.tracks[0];
+    prepare(0);
+    tracker.config.v_min_mps = v_min_mps;
+    (void)add_plot(0.0, 20000.0, 10.0);
+    look();
+    tracker.num_tracks = 1;
+    *track = (struct rho_track){.track_id = 1,
+                                .status = RHO_TRACK_CONFIRMED,
+                                .plot = 0,
+                                .hits = hits,
+                                .was_confirmed = 1,
+                                .start_sigma_m = 5.0f};
+    track->kalman.state[RHO_X] = moved_m;
+    track->kalman.state[RHO_VX] = 40.0f;
+    for (int axis = 0; axis < 2; axis++) {
+        track->kalman.covariance[RHO_AT(axis, axis)] = 25.0f;
+        track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
+    }
+    rho_tracker_update_clutter_map(&at);
+    return rho_tracker_is_known_moving_target(track);
+}
+
+static void tracks_of_targets_take_back_what_they_taught(void **state)
+{
+    (void)state;
+    assert_false(is_target(11, 30.0f, 0.0f));
+    assert_true(is_target(12, 30.0f, 0.0f));
+    /* where targets may stand: eight sigmas of both places */
+    assert_false(is_target(12, 0.0f, 79.0f));
+    assert_true(is_target(12, 0.0f, 81.0f));
+}
+
+/* ---- strobes --------------------------------------------------------------------------------- */
+
+/* Plots in one direction, in the eighths of the range from `first` on, and others all round. */
+static int has_strobe(int count, int first, int eighths, double last_m, int others)
+{
+    const double bin_rad = 2.0 * PI / RHO_ECHO_STROBES;
+    prepare(0);
+    for (int i = 0; i < count; i++) {
+        const double range_m = RANGE_MAX_M / 8.0 * (first + i % eighths + 0.5);
+        (void)add_plot(i == count - 1 && last_m > 0.0 ? last_m : range_m, 0.01 * range_m * bin_rad,
+                       10.0);
+    }
+    for (int i = 0; i < others; i++) {
+        const double azimuth_rad = 3.0 * bin_rad + (2.0 * PI - 6.0 * bin_rad) * i / others;
+        (void)add_plot(30000.0 * cos(azimuth_rad), 30000.0 * sin(azimuth_rad), 10.0);
+    }
+    look();
+    return map_of()->denser[0] > 0.0f;
+}
+
+static void a_strobe_has_more_than_eight_plots(void **state)
+{
+    (void)state;
+    assert_false(has_strobe(8, 0, 6, 0.0, 0));
+    assert_true(has_strobe(9, 0, 6, 0.0, 0));
+}
+
+/* Those of six of the others' directions more. */
+static void a_strobe_has_six_times_as_many_as_elsewhere(void **state)
+{
+    const int others = 150;
+    const double usual = others * 3.0 / (RHO_ECHO_STROBES - 3.0), least = 8.0 + 6.0 * usual;
+    (void)state;
+    assert_true(usual > 0.5);
+    assert_false(has_strobe((int)floor(least), 0, 6, 0.0, others));
+    assert_true(has_strobe((int)floor(least) + 1, 0, 6, 0.0, others));
+}
+
+/* In six eighths of the range, of which the last has what lies beyond. */
+static void a_strobe_fills_six_eighths_of_the_range(void **state)
+{
+    (void)state;
+    assert_false(has_strobe(20, 2, 5, 0.0, 0));
+    assert_true(has_strobe(20, 2, 6, 0.0, 0));
+    assert_true(has_strobe(20, 2, 5, 1.01 * RANGE_MAX_M, 0));
+    assert_false(has_strobe(20, 3, 5, 1.01 * RANGE_MAX_M, 0));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_echo_makes_clutter_denser_within_its_gate),
+        cmocka_unit_test(work_is_counted),
+        cmocka_unit_test(range_rates_tell_an_echo),
+        cmocka_unit_test(an_echo_that_may_be_anywhere_is_lost),
+        cmocka_unit_test(an_echo_takes_the_plot_that_it_explains),
+        cmocka_unit_test(range_rates_are_remembered_for_a_thousand_plots),
+        cmocka_unit_test(a_sensor_that_was_silent_for_a_minute_is_not_there),
+        cmocka_unit_test(tracks_of_targets_take_back_what_they_taught),
+        cmocka_unit_test(a_strobe_has_more_than_eight_plots),
+        cmocka_unit_test(a_strobe_has_six_times_as_many_as_elsewhere),
+        cmocka_unit_test(a_strobe_fills_six_eighths_of_the_range),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#else
+
+int main(void)
+{
+    return 0;
+}
+
+#endif

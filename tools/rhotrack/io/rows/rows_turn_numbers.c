@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/rows/rows_turn_numbers.h"
+
+#include <math.h>
+
+#include "io/turns/antenna_turns.h"
+
+/* Position of a row's plot relative to its sensor. Returns false for a row without a plot. */
+static bool plot_place_from_sensor(const struct rows_file *file, const struct row *row,
+                                   const struct parameters *parameters, double place_m[2])
+{
+    const struct rows_kind *kind = file->rows.kind;
+    const double *cells = rows_cells(&file->rows, row);
+
+    if (!rows_row_has_measurement(&file->rows, row)) {
+        return false;
+    }
+    if (kind == &rows_kind_polar) {
+        const double range_m = cells[rows_existing_column_index(kind, "range_m")];
+        const double azimuth_rad = cells[rows_existing_column_index(kind, "azimuth_rad")];
+
+        place_m[0] = range_m * cos(azimuth_rad);
+        place_m[1] = range_m * sin(azimuth_rad);
+    } else {
+        struct rho_sensor sensor;
+
+        parameters_to_sensor_or_defaults(parameters, row->sensor_id, &sensor);
+        place_m[0] = cells[rows_existing_column_index(kind, "x_m")] - (double)sensor.x_m;
+        place_m[1] = cells[rows_existing_column_index(kind, "y_m")] - (double)sensor.y_m;
+    }
+    return true;
+}
+
+static bool may_have_turns(const struct rows_file *file, const struct parameters *parameters)
+{
+    const struct rows_kind *kind = file->rows.kind;
+
+    return (kind == &rows_kind_plots || kind == &rows_kind_polar) && !file->has_scan &&
+           !file->rows.has_received && file->rows.count > 0 &&
+           antenna_turns_are_wanted(parameters) &&
+           rows_is_cell_empty(rows_cells(
+               &file->rows, file->rows.list)[rows_existing_column_index(kind, "sector_from_rad")]);
+}
+
+void rows_turns_number_rows(struct rows_file *file, const struct parameters *parameters)
+{
+    struct antenna_turns *turns;
+    double place_m[2];
+    bool goes_on = true;
+
+    if (!may_have_turns(file, parameters)) {
+        return;
+    }
+    turns = antenna_turns_start();
+    for (size_t i = 0; i < file->rows.count && goes_on; i++) {
+        const struct row *row = &file->rows.list[i];
+
+        goes_on =
+            !plot_place_from_sensor(file, row, parameters, place_m) ||
+            antenna_turns_collect_row(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
+    }
+    if (antenna_turns_find_and_report_rules(turns, file->path,
+                                            parameters->value[PARAMETER_V_MAX_MPS])) {
+        for (size_t i = 0; i < file->rows.count; i++) {
+            struct row *row = &file->rows.list[i];
+            const bool has_place = plot_place_from_sensor(file, row, parameters, place_m);
+
+            row->turn = antenna_turns_number_row(turns, row->sensor_id, row->time_us,
+                                                 has_place ? place_m : NULL);
+        }
+    }
+    antenna_turns_free(turns);
+}

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: MIT */
+#include "live/duplicate_senders.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "rhotrack/message.h"
+
+#define SECOND_US 1000000
+#define TOLD_US (60 * SECOND_US) /* interval of warnings that a sensor may have another sender */
+#define TURN_US (12 * SECOND_US) /* revolution of a slow radar's antenna */
+
+static bool is_same_sender(const struct transport_sender *one, const struct transport_sender *other)
+{
+    return one->address == other->address && one->port == other->port;
+}
+
+static void print_sender(const struct transport_sender *sender, FILE *to)
+{
+    fprintf(to, "%u.%u.%u.%u:%u", sender->address >> 24, sender->address >> 16 & 255u,
+            sender->address >> 8 & 255u, sender->address & 255u, (unsigned)sender->port);
+}
+
+/* ---- Sensors ---- */
+
+/*
+ * Parses the number in a channel's name, strictly: anyone on the network names channels, and the
+ * name is printed.
+ */
+static bool parse_sensor_id(const char *text, int16_t *sensor_id)
+{
+    const char *digits = text + (*text == '-');
+    const size_t count = strspn(digits, "0123456789");
+    long id;
+
+    if (count < 1 || count > 5 || digits[count] != '\0') {
+        return false;
+    }
+    id = strtol(text, NULL, 10);
+    *sensor_id = (int16_t)id;
+    return id >= INT16_MIN && id <= INT16_MAX;
+}
+
+bool duplicate_senders_sensor_id_of_channel(const char *channel, int16_t *sensor_id)
+{
+    static const char *const beginnings[] = {RHO_MESSAGE_POLAR_SCAN_CHANNEL,
+                                             RHO_MESSAGE_PLOT_SCAN_CHANNEL,
+                                             RHO_MESSAGE_BEARING_SCAN_CHANNEL};
+
+    for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++) {
+        if (text_begins_with(channel, beginnings[i])) {
+            return parse_sensor_id(channel + strlen(beginnings[i]), sensor_id);
+        }
+    }
+    return false;
+}
+
+/* Finds or adds the entry of the message's channel; NULL where there is no room. */
+static struct sender_channel *find_or_add_channel(struct duplicate_senders *senders,
+                                                  const struct transport_message *message)
+{
+    for (unsigned i = 0; i < senders->num_channels; i++) {
+        if (strcmp(senders->channels[i].name, message->channel) == 0) {
+            return &senders->channels[i];
+        }
+    }
+    if (senders->num_channels == SENDERS_CHANNELS) {
+        return NULL;
+    }
+    struct sender_channel *channel = &senders->channels[senders->num_channels++];
+
+    snprintf(channel->name, sizeof channel->name, "%s", message->channel);
+    channel->last = message->sender;
+    return channel;
+}
+
+static void print_sender_warning(struct duplicate_senders *senders,
+                                 const struct sender_channel *channel, const char *what,
+                                 const struct transport_sender *one, const char *between,
+                                 const struct transport_sender *other, const char *end, FILE *to)
+{
+    senders->lines++;
+    fprintf(to, "rhotrack: sensor %s has %s", strrchr(channel->name, '_') + 1, what);
+    print_sender(one, to);
+    fputs(between, to);
+    print_sender(other, to);
+    fputs(end, to);
+}
+
+static void note_sender_change(struct duplicate_senders *senders, struct sender_channel *channel,
+                               const struct transport_sender *sender, int64_t now_us, FILE *to)
+{
+    const bool is_back = is_same_sender(&channel->before, sender);
+    const bool is_told = channel->told_us > 0 && now_us < channel->told_us + TOLD_US;
+    const bool is_live = channel->heard_us > 0 && now_us < channel->heard_us + TURN_US;
+
+    if (is_back && !channel->is_named && to) {
+        print_sender_warning(senders, channel, "two senders: ", &channel->before, " and ",
+                             &channel->last, "; each needs a number of its own\n", to);
+    } else if (!is_back && !is_told && is_live && to) {
+        channel->told_us = now_us;
+        print_sender_warning(senders, channel, "another sender, ", sender, ", until now ",
+                             &channel->last, ": a restart, or two at once\n", to);
+    }
+    channel->is_named = is_back;
+    channel->before = channel->last;
+    channel->last = *sender;
+}
+
+static void note_sensor_message(struct duplicate_senders *senders,
+                                const struct transport_message *message, int64_t now_us, FILE *to)
+{
+    struct sender_channel *channel = find_or_add_channel(senders, message);
+
+    if (!channel) {
+        return;
+    }
+    if (!is_same_sender(&channel->last, &message->sender)) {
+        note_sender_change(senders, channel, &message->sender, now_us, to);
+    }
+    channel->heard_us = now_us;
+}
+
+/* ---- Nodes ---- */
+
+static void note_node_message(struct duplicate_senders *senders,
+                              const struct transport_sender *sender, FILE *to)
+{
+    for (unsigned i = 0; i < SENDERS_NODES; i++) {
+        if (is_same_sender(&senders->nodes[i], sender)) {
+            return;
+        }
+    }
+    senders->nodes[senders->num_nodes++ % SENDERS_NODES] = *sender;
+    if (to) {
+        senders->lines++;
+        fputs("rhotrack: another node publishes tracks here: ", to);
+        print_sender(sender, to);
+        fputs("\n", to);
+    }
+}
+
+void duplicate_senders_note_message(struct duplicate_senders *senders,
+                                    const struct transport_message *message, int64_t now_us,
+                                    FILE *to)
+{
+    int16_t sensor_id;
+
+    if (message->sender.port == 0) {
+        return; /* no sender is known: a file, or a transport of liblcm */
+    }
+    if (now_us >= senders->lines_us + SECOND_US) {
+        senders->lines_us = now_us;
+        senders->lines = 0;
+    }
+    to = senders->lines < SENDERS_LINES ? to : NULL;
+    if (duplicate_senders_sensor_id_of_channel(message->channel, &sensor_id)) {
+        note_sensor_message(senders, message, now_us, to);
+    } else if (!message->sender.is_own &&
+               strcmp(message->channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
+        note_node_message(senders, &message->sender, to);
+    }
+}
