@@ -129,7 +129,7 @@ run simulate passive-two -o passive
 run register passive/bearings.csv
 check 'bearings' says 2 'rhotrack: register takes plots in range and azimuth, and no bearings'
 run register sectors/plots.csv --config sectors/scenario.ini --set reference_sensor=7
-check 'a reference that is not there' says 2 'rhotrack: reference_sensor 7 is none of *'
+check 'a reference that is not there' says 2 'rhotrack: reference_sensor 7: the input has no plots of this radar'
 cut -d, -f1-4,7-9 sectors/plots.csv >placeless.csv
 run register placeless.csv
 check 'radars without places' says 2 'rhotrack: register: where do radars * and * stand? *'
