@@ -276,6 +276,8 @@ set_refuse() { # name, pattern, options...
     check "$name" says 2 "rhotrack: $pattern"
 }
 set_refuse 'half an origin' 'origin_lat_deg is set without origin_lon_deg' --set origin_lat_deg=50
+set_refuse 'the other half, where the file has a place' 'origin_lon_deg is set without origin_lat_deg' \
+    --set origin_lon_deg=10
 set_refuse 'a radar without an origin' \
     'sensor 3: lat_deg and lon_deg: origin_lat_deg and origin_lon_deg are not set*' \
     --set sensor.3.lat_deg=50 --set sensor.3.lon_deg=10

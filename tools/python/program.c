@@ -207,10 +207,7 @@ static struct parameters *ready(const struct parameters *settings, char *const *
     struct asterix_place place = {.is_given = false};
 
     *copy = *settings;
-    for (int i = 0;
-         i < num_paths && !place.is_given && !parameters_is_set(copy, PARAMETER_ORIGIN_LAT_DEG) &&
-         !parameters_is_set(copy, PARAMETER_ORIGIN_LON_DEG);
-         i++) {
+    for (int i = 0; i < num_paths && !place.is_given && !parameters_has_origin(copy); i++) {
         place = asterix_file_radar_place(paths[i]);
         if (place.is_given) {
             asterix_plot_rows_suggest_origin(paths[i], &place, copy);
