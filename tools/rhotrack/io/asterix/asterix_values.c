@@ -200,12 +200,13 @@ static void read_radar_place(const uint8_t *item, struct asterix_service *servic
 void asterix_service_read(const struct asterix_record *record, struct asterix_service *service)
 {
     const bool is_old = record->category == ASTERIX_OLD_SERVICE;
+    const uint8_t *source = record->items[is_old ? I002_010 : I034_010];
     const uint8_t *type = record->items[is_old ? I002_000 : I034_000];
     const uint8_t *time = record->items[is_old ? I002_030 : I034_030];
     const uint8_t *sector = record->items[is_old ? I002_020 : I034_020];
     const uint8_t *period = record->items[is_old ? I002_041 : I034_041];
 
-    *service = (struct asterix_service){.source = read_source(record->items[I034_010])};
+    *service = (struct asterix_service){.source = read_source(source)};
     service->has_type = type;
     service->type = type ? type[0] : 0;
     service->has_time = time;
