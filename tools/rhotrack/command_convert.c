@@ -267,23 +267,17 @@ static void check_one_kind_and_count_others(struct reading *reading)
     }
 }
 
-static void print_count_unless_zero(const struct reading *reading, uint64_t count, const char *what)
-{
-    if (count > 0) {
-        fprintf(stderr, "rhotrack: %s: %" PRIu64 " %s\n", reading->path, count, what);
-    }
-}
-
 static void print_left_out_counts(const struct reading *reading, const struct lcm_log_reader *log)
 {
     lcm_log_report_skipped(log);
-    print_count_unless_zero(reading, reading->collection.messages_bad, "bad messages skipped");
-    print_count_unless_zero(reading, reading->others, "messages on other channels left out");
-    print_count_unless_zero(reading, reading->collection.messages_again,
+    print_count_unless_zero(reading->path, reading->collection.messages_bad,
+                            "bad messages skipped");
+    print_count_unless_zero(reading->path, reading->others, "messages on other channels left out");
+    print_count_unless_zero(reading->path, reading->collection.messages_again,
                             "messages that were there before left out");
-    print_count_unless_zero(reading, reading->collection.scans_incomplete,
+    print_count_unless_zero(reading->path, reading->collection.scans_incomplete,
                             "scans or lists lack parts");
-    print_count_unless_zero(reading, reading->collection.lists_empty,
+    print_count_unless_zero(reading->path, reading->collection.lists_empty,
                             "lists without elements have no row");
 }
 

@@ -23,13 +23,6 @@ struct batch {
     int64_t wall_us;
 };
 
-static void fail_unless_ok(enum rho_status status)
-{
-    if (status != RHO_OK) {
-        fail(EXIT_RUNTIME, "initiator: the library says '%s'", rho_status_name(status));
-    }
-}
-
 /* ---- The batch ---- */
 
 static void push_scan(struct batch *batch, const struct rho_scan *scan,
@@ -45,7 +38,8 @@ static void push_scan(struct batch *batch, const struct rho_scan *scan,
     }
     memset(fates, RHO_FATE_HELD, sizeof fates);
     start_us = clock_us();
-    fail_unless_ok(rho_initiator_push(batch->initiator, &held, sensor, fates, &left_unused));
+    must_succeed(rho_initiator_push(batch->initiator, &held, sensor, fates, &left_unused),
+                 "initiator");
     batch->wall_us += clock_us() - start_us;
     batch->time_us = scan->time_us;
     batch->scans++;
@@ -76,12 +70,13 @@ static void read_and_search_batch(struct batch *batch, const struct command_line
 
     parameters_to_initiator(&line->parameters, &config);
     batch->initiator = must_alloc(sizeof *batch->initiator);
-    fail_unless_ok(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config));
+    must_succeed(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config),
+                 "initiator");
     reader =
         scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     push_last_scans(batch, reader);
     start_us = clock_us();
-    fail_unless_ok(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH));
+    must_succeed(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH), "initiator");
     batch->wall_us += clock_us() - start_us;
     scan_reader_report_skipped(reader);
     if (batch->plots_no_room) {

@@ -346,6 +346,15 @@ const char *float_text(float value, char text[FLOAT_TEXT_BYTES])
     return text;
 }
 
+const char *time_text(int64_t time_us, char text[TIME_TEXT_BYTES])
+{
+    uint64_t magnitude = time_us < 0 ? 0 - (uint64_t)time_us : (uint64_t)time_us;
+
+    snprintf(text, TIME_TEXT_BYTES, "%s%" PRIu64 ".%06" PRIu64, time_us < 0 ? "-" : "",
+             magnitude / 1000000, magnitude % 1000000);
+    return text;
+}
+
 static int compare_descending(const void *a, const void *b)
 {
     return *(const int *)b - *(const int *)a;
@@ -415,6 +424,13 @@ void print_rows_skipped(uint64_t rows)
 {
     if (rows > 0) {
         fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n", rows);
+    }
+}
+
+void print_count_unless_zero(const char *path, uint64_t count, const char *what)
+{
+    if (count > 0) {
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " %s\n", path, count, what);
     }
 }
 

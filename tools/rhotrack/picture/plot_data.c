@@ -356,16 +356,17 @@ void plot_data_time_label(const struct plot_data *data, char *text, size_t size)
     }
 }
 
-static double number_in_column(const struct plot_point *point, const char *column)
+double plot_data_number_in_column(const struct plot_point *track, const char *column)
 {
-    return table_number_or(point->table, point->row, table_find_column(point->table, column), NAN);
+    return table_number_or(track->table, track->row, table_find_column(track->table, column), NAN);
 }
 
 bool plot_data_sigma_ellipse(const struct plot_point *track, struct plot_ellipse *ellipse)
 {
-    const double xx = number_in_column(track, "cov_x_x"), yx = number_in_column(track, "cov_y_x");
-    const double yy = number_in_column(track, "cov_y_y"),
-                 sigma_m = number_in_column(track, "sigma_m");
+    const double xx = plot_data_number_in_column(track, "cov_x_x"),
+                 yx = plot_data_number_in_column(track, "cov_y_x");
+    const double yy = plot_data_number_in_column(track, "cov_y_y"),
+                 sigma_m = plot_data_number_in_column(track, "sigma_m");
     if (isnan(xx) || isnan(yx) || isnan(yy)) {
         *ellipse = (struct plot_ellipse){sigma_m, sigma_m, 0.0};
         return !isnan(sigma_m);

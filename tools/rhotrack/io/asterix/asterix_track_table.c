@@ -8,6 +8,7 @@
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_scans.h"
 #include "io/csv/local_frame.h"
+#include "io/rows/rows.h"
 #include "rhotrack/message.h"
 
 enum column {
@@ -28,24 +29,10 @@ enum column {
     NUM_COLUMNS
 };
 
-static const char *track_status_name(int status)
-{
-    switch (status) {
-    case RHO_MESSAGE_TRACK_TENTATIVE:
-        return "tentative";
-    case RHO_MESSAGE_TRACK_COASTING:
-        return "coasting";
-    case RHO_MESSAGE_TRACK_DELETED:
-        return "deleted";
-    default:
-        return "confirmed";
-    }
-}
-
 static const struct table_column all_columns[NUM_COLUMNS] = {
     [AT_T_S] = {.name = "t_s", .decimals = 6},
     [AT_TRACK_ID] = {.name = "track_id", .decimals = 0},
-    [AT_STATUS] = {.name = "status", .decimals = 0, .word = track_status_name},
+    [AT_STATUS] = {.name = "status", .decimals = 0, .word = rows_track_status_name},
     [AT_X_M] = {.name = "x_m", .decimals = 3},
     [AT_Y_M] = {.name = "y_m", .decimals = 3},
     [AT_Z_M] = {.name = "z_m", .decimals = 3},

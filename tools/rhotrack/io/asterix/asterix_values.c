@@ -3,6 +3,7 @@
  * asterix_values: decodes the values of items. Lengths were checked before: an item that is there
  * has all bytes of its form.
  */
+#include "base/big_endian.h"
 #include "io/asterix/asterix.h"
 #include "io/asterix/asterix_items.h"
 
@@ -10,12 +11,7 @@
 
 static uint32_t read_unsigned(const uint8_t *data, int bytes)
 {
-    uint32_t value = 0;
-
-    for (int i = 0; i < bytes; i++) {
-        value = value << 8 | data[i];
-    }
-    return value;
+    return (uint32_t)load_big_endian(data, bytes);
 }
 
 /* The lowest `bits` bits as a two's complement number. */

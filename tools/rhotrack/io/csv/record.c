@@ -4,7 +4,6 @@
 #include "io/csv/row_check.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
-#include <math.h>
 
 /* A row being read and checked. */
 struct row_reading {
@@ -286,14 +285,6 @@ static bool read_range(const struct row_reading *reading, float *range_m)
     return *range_m > 0.0f || row_refuse_cell(&reading->cells, column, "is not above 0");
 }
 
-/* Converts degrees clockwise from north to radians counter-clockwise from east. */
-static float radians_from_compass_deg(float azimuth_deg)
-{
-    double azimuth_rad = PI / 2 - (double)azimuth_deg * DEG_RAD;
-
-    return (float)remainder(azimuth_rad, 2 * PI);
-}
-
 static bool read_azimuth(const struct row_reading *reading, float *azimuth_rad)
 {
     const struct record_columns *columns = reading->columns;
@@ -306,7 +297,7 @@ static bool read_azimuth(const struct row_reading *reading, float *azimuth_rad)
                         (float)ROW_ANGLE_MAX, &azimuth_deg)) {
         return false;
     }
-    *azimuth_rad = radians_from_compass_deg(azimuth_deg);
+    *azimuth_rad = (float)row_radians_from_compass_deg((double)azimuth_deg);
     return true;
 }
 

@@ -78,6 +78,11 @@ bool row_read_angle(const struct row_check *check, int column, float *angle_rad)
     return true;
 }
 
+double row_radians_from_compass_deg(double azimuth_deg)
+{
+    return remainder(TURN / 4 - azimuth_deg * (TURN / 360), TURN);
+}
+
 bool row_read_position(const struct row_check *check, int column, float *value)
 {
     return row_read_float(check, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M, value);
