@@ -484,6 +484,15 @@ bool json_read_numbers(struct json_object *object, const char *key, size_t count
     return item != NULL;
 }
 
+void json_read_xy(struct json_object *object, const char *key, double max, double *x, double *y)
+{
+    double numbers[2] = {*x, *y};
+
+    json_read_numbers(object, key, 2, -max, max, numbers);
+    *x = numbers[0];
+    *y = numbers[1];
+}
+
 struct json_span json_read_span(struct json_object *object, const char *key, double min, double max,
                                 struct json_span otherwise)
 {

@@ -33,15 +33,6 @@ static struct scene_coverage read_coverage(struct json_object *object,
     return coverage;
 }
 
-static void read_xy(struct json_object *object, const char *key, double max, double *x, double *y)
-{
-    double numbers[2] = {*x, *y};
-
-    json_read_numbers(object, key, 2, -max, max, numbers);
-    *x = numbers[0];
-    *y = numbers[1];
-}
-
 static void read_from_and_until(struct json_object *object, double *from_s, double *until_s)
 {
     *from_s = json_read_number(object, "from_s", -DURATION_MAX_S, DURATION_MAX_S, -INFINITY);
@@ -144,7 +135,7 @@ static void read_told_values(struct json_object *object, struct scene_sensor *se
         told->range_bias_m = json_read_number(&below, "range_bias_m", -1e4, 1e4, 0);
         told->notch = scene_notch_read_told(&below, told->notch);
     }
-    read_xy(&below, "at_m", PLACE_MAX_M, &told->x_m, &told->y_m);
+    json_read_xy(&below, "at_m", PLACE_MAX_M, &told->x_m, &told->y_m);
     told->azimuth_bias_rad = json_read_number(&below, "azimuth_bias_rad", -0.5, 0.5, 0);
     told->time_bias_s = json_read_number(&below, "time_bias_s", -10, 10, 0);
     told->coverage = read_coverage(&below, told->coverage);
@@ -246,7 +237,7 @@ static void append_sensor(struct scene *scene, struct json_object *object, bool 
             json_fail_key(object, "sensor_id", "sensor %d is there already", sensor->sensor_id);
         }
     }
-    read_xy(object, "at_m", PLACE_MAX_M, &sensor->x_m, &sensor->y_m);
+    json_read_xy(object, "at_m", PLACE_MAX_M, &sensor->x_m, &sensor->y_m);
     read_antenna_motion(object, sensor);
     if (is_passive) {
         read_passive_sensor(object, sensor);
@@ -330,8 +321,8 @@ static void read_clutter_cell(struct json_object *object, struct scene_clutter *
     clutter->plots = json_read_number(object, "plots", 0, PLOTS_MAX, 0);
     clutter->is_disc = json_read_choice(object, "shape", shapes, 2, 0) == 1;
     clutter->radius_m = json_read_number(object, "radius_m", 1, PLACE_MAX_M, 0);
-    read_xy(object, "at_m", PLACE_MAX_M, &clutter->x_m, &clutter->y_m);
-    read_xy(object, "velocity_mps", 2e4, &clutter->vx_mps, &clutter->vy_mps);
+    json_read_xy(object, "at_m", PLACE_MAX_M, &clutter->x_m, &clutter->y_m);
+    json_read_xy(object, "velocity_mps", 2e4, &clutter->vx_mps, &clutter->vy_mps);
     clutter->rate_sigma_mps = json_read_number(object, "range_rate_sigma_mps", 0, 1e3, 0);
 }
 
@@ -386,8 +377,8 @@ static void read_flock(struct json_object *object, struct scene_clutter *clutter
     json_require_key(object, "radius_m");
     clutter->count = json_read_count(object, "count", 0, 10000, 0);
     clutter->radius_m = json_read_number(object, "radius_m", 1, PLACE_MAX_M, 0);
-    read_xy(object, "at_m", PLACE_MAX_M, &clutter->x_m, &clutter->y_m);
-    read_xy(object, "velocity_mps", 2e4, &clutter->vx_mps, &clutter->vy_mps);
+    json_read_xy(object, "at_m", PLACE_MAX_M, &clutter->x_m, &clutter->y_m);
+    json_read_xy(object, "velocity_mps", 2e4, &clutter->vx_mps, &clutter->vy_mps);
     clutter->speed_mps = json_read_number(object, "speed_mps", 0, 2e4, 0);
     clutter->pd = json_read_number(object, "pd", 0, 1, 1);
 }

@@ -15,6 +15,7 @@
 #define LEGS_MAX 1000
 #define ITEMS_MAX 1000
 #define GROUP_MAX 10000
+#define TARGETS_MAX 100000
 #define DRAFTS_MAX 10000
 #define KEEP_STEP_S 1.0 /* interval at which a path is checked against its limits */
 /* share of the largest allowed range beyond which random turns lead back to the centre */
@@ -435,8 +436,8 @@ struct scene_path *targets_draw_paths(const struct scene_targets *targets, const
 
             draw_paths_of_member(&paths, &draft, &random);
         }
-        if (paths.count > 100000) {
-            fail(EXIT_USAGE, "%s: targets: more than 100000 of them", file);
+        if (paths.count > TARGETS_MAX) {
+            fail(EXIT_USAGE, "%s: targets: more than %d of them", file, TARGETS_MAX);
         }
     }
     free(first);
@@ -455,15 +456,6 @@ static bool read_xy_or_xyz(struct json_object *object, const char *key, double m
 
     *has_height = *has_height || count == 3;
     return json_read_numbers(object, key, count, -max, max, vector);
-}
-
-static void read_xy(struct json_object *object, const char *key, double *x_m, double *y_m)
-{
-    double place_m[2] = {*x_m, *y_m};
-
-    json_read_numbers(object, key, 2, -PLACE_MAX_M, PLACE_MAX_M, place_m);
-    *x_m = place_m[0];
-    *y_m = place_m[1];
 }
 
 static struct path_step read_leg(struct json_object object, bool *has_height)
@@ -723,7 +715,7 @@ static void read_group(struct json_object *object, struct target_item *item)
 
     item->count = json_read_count(object, "count", 1, GROUP_MAX, 0);
     read_life_times(object, item);
-    read_xy(object, "about_m", &item->about_x_m, &item->about_y_m);
+    json_read_xy(object, "about_m", PLACE_MAX_M, &item->about_x_m, &item->about_y_m);
     read_box(object, item);
     item->range = json_read_span(object, "range_m", 0, PLACE_MAX_M, (struct json_span){0});
     item->azimuth = json_read_span(object, "azimuth_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);
