@@ -12,7 +12,7 @@ run track in/plots.csv --config in/scenario.ini -o tracks.lcm
 # ---- files ----
 run plot errors in/truth.csv tracks.lcm -o x.html
 check 'no page of errors' says 2 \
-    'rhotrack: x.html: plot scans and plot tracks alone make a page; plot errors makes NAME.svg or NAME.png'
+    'rhotrack: x.html: only plot scans and plot tracks make a page; plot errors makes NAME.svg or NAME.png'
 run plot tracks in/plots.csv in/truth.csv tracks.lcm --config in/scenario.ini -o page.html
 check 'a page is written' exits 0
 check 'it needs nothing beside it' sh -c '! grep -Eq "<(script|link|img)[^>]*(src|href)=" page.html'

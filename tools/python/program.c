@@ -560,7 +560,7 @@ static void check_row(const struct making *making, const struct program_row *row
     const uint32_t differing = measures_of(row) ^ scan->measures;
 
     if (row->sensor_id != scan->sensor_id) {
-        refuse(making, row, "sensor_id is not that of the scan's first row");
+        refuse(making, row, "sensor_id differs from that of the scan's first row");
     }
     if (differing) {
         refuse(making, row,
@@ -1110,7 +1110,7 @@ bool program_maintainers_run(struct program_maintainers *made, const struct prog
         struct program_maintainer *one = &made->list[i % made->count];
 
         if (scan->is_frame) {
-            fail(EXIT_USAGE, "scan %zu: a track alone takes plots, and these are bearings", i);
+            fail(EXIT_USAGE, "scan %zu: a track alone takes plots, but these are bearings", i);
         }
         (void)maintainer_step(one->maintainer, &scan->scan, scan->has_sensor ? &scan->sensor : NULL,
                               log_densities ? log_densities[i] : NAN, &one->random);

@@ -84,7 +84,7 @@ static void read_and_search_batch(struct batch *batch, const struct command_line
                 batch->plots_no_room, RHO_MAX_PLOTS);
     }
     if (batch->initiator->budget.partial_steps > 0) {
-        fprintf(stderr, "rhotrack: of %" PRIu32 " plots not all was tried for tracks (work_max)\n",
+        fprintf(stderr, "rhotrack: %" PRIu32 " plots were not fully tried for tracks (work_max)\n",
                 batch->initiator->budget.plots_not_tried);
     }
     scan_reader_close(reader);
@@ -173,7 +173,7 @@ static enum method choose_method(const struct command_line *line)
     }
     enum method method = method_must_find(line->method);
     if (has_bearings && !method_takes_bearings(method)) {
-        fail(EXIT_USAGE, "%s: holds bearings, and method %s takes plots; try --method passive",
+        fail(EXIT_USAGE, "%s: contains bearings, but method %s takes plots; try --method passive",
              line->arguments[0], line->method);
     }
     return method;

@@ -88,7 +88,7 @@ void fail(int exit_code, const char *format, ...)
 static void *memory_or_fail(void *memory, size_t bytes)
 {
     if (!memory) {
-        fail(EXIT_RUNTIME, "out of memory: %zu bytes more are not there", bytes);
+        fail(EXIT_RUNTIME, "out of memory: %zu more bytes cannot be allocated", bytes);
     }
     return memory;
 }
@@ -415,8 +415,8 @@ void json_print_and_delete(struct cJSON *object)
 void print_only_last_taken(uint64_t taken, uint64_t total, const char *what)
 {
     if (total > taken) {
-        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " %s are taken\n", taken,
-                total, what);
+        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " %s are used\n", taken, total,
+                what);
     }
 }
 

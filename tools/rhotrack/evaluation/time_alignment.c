@@ -57,7 +57,8 @@ size_t alignment_find_unmatched(struct alignment_times tracks, struct alignment_
 
 void alignment_fail_unmatched(const struct table *tracks, size_t row, int64_t most_us)
 {
-    table_fail_at_row(tracks, row, "the truth has no such time within %g ms (time_tolerance_s)",
+    table_fail_at_row(tracks, row,
+                      "the truth has no time within %g ms of this row (time_tolerance_s)",
                       (double)most_us * 1e-3);
 }
 

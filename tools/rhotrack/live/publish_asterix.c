@@ -174,7 +174,7 @@ static void print_counts(const struct forwarding *forwarding)
 
     asterix_plot_rows_report_left_out(forwarding->url, counts);
     print_count_unless_zero(forwarding->url, forwarding->heard.bad,
-                            "datagrams bad, from a place in them on");
+                            "datagrams used up to an error in them");
     print_count_unless_zero(forwarding->url, forwarding->heard.others,
                             "data blocks of other categories left out");
     print_count_unless_zero(forwarding->url, forwarding->scans_early,
@@ -206,10 +206,12 @@ int publish_asterix(const struct command_line *line)
     int receiver;
 
     if (line->num_arguments > 1 || line->loop) {
-        fail(EXIT_USAGE, "publish: %s is listened to alone, and not in a loop", line->arguments[0]);
+        fail(EXIT_USAGE, "publish: %s must be the only input, and without --loop",
+             line->arguments[0]);
     }
     if (line->speed < 1 || line->speed > 1) {
-        fail(EXIT_USAGE, "publish: %s is heard live, and --speed is for files", line->arguments[0]);
+        fail(EXIT_USAGE, "publish: %s is a live input, and --speed is for files",
+             line->arguments[0]);
     }
     parameters_check_together(&line->parameters);
     forwarding->line = line;

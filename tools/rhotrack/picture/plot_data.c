@@ -167,7 +167,7 @@ static void add_points_of_file(struct plot_data *data, const char *path,
         }
     }
     if (found == 0 && scans == 0) {
-        fail(EXIT_USAGE, "%s: no messages of plots, bearings, truth or tracks in it", path);
+        fail(EXIT_USAGE, "%s: contains no messages of plots, bearings, truth or tracks", path);
     }
 }
 

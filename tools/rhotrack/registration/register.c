@@ -69,7 +69,7 @@ static const char *reason_scan_is_unfit(const struct rho_scan *scan, const struc
                                         const struct rho_sensor *sensor)
 {
     if (radar && (radar->sensor.x_m != sensor->x_m || radar->sensor.y_m != sensor->y_m)) {
-        return "it moves; radars that are registered stand still";
+        return "it moves; register takes only radars that stand still";
     }
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];

@@ -84,7 +84,7 @@ static struct scene_curve read_pd_curve(struct json_object *object, const char *
                 json_fail(&list.place, "a probability of %.10g is above 1", point[1]);
             }
             if (curve.count > 0 && point[0] <= curve.range_m[curve.count - 1]) {
-                json_fail(&list.place, "ranges must grow");
+                json_fail(&list.place, "ranges must increase");
             }
             curve.range_m[curve.count] = point[0];
             curve.value[curve.count] = point[1];
@@ -234,7 +234,7 @@ static void append_sensor(struct scene *scene, struct json_object *object, bool 
         (int32_t)json_read_count(object, "sensor_id", 0, 32767, (uint64_t)scene->num_sensors + 1);
     for (size_t i = 0; i < scene->num_sensors; i++) {
         if (scene->sensors[i].sensor_id == sensor->sensor_id) {
-            json_fail_key(object, "sensor_id", "sensor %d is there already", sensor->sensor_id);
+            json_fail_key(object, "sensor_id", "sensor %d is defined twice", sensor->sensor_id);
         }
     }
     json_read_xy(object, "at_m", PLACE_MAX_M, &sensor->x_m, &sensor->y_m);
@@ -254,7 +254,9 @@ static void append_sensor(struct scene *scene, struct json_object *object, bool 
     json_refuse_unknown_keys(object);
     if (!is_passive && scene->num_sensors > 0 &&
         scene->sensors[0].is_cartesian != sensor->is_cartesian) {
-        json_fail(&object->place, "radars measure all range and azimuth, or all places (sigma_m)");
+        json_fail(
+            &object->place,
+            "all radars must measure range and azimuth, or all must measure positions (sigma_m)");
     }
     scene->num_sensors++;
 }
@@ -476,7 +478,7 @@ static void read_fades(struct json_object *object, struct scene_event *event)
         double index = json_element_number(&list, i, 0, 31);
 
         if (index != floor(index)) {
-            json_fail(&list.place, "%g is no index of targets[]", index);
+            json_fail(&list.place, "%g is not an index of targets[]", index);
         }
         event->targets |= UINT32_C(1) << (unsigned)index;
     }
@@ -543,10 +545,11 @@ static void read_settings(struct scene *scene, struct json_object *root)
         }
         if (strchr(one->string, '.') ||
             !parameters_assign(&parameters, one->string, value, SOURCE_CONFIG, reason)) {
-            json_fail_key(&settings, one->string, "%s",
-                          strchr(one->string, '.')
-                              ? "what a tracker is told of a sensor stands in its told"
-                              : reason);
+            json_fail_key(
+                &settings, one->string, "%s",
+                strchr(one->string, '.')
+                    ? "values that a tracker is given for a sensor belong in the sensor's `told`"
+                    : reason);
         }
         if (used + strlen(one->string) + strlen(value) + 5 > room) {
             json_fail(&settings.place, "too many settings");

@@ -365,8 +365,8 @@ static struct scene_path draw_path_within_limits(const struct target_draft *draf
         path_free(&path);
     }
     fail(EXIT_USAGE,
-         "%s: targets[%zu]: none of %d random paths keeps within %s; take a shorter life_s, "
-         "less speed, or turns, which lead back",
+         "%s: targets[%zu]: none of %d random paths keeps within %s; take a shorter life_s, less "
+         "speed, or turns that lead back",
          draft->file, draft->index, DRAFTS_MAX, name_of_limit(draft->item));
 }
 
@@ -487,7 +487,7 @@ static struct path_step read_leg(struct json_object object, bool *has_height)
         json_fail_key(&object, "turn_deg", "needs across_mps2 or turn_degps, other than 0");
     }
     if (!json_has_key(&object, "for_s") && !step.has_speed && !json_has_key(&object, "turn_deg")) {
-        json_fail(&object.place, "says no end: for_s, to_speed_mps or turn_deg");
+        json_fail(&object.place, "has no end: give for_s, to_speed_mps or turn_deg");
     }
     json_refuse_unknown_keys(&object);
     return step;
@@ -531,12 +531,12 @@ static void read_parent(struct json_object *object, struct target_item *item,
     item->parent = json_read_count(object, "parent", 0, ITEMS_MAX, 0);
     if (item->parent >= before->count || before->items[item->parent].count > 0 ||
         before->items[item->parent].flights > 0) {
-        json_fail_key(object, "parent", "targets[%zu] is no path before this one", item->parent);
+        json_fail_key(object, "parent", "targets[%zu] is not an earlier path", item->parent);
     }
     parent = &before->items[item->parent];
     json_require_key(object, "from_s");
     if (item->from_s < parent->from_s || item->from_s > parent->until_s) {
-        json_fail_key(object, "from_s", "the parent is not there then");
+        json_fail_key(object, "from_s", "the parent does not exist at that time");
     }
     item->speed_change_mps =
         json_read_number(object, "speed_change_mps", -SPEED_MAX_MPS, SPEED_MAX_MPS, 0);
@@ -561,7 +561,7 @@ static void read_points(struct json_object *object, struct target_item *item)
     for (size_t i = 0; i < list.count; i++) {
         json_element_numbers(&list, i, 3, -PLACE_MAX_M, PLACE_MAX_M, item->points[i]);
         if (i > 0 && item->points[i][0] <= item->points[i - 1][0]) {
-            json_fail(&list.place, "times must grow");
+            json_fail(&list.place, "times must increase");
         }
     }
     item->from_s = item->points[0][0];

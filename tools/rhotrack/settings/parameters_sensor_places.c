@@ -10,8 +10,8 @@
 #include "io/csv/local_frame.h"
 #include "settings/parameters.h"
 
-const char parameters_no_origin[] = "origin_lat_deg and origin_lon_deg are not set, where the "
-                                    "local frame has its origin (--set or --config)";
+const char parameters_no_origin[] = "origin_lat_deg and origin_lon_deg are not set; they are the "
+                                    "origin of the local frame (--set or --config)";
 
 static bool is_sensor_value_set(const struct sensor_parameters *sensor, enum sensor_parameter_id id)
 {
@@ -74,7 +74,7 @@ static bool has_valid_place_on_earth(const struct sensor_parameters *sensor, boo
     }
     if (is_sensor_value_set(sensor, SENSOR_X_M) || is_sensor_value_set(sensor, SENSOR_Y_M) ||
         is_sensor_value_set(sensor, SENSOR_Z_M)) {
-        fail(EXIT_USAGE, "sensor %d: its place is said twice, in metres and by lat_deg, lon_deg",
+        fail(EXIT_USAGE, "sensor %d: its place is given twice, in metres and by lat_deg, lon_deg",
              id);
     }
     if (!has_origin) {

@@ -45,7 +45,7 @@ struct transport *transport_open(const char *url, enum transport_use use)
     transport->url = must_copy_text(url);
     transport->last_us = INT64_MIN;
     if (!strstr(url, "://")) {
-        transport_refuse(transport, "no LCM URL; it looks like %s", TRANSPORT_DEFAULT_URL);
+        transport_refuse(transport, "not an LCM URL, which looks like %s", TRANSPORT_DEFAULT_URL);
     }
     if (strncmp(url, "udpm://", 7) == 0) {
         transport_open_udpm(transport, use);

@@ -162,11 +162,12 @@ static void add_track_row(struct reading *reading, const struct asterix_track *t
 static void report_or_refuse_incomplete(const struct reading *reading, const char *path)
 {
     if (reading->table->num_rows == 0 && reading->on_earth > 0) {
-        fail(EXIT_USAGE, "%s: tracks (CAT062) with places on the earth alone (I062/105): %s", path,
-             parameters_no_origin);
+        fail(EXIT_USAGE,
+             "%s: its tracks (CAT062) have positions in latitude and longitude only (I062/105): %s",
+             path, parameters_no_origin);
     }
     if (reading->table->num_rows == 0) {
-        fail(EXIT_USAGE, "%s: not one track (CAT062) with time, number and place in it", path);
+        fail(EXIT_USAGE, "%s: contains no track (CAT062) with time, number and place", path);
     }
     if (reading->incomplete > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " tracks without time, number or place left out\n",

@@ -24,26 +24,25 @@ static void check_plot_columns(const struct table *table)
 {
     if (table_find_column(table, "x_m") < 0 && table_find_column(table, "range_m") < 0 &&
         table_find_column(table, "bearing_rad") >= 0) {
-        table_fail_at_row(
-            table, TABLE_HEADER,
-            "bearings, which are not read from a pipe (column 'bearing_rad'): Cartesian and "
-            "polar plots are read here, columns 'x_m' and 'y_m' are missing");
+        table_fail_at_row(table, TABLE_HEADER,
+                          "bearings (column 'bearing_rad') cannot be read from a pipe; for plots, "
+                          "columns 'x_m' and 'y_m' are missing");
     }
 }
 
 static void check_not_both_columns(const struct table *table, int first, int second)
 {
     if (first >= 0 && second >= 0) {
-        table_fail_at_row(table, TABLE_HEADER, "both '%s' and '%s' are there", table->names[first],
-                          table->names[second]);
+        table_fail_at_row(table, TABLE_HEADER, "columns '%s' and '%s' exclude each other",
+                          table->names[first], table->names[second]);
     }
 }
 
 /* Refuses plots by name, rather than with a missing bearing_rad. */
 static void check_bearing_columns(const struct table *table)
 {
-    static const char *const others[][2] = {{"x_m", "plots, which are no bearings"},
-                                            {"range_m", "polar plots, which are no bearings"}};
+    static const char *const others[][2] = {{"x_m", "plots, not bearings"},
+                                            {"range_m", "polar plots, not bearings"}};
 
     if (table_find_column(table, "bearing_rad") >= 0) {
         return;
@@ -391,8 +390,8 @@ static bool read_polar_plot(const struct row_reading *reading, const struct para
     }
     if (rho_measurement_from_polar(&polar, row->measures, &seen_from, &row->plot) != RHO_OK) {
         return row_refuse(&reading->cells,
-                          "range_m %.9g at azimuth %.9g rad is no place that is believed, "
-                          "once the sensor's place and biases are taken into account",
+                          "range_m %.9g at azimuth %.9g rad is not a valid position once the "
+                          "sensor's place and biases are applied",
                           (double)polar.range_m, (double)polar.azimuth_rad);
     }
     return true;
