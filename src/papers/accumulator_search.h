@@ -5,8 +5,8 @@
  * accumulator_prune.c (rows and points that cannot reach a peak), accumulator.c (checks, choice of
  * the search). Each file calls only the files named before it.
  */
-#ifndef RHO_ACCUMULATOR_PASS_H
-#define RHO_ACCUMULATOR_PASS_H
+#ifndef RHOTRACK_ACCUMULATOR_SEARCH_H
+#define RHOTRACK_ACCUMULATOR_SEARCH_H
 
 #include "rhotrack/detail/accumulator.h"
 

@@ -377,10 +377,10 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
         predict_tracks(&step);
         claim_and_update_look_by_look(&step);
         count_misses_and_end_tracks(&step);
-        rho_tracker_start_tracks_from_bearings(&step);
+        rho_tracker_initiate_passive(&step);
         merge_estimates_per_track(&step);
         rho_tracker_record_work(&step);
     }
-    rho_tracker_count_fates_and_report(&step);
+    rho_tracker_report(&step);
     return RHO_OK;
 }

@@ -171,7 +171,7 @@ static int is_seen_in_last_two_scans(const struct rho_passive *passive,
  * Only a full batch is searched: in a shorter one ghosts may still move on straight lines. A
  * started track has the evidence of a whole batch, and is confirmed at once.
  */
-void rho_tracker_start_tracks_from_bearings(struct step *step)
+void rho_tracker_initiate_passive(struct step *step)
 {
     struct rho_passive *passive = step->passive;
     if (!RHO_SEARCHES || !passive) {

@@ -191,7 +191,7 @@ static void offer_plots_scored_by_hypotheses(struct step *step, unsigned row)
 
 /* ---- the phase ------------------------------------------------------------------------------- */
 
-void rho_tracker_assign_plots_to_tracks(struct step *step)
+void rho_tracker_claim(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     validate_plots(step);

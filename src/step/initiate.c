@@ -97,7 +97,7 @@ static void search_and_start_tracks(struct step *step)
     }
 }
 
-void rho_tracker_start_tracks_from_plots(struct step *step)
+void rho_tracker_initiate(struct step *step)
 {
     if (RHO_SEARCHES && step->initiator) {
         search_and_start_tracks(step);

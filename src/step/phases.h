@@ -12,7 +12,7 @@
 /*
  * begin_step_or_refuse_late_scan.c: clears the report, and counts the scan. Returns 0 where the
  * inputs are too old for the tracker: their fates are then STALE, and of the later phases only
- * rho_tracker_count_fates_and_report follows.
+ * rho_tracker_report follows.
  */
 int rho_tracker_begin_step(struct step *step);
 /* Sets the step's motion model, the filter of new tracks, and the volumes of clutter densities. */
@@ -24,15 +24,15 @@ int rho_tracker_is_usable_time(int64_t time_us);
 int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
 
 /* predict.c: moves the tracks that the scan can see to the time of the step */
-void rho_tracker_predict_tracks_in_view(struct step *step);
+void rho_tracker_predict(struct step *step);
 /* Moves a track to the step's time; a track whose covariance has grown too large ends. */
 void rho_tracker_predict_or_end_track(struct step *step, struct rho_track *track);
 
 /* claim.c: gates the plots and assigns them to tracks; changes no track */
-void rho_tracker_assign_plots_to_tracks(struct step *step);
+void rho_tracker_claim(struct step *step);
 
 /* update.c: tracks take the plots that they were assigned */
-void rho_tracker_update_by_assigned_plots(struct step *step);
+void rho_tracker_update(struct step *step);
 
 /*
  * age.c: counts misses, confirms and ends tracks; rho_tracker_confirm_or_end_track confirms or ends
@@ -43,20 +43,20 @@ void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track
                                       const struct rho_track_limits *limits);
 
 /* initiate.c: tracks start from unclaimed plots; the clutter map and counts are updated */
-void rho_tracker_start_tracks_from_plots(struct step *step);
+void rho_tracker_initiate(struct step *step);
 /* bearing_initiation.c: tracks start from unclaimed bearings */
-void rho_tracker_start_tracks_from_bearings(struct step *step);
+void rho_tracker_initiate_passive(struct step *step);
 
 /*
  * report.c: merges the hypotheses of each track into one estimate at the step's time; reports
  * fates, counters and tracks, or the tracks alone.
  */
 void rho_tracker_merge_estimates_per_track(struct step *step);
-void rho_tracker_count_fates_and_report(struct step *step);
+void rho_tracker_report(struct step *step);
 void rho_tracker_report_tracks(const struct step *step);
 
 /* scan_overflow.c: claims and updates by a scan of more than RHO_MAX_PLOTS plots, in parts */
-void rho_tracker_assign_and_update_by_parts(struct step *step);
+void rho_tracker_claim_and_update_parts(struct step *step);
 
 /* merged_plots.c: pairs of tracks share merged plots, before other tracks take their plots */
 void rho_tracker_share_merged_plots(struct step *step);

@@ -15,7 +15,7 @@ void rho_tracker_predict_or_end_track(struct step *step, struct rho_track *track
     }
 }
 
-void rho_tracker_predict_tracks_in_view(struct step *step)
+void rho_tracker_predict(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {

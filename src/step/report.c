@@ -111,7 +111,7 @@ void rho_tracker_report_tracks(const struct step *step)
     }
 }
 
-void rho_tracker_count_fates_and_report(struct step *step)
+void rho_tracker_report(struct step *step)
 {
     count_plot_fates(step);
     rho_tracker_report_tracks(step);

@@ -55,7 +55,7 @@ static uint32_t num_plots_in_parts(const struct rho_scan *whole)
     return whole->num_plots < most ? whole->num_plots : most;
 }
 
-void rho_tracker_assign_and_update_by_parts(struct step *step)
+void rho_tracker_claim_and_update_parts(struct step *step)
 {
     const struct step before = *step;
     const uint32_t end = num_plots_in_parts(before.scan);
@@ -63,8 +63,8 @@ void rho_tracker_assign_and_update_by_parts(struct step *step)
     struct rho_scan part;
     for (uint32_t first = 0; first < end; first += RHO_MAX_PLOTS) {
         select_scan_part(step, &part, before.scan, first, end);
-        rho_tracker_assign_plots_to_tracks(step);
-        rho_tracker_update_by_assigned_plots(step);
+        rho_tracker_claim(step);
+        rho_tracker_update(step);
         exclude_assigned_tracks(step);
         if (first == 0) {
             memcpy(fates, step->report->fates, sizeof fates);

@@ -84,7 +84,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
                         .num_inputs = scan->num_plots};
     if (rho_tracker_begin_step(&step)) {
         apply_sensor_to_step(&step);
-        rho_tracker_predict_tracks_in_view(&step);
+        rho_tracker_predict(&step);
         if (rho_notch_sensor_has_notch(step.sensor)) {
             rho_tracker_set_blind_percents(&step);
         }
@@ -93,10 +93,10 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
             rho_tracker_group_plots(&step, &grouped);
         }
         if (RHO_CLAIMS_BEYOND && step.num_inputs > RHO_MAX_PLOTS) {
-            rho_tracker_assign_and_update_by_parts(&step); /* claims and updates, part by part */
+            rho_tracker_claim_and_update_parts(&step); /* claims and updates, part by part */
         } else {
-            rho_tracker_assign_plots_to_tracks(&step);
-            rho_tracker_update_by_assigned_plots(&step);
+            rho_tracker_claim(&step);
+            rho_tracker_update(&step);
         }
         rho_tracker_age(&step);
         if (rho_notch_sensor_has_notch(step.sensor)) {
@@ -110,7 +110,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
             rho_tracker_mark_excluded_plots_as_ghosts(&step);
         }
         if (may_start_tracks(&step)) {
-            rho_tracker_start_tracks_from_plots(&step);
+            rho_tracker_initiate(&step);
         } else if (RHO_SECTORS) {
             rho_tracker_mark_held_plots_stale(&step);
         }
@@ -129,6 +129,6 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         }
         rho_tracker_record_work(&step);
     }
-    rho_tracker_count_fates_and_report(&step);
+    rho_tracker_report(&step);
     return RHO_OK;
 }

@@ -114,7 +114,7 @@ static void update_hypotheses_of_track(struct step *step, unsigned row)
 
 /* ---- the phase ------------------------------------------------------------------------------- */
 
-void rho_tracker_update_by_assigned_plots(struct step *step)
+void rho_tracker_update(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (RHO_SECTORS) {

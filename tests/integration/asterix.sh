@@ -114,7 +114,7 @@ run plot scans turns.ast -o turns.svg
 check 'plot scans reads them' exits 0
 run track turns.ast --follow
 check 'follow does not' says 2 \
-    'rhotrack: turns.ast: --follow takes CSV files, and this is a recording in ASTERIX'
+    'rhotrack: turns.ast: --follow takes CSV files, but this is an ASTERIX recording'
 
 # ---- As the network carried it ----
 capture="$tests/write_capture.py"
@@ -131,18 +131,18 @@ check 'convert reads them as well' cmp turns.csv tagged.csv
 check 'datagrams of other content are counted' grep -qx \
     'rhotrack: tagged.pcapng: [1-9][0-9]* datagrams that are not ASTERIX left out' stderr
 check 'and those of which a part is missing' grep -qx \
-    'rhotrack: tagged.pcapng: [1-9][0-9]* datagrams left out: fragments, or cut short' stderr
+    'rhotrack: tagged.pcapng: [1-9][0-9]* datagrams left out: fragments, or truncated' stderr
 cp tagged.pcapng no_name
 run convert no_name no_name.csv
 check 'a network recording is known by what is in it' cmp turns.csv no_name.csv
 head -c 100000 plain.pcap >cut.pcap
 run convert cut.pcap cut.csv
-check 'one that ends within a packet' says 2 'rhotrack: cut.pcap: behind packet [0-9]*: truncated *'
+check 'one that ends within a packet' says 2 'rhotrack: cut.pcap: after packet [0-9]*: truncated *'
 check 'leaves nothing behind' test ! -e cut.csv
 run convert cut.pcap cut.csv --keep-going
 check 'and gives what there is with --keep-going' exits 0
 check 'and says so, once' test "$(grep -Ec \
-    '^rhotrack: cut.pcap: behind packet [0-9]+: .*; the rest is left out$' stderr)" = 1
+    '^rhotrack: cut.pcap: after packet [0-9]+: .*; the rest is left out$' stderr)" = 1
 printf '\60\0\10\377\377\377\0\0' | cat turns.ast - >bad_end.ast
 python3 "$capture" bad_end.ast bad.pcap
 run convert bad.pcap bad.csv
@@ -150,11 +150,11 @@ check 'a bad record has its packet and byte' says 2 \
     'rhotrack: bad.pcap: packet 2318, byte 7 of its content: I048/010 goes beyond its data block'
 printf '\324\303\262\241no' >no.pcap
 run track no.pcap
-check 'no recording at all' says 2 'rhotrack: no.pcap: not a network recording that can be read: *'
+check 'no recording at all' says 2 'rhotrack: no.pcap: the network recording cannot be read: *'
 printf '\241\262\303\324\0\2\0\4\0\0\0\0\0\0\0\0\0\0\377\377\0\0\0\151' >air.pcap
 run track air.pcap
 check 'nor one of a link that is not read' says 2 \
-    'rhotrack: air.pcap: packets of the link IEEE802_11 are not read'
+    'rhotrack: air.pcap: packets of link type IEEE802_11 cannot be read'
 
 # ---- Places ----
 python3 "$write" sim/plots.csv placed.ast --place 47.5,8.5,430 --sac 200 --sic 7
@@ -168,7 +168,7 @@ check 'and told' grep -qx "$origin" stderr
 for name in y.ast y.geojson; do
     run convert placed.ast $name
     check "it is no list of tracks: $name" says 2 \
-        'rhotrack: placed.ast: a recording of radars, and no list of tracks; *'
+        'rhotrack: placed.ast: a recording of radar plots, not of tracks; *'
 done
 run convert placed.ast placed.csv
 check 'by convert too' grep -qx "$origin" stderr
@@ -190,7 +190,7 @@ assert all(abs(float(b["y_m"]) - float(a["y_m"]) - 55588) < 300 for a, b in pair
 # A radar that does not say where it stands, beside one that does, in one file or two.
 python3 "$write" sim/plots.csv lost.ast --sac 200 --sic 8
 cat placed.ast lost.ast >pair.ast
-lost='sensor -14328 does not say where it stands, and is taken to be at the origin; sensor.-14328.lat_deg and lon_deg say it'
+lost='sensor -14328 reports no position and is assumed at the origin; set sensor.-14328.lat_deg and lon_deg'
 for command in track register; do
     run "$command" placed.ast lost.ast --config sim/scenario.ini
     check "$command names a radar without a place" grep -qx "rhotrack: lost.ast: $lost" stderr
@@ -267,10 +267,10 @@ fi
 for command in 'track turns.ast -o' 'convert covariance.csv'; do
     run $command covariance.ast --covariance
     check "$command: no covariances in CAT062" says 2 \
-        'rhotrack: covariance.ast: --covariance has no place in CAT062, which has standard deviations (I062/500) without it'
+        'rhotrack: covariance.ast: CAT062 cannot hold covariances (--covariance); it has standard deviations (I062/500) in any case'
     check "$command: no file" test ! -e covariance.ast
 done
-no_tracks='tracks (CAT062), and plots are needed: evaluate, plot, convert and publish take tracks'
+no_tracks='contains tracks (CAT062), but plots are needed; evaluate, plot, convert and publish take tracks'
 cp tracks.ast nameless
 for command in track initiate maintain calibrate; do
     run $command tracks.ast
@@ -349,13 +349,13 @@ assert float(row["vx_mps"]) == 100 and float(row["vy_mps"]) == -50.25 and row["s
 PYTHON
 run convert hand.ast hand.csv
 check 'by hand: without an origin' says 2 \
-    'rhotrack: hand.ast: tracks (CAT062) with places on the earth alone (I062/105): origin_lat_deg *'
+    'rhotrack: hand.ast: its tracks (CAT062) have positions in latitude and longitude only (I062/105): origin_lat_deg *'
 head -c 40 hand.ast >hand_cut.ast
 run evaluate sim/truth.csv hand_cut.ast
 check 'by hand: a cut one is refused with its byte' grep -q '^rhotrack: hand_cut.ast: byte ' stderr
 
 run convert sim/plots.csv polar.ast
-check 'plots are no tracks' says 2 'rhotrack: sim/plots.csv: not one list of tracks in it*'
+check 'plots are no tracks' says 2 'rhotrack: sim/plots.csv: contains no tracks, and CAT062 holds only tracks'
 check 'and leave no file' test ! -e polar.ast
 
 # ---- Bad recordings ----
@@ -369,21 +369,21 @@ refused() { # name, bytes as printf has them, message
 }
 good='\x30\x00\x0e\xf0\x00\x01\x00\x10\x00\x20\x10\x00\x20\x00'
 refused empty '' 'byte 0: the file is empty'
-refused short "$good\\x30" 'byte 14: a data block has 3 bytes at least, and here are 1'
+refused short "$good\\x30" 'byte 14: a data block has at least 3 bytes, but only 1 are left'
 refused cut "$good\\x30\\x00\\x0e\\xf0" \
-    'byte 14: a data block of category 48 has 14 bytes, and here are 4'
+    'byte 14: a data block of category 48 has 14 bytes, but only 4 are left'
 refused length "$good\\x30\\x00\\x02" \
-    'byte 15: a data block of category 48 says that it has 2 bytes'
+    'byte 15: a data block of category 48 has an invalid length of 2 bytes'
 refused overrun "$good\\x30\\x00\\x06\\xf0\\x00\\x01" 'byte 20: I048/140 goes beyond its data block'
 refused beyond "$good\\x22\\x00\\x06\\x01\\x01\\x80" \
     'byte 17: the field specification of a record of CAT034 has 3 bytes'
 refused other '\x3f\x00\x04\x00' \
-    'not one plot (CAT048, CAT001), north marker or sector crossing (CAT034, CAT002) in it'
+    'contains no plot (CAT048, CAT001), north marker or sector crossing (CAT034, CAT002)'
 run_piped() { # file, arguments: as run, the file on standard input
     status=0
     "$program" "${@:2}" <"$1" >stdout 2>stderr || status=$?
 }
-piped='ASTERIX on standard input or through a pipe; it is looked at twice: give it as a file'
+piped='ASTERIX on standard input or through a pipe; it is read twice: give it as a file'
 run_piped turns.ast track -
 check 'on standard input' says 2 "rhotrack: standard input:1: $piped"
 mkfifo pipe
@@ -397,7 +397,7 @@ check 'a log' says 2 \
 head -c 8 turns.ast >cut
 run track cut
 check 'a bad first block and no ending' says 2 \
-    'rhotrack: cut:1: ASTERIX with a bad first block: named NAME.ast it is read, and says where'
+    'rhotrack: cut:1: ASTERIX with a bad first block: rename it to NAME.ast to see where'
 run track nowhere.ast
 check 'a file that is not there' says 2 'rhotrack: nowhere.ast: No such file or directory'
 
@@ -472,7 +472,7 @@ for kind in plots tracks; do
         check "$name: its targets have tracks" json stdout '17 <= o["tracks_confirmed"] <= 23'
     done
     check "$kind: without CAT002 plots become turns, and it is said" grep -q \
-        "old_${kind}_0.ast: sensor 1: rows of a turn .* turns of \(4\|4.00.\|3.99.\) s by azimuth, clockwise" stderr
+        "old_${kind}_0.ast: sensor 1: the rows of a turn .* turns of \(4\|4.00.\|3.99.\) s by azimuth, clockwise" stderr
     check "$kind: and each line once" test -z "$(sort stderr | uniq -d)"
 done
 check 'by sectors there are 32 a turn, too' test \
@@ -529,7 +529,7 @@ sleep 1
 kill -INT "$live"
 wait "$live"
 check 'publish udp:// ends well' test $? -eq 0
-check 'it counted all plots, one bad datagram' grep -q '1 datagrams bad' live.err
+check 'it counted all plots, one bad datagram' grep -q '1 datagrams used up to an error in them' live.err
 check 'and sent all sectors' grep -q '2318 datagrams, 1821 plots of 1 radars, 480 scans sent' \
     live.err
 run convert live.lcm live.csv
@@ -549,7 +549,7 @@ check 'a URL without a port' says 2 \
     'rhotrack: udp://127.0.0.1: udp://ADDRESS:PORT is needed, with a port from 1 to 65535'
 run publish "udp://127.0.0.1:$port" --speed 2
 check 'another speed than that of now' says 2 \
-    "rhotrack: publish: udp://127.0.0.1:$port is heard live, and --speed is for files"
+    "rhotrack: publish: udp://127.0.0.1:$port is a live input, and --speed is for files"
 cp turns.lcm kept.lcm
 run publish udp://radar:8600 --lcm 'file://kept.lcm?mode=w'
 check 'a bad URL leaves the log as it was' cmp turns.lcm kept.lcm
@@ -558,6 +558,6 @@ check 'so does a bad input' cmp turns.lcm kept.lcm
 run publish turns.csv --lcm 'file://kept.lcm?mode=w' --speed 0
 check 'a good one takes its place' bash -c '! cmp -s turns.lcm kept.lcm'
 run publish udp://radar:8600
-check 'a name' says 2 "rhotrack: udp://radar:8600: 'radar' is no IPv4 address"
+check 'a name' says 2 "rhotrack: udp://radar:8600: 'radar' is not an IPv4 address"
 
 finish

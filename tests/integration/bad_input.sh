@@ -67,12 +67,12 @@ refuse 'velocity of a part of a scan' \
 # ---- rows ----
 refuse 'short row' '2: short row: 3 cells, the header has 4' "${header}1,1,2\n"
 refuse 'long row' '3: long row: 5 cells, the header has 4' "${header}1,1,2,3\n2,1,2,3,4\n"
-refuse 'time that goes back' '4: time goes back from 2.500000 s to 2.400000 s' \
+refuse 'time that goes back' '4: time decreases from 2.500000 s to 2.400000 s' \
     "${header}1,1,2,3\n2.5,1,2,3\n2.4,1,2,3\n"
-refuse 'time that goes back, other sensor' '3: time goes back from 2.000000 s to 1.000000 s' \
+refuse 'time that goes back, other sensor' '3: time decreases from 2.000000 s to 1.000000 s' \
     "${header}2,1,2,3\n1,2,2,3\n"
 refuse 'time that goes back by a microsecond' \
-    '3: time goes back from 1700000000.000002 s to 1700000000.000001 s' \
+    '3: time decreases from 1700000000.000002 s to 1700000000.000001 s' \
     "${header}1700000000.000002,1,2,3\n1700000000.000001,1,2,3\n"
 refuse 'quotation mark inside a cell' '2: a quotation mark inside a cell' "${header}1,1,2\"2,3\n"
 refuse 'quote without end' '3: a quoted cell has no end' "${header}1,1,2,3\n2,1,\"2,3\n3,1,2,3\n"
@@ -94,7 +94,7 @@ refuse 'last line without an end' "3: x_m 'bad' is not a number" "${header}1,1,2
 # ---- columns ----
 refuse 'no column x_m' "1: no column 'x_m' (or x); the file has: t_s, sensor_id, y_m; --columns x_m=NAME takes another" 't_s,sensor_id,y_m\n1,1,2\n'
 refuse 'no column t_s' "2: no column 't_s' (or t, time, *); the file has: when, *" '# comment\nwhen,sensor_id,x_m,y_m\n1,1,2,3\n'
-refuse 'a column twice' "1: column 'x_m' is there twice" 't_s,sensor_id,x_m,y_m,x_m\n1,1,2,3,4\n'
+refuse 'a column twice' "1: column 'x_m' occurs twice" 't_s,sensor_id,x_m,y_m,x_m\n1,1,2,3,4\n'
 refuse 'vx_mps without vy_mps' "1: no column 'vy_mps' beside 'vx_mps'" \
     't_s,sensor_id,x_m,y_m,vx_mps\n1,1,2,3,4\n'
 refuse 'no header' '1: no header row: the first row begins with a number' '1,1,2,3\n2,1,3,4\n'
@@ -113,16 +113,16 @@ refuse 'bearings: no angle' '4: bearing_rad 2e6 is outside -1000000 .. 1000000' 
 refuse 'bearings: NaN' "4: bearing_rad 'nan' is not finite" "${two}1,1,0,0,nan\n"
 refuse 'bearings: no number' "4: bearing_rad 'x' is not a number" "${two}1,1,0,0,x\n"
 refuse 'bearings: no place' '4: sensor_x_m is empty' "${two}1,1,,0,1\n"
-refuse 'bearings: time that goes back' '4: time goes back from 0.000000 s to -1.000000 s' \
+refuse 'bearings: time that goes back' '4: time decreases from 0.000000 s to -1.000000 s' \
     "${two}-1,1,0,0,1\n"
 refuse 'bearings: sigma 0' '2: sigma_rad 0 is outside *' \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n0,1,0,0,1,0\n'
 refuse 'bearings: a sensor that moves' '4: sensor 1 has moved: it was at 0, 0, line 2' \
     "${two}1,1,0,0.5,1\n"
-refuse 'bearings: two sensors in one place' '3: sensor 2 is where sensor 1 is: 0, 0, line 2' \
+refuse 'bearings: two sensors in one place' '3: sensor 2 has the same place as sensor 1: 0, 0, line 2' \
     "${bearings}0,1,0,0,1\n0,2,0,0,1\n"
 refuse 'bearings: one sensor alone' \
-    '2: sensor 1 is the only one: positions need bearings of two sensors or more' \
+    '2: sensor 1 is the only sensor: positions need bearings of two or more' \
     "${bearings}0,1,0,0,1\n1,1,0,0,1\n"
 { printf "$bearings"; for number in 1 2 3 4 5; do echo "0,$number,${number}000,0,1"; done; } \
     >five.csv
@@ -141,7 +141,7 @@ check 'bearings: the first of two inputs' refused 'bad.csv:4: bearing_rad 4e6 is
 printf "${bearings}0,1,0,0,1\\n0,2,0,60000,1\\n" >apart.csv
 printf '[rhotrack]\nd_rho_m = 2000\n' >cells.ini
 refuse_file 'bearings: sensors too far apart for the cells as set' \
-    'sensors 1 and 2 are 60000 m apart; cells of d_rho_m 2000 hold range_max_m 100000 and 56000 m' \
+    'sensors 1 and 2 are 60000 m apart; with cells of d_rho_m 2000 and range_max_m 100000 they may be 56000 m apart at most' \
     apart.csv --config cells.ini
 run track apart.csv -o apart.tracks.csv
 check 'bearings: cells that are not set hold sensors 60 km apart' exits 0
@@ -149,7 +149,7 @@ rm apart.tracks.csv
 echo before >out.csv
 run track plots.csv apart.csv -o out.csv --config cells.ini
 check 'bearings: sensors too far apart, beside plots' refused \
-    'sensors 1 and 2 are 60000 m apart; cells of d_rho_m 2000 *'
+    'sensors 1 and 2 are 60000 m apart; with cells of d_rho_m 2000 *'
 printf "$two" >once.csv
 printf "$two" >again.csv
 run track once.csv again.csv -o out.csv
@@ -189,17 +189,17 @@ for sigma in sigma_range_m sigma_azimuth_rad sigma_elevation_rad; do
 done
 refuse 'sigma_range_rate_mps zero' '2: sigma_range_rate_mps 0 is outside *' \
     "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps,sigma_range_rate_mps\n1,1,5,1,1,0\n"
-refuse 'both kinds of plots' "1: both 'range_m' and 'x_m' are there" \
+refuse 'both kinds of plots' "1: columns 'range_m' and 'x_m' exclude each other" \
     't_s,sensor_id,range_m,azimuth_rad,x_m,y_m\n1,1,2,3,4,5\n'
-refuse 'both azimuths' "1: both 'azimuth_rad' and 'azimuth_deg' are there" \
+refuse 'both azimuths' "1: columns 'azimuth_rad' and 'azimuth_deg' exclude each other" \
     't_s,sensor_id,range_m,azimuth_rad,azimuth_deg\n1,1,2,3,4\n'
 refuse 'no azimuth' "1: no column 'azimuth_rad' (or az_rad); *" 't_s,sensor_id,range_m\n1,1,2\n'
 refuse 'half a place of a sensor' "1: no column 'sensor_y_m' beside 'sensor_x_m'" \
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m\n1,1,2,3,4\n'
-refuse 'a sensor in two places' "3: the sensor's place is not that of the scan's first row" \
+refuse 'a sensor in two places' "3: the sensor's place differs from that of the scan's first row" \
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m\n1,1,2,3,0,0\n1,1,2,3,0,1\n'
 refuse 'a place beyond the limit' \
-    '2: range_m 1900000 at azimuth 0 rad is no place that is believed*' \
+    '2: range_m 1900000 at azimuth 0 rad is not a valid position *' \
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m\n1,1,1900000,0,1900000,0\n'
 
 # ---- files ----
@@ -274,11 +274,11 @@ run initiate mixed.csv --keep-going
 check 'keep-going: initiate counts' grep -q '5 bad rows skipped' stderr
 printf "${header}x,1,2,3\n" >bad.csv
 run track bad.csv --keep-going
-check 'keep-going: not one good row' says 2 'rhotrack: bad.csv:1: not one good row after the header'
+check 'keep-going: not one good row' says 2 'rhotrack: bad.csv:1: no valid row after the header'
 printf "${header}1,1\n" >bad.csv
 run track bad.csv --keep-going
 check 'keep-going: not one whole row' says 2 \
-    'rhotrack: bad.csv:1: not one good row after the header'
+    'rhotrack: bad.csv:1: no valid row after the header'
 
 # ---- outputs that cannot be ----
 run track good.csv -o no_folder/out.csv

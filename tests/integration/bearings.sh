@@ -94,24 +94,24 @@ refuse 'half a place' '2: sensor_y_m is empty' "${header}0,1,0,,1\n"
 refuse 'a place beyond the limit' '2: sensor_x_m 3000000 is outside -2000000 .. 2000000' \
     "${header}0,1,3000000,0,1\n"
 refuse 'a place NaN' "2: sensor_y_m 'nan' is not finite" "${header}0,1,0,nan,1\n"
-refuse 'time that goes back' '4: time goes back from 0.000000 s to -1.000000 s' \
+refuse 'time that goes back' '4: time decreases from 0.000000 s to -1.000000 s' \
     "${good}-1,1,0,0,1\n"
-refuse 'time that goes back, in a row without bearing' '4: time goes back *' "${good}-1,1,0,0,\n"
+refuse 'time that goes back, in a row without bearing' '4: time decreases *' "${good}-1,1,0,0,\n"
 refuse 'a sensor that moves' '4: sensor 1 has moved: it was at 0, 0, line 2' "${good}1,1,0,0.5,1\n"
 refuse 'a sensor that moves within a scan' '4: sensor 2 has moved: it was at 100, 0, line 3' \
     "${good}0,2,101,0,1\n"
 refuse 'a sensor that moves where it saw nothing' '4: sensor 1 has moved: *' "${good}1,1,7,0,\n"
-refuse 'two sensors in one place' '3: sensor 2 is where sensor 1 is: 0, 0, line 2' \
+refuse 'two sensors in one place' '3: sensor 2 has the same place as sensor 1: 0, 0, line 2' \
     "${header}0,1,0,0,1\n0,2,0,0,1\n"
-refuse 'two sensors nearer than a metre' '3: sensor 2 is where sensor 1 is: *' \
+refuse 'two sensors nearer than a metre' '3: sensor 2 has the same place as sensor 1: *' \
     "${header}0,1,0,0,1\n0,2,0.7,0.7,1\n"
 for number in $(seq 1 65); do echo "0,$number,0,${number}00,1"; done >many
-refuse 'more sensors than 64' '66: sensor 65 is one more than 64 sensors' "$header$(cat many)\n"
+refuse 'more sensors than 64' '66: sensor 65 is beyond the limit of 64 sensors' "$header$(cat many)\n"
 for sigma in 0 -1 0.6 1e-7; do
     refuse "sigma_rad $sigma" "2: sigma_rad $sigma is outside 9.99999997e-07 .. 0.5" \
         "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n0,1,0,0,1,$sigma\n"
 done
-refuse 'a sector that is not that of the scan' "3: the sector is not that of the scan's first row" \
+refuse 'a sector that is not that of the scan' "3: the sector differs from that of the scan's first row" \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad,sector_to_rad\n0,1,0,0,1,-1,1\n0,1,0,0,1,-1,2\n'
 refuse 'half a sector, in a row' '2: sector_to_rad is empty' \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad,sector_to_rad\n0,1,0,0,1,-1,\n'
@@ -145,7 +145,7 @@ check 'sigma_rad and frame_tolerance_s have defaults' bash -c "
 # ---- who takes no bearings ----
 run initiate passive-two/bearings.csv --method iht
 check 'a method of plots refuses them by name' says 2 \
-    'rhotrack: passive-two/bearings.csv: holds bearings, and method iht takes plots; *'
+    'rhotrack: passive-two/bearings.csv: contains bearings, but method iht takes plots; *'
 
 # ---- initiation ----
 # Each target has a track within a kilometre at the last scan, and there are no others.
@@ -178,14 +178,14 @@ for range_m in 120000 500000; do
 done
 run initiate passive-two/bearings.csv --set range_max_m=200000 --set d_rho_m=2000
 check 'cells as set for the range' says 2 \
-    'rhotrack: range_max_m 200000 takes 200 cells of d_rho_m 2000; there are 128'
+    'rhotrack: range_max_m 200000 needs 200 cells of d_rho_m 2000; the limit is 128'
 run initiate passive-two/bearings.csv --set d_theta_rad=0.01
 check 'cells for half a turn' says 2 \
-    'rhotrack: d_theta_rad 0.01 takes 315 cells over half a turn; there are 36'
+    'rhotrack: d_theta_rad 0.01 needs 315 cells over half a turn; the limit is 36'
 for kind in parameter-space errors; do
     run plot "$kind" passive-two/bearings.csv passive-two/truth.csv -o out.svg
     check "plot $kind refuses bearings by name" refused \
-        "plot $kind: bearings (column 'bearing_rad') are shown by plot scans and plot tracks alone"
+        "plot $kind: bearings (column 'bearing_rad') are shown only by plot scans and plot tracks"
 done
 
 # ---- track ----
@@ -302,7 +302,7 @@ run track plots.csv one.csv $given -o tracks.csv
 check 'one passive sensor may be alone beside a radar' exits 0
 check 'and its bearings find no tracks of their own' are_tracked truth.csv tracks.csv
 run track one.csv
-check 'but not alone' says 2 'rhotrack: one.csv:2: sensor 1 is the only one: positions need *'
+check 'but not alone' says 2 'rhotrack: one.csv:2: sensor 1 is the only sensor: positions need *'
 
 # ---- plot ----
 picture() { # what it is, FILES and options...

@@ -87,7 +87,7 @@ check 'anything, of five turns' exits 1
 check 'then there is no INI file' test ! -e short.ini
 run simulate passive-two -o passive
 run calibrate passive/bearings.csv
-check 'bearings' says 2 'rhotrack: calibrate takes plots, and no bearings'
+check 'bearings' says 2 'rhotrack: calibrate takes plots, not bearings'
 run calibrate as_stated/plots.csv -o x.csv
 check 'another ending' says 2 \
     'rhotrack: x.csv: calibrate writes an INI file, and .csv is the ending of another'

@@ -62,7 +62,7 @@ make_scene 2 second.csv 60
 # ---- one run teaches the next ----
 run track first.csv --config scene.ini --clutter-map map.csv -o tracks.csv
 check 'a map that is not there yet' matches "$(head -n 1 stderr)" \
-    'rhotrack: map.csv: not there yet, the clutter map starts empty'
+    'rhotrack: map.csv: does not exist yet; the clutter map starts empty'
 check 'the run itself' exits 0
 check 'the towers are known' test "$(echoes map.csv)" -ge 29 -a "$(echoes map.csv)" -le 31
 check 'nothing else is beside it' test "$(echo map.csv*)" = map.csv
@@ -124,7 +124,7 @@ run plot clutter-map map.csv second.csv -o map.svg --config scene.ini
 check 'a picture with plots' grep -q '>plots<' map.svg
 run plot clutter-map second.csv -o other.svg
 check 'a picture of something else' says 2 \
-    "rhotrack: second.csv:1: column 't_s': this is no clutter map"
+    "rhotrack: second.csv:1: column 't_s' does not belong in a clutter map"
 check 'is none' test ! -e other.svg
 run plot clutter-map map.csv towers.csv -o other.svg
 check 'a picture with a map beneath' exits 2
@@ -141,7 +141,7 @@ refuse() { # name, map, what is said
 }
 head='sensor_id,x_m,y_m,sigma_m,hits,region,unseen,looks,returns\n'
 refuse 'no columns' 'a,b\n1,2\n' "1: no column 'sensor_id'*"
-refuse 'plots' 't_s,sensor_id,x_m,y_m\n1,1,2,3\n' "1: column 't_s': this is no clutter map"
+refuse 'plots' 't_s,sensor_id,x_m,y_m\n1,1,2,3\n' "1: column 't_s' does not belong in a clutter map"
 refuse 'no place' "${head}1,,3,4,6,,,,\n" '2: x_m is empty'
 refuse 'a place beyond all' "${head}1,2,3e6,4,6,,,,\n" '2: y_m 3e6 is outside *'
 refuse 'NaN' "# why\n${head}1,nan,3,4,6,,,,\n" '3: x_m *nan* *'
@@ -151,7 +151,7 @@ refuse 'no sigma' "${head}1,2,3,0,6,,,,\n" '2: sigma_m 0 is outside *'
 refuse 'no hits' "${head}1,2,3,4,0,,,,\n" '2: hits 0 is outside 1 .. 65535'
 refuse 'too many hits' "${head}1,2,3,4,65536,,,,\n" '2: hits 65536 is outside 1 .. 65535'
 refuse 'both kinds of rows' "${head}1,2,3,4,6,,1,2,1\n" \
-    '2: a row is an echo of a sensor, or has looks, not both'
+    '2: a row has either a sensor, as an echo, or looks, not both'
 refuse 'more returns than looks' "${head},,,,6,,1,2,3\n" '2: returns 3 is outside 0 .. 2'
 refuse 'a region beyond' "${head},,,,6,64,1,2,1\n" '2: region 64 is outside 0 .. 63'
 refuse 'looks below none' "${head},,,,6,,1,-2,1\n" '2: looks -2 is outside *'
@@ -169,7 +169,7 @@ check 'node: the log' says 2 'rhotrack: new.lcm: the log cannot be the clutter m
 run node --lcm 'file://second.lcm?speed=0' --clutter-map second.lcm
 check 'node: what is read' says 2 'rhotrack: second.lcm: the input cannot be the clutter map'
 run track second.csv --clutter-map .
-check 'a folder' says 2 'rhotrack: .: is no file that a clutter map could be written to'
+check 'a folder' says 2 'rhotrack: .: not a regular file; a clutter map cannot be written to it'
 run track second.csv --clutter-map nowhere/map.csv -o out.csv
 check 'a folder that is not there' exits 1
 check 'is said' matches "$(tail -n 1 stderr)" 'rhotrack: nowhere/map.csv: cannot be written: *'

@@ -75,9 +75,9 @@ refuse 'a gate by number' "--gate '1' is not one of best|hough|nearest|none" tra
 refuse 'empty gate' "--gate '' is not one of best|hough|nearest|none" track plots.csv --gate ''
 refuse 'gate without its value' 'track: --gate needs a value' track plots.csv --gate
 refuse 'gate none' \
-    'gate none draws plots at random: that is for `maintain`; there are best, hough and nearest' \
+    'gate none, which draws plots at random, is only for `maintain`; use best, hough or nearest' \
     track plots.csv --gate none
-refuse 'gate none, as a parameter' 'gate none draws plots at random*' track plots.csv \
+refuse 'gate none, as a parameter' 'gate none, which draws plots at random, *' track plots.csv \
     --set gate=none
 refuse 'unknown gate, as a parameter' \
     "--set gate=x: gate 'x' is not one of best|hough|nearest|none" \
@@ -112,10 +112,10 @@ refuse 'set beyond the range' '--set pd=1.5: pd 1.5 is outside 0.01 .. 0.999' co
 refuse 'set to part of a scan' "--set scans=4.5: scans '4.5' is not a whole number" config \
     --set scans=4.5
 refuse 'no number of a sensor' \
-    "--set sensors_allowed=1 x: sensors_allowed 'x' is no number of a sensor" \
+    "--set sensors_allowed=1 x: sensors_allowed 'x' is not a sensor's number" \
     config --set 'sensors_allowed=1 x'
 refuse 'a number of a sensor beyond messages' \
-    "*: sensors_allowed '32768' is no number of a sensor" config --set sensors_allowed=32768
+    "*: sensors_allowed '32768' is not a sensor's number" config --set sensors_allowed=32768
 printf 'sensors_allowed = 3 -4\n' >allowed.ini
 run config --json --config allowed.ini
 check 'sensors_allowed in a file' json stdout \
@@ -160,7 +160,7 @@ refuse 'parameters of scenarios that are scenes' \
     "--set num_scans=3: unknown parameter 'num_scans'*" config --set num_scans=3
 printf 'sigma_m = 20\n' >trackers.ini
 refuse "a tracker's file" \
-    'simulate: a scene takes no --config; what it tells stands in its settings' \
+    'simulate: a scene takes no --config; its parameters are in its settings' \
     simulate polar -o none --config trackers.ini
 check 'nothing is written' test ! -e none
 

@@ -166,8 +166,8 @@ refuse() { # what it says, arguments
 refuse "unknown action 'dorp', did you mean 'drop'?" dorp 3
 refuse "drop needs a track's number" drop
 refuse "renumber needs a track's number and a new one" renumber 3
-refuse "'0' is no track's number*" drop 0
-refuse "'-3x' is no track's number*" drop -- -3x
+refuse "'0' is not a track's number*" drop 0
+refuse "'-3x' is not a track's number*" drop -- -3x
 refuse "drop takes no 'x_m=1'*" drop 3 x_m=1
 refuse "start needs y_m=VALUE" start x_m=1
 refuse "'y_m=b' is not a number" start x_m=1 y_m=b

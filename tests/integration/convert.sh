@@ -70,7 +70,7 @@ check 'range rates: the log is the same' there_and_back rates/plots.csv --config
 # ---- turns ----
 run convert rates/polar.csv rates.lcm
 check 'plots with times of their own, without scan_interval_s' matches "$status $(cat stderr)" \
-    '0 rhotrack: rates/polar.csv: sensor 1: rows of a turn have times of their own; they are gathered *'
+    '0 rhotrack: rates/polar.csv: sensor 1: the rows of a turn differ in time; they are gathered *'
 run convert rates/polar.csv rates.lcm --config rates/scenario.ini
 check 'with it nothing is said' test "$status" -eq 0 -a ! -s stderr
 for scenario in two-radars rotating; do
@@ -215,9 +215,9 @@ check 'a log from a real pipe' cmp back.csv piped.csv
 run convert one.lcm -
 check 'a log to standard output' writes_same_as back.csv
 run convert one.lcm other.lcm
-check 'log to log' says 2 'rhotrack: convert: other.lcm would be an LCM log, and so is the input; *'
+check 'log to log' says 2 'rhotrack: convert: other.lcm would be an LCM log, the format of the input; *'
 run convert crossing/plots.csv other.csv
-check 'CSV to CSV' says 2 'rhotrack: convert: other.csv would be a CSV file, and so is the input; *'
+check 'CSV to CSV' says 2 'rhotrack: convert: other.csv would be a CSV file, the format of the input; *'
 run convert crossing/plots.csv other.lcm --kind plots
 check '--kind of a CSV file' says 2 \
     'rhotrack: convert: --kind chooses messages of a log, and crossing/plots.csv is a CSV file'
@@ -255,14 +255,14 @@ refuse 'beyond the range' '3: x_m 3000000 is outside the range of a plot_scan_t'
     "${plots}1,1,1,1\n1,1,3000000,1\n"
 refuse 'infinite' "2: x_m 'inf' is not finite" "${plots}1,1,inf,1\n"
 refuse 'sensor beyond int16' \
-    "2: sensor_id '32768' is outside -32768 .. 32767, which messages hold" "${plots}1,32768,1,1\n"
+    "2: sensor_id '32768' is outside -32768 .. 32767, the range of messages" "${plots}1,32768,1,1\n"
 refuse 'x without y' '2: y_m is empty' "${plots}1,1,1,\n"
 refuse 'no time' '2: t_s is empty' "${plots},1,1,1\n"
-refuse 'time that goes back' '3: time goes back from 2.000000 s to 1.000000 s' \
+refuse 'time that goes back' '3: time decreases from 2.000000 s to 1.000000 s' \
     "${plots}2,1,1,1\n1,2,1,1\n"
-refuse 'time that goes back, in another scan' '4: time goes back from 2.000000 s to 1.000000 s' \
+refuse 'time that goes back, in another scan' '4: time decreases from 2.000000 s to 1.000000 s' \
     't_s,sensor_id,x_m,y_m,scan\n1,1,1,1,1\n2,1,1,1,2\n1,1,1,1,3\n'
-refuse 'received_s that goes back' '3: received_s goes back from 3.000000 s to 2.000000 s' \
+refuse 'received_s that goes back' '3: received_s decreases from 3.000000 s to 2.000000 s' \
     't_s,sensor_id,x_m,y_m,received_s\n1,1,1,1,3\n2,1,1,1,2\n'
 refuse 'no received_s' '2: received_s is empty' 't_s,sensor_id,x_m,y_m,received_s\n1,1,1,1,\n'
 refuse 'a velocity beyond the range' '2: vy_mps 20001 is outside the range of a plot_scan_t' \
@@ -273,9 +273,9 @@ refuse 'velocity and height without vz' '2: vz_mps is missing beside z_m and vx_
     't_s,sensor_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps\n1,1,1,1,5,1,1,\n'
 refuse 'height of a part of a scan' '3: height, velocity or range rate must be given in all rows*' \
     't_s,sensor_id,x_m,y_m,z_m\n1,1,1,1,5\n1,1,1,1,\n'
-refuse 'a range rate of a Cartesian plot' '2: range_rate_mps has no place in a plot_scan_t' \
+refuse 'a range rate of a Cartesian plot' '2: range_rate_mps cannot be stored in a plot_scan_t' \
     't_s,sensor_id,x_m,y_m,range_rate_mps\n1,1,1,1,5\n'
-refuse 'two sectors' "3: sector_to_rad is not that of the scan's first row" \
+refuse 'two sectors' "3: sector_to_rad differs from that of the scan's first row" \
     't_s,sensor_id,x_m,y_m,sector_from_rad,sector_to_rad\n1,1,1,1,0,1\n1,1,1,1,0,2\n'
 refuse 'half a sector' "1: no column 'sector_to_rad' beside 'sector_from_rad'" \
     't_s,sensor_id,x_m,y_m,sector_from_rad\n1,1,1,1,0\n'
@@ -288,29 +288,29 @@ refuse 'no compass' "2: azimuth_deg '2e6' is outside -1000000 .. 1000000" \
 refuse 'range below 0' '2: range_m -5 is outside the range of a polar_scan_t' "${polar}1,1,-5,1\n"
 refuse 'range without azimuth' '2: the azimuth is empty' "${polar}1,1,5,\n"
 refuse 'no azimuth' "1: no column 'azimuth_rad' (or az_rad); *" 't_s,sensor_id,range_m\n1,1,5\n'
-refuse 'both azimuths' "1: both 'azimuth_rad' and 'azimuth_deg' are there" \
+refuse 'both azimuths' "1: columns 'azimuth_rad' and 'azimuth_deg' exclude each other" \
     't_s,sensor_id,range_m,azimuth_rad,azimuth_deg\n1,1,2,1,1\n'
-refuse 'both kinds of plots' "1: both 'range_m' and 'x_m' are there" \
+refuse 'both kinds of plots' "1: columns 'range_m' and 'x_m' exclude each other" \
     't_s,sensor_id,range_m,azimuth_rad,x_m,y_m\n1,1,2,1,1,1\n'
-refuse 'a radar in two places' "3: sensor_y_m is not that of the scan's first row" \
+refuse 'a radar in two places' "3: sensor_y_m differs from that of the scan's first row" \
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m\n1,1,5,1,0,0\n1,1,5,1,0,1\n'
-refuse 'two sigmas of bearings' "3: sigma_rad is not that of the scan's other rows: *" \
+refuse 'two sigmas of bearings' "3: sigma_rad differs from that of the scan's other rows: *" \
     "${bearings}1,1,0,0,1,0.1\n1,1,0,0,1,0.2\n"
-refuse 'two times of bearings' "3: t_s is not that of the scan's first row: *" \
+refuse 'two times of bearings' "3: t_s differs from that of the scan's first row: *" \
     "${bearings}1,1,0,0,1,0.1\n1.1,1,0,0,1,0.1\n" --set scan_interval_s=1
-refuse 'signals of bearings' '2: snr_db has no place in a bearing_scan_t' \
+refuse 'signals of bearings' '2: snr_db cannot be stored in a bearing_scan_t' \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,snr_db\n1,1,0,0,1,9\n'
 refuse 'no bearing that is believed' '2: bearing_rad 4e6 is outside *' \
     "${bearings}1,1,0,0,4e6,0.1\n"
 refuse 'more bearings than a message has' \
-    '258: more than 256 rows are one scan: no message holds them' \
+    '258: a scan has more than 256 rows, the limit of a message' \
     "${bearings}$(for i in $(seq 257); do printf '1,1,0,0,0.%03d,\\n' "$i"; done)"
 refuse 'a target that is no number' "2: target_id 'A' is not an integer" "${truth}1,A,1,1\n"
 refuse 'truth beyond the range' '3: y_m 2e7 is outside the range of a truth_list_t' \
     "${truth}1,1,1,1\n1,2,1,2e7\n"
 refuse 'unknown status' "2: status 'lost' is none of tentative, confirmed, coasting, deleted" \
     "${tracks}1,1,lost,0,0\n"
-refuse 'hits beyond int16' "2: hits '40000' is outside -32768 .. 32767, which messages hold" \
+refuse 'hits beyond int16' "2: hits '40000' is outside -32768 .. 32767, the range of messages" \
     't_s,track_id,status,x_m,y_m,hits\n1,1,confirmed,0,0,40000\n'
 refuse 'hits below 0' '2: hits -1 is outside the range of a track_list_t' \
     't_s,track_id,status,x_m,y_m,hits\n1,1,confirmed,0,0,-1\n'
@@ -326,9 +326,9 @@ for i in $(seq 32768); do echo "1,1,$i,0,$((1 + i % 2))"; done >>parts.csv
 echo before >out.lcm
 run convert parts.csv out.lcm
 check 'more parts than messages number' refused \
-    'parts.csv:2: a scan of 32768 parts; messages number 32767'
+    'parts.csv:2: a scan of 32768 parts; messages can number 32767'
 run convert parts.csv out.lcm --keep-going
-check 'nothing is left' refused 'parts.csv: not one good scan in it'
+check 'nothing is left' refused 'parts.csv: contains no good scan'
 refuse 'header alone' '1: no rows after the header' "$plots"
 printf "${plots}1,1,1,1\nx,1,1,1\n1,40000,1,1\n1,1,1\n1,1,3e6,1\n0,1,1,1\n2,1,1,1\n" >mixed.csv
 run convert mixed.csv out.lcm --keep-going
@@ -344,31 +344,31 @@ cat plots.lcm truth.lcm >both.lcm
 echo before >out.csv
 run convert both.lcm out.csv
 check 'several kinds are listed' says 2 \
-    'rhotrack: both.lcm: several kinds of messages in it, and a CSV file holds one (7 plots, 7 truth): choose by --kind'
+    'rhotrack: both.lcm: contains several kinds of messages, and a CSV file holds one (7 plots, 7 truth): choose by --kind'
 check 'several kinds: no output touched' matches "$(cat out.csv)" before
 run convert both.lcm out.csv --kind truth
 check 'one kind is chosen' says 0 'rhotrack: both.lcm: 7 messages on other channels left out'
 check 'one kind is chosen: values' same_values crossing/truth.csv out.csv
 run convert both.lcm out.csv --kind tracks
 check 'a kind that is not there' says 2 \
-    'rhotrack: both.lcm: no messages of tracks in it, but 7 plots, 7 truth'
+    'rhotrack: both.lcm: contains no messages of tracks, but 7 plots, 7 truth'
 run convert both.lcm out.csv --kind plot
 check 'no kind' says 2 \
     "rhotrack: convert: --kind 'plot' is none of plots, polar, bearings, truth, tracks"
 cat truth.lcm truth.lcm >twice.lcm
 run convert twice.lcm out.csv
 check 'messages that come twice count once' says 0 \
-    'rhotrack: twice.lcm: 7 messages that were there before left out'
+    'rhotrack: twice.lcm: 7 repeated messages left out'
 check 'messages that come twice: values' same_values crossing/truth.csv out.csv
 : >empty.lcm
 run convert empty.lcm out.csv
-check 'an empty log' says 2 'rhotrack: empty.lcm: not one event of an LCM log in it'
+check 'an empty log' says 2 'rhotrack: empty.lcm: contains no event of an LCM log'
 run convert no.lcm out.csv
 check 'no log' says 2 'rhotrack: no.lcm: No such file or directory'
 cp crossing/plots.csv named.lcm
 run convert named.lcm out.csv
 check 'a CSV file that is named a log' says 2 \
-    'rhotrack: named.lcm: not one event of an LCM log in it'
+    'rhotrack: named.lcm: contains no event of an LCM log'
 
 # ---- damage ----
 cat >damage.py <<'END'
@@ -406,7 +406,7 @@ check 'a bad message is skipped and counted' says 0 'rhotrack: bad.lcm: 1 bad me
 check 'a bad message: the rest is there' matches "$(wc -l <out.csv)" 19
 head -c 100000 /dev/urandom >noise.lcm
 run convert noise.lcm out.csv
-check 'noise' says 2 'rhotrack: noise.lcm: not one event of an LCM log in it'
+check 'noise' says 2 'rhotrack: noise.lcm: contains no event of an LCM log'
 
 # ---- other LCM programs ----
 cat >others.py <<'END'

@@ -75,6 +75,11 @@ check 'a limit below 0' says 2 "*turning_mps2*"
 sed '3s/,10,0,10$/,10,0,x/' velocity.csv >bad.csv
 run evaluate truth.csv bad.csv
 check 'a covariance of the velocity that is none' says 2 'rhotrack: bad.csv:3: *'
+run evaluate tracks.csv truth.csv
+check 'tracks in the place of the truth' says 2 \
+    'rhotrack: tracks.csv has tracks and truth.csv truth: evaluate TRUTH TRACKS'
+run evaluate tracks.csv tracks.csv --json
+check 'tracks may be compared with tracks' exits 0
 check 'GOSPA' json figures 'abs(o["gospa_m"] ** 2 - (3 * 5e5 + 269) / 5) < 1e-6'
 check 'numbers and times' json figures '(o["targets"], o["targets_found"], o["tracks"], o["scans"], o["first_s"], o["last_s"]) == (2, 2, 4, 5, 0, 40)'
 

@@ -182,7 +182,7 @@ over() { # name, pattern, COMMAND...
     finish_job
     check "$1: exit 1" exits 1
     check "$1: it says so" matches "$(tail -n 1 stderr)" \
-        "rhotrack: grow.csv $2: it is followed no longer"
+        "rhotrack: grow.csv $2: --follow ends"
     check "$1: all rows are there" cmp expected.csv out.csv
 }
 over 'truncated' 'has become shorter' truncate -s 30 grow.csv
@@ -208,15 +208,15 @@ follow grow.csv -o out.csv --set follow_quiet_s=60
 printf '5,1,1,1\n' >>grow.csv
 finish_job
 check 'a row before those that came' says 2 \
-    'rhotrack: grow.csv:26: time goes back from 110.000000 s to 5.000000 s'
+    'rhotrack: grow.csv:26: time decreases from 110.000000 s to 5.000000 s'
 
 # ---- refused ----
 printf 't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n0,1,0,0,1\n0,2,100,0,1\n' >bearings.csv
 run track --follow bearings.csv
-check 'bearings' says 2 'rhotrack: bearings.csv:1: --follow takes plots, and these are bearings'
+check 'bearings' says 2 'rhotrack: bearings.csv:1: --follow takes plots, but this file has bearings'
 run convert plots.csv plots.lcm
 run track --follow plots.lcm
-check 'a log' says 2 'rhotrack: plots.lcm: --follow takes CSV files, and this is an LCM log'
+check 'a log' says 2 'rhotrack: plots.lcm: --follow takes CSV files, but this is an LCM log'
 run track --follow plots.csv plots.csv
 check 'two inputs' says 2 'rhotrack: --follow takes one input'
 ln -s plots.csv same.csv

@@ -81,7 +81,7 @@ can_be_read() { # LOG
 start --log /dev/full
 play
 goes_on 'a full disk' 1
-why='/dev/full: No space left on device; it goes on without the log'
+why='/dev/full: No space left on device; tracking goes on without the log'
 check 'it is said once, with the reason' matches "$(grep -c "$why" node.err)" 1
 check "all events are counted ($left_out, live $live_left_out)" test "$left_out" -ge 1700 -a \
     "$live_left_out" -ge 1700
@@ -96,7 +96,7 @@ wait_until 5 test -s work
 play
 goes_on 'a file as long as it may be' 1
 check 'a file as long as it may be: the reason' grep -q \
-    'limited.lcm: File too large; it goes on without the log' node.err
+    'limited.lcm: File too large; tracking goes on without the log' node.err
 check 'and the rest is counted' test "$left_out" -ge 1000
 check 'what is there can be read' can_be_read limited.lcm
 check 'and is no less than an event below the limit' test "$(stat -c %s limited.lcm)" -gt $((65536 - 1500))
@@ -155,7 +155,7 @@ player=$!
 check 'once the queue is full, events are left out, and RHO_WORK says so' wait_until 12 grep -q \
     ' [1-9]' work
 kill -INT "$player" 2>/dev/null
-why='pipe: the disk takes no more; events are left out, tracks go on'
+why='pipe: the disk is too slow or full; events are left out, tracking goes on'
 check 'it is said once' matches "$(grep -c "$why" node.err)" 1
 end_node
 check 'a full queue: SIGTERM ends the node with 0' exits 0
@@ -167,7 +167,7 @@ mkfifo nobody
 start --log nobody
 play
 goes_on 'a log that does not open' 0
-check 'it is said' grep -q 'nobody: does not open; tracks go on' node.err
+check 'it is said' grep -q 'nobody: cannot be opened yet; tracking goes on' node.err
 
 # ---- a record waits for its log, until the node is told to end ----
 "$program" simulate range-24ghz -o long --set duration_s=400 >/dev/null

@@ -184,7 +184,7 @@ check 'maintain writes one, too' json one.geojson \
 printf 't_s,sensor_id,lat_deg,lon_deg\n1,1,50,10\n2,1,,\n' >two.csv
 run track two.csv --config origin.ini -o none.geojson
 check 'without a track: a map without features' json none.geojson 'o["features"] == []'
-json='JSON, and CSV is needed; GeoJSON is written and not read: give the tracks'"'"' CSV file or LCM log'
+json='JSON, but CSV is needed; GeoJSON can only be written: give the tracks'"'"' CSV file or LCM log'
 cp map.geojson nameless
 for file in map.geojson nameless; do
     run track "$file"
@@ -235,19 +235,19 @@ refuse 'half a place' '3: lon_deg is empty' "${earth}2,1,50,,0\n" "${with[@]}"
 refuse 'a height alone' '3: lat_deg is empty' "${earth}2,1,,,7000\n" "${with[@]}"
 refuse 'too far away' '3: lat_deg 10, 10 is * km from the origin, farther than 2000 km' \
     "${earth}2,1,10,10,0\n" "${with[@]}"
-refuse 'two places' "1: both 'lat_deg' and 'x_m' are there" \
+refuse 'two places' "1: columns 'lat_deg' and 'x_m' exclude each other" \
     't_s,sensor_id,x_m,y_m,lat_deg,lon_deg\n1,1,1,1,50,10\n' "${with[@]}"
-refuse 'two heights' "1: both 'lat_deg' and 'z_m' are there" \
+refuse 'two heights' "1: columns 'lat_deg' and 'z_m' exclude each other" \
     't_s,sensor_id,lat_deg,lon_deg,z_m\n1,1,50,10,5\n' "${with[@]}"
 refuse 'a latitude alone' "1: no column 'lon_deg' beside 'lat_deg'" \
     't_s,sensor_id,lat_deg\n1,1,50\n' "${with[@]}"
 refuse 'metres and a height above the ellipsoid' "1: no column 'lat_deg' beside 'alt_m'" \
     't_s,sensor_id,x_m,y_m,alt_m\n1,1,50,10,5\n' "${with[@]}"
-refuse 'polar plots with places' "1: both 'range_m' and 'lat_deg' are there" \
+refuse 'polar plots with places' "1: columns 'range_m' and 'lat_deg' exclude each other" \
     't_s,sensor_id,range_m,azimuth_deg,lat_deg,lon_deg\n1,1,50,10,5,5\n' "${with[@]}"
-refuse 'two sources of heights' "1: both 'alt_m' and 'elevation_deg' are there" \
+refuse 'two sources of heights' "1: columns 'alt_m' and 'elevation_deg' exclude each other" \
     't_s,sensor_id,range_m,azimuth_deg,alt_m,elevation_deg\n1,1,50,10,5,5\n' "${with[@]}"
-refuse 'a radar in two places' "1: both 'sensor_lat_deg' and 'sensor_x_m' are there" 't_s,sensor_id,range_m,azimuth_deg,sensor_x_m,sensor_y_m,sensor_lat_deg,sensor_lon_deg\n1,1,50,10,5,5,5,5\n' "${with[@]}"
+refuse 'a radar in two places' "1: columns 'sensor_lat_deg' and 'sensor_x_m' exclude each other" 't_s,sensor_id,range_m,azimuth_deg,sensor_x_m,sensor_y_m,sensor_lat_deg,sensor_lon_deg\n1,1,50,10,5,5,5,5\n' "${with[@]}"
 refuse 'a height above the range' \
     '3: alt_m 20000 differs from the radar'"'"'s height by more than range_m 9000' \
     "${slant}2,1,9000,10,20000\n" "${with[@]}"
@@ -276,12 +276,14 @@ set_refuse() { # name, pattern, options...
     check "$name" says 2 "rhotrack: $pattern"
 }
 set_refuse 'half an origin' 'origin_lat_deg is set without origin_lon_deg' --set origin_lat_deg=50
+set_refuse 'the other half, where the file has a place' 'origin_lon_deg is set without origin_lat_deg' \
+    --set origin_lon_deg=10
 set_refuse 'a radar without an origin' \
     'sensor 3: lat_deg and lon_deg: origin_lat_deg and origin_lon_deg are not set*' \
     --set sensor.3.lat_deg=50 --set sensor.3.lon_deg=10
 set_refuse 'half a radar' 'sensor 3: lat_deg, lon_deg and alt_m go together: lon_deg is not set' \
     --set sensor.3.lat_deg=50 --config origin.ini
-set_refuse 'a radar in two places, by parameters' 'sensor 3: its place is said twice*' \
+set_refuse 'a radar in two places, by parameters' 'sensor 3: its place is given twice*' \
     --set sensor.3.lat_deg=50 --set sensor.3.lon_deg=10 --set sensor.3.x_m=5 --config origin.ini
 set_refuse 'a radar too far away' \
     'sensor 3: lat_deg and lon_deg are more than 2000 km from the origin' --set sensor.3.lat_deg=0 \
@@ -292,9 +294,9 @@ check 'a map without an origin' says 2 \
     'rhotrack: GeoJSON has latitudes and longitudes: origin_lat_deg and origin_lon_deg are not set*'
 check 'no output' test ! -e out.geojson
 run track plots.csv --config origin.ini --covariance -o out.geojson
-check 'a map with covariances' says 2 'rhotrack: out.geojson: --covariance has no place in GeoJSON'
+check 'a map with covariances' says 2 'rhotrack: out.geojson: GeoJSON cannot hold covariances (--covariance)'
 run track plots.csv --config origin.ini --follow -o out.geojson
-check 'a map that is followed' says 2 'rhotrack: out.geojson: GeoJSON is complete at the end alone*'
+check 'a map that is followed' says 2 'rhotrack: out.geojson: GeoJSON is complete only at the end *'
 run initiate plots.csv --config origin.ini -o out.geojson
 check 'a map of initiated tracks' grep -q \
     'rhotrack: out.geojson: initiate writes CSV files and LCM logs' stderr

@@ -83,7 +83,7 @@ for method in ht mht iht nht; do
 done
 run initiate table1.csv --method iht --set scans=5
 check 'more scans than asked for are said' matches "$(cat stderr)" \
-    'rhotrack: the last 5 of 7 scans are taken'
+    'rhotrack: the last 5 of 7 scans are used'
 
 # ---- thresholds and parameters ----
 facts 'votes_min' table1.csv iht 'o["peak_votes"] == []' votes_min=6.5
@@ -113,14 +113,14 @@ refused 'unknown method' \
     table1.csv --method houg
 for method in passive passive-paper; do
     refused "plots for method $method" \
-        "table1.csv:1: plots, which are no bearings (column 'x_m'): *" \
+        "table1.csv:1: plots, not bearings (column 'x_m'): *" \
         initiate table1.csv --method $method
 done
 refused 'unknown reading' "--set nht_reading=b: nht_reading 'b' is not one of a|c" initiate \
     table1.csv --set nht_reading=b
 refused 'unknown vote' "--set vote=1: vote '1' is not one of scans|counts" initiate table1.csv \
     --set vote=1
-refused 'too fine cells' 'plots 34397 m from the origin take 68796 cells of rho at d_rho_m 1; there are 16384: d_rho_m 4.2 would do' \
+refused 'too fine cells' 'plots 34397 m from the origin need 68796 cells of rho at d_rho_m 1, and 16384 is the limit: d_rho_m 4.2 is enough' \
     initiate "$table3" --method ht --set d_rho_m=1
 # What is suggested does.
 for range in 99999 100000 123456 250000 1999999; do
@@ -128,14 +128,14 @@ for range in 99999 100000 123456 250000 1999999; do
     run initiate far.csv --method mht
     check "plots as far as $range m: cells follow" exits 0
     run initiate far.csv --method mht --set d_rho_m=1 --set eps_rho_m=100
-    cell=$(sed 's/.*d_rho_m \([0-9.e+]*\) would do/\1/' stderr)
+    cell=$(sed 's/.*d_rho_m \([0-9.e+]*\) is enough/\1/' stderr)
     run initiate far.csv --method mht --set "d_rho_m=$cell" --set eps_rho_m=1000
     check "plots as far as $range m: d_rho_m $cell" exits 0
 done
 refused 'too wide tolerances' '2 eps_rho_m is more than 255 cells of d_rho_m 5' \
     initiate table1.csv --method nht --set eps_rho_m=700
 printf 't_s,sensor_id,x_m,y_m\n0,1,1,1\n2000000000,1,5,5\n' >long.csv
-refused 'scans of sixty years' 'the scans taken span 2e+09 s; at most 9e+08 s make a batch' \
+refused 'scans of sixty years' 'the scans used span 2e+09 s; a batch spans at most 9e+08 s' \
     initiate long.csv --method iht
 refused 'speeds' 'v_min_mps 500 is not below v_max_mps 400' initiate table1.csv --method iht \
     --set v_min_mps=500

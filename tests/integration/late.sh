@@ -186,7 +186,7 @@ check 'nor more where late_max_s is, too' matches "$(cat stderr)" '*, 0 too late
 sed '20s/^\([0-9.]*\),[0-9.]*,/\1,3.000,/' held.csv >bad.csv
 run track bad.csv -o out.csv
 check 'received_s does not go back' says 2 \
-    '*bad.csv:20: received_s goes back from * s to 3.000000 s'
+    '*bad.csv:20: received_s decreases from * s to 3.000000 s'
 run track bad.csv --keep-going --json
 check 'or such rows are skipped' json stdout 'o["rows_skipped"] == 1'
 sed '20s/^\([0-9.]*\),[0-9.]*,/\1,,/' held.csv >bad.csv
@@ -194,22 +194,22 @@ run track bad.csv -o out.csv
 check 'nor is it left out' says 2 "*bad.csv:20: received_s *"
 sed '1s/received_s/other/' later.csv >bad.csv
 run track bad.csv -o out.csv
-check 'without it times do not go back' says 2 '*bad.csv:*: time goes back from * s to * s'
+check 'without it times do not go back' says 2 '*bad.csv:*: time decreases from * s to * s'
 awk -F, 'NR == 1 { print "t_s,received_s,sensor_id,x_m,y_m"; next }
     { print $1 "," ($1 + (NR == 13 ? 0.5 : 0)) "," $2 "," $3 "," $4 }' in_time.csv >bad.csv
 run track bad.csv -o out.csv
 check 'rows of a scan without a number have one received_s' says 2 \
-    "*bad.csv:13: received_s is 20.500000 s, and 20.000000 s of the scan's other rows: *"
+    "*bad.csv:13: received_s is 20.500000 s, but 20.000000 s in the scan's other rows: *"
 run convert bad.csv out.lcm
 check 'convert says so, too' says 2 \
-    "*bad.csv:13: received_s is 20.500000 s, and 20.000000 s of the scan's other rows: *"
+    "*bad.csv:13: received_s is 20.500000 s, but 20.000000 s in the scan's other rows: *"
 awk -F, 'NR == 1 { print $0 ",scan" } NR > 1 { print $0 "," int(NR / 2) }' bad.csv >numbered.csv
 run track numbered.csv -o out.csv
 check 'those of one with a number may differ' exits 0
 printf 't_s,sensor_id,x_m,y_m\n4e12,1,1,1\n' >bad.csv
 run track bad.csv --set sensor.1.time_bias_s=-10
 check 'a time that is beyond what is believed once its bias is off' says 2 \
-    "*bad.csv:2: t_s is beyond 4e12 s without *"
+    "*bad.csv:2: t_s minus the sensor's time_bias_s is beyond 4e12 s"
 run track in_time.csv --set late_max_s=61
 check 'late_max_s is a minute at most' says 2 '*late_max_s*60*'
 

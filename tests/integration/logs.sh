@@ -60,7 +60,7 @@ t_s,sensor_id,x_m,y_m,scan
 CSV
 run track late.csv
 check 'a scan may hold times in any order, scans may not' says 2 \
-    'rhotrack: late.csv:6: time goes back from 4.000000 s to 3.900000 s'
+    'rhotrack: late.csv:6: time decreases from 4.000000 s to 3.900000 s'
 # A scan may begin before the last plots of the one before; its utime may be within it.
 for first in 0.0 -0.6; do
     python3 - "$first" >mixed.csv <<'PYTHON'
@@ -138,7 +138,7 @@ done
 run track radar/in.lcm --config radar/scenario.ini -o .lcm
 check 'a log that is named .lcm and nothing else' cmp radar/tracks.lcm .lcm
 run evaluate radar/truth.lcm radar/in.lcm
-check 'evaluate: a log without tracks' says 2 'rhotrack: radar/in.lcm: no messages of tracks in it*'
+check 'evaluate: a log without tracks' says 2 'rhotrack: radar/in.lcm: contains no messages of tracks *'
 
 # ---- the others ----
 
@@ -168,7 +168,7 @@ check 'maintain: its track as a log' sh -c "
     cut -d, -f1-12,15-18 one.csv >a; cut -d, -f1-12,15-18 one.again.csv >b; cmp a b"
 run maintain passive-three/in.lcm
 check 'maintain: bearings are refused' says 2 \
-    'rhotrack: passive-three/in.lcm: maintain takes plots, and these are bearings'
+    'rhotrack: passive-three/in.lcm: maintain takes plots, but this file has bearings'
 head -c 500 /dev/zero >garbage.bytes
 run plot tracks radar/in.lcm radar/tracks.lcm radar/truth.lcm -o map.svg
 check 'plot' sh -c 'grep -q "<svg" map.svg'
@@ -178,10 +178,10 @@ check 'plot: tracks of a log with bearings, too; damage is told once' says 0 \
     'rhotrack: node.lcm: 500 bytes skipped at byte 0'
 run plot errors passive-three/in.lcm -o map.svg
 check 'plot: a log of bearings alone' says 2 \
-    'rhotrack: plot errors: bearings * are shown by plot scans and plot tracks alone'
+    'rhotrack: plot errors: bearings * are shown only by plot scans and plot tracks'
 run plot tracks peaks.lcm -o map.svg
 check 'plot: nothing to draw in it' says 2 \
-    'rhotrack: peaks.lcm: no messages of plots, bearings, truth or tracks in it'
+    'rhotrack: peaks.lcm: contains no messages of plots, bearings, truth or tracks'
 
 # ---- what may be wrong with a log ----
 
@@ -202,12 +202,12 @@ with open("double.lcm", "wb") as double:
         at = end
 PYTHON
 run track double.lcm -o again.csv
-check 'every message twice: told' matches "$(cat stderr)" '*double.lcm: * scans or parts double*'
+check 'every message twice: told' matches "$(cat stderr)" '*double.lcm: * duplicate scans or parts*'
 check 'and taken once' made_same whole.csv again.csv
 cat radar/in.lcm radar/in.lcm >two.lcm
 run track two.lcm
 check 'two recordings in one' says 2 \
-    "rhotrack: two.lcm: the sensors' clock starts anew at * s: two recordings in one*"
+    "rhotrack: two.lcm: the sensors' clock is set anew at * s: the log may hold two recordings; *"
 merge radar/in.lcm passive-three/in.lcm >mixed.lcm
 cat garbage.bytes mixed.lcm >damaged.lcm
 run track damaged.lcm -o again.csv
@@ -226,11 +226,11 @@ for command in track initiate maintain; do
     cat radar/in.lcm >pipe.lcm 2>pipe.error &
     run "$command" pipe.lcm
     check "$command: a log through a pipe" says 2 \
-        'rhotrack: pipe.lcm: a log is looked at twice, so that a pipe will not do'
+        'rhotrack: pipe.lcm: an LCM log is read twice and cannot come through a pipe'
     kill $! 2>/dev/null
 done
 run track radar/truth.lcm
-check 'a log without scans' says 2 'rhotrack: radar/truth.lcm: not one scan of a sensor (*'
+check 'a log without scans' says 2 'rhotrack: radar/truth.lcm: contains no scan of a sensor (*'
 run track none.lcm
 check 'a log that is not there' says 2 'rhotrack: none.lcm: No such file or directory'
 finish

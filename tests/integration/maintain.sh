@@ -48,7 +48,7 @@ check 'the acceleration is there while it pulls, and not before' awk -F, '
 run maintain sharp/plots.csv --config sharp/scenario.ini --no-input-estimation
 check 'best is the default' cmp best.csv stdout
 check 'and has no input estimation' grep -q \
-    '^rhotrack: --no-input-estimation says nothing to --gate best' stderr
+    '^rhotrack: --no-input-estimation has no effect with --gate best' stderr
 run simulate weave --seed 5 --set radars.0.pd=0.9 --set clutter.0.count=10 -o hard
 run maintain hard/plots.csv --config hard/scenario.ini -o out.csv
 run evaluate hard/truth.csv out.csv --json
@@ -151,17 +151,17 @@ check 'polar plots' json stdout 'o["completeness"] > 0.9 and o["rmse_m"] < 200'
 
 # ---- what it refuses ----
 run maintain popup/plots.csv --gate hough -o none_left.csv
-check 'hough without velocities' says 2 "rhotrack: gate hough looks at velocities, and the scan at 0.000000 s has none: columns 'vx_mps' and 'vy_mps' are wanted"
+check 'hough without velocities' says 2 "rhotrack: gate hough needs velocities, and the scan at 0.000000 s has none: give columns 'vx_mps' and 'vy_mps'"
 check 'and no output is left' test ! -e none_left.csv
 cut -d, -f1-4,6-8,10 sharp/plots.csv >level.csv
 run maintain level.csv --gate hough
 check 'hough without heights' exits 0
 run maintain level.csv --gate hough --set planes=xz+yz
 check 'and without a plane left' says 2 \
-    'rhotrack: gate hough: the scan at 0.000000 s has no heights, so that planes must hold xy'
+    'rhotrack: gate hough: the scan at 0.000000 s has no heights, so planes must contain xy'
 run maintain popup/plots.csv --gate nearest
 check 'places alone and the literal model: it says so' grep -q \
-    '^rhotrack: places alone do not show the inputs of input_model literal' stderr
+    '^rhotrack: positions alone do not show the inputs of input_model literal' stderr
 run maintain popup/plots.csv --gate huogh
 check 'an unknown gate' says 2 "rhotrack: --gate 'huogh' is not one of best|hough|nearest|none"
 run maintain sharp/plots.csv --set planes=xy+zz
@@ -175,11 +175,11 @@ run maintain nowhere.csv --gate nearest
 check 'no such file' says 2 'rhotrack: nowhere.csv: No such file or directory'
 printf 't_s,sensor_id,x_m,y_m\n0,1,,\n1,1,,\n' >nothing.csv
 run maintain nothing.csv --gate nearest
-check 'not one plot' says 2 'rhotrack: nothing.csv: not one plot to start the track from'
+check 'not one plot' says 2 'rhotrack: nothing.csv: no plot to start the track from'
 run simulate passive-two -o passive
 run maintain passive/bearings.csv --gate nearest
 check 'bearings' says 2 \
-    'rhotrack: passive/bearings.csv: maintain takes plots, and these are bearings'
+    'rhotrack: passive/bearings.csv: maintain takes plots, but this file has bearings'
 sed '7s/^[^,]*,1,[^,]*/1,1,12x/' sharp/plots.csv >broken.csv
 run maintain broken.csv --gate nearest -o none_left.csv
 check 'a bad cell' says 2 "rhotrack: broken.csv:7: x_m*"

@@ -43,7 +43,7 @@ check 'many runs: the first one' next "$program track many/run-0000/plots.csv --
 # Made for maintain, with other limits than the default ones: what was not used is said.
 terminal "'$program' track popup/plots.csv -o popup/tracks.csv"
 check 'settings beside the plots that are not used are said' grep -q \
-    '^rhotrack: popup/scenario.ini stands beside the plots and was not used (--config)$' stderr
+    '^rhotrack: popup/scenario.ini is beside the plots but was not used (--config)$' stderr
 terminal "'$program' track popup/plots.csv -o popup/tracks.csv --config popup/scenario.ini"
 check 'and not where they are' bash -c '! grep -q "was not used" stderr'
 

@@ -200,10 +200,10 @@ check 'a node reads it, and ends with it' writes_same_as tracks.csv
 cp scene.lcm both.lcm
 run node --lcm 'file://both.lcm?speed=0' --log ./both.lcm
 check 'a node does not log over what it reads' says 2 \
-    'rhotrack: node: ./both.lcm would be written over *'
+    'rhotrack: node: ./both.lcm would overwrite the input'
 run publish scene/plots.csv both.lcm --lcm 'file://both.lcm?mode=w'
 check 'nor does publish write over what it plays' says 2 \
-    'rhotrack: publish: both.lcm would be written over *'
+    'rhotrack: publish: both.lcm would overwrite the input'
 check 'and it is as it was' cmp scene.lcm both.lcm
 
 # Prints a log's first and last time in seconds.
@@ -256,16 +256,16 @@ refused() { # name, URL, message
     check "$1" exits 2
     check "$1: what is said" matches "$(tail -n 1 stderr)" "*rhotrack: --lcm $2: $3"
 }
-refused 'no scheme' bogus 'no LCM URL; *'
-refused 'no group' udpm://10.1.2.3:7667 '* is no multicast group *'
+refused 'no scheme' bogus 'not an LCM URL, *'
+refused 'no group' udpm://10.1.2.3:7667 '* is not a multicast group *'
 refused 'a port that is none' udpm://239.255.76.67:99999 "port '99999' *"
 refused 'an option that is none' 'udpm://239.255.76.67:7667?colour=red' 'unknown option *'
 refused 'a ttl that is none' 'udpm://239.255.76.67:7667?ttl=-1' "ttl '-1' *"
 refused 'an address that is none' 'udpm://239.255.76.67:7667?sources_allowed=10.9.0.1,ten' \
-    "sources_allowed: 'ten' is no IPv4 address"
+    "sources_allowed: 'ten' is not an IPv4 address"
 refused 'no address' 'udpm://239.255.76.67:7667?sources_allowed=,' 'sources_allowed has no address'
-refused 'a provider that is none' nix://there 'liblcm does not open it'
-refused 'a file that is not there' file://nothing.lcm 'liblcm does not open it'
+refused 'a provider that is none' nix://there 'liblcm cannot open it'
+refused 'a file that is not there' file://nothing.lcm 'liblcm cannot open it'
 run publish scene/plots.csv --lcm file://played.lcm
 check 'publish does not write where it would read' says 2 \
     'rhotrack: --lcm file://played.lcm: *mode=w*'

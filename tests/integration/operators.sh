@@ -40,7 +40,7 @@ twice() { # NAME FILE SPEED TRACKS OPTIONS...
     stop
     check "$name: its tracks twice" matches "$(halves "$name.csv")" "$tracks $tracks"
     check "$name: the restart is told" test "$(grep -c \
-        '^20[0-9T:.-]*Z rhotrack: sensor 1 begins again: a restart, or a record played again$' \
+        '^20[0-9T:.-]*Z rhotrack: sensor 1 starts again: a restart, or a recording played again$' \
         "$name.err")" = 1
     check "$name: and nothing else" test "$(grep -Ec 'scans|bad|stale|double|suspect' "$name.err")" = 0
 }
@@ -73,7 +73,7 @@ sleep 0.6
 stop
 after=$(date -u +%Y-%m-%dT%H:%M:%S)
 check 'the name stands behind the number' grep -q \
-    'Z rhotrack: sensor 1 (north tower) begins again: a restart' named.err
+    'Z rhotrack: sensor 1 (north tower) starts again: a restart' named.err
 check 'what is counted is said with its last sensor' grep -q \
     'Z rhotrack: messages bad: 1 so far, the last one of sensor 7 (never)$' \
     named.err
@@ -139,7 +139,7 @@ check 'a node that is alone does not name itself' bash -c '! grep -q "another no
 start rows --config rotating/scenario.ini
 run publish plots.csv --speed 40 --set scan_interval_s=0
 check 'publish says that scans have one plot' grep -q \
-    '^rhotrack: plots.csv: 1575 of 1576 scans have one plot each: is scan_interval_s meant?$' stderr
+    '^rhotrack: plots.csv: 1575 of 1576 scans have one plot each: set scan_interval_s if they are parts of one scan$' stderr
 stop
 check 'and so does the node, once' test "$(grep -c \
     ' rhotrack: sensor 1: 19 of 20 scans have one plot each: ' rows.err)" = 1

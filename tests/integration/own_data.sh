@@ -96,7 +96,7 @@ columns() { # NAME, options of --columns, message (a pattern)
     check "--columns: $1" says 2 "rhotrack: $3"
 }
 columns 'a name that nobody reads' 't_s=Zeit,x_n=Ost,y_m=Nord' \
-    "--columns 'x_n=Ost': no column of the name 'x_n' is read, did you mean 'x_m'*"
+    "--columns 'x_n=Ost': rhotrack reads no column 'x_n', did you mean 'x_m'*"
 columns 'no pair' 'Zeit' "--columns 'Zeit': give NAME=COLUMN*"
 columns 'a column that is not there' 't_s=Zeit,x_m=East,y_m=Nord' \
     "german.csv:1: --columns: there is no column 'East'; the file has: Zeit, Ost, Nord"
@@ -120,7 +120,7 @@ status=0
 check '--columns: a name that a pipe does not have' grep -q "^rhotrack: --columns: no file has " stderr
 check '--columns: a pipe ends with 2' exits 2
 run track xy.csv --columns 'x_m=y_m'
-check '--columns: two of a name' says 2 "rhotrack: xy.csv:1: --columns: the file has a column 'x_m', too"
+check '--columns: two of a name' says 2 "rhotrack: xy.csv:1: --columns: the file already has a column 'x_m'"
 
 # ---- places on the earth without an origin ----
 run track plain_place.csv -o tracks.csv
@@ -202,7 +202,7 @@ why 'a turning radar, rows with a time each' degrees.csv \
     --set scan_interval_s=0
 printf '[sensor 0]\nx_m = 0\ny_m = 0\nrange_max_m = 500\n' >near.ini
 why 'outside the coverage' xy.csv '30 of 30 plots lie outside the .*range_max_m' --config near.ini
-why 'too fast' xy.csv 'no plots keep to a line .*: scans 2 s apart, 1 plots a scan, v_max_mps=20, ' \
+why 'too fast' xy.csv 'no plots lie on a line .*: scans 2 s apart, 1 plots a scan, v_max_mps=20, ' \
     --set v_max_mps=20
 awk 'NR == 1 {print; next} {print; for (i = 0; i < 40; i++) print $0}' xy.csv >crowd.csv
 why 'a limit of work' crowd.csv 'work_max=100 ended [0-9]* of [0-9]* scans before all plots' \

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """
 Drives a page of `plot -o NAME.html` in headless Chromium, over its debugging pipe: page.py
-functions PAGE PLOTS TRACK, or page.py million PAGE [SCREENSHOT]. Prints `ok ...` or `FAIL ...` a
-check, and measured times; exit 1 where one failed.
+functions PAGE PLOTS TRACK [SCREENSHOT], page.py listed PAGE TEXT, page.py zeros PAGE FACT..., or
+page.py million PAGE [SCREENSHOT]. Prints `ok ...` or `FAIL ...` a check, and measured times; exit 1
+where one failed.
 """
 import base64
 import json
@@ -202,6 +203,17 @@ def listed(browser, path, text):
     check("the list of tracks says what is not in it", found == text, found)
 
 
+def zeros(browser, path, *lines):
+    """A track's score of 0 is shown; heights that are 0 in all rows were not measured."""
+    browser.open(path)
+    browser.js("selectTrack(0)")
+    browser.frames()
+    rows = browser.js("Array.from(document.querySelectorAll('#track tr'), row => row.textContent)")
+    for line in "score", "height":
+        check(f"{line} of the track", [row for row in rows if row.startswith(line)] ==
+              [text for text in lines if text.startswith(line)], rows)
+
+
 with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
     chromium = Browser(folder)
     if sys.argv[1] == "functions":
@@ -210,6 +222,8 @@ with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
             chromium.screenshot(sys.argv[5])
     elif sys.argv[1] == "listed":
         listed(chromium, *sys.argv[2:])
+    elif sys.argv[1] == "zeros":
+        zeros(chromium, *sys.argv[2:])
     else:
         million(chromium, *sys.argv[2:])
     check("no fault in the script", not chromium.faults, chromium.faults)

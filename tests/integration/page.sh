@@ -12,7 +12,7 @@ run track in/plots.csv --config in/scenario.ini -o tracks.lcm
 # ---- files ----
 run plot errors in/truth.csv tracks.lcm -o x.html
 check 'no page of errors' says 2 \
-    'rhotrack: x.html: plot scans and plot tracks alone make a page; plot errors makes NAME.svg or NAME.png'
+    'rhotrack: x.html: only plot scans and plot tracks make a page; plot errors makes NAME.svg or NAME.png'
 run plot tracks in/plots.csv in/truth.csv tracks.lcm --config in/scenario.ini -o page.html
 check 'a page is written' exits 0
 check 'it needs nothing beside it' sh -c '! grep -Eq "<(script|link|img)[^>]*(src|href)=" page.html'
@@ -87,6 +87,13 @@ browse() { # NAME ARGUMENT...: each line of page.py is a check
 browse page functions page.html "$plots" 1
 browse '501 tracks' listed many.html 'The first 500 of 501 tracks; the others are on the map.'
 browse '3 tracks' listed page.html ''
+# a true 0 was once shown as a missing value
+printf 't_s,track_id,status,x_m,y_m,z_m,score_nat\n0,1,confirmed,0,0,%s,3\n1,1,confirmed,9,9,0,0\n' 5 >climb.csv
+sed 's/,5,3$/,0,3/' climb.csv >flat.csv
+run plot tracks climb.csv -o climb.html
+browse 'score and height of 0' zeros climb.html 'height0 m' 'score0.0 nat'
+run plot tracks flat.csv -o flat.html
+browse 'score of 0 without heights' zeros flat.html 'score0.0 nat'
 
 awk 'BEGIN {
     srand(1); print "t_s,sensor_id,x_m,y_m"

@@ -92,17 +92,17 @@ check 'passive-paper: cells follow from the range, with sensors 20 km apart' jso
 run initiate passive-two/bearings.csv --method passive-paper --set range_max_m=130000 \
     --set d_rho_m=1000
 check 'passive-paper: cells as set for the range' says 2 \
-    'rhotrack: range_max_m 130000 takes 260 cells of d_rho_m 1000; there are 256'
+    'rhotrack: range_max_m 130000 needs 260 cells of d_rho_m 1000; the limit is 256'
 run initiate passive-two/bearings.csv --method passive-paper --set range_max_m=120000 \
     --set d_rho_m=1000
 check 'passive-paper: cells as set for the sensors' says 2 \
-    'rhotrack: sensors 1 and 2 are 20000 m apart; cells of d_rho_m 1000 hold range_max_m 120000 and 16000 m'
+    'rhotrack: sensors 1 and 2 are 20000 m apart; with cells of d_rho_m 1000 and range_max_m 120000 they may be 16000 m apart at most'
 run initiate passive-two/bearings.csv --method passive-paper --set d_theta_rad=0.01
 check 'passive-paper: cells for half a turn' says 2 \
-    'rhotrack: d_theta_rad 0.01 takes 315 cells over half a turn; there are 90'
+    'rhotrack: d_theta_rad 0.01 needs 315 cells over half a turn; the limit is 90'
 run initiate passive-two/bearings.csv --method passive-paper --set votes_min=256
 check 'passive-paper: votes that it cannot count' says 2 \
-    'rhotrack: votes_min 256 is more than 255, what passive-paper counts to'
+    'rhotrack: votes_min 256 is more than 255, the most that passive-paper counts'
 run initiate passive-two/bearings.csv --set prune=all
 check 'unknown pruning' says 2 \
     "rhotrack: --set prune=all: prune 'all' is not one of safe|literal|none"

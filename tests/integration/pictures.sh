@@ -23,6 +23,17 @@ run plot tracks rays.csv -o rays.svg
 check 'bearings have a time, of 10 000 s and more without an exponent' grep -q \
     '2 bearings, 20000 s from t_s = 5 on' rays.svg
 
+# ---- a sector: its radar, 145 points of the arc, its radar, which was once written 145 times ----
+mkdir stub
+printf '#!/bin/sh\ncp "$1" stub/script\n' >stub/gnuplot
+chmod +x stub/gnuplot
+printf 't_s,sensor_id,range_m,azimuth_rad\n0,1,500,0.5\n4,1,520,0.5\n' >sector.csv
+PATH=$PWD/stub:$PATH run plot scans sector.csv -o sector.svg --set sensor.1.range_max_m=1000 \
+    --set sensor.1.sector_from_rad=0 --set sensor.1.sector_to_rad=1
+rows_of_coverage() { sed -n '/^\$coverage <</,/^NaN/p' stub/script | grep '^[-0-9]'; }
+check 'the outline of a sector has 147 rows' test "$(rows_of_coverage | wc -l)" -eq 147
+check 'the radar is its first row and its last' test "$(rows_of_coverage | grep -nx '0 0' | tr '\n' ' ')" = '1:0 0 147:0 0 '
+
 # ---- endings ----
 for name in x.gif x.htm x; do
     run plot scans in/plots.csv -o $name

@@ -342,7 +342,7 @@ PYTHON
 run simulate rotating -o sectors
 run initiate sectors/plots.csv --config sectors/scenario.ini --json -o found.csv
 check 'initiate: the sectors of a turn are one scan' grep -qx \
-    'rhotrack: the last 7 of 15 scans are taken' stderr
+    'rhotrack: the last 7 of 15 scans are used' stderr
 check 'initiate: JSON counts turns' json stdout \
     'o["scans"] == 7 and o["tracks"] == 3 and o["plots"] > 600'
 check 'initiate: three targets, where they are' python3 found.py found.csv sectors/truth.csv
@@ -363,14 +363,14 @@ open("last.csv", "w").writelines(rows[:1] + keep)
 PYTHON
 run plot parameter-space sectors/plots.csv --config sectors/scenario.ini -o space.svg
 check 'plot parameter-space: the last 12 turns of 15' grep -qx \
-    'rhotrack: the last 12 of 15 scans are taken' stderr
+    'rhotrack: the last 12 of 15 scans are used' stderr
 run plot parameter-space last.csv --config sectors/scenario.ini -o last.svg
 check 'plot parameter-space: of sectors' cmp space.svg last.svg
 run plot parameter-space /dev/stdin -o stdin.svg
 check 'plot parameter-space: not through a pipe' exits 2
 run plot parameter-space seed2-rate0/plots.csv --config seed2-rate0/scenario.ini -o space.svg
 check 'plot parameter-space: turns whose plots have their own times' grep -qx \
-    'rhotrack: the last 12 of 15 scans are taken' stderr
+    'rhotrack: the last 12 of 15 scans are used' stderr
 awk 'BEGIN { print "t_s,sensor_id,x_m,y_m"; for (k = 0; k < 20; k++) print k ",0," 50 * k "," 900 - 20 * k }' >one.csv
 cut -d, -f1,3,4 one.csv >bare.csv
 run plot parameter-space one.csv -o one.svg
@@ -385,7 +385,7 @@ check 'track: not where a sensor is described' says 2 "rhotrack: bare.csv:1: no 
 { cat bare.csv; echo 3,1,1; } >back.csv
 run plot parameter-space back.csv -o refused.svg
 check 'plot parameter-space: times do not go back' says 2 \
-    'rhotrack: back.csv:22: time goes back from 19.000000 s to 3.000000 s'
+    'rhotrack: back.csv:22: time decreases from 19.000000 s to 3.000000 s'
 sed '5s/^[^,]*,\(.*\)/3,\1e9/' bare.csv >far.csv
 run plot parameter-space far.csv -o refused.svg
 check 'plot parameter-space: places as track has them' says 2 \

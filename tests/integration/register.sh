@@ -67,7 +67,7 @@ check 'with it nothing is late but by what it is not known to' json stdout \
     'o["counters"]["scans_retrodicted"] + o["counters"]["scans_late"] < 60 and o["fates"]["stale"] < 60'
 run evaluate behind/truth.csv right.csv
 check 'tracks are at other times than the truth then' says 2 \
-    'rhotrack: right.csv:*: the truth has no such time within 1 ms *'
+    'rhotrack: right.csv:*: the truth has no time within 1 ms of this row *'
 run evaluate behind/truth.csv right.csv --set time_tolerance_s=0.1 --json
 check 'within time_tolerance_s they are judged' json stdout \
     'o["completeness"] > 0.95 and o["tracks"] == 20 and o["rmse_m"] < 120'
@@ -93,7 +93,7 @@ check 'plot errors: tracks are led to the truth' cmp shifted.svg exact.svg
 rm shifted.svg
 run plot errors truth.csv shifted.csv -o shifted.svg
 check 'plot errors: or refused, as by evaluate' says 2 \
-    'rhotrack: shifted.csv:2: the truth has no such time within 1 ms (time_tolerance_s)'
+    'rhotrack: shifted.csv:2: the truth has no time within 1 ms of this row (time_tolerance_s)'
 check 'plot errors: then nothing is left' bash -c '! ls shifted.svg* none.svg* 2>/dev/null'
 run convert behind/plots.csv behind.lcm --config behind/scenario.ini
 run track behind.lcm --config behind/scenario.ini --config behind.ini --json -o log.csv
@@ -120,19 +120,19 @@ check 'tracks are nearer to the truth with them' json stdout \
 
 # ---- what it refuses ----
 run register first.csv --config sectors/scenario.ini
-check 'one radar' says 2 'rhotrack: register: only one radar is in the input; *'
+check 'one radar' says 2 'rhotrack: register: the input has only one radar; *'
 run simulate parallel -o cartesian
 run register cartesian/plots.csv
 check 'Cartesian plots' says 2 \
     'rhotrack: register: sensor 1: its plots are not in range and azimuth'
 run simulate passive-two -o passive
 run register passive/bearings.csv
-check 'bearings' says 2 'rhotrack: register takes plots in range and azimuth, and no bearings'
+check 'bearings' says 2 'rhotrack: register takes plots in range and azimuth, not bearings'
 run register sectors/plots.csv --config sectors/scenario.ini --set reference_sensor=7
-check 'a reference that is not there' says 2 'rhotrack: reference_sensor 7 is none of *'
+check 'a reference that is not there' says 2 'rhotrack: reference_sensor 7: the input has no plots of this radar'
 cut -d, -f1-4,7-9 sectors/plots.csv >placeless.csv
 run register placeless.csv
-check 'radars without places' says 2 'rhotrack: register: where do radars * and * stand? *'
+check 'radars without places' says 2 'rhotrack: register: radars * and * have no known place; *'
 run simulate two-radars "${prompt[@]}" --set targets=[] -o empty
 run register sectors/plots.csv --config sectors/scenario.ini -o sectors_again.ini
 mv stdout table

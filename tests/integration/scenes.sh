@@ -15,16 +15,16 @@ refuse() { # name, pattern behind the file, text
     check "$1" says 2 "rhotrack: wrong.json:$2"
     check "$1: nothing is written" test ! -e none
 }
-refuse 'an empty file' '1: no JSON: it ends too early*' ''
-refuse 'a file that ends too early' '2: no JSON: it ends too early*' $'{"version": 1,\n'
-refuse 'no JSON' "3: no JSON near '*uration_s: 3}'" $'{"version": 1,\n"text": "",\nduration_s: 3}'
+refuse 'an empty file' '1: not valid JSON: it ends too early*' ''
+refuse 'a file that ends too early' '2: not valid JSON: it ends too early*' $'{"version": 1,\n'
+refuse 'no JSON' "3: not valid JSON near '*uration_s: 3}'" $'{"version": 1,\n"text": "",\nduration_s: 3}'
 refuse 'a list' '1: a scene is a JSON object*' '[1]'
-refuse 'more text' '2: more text behind the end of the scene' "$start}"$'\n}'
+refuse 'more text' '2: more text after the end of the scene' "$start}"$'\n}'
 refuse 'no version' '1: version is missing' '{}'
 refuse 'another version' '1: version: this program knows version 1' '{"version": 2}'
 refuse 'no duration' '1: duration_s is missing' '{"version": 1}'
 refuse 'no sensors' '1: no sensors*' '{"version": 1, "duration_s": 9}'
-refuse 'a text for a number' '1: duration_s: must be a number, and is a text' \
+refuse 'a text for a number' '1: duration_s: must be a number, but is a text' \
     '{"version": 1, "duration_s": "9"}'
 refuse 'infinite' '1: duration_s: inf is outside*' '{"version": 1, "duration_s": 1e999}'
 refuse 'out of range, with line and place' '3: radars?0?.turn_s: -4 is outside 0.001 .. 3600' \
@@ -32,16 +32,16 @@ refuse 'out of range, with line and place' '3: radars?0?.turn_s: -4 is outside 0
 refuse 'an unknown key' "2: radar: unknown key, did you mean 'radars'?" "$start,"$'\n"radar": []}'
 refuse 'an unknown key of a radar' "1: radars?0?.colour: unknown key" \
     "${start%\}\]}, \"colour\": 3}]}"
-refuse 'a key twice' '1: version: is there twice' "$start, \"version\": 1}"
+refuse 'a key twice' '1: version: occurs twice' "$start, \"version\": 1}"
 refuse 'two things that exclude each other' '1: radars?0?.interval_s: does not go with turn_s' \
     "${start%\}\]}, \"interval_s\": 3}]}"
 refuse 'a deep place' '4: targets?1?.legs?1?.for_s: -1 is outside 0 .. 1000000' \
     "$start, \"targets\": ["$'\n{"count": 1, "range_m": 9, "speed_mps": 3},{"at_m": [1, 2], "velocity_mps": [1, 1],\n"legs": [{"for_s": 1},\n{"for_s": -1}]}]}'
-refuse 'a leg without an end' '1: targets?0?.legs?0?: says no end*' \
+refuse 'a leg without an end' '1: targets?0?.legs?0?: has no end*' \
     "$start, \"targets\": [{\"at_m\": [1, 2], \"velocity_mps\": [1, 1], \"legs\": [{}]}]}"
-refuse 'a parent that is not there' '1: targets?0?.parent: targets?3? is no path before this one' \
+refuse 'a parent that is not there' '1: targets?0?.parent: targets?3? is not an earlier path' \
     "$start, \"targets\": [{\"parent\": 3, \"from_s\": 1}]}"
-refuse 'flights as a parent' '1: targets?1?.parent: targets?0? is no path before this one' \
+refuse 'flights as a parent' '1: targets?1?.parent: targets?0? is not an earlier path' \
     "$start, \"targets\": [{\"flights\": 2, \"box_m\": [-1e5, 1e5, -1e5, 1e5], \"least_s\": 20}, {\"parent\": 0, \"from_s\": 0}]}"
 refuse 'a group without speed' '1: targets?0?: speed_mps is missing' \
     "$start, \"targets\": [{\"count\": 3, \"range_m\": 5}]}"
@@ -55,14 +55,14 @@ refuse 'a density of no area' '1: clutter?0?: needs box_m*' \
     "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots_per_km2\": 1}]}"
 refuse 'no such sensor' '1: events?0?.sensors: there is no sensor 2' \
     "$start, \"events\": [{\"kind\": \"mask\", \"sensors\": [2]}]}"
-refuse 'two sensors of a number' '1: passive?0?.sensor_id: sensor 1 is there already' \
+refuse 'two sensors of a number' '1: passive?0?.sensor_id: sensor 1 is defined twice' \
     "$start, \"passive\": [{\"sensor_id\": 1}]}"
 refuse 'an unknown setting' "1: settings.v_mix: unknown parameter*" \
     "$start, \"settings\": {\"v_mix\": 3}}"
 refuse 'a setting out of range' '1: settings.pd: *' "$start, \"settings\": {\"pd\": 3}}"
 refuse 'platforms' '1: platforms: sensors that move are not simulated yet' \
     "$start, \"platforms\": [{}]}"
-refuse 'radars of two kinds' '1: radars?1?: radars measure all*' \
+refuse 'radars of two kinds' '1: radars?1?: all radars must measure*' \
     "${start%]}, {\"interval_s\": 2, \"sigma_m\": 10}], \"area\": [0, 1, 0, 1]}"
 plane='{"version": 1, "duration_s": 9, "radars": [{"interval_s": 2, "sigma_m": 10, "sigma_mps": 1}]'
 refuse 'clutter in x and y without an area' '1: clutter?0?: needs box_m*' \
@@ -76,7 +76,7 @@ refuse 'a pull beside a turn' '1: targets?0?.legs?0?.turn_degps: does not go wit
     "$plane, \"targets\": [{\"at_m\": [1, 2], \"velocity_mps\": [1, 1], \"legs\": [{\"for_s\": 1, \"accel_mps2\": [1, 2], \"turn_degps\": 3}]}]}"
 refuse 'one point' '1: targets?0?.points: must be two or more*' \
     "$plane, \"targets\": [{\"points\": [[0, 1, 2]]}]}"
-refuse 'points that go back in time' '1: targets?0?.points: times must grow' \
+refuse 'points that go back in time' '1: targets?0?.points: times must increase' \
     "$plane, \"targets\": [{\"points\": [[1, 1, 2], [1, 2, 3]]}]}"
 refuse 'points and legs' '1: targets?0?.legs: does not go with points' \
     "$plane, \"targets\": [{\"points\": [], \"legs\": []}]}"
@@ -123,10 +123,10 @@ for set in radars '=3' 'radars[1].pd=3' 'radars[x]=3' 'radars.pd=3' 'radars[0.pd
     check "no place: $set" says 2 "rhotrack: --set *"
 done
 run simulate towers --set radar.0.pd=3 -o none
-check 'no place: the nearest' says 2 "rhotrack: --set radar.0.pd=3: there is no such place in the scene: 'radar', did you mean 'radars'?"
+check 'no place: the nearest' says 2 "rhotrack: --set radar.0.pd=3: the scene has no such key: 'radar', did you mean 'radars'?"
 run simulate towers --set radars.1.pd=3 -o none
 check 'no place: how many there are' says 2 \
-    "rhotrack: --set radars.1.pd=3: there is no such place in the scene: '1' of a list of 1"
+    "rhotrack: --set radars.1.pd=3: the scene has no such element: '1' of a list of 1"
 run simulate towers --set 'radars[0].pd=3' -o none
 check 'a value out of range by --set' says 2 'rhotrack: towers:*: radars?0?.pd: 3 is outside 0 .. 1'
 run simulate towers --set 'radars[0].range=3' -o none

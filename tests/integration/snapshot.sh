@@ -31,7 +31,7 @@ check 'and leaves one' test -s state
 cp state kept
 node second.lcm --snapshot state
 cp stdout after.csv
-check 'the second says that it goes on' grep -q '^rhotrack: state: tracks go on$' stderr
+check 'the second says that it goes on' grep -q '^rhotrack: state: tracks continue from the snapshot$' stderr
 check 'and ends well' test "$status" -eq 0
 check 'before and after are the whole, byte for byte' sh -c \
     'tail -n +2 after.csv | cat before.csv - | cmp - all.csv'
@@ -46,7 +46,7 @@ anew() { # what is said
     check "$1: begins anew" grep -q "^rhotrack: state: $1; tracks begin anew\$" stderr
     check "$1: ends well" test "$status" -eq 0
     node second.lcm --snapshot state
-    check "$1: the next one goes on" grep -q '^rhotrack: state: tracks go on$' stderr
+    check "$1: the next one goes on" grep -q '^rhotrack: state: tracks continue from the snapshot$' stderr
 }
 cp kept state
 printf '\377' | dd of=state bs=1 seek=70000 conv=notrunc 2>dd.err
@@ -77,7 +77,7 @@ check 'sensors with an earlier clock are tracked all the same' sh -c \
 cp first.csv state
 node second.lcm --snapshot state
 check 'a file that is no snapshot is not written over' cmp -s first.csv state
-check 'and told' says 2 'rhotrack: state: is no snapshot, and would be written over'
+check 'and told' says 2 'rhotrack: state: not a snapshot, and would be overwritten'
 node second.lcm --snapshot no/folder/state
 check 'one that cannot be written is told' grep -q \
     ' rhotrack: no/folder/state: No such file or directory; the snapshot is not written$' stderr

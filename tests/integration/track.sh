@@ -265,7 +265,7 @@ check 'height is tracked' awk -F, '$1 == "110.000000" && ($6 < 2970 || $6 > 3030
 # ---- initiate ----
 run initiate plots.csv
 cp stdout initiated.csv
-check 'initiate says which scans it takes' matches "$(cat stderr)" 'rhotrack: the last 7 of 12 scans are taken'
+check 'initiate says which scans it takes' matches "$(cat stderr)" 'rhotrack: the last 7 of 12 scans are used'
 check 'columns of initiated tracks' matches "$(head -n 1 initiated.csv)" \
     'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
 both_found() {

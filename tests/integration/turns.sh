@@ -83,7 +83,7 @@ write("staring_rows.csv", [(0.1 * n + draw.uniform(0, 0.09) * (n % 7 > 2), 1,
 EOF2
 python3 radar.py
 
-own='rows of a turn have times of their own; they are gathered into'
+own='the rows of a turn differ in time; they are gathered into'
 turns() { # NAME, file, how (a pattern of grep -E), least number of tracks
     run track "$2" -o tracks.csv --json
     check "$1: said" grep -Eq "^rhotrack: $2: sensor 1: $own $3; scan_interval_s=0 " stderr
@@ -131,7 +131,7 @@ run track clockwise.csv --set scan_interval_s=3.9 -o tracks.csv
 check 'scan_interval_s=3.9: as it says' bash -c '! grep -q "gathered into" stderr'
 run track elsewhere.csv -o tracks.csv
 check 'a radar whose place is not known: the options are named' grep -q \
-    '^rhotrack: elsewhere.csv: sensor 1: rows have a time each, 0.1[0-9]* s apart, and neither azimuths (seen from its place, sensor.1.x_m and y_m) nor gaps tell .*: scan_interval_s ' stderr
+    '^rhotrack: elsewhere.csv: sensor 1: each row has its own time, 0.1[0-9]* s apart, and neither azimuths (seen from its place, sensor.1.x_m and y_m) nor gaps show .*: set scan_interval_s ' stderr
 run track elsewhere.csv -o tracks.csv --json --set sensor.1.x_m=30000 --set sensor.1.y_m=20000
 check 'its place is an answer' json stdout '12 <= o["tracks_confirmed"] <= 15'
 run track elsewhere.csv -o tracks.csv --json --set scan_interval_s=3.9
@@ -157,5 +157,5 @@ check 'and sectors' bash -c '! grep -q "gathered into" stderr'
 # A plot that goes back in time is refused in a turn as elsewhere.
 { head -n 300 clockwise.csv; sed -n 290p clockwise.csv; tail -n +301 clockwise.csv; } >back.csv
 run track back.csv
-check 'time that goes back within a turn' grep -q '^rhotrack: back.csv:301: time goes back from ' stderr
+check 'time that goes back within a turn' grep -q '^rhotrack: back.csv:301: time decreases from ' stderr
 finish

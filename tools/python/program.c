@@ -209,10 +209,7 @@ static struct parameters *copy_settings_and_locate_sensors(const struct paramete
     struct asterix_place place = {.is_given = false};
 
     *copy = *settings;
-    for (int i = 0;
-         i < num_paths && !place.is_given && !parameters_is_set(copy, PARAMETER_ORIGIN_LAT_DEG) &&
-         !parameters_is_set(copy, PARAMETER_ORIGIN_LON_DEG);
-         i++) {
+    for (int i = 0; i < num_paths && !place.is_given && !parameters_has_origin(copy); i++) {
         place = asterix_file_radar_place(paths[i]);
         if (place.is_given) {
             asterix_set_and_report_default_origin(paths[i], &place, copy);
@@ -571,7 +568,7 @@ static void check_row_fits_scan(const struct making *making, const struct progra
     const uint32_t differing = row_measures(row) ^ scan->measures;
 
     if (row->sensor_id != scan->sensor_id) {
-        fail_at_row(making, row, "sensor_id is not that of the scan's first row");
+        fail_at_row(making, row, "sensor_id differs from that of the scan's first row");
     }
     if (differing) {
         fail_at_row(making, row,
@@ -1135,7 +1132,7 @@ bool program_maintainers_run(struct program_maintainers *made, const struct prog
         struct program_maintainer *one = &made->list[i % made->count];
 
         if (scan->is_frame) {
-            fail(EXIT_USAGE, "scan %zu: a track alone takes plots, and these are bearings", i);
+            fail(EXIT_USAGE, "scan %zu: a track alone takes plots, but these are bearings", i);
         }
         (void)maintainer_step(one->maintainer, &scan->scan, scan->has_sensor ? &scan->sensor : NULL,
                               log_densities ? log_densities[i] : NAN, &one->random);

@@ -20,7 +20,7 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
     uint64_t done = 0, skipped;
 
     if (merged_inputs_have_bearings(inputs)) {
-        fail(EXIT_USAGE, "calibrate takes plots, and no bearings");
+        fail(EXIT_USAGE, "calibrate takes plots, not bearings");
     }
     for (struct input input = merged_inputs_next(inputs); input.scan;
          input = merged_inputs_next(inputs)) {
@@ -75,7 +75,7 @@ int command_calibrate(struct command_line *line)
     result = calibrate(data, &pipeline);
     print_calibration(line, &result, rows_skipped);
     if (!calibrate_knows_noise_or_pd(&result)) {
-        fail(EXIT_RUNTIME, "calibrate: too little was tracked to tell noise or pd of any radar");
+        fail(EXIT_RUNTIME, "calibrate: too few tracks to estimate noise or pd of any radar");
     }
     if (line->output) {
         calibrate_write_ini(&result, line->output);

@@ -64,7 +64,7 @@ static int32_t parse_track_id(const char *text)
     const long number = strtol(text, &end, 10);
 
     if (*text < '0' || *text > '9' || *end || number < 1 || number > INT32_MAX) {
-        fail(EXIT_USAGE, "command: '%s' is no track's number, 1 .. %" PRId32, text, INT32_MAX);
+        fail(EXIT_USAGE, "command: '%s' is not a track's number, 1 .. %" PRId32, text, INT32_MAX);
     }
     return (int32_t)number;
 }

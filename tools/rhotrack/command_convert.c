@@ -59,8 +59,8 @@ static void check_output_format_differs(const char *input, const char *output, b
             check_input_is_table(input);
         }
         fail(EXIT_USAGE,
-             "convert: %s would be %s, and so is the input; CSV files end with .csv, LCM logs with "
-             ".lcm",
+             "convert: %s would be %s, the format of the input; CSV files end with .csv, LCM logs "
+             "with .lcm",
              output, from_log ? "an LCM log" : "a CSV file");
     }
 }
@@ -159,7 +159,7 @@ static void convert_tracks_to_asterix(const struct command_line *line)
         }
     }
     if (lists == 0) {
-        fail(EXIT_USAGE, "%s: not one list of tracks in it, and CAT062 holds tracks", input);
+        fail(EXIT_USAGE, "%s: contains no tracks, and CAT062 holds only tracks", input);
     }
     asterix_track_writer_close(tracks);
     output_close(&output);
@@ -248,18 +248,19 @@ static void check_one_kind_and_count_others(struct reading *reading)
     list_kinds_found(reading, text, sizeof text);
     if (kinds == 0) {
         fail(EXIT_USAGE,
-             "%s: no messages of plots, polar plots, bearings, truth or tracks in it; %" PRIu64
+             "%s: contains no messages of plots, polar plots, bearings, truth or tracks; %" PRIu64
              " on other channels",
              reading->path, reading->others);
     }
     if (reading->line->kind && reading->collection.count == 0 &&
         reading->collection.messages_bad == 0) {
-        fail(EXIT_USAGE, "%s: no messages of %s in it, but %s", reading->path, reading->kind->name,
-             text);
+        fail(EXIT_USAGE, "%s: contains no messages of %s, but %s", reading->path,
+             reading->kind->name, text);
     }
     if (!reading->line->kind && kinds > 1) {
         fail(EXIT_USAGE,
-             "%s: several kinds of messages in it, and a CSV file holds one (%s): choose by --kind",
+             "%s: contains several kinds of messages, and a CSV file holds one (%s): choose by "
+             "--kind",
              reading->path, text);
     }
     for (int i = 0; i < NUM_ROWS_KINDS; i++) {
@@ -267,23 +268,17 @@ static void check_one_kind_and_count_others(struct reading *reading)
     }
 }
 
-static void print_count_unless_zero(const struct reading *reading, uint64_t count, const char *what)
-{
-    if (count > 0) {
-        fprintf(stderr, "rhotrack: %s: %" PRIu64 " %s\n", reading->path, count, what);
-    }
-}
-
 static void print_left_out_counts(const struct reading *reading, const struct lcm_log_reader *log)
 {
     lcm_log_report_skipped(log);
-    print_count_unless_zero(reading, reading->collection.messages_bad, "bad messages skipped");
-    print_count_unless_zero(reading, reading->others, "messages on other channels left out");
-    print_count_unless_zero(reading, reading->collection.messages_again,
-                            "messages that were there before left out");
-    print_count_unless_zero(reading, reading->collection.scans_incomplete,
+    print_count_unless_zero(reading->path, reading->collection.messages_bad,
+                            "bad messages skipped");
+    print_count_unless_zero(reading->path, reading->others, "messages on other channels left out");
+    print_count_unless_zero(reading->path, reading->collection.messages_again,
+                            "repeated messages left out");
+    print_count_unless_zero(reading->path, reading->collection.scans_incomplete,
                             "scans or lists lack parts");
-    print_count_unless_zero(reading, reading->collection.lists_empty,
+    print_count_unless_zero(reading->path, reading->collection.lists_empty,
                             "lists without elements have no row");
 }
 
@@ -302,13 +297,12 @@ static void convert_log_to_csv(const struct command_line *line)
         add_rows_of_log_event(&reading, &event);
     }
     if (lcm_log_counts(log).events == 0) {
-        fail(EXIT_USAGE, "%s: not one event of an LCM log in it", reading.path);
+        fail(EXIT_USAGE, "%s: contains no event of an LCM log", reading.path);
     }
     check_one_kind_and_count_others(&reading);
     rows_from_messages_finish(&reading.collection);
     if (reading.collection.rows.count == 0) {
-        fail(EXIT_USAGE, "%s: the messages of %s in it have not one row", reading.path,
-             reading.kind->name);
+        fail(EXIT_USAGE, "%s: its messages of %s have no rows", reading.path, reading.kind->name);
     }
     output = output_open(line->arguments[1]);
     if (geojson_path_is_geojson(line->arguments[1])) {
@@ -345,7 +339,7 @@ static void convert_tracks_to_geojson(const struct command_line *line)
 static void select_tracks_for_geojson_or_fail(struct command_line *line)
 {
     if (line->covariance) {
-        fail(EXIT_USAGE, "convert: --covariance has no place in GeoJSON");
+        fail(EXIT_USAGE, "convert: GeoJSON cannot hold covariances (--covariance)");
     }
     if (line->kind && strcmp(line->kind, rows_kind_tracks.name) != 0) {
         fail(EXIT_USAGE, "convert: --kind %s: GeoJSON is made of tracks", line->kind);
@@ -361,7 +355,7 @@ void command_convert_refuse_radar_as_tracks(const struct command_line *line)
     if ((to_map || asterix_track_writer_path_is_asterix(output)) &&
         asterix_file_is_asterix(input) && !asterix_file_has_only_tracks(input)) {
         check_input_is_table(input);
-        fail(EXIT_USAGE, "%s: a recording of radars, and no list of tracks; %s is made of tracks",
+        fail(EXIT_USAGE, "%s: a recording of radar plots, not of tracks; %s is made of tracks",
              input, to_map ? "GeoJSON" : "CAT062");
     }
 }

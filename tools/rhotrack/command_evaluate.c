@@ -21,11 +21,25 @@ static void check_output_ending(const char *path)
     }
 }
 
+/*
+ * Exit 2 where the first file has tracks and the second a truth. Tracks may be compared with other
+ * tracks, so track_id in the first file alone is no error.
+ */
+static void refuse_swapped_files(const struct table *truth, const struct table *tracks)
+{
+    if (table_find_column(truth, "track_id") >= 0 && table_find_column(tracks, "track_id") < 0 &&
+        table_find_column(tracks, "target_id") >= 0) {
+        fail(EXIT_USAGE, "%s has tracks and %s truth: evaluate TRUTH TRACKS", truth->path,
+             tracks->path);
+    }
+}
+
 static struct evaluation *evaluate_files(const struct command_line *line)
 {
     struct table *truth = log_table_or_csv(line->arguments[0], &rows_kind_truth, line->keep_going);
     struct table *tracks =
         log_table_or_csv(line->arguments[1], &rows_kind_tracks, line->keep_going);
+    refuse_swapped_files(truth, tracks);
     table_need_rows(truth);
     struct evaluation *e = evaluation_of_tables(truth, tracks, &line->parameters,
                                                 line->parameters.value[PARAMETER_GOSPA_CUTOFF_M]);

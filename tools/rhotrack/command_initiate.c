@@ -23,13 +23,6 @@ struct batch {
     int64_t wall_us;
 };
 
-static void fail_unless_ok(enum rho_status status)
-{
-    if (status != RHO_OK) {
-        fail(EXIT_RUNTIME, "initiator: the library says '%s'", rho_status_name(status));
-    }
-}
-
 /* ---- The batch ---- */
 
 static void push_scan(struct batch *batch, const struct rho_scan *scan,
@@ -45,7 +38,8 @@ static void push_scan(struct batch *batch, const struct rho_scan *scan,
     }
     memset(fates, RHO_FATE_HELD, sizeof fates);
     start_us = clock_us();
-    fail_unless_ok(rho_initiator_push(batch->initiator, &held, sensor, fates, &left_unused));
+    must_succeed(rho_initiator_push(batch->initiator, &held, sensor, fates, &left_unused),
+                 "initiator");
     batch->wall_us += clock_us() - start_us;
     batch->time_us = scan->time_us;
     batch->scans++;
@@ -76,12 +70,13 @@ static void read_and_search_batch(struct batch *batch, const struct command_line
 
     parameters_to_initiator(&line->parameters, &config);
     batch->initiator = must_alloc(sizeof *batch->initiator);
-    fail_unless_ok(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config));
+    must_succeed(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config),
+                 "initiator");
     reader = plot_scan_reader_open(line->arguments, line->num_arguments, &line->parameters,
                                    line->keep_going);
     push_last_scans(batch, reader);
     start_us = clock_us();
-    fail_unless_ok(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH));
+    must_succeed(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH), "initiator");
     batch->wall_us += clock_us() - start_us;
     plot_scan_reader_report_skipped(reader);
     if (batch->plots_no_room) {
@@ -89,7 +84,7 @@ static void read_and_search_batch(struct batch *batch, const struct command_line
                 batch->plots_no_room, RHO_MAX_PLOTS);
     }
     if (batch->initiator->budget.partial_steps > 0) {
-        fprintf(stderr, "rhotrack: of %" PRIu32 " plots not all was tried for tracks (work_max)\n",
+        fprintf(stderr, "rhotrack: %" PRIu32 " plots were not fully tried for tracks (work_max)\n",
                 batch->initiator->budget.plots_not_tried);
     }
     plot_scan_reader_close(reader);
@@ -178,7 +173,7 @@ static enum method choose_method(const struct command_line *line)
     }
     enum method method = method_must_find(line->method);
     if (has_bearings && !method_takes_bearings(method)) {
-        fail(EXIT_USAGE, "%s: holds bearings, and method %s takes plots; try --method passive",
+        fail(EXIT_USAGE, "%s: contains bearings, but method %s takes plots; try --method passive",
              line->arguments[0], line->method);
     }
     return method;

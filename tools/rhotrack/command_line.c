@@ -341,12 +341,6 @@ static void read_options(struct command_line *line, const struct command *comman
     }
 }
 
-static bool lacks_origin(const struct parameters *parameters)
-{
-    return !parameters_is_set(parameters, PARAMETER_ORIGIN_LAT_DEG) &&
-           !parameters_is_set(parameters, PARAMETER_ORIGIN_LON_DEG);
-}
-
 /*
  * Suggests the origin of the local frame where none is set: the place of a recording's first radar,
  * or the first place of a CSV file.
@@ -354,7 +348,7 @@ static bool lacks_origin(const struct parameters *parameters)
 static void suggest_origin_if_lacking(struct command_line *line, const char *path,
                                       struct asterix_place place)
 {
-    if (place.is_given && lacks_origin(&line->parameters)) {
+    if (place.is_given && !parameters_has_origin(&line->parameters)) {
         asterix_set_and_report_default_origin(path, &place, &line->parameters);
     }
 }
@@ -471,7 +465,7 @@ static bool are_plot_files_regular(const struct command_line *line)
 
 void command_line_set_origin_and_places(struct command_line *line)
 {
-    for (int i = 0; i < line->num_arguments && lacks_origin(&line->parameters); i++) {
+    for (int i = 0; i < line->num_arguments && !parameters_has_origin(&line->parameters); i++) {
         suggest_origin_if_lacking(line, line->arguments[i],
                                   asterix_file_radar_place(line->arguments[i]));
     }

@@ -37,7 +37,7 @@ static void warn_of_unused_input_estimation(const struct command_line *line,
                                             enum maintainer_gate gate)
 {
     if (gate == MAINTAIN_BEST && line->no_input_estimation) {
-        fputs("rhotrack: --no-input-estimation says nothing to --gate best\n", stderr);
+        fputs("rhotrack: --no-input-estimation has no effect with --gate best\n", stderr);
     }
 }
 
@@ -51,8 +51,8 @@ static void warn_of_unobservable_inputs(const struct command_line *line, enum ma
     if (gate != MAINTAIN_BEST && !line->no_input_estimation &&
         !(first->measures & (RHO_MEASURES_VELOCITY | RHO_MEASURES_RANGE_RATE)) &&
         line->parameters.value[PARAMETER_INPUT_MODEL] <= 0.0) {
-        fputs("rhotrack: places alone do not show the inputs of input_model literal; "
-              "--set input_model=physical does\n",
+        fputs("rhotrack: positions alone do not show the inputs of input_model literal; use --set "
+              "input_model=physical\n",
               stderr);
     }
 }
@@ -174,7 +174,8 @@ static void print_run_json(const struct maintaining *maintaining, const struct c
 static struct scan_reader *open_plot_reader(const struct command_line *line)
 {
     if (bearing_frame_reader_file_has_bearings(line->arguments[0])) {
-        fail(EXIT_USAGE, "%s: maintain takes plots, and these are bearings", line->arguments[0]);
+        fail(EXIT_USAGE, "%s: maintain takes plots, but this file has bearings",
+             line->arguments[0]);
     }
     return plot_scan_reader_open(line->arguments, 1, &line->parameters, line->keep_going);
 }
@@ -197,7 +198,7 @@ int command_maintain(struct command_line *line)
     step_and_write_all_scans(&maintaining, reader, line, tracks);
     counts = plot_scan_reader_counts(reader);
     if (counts.plots == 0) {
-        fail(EXIT_USAGE, "%s: not one plot to start the track from", line->arguments[0]);
+        fail(EXIT_USAGE, "%s: no plot to start the track from", line->arguments[0]);
     }
     tracks_output_close(tracks);
     print_summary(&maintaining, &counts);

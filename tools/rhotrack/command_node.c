@@ -279,7 +279,8 @@ static void print_sensor_restart(void *context, int16_t sensor_id)
         node->restarts = 0;
     }
     if (!node->print.is_terminal && node->restarts++ < RESTARTS_SAID) {
-        fprintf(stderr, "rhotrack: sensor %d begins again: a restart, or a record played again\n",
+        fprintf(stderr,
+                "rhotrack: sensor %d starts again: a restart, or a recording played again\n",
                 sensor_id);
     }
 }
@@ -289,7 +290,7 @@ static void print_clock_change(void *context)
     const struct node *node = context;
 
     if (!node->print.is_terminal) {
-        fputs("rhotrack: the sensors' time is another one: tracks begin anew\n", stderr);
+        fputs("rhotrack: the sensors' clock was set anew: tracks begin anew\n", stderr);
     }
 }
 
@@ -400,7 +401,7 @@ static void print_summary(const struct node *node)
     }
     node_sensors_print_bad(node->core, stderr);
     if (error_lines_were_lost()) {
-        fputs("rhotrack: standard error was full for a while: lines of it are missing\n", stderr);
+        fputs("rhotrack: standard error was blocked for a while: lines are missing\n", stderr);
     }
 }
 
@@ -529,7 +530,7 @@ static void wait_and_serve_descriptors(struct node *node)
 static void end_node_at_end_of_input(struct node *node)
 {
     if (transport_url_is_live(transport_url(node->transport))) {
-        fprintf(stderr, "rhotrack: %s: the connection is gone\n", transport_url(node->transport));
+        fprintf(stderr, "rhotrack: %s: the connection is lost\n", transport_url(node->transport));
         node->exit_code = EXIT_RUNTIME;
     }
     node->is_over = true;
@@ -731,7 +732,7 @@ int command_node(struct command_line *line)
     int exit_code;
 
     if (line->log && transport_url_is_same_file(line->lcm, line->log)) {
-        fail(EXIT_USAGE, "node: %s would be written over what is read", line->log);
+        fail(EXIT_USAGE, "node: %s would overwrite the input", line->log);
     }
     pipeline_options_to_parameters(
         &line->parameters, &(struct pipeline_options){line->gate, line->method, line->pipeline});
@@ -750,7 +751,7 @@ int command_node(struct command_line *line)
     node.snapshot_us = node.status_us + SNAPSHOT_US;
     if (line->snapshot &&
         node_core_restore_snapshot(node.core, line->snapshot) == PIPELINE_RESTORED) {
-        fprintf(stderr, "rhotrack: %s: tracks go on\n", line->snapshot);
+        fprintf(stderr, "rhotrack: %s: tracks continue from the snapshot\n", line->snapshot);
         is_restored = true;
     }
     node.clutter = clutter_map_file_open(line->clutter_map, &line->parameters,

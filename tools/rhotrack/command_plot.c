@@ -40,10 +40,10 @@ static void check_data_for_kind(const char *kind, const struct picture_data *dat
 {
     const bool shows_bearings = strcmp(kind, "scans") == 0 || strcmp(kind, "tracks") == 0;
     if (data->bearings.has_own_file && !shows_bearings) {
-        fail(EXIT_USAGE,
-             "plot %s: bearings (column 'bearing_rad') are shown by plot scans and "
-             "plot tracks alone",
-             kind);
+        fail(
+            EXIT_USAGE,
+            "plot %s: bearings (column 'bearing_rad') are shown only by plot scans and plot tracks",
+            kind);
     }
     if (shows_bearings && data->bearings.num_sensors) {
         return;
@@ -53,10 +53,10 @@ static void check_data_for_kind(const char *kind, const struct picture_data *dat
     } else if (strcmp(kind, "errors") == 0) {
         require_points(&data->truth, kind, "truth (target_id)");
     } else if (strcmp(kind, "tracks") != 0) {
-        fail(EXIT_USAGE,
-             "plot: no picture '%s'; there is: scans, tracks, parameter-space, errors, "
-             "clutter-map",
-             kind);
+        fail(
+            EXIT_USAGE,
+            "plot: no picture '%s'; there are: scans, tracks, parameter-space, errors, clutter-map",
+            kind);
     } else if (data->plots.count + data->tracks.count + data->truth.count == 0) {
         fail(EXIT_USAGE, "plot tracks: the files hold nothing to draw");
     }
@@ -152,8 +152,7 @@ int command_plot(struct command_line *line)
     const bool is_map = strcmp(kind, "scans") == 0 || strcmp(kind, "tracks") == 0;
     if (html_page_path_is_html(line->output) && !is_map) {
         fail(EXIT_USAGE,
-             "%s: plot scans and plot tracks alone make a page; plot %s makes "
-             "NAME.svg or NAME.png",
+             "%s: only plot scans and plot tracks make a page; plot %s makes NAME.svg or NAME.png",
              line->output, kind);
     }
     picture_check_path(line->output);

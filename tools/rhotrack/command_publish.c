@@ -285,7 +285,7 @@ int command_publish(struct command_line *line)
     }
     for (int i = 0; i < line->num_arguments; i++) {
         if (transport_url_is_same_file(line->lcm, line->arguments[i])) {
-            fail(EXIT_USAGE, "publish: %s would be written over what is read", line->arguments[i]);
+            fail(EXIT_USAGE, "publish: %s would overwrite the input", line->arguments[i]);
         }
     }
     publish_watch_signals();

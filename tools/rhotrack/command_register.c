@@ -27,11 +27,10 @@ static void add_scan_or_fail(struct register_data *data, const struct input *inp
     } else {
         parameters_to_sensor_or_defaults(parameters, input->scan->sensor_id, &sensor);
         if (unplaced->is_any && unplaced->sensor_id != sensor.sensor_id) {
-            fail(
-                EXIT_USAGE,
-                "register: where do radars %d and %d stand? (columns sensor_x_m and sensor_y_m, or "
-                "sensor.N.x_m and sensor.N.y_m)",
-                (int)unplaced->sensor_id, (int)sensor.sensor_id);
+            fail(EXIT_USAGE,
+                 "register: radars %d and %d have no known place; give columns sensor_x_m and "
+                 "sensor_y_m, or sensor.N.x_m and sensor.N.y_m",
+                 (int)unplaced->sensor_id, (int)sensor.sensor_id);
         }
         *unplaced = (struct unplaced){.is_any = true, .sensor_id = sensor.sensor_id};
     }
@@ -51,7 +50,7 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
     uint64_t done = 0, skipped;
 
     if (merged_inputs_have_bearings(inputs)) {
-        fail(EXIT_USAGE, "register takes plots in range and azimuth, and no bearings");
+        fail(EXIT_USAGE, "register takes plots in range and azimuth, not bearings");
     }
     for (struct input input = merged_inputs_next(inputs); input.scan;
          input = merged_inputs_next(inputs)) {
@@ -72,7 +71,7 @@ static void check_enough_radars(const struct register_data *data)
     }
     if (register_num_radars(data) == 1) {
         fail(EXIT_USAGE,
-             "register: only one radar is in the input; biases show in what two or more see");
+             "register: the input has only one radar; biases need targets that two or more see");
     }
 }
 
@@ -108,12 +107,12 @@ int command_register(struct command_line *line)
     result = register_estimate_biases(data, &pipeline);
     if (result.targets == 0) {
         fail(EXIT_RUNTIME, "register: no target was tracked by two radars at the same time, within "
-                           "3 km; nothing can be said of biases");
+                           "3 km; the biases are unknown");
     }
     print_biases(line, &result, rows_skipped);
     if (!register_knows_any_bias(&result)) {
         fail(EXIT_RUNTIME,
-             "register: %zu targets in common tell none of the biases to half of a plot's noise",
+             "register: %zu common targets are too few to know any bias to half of a plot's noise",
              result.targets);
     }
     if (line->output) {

@@ -55,8 +55,7 @@ static void refuse_config_option(const struct command_line *line)
         has_any = has_any || line->parameters.source[i] > SOURCE_METHOD;
     }
     if (has_any) {
-        fail(EXIT_USAGE,
-             "simulate: a scene takes no --config; what it tells stands in its settings");
+        fail(EXIT_USAGE, "simulate: a scene takes no --config; its parameters are in its settings");
     }
 }
 

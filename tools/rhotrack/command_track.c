@@ -533,8 +533,7 @@ static void suggest_next_command(const struct command_line *line)
     char *config = suggested_next_command_find_file_beside(plots, "scenario.ini");
 
     if (config && line->num_settings == 0 && isatty(STDERR_FILENO)) {
-        fprintf(stderr, "rhotrack: %s stands beside the plots and was not used (--config)\n",
-                config);
+        fprintf(stderr, "rhotrack: %s is beside the plots but was not used (--config)\n", config);
     }
     if (line->output && path_ends_with(line->output, ".csv") && truth &&
         suggested_next_command_can_read_file(line, truth)) {
@@ -587,7 +586,7 @@ int command_track(struct command_line *line)
     pipeline_show_close(tracking.show);
     pipeline_free(&tracking.pipeline);
     if (why) {
-        fail(EXIT_RUNTIME, "%s %s: it is followed no longer", line->arguments[0], why);
+        fail(EXIT_RUNTIME, "%s %s: --follow ends", line->arguments[0], why);
     }
     if (has_tracks) {
         suggest_next_command(line);

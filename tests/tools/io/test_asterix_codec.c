@@ -350,27 +350,27 @@ static void test_bad_records(void **state)
                      "the field specification of a record of CAT048 goes beyond its data block");
     check_bad_record(48, "010101010000", 0,
                      "the field specification of a record of CAT048 has 5 bytes");
-    check_bad_record(34, "010200", 2, "I034/SP says that it has no bytes");
-    check_bad_record(62, "400000", 0, "a record of CAT062 has an item at place 2, where none is");
+    check_bad_record(34, "010200", 2, "I034/SP has a length of 0");
+    check_bad_record(62, "400000", 0, "a record of CAT062 has an item at the undefined place 2");
     check_bad_record(48, "8001", 1, "I048/010 goes beyond its data block");
     check_bad_record(48, "21ff", 0,
                      "the field specification of a record of CAT048 goes beyond its data block");
     check_bad_record(48, "20ffff", 1, "I048/020 goes beyond its data block");
     check_bad_record(48, "0120ff", 2, "I048/250 goes beyond its data block");
-    check_bad_record(48, "010104a0", 3, "I048/120 has an item at place 3, where none is");
+    check_bad_record(48, "010104a0", 3, "I048/120 has an item at the undefined place 3");
     check_bad_record(48, "01010440ff00", 4, "I048/120/RDS goes beyond its data block");
-    check_bad_record(48, "010101040000", 4, "I048/SP says that it has no bytes");
-    check_bad_record(34, "0440", 1, "I034/050 has an item at place 2, where none is");
+    check_bad_record(48, "010101040000", 4, "I048/SP has a length of 0");
+    check_bad_record(34, "0440", 1, "I034/050 has an item at the undefined place 2");
     check_bad_record(9, "80", 0, "category 9 is not known");
     check_bad_record(1, "c0010203", 3, "I001/020 goes beyond its data block");
     check_bad_record(1, "010102", 3, "I001/RFS goes beyond its data block");
-    check_bad_record(1, "0101020110", 3, "I001/RFS has an item at place 16, where none is");
-    check_bad_record(1, "0101020115", 3, "I001/RFS has an item at place 21, where none is");
-    check_bad_record(1, "01010202", 3, "I001/RFS has an item at place 0, where none is");
+    check_bad_record(1, "0101020110", 3, "I001/RFS has an item at the undefined place 16");
+    check_bad_record(1, "0101020115", 3, "I001/RFS has an item at the undefined place 21");
+    check_bad_record(1, "01010202", 3, "I001/RFS has an item at the undefined place 0");
     check_bad_record(1, "010102010301", 5, "I001/040 goes beyond its data block");
     check_bad_record(1, "c1014001020000", 2,
-                     "a record of CAT001 has an item at place 16, where none is");
-    check_bad_record(2, "0108", 1, "a record of CAT002 has an item at place 12, where none is");
+                     "a record of CAT001 has an item at the undefined place 16");
+    check_bad_record(2, "0108", 1, "a record of CAT002 has an item at the undefined place 12");
 }
 
 static void test_blocks(void **state)
@@ -385,11 +385,13 @@ static void test_blocks(void **state)
     assert_ptr_equal(read.records, block + 3);
     assert_int_equal(read.size, 3);
     assert_false(asterix_block_read(block, 5, &read, &error));
-    assert_string_equal(error.reason, "a data block of category 48 has 6 bytes, and here are 5");
+    assert_string_equal(error.reason,
+                        "a data block of category 48 has 6 bytes, but only 5 are left");
     assert_false(asterix_block_read(block, 2, &read, &error));
-    assert_string_equal(error.reason, "a data block has 3 bytes at least, and here are 2");
+    assert_string_equal(error.reason, "a data block has at least 3 bytes, but only 2 are left");
     assert_false(asterix_block_read((const uint8_t[]){62, 0, 2}, 3, &read, &error));
-    assert_string_equal(error.reason, "a data block of category 62 says that it has 2 bytes");
+    assert_string_equal(error.reason,
+                        "a data block of category 62 has an invalid length of 2 bytes");
     assert_int_equal(error.at, 1);
 }
 

@@ -618,7 +618,7 @@ static void what_a_collection_counts(void **state)
     sent[1].data[0] ^= 1;
     assert_string_equal(
         rows_from_messages_add(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size, reason),
-        "no plot_scan_t, or of another version");
+        "not a plot_scan_t, or of another version");
     sent[1].data[0] ^= 1;
     sent[1].data[26] = 1; /* kind */
     assert_string_equal(

@@ -230,7 +230,7 @@ static void numbered_rows_may_go_back_within_their_scan_alone(void **state)
     assert_int_equal(gather.count, 2);
     assert_null(rows_to_scans_find_scan(&gather, 1, &other, 5 * SECOND));
     assert_false(rows_to_scans_check_time(&gather, NULL, 5 * SECOND, &check));
-    assert_string_equal(reason, "time goes back from 6.000000 s to 5.000000 s");
+    assert_string_equal(reason, "time decreases from 6.000000 s to 5.000000 s");
     rows_to_scans_free(&gather);
 }
 

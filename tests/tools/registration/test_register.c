@@ -17,6 +17,7 @@
 #include "pipeline/pipeline.h"
 #include "registration/cholesky.h"
 #include "registration/register.h"
+#include "registration/register_data.h"
 #include "scene_simulation.h"
 
 #define SEED 4711
@@ -300,6 +301,56 @@ static void test_refuses_what_it_cannot_use(void **state)
     register_free(data);
 }
 
+/* The radar of a refused scan was once added: its lack of plots then made it the reference. */
+static void a_refused_scan_adds_no_radar(void **state)
+{
+    struct parameters parameters;
+    parameters_set_defaults(&parameters);
+    struct register_data *data = register_start(&parameters);
+    struct rho_plot plot = lab_isotropic_plot(1000.0, 2000.0, 10.0);
+    struct rho_scan scan = {.time_us = 1, .sensor_id = 5, .num_plots = 1, .plots = &plot};
+    struct rho_sensor sensor = {.sensor_id = 5, .pd = 0.9f, .range_max_m = 1e5f};
+
+    (void)state;
+    assert_non_null(register_add_scan(data, &scan, &sensor));
+    assert_int_equal(register_num_radars(data), 0);
+    assert_int_equal(data->start_us, 0);
+    plot.sigma_cross_m = 20.0f;
+    scan.time_us = 7000000;
+    assert_null(register_add_scan(data, &scan, &sensor));
+    assert_int_equal(register_num_radars(data), 1);
+    assert_int_equal(data->start_us, 7000000);
+    register_free(data);
+}
+
+/* A radar of the lowest number whose scans have no plots leaves the biases of the others known. */
+static void a_radar_without_plots_is_no_reference(void **state)
+{
+    const struct telling telling = {.is_backwards = false};
+    struct heard heard = hear(0, NULL, 0);
+    struct register_data *data = register_start(&heard.parameters);
+    const struct rho_sensor silent = {.sensor_id = -3, .pd = 0.9f, .range_max_m = 1e5f};
+    const struct rho_scan empty = {.sensor_id = -3};
+    struct register_result result;
+
+    (void)state;
+    assert_null(register_add_scan(data, &empty, &silent));
+    for (size_t i = 0; i < heard.run->num_scans; i++) {
+        add(data, heard.run, &heard.run->scans[i], &telling);
+    }
+    result = register_estimate_biases(data, &chain);
+    assert_int_equal(result.num_radars, 3);
+    assert_int_equal(result.reference, 1);
+    for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
+        assert_false(result.radars[0].biases[kind].is_known);
+        assert_true(result.radars[1].biases[kind].is_known);
+        assert_true(result.radars[2].biases[kind].is_known);
+    }
+    register_result_free(&result);
+    register_free(data);
+    forget(&heard);
+}
+
 static void test_cholesky(void **state)
 {
     double matrix[9] = {4, 0, 0, 2, 5, 0, -2, 1, 6}, v[3] = {2, 13, 12}, work[3];
@@ -327,6 +378,8 @@ int main(void)
         cmocka_unit_test(test_noise_is_measured),
         cmocka_unit_test(test_says_what_it_cannot_know),
         cmocka_unit_test(test_refuses_what_it_cannot_use),
+        cmocka_unit_test(a_refused_scan_adds_no_radar),
+        cmocka_unit_test(a_radar_without_plots_is_no_reference),
         cmocka_unit_test(test_cholesky),
     };
 

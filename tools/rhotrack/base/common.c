@@ -88,7 +88,7 @@ void fail(int exit_code, const char *format, ...)
 static void *memory_or_fail(void *memory, size_t bytes)
 {
     if (!memory) {
-        fail(EXIT_RUNTIME, "out of memory: %zu bytes more are not there", bytes);
+        fail(EXIT_RUNTIME, "out of memory: %zu more bytes cannot be allocated", bytes);
     }
     return memory;
 }
@@ -346,6 +346,15 @@ const char *shortest_float_text(float value, char text[FLOAT_TEXT_BYTES])
     return text;
 }
 
+const char *time_text(int64_t time_us, char text[TIME_TEXT_BYTES])
+{
+    uint64_t magnitude = time_us < 0 ? 0 - (uint64_t)time_us : (uint64_t)time_us;
+
+    snprintf(text, TIME_TEXT_BYTES, "%s%" PRIu64 ".%06" PRIu64, time_us < 0 ? "-" : "",
+             magnitude / 1000000, magnitude % 1000000);
+    return text;
+}
+
 static int compare_descending(const void *a, const void *b)
 {
     return *(const int *)b - *(const int *)a;
@@ -406,8 +415,8 @@ void json_print_and_delete(struct cJSON *object)
 void print_if_only_last_taken(uint64_t taken, uint64_t total, const char *what)
 {
     if (total > taken) {
-        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " %s are taken\n", taken,
-                total, what);
+        fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " %s are used\n", taken, total,
+                what);
     }
 }
 
@@ -415,6 +424,13 @@ void print_rows_skipped(uint64_t rows)
 {
     if (rows > 0) {
         fprintf(stderr, "rhotrack: %" PRIu64 " bad rows skipped\n", rows);
+    }
+}
+
+void print_count_unless_zero(const char *path, uint64_t count, const char *what)
+{
+    if (count > 0) {
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " %s\n", path, count, what);
     }
 }
 

@@ -91,6 +91,10 @@ struct cJSON *sort_descending_into_json_list(int *values, int count);
 #define FLOAT_TEXT_BYTES 24
 const char *shortest_float_text(float value, char text[FLOAT_TEXT_BYTES]);
 
+/* Writes a time in seconds with six decimals. */
+#define TIME_TEXT_BYTES 24
+const char *time_text(int64_t time_us, char text[TIME_TEXT_BYTES]);
+
 bool text_begins_with(const char *text, const char *prefix);
 
 /* True where a path ends with a suffix, ignoring case: "NAME.LCM" ends with ".lcm". */
@@ -111,6 +115,9 @@ char *path_join(const char *folder, const char *name);
  */
 void print_if_only_last_taken(uint64_t taken, uint64_t total, const char *what);
 void print_rows_skipped(uint64_t rows);
+
+/* Prints `rhotrack: PATH: COUNT WHAT` on standard error, and nothing where the count is 0. */
+void print_count_unless_zero(const char *path, uint64_t count, const char *what);
 
 /* Monotonic clock, in microseconds. */
 int64_t clock_us(void);

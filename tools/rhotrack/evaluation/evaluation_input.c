@@ -112,11 +112,8 @@ static struct timed_point extrapolated_to_time(const struct timed_point *timed, 
 
 static struct alignment_times times_of_points(const struct points *points)
 {
-    int64_t *times_us = must_calloc(points->count + 1, sizeof *times_us);
-    for (size_t i = 0; i < points->count; i++) {
-        times_us[i] = points->list[i].time_us;
-    }
-    return (struct alignment_times){.list_us = times_us, .count = points->count};
+    return (struct alignment_times){
+        .first_us = &points->list->time_us, .stride = sizeof *points->list, .count = points->count};
 }
 
 /*
@@ -140,8 +137,6 @@ static void align_tracks_to_truth(struct points *tracks, const struct points *tr
         aligned.list[i] =
             extrapolated_to_time(&tracks->list[alignment.list[i].row], alignment.list[i].to_us);
     }
-    free(track_times.list_us);
-    free(truth_times.list_us);
     free(alignment.list);
     free(tracks->list);
     *tracks = aligned;

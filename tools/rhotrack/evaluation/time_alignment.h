@@ -17,9 +17,10 @@
 
 #define ALIGNMENT_LEAST_US 1000 /* times at most this far apart always count as equal */
 
+/* The times of an array of structs. */
 struct alignment_times {
-    int64_t *list_us;
-    size_t count;
+    const int64_t *first_us;
+    size_t stride, count; /* stride: bytes from one time to the next */
 };
 
 struct aligned_row {

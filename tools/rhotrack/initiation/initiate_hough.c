@@ -73,8 +73,8 @@ static void warn_of_long_search(const struct rho_hough *hough,
     }
     if (hough->config.method == RHO_HOUGH_MHT && pairs > PAIRS_MANY) {
         fprintf(stderr,
-                "rhotrack: %.3g pairs vote, which takes some %.0f passes over all of them; iht "
-                "leaves out those that no target can fly\n",
+                "rhotrack: %.3g pairs vote, in about %.0f passes over all of them; method iht "
+                "leaves out pairs that no target can fly\n",
                 pairs, ceil(2.0 * pairs / RHO_MAX_HOUGH_CELLS));
     }
 }

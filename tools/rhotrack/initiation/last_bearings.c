@@ -34,8 +34,8 @@ static void check_sensor_distance(const struct frame_sensor *a, const struct fra
 
     if (apart_m > apart_max_m) {
         fail(EXIT_USAGE,
-             "sensors %d and %d are %.0f m apart; cells of d_rho_m %.9g hold range_max_m %.9g and "
-             "%.0f m",
+             "sensors %d and %d are %.0f m apart; with cells of d_rho_m %.9g and range_max_m %.9g "
+             "they may be %.0f m apart at most",
              (int)a->sensor_id, (int)b->sensor_id, apart_m, parameters->value[PARAMETER_D_RHO_M],
              parameters->value[PARAMETER_RANGE_MAX_M], apart_max_m);
     }

@@ -21,8 +21,7 @@ struct sender_channel {
     char name[64];
     struct transport_sender last, before; /* the channel's last sender, and the one before */
     bool is_named;                        /* a warning of this pair of senders was printed */
-    /* heard_us: monotonic time of the last message, 0: none yet; longest_us: not used */
-    int64_t heard_us, longest_us;
+    int64_t heard_us;                     /* monotonic time of the last message; 0: none yet */
     /* monotonic time of the warning of a possible second sender; 0: never */
     int64_t told_us;
 };

@@ -293,7 +293,7 @@ struct node_log *node_log_open(const char *path, bool is_live, const struct node
     pthread_condattr_destroy(&attributes);
     pthread_mutex_init(&log->mutex, NULL);
     if (pthread_create(&log->thread, NULL, run_writer_thread, log) != 0) {
-        fail(EXIT_RUNTIME, "%s: no thread to write it", path);
+        fail(EXIT_RUNTIME, "%s: the thread that writes it cannot be started", path);
     }
     pthread_mutex_lock(&log->mutex);
     while (!log->is_open && !log->error && clock_us() < until_us) {
@@ -303,7 +303,9 @@ struct node_log *node_log_open(const char *path, bool is_live, const struct node
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(log->error));
     }
     if (!log->is_open) {
-        fprintf(stderr, "rhotrack: %s: does not open; tracks go on, the log begins when it does\n",
+        fprintf(stderr,
+                "rhotrack: %s: cannot be opened yet; tracking goes on, and the log begins once it "
+                "can\n",
                 path);
     }
     pthread_mutex_unlock(&log->mutex);
@@ -414,7 +416,8 @@ static void print_disk_error_change(struct node_log *log, int error, uint64_t wh
     if (error && error != log->error_said) {
         log->error_said = error;
         log->is_full_said = true;
-        fprintf(stderr, "rhotrack: %s: %s; it goes on without the log, and tries again in %d s\n",
+        fprintf(stderr,
+                "rhotrack: %s: %s; tracking goes on without the log; the next attempt is in %d s\n",
                 log->path, strerror(error), AGAIN_US / 1000000);
     } else if (!error && log->error_said && whole > log->whole_then) {
         log->error_said = 0;
@@ -425,7 +428,8 @@ static void print_disk_error_change(struct node_log *log, int error, uint64_t wh
 static void print_rotation_error(struct node_log *log, int refusal)
 {
     if (refusal && refusal != log->refusal_said) {
-        fprintf(stderr, "rhotrack: %s: cannot be put away, or an earlier file removed: %s\n",
+        fprintf(stderr,
+                "rhotrack: %s: cannot be renamed, or an earlier file cannot be removed: %s\n",
                 log->path, strerror(refusal));
     }
     log->refusal_said = refusal;
@@ -435,8 +439,10 @@ static void print_queue_full_once(struct node_log *log)
 {
     if (!log->is_full_said) {
         log->is_full_said = true;
-        fprintf(stderr, "rhotrack: %s: the disk takes no more; events are left out, tracks go on\n",
-                log->path);
+        fprintf(
+            stderr,
+            "rhotrack: %s: the disk is too slow or full; events are left out, tracking goes on\n",
+            log->path);
     }
 }
 

@@ -169,29 +169,21 @@ static void receive_and_publish_until_end(struct forwarding *forwarding, int rec
     free(datagram);
 }
 
-static void print_count_unless_zero(const struct forwarding *forwarding, uint64_t count,
-                                    const char *what)
-{
-    if (count > 0) {
-        fprintf(stderr, "rhotrack: %s: %" PRIu64 " %s\n", forwarding->url, count, what);
-    }
-}
-
 static void print_counts(const struct forwarding *forwarding)
 {
     const struct asterix_counts *counts = asterix_scans_counts(forwarding->scans);
 
     asterix_plot_rows_report_left_out(forwarding->url, counts);
-    print_count_unless_zero(forwarding, forwarding->heard.bad,
-                            "datagrams bad, from a place in them on");
-    print_count_unless_zero(forwarding, forwarding->heard.others,
+    print_count_unless_zero(forwarding->url, forwarding->heard.bad,
+                            "datagrams used up to an error in them");
+    print_count_unless_zero(forwarding->url, forwarding->heard.others,
                             "data blocks of other categories left out");
-    print_count_unless_zero(forwarding, forwarding->scans_early,
+    print_count_unless_zero(forwarding->url, forwarding->scans_early,
                             "scans left out before the radar's place was known");
     print_count_unless_zero(
-        forwarding, forwarding->scans_free,
+        forwarding->url, forwarding->scans_free,
         "plots left out, of radars without antenna messages: set scan_interval_s");
-    print_count_unless_zero(forwarding, forwarding->rows_skipped, "bad rows skipped");
+    print_count_unless_zero(forwarding->url, forwarding->rows_skipped, "bad rows skipped");
     fprintf(stderr,
             "rhotrack: %" PRIu64 " datagrams, %" PRIu64 " plots of %zu radars, %" PRIu64
             " scans sent\n",
@@ -215,10 +207,12 @@ int publish_asterix(const struct command_line *line)
     int receiver;
 
     if (line->num_arguments > 1 || line->loop) {
-        fail(EXIT_USAGE, "publish: %s is listened to alone, and not in a loop", line->arguments[0]);
+        fail(EXIT_USAGE, "publish: %s must be the only input, and without --loop",
+             line->arguments[0]);
     }
     if (line->speed < 1 || line->speed > 1) {
-        fail(EXIT_USAGE, "publish: %s is heard live, and --speed is for files", line->arguments[0]);
+        fail(EXIT_USAGE, "publish: %s is a live input, and --speed is for files",
+             line->arguments[0]);
     }
     parameters_check_together(&line->parameters);
     forwarding->line = line;

@@ -513,13 +513,12 @@ static void check_scan_fits_gate(const struct maintainer *maintainer, const stru
     }
     if (!(scan->measures & RHO_MEASURES_VELOCITY)) {
         fail(EXIT_USAGE,
-             "gate hough looks at velocities, and the scan at %.6f s has none: columns 'vx_mps' "
-             "and 'vy_mps' are wanted",
+             "gate hough needs velocities, and the scan at %.6f s has none: give columns 'vx_mps' "
+             "and 'vy_mps'",
              (double)scan->time_us * 1e-6);
     }
     if (usable_gate_planes(maintainer, scan->measures) == 0) {
-        fail(EXIT_USAGE,
-             "gate hough: the scan at %.6f s has no heights, so that planes must hold xy",
+        fail(EXIT_USAGE, "gate hough: the scan at %.6f s has no heights, so planes must contain xy",
              (double)scan->time_us * 1e-6);
     }
 }

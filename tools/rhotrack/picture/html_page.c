@@ -255,11 +255,6 @@ static void write_plot_arrays(FILE *file, const struct picture_data *data,
     free(claims.list);
 }
 
-static double number_in_column(const struct plot_point *point, const char *column)
-{
-    return table_number_or(point->table, point->row, table_find_column(point->table, column), NAN);
-}
-
 /*
  * Appends one row of a track, its columns in the order of the constants X .. CONFIRMED in page.js.
  */
@@ -269,16 +264,16 @@ static void append_track_row(struct bytes *rows, const struct plot_point *point)
     const bool has_ellipse = picture_data_sigma_ellipse(point, &ellipse);
     append_float(rows, point->x_m);
     append_float(rows, point->y_m);
-    append_float(rows, number_in_column(point, "z_m"));
+    append_float(rows, plot_data_number_in_column(point, "z_m"));
     append_float(rows, point->vx_mps);
     append_float(rows, point->vy_mps);
     append_float(rows, has_ellipse ? ellipse.major_m : NAN);
     append_float(rows, has_ellipse ? ellipse.minor_m : NAN);
     append_float(rows, has_ellipse ? ellipse.angle_rad : NAN);
-    append_float(rows, number_in_column(point, "sigma_mps"));
-    append_float(rows, number_in_column(point, "hits"));
-    append_float(rows, number_in_column(point, "misses"));
-    append_float(rows, number_in_column(point, "score_nat"));
+    append_float(rows, plot_data_number_in_column(point, "sigma_mps"));
+    append_float(rows, plot_data_number_in_column(point, "hits"));
+    append_float(rows, plot_data_number_in_column(point, "misses"));
+    append_float(rows, plot_data_number_in_column(point, "score_nat"));
     append_float(rows, point->is_tentative ? 0.0 : 1.0);
 }
 

@@ -179,14 +179,20 @@ static double largest_ring_radius_m(const struct map *map, const struct plot_rad
     return fmin(hypot(x_m, y_m), radar->range_max_m);
 }
 
-/* Writes an arc about the radar as a line of the data block; radius 0 is the radar itself. */
+/* Writes the point in this distance and direction from the radar as a row of the data block. */
+static void put_point(const struct map *map, const struct plot_radar *radar, double radius_m,
+                      double angle_rad)
+{
+    fprintf(map->script, "%.9g %.9g\n", (radar->x_m + radius_m * cos(angle_rad)) / map->unit_m,
+            (radar->y_m + radius_m * sin(angle_rad)) / map->unit_m);
+}
+
+/* Writes an arc about the radar as rows of the data block. */
 static void put_arc(const struct map *map, const struct plot_radar *radar, double radius_m,
                     double from_rad, double turn_rad)
 {
     for (int i = 0; i <= RING_POINTS; i++) {
-        const double angle_rad = from_rad + turn_rad * i / RING_POINTS;
-        fprintf(map->script, "%.9g %.9g\n", (radar->x_m + radius_m * cos(angle_rad)) / map->unit_m,
-                (radar->y_m + radius_m * sin(angle_rad)) / map->unit_m);
+        put_point(map, radar, radius_m, from_rad + turn_rad * i / RING_POINTS);
     }
 }
 
@@ -253,9 +259,9 @@ static void put_coverage_outline(const struct map *map, const struct plot_radar 
     if (turn_rad < 1e-6) {
         put_arc(map, radar, radar->range_max_m, 0.0, 2.0 * M_PI);
     } else {
-        put_arc(map, radar, 0.0, 0.0, 0.0);
+        put_point(map, radar, 0.0, 0.0);
         put_arc(map, radar, radar->range_max_m, radar->sector_from_rad, turn_rad);
-        put_arc(map, radar, 0.0, 0.0, 0.0);
+        put_point(map, radar, 0.0, 0.0);
     }
     fputc('\n', map->script);
 }

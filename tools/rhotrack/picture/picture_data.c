@@ -170,7 +170,7 @@ static void add_points_of_file(struct picture_data *data, const char *path,
         }
     }
     if (found == 0 && scans == 0) {
-        fail(EXIT_USAGE, "%s: no messages of plots, bearings, truth or tracks in it", path);
+        fail(EXIT_USAGE, "%s: contains no messages of plots, bearings, truth or tracks", path);
     }
 }
 
@@ -360,16 +360,17 @@ void picture_data_time_label(const struct picture_data *data, char *text, size_t
     }
 }
 
-static double number_in_column(const struct plot_point *point, const char *column)
+double plot_data_number_in_column(const struct plot_point *track, const char *column)
 {
-    return table_number_or(point->table, point->row, table_find_column(point->table, column), NAN);
+    return table_number_or(track->table, track->row, table_find_column(track->table, column), NAN);
 }
 
 bool picture_data_sigma_ellipse(const struct plot_point *track, struct plot_ellipse *ellipse)
 {
-    const double xx = number_in_column(track, "cov_x_x"), yx = number_in_column(track, "cov_y_x");
-    const double yy = number_in_column(track, "cov_y_y"),
-                 sigma_m = number_in_column(track, "sigma_m");
+    const double xx = plot_data_number_in_column(track, "cov_x_x"),
+                 yx = plot_data_number_in_column(track, "cov_y_x");
+    const double yy = plot_data_number_in_column(track, "cov_y_y"),
+                 sigma_m = plot_data_number_in_column(track, "sigma_m");
     if (isnan(xx) || isnan(yx) || isnan(yy)) {
         *ellipse = (struct plot_ellipse){sigma_m, sigma_m, 0.0};
         return !isnan(sigma_m);

@@ -93,6 +93,9 @@ size_t picture_data_count_identities(const struct plot_points *points);
 int64_t picture_data_time_origin_us(const struct picture_data *data);
 void picture_data_time_label(const struct picture_data *data, char *text, size_t size);
 
+/* The number that a track's row has in this column; NAN without such a column or number. */
+double plot_data_number_in_column(const struct plot_point *track, const char *column);
+
 /*
  * One-sigma ellipse of a track's position by its covariance columns, or sigma_m; false where the
  * row has neither.

@@ -109,11 +109,8 @@ static struct plot_points confirmed_points_by_time(const struct plot_points *poi
 
 static struct alignment_times times_of_points(const struct plot_points *points)
 {
-    int64_t *times_us = must_calloc(points->count + 1, sizeof *times_us);
-    for (size_t i = 0; i < points->count; i++) {
-        times_us[i] = points->list[i].time_us;
-    }
-    return (struct alignment_times){.list_us = times_us, .count = points->count};
+    return (struct alignment_times){
+        .first_us = &points->list->time_us, .stride = sizeof *points->list, .count = points->count};
 }
 
 static struct plot_point extrapolated_to_time(const struct plot_point *point, int64_t to_us)
@@ -148,8 +145,6 @@ static struct plot_points align_tracks_to_truth(const struct picture_data *data,
             extrapolated_to_time(&tracks.list[alignment.list[i].row], alignment.list[i].to_us);
     }
     free(alignment.list);
-    free(truth_times.list_us);
-    free(track_times.list_us);
     free(truth.list);
     free(tracks.list);
     return aligned;

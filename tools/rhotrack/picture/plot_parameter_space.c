@@ -106,7 +106,8 @@ struct revolutions plot_parameter_space_read(const struct picture_data *data,
     uint32_t num_plots = 0;
     for (int i = 0; i < data->num_plot_paths; i++) {
         if (regular_file_size_or_zero(data->plot_paths[i]) == 0) {
-            fail(EXIT_USAGE, "plot parameter-space: %s: plots are read twice; give them as a file",
+            fail(EXIT_USAGE,
+                 "plot parameter-space: %s: plots are read twice and cannot come through a pipe",
                  data->plot_paths[i]);
         }
     }

@@ -69,8 +69,8 @@ void pipeline_options_to_parameters(struct parameters *parameters,
         parameters_set_gate(parameters, options->gate);
     }
     if (parameters->value[PARAMETER_GATE] >= RHO_NUM_TRACKER_GATES) {
-        fail(EXIT_USAGE, "gate none draws plots at random: that is for `maintain`; there are best, "
-                         "hough and nearest");
+        fail(EXIT_USAGE, "gate none, which draws plots at random, is only for `maintain`; use "
+                         "best, hough or nearest");
     }
     if (method_of_plots(parameters) != METHOD_KERNEL) {
         struct rho_paper_starts_config customary;

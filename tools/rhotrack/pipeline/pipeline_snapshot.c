@@ -278,7 +278,7 @@ enum pipeline_restored pipeline_restore_snapshot(struct pipeline *pipeline,
     uint8_t *image = read_file_if_present(path, &size);
 
     if (size > 0 && (size < 8 || memcmp(image, magic, 8) != 0)) {
-        fail(EXIT_USAGE, "%s: is no snapshot, and would be written over", path);
+        fail(EXIT_USAGE, "%s: not a snapshot, and would be overwritten", path);
     }
     if (size > 0) {
         restored = replace_pipeline_by_snapshot(pipeline, parameters, path, image, size);

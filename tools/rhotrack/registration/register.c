@@ -23,15 +23,33 @@ struct register_data *register_start(const struct parameters *parameters)
     return data;
 }
 
-static struct radar_data *find_or_add_radar(struct register_data *data,
-                                            const struct rho_sensor *sensor)
+/* Index of the radar with this sensor_id, or of the place at which it is to be inserted. */
+static size_t position_of_radar(const struct register_data *data, int32_t sensor_id)
 {
     size_t at = 0;
 
-    while (at < data->num_radars && data->radars[at].sensor.sensor_id < sensor->sensor_id) {
+    while (at < data->num_radars && data->radars[at].sensor.sensor_id < sensor_id) {
         at++;
     }
-    if (at < data->num_radars && data->radars[at].sensor.sensor_id == sensor->sensor_id) {
+    return at;
+}
+
+/* The radar with this sensor_id, or NULL where no scan of it was added. */
+static struct radar_data *find_radar(const struct register_data *data, int32_t sensor_id)
+{
+    size_t at = position_of_radar(data, sensor_id);
+
+    return at < data->num_radars && data->radars[at].sensor.sensor_id == sensor_id
+               ? &data->radars[at]
+               : NULL;
+}
+
+static struct radar_data *find_or_add_radar(struct register_data *data,
+                                            const struct rho_sensor *sensor)
+{
+    size_t at = position_of_radar(data, sensor->sensor_id);
+
+    if (find_radar(data, sensor->sensor_id)) {
         return &data->radars[at];
     }
     data->radars = must_make_room_for_one(data->radars, data->num_radars, &data->radars_room,
@@ -44,14 +62,14 @@ static struct radar_data *find_or_add_radar(struct register_data *data,
 }
 
 /*
- * Why the scan cannot be used for registration, or NULL. Polar plots are recognised by unequal
- * sigmas: the library gives Cartesian plots equal ones.
+ * Why the scan cannot be used for registration, or NULL. The radar is NULL for its first scan.
+ * Polar plots are recognised by unequal sigmas: the library gives Cartesian plots equal ones.
  */
 static const char *reason_scan_is_unfit(const struct rho_scan *scan, const struct radar_data *radar,
                                         const struct rho_sensor *sensor)
 {
-    if (radar->sensor.x_m != sensor->x_m || radar->sensor.y_m != sensor->y_m) {
-        return "it moves; radars that are registered stand still";
+    if (radar && (radar->sensor.x_m != sensor->x_m || radar->sensor.y_m != sensor->y_m)) {
+        return "it moves; register takes only radars that stand still";
     }
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
@@ -104,7 +122,7 @@ void register_add_unchecked_scan(struct register_data *data, const struct rho_sc
 const char *register_add_scan(struct register_data *data, const struct rho_scan *scan,
                               const struct rho_sensor *sensor)
 {
-    const char *reason = reason_scan_is_unfit(scan, find_or_add_radar(data, sensor), sensor);
+    const char *reason = reason_scan_is_unfit(scan, find_radar(data, sensor->sensor_id), sensor);
 
     if (!reason) {
         register_add_unchecked_scan(data, scan, sensor);
@@ -133,6 +151,10 @@ void register_free(struct register_data *data)
 
 /* ---- the estimate ---- */
 
+/*
+ * The radar that the parameters name, else the first one with plots: the time of a radar without
+ * plots says nothing of the others' times.
+ */
 static size_t find_reference_radar(const struct register_data *data)
 {
     const struct parameters *parameters = data->parameters;
@@ -140,17 +162,26 @@ static size_t find_reference_radar(const struct register_data *data)
     if (parameters_is_set(parameters, PARAMETER_REFERENCE_SENSOR)) {
         int32_t sensor_id = (int32_t)parameters->value[PARAMETER_REFERENCE_SENSOR];
 
-        for (size_t i = 0; i < data->num_radars; i++) {
-            if (data->radars[i].sensor.sensor_id == sensor_id) {
-                return i;
-            }
+        const struct radar_data *radar = find_radar(data, sensor_id);
+
+        if (!radar || radar->num_plots == 0) {
+            fail(EXIT_USAGE, "reference_sensor %d: the input has no plots of this radar",
+                 (int)sensor_id);
         }
-        fail(EXIT_USAGE, "reference_sensor %d is none of the input's radars", (int)sensor_id);
+        return (size_t)(radar - data->radars);
+    }
+    for (size_t i = 0; i < data->num_radars; i++) {
+        if (data->radars[i].num_plots > 0) {
+            return i;
+        }
     }
     return 0;
 }
 
-/* Mean noise of a plot of the radar in range, azimuth and time (range noise over speed_mps). */
+/*
+ * Mean noise of a plot of the radar in range, azimuth and time (range noise over speed_mps); 0 for
+ * a radar without plots.
+ */
 static void mean_plot_noise(const struct radar_data *radar, double speed_mps,
                             double noise[NUM_REGISTER_KINDS])
 {
@@ -160,8 +191,8 @@ static void mean_plot_noise(const struct radar_data *radar, double speed_mps,
         range_m += radar->plots[i].sigma_range_m;
         azimuth_rad += radar->plots[i].sigma_cross_m / radar->plots[i].range_m;
     }
-    noise[REGISTER_RANGE] = range_m / (double)radar->num_plots;
-    noise[REGISTER_AZIMUTH] = azimuth_rad / (double)radar->num_plots;
+    noise[REGISTER_RANGE] = range_m / fmax(1.0, (double)radar->num_plots);
+    noise[REGISTER_AZIMUTH] = azimuth_rad / fmax(1.0, (double)radar->num_plots);
     noise[REGISTER_TIME] = noise[REGISTER_RANGE] / speed_mps;
 }
 

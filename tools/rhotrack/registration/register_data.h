@@ -21,7 +21,6 @@ struct radar_plot {
 
 struct radar_scan {
     int64_t time_us;
-    uint32_t measures;
     double from_rad, to_rad;
     size_t first, count; /* index of the scan's first plot, and number of its plots */
 };

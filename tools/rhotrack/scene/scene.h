@@ -23,7 +23,6 @@
 #define SCENE_SENSORS_MAX 16 /* most radars, and most passive sensors */
 #define SCENE_ITEMS_MAX 32   /* most clutter sources, most events */
 #define SCENE_CURVE_MAX 16
-#define SCENE_TARGETS_MAX 100000
 #define SCENE_SCANS_MAX 10000000
 
 /*

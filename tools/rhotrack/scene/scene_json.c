@@ -209,16 +209,16 @@ struct json_file json_open(const char *name, const char *text, size_t length)
     }
     file.root = cJSON_ParseWithOpts(text, &end, 0);
     if (!file.root && (!end || !*skip_space(end))) {
-        fail(EXIT_USAGE, "%s:%zu: no JSON: it ends too early, or with a comma too many", name,
+        fail(EXIT_USAGE, "%s:%zu: not valid JSON: it ends too early, or has an extra comma", name,
              line_number_at(text, text + length));
     }
     if (!file.root) {
-        fail(EXIT_USAGE, "%s:%zu: no JSON near '%.*s'", name, line_number_at(text, end),
+        fail(EXIT_USAGE, "%s:%zu: not valid JSON near '%.*s'", name, line_number_at(text, end),
              (int)strcspn(end, "\r\n"), end);
     }
     end = skip_space(end);
     if (*end) {
-        fail(EXIT_USAGE, "%s:%zu: more text behind the end of the scene", name,
+        fail(EXIT_USAGE, "%s:%zu: more text after the end of the scene", name,
              line_number_at(text, end));
     }
     if (!cJSON_IsObject(file.root)) {
@@ -293,14 +293,14 @@ static _Noreturn void fail_unknown_path(const char *assignment, const cJSON *ite
     const char *hint = NULL;
 
     if (cJSON_IsArray(item)) {
-        fail(EXIT_USAGE, "--set %s: there is no such place in the scene: '%s' of a list of %d",
+        fail(EXIT_USAGE, "--set %s: the scene has no such element: '%s' of a list of %d",
              assignment, key, cJSON_GetArraySize(item));
     }
     if (cJSON_IsObject(item)) {
         hinted_item = item;
         hint = name_hint_nearest(key, hinted_member_name);
     }
-    fail(EXIT_USAGE, "--set %s: there is no such place in the scene: '%s'%s%s%s", assignment, key,
+    fail(EXIT_USAGE, "--set %s: the scene has no such key: '%s'%s%s%s", assignment, key,
          hint ? ", did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
 }
 
@@ -353,12 +353,12 @@ static struct json_object checked_object(struct json_place place, const cJSON *i
     struct json_object object = {.place = place, .item = item};
 
     if (!cJSON_IsObject(item)) {
-        json_fail(&place, "must be an object, {...}, and is %s", json_kind_name(item));
+        json_fail(&place, "must be an object, {...}, but is %s", json_kind_name(item));
     }
     for (const cJSON *one = item->child; one; one = one->next) {
         for (const cJSON *other = one->next; other; other = other->next) {
             if (!strcmp(one->string, other->string)) {
-                json_fail_key(&object, one->string, "is there twice");
+                json_fail_key(&object, one->string, "occurs twice");
             }
         }
     }
@@ -410,7 +410,7 @@ static double checked_number(const struct json_place *place, const cJSON *item, 
                              double max)
 {
     if (!cJSON_IsNumber(item)) {
-        json_fail(place, "must be a number, and is %s", json_kind_name(item));
+        json_fail(place, "must be a number, but is %s", json_kind_name(item));
     }
     if (!(item->valuedouble >= min && item->valuedouble <= max)) {
         json_fail(place, "%.10g is outside %.10g .. %.10g", item->valuedouble, min, max);
@@ -443,7 +443,7 @@ bool json_read_flag(struct json_object *object, const char *key, bool otherwise)
     const cJSON *item = get_and_note_key(object, key);
 
     if (item && !cJSON_IsBool(item)) {
-        json_fail_key(object, key, "must be true or false, and is %s", json_kind_name(item));
+        json_fail_key(object, key, "must be true or false, but is %s", json_kind_name(item));
     }
     return item ? cJSON_IsTrue(item) : otherwise;
 }
@@ -453,7 +453,7 @@ const char *json_read_text(struct json_object *object, const char *key, const ch
     const cJSON *item = get_and_note_key(object, key);
 
     if (item && !cJSON_IsString(item)) {
-        json_fail_key(object, key, "must be a text, and is %s", json_kind_name(item));
+        json_fail_key(object, key, "must be a text, but is %s", json_kind_name(item));
     }
     return item ? item->valuestring : otherwise;
 }
@@ -483,6 +483,15 @@ bool json_read_numbers(struct json_object *object, const char *key, size_t count
         read_numbers(&place, item, count, min, max, numbers);
     }
     return item != NULL;
+}
+
+void json_read_xy(struct json_object *object, const char *key, double max, double *x, double *y)
+{
+    double numbers[2] = {*x, *y};
+
+    json_read_numbers(object, key, 2, -max, max, numbers);
+    *x = numbers[0];
+    *y = numbers[1];
 }
 
 struct json_span json_read_span(struct json_object *object, const char *key, double min, double max,
@@ -542,11 +551,11 @@ struct json_list json_read_list(struct json_object *object, const char *key, siz
                              .item = get_and_note_key(object, key)};
 
     if (list.item && !cJSON_IsArray(list.item)) {
-        json_fail(&list.place, "must be a list, [...], and is %s", json_kind_name(list.item));
+        json_fail(&list.place, "must be a list, [...], but is %s", json_kind_name(list.item));
     }
     list.count = list.item ? (size_t)cJSON_GetArraySize(list.item) : 0;
     if (list.count > max) {
-        json_fail(&list.place, "has %zu elements; %zu are the most", list.count, max);
+        json_fail(&list.place, "has %zu elements; at most %zu are allowed", list.count, max);
     }
     return list;
 }

@@ -89,6 +89,12 @@ struct json_span json_read_span(struct json_object *object, const char *key, dou
 bool json_read_numbers(struct json_object *object, const char *key, size_t count, double min,
                        double max, double *numbers);
 
+/*
+ * Reads a list of two numbers within -max .. max; leaves *x and *y as they are where the key is
+ * missing.
+ */
+void json_read_xy(struct json_object *object, const char *key, double max, double *x, double *y);
+
 /* Reads a text that must be one of `words`, and returns its index. */
 size_t json_read_choice(struct json_object *object, const char *key, const char *const *words,
                         size_t count, size_t otherwise);

@@ -33,15 +33,6 @@ static struct scene_coverage read_coverage(struct json_object *object,
     return coverage;
 }
 
-static void read_xy(struct json_object *object, const char *key, double max, double *x, double *y)
-{
-    double numbers[2] = {*x, *y};
-
-    json_read_numbers(object, key, 2, -max, max, numbers);
-    *x = numbers[0];
-    *y = numbers[1];
-}
-
 static void read_from_and_until(struct json_object *object, double *from_s, double *until_s)
 {
     *from_s = json_read_number(object, "from_s", -DURATION_MAX_S, DURATION_MAX_S, -INFINITY);
@@ -93,7 +84,7 @@ static struct scene_curve read_pd_curve(struct json_object *object, const char *
                 json_fail(&list.place, "a probability of %.10g is above 1", point[1]);
             }
             if (curve.count > 0 && point[0] <= curve.range_m[curve.count - 1]) {
-                json_fail(&list.place, "ranges must grow");
+                json_fail(&list.place, "ranges must increase");
             }
             curve.range_m[curve.count] = point[0];
             curve.value[curve.count] = point[1];
@@ -144,7 +135,7 @@ static void read_told_values(struct json_object *object, struct scene_sensor *se
         told->range_bias_m = json_read_number(&below, "range_bias_m", -1e4, 1e4, 0);
         told->notch = scene_notch_read_told(&below, told->notch);
     }
-    read_xy(&below, "at_m", PLACE_MAX_M, &told->x_m, &told->y_m);
+    json_read_xy(&below, "at_m", PLACE_MAX_M, &told->x_m, &told->y_m);
     told->azimuth_bias_rad = json_read_number(&below, "azimuth_bias_rad", -0.5, 0.5, 0);
     told->time_bias_s = json_read_number(&below, "time_bias_s", -10, 10, 0);
     told->coverage = read_coverage(&below, told->coverage);
@@ -243,10 +234,10 @@ static void read_and_append_sensor(struct scene *scene, struct json_object *obje
         (int32_t)json_read_count(object, "sensor_id", 0, 32767, (uint64_t)scene->num_sensors + 1);
     for (size_t i = 0; i < scene->num_sensors; i++) {
         if (scene->sensors[i].sensor_id == sensor->sensor_id) {
-            json_fail_key(object, "sensor_id", "sensor %d is there already", sensor->sensor_id);
+            json_fail_key(object, "sensor_id", "sensor %d is defined twice", sensor->sensor_id);
         }
     }
-    read_xy(object, "at_m", PLACE_MAX_M, &sensor->x_m, &sensor->y_m);
+    json_read_xy(object, "at_m", PLACE_MAX_M, &sensor->x_m, &sensor->y_m);
     read_antenna_motion(object, sensor);
     if (is_passive) {
         read_passive_sensor(object, sensor);
@@ -263,7 +254,9 @@ static void read_and_append_sensor(struct scene *scene, struct json_object *obje
     json_refuse_unknown_keys(object);
     if (!is_passive && scene->num_sensors > 0 &&
         scene->sensors[0].is_cartesian != sensor->is_cartesian) {
-        json_fail(&object->place, "radars measure all range and azimuth, or all places (sigma_m)");
+        json_fail(
+            &object->place,
+            "all radars must measure range and azimuth, or all must measure positions (sigma_m)");
     }
     scene->num_sensors++;
 }
@@ -330,8 +323,8 @@ static void read_clutter_cell(struct json_object *object, struct scene_clutter *
     clutter->plots = json_read_number(object, "plots", 0, PLOTS_MAX, 0);
     clutter->is_disc = json_read_choice(object, "shape", shapes, 2, 0) == 1;
     clutter->radius_m = json_read_number(object, "radius_m", 1, PLACE_MAX_M, 0);
-    read_xy(object, "at_m", PLACE_MAX_M, &clutter->x_m, &clutter->y_m);
-    read_xy(object, "velocity_mps", 2e4, &clutter->vx_mps, &clutter->vy_mps);
+    json_read_xy(object, "at_m", PLACE_MAX_M, &clutter->x_m, &clutter->y_m);
+    json_read_xy(object, "velocity_mps", 2e4, &clutter->vx_mps, &clutter->vy_mps);
     clutter->rate_sigma_mps = json_read_number(object, "range_rate_sigma_mps", 0, 1e3, 0);
 }
 
@@ -386,8 +379,8 @@ static void read_bird_flock(struct json_object *object, struct scene_clutter *cl
     json_require_key(object, "radius_m");
     clutter->count = json_read_count(object, "count", 0, 10000, 0);
     clutter->radius_m = json_read_number(object, "radius_m", 1, PLACE_MAX_M, 0);
-    read_xy(object, "at_m", PLACE_MAX_M, &clutter->x_m, &clutter->y_m);
-    read_xy(object, "velocity_mps", 2e4, &clutter->vx_mps, &clutter->vy_mps);
+    json_read_xy(object, "at_m", PLACE_MAX_M, &clutter->x_m, &clutter->y_m);
+    json_read_xy(object, "velocity_mps", 2e4, &clutter->vx_mps, &clutter->vy_mps);
     clutter->speed_mps = json_read_number(object, "speed_mps", 0, 2e4, 0);
     clutter->pd = json_read_number(object, "pd", 0, 1, 1);
 }
@@ -480,7 +473,7 @@ static void read_fades_event(struct json_object *object, struct scene_event *eve
         double index = json_element_number(&list, i, 0, 31);
 
         if (index != floor(index)) {
-            json_fail(&list.place, "%g is no index of targets[]", index);
+            json_fail(&list.place, "%g is not an index of targets[]", index);
         }
         event->targets |= UINT32_C(1) << (unsigned)index;
     }
@@ -547,10 +540,11 @@ static void read_settings(struct scene *scene, struct json_object *root)
         }
         if (strchr(one->string, '.') ||
             !parameters_assign(&parameters, one->string, value, SOURCE_CONFIG, reason)) {
-            json_fail_key(&settings, one->string, "%s",
-                          strchr(one->string, '.')
-                              ? "what a tracker is told of a sensor stands in its told"
-                              : reason);
+            json_fail_key(
+                &settings, one->string, "%s",
+                strchr(one->string, '.')
+                    ? "values that a tracker is given for a sensor belong in the sensor's `told`"
+                    : reason);
         }
         if (used + strlen(one->string) + strlen(value) + 5 > room) {
             json_fail(&settings.place, "too many settings");

@@ -26,7 +26,7 @@ static char *read_file(const char *path, size_t *length)
         text = must_make_room_for_one(text, *length, &room, 1);
         text[(*length)++] = (char)byte;
         if (*length > SCENE_BYTES_MAX) {
-            fail(EXIT_USAGE, "%s: no scene has more than 16 MiB", path);
+            fail(EXIT_USAGE, "%s: larger than 16 MiB, the limit for a scene", path);
         }
     }
     if (ferror(file)) {

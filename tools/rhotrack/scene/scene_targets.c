@@ -15,6 +15,7 @@
 #define LEGS_MAX 1000
 #define ITEMS_MAX 1000
 #define GROUP_MAX 10000
+#define TARGETS_MAX 100000
 #define DRAFTS_MAX 10000
 #define KEEP_STEP_S 1.0 /* interval at which a path is checked against its limits */
 /* share of the largest allowed range beyond which random turns lead back to the centre */
@@ -364,8 +365,8 @@ static struct scene_path draw_path_within_limits(const struct target_draft *draf
         path_free(&path);
     }
     fail(EXIT_USAGE,
-         "%s: targets[%zu]: none of %d random paths keeps within %s; take a shorter life_s, "
-         "less speed, or turns, which lead back",
+         "%s: targets[%zu]: none of %d random paths keeps within %s; take a shorter life_s, less "
+         "speed, or turns that lead back",
          draft->file, draft->index, DRAFTS_MAX, name_of_limit(draft->item));
 }
 
@@ -435,8 +436,8 @@ struct scene_path *targets_draw_paths(const struct scene_targets *targets, const
 
             draw_paths_of_group_member(&paths, &draft, &random);
         }
-        if (paths.count > 100000) {
-            fail(EXIT_USAGE, "%s: targets: more than 100000 of them", file);
+        if (paths.count > TARGETS_MAX) {
+            fail(EXIT_USAGE, "%s: targets: more than %d of them", file, TARGETS_MAX);
         }
     }
     free(first);
@@ -455,15 +456,6 @@ static bool read_xy_or_xyz(struct json_object *object, const char *key, double m
 
     *has_height = *has_height || count == 3;
     return json_read_numbers(object, key, count, -max, max, vector);
-}
-
-static void read_xy(struct json_object *object, const char *key, double *x_m, double *y_m)
-{
-    double place_m[2] = {*x_m, *y_m};
-
-    json_read_numbers(object, key, 2, -PLACE_MAX_M, PLACE_MAX_M, place_m);
-    *x_m = place_m[0];
-    *y_m = place_m[1];
 }
 
 static struct path_step read_leg(struct json_object object, bool *has_height)
@@ -495,7 +487,7 @@ static struct path_step read_leg(struct json_object object, bool *has_height)
         json_fail_key(&object, "turn_deg", "needs across_mps2 or turn_degps, other than 0");
     }
     if (!json_has_key(&object, "for_s") && !step.has_speed && !json_has_key(&object, "turn_deg")) {
-        json_fail(&object.place, "says no end: for_s, to_speed_mps or turn_deg");
+        json_fail(&object.place, "has no end: give for_s, to_speed_mps or turn_deg");
     }
     json_refuse_unknown_keys(&object);
     return step;
@@ -539,12 +531,12 @@ static void read_parent_target(struct json_object *object, struct target_item *i
     item->parent = json_read_count(object, "parent", 0, ITEMS_MAX, 0);
     if (item->parent >= before->count || before->items[item->parent].count > 0 ||
         before->items[item->parent].flights > 0) {
-        json_fail_key(object, "parent", "targets[%zu] is no path before this one", item->parent);
+        json_fail_key(object, "parent", "targets[%zu] is not an earlier path", item->parent);
     }
     parent = &before->items[item->parent];
     json_require_key(object, "from_s");
     if (item->from_s < parent->from_s || item->from_s > parent->until_s) {
-        json_fail_key(object, "from_s", "the parent is not there then");
+        json_fail_key(object, "from_s", "the parent does not exist at that time");
     }
     item->speed_change_mps =
         json_read_number(object, "speed_change_mps", -SPEED_MAX_MPS, SPEED_MAX_MPS, 0);
@@ -569,7 +561,7 @@ static void read_path_points(struct json_object *object, struct target_item *ite
     for (size_t i = 0; i < list.count; i++) {
         json_element_numbers(&list, i, 3, -PLACE_MAX_M, PLACE_MAX_M, item->points[i]);
         if (i > 0 && item->points[i][0] <= item->points[i - 1][0]) {
-            json_fail(&list.place, "times must grow");
+            json_fail(&list.place, "times must increase");
         }
     }
     item->from_s = item->points[0][0];
@@ -723,7 +715,7 @@ static void read_target_group(struct json_object *object, struct target_item *it
 
     item->count = json_read_count(object, "count", 1, GROUP_MAX, 0);
     read_life_times(object, item);
-    read_xy(object, "about_m", &item->about_x_m, &item->about_y_m);
+    json_read_xy(object, "about_m", PLACE_MAX_M, &item->about_x_m, &item->about_y_m);
     read_box(object, item);
     item->range = json_read_span(object, "range_m", 0, PLACE_MAX_M, (struct json_span){0});
     item->azimuth = json_read_span(object, "azimuth_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);

@@ -120,8 +120,8 @@ static double must_count_rho_cells(double range_m, double cell_m)
 
     if (2.0 * cells > RHO_MAX_RHO_CELLS) {
         fail(EXIT_USAGE,
-             "plots %.0f m from the origin take %.0f cells of rho at d_rho_m %.9g; there are %d: "
-             "d_rho_m %.3g would do",
+             "plots %.0f m from the origin need %.0f cells of rho at d_rho_m %.9g, and %d is the "
+             "limit: d_rho_m %.3g is enough",
              range_m, 2.0 * cells, cell_m, RHO_MAX_RHO_CELLS, smallest_rho_cell_m(range_m));
     }
     return cells;
@@ -199,11 +199,11 @@ static void check_bearing_parameters(const struct parameters *parameters, int rh
              value[PARAMETER_RANGE_MAX_M]);
     }
     if (cells > rho_cells) {
-        fail(EXIT_USAGE, "range_max_m %.9g takes %.0f cells of d_rho_m %.9g; there are %d",
+        fail(EXIT_USAGE, "range_max_m %.9g needs %.0f cells of d_rho_m %.9g; the limit is %d",
              value[PARAMETER_RANGE_MAX_M], ceil(cells), value[PARAMETER_D_RHO_M], rho_cells);
     }
     if (M_PI / value[PARAMETER_D_THETA_RAD] > theta_cells + 0.5) {
-        fail(EXIT_USAGE, "d_theta_rad %.9g takes %.0f cells over half a turn; there are %d",
+        fail(EXIT_USAGE, "d_theta_rad %.9g needs %.0f cells over half a turn; the limit is %d",
              value[PARAMETER_D_THETA_RAD], ceil(M_PI / value[PARAMETER_D_THETA_RAD]), theta_cells);
     }
 }
@@ -244,7 +244,7 @@ struct rho_passive_paper_config method_passive_paper_config(const struct paramet
     suggest_rho_cells_for_bearings(&fitted, RHO_PAPER_RHO_CELLS);
     check_bearing_parameters(&fitted, RHO_PAPER_RHO_CELLS, RHO_PAPER_THETA_CELLS);
     if (value[PARAMETER_VOTES_MIN] > 255) {
-        fail(EXIT_USAGE, "votes_min %.9g is more than 255, what passive-paper counts to",
+        fail(EXIT_USAGE, "votes_min %.9g is more than 255, the most that passive-paper counts",
              value[PARAMETER_VOTES_MIN]);
     }
     rho_passive_paper_config_default(&config);

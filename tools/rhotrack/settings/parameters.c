@@ -316,7 +316,7 @@ static const char *why_not_sensor_name(const char *value)
     }
     for (const char *c = value; *c; c++) {
         if ((unsigned char)*c < ' ' || *c == 127 || *c == '"' || *c == '\\') {
-            return "has characters that are none of a name";
+            return "has characters that a name cannot have";
         }
     }
     return !*value ? "is empty" : is_utf8(value) ? NULL : "is not UTF-8";
@@ -403,7 +403,7 @@ static bool assign_allowed_sensors(struct parameters *parameters, const char *va
         if (bytes >= (int)sizeof digits || parse_int32_or_give_reason(digits, &sensor_id) ||
             sensor_id != (int16_t)sensor_id) {
             snprintf(reason, PARAMETER_REASON_BYTES,
-                     "sensors_allowed '%.*s' is no number of a sensor", bytes < 60 ? bytes : 60,
+                     "sensors_allowed '%.*s' is not a sensor's number", bytes < 60 ? bytes : 60,
                      value);
             return false;
         }

@@ -339,8 +339,9 @@ void parameters_check_together(const struct parameters *parameters);
 void parameters_locate_sensors(struct parameters *parameters);
 
 /*
- * Whether the origin of the local frame is set, and the local frame at that origin, to be closed by
- * the caller. An unset origin_alt_m counts as 0.
+ * Whether the origin of the local frame is set (exit 2 where only one of its latitude and longitude
+ * is), and the local frame at that origin, to be closed by the caller. An unset origin_alt_m counts
+ * as 0.
  */
 bool parameters_has_origin(const struct parameters *parameters);
 struct local_frame;

@@ -10,8 +10,8 @@
 #include "io/csv/local_frame.h"
 #include "settings/parameters.h"
 
-const char parameters_no_origin[] = "origin_lat_deg and origin_lon_deg are not set, where the "
-                                    "local frame has its origin (--set or --config)";
+const char parameters_no_origin[] = "origin_lat_deg and origin_lon_deg are not set; they are the "
+                                    "origin of the local frame (--set or --config)";
 
 static bool is_sensor_value_set(const struct sensor_parameters *sensor, enum sensor_parameter_id id)
 {
@@ -35,8 +35,14 @@ static const struct sensor_parameters *find_sensor_on_earth(const struct paramet
 
 bool parameters_has_origin(const struct parameters *parameters)
 {
-    return parameters_is_set(parameters, PARAMETER_ORIGIN_LAT_DEG) &&
-           parameters_is_set(parameters, PARAMETER_ORIGIN_LON_DEG);
+    bool has_lat = parameters_is_set(parameters, PARAMETER_ORIGIN_LAT_DEG);
+    bool has_lon = parameters_is_set(parameters, PARAMETER_ORIGIN_LON_DEG);
+
+    if (has_lat != has_lon) {
+        fail(EXIT_USAGE, "%s is set without %s", has_lat ? "origin_lat_deg" : "origin_lon_deg",
+             has_lat ? "origin_lon_deg" : "origin_lat_deg");
+    }
+    return has_lat;
 }
 
 struct local_frame *parameters_open_local_frame(const struct parameters *parameters)
@@ -47,25 +53,13 @@ struct local_frame *parameters_open_local_frame(const struct parameters *paramet
                             value[PARAMETER_ORIGIN_ALT_M]);
 }
 
-static void check_origin(const struct parameters *parameters)
-{
-    bool has_lat = parameters_is_set(parameters, PARAMETER_ORIGIN_LAT_DEG);
-    bool has_lon = parameters_is_set(parameters, PARAMETER_ORIGIN_LON_DEG);
-
-    if (has_lat != has_lon) {
-        fail(EXIT_USAGE, "%s is set without %s", has_lat ? "origin_lat_deg" : "origin_lon_deg",
-             has_lat ? "origin_lon_deg" : "origin_lat_deg");
-    }
-}
-
 /* ---- Sensors ---- */
 
 /*
  * True where a sensor has a place by latitude and longitude. Exit 2 where that is incomplete, given
  * in metres as well, or has no origin.
  */
-static bool has_valid_place_on_earth(const struct parameters *parameters,
-                                     const struct sensor_parameters *sensor)
+static bool has_valid_place_on_earth(const struct sensor_parameters *sensor, bool has_origin)
 {
     bool has_lat = is_sensor_value_set(sensor, SENSOR_LAT_DEG),
          has_lon = is_sensor_value_set(sensor, SENSOR_LON_DEG);
@@ -80,10 +74,10 @@ static bool has_valid_place_on_earth(const struct parameters *parameters,
     }
     if (is_sensor_value_set(sensor, SENSOR_X_M) || is_sensor_value_set(sensor, SENSOR_Y_M) ||
         is_sensor_value_set(sensor, SENSOR_Z_M)) {
-        fail(EXIT_USAGE, "sensor %d: its place is said twice, in metres and by lat_deg, lon_deg",
+        fail(EXIT_USAGE, "sensor %d: its place is given twice, in metres and by lat_deg, lon_deg",
              id);
     }
-    if (!parameters_has_origin(parameters)) {
+    if (!has_origin) {
         fail(EXIT_USAGE, "sensor %d: lat_deg and lon_deg: %s", id, parameters_no_origin);
     }
     return true;
@@ -118,11 +112,11 @@ static void locate_sensor(const struct parameters *parameters, const struct loca
 
 void parameters_locate_sensors(struct parameters *parameters)
 {
+    const bool has_origin = parameters_has_origin(parameters);
     struct local_frame *origin = NULL;
 
-    check_origin(parameters);
     for (size_t i = 0; i < parameters->num_sensors; i++) {
-        if (has_valid_place_on_earth(parameters, &parameters->sensors[i])) {
+        if (has_valid_place_on_earth(&parameters->sensors[i], has_origin)) {
             origin = origin ? origin : parameters_open_local_frame(parameters);
             locate_sensor(parameters, origin, &parameters->sensors[i]);
         }

@@ -4,7 +4,6 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/common.h"
 #include "transport/transport_provider.h"
@@ -18,7 +17,6 @@ static const char *url_or_default(const char *url)
 
 bool transport_url_is_same_file(const char *url, const char *path)
 {
-    struct stat one, other;
     char *name;
     bool is_same;
 
@@ -28,8 +26,7 @@ bool transport_url_is_same_file(const char *url, const char *path)
     }
     name = must_copy_text(url + 7);
     name[strcspn(name, "?")] = '\0';
-    is_same = stat(name, &one) == 0 && stat(path, &other) == 0 && S_ISREG(one.st_mode) &&
-              one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+    is_same = is_same_file(name, path);
     free(name);
     return is_same;
 }
@@ -48,7 +45,7 @@ struct transport *transport_open(const char *url, enum transport_use use)
     transport->url = must_copy_text(url);
     transport->last_us = INT64_MIN;
     if (!strstr(url, "://")) {
-        transport_refuse(transport, "no LCM URL; it looks like %s", TRANSPORT_DEFAULT_URL);
+        transport_refuse(transport, "not an LCM URL, which looks like %s", TRANSPORT_DEFAULT_URL);
     }
     if (strncmp(url, "udpm://", 7) == 0) {
         transport_open_udpm(transport, use);

@@ -132,10 +132,11 @@ static void check_url_file_mode(const struct transport *transport, enum transpor
         transport_refuse(transport, "unknown mode; there are r, w and a");
     }
     if (is_read && use == TRANSPORT_SEND) {
-        transport_refuse(transport, "the file would be read; ?mode=w writes it");
+        transport_refuse(transport, "this URL reads the file; ?mode=w writes it");
     }
     if (!is_read && use == TRANSPORT_SEND_AND_RECEIVE) {
-        transport_refuse(transport, "a file that is written has nothing to receive; ?mode=r");
+        transport_refuse(transport,
+                         "nothing can be received from a file that is written; ?mode=r reads it");
     }
 }
 
@@ -163,12 +164,12 @@ void transport_open_lcm_or_log(struct transport *transport, enum transport_use u
     provider->transport = transport;
     provider->lcm = lcm_create(transport->url);
     if (!provider->lcm) {
-        transport_refuse(transport, "liblcm does not open it");
+        transport_refuse(transport, "liblcm cannot open it");
     }
     if (use == TRANSPORT_SEND_AND_RECEIVE) {
         all = lcm_subscribe(provider->lcm, ".*", on_lcm_message, provider);
         if (!all || lcm_subscription_set_queue_capacity(all, QUEUE_MESSAGES)) {
-            fail(EXIT_RUNTIME, "%s: liblcm does not subscribe", transport->url);
+            fail(EXIT_RUNTIME, "%s: liblcm cannot subscribe", transport->url);
         }
     }
     transport->provider = &methods;

@@ -72,7 +72,7 @@ void transport_open_read_log(struct transport *transport)
     log->reader = lcm_log_open(path);
     log->has_event = lcm_log_next(log->reader, &log->event);
     if (!log->has_event) {
-        transport_refuse(transport, "not one event of an LCM log in it");
+        transport_refuse(transport, "contains no event of an LCM log");
     }
     transport->provider = &provider;
     transport->object = log;

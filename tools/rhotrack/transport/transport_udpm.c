@@ -63,7 +63,8 @@ static long parse_url_number(const struct transport *transport, const char *name
     errno = 0;
     number = strtol(text, &end, 10);
     if (*text < '0' || *text > '9' || *end || errno || number < min || number > max) {
-        transport_refuse(transport, "%s '%s' is no number from %ld to %ld", name, text, min, max);
+        transport_refuse(transport, "%s '%s' is not a number from %ld to %ld", name, text, min,
+                         max);
     }
     return number;
 }
@@ -76,7 +77,7 @@ static void parse_allowed_sources(const struct transport *transport, struct rho_
 
     for (char *word = strtok_r(text, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
         if (inet_pton(AF_INET, word, &address) != 1) {
-            transport_refuse(transport, "sources_allowed: '%s' is no IPv4 address", word);
+            transport_refuse(transport, "sources_allowed: '%s' is not an IPv4 address", word);
         }
         if (guard->num_sources == RHO_UDPM_MAX_SOURCES) {
             transport_refuse(transport, "sources_allowed: more than %d addresses",
@@ -119,10 +120,10 @@ static void parse_group_and_port(struct transport *transport, struct udpm *udpm,
         udpm->group.sin_port = htons((uint16_t)parse_url_number(transport, "port", port, 1, 65535));
     }
     if (*text && inet_pton(AF_INET, text, &udpm->group.sin_addr) != 1) {
-        transport_refuse(transport, "'%s' is no IPv4 address", text);
+        transport_refuse(transport, "'%s' is not an IPv4 address", text);
     }
     if (!IN_MULTICAST(ntohl(udpm->group.sin_addr.s_addr))) {
-        transport_refuse(transport, "'%s' is no multicast group (224.0.0.0 to 239.255.255.255)",
+        transport_refuse(transport, "'%s' is not a multicast group (224.0.0.0 to 239.255.255.255)",
                          text);
     }
 }
@@ -182,11 +183,10 @@ static void use_loopback_without_route(const struct transport *transport, struct
         if ((errno != ENETUNREACH && errno != EHOSTUNREACH) || !udpm->interface) {
             fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
         }
-        fprintf(
-            stderr,
-            "rhotrack: %s: no route to this group; the loopback is used: programs of this machine "
-            "alone\n",
-            transport->url);
+        fprintf(stderr,
+                "rhotrack: %s: no route to this group; the loopback is used, which reaches only "
+                "programs of this machine\n",
+                transport->url);
     }
     close(descriptor);
 }
@@ -204,8 +204,8 @@ static void set_receive_buffer(const struct transport *transport, const struct u
     }
     if (granted < (udpm->wanted_bytes ? udpm->wanted_bytes : LITTLE_BYTES)) {
         fprintf(stderr,
-                "rhotrack: %s: the receive buffer has %d bytes, %d are wanted: see sysctl "
-                "net.core.rmem_max\n",
+                "rhotrack: %s: the receive buffer has %d bytes, fewer than the %d requested: see "
+                "sysctl net.core.rmem_max\n",
                 transport->url, granted, wanted);
     }
 }

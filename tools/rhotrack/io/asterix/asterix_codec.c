@@ -44,16 +44,18 @@ bool asterix_block_read(const uint8_t *data, size_t size, struct asterix_block *
     size_t length;
 
     if (size < ASTERIX_HEADER_BYTES) {
-        return set_error(&cursor, 0, "a data block has %u bytes at least, and here are %zu",
+        return set_error(&cursor, 0, "a data block has at least %u bytes, but only %zu are left",
                          ASTERIX_HEADER_BYTES, size);
     }
     length = (size_t)data[1] << 8 | data[2];
     if (length < ASTERIX_HEADER_BYTES) {
-        return set_error(&cursor, 1, "a data block of category %u says that it has %zu bytes",
-                         data[0], length);
+        return set_error(&cursor, 1,
+                         "a data block of category %u has an invalid length of %zu bytes", data[0],
+                         length);
     }
     if (length > size) {
-        return set_error(&cursor, 0, "a data block of category %u has %zu bytes, and here are %zu",
+        return set_error(&cursor, 0,
+                         "a data block of category %u has %zu bytes, but only %zu are left",
                          data[0], length, size);
     }
     *block = (struct asterix_block){.category = data[0],
@@ -123,7 +125,7 @@ static bool skip_simple_item(struct cursor *cursor, const struct asterix_item *i
     size_t bytes = count_simple_item_bytes(cursor, item);
 
     if (bytes == 0) {
-        return set_error(cursor, cursor->at, "I%03u/%s says that it has no bytes", cursor->category,
+        return set_error(cursor, cursor->at, "I%03u/%s has a length of 0", cursor->category,
                          item->name);
     }
     if (bytes > cursor->size - cursor->at) {
@@ -157,7 +159,7 @@ static bool read_field_specification(struct cursor *cursor, const struct asterix
 
         if (is_there && (place >= num_items || items[place].form == ASTERIX_NONE)) {
             return set_error(cursor, start + place / BITS,
-                             "%s has an item at place %zu, where none is", name, place + 1);
+                             "%s has an item at the undefined place %zu", name, place + 1);
         }
         if (is_there) {
             *present |= UINT64_C(1) << place;
@@ -200,7 +202,7 @@ static bool skip_random_field_sequence(struct cursor *cursor,
             place > 0 && place <= profile->num_items ? &profile->items[place - 1] : NULL;
 
         if (!item || item->form == ASTERIX_NONE || item->form == ASTERIX_ANY) {
-            return set_error(cursor, start, "I%03u/RFS has an item at place %zu, where none is",
+            return set_error(cursor, start, "I%03u/RFS has an item at the undefined place %zu",
                              cursor->category, place);
         }
         cursor->at++;

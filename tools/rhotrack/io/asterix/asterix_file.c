@@ -156,9 +156,7 @@ struct asterix_file *asterix_file_open(const char *path, bool keep_going)
     file->path = must_copy_text(path);
     file->keep_going = keep_going;
     if (!stat(path, &status) && !S_ISREG(status.st_mode)) {
-        fail(EXIT_USAGE,
-             "%s: a recording in ASTERIX is looked at twice, so that only a plain file will do",
-             path);
+        fail(EXIT_USAGE, "%s: an ASTERIX recording is read twice and must be a regular file", path);
     }
     file->bytes = must_alloc(CAPACITY);
     if (captured_datagrams_is_capture(path)) {
@@ -369,12 +367,12 @@ void asterix_file_report_skipped(const struct asterix_file *file)
                 file->path, file->foreign);
     }
     if (file->captured && captured_datagrams_why_cut(file->captured)) {
-        fprintf(stderr, "rhotrack: %s: behind packet %" PRIu64 ": %s; the rest is left out\n",
+        fprintf(stderr, "rhotrack: %s: after packet %" PRIu64 ": %s; the rest is left out\n",
                 file->path, captured_datagrams_packet_number(file->captured),
                 captured_datagrams_why_cut(file->captured));
     }
     if (file->captured && captured_datagrams_num_incomplete(file->captured) > 0) {
-        fprintf(stderr, "rhotrack: %s: %" PRIu64 " datagrams left out: fragments, or cut short\n",
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " datagrams left out: fragments, or truncated\n",
                 file->path, captured_datagrams_num_incomplete(file->captured));
     }
 }

@@ -189,8 +189,8 @@ struct asterix_plot_rows {
     size_t num_placeless;
 };
 
-const char asterix_plot_rows_no_tracks[] =
-    "tracks (CAT062), and plots are needed: evaluate, plot, convert and publish take tracks";
+const char asterix_plot_rows_no_tracks[] = "contains tracks (CAT062), but plots are needed; "
+                                           "evaluate, plot, convert and publish take tracks";
 
 /* ---- Rules, origin ---- */
 
@@ -223,20 +223,22 @@ void asterix_plot_rows_report_left_out(const char *path, const struct asterix_co
         uint64_t count;
         const char *text;
     } lines[] = {
-        {counts->not_real, "plots simulated, of test targets or field monitors"},
+        {counts->not_real, "plots that are simulated, of test targets or of field monitors"},
         {counts->no_detection, "reports without a detection"},
         {counts->incomplete, "plots without source, time or place"},
         {counts->bad_times, "plots with bad times"},
-        {counts->late, "plots late"},
-        {counts->unplaced, "plots outside every known look of the antenna"},
+        {counts->late, "late plots"},
+        {counts->unplaced, "plots outside all known sectors of the antenna"},
         {counts->no_room, "plots of too many radars"},
         {counts->services_left, "antenna messages without source, time or sector, or late"},
         {counts->gaps, "gaps in the antenna's messages"},
-        {counts->levels_left, "heights used for the range alone, in scans that have plots without"},
-        {counts->levels_bad, "flight levels not valid"},
-        {counts->dopplers_bad, "Doppler speeds doubtful"},
-        {counts->dopplers_raw, "Doppler speeds ambiguous"},
-        {counts->dopplers_left, "Doppler speeds left out, of scans that have plots without"},
+        {counts->levels_left,
+         "heights used only to correct the range, in scans with plots without height"},
+        {counts->levels_bad, "invalid flight levels"},
+        {counts->dopplers_bad, "doubtful Doppler speeds"},
+        {counts->dopplers_raw, "ambiguous Doppler speeds"},
+        {counts->dopplers_left,
+         "Doppler speeds left out, in scans with plots without Doppler speed"},
     };
     const char *between = "";
 
@@ -292,8 +294,8 @@ static void preview_recording(struct asterix_plot_rows *records, bool keep_going
     }
     if (!has_any) {
         fail(EXIT_USAGE,
-             "%s: not one plot (CAT048, CAT001), north marker or sector crossing (CAT034, CAT002) "
-             "in it",
+             "%s: contains no plot (CAT048, CAT001), north marker or sector crossing (CAT034, "
+             "CAT002)",
              records->path);
     }
     asterix_file_close(file);
@@ -416,19 +418,19 @@ static void report_at_end(const struct asterix_plot_rows *records)
     asterix_plot_rows_report_left_out(records->path, counts);
     for (size_t i = 0; i < records->num_placeless; i++) {
         fprintf(stderr,
-                "rhotrack: %s: sensor %" PRId32 " does not say where it stands, and is taken to be "
-                "at the origin; sensor.%" PRId32 ".lat_deg and lon_deg say it\n",
+                "rhotrack: %s: sensor %" PRId32
+                " reports no position and is assumed at the origin; set sensor.%" PRId32
+                ".lat_deg and lon_deg\n",
                 records->path, records->placeless[i], records->placeless[i]);
     }
     if (records->late > 0) {
-        fprintf(stderr,
-                "rhotrack: %s: %" PRIu64 " rows of a radar whose clock is behind left out\n",
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " rows left out: their radar's clock is behind\n",
                 records->path, records->late);
     }
     if (!records->columns.has_scan) {
         fprintf(stderr,
-                "rhotrack: %s: no north markers or sector crossings in it: scans follow from the "
-                "plots' times, or from scan_interval_s\n",
+                "rhotrack: %s: contains no north markers or sector crossings: scans are made from "
+                "the plots' times, or by scan_interval_s\n",
                 records->path);
     }
 }

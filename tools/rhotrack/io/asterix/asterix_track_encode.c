@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "base/big_endian.h"
 #include "io/asterix/asterix_items.h"
 
 #define SPECIFICATION_MAX 5 /* largest number of bytes of a field specification */
@@ -30,9 +31,8 @@ static void begin_record_item(struct record_encoder *encoder, int place)
 
 static void put_big_endian(struct record_encoder *encoder, int64_t value, int bytes)
 {
-    for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) {
-        encoder->items[encoder->size++] = (uint8_t)((uint64_t)value >> shift);
-    }
+    store_big_endian(encoder->items + encoder->size, (uint64_t)value, bytes);
+    encoder->size += (size_t)bytes;
 }
 
 /*

@@ -8,6 +8,7 @@
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_scans.h"
 #include "io/csv/local_frame.h"
+#include "io/rows/rows.h"
 #include "rhotrack/message.h"
 
 enum column {
@@ -28,24 +29,10 @@ enum column {
     NUM_COLUMNS
 };
 
-static const char *track_status_name(int status)
-{
-    switch (status) {
-    case RHO_MESSAGE_TRACK_TENTATIVE:
-        return "tentative";
-    case RHO_MESSAGE_TRACK_COASTING:
-        return "coasting";
-    case RHO_MESSAGE_TRACK_DELETED:
-        return "deleted";
-    default:
-        return "confirmed";
-    }
-}
-
 static const struct table_column all_columns[NUM_COLUMNS] = {
     [AT_T_S] = {.name = "t_s", .decimals = 6},
     [AT_TRACK_ID] = {.name = "track_id", .decimals = 0},
-    [AT_STATUS] = {.name = "status", .decimals = 0, .word = track_status_name},
+    [AT_STATUS] = {.name = "status", .decimals = 0, .word = rows_track_status_name},
     [AT_X_M] = {.name = "x_m", .decimals = 3},
     [AT_Y_M] = {.name = "y_m", .decimals = 3},
     [AT_Z_M] = {.name = "z_m", .decimals = 3},
@@ -175,11 +162,12 @@ static void add_track_row(struct reading *reading, const struct asterix_track *t
 static void fail_if_empty_or_report_incomplete(const struct reading *reading, const char *path)
 {
     if (reading->table->num_rows == 0 && reading->on_earth > 0) {
-        fail(EXIT_USAGE, "%s: tracks (CAT062) with places on the earth alone (I062/105): %s", path,
-             parameters_no_origin);
+        fail(EXIT_USAGE,
+             "%s: its tracks (CAT062) have positions in latitude and longitude only (I062/105): %s",
+             path, parameters_no_origin);
     }
     if (reading->table->num_rows == 0) {
-        fail(EXIT_USAGE, "%s: not one track (CAT062) with time, number and place in it", path);
+        fail(EXIT_USAGE, "%s: contains no track (CAT062) with time, number and place", path);
     }
     if (reading->incomplete > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " tracks without time, number or place left out\n",

@@ -40,8 +40,8 @@ void asterix_track_writer_refuse_covariance(const char *path, bool with_covarian
 {
     if (with_covariance && asterix_track_writer_path_is_asterix(path)) {
         fail(EXIT_USAGE,
-             "%s: --covariance has no place in CAT062, which has standard deviations (I062/500) "
-             "without it",
+             "%s: CAT062 cannot hold covariances (--covariance); it has standard deviations "
+             "(I062/500) in any case",
              path);
     }
 }

@@ -76,7 +76,7 @@ static struct sockaddr_in parse_url(const char *url)
     }
     *port = '\0';
     if (*text && inet_pton(AF_INET, text, &address.sin_addr) != 1) {
-        fail(EXIT_USAGE, "%s: '%s' is no IPv4 address", url, text);
+        fail(EXIT_USAGE, "%s: '%s' is not an IPv4 address", url, text);
     }
     address.sin_port = htons((uint16_t)number);
     free(text);
@@ -102,8 +102,8 @@ static void join_multicast_group(const char *url, int receiver, const struct soc
     fail_if_nonzero(url,
                     setsockopt(receiver, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member, sizeof member));
     fprintf(stderr,
-            "rhotrack: %s: no route to this group; the loopback is used: programs of this machine "
-            "alone\n",
+            "rhotrack: %s: no route to this group; the loopback is used, which reaches only "
+            "programs of this machine\n",
             url);
 }
 

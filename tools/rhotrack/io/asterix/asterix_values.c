@@ -3,6 +3,7 @@
  * asterix_values: decodes the values of items. Lengths were checked before: an item that is there
  * has all bytes of its form.
  */
+#include "base/big_endian.h"
 #include "io/asterix/asterix_codec.h"
 #include "io/asterix/asterix_items.h"
 
@@ -10,12 +11,7 @@
 
 static uint32_t read_unsigned(const uint8_t *data, int bytes)
 {
-    uint32_t value = 0;
-
-    for (int i = 0; i < bytes; i++) {
-        value = value << 8 | data[i];
-    }
-    return value;
+    return (uint32_t)load_big_endian(data, bytes);
 }
 
 /* The lowest `bits` bits as a two's complement number. */
@@ -200,12 +196,13 @@ static void read_radar_place(const uint8_t *item, struct asterix_service *servic
 void asterix_service_read(const struct asterix_record *record, struct asterix_service *service)
 {
     const bool is_old = record->category == ASTERIX_OLD_SERVICE;
+    const uint8_t *source = record->items[is_old ? I002_010 : I034_010];
     const uint8_t *type = record->items[is_old ? I002_000 : I034_000];
     const uint8_t *time = record->items[is_old ? I002_030 : I034_030];
     const uint8_t *sector = record->items[is_old ? I002_020 : I034_020];
     const uint8_t *period = record->items[is_old ? I002_041 : I034_041];
 
-    *service = (struct asterix_service){.source = read_source(record->items[I034_010])};
+    *service = (struct asterix_service){.source = read_source(source)};
     service->has_type = type;
     service->type = type ? type[0] : 0;
     service->has_time = time;

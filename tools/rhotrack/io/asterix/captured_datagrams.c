@@ -63,7 +63,7 @@ struct captured_datagrams *captured_datagrams_open(const char *path)
     captured->path = must_copy_text(path);
     captured->capture = pcap_open_offline(path, reason);
     if (!captured->capture) {
-        fail(EXIT_USAGE, "%s: not a network recording that can be read: %s", path, reason);
+        fail(EXIT_USAGE, "%s: the network recording cannot be read: %s", path, reason);
     }
     captured->link = pcap_datalink(captured->capture);
     switch (captured->link) {
@@ -77,9 +77,9 @@ struct captured_datagrams *captured_datagrams_open(const char *path)
     case DLT_LOOP:
         return captured;
     default:
-        fail(EXIT_USAGE, "%s: packets of the link %s are not read", path,
+        fail(EXIT_USAGE, "%s: packets of link type %s cannot be read", path,
              pcap_datalink_val_to_name(captured->link) ? pcap_datalink_val_to_name(captured->link)
-                                                       : "of an unknown type");
+                                                       : "(unknown)");
     }
 }
 
@@ -212,7 +212,7 @@ bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_goin
         }
     }
     if (got == PCAP_ERROR && !keep_going) {
-        fail(EXIT_USAGE, "%s: behind packet %llu: %s", captured->path,
+        fail(EXIT_USAGE, "%s: after packet %llu: %s", captured->path,
              (unsigned long long)captured->packets, pcap_geterr(captured->capture));
     }
     captured->is_cut = got == PCAP_ERROR;

@@ -37,7 +37,8 @@ struct geodetic {
 static void refuse_both_columns(const struct table *table, const char *first, const char *second)
 {
     if (table_find_column(table, first) >= 0 && table_find_column(table, second) >= 0) {
-        table_fail_at_row(table, TABLE_HEADER, "both '%s' and '%s' are there", first, second);
+        table_fail_at_row(table, TABLE_HEADER, "columns '%s' and '%s' exclude each other", first,
+                          second);
     }
 }
 
@@ -260,15 +261,16 @@ static bool find_radar_place(const struct geodetic *geodetic, const struct row_c
     *is_said = has_known && !row_has_cell(check, geodetic->sensor_x_m) &&
                !row_has_cell(check, geodetic->sensor_y_m);
     if (*is_said && row_has_cell(check, geodetic->sensor_z_m)) {
-        return row_refuse(check, "sensor_z_m is there, and the sensor's place is said by lat_deg "
-                                 "and lon_deg, beside which sensor_alt_m goes");
+        return row_refuse(check, "sensor_z_m is given, but the sensor's place is in lat_deg and "
+                                 "lon_deg; give sensor_alt_m instead");
     }
     if (*is_said && row_has_cell(check, geodetic->sensor_alt_m)) {
         return row_read_double(check, geodetic->sensor_alt_m, ALT_MIN_M, ALT_MAX_M, &on_earth[2]);
     }
     return *is_said || !row_has_cell(check, geodetic->sensor_alt_m) ||
-           row_refuse(check, "sensor_alt_m is there, and neither sensor_lat_deg nor the sensor's "
-                             "parameter lat_deg");
+           row_refuse(
+               check,
+               "sensor_alt_m is given without sensor_lat_deg or the sensor's parameter lat_deg");
 }
 
 bool geodetic_columns_find_radar_frame(struct geodetic *geodetic, const struct row_check *check,

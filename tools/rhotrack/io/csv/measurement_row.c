@@ -4,7 +4,6 @@
 #include "io/csv/row_check.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
-#include <math.h>
 
 /* A row being read and checked. */
 struct row_reading {
@@ -25,26 +24,25 @@ static void refuse_bearings_as_plots(const struct table *table)
 {
     if (table_find_column(table, "x_m") < 0 && table_find_column(table, "range_m") < 0 &&
         table_find_column(table, "bearing_rad") >= 0) {
-        table_fail_at_row(
-            table, TABLE_HEADER,
-            "bearings, which are not read from a pipe (column 'bearing_rad'): Cartesian and "
-            "polar plots are read here, columns 'x_m' and 'y_m' are missing");
+        table_fail_at_row(table, TABLE_HEADER,
+                          "bearings (column 'bearing_rad') cannot be read from a pipe; for plots, "
+                          "columns 'x_m' and 'y_m' are missing");
     }
 }
 
 static void check_not_both_columns(const struct table *table, int first, int second)
 {
     if (first >= 0 && second >= 0) {
-        table_fail_at_row(table, TABLE_HEADER, "both '%s' and '%s' are there", table->names[first],
-                          table->names[second]);
+        table_fail_at_row(table, TABLE_HEADER, "columns '%s' and '%s' exclude each other",
+                          table->names[first], table->names[second]);
     }
 }
 
 /* Refuses plots by name, rather than with a missing bearing_rad. */
 static void refuse_plots_as_bearings(const struct table *table)
 {
-    static const char *const others[][2] = {{"x_m", "plots, which are no bearings"},
-                                            {"range_m", "polar plots, which are no bearings"}};
+    static const char *const others[][2] = {{"x_m", "plots, not bearings"},
+                                            {"range_m", "polar plots, not bearings"}};
 
     if (table_find_column(table, "bearing_rad") >= 0) {
         return;
@@ -287,14 +285,6 @@ static bool read_range(const struct row_reading *reading, float *range_m)
     return *range_m > 0.0f || row_refuse_cell(&reading->cells, column, "is not above 0");
 }
 
-/* Converts degrees clockwise from north to radians counter-clockwise from east. */
-static float radians_from_compass_deg(float azimuth_deg)
-{
-    double azimuth_rad = PI / 2 - (double)azimuth_deg * DEG_RAD;
-
-    return (float)remainder(azimuth_rad, 2 * PI);
-}
-
 static bool read_azimuth(const struct row_reading *reading, float *azimuth_rad)
 {
     const struct measurement_row_columns *columns = reading->columns;
@@ -307,7 +297,7 @@ static bool read_azimuth(const struct row_reading *reading, float *azimuth_rad)
                         (float)ROW_ANGLE_MAX, &azimuth_deg)) {
         return false;
     }
-    *azimuth_rad = radians_from_compass_deg(azimuth_deg);
+    *azimuth_rad = (float)row_radians_from_compass_deg((double)azimuth_deg);
     return true;
 }
 
@@ -402,8 +392,8 @@ static bool read_polar_plot(const struct row_reading *reading, const struct para
     }
     if (rho_measurement_from_polar(&polar, row->measures, &seen_from, &row->plot) != RHO_OK) {
         return row_refuse(&reading->cells,
-                          "range_m %.9g at azimuth %.9g rad is no place that is believed, "
-                          "once the sensor's place and biases are taken into account",
+                          "range_m %.9g at azimuth %.9g rad is not a valid position once the "
+                          "sensor's place and biases are applied",
                           (double)polar.range_m, (double)polar.azimuth_rad);
     }
     return true;

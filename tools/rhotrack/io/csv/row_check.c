@@ -78,6 +78,11 @@ bool row_read_angle(const struct row_check *check, int column, float *angle_rad)
     return true;
 }
 
+double row_radians_from_compass_deg(double azimuth_deg)
+{
+    return remainder(TURN / 4 - azimuth_deg * (TURN / 360), TURN);
+}
+
 bool row_read_position(const struct row_check *check, int column, float *value)
 {
     return row_read_float(check, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M, value);
@@ -129,7 +134,7 @@ bool row_check_unbiased_time(const struct row_check *check, int64_t time_us, int
     int64_t right_us = time_us - bias_us;
 
     return (right_us >= -RHO_LIMIT_TIME_US && right_us <= RHO_LIMIT_TIME_US) ||
-           row_refuse(check, "t_s is beyond 4e12 s without the sensor's time_bias_s");
+           row_refuse(check, "t_s minus the sensor's time_bias_s is beyond 4e12 s");
 }
 
 bool row_read_received(const struct row_check *check, int column, int64_t *received_us)
@@ -145,8 +150,8 @@ bool row_check_received_together(const struct row_check *check, int64_t received
 {
     return has_number || interval_us > 0 || received_us == scan_us ||
            row_refuse(check,
-                      "received_s is %.6f s, and %.6f s of the scan's other rows: rows of a scan "
-                      "have one, but of one with a number (column 'scan'), or with scan_interval_s",
+                      "received_s is %.6f s, but %.6f s in the scan's other rows: they may differ "
+                      "only with a column 'scan' or with scan_interval_s",
                       (double)received_us * 1e-6, (double)scan_us * 1e-6);
 }
 

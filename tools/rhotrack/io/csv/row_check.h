@@ -45,6 +45,9 @@ bool row_read_double(const struct row_check *check, int column, double min, doub
 #define ROW_ANGLE_MAX 1e6
 bool row_read_angle(const struct row_check *check, int column, float *angle_rad);
 
+/* Converts degrees clockwise from north to radians counter-clockwise from east. */
+double row_radians_from_compass_deg(double azimuth_deg);
+
 bool row_read_position(const struct row_check *check, int column, float *value);
 bool row_read_sigma_rad(const struct row_check *check, int column, double otherwise, float *value);
 

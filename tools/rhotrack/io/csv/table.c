@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "io/csv/table.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -78,14 +77,6 @@ bool table_is_cell_empty(const struct table *table, size_t row, int column)
     return text ? !*text : column != 0 && isnan(cell_number(table, row, column));
 }
 
-static void write_time_text(char *buffer, int64_t time_us)
-{
-    uint64_t magnitude = time_us < 0 ? 0 - (uint64_t)time_us : (uint64_t)time_us;
-
-    snprintf(buffer, TABLE_TEXT_BYTES, "%s%" PRIu64 ".%06" PRIu64, time_us < 0 ? "-" : "",
-             magnitude / 1000000, magnitude % 1000000);
-}
-
 const char *table_cell_text(const struct table *table, size_t row, int column,
                             char buffer[TABLE_TEXT_BYTES])
 {
@@ -100,12 +91,15 @@ const char *table_cell_text(const struct table *table, size_t row, int column,
     number = cell_number(table, row, column);
     *buffer = '\0';
     if (column == 0) {
-        write_time_text(buffer, table->times_us[row]);
-    } else if (!isnan(number) && described->word) {
+        return time_text(table->times_us[row], buffer);
+    }
+    if (!isnan(number) && described->word) {
         return described->word((int)number);
-    } else if (!isnan(number) && described->decimals == TABLE_SHORTEST) {
+    }
+    if (!isnan(number) && described->decimals == TABLE_SHORTEST) {
         return shortest_float_text((float)number, buffer);
-    } else if (!isnan(number)) {
+    }
+    if (!isnan(number)) {
         snprintf(buffer, TABLE_TEXT_BYTES, "%.*f", described->decimals, number);
     }
     return buffer;

@@ -314,8 +314,8 @@ void table_dialect_set_columns_option(const char *text)
             const char *nearest = name_hint_nearest(pair, known_name_at);
 
             fail(EXIT_USAGE,
-                 "--columns '%s=%s': no column of the name '%s' is read%s%s%s; tools/README.md "
-                 "lists them",
+                 "--columns '%s=%s': rhotrack reads no column '%s'%s%s%s; tools/README.md lists "
+                 "them",
                  pair, column, pair, nearest ? ", did you mean '" : "", nearest ? nearest : "",
                  nearest ? "'?" : "");
         }
@@ -369,7 +369,7 @@ static void rename_columns_by_option(struct table *table)
             return;
         }
         if (table_find_column(table, renamed[i].name) >= 0) {
-            fail(EXIT_USAGE, "%s:%u: --columns: the file has a column '%s', too", table->path,
+            fail(EXIT_USAGE, "%s:%u: --columns: the file already has a column '%s'", table->path,
                  (unsigned)table->header_line, renamed[i].name);
         }
         table->names[column] = renamed[i].name;

@@ -278,7 +278,7 @@ static void process_header_row(struct table_stream *stream)
     for (size_t i = 0; i < table->num_columns; i++) {
         for (size_t j = 0; j < i && *table->names[i]; j++) {
             if (!strcmp(table->names[i], table->names[j])) {
-                table_fail_at_row(table, TABLE_HEADER, "column '%.60s' is there twice",
+                table_fail_at_row(table, TABLE_HEADER, "column '%.60s' occurs twice",
                                   table->names[i]);
             }
         }
@@ -394,9 +394,9 @@ static const char *message_for_binary_format(const uint8_t *start, size_t bytes,
     if (!asterix_category_is_known((uint8_t)start[0])) {
         return NULL;
     }
-    return is_file ? "ASTERIX with a bad first block: named NAME.ast it is read, and says where"
-                   : "ASTERIX on standard input or through a pipe; it is looked at twice: give it "
-                     "as a file";
+    return is_file
+               ? "ASTERIX with a bad first block: rename it to NAME.ast to see where"
+               : "ASTERIX on standard input or through a pipe; it is read twice: give it as a file";
 }
 
 /* Exit 2 with the format's name where the file is not CSV. */
@@ -409,8 +409,8 @@ static void refuse_foreign_format(const struct table_stream *stream)
                                          stream->own && stream->is_plain);
     }
     if (*start == '{') {
-        what = "JSON, and CSV is needed; GeoJSON is written and not read: give the tracks' CSV "
-               "file or LCM log";
+        what = "JSON, but CSV is needed; GeoJSON can only be written: give the tracks' CSV file or "
+               "LCM log";
     }
     if (what) {
         fail_at_line(stream, stream->line, what);
@@ -553,7 +553,7 @@ static void fail_if_all_rows_bad(const struct table_stream *stream)
 
     need_header(stream);
     if (!table->num_rows && table->rows_skipped) {
-        fail_at_line(stream, table->header_line, "not one good row after the header");
+        fail_at_line(stream, table->header_line, "no valid row after the header");
     }
 }
 
@@ -563,7 +563,7 @@ static void open_asterix_recording(struct table_stream *stream, const char *path
                                    const struct parameters *parameters)
 {
     if (stream->follow) {
-        fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is a recording in ASTERIX", path);
+        fail(EXIT_USAGE, "%s: --follow takes CSV files, but this is an ASTERIX recording", path);
     }
     stream->asterix = asterix_plot_rows_open(path, parameters, stream->keep_going);
     table_free(stream->table);

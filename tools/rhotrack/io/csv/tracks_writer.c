@@ -8,10 +8,9 @@
 
 void tracks_write_time(FILE *file, int64_t time_us)
 {
-    uint64_t magnitude = time_us < 0 ? 0 - (uint64_t)time_us : (uint64_t)time_us;
+    char text[TIME_TEXT_BYTES];
 
-    fprintf(file, "%s%" PRIu64 ".%06" PRIu64, time_us < 0 ? "-" : "", magnitude / 1000000,
-            magnitude % 1000000);
+    fputs(time_text(time_us, text), file);
 }
 
 /* Writes a comma and the number with the fewest digits that keep float32. */

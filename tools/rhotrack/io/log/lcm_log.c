@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/big_endian.h"
 #include "base/common.h"
 
 enum {
@@ -22,28 +23,11 @@ static const uint8_t sync_word[SYNC_BYTES] = {0xED, 0xA1, 0xDA, 0x01};
 
 /* ---- Bytes ---- */
 
-static uint64_t load_big_endian(const uint8_t *data, int bytes)
-{
-    uint64_t value = 0;
-
-    for (int i = 0; i < bytes; i++) {
-        value = value << 8 | data[i];
-    }
-    return value;
-}
-
 static int64_t load_int64(const uint8_t *data)
 {
     uint64_t value = load_big_endian(data, 8);
 
     return value <= INT64_MAX ? (int64_t)value : -(int64_t)~value - 1;
-}
-
-static void store_big_endian(uint8_t *data, uint64_t value, int bytes)
-{
-    for (int i = bytes; i-- > 0; value >>= 8) {
-        data[i] = (uint8_t)value;
-    }
 }
 
 /* Whether the bytes begin with a sync word, or with its beginning where fewer than 4 are there. */

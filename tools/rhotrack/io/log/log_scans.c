@@ -26,7 +26,7 @@ unsigned log_scans_kinds(const char *path)
     unsigned kinds = 0;
 
     if (!stat(path, &status) && S_ISFIFO(status.st_mode)) {
-        fail(EXIT_USAGE, "%s: a log is looked at twice, so that a pipe will not do", path);
+        fail(EXIT_USAGE, "%s: an LCM log is read twice and cannot come through a pipe", path);
     }
     reader = lcm_log_open(path);
     while (lcm_log_next(reader, &event)) {
@@ -170,13 +170,13 @@ static void refuse_or_skip_scans_before(struct log_scans *scans,
 
     if (!keep_going) {
         fail(EXIT_USAGE,
-             "%s: the sensors' clock starts anew at %.6f s: two recordings in one? With "
-             "--keep-going only what comes from there on is taken",
+             "%s: the sensors' clock is set anew at %.6f s: the log may hold two recordings; "
+             "--keep-going uses only the scans from there on",
              scans->path, time_s);
     }
     fprintf(stderr,
-            "rhotrack: %s: the sensors' clock starts anew at %.6f s: %" PRIu64
-            " scans before are left out\n",
+            "rhotrack: %s: the sensors' clock is set anew at %.6f s: %" PRIu64
+            " earlier scans are left out\n",
             scans->path, time_s, before - scans->first);
     scans->first = before;
 }
@@ -220,8 +220,8 @@ static void report_assembler_faults(const char *path,
         {counters->clock_jumps, "scans with bad times"},
         {losses->out_of_order, "scans out of order"},
         {losses->dropped, "scans late, dropped"},
-        {counters->scans_duplicate, "scans or parts double"},
-        {counters->scans_other, "double with other contents (two senders of one number)"},
+        {counters->scans_duplicate, "duplicate scans or parts"},
+        {counters->scans_other, "duplicates with other contents (two senders of one number)"},
         {losses->lost, "scans lost"},
         {counters->scans_incomplete, "scans incomplete"},
         {counters->sensor_restarts, "restarts of sensors"},
@@ -263,7 +263,7 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
         report_assembler_faults(path, &scans->assembler->counters, &losses);
     }
     if (scans->num_given == 0) {
-        fail(EXIT_USAGE, "%s: not one scan of a sensor (channels %s<n>, %s<n>, %s<n>)", path,
+        fail(EXIT_USAGE, "%s: contains no scan of a sensor (channels %s<n>, %s<n>, %s<n>)", path,
              RHO_MESSAGE_PLOT_SCAN_CHANNEL, RHO_MESSAGE_POLAR_SCAN_CHANNEL,
              RHO_MESSAGE_BEARING_SCAN_CHANNEL);
     }

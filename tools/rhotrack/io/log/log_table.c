@@ -57,7 +57,7 @@ struct table *log_table_or_csv(const char *path, const struct rows_kind *kind, b
     }
     table = log_table_read(path, kind, keep_going, true);
     if (!table) {
-        fail(EXIT_USAGE, "%s: no messages of %s in it (channel %s)", path, kind->name,
+        fail(EXIT_USAGE, "%s: contains no messages of %s (channel %s)", path, kind->name,
              kind->channel);
     }
     return table;

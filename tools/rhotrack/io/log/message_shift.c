@@ -1,28 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "io/log/message_shift.h"
 
+#include "base/big_endian.h"
 #include "rhotrack/message.h"
 
 /* Byte offsets of a message's first members, and their sizes. */
 enum { UTIME_AT = 8, SCAN_AT = 16, EPOCH_AT = 20, TIME_BYTES = 8, NUMBER_BYTES = 4 };
-
-static uint64_t get_big_endian(const uint8_t *data, int bytes)
-{
-    uint64_t value = 0;
-
-    for (int i = 0; i < bytes; i++) {
-        value = value << 8 | data[i];
-    }
-    return value;
-}
-
-static void put_big_endian(uint8_t *data, int bytes, uint64_t value)
-{
-    for (int i = bytes - 1; i >= 0; i--) {
-        data[i] = (uint8_t)value;
-        value >>= 8;
-    }
-}
 
 static bool has_scan_number(const uint8_t *data, size_t size)
 {
@@ -61,7 +44,7 @@ bool message_scan_number(const uint8_t *data, size_t size, int32_t *scan)
     if (!has_scan_number(data, size)) {
         return false;
     }
-    *scan = (int32_t)get_big_endian(data + SCAN_AT, NUMBER_BYTES);
+    *scan = (int32_t)load_big_endian(data + SCAN_AT, NUMBER_BYTES);
     return true;
 }
 
@@ -70,17 +53,17 @@ void message_shift_in_time(uint8_t *data, size_t size, int64_t time_us, uint32_t
     int64_t utime;
 
     if (has_scan_number(data, size) &&
-        !__builtin_add_overflow((int64_t)get_big_endian(data + UTIME_AT, TIME_BYTES), time_us,
+        !__builtin_add_overflow((int64_t)load_big_endian(data + UTIME_AT, TIME_BYTES), time_us,
                                 &utime)) {
-        put_big_endian(data + UTIME_AT, TIME_BYTES, (uint64_t)utime);
-        put_big_endian(data + SCAN_AT, NUMBER_BYTES,
-                       get_big_endian(data + SCAN_AT, NUMBER_BYTES) + scans);
+        store_big_endian(data + UTIME_AT, (uint64_t)utime, TIME_BYTES);
+        store_big_endian(data + SCAN_AT, load_big_endian(data + SCAN_AT, NUMBER_BYTES) + scans,
+                         NUMBER_BYTES);
     }
 }
 
 void message_replace_epoch(uint8_t *data, size_t size, int32_t from, int32_t to)
 {
-    if (has_epoch(data, size) && (int32_t)get_big_endian(data + EPOCH_AT, NUMBER_BYTES) == from) {
-        put_big_endian(data + EPOCH_AT, NUMBER_BYTES, (uint64_t)to);
+    if (has_epoch(data, size) && (int32_t)load_big_endian(data + EPOCH_AT, NUMBER_BYTES) == from) {
+        store_big_endian(data + EPOCH_AT, (uint64_t)to, NUMBER_BYTES);
     }
 }

@@ -70,7 +70,7 @@ static void open_input(struct input *input, const char *path, const struct param
     }
     advance_to_next_message(input);
     if (!input->has_event) {
-        fail(EXIT_USAGE, "%s: not one %s in it", path,
+        fail(EXIT_USAGE, "%s: contains no %s", path,
              input->log ? "event of an LCM log" : "good scan");
     }
 }

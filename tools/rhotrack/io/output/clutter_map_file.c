@@ -63,7 +63,7 @@ static void refuse_other_tables(const struct table *table)
 
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         if (table_find_column(table, others[i]) >= 0) {
-            table_fail_at_row(table, TABLE_HEADER, "column '%s': this is no clutter map",
+            table_fail_at_row(table, TABLE_HEADER, "column '%s' does not belong in a clutter map",
                               others[i]);
         }
     }
@@ -196,7 +196,7 @@ static bool read_return_counts(const struct row_check *check, const struct colum
     int32_t hits, unseen, region = ALL_REGIONS;
 
     if (row_has_cell(check, columns->sensor_id)) {
-        return row_refuse(check, "a row is an echo of a sensor, or has looks, not both");
+        return row_refuse(check, "a row has either a sensor, as an echo, or looks, not both");
     }
     if (!read_count(check, columns->hits, 1, UINT16_MAX, &hits) ||
         !read_count(check, columns->unseen, 1, UINT8_MAX, &unseen) ||
@@ -284,7 +284,7 @@ static void load_file_into_map(const char *path, const struct parameters *parame
     }
     fprintf(stderr, "rhotrack: %s: %zu echoes", path, echoes);
     if (map->echoes_dropped > 0) {
-        fprintf(stderr, ", %" PRIu32 " of them without room", map->echoes_dropped);
+        fprintf(stderr, ", %" PRIu32 " of them dropped for lack of room", map->echoes_dropped);
     }
     fputc('\n', stderr);
     free(rows);
@@ -467,10 +467,11 @@ struct clutter_map_file clutter_map_file_open(const char *path, const struct par
             fail(EXIT_USAGE, "%s: %s", path, strerror(errno));
         }
         if (map) {
-            fprintf(stderr, "rhotrack: %s: not there yet, the clutter map starts empty\n", path);
+            fprintf(stderr, "rhotrack: %s: does not exist yet; the clutter map starts empty\n",
+                    path);
         }
     } else if (!S_ISREG(status.st_mode)) {
-        fail(EXIT_USAGE, "%s: is no file that a clutter map could be written to", path);
+        fail(EXIT_USAGE, "%s: not a regular file; a clutter map cannot be written to it", path);
     } else if (map) {
         load_file_into_map(path, parameters, map);
     }

@@ -53,7 +53,7 @@ struct tracks_output *tracks_output_open(const char *path, const struct paramete
     struct tracks_output *tracks;
 
     if (geojson_path_is_geojson(path) && with_covariance) {
-        fail(EXIT_USAGE, "%s: --covariance has no place in GeoJSON", path);
+        fail(EXIT_USAGE, "%s: GeoJSON cannot hold covariances (--covariance)", path);
     }
     asterix_track_writer_refuse_covariance(path, with_covariance);
     tracks = open_output(path, output_open(path), parameters, with_covariance);
@@ -68,8 +68,8 @@ struct tracks_output *tracks_output_open_in_place(const char *path,
 {
     if (geojson_path_is_geojson(path)) {
         fail(EXIT_USAGE,
-             "%s: GeoJSON is complete at the end alone, and cannot be written in place; `convert` "
-             "makes it of a CSV file",
+             "%s: GeoJSON is complete only at the end and cannot be written in place; write a CSV "
+             "file and `convert` it",
              path);
     }
     asterix_track_writer_refuse_covariance(path, with_covariance);

@@ -61,8 +61,8 @@ static int find_column(const struct reading *reading, const struct rows_column *
     int degrees = column->degrees ? table_find_column(table, column->degrees) : -1;
 
     if (plain >= 0 && degrees >= 0) {
-        table_fail_at_row(table, TABLE_HEADER, "both '%s' and '%s' are there", column->name,
-                          column->degrees);
+        table_fail_at_row(table, TABLE_HEADER, "columns '%s' and '%s' exclude each other",
+                          column->name, column->degrees);
     }
     *is_degrees = degrees >= 0;
     if (degrees < 0 && (column->flags & COLUMN_NEEDED) &&
@@ -100,7 +100,7 @@ static void find_columns(struct reading *reading)
         }
     }
     if (kind == &rows_kind_polar && table_find_column(table, "x_m") >= 0) {
-        table_fail_at_row(table, TABLE_HEADER, "both 'range_m' and 'x_m' are there");
+        table_fail_at_row(table, TABLE_HEADER, "columns 'range_m' and 'x_m' exclude each other");
     }
     row_need_both_columns_or_neither(table, "sensor_x_m", "sensor_y_m");
     row_need_both_columns_or_neither(table, "sector_from_rad", "sector_to_rad");
@@ -132,7 +132,7 @@ static bool read_int16(const struct row_check *check, int column, int32_t *value
         return false;
     }
     return (*value >= INT16_MIN && *value <= INT16_MAX) ||
-           row_refuse_cell(check, column, "is outside -32768 .. 32767, which messages hold");
+           row_refuse_cell(check, column, "is outside -32768 .. 32767, the range of messages");
 }
 
 static bool read_float(const struct row_check *check, int column, double *value)
@@ -191,7 +191,7 @@ static bool read_cell(const struct reading *reading, const struct row_check *che
         return false;
     }
     return !(described->flags & COLUMN_NO_ROOM) || rows_is_plus_zero((float)*value) ||
-           row_refuse(check, "%s has no place in a %s", described->name,
+           row_refuse(check, "%s cannot be stored in a %s", described->name,
                       rho_message_type_name(reading->file->rows.kind->type));
 }
 
@@ -300,7 +300,7 @@ static bool check_time_order(const struct reading *reading, const struct row_che
         (reading->received_s < 0 && is_in_begun_scan(reading, row))) {
         return true;
     }
-    return row_refuse(check, "%s goes back from %.6f s to %.6f s",
+    return row_refuse(check, "%s decreases from %.6f s to %.6f s",
                       reading->received_s >= 0 ? "received_s" : "time",
                       (double)reading->last_us * 1e-6,
                       (double)row_order_time_us(reading, row) * 1e-6);
@@ -394,7 +394,7 @@ void rows_read_csv(struct rows_file *file, const char *path, const struct parame
 
     table_need_rows(table);
     if (!rows_read_table(file, path, table, parameters, keep_going)) {
-        table_fail_at_row(table, TABLE_HEADER, "not one good row after the header");
+        table_fail_at_row(table, TABLE_HEADER, "no valid row after the header");
     }
     table_free(table);
 }

@@ -28,11 +28,11 @@ static const char *describe_bad_message(enum rho_status status, const struct row
         snprintf(reason, ROWS_FROM_MESSAGES_REASON_BYTES, "too short for a %s", name);
         break;
     case RHO_ERROR_TYPE:
-        snprintf(reason, ROWS_FROM_MESSAGES_REASON_BYTES, "no %s, or of another version", name);
+        snprintf(reason, ROWS_FROM_MESSAGES_REASON_BYTES, "not a %s, or of another version", name);
         break;
     case RHO_ERROR_COUNT:
-        snprintf(reason, ROWS_FROM_MESSAGES_REASON_BYTES, "the count of its list is none of a %s",
-                 name);
+        snprintf(reason, ROWS_FROM_MESSAGES_REASON_BYTES,
+                 "the length of its list is invalid for a %s", name);
         break;
     case RHO_ERROR_TRAILING:
         snprintf(reason, ROWS_FROM_MESSAGES_REASON_BYTES, "too long for a %s", name);

@@ -3,12 +3,10 @@
  * rows_polar: rows of polar plots, and polar_scan_t messages. A message has one set of sigmas:
  * plots with other sigmas go into another part.
  */
-#include <math.h>
-
+#include "io/csv/row_check.h"
 #include "io/rows/rows.h"
 
 #define DEG_RAD 0.017453292519943295
-#define PI 3.141592653589793
 
 enum column {
     RANGE_M,
@@ -30,12 +28,6 @@ enum column {
 
 enum group { NO_GROUP, SECTOR, PLACE };
 
-/* Converts degrees clockwise from north to radians counter-clockwise from east. */
-static double radians_from_compass_deg(double azimuth_deg)
-{
-    return remainder(PI / 2 - azimuth_deg * DEG_RAD, 2 * PI);
-}
-
 static double radians_from_deg(double value)
 {
     return value * DEG_RAD;
@@ -44,7 +36,7 @@ static double radians_from_deg(double value)
 static const struct rows_column columns[NUM_COLUMNS] = {
     [RANGE_M] = {"range_m", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP, NULL, NULL},
     [AZIMUTH_RAD] = {"azimuth_rad", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS | COLUMN_ANGLE,
-                     NO_GROUP, "azimuth_deg", radians_from_compass_deg},
+                     NO_GROUP, "azimuth_deg", row_radians_from_compass_deg},
     [ELEVATION_RAD] = {"elevation_rad", COLUMN_MEASURED, NO_GROUP, "elevation_deg",
                        radians_from_deg},
     [RANGE_RATE_MPS] = {"range_rate_mps", COLUMN_MEASURED, NO_GROUP, NULL, NULL},

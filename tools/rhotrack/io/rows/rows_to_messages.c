@@ -165,7 +165,7 @@ static bool check_plot_fits_scan(struct scan_grouping *grouping, const struct ro
 
     if (name) {
         rows_refuse_row(grouping->file, row,
-                        "%s is not that of the scan's other rows: a message has one", name);
+                        "%s differs from that of the scan's other rows: a message has one", name);
         return false;
     }
     if (grouping->kind->pattern &&
@@ -177,7 +177,7 @@ static bool check_plot_fits_scan(struct scan_grouping *grouping, const struct ro
     }
     if (grouping->kind->rows_max > 0 && scan->count >= grouping->kind->rows_max) {
         rows_refuse_row(grouping->file, row,
-                        "more than %zu rows are one scan: no message holds them",
+                        "a scan has more than %zu rows, the limit of a message",
                         grouping->kind->rows_max);
         return false;
     }
@@ -207,15 +207,16 @@ static bool check_row_fits_scan(struct scan_grouping *grouping, const struct row
                               rows_cells(&grouping->file->rows, &scan->head), COLUMN_OF_SCAN);
 
     if (name) {
-        rows_refuse_row(grouping->file, row, "%s is not that of the scan's first row", name);
+        rows_refuse_row(grouping->file, row, "%s differs from that of the scan's first row", name);
         return false;
     }
     if (!check_received_fits_scan(grouping, scan, row)) {
         return false;
     }
     if (grouping->kind->has_one_time && row->time_us != scan->utime) {
-        rows_refuse_row(grouping->file, row,
-                        "t_s is not that of the scan's first row: a scan of bearings has one time");
+        rows_refuse_row(
+            grouping->file, row,
+            "t_s differs from that of the scan's first row: a scan of bearings has one time");
         return false;
     }
     return true;
@@ -279,8 +280,8 @@ static void add_scan_of_rows(struct scan_grouping *grouping, size_t first, size_
     }
     parts = count_parts(grouping, &scan);
     if (parts > INT16_MAX) {
-        rows_refuse_row(grouping->file, &scan.head, "a scan of %zu parts; messages number 32767",
-                        parts);
+        rows_refuse_row(grouping->file, &scan.head,
+                        "a scan of %zu parts; messages can number 32767", parts);
         return;
     }
     scan.num_parts = (int16_t)parts;

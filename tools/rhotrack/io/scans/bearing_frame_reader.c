@@ -262,7 +262,7 @@ void bearing_frame_reader_need_two_sensors(const struct bearing_frame_reader *re
         const struct known_sensor *only = &reader->known.list[0];
 
         fail(EXIT_USAGE,
-             "%s:%u: sensor %d is the only one: positions need bearings of two sensors or more",
+             "%s:%u: sensor %d is the only sensor: positions need bearings of two or more",
              only->path, (unsigned)only->line, (int)only->sensor.sensor_id);
     }
 }

@@ -44,16 +44,17 @@ static bool check_new_sensor(const struct fixed_passive_sensors *known, const ch
 
         if (hypot((double)row->sensor.x_m - (double)other->x_m,
                   (double)row->sensor.y_m - (double)other->y_m) < SAME_PLACE_M) {
-            return row_refuse(check, "sensor %d is where sensor %d is: %s", (int)row->sensor_id,
-                              (int)other->sensor_id,
+            return row_refuse(check, "sensor %d has the same place as sensor %d: %s",
+                              (int)row->sensor_id, (int)other->sensor_id,
                               format_first_naming(&known->list[i], path, text));
         }
     }
     if (known->is_closed) {
-        return row_refuse(check, "sensor %d is new: the file has grown", (int)row->sensor_id);
+        return row_refuse(check, "sensor %d is new: the file has grown while it was read",
+                          (int)row->sensor_id);
     }
     return known->count < RHO_MAX_SENSORS ||
-           row_refuse(check, "sensor %d is one more than %d sensors", (int)row->sensor_id,
+           row_refuse(check, "sensor %d is beyond the limit of %d sensors", (int)row->sensor_id,
                       RHO_MAX_SENSORS);
 }
 

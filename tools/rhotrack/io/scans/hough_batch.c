@@ -29,7 +29,7 @@ static bool is_plot_in_range(const struct rho_plot *plot)
 static void add_scan_plots(struct hough_batch *batch, const struct rho_scan *scan, int64_t first_us)
 {
     if (scan->time_us - first_us > SPAN_MAX_US) {
-        fail(EXIT_USAGE, "the scans taken span %.3g s; at most %.0g s make a batch",
+        fail(EXIT_USAGE, "the scans used span %.3g s; a batch spans at most %.0g s",
              1e-6 * (double)(scan->time_us - first_us), 1e-6 * (double)SPAN_MAX_US);
     }
     make_room_for_plots(batch, scan->num_plots);

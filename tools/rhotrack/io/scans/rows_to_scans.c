@@ -77,7 +77,7 @@ bool rows_to_scans_check_time(const struct rows_to_scans *gather, const struct g
     int64_t clock_us = row_order_time_us(gather, time_us);
 
     return is_within || !gather->has_rows || clock_us >= gather->last_us ||
-           row_refuse(check, "%s goes back from %.6f s to %.6f s",
+           row_refuse(check, "%s decreases from %.6f s to %.6f s",
                       gather->has_clock ? "received_s" : "time", (double)gather->last_us * 1e-6,
                       (double)clock_us * 1e-6);
 }

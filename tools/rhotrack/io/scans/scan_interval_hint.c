@@ -99,7 +99,7 @@ void scan_interval_hint_report(const struct scan_interval_hint *plots, const cha
     if (plots->lone >= LONE_LEAST && plots->lone > plots->scans / 2) {
         fprintf(stderr,
                 "rhotrack: %s: %" PRIu64 " of %" PRIu64
-                " scans have one plot each: is scan_interval_s meant?\n",
+                " scans have one plot each: set scan_interval_s if they are parts of one scan\n",
                 path, plots->lone, plots->scans);
     }
 }

@@ -43,12 +43,12 @@ static bool check_row_fits_scan(const struct scan_source *source, const struct g
     }
     if (row->sector_from_rad != scan->sector_from_rad ||
         row->sector_to_rad != scan->sector_to_rad) {
-        return row_refuse(check, "the sector is not that of the scan's first row");
+        return row_refuse(check, "the sector differs from that of the scan's first row");
     }
     if (source->options.kind == RECORD_PLOTS &&
         (row->sensor.x_m != scan->sensor.x_m || row->sensor.y_m != scan->sensor.y_m ||
          row->sensor.z_m != scan->sensor.z_m)) {
-        return row_refuse(check, "the sensor's place is not that of the scan's first row");
+        return row_refuse(check, "the sensor's place differs from that of the scan's first row");
     }
     return !row->has_measurement || !scan->has_measures || row->measures == scan->measures ||
            row_refuse(check, "height, velocity or range rate must be given in all rows of a scan "
@@ -115,7 +115,7 @@ static void find_columns(struct scan_source *source, const struct table *table)
         return;
     }
     if (source->options.follow && measurement_row_table_has_bearings(table)) {
-        table_fail_at_row(table, TABLE_HEADER, "--follow takes plots, and these are bearings");
+        table_fail_at_row(table, TABLE_HEADER, "--follow takes plots, but this file has bearings");
     }
     source->columns = measurement_row_columns_find(table, source->parameters, source->options.kind,
                                                    !source->options.may_lack_sensor);
@@ -186,7 +186,7 @@ static void need_any_good_row(const struct scan_source *source, const struct tab
     if (!scans_of_one_file_rows_skipped(source)) {
         table_need_rows(table);
     }
-    table_fail_at_row(table, TABLE_HEADER, "not one good row after the header");
+    table_fail_at_row(table, TABLE_HEADER, "no valid row after the header");
 }
 
 /* Reads one more row and processes it, or notes the end, or that none is there yet. */
@@ -503,7 +503,7 @@ struct scan_source *scans_of_one_file_open(const char *path, const struct parame
     if (!lcm_log_is_log(path)) {
         open_table(source);
     } else if (options.follow) {
-        fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is an LCM log", path);
+        fail(EXIT_USAGE, "%s: --follow takes CSV files, but this is an LCM log", path);
     } else {
         open_log(source);
     }

@@ -104,16 +104,16 @@ static void report_rule(const struct antenna *antenna, const char *path)
     fprintf(stderr, "rhotrack: %s: sensor %" PRId32 ": ", path, antenna->sensor_id);
     if (rule->kind == TURN_UNKNOWN) {
         fprintf(stderr,
-                "rows have a time each, %.3g s apart, and neither azimuths (seen from its place, "
-                "sensor.%" PRId32 ".x_m and y_m) nor gaps tell turns of an antenna: "
-                "scan_interval_s with the time of a turn gathers them, 0 takes each time as a "
-                "scan\n",
+                "each row has its own time, %.3g s apart, and neither azimuths (seen from its "
+                "place, sensor.%" PRId32
+                ".x_m and y_m) nor gaps show turns of an antenna: set scan_interval_s to the time "
+                "of a turn to gather them, or to 0 to make each time a scan\n",
                 rule->turn_s, antenna->sensor_id);
         return;
     }
     fprintf(stderr,
-            "rows of a turn have times of their own; they are gathered into %s %.4g s%s by %s; "
-            "scan_interval_s=0 takes each time as a scan\n",
+            "the rows of a turn differ in time; they are gathered into %s %.4g s%s by %s; "
+            "scan_interval_s=0 makes each time a scan\n",
             rule->kind == TURN_AZIMUTHS ? "turns of" : "scans,", rule->turn_s,
             rule->kind == TURN_AZIMUTHS ? "" : " apart,",
             rule->kind == TURN_GAPS ? "the gaps between them"

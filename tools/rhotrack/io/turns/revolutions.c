@@ -74,8 +74,8 @@ static bool push_and_test_turn_continues(struct turning_sensor *turning,
     bare.num_plots = 0;
     is_further = rho_window_is_continued_by_scan(turning->window, &bare, sensor) != 0;
     if (rho_window_push(turning->window, &bare, sensor, NULL, &left_unused) != RHO_OK) {
-        fail(EXIT_USAGE, "sensor %" PRId32 ": the sector %g .. %g rad is none", scan->sensor_id,
-             (double)scan->sector_from_rad, (double)scan->sector_to_rad);
+        fail(EXIT_USAGE, "sensor %" PRId32 ": the sector %g .. %g rad is not valid",
+             scan->sensor_id, (double)scan->sector_from_rad, (double)scan->sector_to_rad);
     }
     return is_further;
 }

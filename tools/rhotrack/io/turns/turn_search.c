@@ -203,8 +203,11 @@ static bool find_rule_by_azimuths(const struct turn_plot *plots, size_t count, d
     const size_t num = sample_and_count_span_plots(plots, count, &fitted);
     double span_s, turn_s;
 
+    if (num < PLOTS_MIN) {
+        return false;
+    }
     span_s = fitted.after_s[fitted.count - 1];
-    if (num < PLOTS_MIN || span_s < 2 * TURN_MIN_S) {
+    if (span_s < 2 * TURN_MIN_S) {
         return false;
     }
     rule->rate_rad_s = find_turn_rate(&fitted);

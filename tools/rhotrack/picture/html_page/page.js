@@ -244,14 +244,16 @@ function drawAxes() {
 const fixedDigits = (digits, unit) => number => Number.isNaN(number) ? '' : `${number.toFixed(digits)} ${unit}`;
 const speed = row => Math.hypot(value(row, VX), value(row, VY));
 const heading = row => (Math.atan2(value(row, VX), value(row, VY)) * 180 / Math.PI + 360) % 360;
+// Heights that were not measured are 0 in all rows.
+const hasHeights = d3.range(trackTime.length).some(row => value(row, Z));
 const facts = [
     ['time', row => trackTime[row] + zero_s, fixedDigits(1, 's')],
     ['speed', speed, fixedDigits(1, 'm/s')],
     ['heading', heading, fixedDigits(0, '\u00b0')],
-    ['height', row => value(row, Z) || NaN, fixedDigits(0, 'm')],
+    ['height', row => hasHeights ? value(row, Z) : NaN, fixedDigits(0, 'm')],
     ['sigma of the place', row => value(row, MAJOR), fixedDigits(1, 'm')],
     ['sigma of the velocity', row => value(row, SIGMA_MPS), fixedDigits(1, 'm/s')],
-    ['score', row => value(row, SCORE) || NaN, fixedDigits(1, 'nat')],
+    ['score', row => value(row, SCORE), fixedDigits(1, 'nat')],
     ['hits', row => value(row, HITS), fixedDigits(0, '')],
     ['misses', row => value(row, MISSES), fixedDigits(0, '')],
 ];
@@ -277,7 +279,7 @@ function selectTrack(track) {
 over.on('click', () => selectTrack(-1));
 
 const charts = [['speed (m/s)', speed], ['sigma of the place (m)', row => value(row, MAJOR)],
-    ['score (nat)', row => value(row, SCORE) || NaN],
+    ['score (nat)', row => value(row, SCORE)],
     ['plots taken of looks (%)', row => 100 * value(row, HITS) / (value(row, HITS) + value(row, MISSES))]];
 
 function drawTrackPanel() {
