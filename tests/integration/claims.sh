@@ -27,8 +27,8 @@ check 'a function that is not there is seen' seen "tables/$table" \
     's/ghost_matrix.c rho_ghost_fill/ghost_matrix.c rho_ghost_pour/' \
     "$table: \\[step 1.1\\]: no function rho_ghost_pour in src/bearings/ghost_matrix.c"
 check 'a test that is not there is seen' seen "tables/$table" \
-    's/test_ghost_matrix.c nothing_single_leaves_all/test_ghost_matrix.c nothing_single/' \
-    "\\[step 2.2\\]: no test nothing_single in tests/unit/bearings/test_ghost_matrix.c"
+    's/without_single_crossings_nothing_is_removed/without_single_crossings/' \
+    "\\[step 2.2\\]: no test without_single_crossings in tests/unit/bearings/test_ghost_matrix.c"
 check 'a test in Python that is not there is seen' seen "tables/$table" \
     's/test_the_papers_method$/test_no_method/' 'no test test_no_method in tests/lab/test_passive.py'
 check 'a row that is left out is seen' seen "tables/$table" 's/^\[equation 2\]/[equation 20]/' \

@@ -20,7 +20,7 @@ SCRIPT = harness.ROOT / "tools" / "lab" / "claims.py"
 PAPER = "[paper]\ntitle = A paper\nby = Someone\nrows = equation 1-2\n"
 SEE = "[see A]\nwhat = it\ncommand = rhotrack --version\ncode = src/papers/hough\n"
 CODE = "code = src/papers/hough.c rho_hough_find\n"
-TEST = "test = tests/unit/papers/test_hough.c the_three_targets_of_table_1_stand_out\n"
+TEST = "test = tests/unit/papers/test_hough.c the_three_targets_of_table_1_have_the_most_votes\n"
 SET = "[equation 1]\nsays = a set\ndefinition = of set theory\n"
 MEASURED = ("[equation 2]\nsays = less than one\n" + CODE
             + "measured = ht, nht: lab cases[case=I, thin;method=HT|NHT].votes\n"

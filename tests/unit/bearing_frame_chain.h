@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A tracker with a passive initiation, the frames of a scene for as long as one likes, and a filter
- * beside it.
+ * A tracker with a passive initiator that steps through frames of a scene, and an extended Kalman
+ * filter to compare with.
  */
 #ifndef BEARING_FRAME_CHAIN_H
 #define BEARING_FRAME_CHAIN_H
@@ -18,7 +18,7 @@
 #include "passive_scene.h"
 #include "rhotrack/tracker.h"
 
-#define BATCH 8u /* frames of the default configuration */
+#define BATCH 8u /* frames in a batch of the default configuration */
 
 static struct rho_tracker tracker;
 static struct rho_passive passive;
@@ -39,7 +39,7 @@ static inline void start_chain(float accel_max_mps2)
     assert_int_equal(start_passive(&passive), RHO_OK);
 }
 
-/* Another gate than the default's, and so another filter of new tracks. */
+/* Initialises the tracker again with another gate, and so another filter for new tracks. */
 static inline void use_gate(uint8_t gate)
 {
     struct rho_tracker_config config = tracker.config;
@@ -47,13 +47,13 @@ static inline void use_gate(uint8_t gate)
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
 }
 
-/* Any number of frames: the scene holds the last ones. */
+/* The scene stores the last SCENE_SCANS frames, frame k in this place. */
 static inline unsigned scene_slot_of(unsigned k)
 {
     return k % SCENE_SCANS;
 }
 
-/* What all sensors see at time_s goes into `full`. */
+/* Puts the bearings of all sensors at time_s into `full`. */
 static inline void see_frame(unsigned k, double time_s)
 {
     scene.time_s[scene_slot_of(k)] = time_s;
@@ -78,7 +78,7 @@ static inline uint32_t count_held(void)
     return count;
 }
 
-/* Fates add up to the bearings of all scans. */
+/* Checks that the numbers of fates add up to the bearings of all scans. */
 static inline void check_fates(const struct rho_frame *frame)
 {
     uint32_t sum = 0, counted = 0, bearings = 0;
@@ -112,7 +112,7 @@ static inline void check_report(void)
     }
 }
 
-/* One step with this frame; the report is filled whole, whatever it held before. */
+/* Steps with a frame; the report is overwritten before, so that each field must be written. */
 static inline void step_frame(const struct rho_frame *frame)
 {
     memset(&report, 0xee, sizeof report);
@@ -121,7 +121,7 @@ static inline void step_frame(const struct rho_frame *frame)
     check_report();
 }
 
-/* Frame k, interval_s after the one before. */
+/* Steps with frame k of frames that are interval_s apart. */
 static inline void fly_frame(unsigned k, double interval_s)
 {
     see_frame(k, interval_s * k);
@@ -144,7 +144,7 @@ static inline double track_error_m(const struct rho_track_report *track,
                  (double)track->state[1] - target_y_m(target, time_s));
 }
 
-/* The track that is nearest to a target now; NULL: none within 3 km. */
+/* The track nearest to a target at time_s; NULL: none within 3 km. */
 static inline const struct rho_track_report *track_nearest_to(const struct target *target,
                                                               double time_s)
 {
@@ -172,14 +172,14 @@ static inline const struct rho_track_report *track_with_id(uint32_t track_id)
 
 /* ---- a filter in double precision ------------------------------------------------------------ */
 
-/* Extended Kalman filter of textbooks, in x, y, vx, vy; bearings in radians. */
+/* Extended Kalman filter in x, y, vx, vy with bearings in radians, in double precision. */
 struct ekf {
     double x[4], p[4][4];
 };
 
 /*
- * It begins at the truth, and knows next to nothing beside what a batch of bearings tells: 5 km and
- * 100 m/s.
+ * A filter that starts at the true state with sigmas of 5 km and 100 m/s, which a batch of bearings
+ * makes negligible.
  */
 static inline struct ekf ekf_at_target(const struct target *target)
 {
@@ -209,7 +209,7 @@ static inline void ekf_predict(struct ekf *ekf, double dt_s, double density)
     }
 }
 
-/* A scalar: row of x and y, its measured minus predicted value, the noise's variance. */
+/* Scalar update by a row over x and y, the innovation and the noise variance. */
 static inline void ekf_take_row(struct ekf *ekf, const double row[2], double off, double variance)
 {
     double ph[4], s = variance;
@@ -234,10 +234,7 @@ static inline void ekf_update(struct ekf *ekf, double x_m, double y_m,
     ekf_take_row(ekf, row, off_rad, (double)bearing->sigma_rad * (double)bearing->sigma_rad);
 }
 
-/*
- * A plot as seen from a place: its two axes along and across the line of sight, one after the
- * other.
- */
+/* Updates with a plot seen from (x_m, y_m), along the line of sight and then across it. */
 static inline void ekf_take_plot(struct ekf *ekf, double x_m, double y_m,
                                  const struct rho_plot *plot)
 {
@@ -253,7 +250,7 @@ static inline void ekf_take_plot(struct ekf *ekf, double x_m, double y_m,
     }
 }
 
-/* It goes on from a track. */
+/* A filter that starts from a track's state and covariance. */
 static inline struct ekf ekf_from_track(const struct rho_track_report *track)
 {
     static const int at[4] = {0, 1, 3, 4};
@@ -267,10 +264,7 @@ static inline struct ekf ekf_from_track(const struct rho_track_report *track)
     return ekf;
 }
 
-/*
- * All bearings of a target that the frame in slot k has, in the order of sensors; own times from
- * the scan's.
- */
+/* Updates with all bearings of a target in frame k, in the order of sensors. */
 static inline void ekf_take_frame(struct ekf *ekf, unsigned k, int target)
 {
     for (unsigned s = 0; s < scene.sensors; s++) {
@@ -288,7 +282,7 @@ static inline double ekf_error_m(const struct ekf *ekf, const struct target *tar
     return hypot(ekf->x[0] - target_x_m(target, time_s), ekf->x[1] - target_y_m(target, time_s));
 }
 
-/* e^T P^-1 e of a report in x, y, vx, vy, by elimination. */
+/* Normalised estimation error squared, e^T P^-1 e, of a track in x, y, vx, vy. */
 static inline double nees_of(const struct rho_track_report *track, const double truth[4])
 {
     static const int at[4] = {0, 1, 3, 4};

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * `make sanitize` includes it in front of every unit test when it builds with the memory sanitizer:
- * objects that a test compares by their bytes hold none that nobody set, their padding included.
- * Two runs could differ in such a byte.
+ * `make sanitize` includes this in front of every unit test for the memory sanitizer: objects that
+ * a test compares by bytes must not hold uninitialised ones, not even as padding, as these could
+ * differ between runs.
  */
 #ifndef RHOTRACK_TESTS_DEFINED_MEMORY_H
 #define RHOTRACK_TESTS_DEFINED_MEMORY_H

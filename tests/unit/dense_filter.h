@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The filter as textbooks have it: full 6 x 6 matrices in double precision, the vector update with
- * an inverse and in Joseph's form. It shares nothing with the library but the order of the packed
- * triangle.
+ * A Kalman filter in double precision as reference: full 6 x 6 matrices, vector updates with an
+ * inverse and in Joseph's form. The order of the packed triangle is all that it shares with the
+ * library.
  */
 #ifndef RHOTRACK_TESTS_DENSE_FILTER_H
 #define RHOTRACK_TESTS_DENSE_FILTER_H
@@ -17,13 +17,13 @@
 #include <cmocka.h>
 
 #define DENSE 6
-#define DENSE_ROWS 3 /* the most that one vector update takes */
+#define DENSE_ROWS 3 /* largest number of rows of one update */
 
 struct dense {
     double x[DENSE], p[DENSE][DENSE];
 };
 
-/* A measurement of h x with noise covariance r; y is its measured minus predicted value. */
+/* A measurement h x with noise covariance r; y is the innovation, measured minus predicted. */
 struct dense_measurement {
     int num_rows;
     double h[DENSE_ROWS][DENSE], y[DENSE_ROWS], r[DENSE_ROWS][DENSE_ROWS];
@@ -46,7 +46,7 @@ static inline double normal(void)
     return radius * cos(uniform(0.0, 6.283185307179586));
 }
 
-/* Positive definite, correlated by up to 0.99 or so, sigmas of 1 to 10^decades. */
+/* Draws a positive definite covariance: correlations up to 0.99, sigmas of 1 to 10^decades. */
 static inline void random_covariance(float p[21], double decades)
 {
     double w[DENSE][DENSE], scale[DENSE];
@@ -128,7 +128,7 @@ static inline void dense_predict(struct dense *d, double dt, double density)
     }
 }
 
-/* Gauss and Jordan; s is positive definite, so no pivot has to be looked for. */
+/* Inverts by Gauss-Jordan without pivoting, as s is positive definite. */
 static inline void dense_invert(int n, double s[DENSE_ROWS][DENSE_ROWS])
 {
     for (int k = 0; k < n; ++k) {
@@ -152,7 +152,7 @@ static inline void dense_invert(int n, double s[DENSE_ROWS][DENSE_ROWS])
     }
 }
 
-/* p h^T, a column for each row of h, and the inverse of h p h^T + r. */
+/* Computes p h^T and the inverse of the innovation covariance h p h^T + r. */
 static inline void dense_innovation_inverse(const struct dense *d,
                                             const struct dense_measurement *m,
                                             double ph[DENSE][DENSE_ROWS],
@@ -177,9 +177,9 @@ static inline void dense_innovation_inverse(const struct dense *d,
     dense_invert(m->num_rows, inverse);
 }
 
-/* p := (1 - k h) p (1 - k h)^T + k r k^T */
-static inline void dense_joseph(struct dense *d, const struct dense_measurement *m,
-                                double gain[DENSE][DENSE_ROWS])
+/* Covariance update in Joseph's form: p := (1 - k h) p (1 - k h)^T + k r k^T. */
+static inline void dense_update_covariance(struct dense *d, const struct dense_measurement *m,
+                                           double gain[DENSE][DENSE_ROWS])
 {
     double rest[DENSE][DENSE];
 
@@ -203,7 +203,7 @@ static inline void dense_joseph(struct dense *d, const struct dense_measurement 
     }
 }
 
-/* Returns the normalised innovation squared. */
+/* Updates the estimate; returns the normalised innovation squared. */
 static inline double dense_update(struct dense *d, const struct dense_measurement *m)
 {
     double ph[DENSE][DENSE_ROWS], inverse[DENSE_ROWS][DENSE_ROWS], gain[DENSE][DENSE_ROWS];
@@ -224,7 +224,7 @@ static inline double dense_update(struct dense *d, const struct dense_measuremen
             nis += m->y[a] * inverse[a][b] * m->y[b];
         }
     }
-    dense_joseph(d, m, gain);
+    dense_update_covariance(d, m, gain);
     return nis;
 }
 
@@ -240,9 +240,8 @@ static inline struct dense_measurement dense_row_measurement(const float row[6],
 }
 
 /*
- * The rate that a sensor at `from` would see, linearised at the estimate; axes: 2 where heights are
- * not known. What that leaves out counts as noise: (v s^2 / range^2)^2 / 2, s^2 the place's
- * variance.
+ * Range rate seen from `from`, linearised at the estimate; axes is 2 if heights are unknown. The
+ * linearisation error counts as noise: (v s^2 / range^2)^2 / 2, where s^2 is the place's variance.
  */
 static inline struct dense_measurement dense_range_rate(const struct dense *d, const double from[3],
                                                         int axes, double rate, double variance)
@@ -268,14 +267,14 @@ static inline struct dense_measurement dense_range_rate(const struct dense *d, c
 
 /* --- places -------------------------------------------------------------------------------- */
 
-/* A plot's place and its noise's covariance in x, y, z. */
+/* A plot's place and its noise covariance in x, y, z. */
 struct dense_place {
     double at[3], r[3][3];
 };
 
 /*
- * variance: along the line of sight from `sensor` to `at`, across it on the level, upwards at right
- * angles to both; axes: 2 where heights are not known.
+ * Place with noise variances along the line of sight from `sensor` to `at`, across it horizontally,
+ * and at right angles to both; axes is 2 if heights are unknown.
  */
 static inline struct dense_place dense_place_of(const double sensor[3], const double at[3],
                                                 int axes, const double variance[3])
@@ -299,7 +298,7 @@ static inline struct dense_place dense_place_of(const double sensor[3], const do
     return place;
 }
 
-/* Axes from .. to - 1 of a place measured, all at once. */
+/* Updates with axes `from` to `to` - 1 of a place, all at once. */
 static inline void dense_update_place(struct dense *d, const struct dense_place *place, int from,
                                       int to)
 {
@@ -315,10 +314,7 @@ static inline void dense_update_place(struct dense *d, const struct dense_place 
     dense_update(d, &m);
 }
 
-/*
- * Axes from .. to - 1 were closed: the place and its noise are all that is known, and velocities of
- * 0.
- */
+/* Opens the closed axes `from` to `to` - 1 with the place and its noise, and velocities of 0. */
 static inline void dense_open_place(struct dense *d, const struct dense_place *place, int from,
                                     int to, double velocity_variance)
 {
@@ -332,13 +328,13 @@ static inline void dense_open_place(struct dense *d, const struct dense_place *p
     }
 }
 
-/* --- judges -------------------------------------------------------------------------------- */
+/* --- comparison ------------------------------------------------------------------------------ */
 
-#define DENSE_ROUNDING 5e-7 /* of a state itself: eight units of float32 */
+#define DENSE_ROUNDING 5e-7 /* relative rounding of a state: eight units of float */
 
 /*
- * States are compared in sigmas, covariances in products of two: those of `scale`, most often the
- * estimate before, as the rounding is of the size of what was there.
+ * Tolerances are in sigmas of `scale`, and in products of two sigmas for covariances; `scale` is
+ * mostly the estimate before, as rounding errors are proportional to it.
  */
 static inline void assert_near_dense(const float x[6], const float p[21],
                                      const struct dense *expected, const struct dense *scale,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scenes for the tracker's gates: targets that fly straight or pull, clutter, misses; the tracker
- * with its initiator, and what must hold after every step. Truth in double precision.
+ * Scenes for the tracker's gates: targets that fly straight or turn, clutter, misses; the tracker
+ * with its initiator, and checks after every step. The truth is in double precision.
  */
 #ifndef GATES_SCENE_H
 #define GATES_SCENE_H
@@ -22,24 +22,26 @@
 #define SCENE_PLOTS_MAX 256
 
 /*
- * Course and speed at time 0; pulls sideways from one time to another, to the left where positive.
+ * A target's place, speed and course at time 0; between from_s and to_s it turns with pull_mps2, to
+ * the left if positive.
  */
 struct target {
     double x_m, y_m, z_m, speed_mps, course_rad, pull_mps2, from_s, to_s;
 };
 
-/* What the sensor sees, and how. */
+/* Targets, the sensor's noise and scans, and clutter. */
 struct scene {
     struct target target[SCENE_TARGETS_MAX];
     unsigned num_targets;
     double interval_s, pd, sigma_m;
     double sigma_cross_m; /* 0: as sigma_m */
-    double turn_s;        /* plots' own times: azimuth over a turn of the antenna; 0: all at once */
-    double clutter;       /* mean a scan, uniform in the area */
-    double half_area_m;   /* about the origin */
+    /* of the antenna, whose azimuth gives plots their own times; 0: all plots at the scan's time */
+    double turn_s;
+    double clutter;     /* mean number of plots a scan, uniform in the area */
+    double half_area_m; /* half the side of the area about the origin */
     uint32_t measures;
-    int clean_scans; /* first ones, without clutter or misses */
-    int num_sectors; /* scans look at one of so many sectors after the other; 0: all round */
+    int clean_scans; /* first scans, which have neither clutter nor misses */
+    int num_sectors; /* each scan looks at the next of this many sectors; 0: all round */
 };
 
 static struct scene scene;
@@ -49,10 +51,10 @@ static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_report report;
 static struct rho_plot plots[SCENE_PLOTS_MAX];
-static int targets_of[SCENE_PLOTS_MAX]; /* -1: clutter */
+static int targets_of[SCENE_PLOTS_MAX]; /* target of each plot; -1: clutter */
 static uint32_t num_plots;
 static uint64_t random_state;
-static uint32_t ids_before[RHO_MAX_TRACKS]; /* tracks before the step */
+static uint32_t ids_before[RHO_MAX_TRACKS]; /* tracks before the last step */
 static unsigned num_before;
 
 /* ---- random ---------------------------------------------------------------------------------- */
@@ -81,7 +83,7 @@ static inline unsigned poisson(double mean)
 
 /* ---- targets --------------------------------------------------------------------------------- */
 
-/* The target at t_s: place and course then; exact, on a circle while it pulls. */
+/* The target's place and course at t_s: exact, on a circle while it turns. */
 static inline struct target target_at(const struct target *target, double t_s)
 {
     struct target at = *target;
@@ -106,7 +108,7 @@ static inline struct target target_at(const struct target *target, double t_s)
     return at;
 }
 
-/* ---- what is seen ---------------------------------------------------------------------------- */
+/* ---- plots ---------------------------------------------------------------------------------- */
 
 static inline double own_time_s(const struct target *target, double t_s)
 {
@@ -119,9 +121,7 @@ static inline double own_time_s(const struct target *target, double t_s)
     return nearbyint(offset_s * 1e6) * 1e-6;
 }
 
-/*
- * Unit vectors of the line of sight to a place: along it, across, up. Without heights it is level.
- */
+/* Unit vectors along the line of sight to a place, across it and upwards; horizontal for z_m 0. */
 static inline void line_of_sight(double x_m, double y_m, double z_m, double frame[3][3])
 {
     double ground_m = fmax(hypot(x_m, y_m), 1e-6);
@@ -133,7 +133,7 @@ static inline void line_of_sight(double x_m, double y_m, double z_m, double fram
     memcpy(frame, u, sizeof u);
 }
 
-/* A plot of a target, or clutter (-1), with its noise. */
+/* Adds a plot of a target, or of clutter (target -1), with noise. */
 static inline void add_target_plot(const struct target *at, double offset_s, int target)
 {
     double u[3][3], place_m[3] = {at->x_m, at->y_m, at->z_m};
@@ -185,7 +185,7 @@ static inline void add_clutter(void)
     add_target_plot(&at, uniform(0.0, scene.turn_s), -1);
 }
 
-/* All that the sensor sees from t_s on: targets in a random order among the clutter. */
+/* Draws the plots of a scan: targets in their order, clutter at random among them. */
 static inline void see_scan(int k, double t_s)
 {
     num_plots = 0;
@@ -205,7 +205,7 @@ static inline void see_scan(int k, double t_s)
     }
 }
 
-/* Of so many sectors the k-th; plots outside of it are not seen. */
+/* Makes the scan one of sector k and removes the plots outside of it. */
 static inline void keep_sector_plots(int k, struct rho_scan *scan)
 {
     const double width_rad = 6.283185307179586 / scene.num_sectors;
@@ -223,7 +223,7 @@ static inline void keep_sector_plots(int k, struct rho_scan *scan)
     num_plots = kept;
 }
 
-/* ---- what must hold -------------------------------------------------------------------------- */
+/* ---- checks --------------------------------------------------------------------------------- */
 
 static inline int track_was_there(const struct rho_track_report *track)
 {
@@ -236,9 +236,8 @@ static inline int track_was_there(const struct rho_track_report *track)
 }
 
 /*
- * No plot has two tracks, but for two that share it; what tracks have is claimed, and nothing else,
- * but of a track that its score ended in this very step. A new track's newest plot was held; two
- * new ones may share it.
+ * Each plot belongs to one old track, or to two that share it, and is claimed; a claimed plot
+ * without a track belonged to one that ended in this step. Newest plots of new tracks are held.
  */
 static inline void check_claims(void)
 {
@@ -257,7 +256,7 @@ static inline void check_claims(void)
             assert_int_equal(report.fates[plot], is_old ? RHO_FATE_CLAIMED : RHO_FATE_HELD);
         }
         if (plot >= 0 && is_old) {
-            /* targets that the sensor sees as one: old tracks, and no more than two */
+            /* merged plots: the tracks are old, and two at most */
             assert_true(owner[plot] == -1 ||
                         (RHO_SHARES_PLOTS && owner[plot] >= 0 && report.tracks[i].hits > 10));
             owned += owner[plot] == -1;
@@ -283,8 +282,8 @@ static inline void check_fates(void)
 }
 
 /*
- * Every track of hypotheses has a slot of its own with 1 to 8; no other slot is open; no node is
- * lost.
+ * Each track with hypotheses has its own slot with 1 to 8 of them; no other slot is open, and no
+ * node is lost.
  */
 static inline void check_pool(void)
 {
@@ -324,7 +323,7 @@ static inline void check_tracks(void)
         for (int axis = 0; axis < 3; axis++) {
             assert_true(fabsf(track->accel_mps2[axis]) < 10.0f * config.accel_max_mps2 + 1.0f);
         }
-        /* without hypotheses a manoeuvre is an input, and an input shows */
+        /* single filter: a manoeuvre is an estimated input, which has an acceleration */
         float pull =
             fabsf(track->accel_mps2[0]) + fabsf(track->accel_mps2[1]) + fabsf(track->accel_mps2[2]);
         assert_true(config.gate == RHO_TRACKER_BEST ||
@@ -340,8 +339,8 @@ static inline void check_tracks(void)
 /* ---- steps ----------------------------------------------------------------------------------- */
 
 /*
- * A scene of one target's noise and none of all else; a tracker of that gate. Change them, then
- * begin_tracker().
+ * Prepares a scene without targets or clutter and configurations with this gate, to be changed
+ * before begin_tracker().
  */
 static inline void set_up_scene(uint8_t gate, uint64_t seed)
 {
@@ -358,8 +357,8 @@ static inline void set_up_scene(uint8_t gate, uint64_t seed)
 }
 
 /*
- * As it is meant to be used with places alone: inputs move the place, noise follows the largest
- * acceleration a little.
+ * Configures input estimation as recommended for plots without velocities: the physical model, with
+ * a noise density that follows the largest acceleration.
  */
 static inline void estimate_inputs(void)
 {
@@ -377,7 +376,7 @@ static inline void begin_tracker(void)
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &initiation), RHO_OK);
 }
 
-/* A scan of what is in plots[], with or without the initiator. */
+/* Steps with the plots in plots[]; starter is NULL for a step without initiator. */
 static inline void step_with_scan(struct rho_scan *scan, struct rho_initiator *starter)
 {
     scan->num_plots = num_plots;
@@ -410,7 +409,7 @@ static inline void step_tracker(int k)
     step_with_scan(&scan, &initiator);
 }
 
-/* ---- who follows whom ------------------------------------------------------------------------ */
+/* ---- tracks of targets ---------------------------------------------------------------------- */
 
 static inline double distance_m(const struct rho_track_report *track, unsigned target, double t_s)
 {
@@ -425,7 +424,7 @@ static inline const struct rho_track_report *follower_of(unsigned target, double
     const struct rho_track_report *found = NULL;
     for (unsigned i = 0; i < report.num_tracks; i++) {
         double d_m = distance_m(&report.tracks[i], target, t_s);
-        /* one in doubt, after three misses in a row, follows all the same */
+        /* a track with many hits counts though misses made it tentative again */
         int follows = report.tracks[i].status != RHO_TRACK_TENTATIVE || report.tracks[i].hits > 12;
         if (follows && d_m < limit_m) {
             limit_m = d_m;

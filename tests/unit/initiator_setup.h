@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * What the tests of the initiation share: one initiator, scans filled plot by plot, random numbers.
- */
+/* Shared by tests of the initiation: one initiator, scans filled plot by plot, random numbers. */
 #ifndef RHOTRACK_TESTS_INITIATOR_SETUP_H
 #define RHOTRACK_TESTS_INITIATOR_SETUP_H
 
@@ -18,7 +16,8 @@
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 #define PI 3.14159265358979323846
-#define PLOTS_MAX 256 /* of the embedded profile: the tests are the same in both */
+/* the capacity of the embedded profile, so that tests are equal in both profiles */
+#define PLOTS_MAX 256
 
 static struct rho_initiator initiator;
 static struct rho_plot plots[PLOTS_MAX];
@@ -37,7 +36,7 @@ static inline double normal(void)
     return radius * cos(uniform(0.0, 2.0 * PI));
 }
 
-/* Knuth's product of uniforms: for means of some dozens at most. */
+/* Poisson number by Knuth's product of uniforms, for means of some dozens at most. */
 static inline int poisson(double mean)
 {
     double product = uniform(0.0, 1.0);
@@ -54,7 +53,7 @@ static inline void start_initiator(const struct rho_initiator_config *config)
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, config), RHO_OK);
 }
 
-/* The plot is the caller's to complete until the scan is pushed. */
+/* Adds a plot; the caller may fill in more fields until the scan is pushed. */
 static inline struct rho_plot *add_plot(double x_m, double y_m, double sigma_range_m,
                                         double sigma_cross_m)
 {
@@ -74,7 +73,7 @@ static inline void add_clutter(const struct rho_extent *area, int count)
     }
 }
 
-/* Pushes the plots added since; the scan says the rest of itself. */
+/* Pushes the plots added since the last scan; `scan` has its other fields. */
 static inline void push_scan(struct rho_scan scan, double t_s, const struct rho_sensor *sensor)
 {
     static uint8_t fates[PLOTS_MAX];
@@ -97,7 +96,7 @@ static inline void search_window(enum rho_search kind)
     assert_int_equal(rho_initiator_search(&initiator, kind), RHO_OK);
 }
 
-/* Sees everything, anywhere, as well as the default config says. */
+/* A sensor without a sector or limit of range, with the default probability of detection. */
 static inline struct rho_sensor sensor_at(double x_m, double y_m)
 {
     return (struct rho_sensor){

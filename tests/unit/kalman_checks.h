@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the tests of the filter share: a filter to begin with, and judges of its covariance. */
+/* Shared by tests of the Kalman filter: a filter with open axes, and checks of its covariance. */
 #ifndef RHOTRACK_TESTS_KALMAN_CHECKS_H
 #define RHOTRACK_TESTS_KALMAN_CHECKS_H
 
@@ -24,7 +24,7 @@ static inline void assert_changed_nothing(const struct rho_kalman *kalman,
     assert_memory_equal(kalman, before, sizeof *before);
 }
 
-/* Cholesky in double precision of the open elements: the judge of definiteness. */
+/* Tries a Cholesky factorisation of the open elements in double precision. */
 static inline int is_positive_definite(const struct rho_kalman *kalman)
 {
     double l[STATES][STATES] = {{0.0}};

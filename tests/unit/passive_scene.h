@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Targets that fly towards passive sensors, what the sensors see of them, and frames of it. In
- * double precision.
+ * Scenes of targets that fly towards passive sensors: bearings with noise, misses and false ones,
+ * and frames of them. The truth is in double precision.
  */
 #ifndef PASSIVE_SCENE_H
 #define PASSIVE_SCENE_H
@@ -46,13 +46,13 @@ static inline float any_float(void)
     return value;
 }
 
-/* Between from and to; with this probability anything. */
+/* A value between `from` and `to`, or, with probability `any`, any float. */
 static inline float float_or_any(double from, double to, double any)
 {
     return uniform(0.0, 1.0) < any ? any_float() : (float)uniform(from, to);
 }
 
-/* What one sensor saw in one scan. */
+/* The bearings of one sensor in one scan. */
 struct look {
     int is_absent; /* the sensor is not in the frame */
     double sector_from_rad, sector_to_rad;
@@ -62,14 +62,15 @@ struct look {
 };
 
 struct target {
-    double x_m, y_m, vx_mps, vy_mps; /* place at the first scan */
+    double x_m, y_m, vx_mps, vy_mps; /* at time 0 */
 };
 
 struct scene {
     unsigned sensors, targets, scans;
-    double sigma_from_rad, sigma_to_rad; /* each bearing has its own between these */
-    double pd, false_bearings;           /* of each look */
-    double jitter_s;                     /* of the 10 s from scan to scan, either way */
+    double sigma_from_rad, sigma_to_rad; /* limits of the bearings' sigmas */
+    /* probability of detection, and mean number of false bearings a scan */
+    double pd, false_bearings;
+    double jitter_s; /* largest deviation of intervals from 10 s */
     double time_s[SCENE_SCANS];
     double sensor_x_m[SCENE_SENSORS], sensor_y_m[SCENE_SENSORS];
     struct target target[SCENE_TARGETS];
@@ -126,7 +127,7 @@ static inline double target_y_m(const struct target *target, double time_s)
     return target->y_m + time_s * target->vy_mps;
 }
 
-/* ---- what is seen ---------------------------------------------------------------------------- */
+/* ---- bearings ------------------------------------------------------------------------------- */
 
 static inline void add_bearing(struct look *look, double bearing_rad, double sigma_rad, int target)
 {
@@ -205,7 +206,7 @@ static inline void draw_scene(struct scene *scene)
     see_all_looks(scene);
 }
 
-/* Turned round the origin, then shifted; what was seen turns with it. */
+/* Rotates the scene about the origin, then shifts it; bearings rotate, too. */
 static inline void move_scene(struct scene *scene, double turn_rad, double x_m, double y_m)
 {
     double c = cos(turn_rad), s = sin(turn_rad);
@@ -227,11 +228,11 @@ static inline void move_scene(struct scene *scene, double turn_rad, double x_m, 
 
 /* ---- frames ---------------------------------------------------------------------------------- */
 
-/* A frame with all it points to. */
+/* A frame with its scans and fates. */
 struct full_frame {
     struct rho_frame frame;
     struct rho_bearing_scan scans[SCENE_SENSORS];
-    uint8_t fates[SCENE_SENSORS * LOOK_MAX]; /* HELD */
+    uint8_t fates[SCENE_SENSORS * LOOK_MAX]; /* all RHO_FATE_HELD */
 };
 
 static inline void fill_frame(const struct scene *scene, unsigned k, struct full_frame *full)
@@ -264,7 +265,7 @@ static inline enum rho_status push_scan(struct rho_passive *passive, const struc
     return rho_passive_push(passive, &full.frame, full.fates);
 }
 
-/* From scan `first` on; all that can be refused is an assertion of the caller's. */
+/* Pushes the scans from `first` on, until one is refused; returns the last status. */
 static inline enum rho_status push_scans_from(struct rho_passive *passive,
                                               const struct scene *scene, unsigned first)
 {
@@ -289,7 +290,7 @@ static inline enum rho_status search_scene(struct rho_passive *passive, const st
     return status == RHO_OK ? rho_passive_search(passive) : status;
 }
 
-/* ---- what must hold of any tracks ------------------------------------------------------------ */
+/* ---- checks of tracks ----------------------------------------------------------------------- */
 
 static inline int is_track_finite(const struct rho_passive_track *track)
 {
@@ -302,7 +303,7 @@ static inline int is_track_finite(const struct rho_passive_track *track)
            track->covariance[5] > 0.0f && track->covariance[9] > 0.0f;
 }
 
-/* Claims of held bearings, none claimed before; hits and scans say the same. */
+/* Claims name held bearings that no other track has claimed, and agree with hits and scans. */
 static inline int are_claims_right(const struct rho_passive *passive,
                                    const struct rho_passive_track *track,
                                    uint64_t claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Random numbers of a test: the same on every machine, from random_state on. */
+/* Random numbers that are the same on every machine; a test sets random_state. */
 #ifndef RHOTRACK_TESTS_RANDOM_DRAWS_H
 #define RHOTRACK_TESTS_RANDOM_DRAWS_H
 

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A rotating radar and eight targets at the edges of its sectors; what tests of sectors share. */
+/*
+ * A rotating radar that reports sectors, and eight targets at their edges, shared by tests of
+ * sectors.
+ */
 #ifndef RHOTRACK_TESTS_SECTORS_SCENE_H
 #define RHOTRACK_TESTS_SECTORS_SCENE_H
 
@@ -25,17 +28,17 @@ static struct rho_initiator initiator;
 static struct rho_report report;
 
 /*
- * A scene: which way the antenna turns (+1 counter-clockwise), where its first sector begins, and
- * who is not seen.
+ * Sense of the antenna's rotation (+1: counter-clockwise), direction where its first sector begins,
+ * and a target that hides.
  */
 struct scene {
     int turning;
     double first_rad;
-    double speed_mps; /* along the circle, counter-clockwise */
-    int hidden;       /* a target that is not seen from `hidden_turn` on; -1: none */
+    double speed_mps; /* of targets along their circles, counter-clockwise */
+    int hidden;       /* a target without plots from `hidden_turn` on; -1: none */
     int hidden_turn;
-    int sectors; /* a turn */
-    /* what came of it */
+    int sectors; /* sectors a turn */
+    /* sums over all scans */
     int plots[TARGETS];
     uint32_t fates[RHO_NUM_FATES];
 };
@@ -66,9 +69,7 @@ static inline double target_range(int target)
     return 20000.0 + 4000.0 * target;
 }
 
-/*
- * Target i starts at the edge of sectors 4 i and 4 i + 1, and flies along a circle about the radar.
- */
+/* Target i starts at the edge of sectors 4 i and 4 i + 1 and flies on a circle about the radar. */
 static inline double target_azimuth(const struct scene *scene, int target, double t_s)
 {
     return scene->first_rad + 4.0 * target * 2.0 * PI / SECTORS +
@@ -80,10 +81,7 @@ static inline double wrapped(double angle_rad)
     return remainder(angle_rad, 2.0 * PI);
 }
 
-/*
- * When the antenna passes it in a turn: the turn's own time, or less than 0 where that is in no
- * such turn.
- */
+/* Time at which the antenna passes the target in a turn. */
 static inline double time_of_pass(const struct scene *scene, int target, int turn)
 {
     double turn_s = (double)TURN_US * 1e-6, t_s = turn * turn_s;
@@ -115,7 +113,7 @@ static inline int is_hidden(const struct scene *scene, int target, int turn)
     return target == scene->hidden && turn >= scene->hidden_turn;
 }
 
-/* A sector as it is at its end, with the plots that the antenna passed in it. */
+/* A sector's scan, timed at the sector's end, with the plots of targets that the antenna passed. */
 static inline struct rho_scan sector_scan(struct scene *scene, int turn, int sector,
                                           struct rho_plot plots[TARGETS])
 {
@@ -138,7 +136,7 @@ static inline struct rho_scan sector_scan(struct scene *scene, int turn, int sec
             if (time_us >= from_us && time_us < to_us && !is_hidden(scene, i, turn)) {
                 plots[scan.num_plots++] = target_plot(scene, i, t_s, to_us);
                 scene->plots[i]++;
-                break; /* the antenna is there once in a sector */
+                break; /* the antenna passes a target once in a sector */
             }
         }
     }
@@ -174,7 +172,7 @@ static inline void fly_turns(struct scene *scene, int turns)
     }
 }
 
-/* The track of a target now; NULL: none is near. */
+/* The track within 600 m of a target at the report's time; NULL: none. */
 static inline const struct rho_track_report *track_of_target(const struct scene *scene, int target)
 {
     double t_s = (double)report.time_us * 1e-6, azimuth_rad = target_azimuth(scene, target, t_s);

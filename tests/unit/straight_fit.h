@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The straight track through plots and its score, in double precision and as full matrices: the
- * covariance of each plot in x, y, z is inverted, the normal equations are eliminated. The score is
- * added up as the hypotheses read: what a target's plots are expected to be, over the same of
+ * Fit of a straight track through plots, and its score, as reference in double precision: full
+ * covariances of plots, normal equations. The score is the log-likelihood ratio of a target to
  * clutter.
  */
 #ifndef RHOTRACK_TESTS_STRAIGHT_FIT_H
@@ -12,17 +11,17 @@
 #include <string.h>
 
 #define STRAIGHT                                                                                   \
-    6 /* unknowns: place and velocity, x y z each; z is left at 0 where heights do not count */
+    6 /* number of unknowns: place and velocity in x, y, z; z stays 0 if heights do not count */
 
-/* One plot, at t after the time that the fit is asked for. */
+/* One plot, t_s after the time of the fit. */
 struct straight_plot {
-    double t_s, at_m[3], sensor_m[3], sigma_m[3]; /* sigma: along, across, up */
+    double t_s, at_m[3], sensor_m[3], sigma_m[3]; /* sigmas along, across, up */
     double rate_mps, sigma_rate_mps;
     int has_z, has_rate;
 };
 
 struct straight_fit {
-    int axes; /* 3 where two plots have heights */
+    int axes; /* 3 if at least two plots have heights */
     double state[STRAIGHT];
     double normal[STRAIGHT][STRAIGHT];
     double chi2, log_det_noise;
@@ -30,8 +29,8 @@ struct straight_fit {
 };
 
 /*
- * Inverts the leading n x n, and returns its determinant: Gauss and Jordan, no pivoting for what is
- * positive definite.
+ * Inverts the leading n x n by Gauss-Jordan without pivoting, as s is positive definite; returns
+ * the determinant.
  */
 static inline double straight_invert(int n, double s[STRAIGHT][STRAIGHT])
 {
@@ -57,7 +56,7 @@ static inline double straight_invert(int n, double s[STRAIGHT][STRAIGHT])
     return determinant;
 }
 
-/* The covariance in x, y and, where measured, z. */
+/* A plot's noise covariance in x, y and, if has_z, z. */
 static inline void straight_noise(const struct straight_plot *plot, int has_z,
                                   double r[STRAIGHT][STRAIGHT])
 {
@@ -77,10 +76,7 @@ static inline void straight_noise(const struct straight_plot *plot, int has_z,
     }
 }
 
-/*
- * What a place or rate row says: count rows, their design h, what they miss the state by y, and the
- * weights w.
- */
+/* Rows of the normal equations from a place or a range rate: design h, residuals y, weights w. */
 struct straight_rows {
     int count;
     double h[3][STRAIGHT], y[3], w[STRAIGHT][STRAIGHT], log_det;
@@ -114,8 +110,8 @@ static inline double straight_rate(const struct straight_fit *fit, const struct 
 }
 
 /*
- * Linearised at `point`, by differences: no derivative is worked out here that could be worked out
- * wrongly alike.
+ * Row of a range rate, linearised at `point` by differences, so that no derivative can be wrong as
+ * in the library.
  */
 static inline struct straight_rows straight_rate_rows(const struct straight_fit *fit,
                                                       const struct straight_plot *plot,
@@ -136,7 +132,7 @@ static inline struct straight_rows straight_rate_rows(const struct straight_fit 
     return rows;
 }
 
-/* Adds to the normal equations, and to what the fit says of its own residual. */
+/* Adds rows to the normal equations, to chi-square and to the log determinant of the noise. */
 static inline void straight_add_rows(struct straight_fit *fit, const struct straight_rows *rows,
                                      double right[STRAIGHT])
 {
@@ -155,7 +151,7 @@ static inline void straight_add_rows(struct straight_fit *fit, const struct stra
     }
 }
 
-/* Everything about the fit's present state; rates at `point`, NULL: without. */
+/* Sums all rows about the fit's state; range rates are linearised at `point`, NULL: left out. */
 static inline void straight_sum_rows(struct straight_fit *fit, const struct straight_plot *of,
                                      int n, const double *point, double right[STRAIGHT])
 {
@@ -175,7 +171,7 @@ static inline void straight_sum_rows(struct straight_fit *fit, const struct stra
     }
 }
 
-/* The unknowns in use, packed: x y vx vy, or all six. */
+/* Solves for x, y, vx, vy or for all six; returns the log determinant of the normal equations. */
 static inline double straight_solve(struct straight_fit *fit, const double right[STRAIGHT])
 {
     static const int level[4] = {0, 1, 3, 4}, all[6] = {0, 1, 2, 3, 4, 5};
@@ -197,8 +193,8 @@ static inline double straight_solve(struct straight_fit *fit, const double right
 }
 
 /*
- * Fits the places, then with the rates as they are near there. log_fisher: ln det of the normal
- * equations.
+ * Fits the places, then places and range rates, linearised at the first fit. log_fisher gets ln det
+ * of the normal equations.
  */
 static inline struct straight_fit straight_fit_through(const struct straight_plot *of, int n,
                                                        double *log_fisher)
@@ -221,10 +217,7 @@ static inline struct straight_fit straight_fit_through(const struct straight_plo
     return fit;
 }
 
-/*
- * What targets and clutter are like: half a target in area, heights, speeds and climbs; clutter a
- * m^2 and scan.
- */
+/* residuals about the final state */
 struct straight_world {
     double area_m2, v_min_mps, v_max_mps, pd, clutter_per_m2;
     int misses;
@@ -238,7 +231,7 @@ static inline double straight_score(const struct straight_world *world,
     double tau = 2.0 * 3.14159265358979323846;
     double births =
         0.5 / (world->area_m2 * 0.5 * tau * (pow(world->v_max_mps, 2) - pow(world->v_min_mps, 2)));
-    /* heights in 20 km, climbing or sinking at up to half of v_max */
+    /* height uniform in 20 km, climb or descent up to v_max / 2 */
     births /= fit->axes == 3 ? STRAIGHT_HEIGHT_M * world->v_max_mps : 1.0;
     double clutter = hits * log(world->clutter_per_m2) - fit->heights * log(STRAIGHT_HEIGHT_M) -
                      fit->rates * log(2.0 * world->v_max_mps);

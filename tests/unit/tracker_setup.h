@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What tests of the tracker share: a tracker with its initiator, scans filled plot by plot, and
- * what holds after each.
+ * Shared by tests of the tracker: a tracker with its initiator, scans filled plot by plot, and
+ * checks after each step.
  */
 #ifndef RHOTRACK_TESTS_TRACKER_SETUP_H
 #define RHOTRACK_TESTS_TRACKER_SETUP_H
@@ -29,8 +29,8 @@ static struct rho_plot plots[PLOTS_MAX];
 static uint32_t num_plots;
 
 /*
- * The usual configurations, to be changed before begin_tracker(): four plots of five start a track,
- * and it is believed at once.
+ * Configurations to be changed before begin_tracker(): four plots in five scans start a track, and
+ * it is confirmed at once.
  */
 static inline void use_usual_configs(uint64_t seed)
 {
@@ -54,7 +54,10 @@ static inline void begin_tracker(void)
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &initiation), RHO_OK);
 }
 
-/* Thresholds by a rate of false tracks, windows of seven scans, and targets that pull 20 m/s^2. */
+/*
+ * Begins with thresholds from a rate of false tracks, windows of seven scans and accelerations of
+ * up to 20 m/s^2.
+ */
 static inline void begin_tracker_by_rate(uint64_t seed)
 {
     use_usual_configs(seed);
@@ -65,7 +68,7 @@ static inline void begin_tracker_by_rate(uint64_t seed)
     begin_tracker();
 }
 
-/* Of random numbers in its arguments there may be one: compilers draw them in any order. */
+/* At most one argument may draw a random number, as the order of evaluation is the compiler's. */
 static inline struct rho_plot *add_plot(double x_m, double y_m, double sigma_m)
 {
     assert_true(num_plots < PLOTS_MAX);
@@ -76,7 +79,7 @@ static inline struct rho_plot *add_plot(double x_m, double y_m, double sigma_m)
     return &plots[num_plots++];
 }
 
-/* As measured: random numbers are drawn for x first. */
+/* Adds a plot with noise, drawn for x first. */
 static inline void add_noisy_plot(double x_m, double y_m, double sigma_m)
 {
     const double dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
@@ -95,7 +98,7 @@ static inline void check_fate_sums(void)
     for (uint32_t i = 0; i < report.num_plots && i < RHO_MAX_PLOTS; i++) {
         claimed += report.fates[i] == RHO_FATE_CLAIMED;
     }
-    /* others may be beyond the places */
+    /* with more plots than RHO_MAX_PLOTS, claimed ones may have no entry in fates[] */
     assert_in_range(report.fates_total[RHO_FATE_CLAIMED], claimed,
                     report.num_plots > RHO_MAX_PLOTS ? claimed + RHO_MAX_TRACKS : claimed);
     for (unsigned i = 1; i < report.num_tracks; i++) {
@@ -103,7 +106,7 @@ static inline void check_fate_sums(void)
     }
 }
 
-/* The plots added since; the scan says the rest of itself. */
+/* Steps with the plots added since the last scan; `scan` has its other fields. */
 static inline void step_scan(struct rho_scan scan)
 {
     scan.num_plots = num_plots;
@@ -120,7 +123,7 @@ static inline void step_at(double t_s)
     step_scan((struct rho_scan){.time_us = llround(t_s * 1e6)});
 }
 
-/* NULL: not reported. */
+/* The track with this id; NULL: not reported. */
 static inline const struct rho_track_report *report_of(uint32_t track_id)
 {
     for (unsigned i = 0; i < report.num_tracks; i++) {

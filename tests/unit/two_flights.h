@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Two targets that fly along x, and a tracker that follows both; refused calls change no byte. */
+/*
+ * Two targets that fly along x and the tracker that follows both; a test compares the tracker's
+ * bytes before and after a refused call.
+ */
 #ifndef RHOTRACK_TESTS_TWO_FLIGHTS_H
 #define RHOTRACK_TESTS_TWO_FLIGHTS_H
 
 #include "tracker_setup.h"
 
-/* 4 km apart. */
+/* Steps with plots of two targets 4 km apart, the first of them only if sees_first. */
 static void see_flights(int k, int sees_first)
 {
     if (sees_first) {
@@ -35,7 +38,7 @@ static void prepare_tracker(void)
     assert_int_equal(report.tracks[1].track_id, 2);
 }
 
-/* The track at a target's place. */
+/* The only track within 200 m of y_m; NULL: none. */
 static const struct rho_track_report *track_near(double y_m)
 {
     const struct rho_track_report *found = NULL;

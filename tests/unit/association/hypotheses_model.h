@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The rules of hypotheses.h in the plainest way: lists that are sorted whole, weights in double
- * precision, no pool. The filter is rho_imm itself, which test_imm.c holds to its own reference.
+ * The rules of hypotheses.h as plainly as possible, for comparison: whole lists are sorted, weights
+ * are double, there is no pool. The filter is rho_imm itself, which test_imm.c compares with a
+ * reference of its own.
  */
 #ifndef RHOTRACK_TESTS_HYPOTHESES_MODEL_H
 #define RHOTRACK_TESTS_HYPOTHESES_MODEL_H
@@ -86,7 +87,7 @@ static inline void model_predict(struct model_track *track, int64_t time_us)
     }
 }
 
-/* The heaviest first; of equals the one that was there first. */
+/* Sorts by falling weight; children of equal weight keep their order. */
 static inline void model_sort_by_weight(struct model_child *children, int num)
 {
     for (int i = 1; i < num; ++i) {
@@ -100,7 +101,10 @@ static inline void model_sort_by_weight(struct model_child *children, int num)
     }
 }
 
-/* The best plots of one answer; *num_near gets how many there were in the gate. */
+/*
+ * Makes the best children that take a plot from one hypothesis, without the miss; returns their
+ * number.
+ */
 static inline int model_best_children(const struct model_track *track, int parent,
                                       const struct rho_hypotheses_scan *scan, int num_plots,
                                       double log_pd, const struct rho_hypotheses_clutter *clutter,
@@ -179,8 +183,8 @@ static inline struct model_answer model_answer_of_child(struct model_track *trac
 }
 
 /*
- * The whole scan but for the prediction. Returns ln of the children's likelihoods over the
- * parents'.
+ * Runs a scan after the prediction: children, pruning, updates. Returns the track's gain: ln of the
+ * sum of the children's likelihoods over the parents'.
  */
 static inline double model_take_scan(struct model_track *track,
                                      const struct rho_hypotheses_scan *scan, int num_plots,

@@ -11,7 +11,7 @@
 #include "rhotrack/detail/gate.h"
 
 #define TOLERANCE 1e-4
-#define NOISE 2.0f /* white acceleration, m^2/s^3 */
+#define NOISE 2.0f /* spectral density of white acceleration, m^2/s^3 */
 
 static uint32_t seed = 3;
 
@@ -21,8 +21,8 @@ static float uniform(float from, float to)
     return from + (to - from) * (float)(seed >> 8) / 16777216.0f;
 }
 
-/* A filter with correlated axes, by updates of a few positions. */
-static struct rho_kalman some_filter(int axes)
+/* A filter whose axes are correlated, with random places. */
+static struct rho_kalman random_filter(int axes)
 {
     struct rho_kalman kalman;
     rho_kalman_init(&kalman);
@@ -32,12 +32,12 @@ static struct rho_kalman some_filter(int axes)
                          RHO_OK);
     }
     assert_int_equal(rho_kalman_predict(&kalman, uniform(0.5f, 2.0f), 1.0f), RHO_OK);
-    kalman.covariance[RHO_AT(1, 0)] = 30.0f; /* the open axes' variances are larger */
+    kalman.covariance[RHO_AT(1, 0)] = 30.0f; /* less than the variances of the open axes */
     return kalman;
 }
 
-/* Covariance of elements i and j of the prediction at a plot's own time, by F P F^T + Q. */
-static double moved(const struct rho_kalman *kalman, int i, int j, double offset_s)
+/* Covariance of elements i and j, predicted to a plot's own time by F P F^T + Q. */
+static double predicted_covariance(const struct rho_kalman *kalman, int i, int j, double offset_s)
 {
     double from_i[2] = {1.0, i < 3 ? offset_s : 0.0}, from_j[2] = {1.0, j < 3 ? offset_s : 0.0};
     double noise_s = offset_s > 0.0 ? offset_s : 0.0, sum = 0.0;
@@ -80,9 +80,9 @@ static double mahalanobis2(int n, double s[4][4], const double d[4], double *log
     return sum;
 }
 
-/* The noise of a plot in x, y, z, from the axes of its line of sight. */
-static void noise_of(const struct rho_plot *plot, const struct rho_sensor *sensor, int has_z,
-                     double r[3][3])
+/* A plot's noise covariance in x, y, z, from its sigmas along, across and up the line of sight. */
+static void plot_noise_xyz(const struct rho_plot *plot, const struct rho_sensor *sensor, int has_z,
+                           double r[3][3])
 {
     double d[3] = {plot->x_m - sensor->x_m, plot->y_m - sensor->y_m,
                    has_z ? plot->z_m - sensor->z_m : 0.0};
@@ -102,10 +102,10 @@ static void noise_of(const struct rho_plot *plot, const struct rho_sensor *senso
     }
 }
 
-/* The gate in double precision. Returns the number of dimensions. */
-static int reference(const struct rho_kalman *kalman, const struct rho_plot *plot,
-                     uint32_t measures, const struct rho_sensor *sensor, double *distance2,
-                     double *log_det)
+/* Squared Mahalanobis distance and ln det in double precision; returns the number of dimensions. */
+static int gate_in_double_precision(const struct rho_kalman *kalman, const struct rho_plot *plot,
+                                    uint32_t measures, const struct rho_sensor *sensor,
+                                    double *distance2, double *log_det)
 {
     double offset_s = plot->offset_us * 1e-6, at[6], r[3][3], s[4][4] = {{0.0}}, d[4] = {0.0};
     int has_z = (measures & RHO_MEASURES_Z) != 0, n = has_z ? 3 : 2;
@@ -114,11 +114,11 @@ static int reference(const struct rho_kalman *kalman, const struct rho_plot *plo
         at[i + 3] = (double)kalman->state[i + 3];
     }
     const double place[3] = {plot->x_m, plot->y_m, plot->z_m};
-    noise_of(plot, sensor, has_z, r);
+    plot_noise_xyz(plot, sensor, has_z, r);
     for (int i = 0; i < n; i++) {
         d[i] = place[i] - at[i];
         for (int j = 0; j < n; j++) {
-            s[i][j] = moved(kalman, i, j, offset_s) + r[i][j];
+            s[i][j] = predicted_covariance(kalman, i, j, offset_s) + r[i][j];
         }
     }
     if (measures & RHO_MEASURES_RANGE_RATE) {
@@ -136,9 +136,9 @@ static int reference(const struct rho_kalman *kalman, const struct rho_plot *plo
         s[n][n] = pow(plot->sigma_range_rate_mps, 2);
         for (int i = 0; i < 6; i++) {
             for (int j = 0; j < 6; j++) {
-                s[n][n] += row[i] * row[j] * moved(kalman, i, j, offset_s);
+                s[n][n] += row[i] * row[j] * predicted_covariance(kalman, i, j, offset_s);
                 if (i < n) {
-                    s[i][n] += row[j] * moved(kalman, i, j, offset_s);
+                    s[i][n] += row[j] * predicted_covariance(kalman, i, j, offset_s);
                 }
             }
         }
@@ -152,7 +152,7 @@ static int reference(const struct rho_kalman *kalman, const struct rho_plot *plo
     return n;
 }
 
-static struct rho_plot plot_around(const struct rho_kalman *kalman)
+static struct rho_plot random_plot_around(const struct rho_kalman *kalman)
 {
     return (struct rho_plot){.x_m = kalman->state[0] + uniform(-90.0f, 90.0f),
                              .y_m = kalman->state[1] + uniform(-90.0f, 90.0f),
@@ -166,10 +166,10 @@ static struct rho_plot plot_around(const struct rho_kalman *kalman)
 }
 
 /*
- * Own noise, heights, range rates and own times, against the reference: the quick rejection loses
- * nothing.
+ * Plots with their own noise, heights, range rates and times are compared with double precision:
+ * the quick rejection must lose no plot.
  */
-static void the_distance_has_as_many_dimensions_as_are_measured(void **state)
+static void the_gate_uses_every_measured_dimension(void **state)
 {
     (void)state;
     static const double limit[5] = {0.0, 0.0, (double)RHO_GATE_CHI2_2D, (double)RHO_GATE_CHI2_3D,
@@ -179,14 +179,14 @@ static void the_distance_has_as_many_dimensions_as_are_measured(void **state)
     int inside[5] = {0};
     for (int i = 0; i < 12000; i++) {
         uint32_t measures = (i & 1 ? RHO_MEASURES_Z : 0u) | (i & 2 ? RHO_MEASURES_RANGE_RATE : 0u);
-        struct rho_kalman kalman = some_filter(3);
+        struct rho_kalman kalman = random_filter(3);
         struct rho_gate gate;
         struct rho_gate_result result;
-        struct rho_plot plot = plot_around(&kalman);
+        struct rho_plot plot = random_plot_around(&kalman);
         double distance2, log_det;
         kalman.state[3] = uniform(-40.0f, 40.0f);
         kalman.state[4] = uniform(-40.0f, 40.0f);
-        int n = reference(&kalman, &plot, measures, &sensor, &distance2, &log_det);
+        int n = gate_in_double_precision(&kalman, &plot, measures, &sensor, &distance2, &log_det);
         rho_gate_open(&gate, &kalman, NOISE, &sensor, measures);
         int is_in = rho_gate_test(&gate, &plot, &result);
         if (fabs(distance2 - limit[n]) > 0.02) {
@@ -203,26 +203,24 @@ static void the_distance_has_as_many_dimensions_as_are_measured(void **state)
     assert_true(inside[2] > 500 && inside[3] > 1000 && inside[4] > 300);
 }
 
-/*
- * Whatever the plots' noise and own times, either way, as long as they are within what the box was
- * asked for.
- */
-static void no_plot_in_the_gate_is_outside_of_the_box(void **state)
+/* Holds for any plot whose noise and own time are within the bounds that the box was made for. */
+static void plots_in_the_gate_are_inside_its_bounding_box(void **state)
 {
     (void)state;
     int inside = 0, outside = 0;
     for (int i = 0; i < 60000; i++) {
-        struct rho_kalman kalman = some_filter(3);
+        struct rho_kalman kalman = random_filter(3);
         struct rho_gate gate;
         struct rho_gate_result result;
-        struct rho_plot plot = plot_around(&kalman);
+        struct rho_plot plot = random_plot_around(&kalman);
         float half_m[2];
         kalman.state[3] = uniform(-400.0f, 400.0f);
         kalman.state[4] = uniform(-400.0f, 400.0f);
         plot.x_m += uniform(-900.0f, 900.0f);
         plot.y_m += uniform(-900.0f, 900.0f);
         rho_gate_open(&gate, &kalman, NOISE, NULL, i & 1 ? RHO_MEASURES_Z : 0u);
-        rho_gate_box(&gate, 60.0f, 1.0f, half_m); /* plot_around: noise and own time are less */
+        /* bounds of the noise and own times of random_plot_around */
+        rho_gate_box(&gate, 60.0f, 1.0f, half_m);
         int is_beyond = fabsf(plot.x_m - kalman.state[0]) > half_m[0] ||
                         fabsf(plot.y_m - kalman.state[1]) > half_m[1];
         if (rho_gate_test(&gate, &plot, &result)) {
@@ -234,12 +232,12 @@ static void no_plot_in_the_gate_is_outside_of_the_box(void **state)
     assert_true(inside > 1000 && outside > 1000);
 }
 
-/* Without own times the box is as wide as the gate of one axis, but for rounding. */
-static void the_box_is_no_larger_than_it_must_be(void **state)
+/* Without own times the box is as wide as the gate along one axis, within 1 % for rounding. */
+static void the_bounding_box_is_as_small_as_the_gate_allows(void **state)
 {
     (void)state;
     for (int i = 0; i < 100; i++) {
-        const struct rho_kalman kalman = some_filter(3);
+        const struct rho_kalman kalman = random_filter(3);
         struct rho_gate gate;
         float half_m[2];
         rho_gate_open(&gate, &kalman, NOISE, NULL, 0u);
@@ -252,10 +250,10 @@ static void the_box_is_no_larger_than_it_must_be(void **state)
     }
 }
 
-static void a_range_rate_at_the_sensor_says_nothing(void **state)
+static void a_range_rate_is_ignored_at_the_sensors_place(void **state)
 {
     (void)state;
-    struct rho_kalman kalman = some_filter(2);
+    struct rho_kalman kalman = random_filter(2);
     const struct rho_sensor sensor = {.x_m = kalman.state[0], .y_m = kalman.state[1], .pd = 0.9f};
     struct rho_plot plot = {.x_m = kalman.state[0],
                             .y_m = kalman.state[1],
@@ -270,12 +268,12 @@ static void a_range_rate_at_the_sensor_says_nothing(void **state)
     assert_int_equal(result.has_range_rate, 0);
 }
 
-static void z_counts_where_both_have_it(void **state)
+static void heights_count_if_both_plot_and_track_have_one(void **state)
 {
     (void)state;
     struct rho_gate gate;
     struct rho_gate_result result;
-    struct rho_kalman flat = some_filter(2), solid = some_filter(3);
+    struct rho_kalman flat = random_filter(2), solid = random_filter(3);
     struct rho_plot plot = {.x_m = solid.state[0],
                             .y_m = solid.state[1],
                             .z_m = solid.state[2] + 500.0f,
@@ -296,12 +294,12 @@ static void z_counts_where_both_have_it(void **state)
     assert_int_equal(result.has_z, 0);
 }
 
-static void what_is_not_a_number_is_outside(void **state)
+static void values_that_are_not_finite_are_outside_the_gate(void **state)
 {
     (void)state;
     struct rho_gate gate;
     struct rho_gate_result result;
-    struct rho_kalman kalman = some_filter(2);
+    struct rho_kalman kalman = random_filter(2);
     struct rho_plot plot = {.x_m = NAN, .y_m = 0.0f, .sigma_range_m = 5.0f, .sigma_cross_m = 5.0f};
     rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     assert_int_equal(rho_gate_test(&gate, &plot, &result), 0);
@@ -314,7 +312,7 @@ static void what_is_not_a_number_is_outside(void **state)
     rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     assert_int_equal(rho_gate_test(&gate, &plot, &result), 0);
     kalman.covariance[0] = 100.0f;
-    kalman.covariance[1] = 1e6f; /* not positive definite */
+    kalman.covariance[1] = 1e6f; /* makes the covariance indefinite */
     rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     assert_int_equal(rho_gate_test(&gate, &plot, &result), 0);
 }
@@ -322,12 +320,12 @@ static void what_is_not_a_number_is_outside(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_distance_has_as_many_dimensions_as_are_measured),
-        cmocka_unit_test(no_plot_in_the_gate_is_outside_of_the_box),
-        cmocka_unit_test(the_box_is_no_larger_than_it_must_be),
-        cmocka_unit_test(a_range_rate_at_the_sensor_says_nothing),
-        cmocka_unit_test(z_counts_where_both_have_it),
-        cmocka_unit_test(what_is_not_a_number_is_outside),
+        cmocka_unit_test(the_gate_uses_every_measured_dimension),
+        cmocka_unit_test(plots_in_the_gate_are_inside_its_bounding_box),
+        cmocka_unit_test(the_bounding_box_is_as_small_as_the_gate_allows),
+        cmocka_unit_test(a_range_rate_is_ignored_at_the_sensors_place),
+        cmocka_unit_test(heights_count_if_both_plot_and_track_have_one),
+        cmocka_unit_test(values_that_are_not_finite_are_outside_the_gate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

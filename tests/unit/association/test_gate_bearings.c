@@ -1,26 +1,29 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The gate of bearings: distance, determinant, limit and own times, against the linearised filter
- * in double precision.
+ * The gate of bearings: distance, determinant, limit and own times, compared with the linearised
+ * filter in double precision.
  */
 #include "dense_bearing.h"
 #include "kalman_checks.h"
 #include "rhotrack/detail/gate.h"
 
 #define NUM_CASES 6000
-#define NOISE 2.0f /* white acceleration, m^2/s^3 */
+#define NOISE 2.0f /* spectral density of white acceleration, m^2/s^3 */
 
-/* Shares of 1 + the distance, and of the logarithm. Worst of the cases below: 7e-4, 2e-6. */
+/*
+ * Tolerances, relative to 1 + the distance and to the log determinant; largest errors seen: 7e-4,
+ * 2e-6.
+ */
 #define DISTANCE_ERROR 2e-3
 #define LOG_ERROR 1e-5
 
-/* What the gate should say, at the bearing's own time. */
+/* The gate's result in double precision, at the bearing's own time. */
 struct expected {
     double distance2, log_det;
 };
 
-static struct expected judge(const struct rho_kalman *kalman, const struct rho_bearing *bearing,
-                             const double place[2])
+static struct expected expected_gate(const struct rho_kalman *kalman,
+                                     const struct rho_bearing *bearing, const double place[2])
 {
     const double offset_s = bearing->offset_us * 1e-6;
     struct dense at = dense_of(kalman->state, kalman->covariance);
@@ -38,8 +41,8 @@ static struct expected judge(const struct rho_kalman *kalman, const struct rho_b
     return (struct expected){m.y[0] * m.y[0] / variance, log(variance / (range * range))};
 }
 
-/* A level estimate with correlated elements, 5 to 100 km from the place, any way round. */
-static struct rho_kalman some_estimate(const double place[2])
+/* An estimate without a height, elements correlated, 5 to 100 km from `place` in any direction. */
+static struct rho_kalman random_estimate(const double place[2])
 {
     struct rho_kalman kalman;
     const double range = pow(10.0, uniform(3.7, 5.0)), direction = uniform(-DENSE_PI, DENSE_PI);
@@ -56,11 +59,11 @@ static struct rho_kalman some_estimate(const double place[2])
 }
 
 /*
- * A bearing some sigmas off the estimate; of three one at the scan's time, one before it, one
- * after.
+ * A bearing some sigmas off the estimate. A third of the bearings are at the scan's time, a third
+ * at any time within 5 s of it, a third after it.
  */
-static struct rho_bearing bearing_around(const struct rho_kalman *kalman, const double place[2],
-                                         int n)
+static struct rho_bearing random_bearing_near(const struct rho_kalman *kalman,
+                                              const double place[2], int n)
 {
     struct dense at = dense_of(kalman->state, kalman->covariance);
     struct rho_bearing bearing = {.snr_db = 3.0f};
@@ -75,16 +78,16 @@ static struct rho_bearing bearing_around(const struct rho_kalman *kalman, const 
     return bearing;
 }
 
-static void the_distance_is_that_of_the_linearised_bearing(void **state)
+static void the_distance_agrees_with_the_linearised_filter(void **state)
 {
     int inside = 0;
 
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
         const double place[2] = {2000.0, -7000.0};
-        const struct rho_kalman kalman = some_estimate(place);
-        const struct rho_bearing bearing = bearing_around(&kalman, place, n);
-        const struct expected expected = judge(&kalman, &bearing, place);
+        const struct rho_kalman kalman = random_estimate(place);
+        const struct rho_bearing bearing = random_bearing_near(&kalman, place, n);
+        const struct expected expected = expected_gate(&kalman, &bearing, place);
         struct rho_gate gate;
         struct rho_gate_result result = {.has_z = 1, .has_range_rate = 1};
 
@@ -105,15 +108,15 @@ static void the_distance_is_that_of_the_linearised_bearing(void **state)
     assert_in_range(inside, NUM_CASES / 2, NUM_CASES * 9 / 10);
 }
 
-/* Places drawn from the covariance, and bearings with their noise: one in a thousand is outside. */
-static void one_in_a_thousand_is_outside(void **state)
+/* Targets are drawn from the track's covariance, bearings with their noise. */
+static void the_gate_misses_one_true_bearing_in_a_thousand(void **state)
 {
     struct rho_kalman kalman = opened_filter(2, 2500.0f, 100.0f);
     struct rho_gate gate;
     int outside = 0;
 
     (void)state;
-    kalman.state[0] = -40000.0f; /* west, where bearings wrap */
+    kalman.state[0] = -40000.0f; /* due west, where bearings wrap */
     kalman.state[1] = 0.0f;
     rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     for (int n = 0; n < 100000; ++n) {
@@ -128,11 +131,11 @@ static void one_in_a_thousand_is_outside(void **state)
         outside += !rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result);
     }
     print_message("outside the gate: %d of 100000\n", outside);
-    assert_in_range(outside, 60, 140); /* 100 expected, sd 10 */
+    assert_in_range(outside, 60, 140); /* 100 expected, standard deviation 10 */
 }
 
-/* North-east at the scan's time, farther to the east at the bearing's. */
-static void own_times_count(void **state)
+/* The target is north-east at the scan's time, and farther east at the bearing's own time. */
+static void the_gate_is_at_the_bearings_own_time(void **state)
 {
     struct rho_kalman kalman = opened_filter(2, 100.0f, 1.0f);
     struct rho_gate gate;
@@ -145,14 +148,15 @@ static void own_times_count(void **state)
     kalman.state[3] = 400.0f;
     rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 0);
-    bearing.offset_us = 2076000; /* it is at (1830, 1000) m then */
+    bearing.offset_us = 2076000; /* the target is at (1830, 1000) m then */
     assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 1);
     assert_true(result.distance2 < 0.1f);
     bearing.offset_us = -2076000;
     assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 0);
 }
 
-static void assert_outside(const struct rho_kalman *kalman, struct rho_bearing bearing, float x_m)
+static void assert_outside_gate(const struct rho_kalman *kalman, struct rho_bearing bearing,
+                                float x_m)
 {
     struct rho_gate gate;
     struct rho_gate_result result, guard;
@@ -164,11 +168,11 @@ static void assert_outside(const struct rho_kalman *kalman, struct rho_bearing b
     assert_memory_equal(&result, &guard, sizeof result);
 }
 
-static void what_is_no_number_or_no_bearing_is_outside(void **state)
+static void invalid_bearings_and_estimates_are_outside_the_gate(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY, 1e30f};
     struct rho_bearing bearing = {.bearing_rad = 1.1f, .sigma_rad = 0.01f};
-    struct rho_kalman kalman = opened_filter(2, 100.0f, 1.0f); /* at (100, 200) m */
+    struct rho_kalman kalman = opened_filter(2, 100.0f, 1.0f); /* the estimate is at (100, 200) m */
     struct rho_gate gate;
     struct rho_gate_result result;
 
@@ -176,29 +180,30 @@ static void what_is_no_number_or_no_bearing_is_outside(void **state)
     rho_gate_open(&gate, &kalman, NOISE, NULL, 0);
     assert_int_equal(rho_gate_test_bearing(&gate, &bearing, 0.0f, 0.0f, &result), 1);
     kalman.state[1] = 0.4f;
-    assert_outside(&kalman, bearing, 100.5f); /* in the sensor's place */
+    assert_outside_gate(&kalman, bearing, 100.5f); /* the target is at the sensor's place */
     kalman.state[1] = 200.0f;
     for (size_t k = 0; k < NUM(bad); ++k) {
-        assert_outside(&kalman, (struct rho_bearing){.bearing_rad = bad[k], .sigma_rad = 0.01f},
-                       0.0f);
-        assert_outside(&kalman, bearing, bad[k]);
+        assert_outside_gate(&kalman,
+                            (struct rho_bearing){.bearing_rad = bad[k], .sigma_rad = 0.01f}, 0.0f);
+        assert_outside_gate(&kalman, bearing, bad[k]);
         struct rho_kalman worse = kalman;
         worse.state[0] = bad[k];
-        assert_outside(&worse, bearing, 0.0f);
+        assert_outside_gate(&worse, bearing, 0.0f);
     }
-    assert_outside(&kalman, (struct rho_bearing){.bearing_rad = 1.1f, .sigma_rad = NAN}, 0.0f);
-    assert_outside(&kalman, (struct rho_bearing){.bearing_rad = 1.1f, .sigma_rad = INFINITY}, 0.0f);
+    assert_outside_gate(&kalman, (struct rho_bearing){.bearing_rad = 1.1f, .sigma_rad = NAN}, 0.0f);
+    assert_outside_gate(&kalman, (struct rho_bearing){.bearing_rad = 1.1f, .sigma_rad = INFINITY},
+                        0.0f);
     kalman.covariance[0] = NAN;
-    assert_outside(&kalman, bearing, 0.0f);
+    assert_outside_gate(&kalman, bearing, 0.0f);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_distance_is_that_of_the_linearised_bearing),
-        cmocka_unit_test(one_in_a_thousand_is_outside),
-        cmocka_unit_test(own_times_count),
-        cmocka_unit_test(what_is_no_number_or_no_bearing_is_outside),
+        cmocka_unit_test(the_distance_agrees_with_the_linearised_filter),
+        cmocka_unit_test(the_gate_misses_one_true_bearing_in_a_thousand),
+        cmocka_unit_test(the_gate_is_at_the_bearings_own_time),
+        cmocka_unit_test(invalid_bearings_and_estimates_are_outside_the_gate),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Hypotheses of tracks against the same rules in the plainest way (hypotheses_model.h). */
+/* Hypotheses of a track, compared with a plain model of the same rules (hypotheses_model.h). */
 #include <string.h>
 
 #include "dense_filter.h"
@@ -9,12 +9,13 @@
 
 static struct rho_hypotheses pool;
 
-static struct rho_imm_model some_model(float accel_max_mps2)
+static struct rho_imm_model test_model(float accel_max_mps2)
 {
     struct rho_imm_model model;
 
     rho_imm_model_default(&model, accel_max_mps2, 600.0f);
-    model.calm_density = 0.01f; /* with which no two answers of these scenes are equally likely */
+    /* a density with which no two hypotheses of these scenes are equally likely */
+    model.calm_density = 0.01f;
     return model;
 }
 
@@ -24,13 +25,13 @@ struct scene {
     const char *name;
     uint32_t measures;
     int num_axes;
-    double own_share; /* plots with own noise along and across */
-    double offset_s;  /* plots have own times, so much either way */
+    double own_share; /* share of plots that are wider across than along */
+    double offset_s;  /* plots' own times differ from the scan's by up to this, either way */
     double pd, dt_s;
     int num_clutter;
-    double twins;    /* share of clutter that is there twice */
-    int is_mixed;    /* each plot has a sigma of its own, and not all have own times */
-    double violence; /* times the model's acceleration */
+    double twins;    /* share of clutter plots that are repeated */
+    int is_mixed;    /* each plot has its own sigma, and half of the plots have own times */
+    double violence; /* the target's acceleration over the model's */
 };
 
 static const struct scene scenes[] = {
@@ -53,7 +54,7 @@ struct target {
     double x[6], accel[3], until_s;
 };
 
-static struct target some_target(void)
+static struct target random_target(void)
 {
     struct target target = {.until_s = 4.0};
 
@@ -64,7 +65,7 @@ static struct target some_target(void)
     return target;
 }
 
-static void fly(struct target *target, double dt, double accel_mps2)
+static void move_target(struct target *target, double dt, double accel_mps2)
 {
     target->until_s -= dt;
     if (target->until_s <= 0.0) {
@@ -83,11 +84,11 @@ static void fly(struct target *target, double dt, double accel_mps2)
 
 #define SIGMA_M 10.0
 #define SIGMA_MPS 5.0
-#define AROUND_M 250.0 /* clutter is spread so far around the target, either way */
+#define AROUND_M 250.0 /* half width of the square of clutter around the target */
 #define AROUND_MPS 300.0
 
-static struct rho_plot some_plot(const struct scene *scene, const struct target *target,
-                                 int is_clutter)
+static struct rho_plot random_plot(const struct scene *scene, const struct target *target,
+                                   int is_clutter)
 {
     const int has_own = uniform(0.0, 1.0) < scene->own_share;
     const int is_late = !scene->is_mixed || uniform(0.0, 1.0) < 0.5;
@@ -123,16 +124,16 @@ static struct rho_plot some_plot(const struct scene *scene, const struct target 
                              .sigma_range_rate_mps = (float)SIGMA_MPS};
 }
 
-static int some_plots(const struct scene *scene, const struct target *target,
-                      struct rho_plot plots[MODEL_PLOTS])
+static int random_scan(const struct scene *scene, const struct target *target,
+                       struct rho_plot plots[MODEL_PLOTS])
 {
     int num = 0;
 
     if (uniform(0.0, 1.0) < scene->pd) {
-        plots[num++] = some_plot(scene, target, 0);
+        plots[num++] = random_plot(scene, target, 0);
     }
     for (int i = 0; i < scene->num_clutter; ++i) {
-        plots[num++] = some_plot(scene, target, 1);
+        plots[num++] = random_plot(scene, target, 1);
         if (uniform(0.0, 1.0) < scene->twins) {
             plots[num] = plots[num - 1];
             num++;
@@ -148,7 +149,7 @@ static int some_plots(const struct scene *scene, const struct target *target,
     return num;
 }
 
-static struct rho_hypotheses_clutter density_of(const struct scene *scene)
+static struct rho_hypotheses_clutter clutter_density_of(const struct scene *scene)
 {
     const double num = scene->num_clutter > 0 ? scene->num_clutter : 0.01;
 
@@ -159,7 +160,7 @@ static struct rho_hypotheses_clutter density_of(const struct scene *scene)
                                            .log_per_range_rate = (float)-log(2.0 * AROUND_MPS)};
 }
 
-static struct rho_kalman first_estimate(const struct target *target, int num_axes)
+static struct rho_kalman random_first_estimate(const struct target *target, int num_axes)
 {
     struct rho_kalman first;
 
@@ -174,7 +175,7 @@ static struct rho_kalman first_estimate(const struct target *target, int num_axe
     return first;
 }
 
-/* ---- judges ---------------------------------------------------------------------------------- */
+/* ---- comparison ------------------------------------------------------------------------------ */
 
 static unsigned count_nodes(const struct rho_hypotheses *of)
 {
@@ -186,8 +187,8 @@ static unsigned count_nodes(const struct rho_hypotheses *of)
     return num;
 }
 
-/* Every node is somebody's, and nobody else's. */
-static void assert_no_node_is_lost(const struct rho_hypotheses *of)
+/* Each node of the pool belongs to one track's list or to the free list, and to one only. */
+static void assert_each_node_is_used_once(const struct rho_hypotheses *of)
 {
     static uint8_t uses[RHO_MAX_HYPOTHESES];
 
@@ -207,13 +208,13 @@ static void assert_no_node_is_lost(const struct rho_hypotheses *of)
 }
 
 /*
- * Worst of all scenes: 3.8e-4, 2.1e-4. Plots of one noise are weighed in gates that are opened
- * once: rounding differs.
+ * Tolerances; largest errors of all scenes: 3.8e-4, 2.1e-4. Rounding differs from the model's,
+ * since plots of equal noise share a gate that is opened once.
  */
 #define WEIGHT_ABSOLUTE 1.5e-3
 #define STATE_SIGMAS 1e-3
 
-static void assert_same(const struct model_track *track, uint16_t slot)
+static void assert_hypotheses_agree(const struct model_track *track, uint16_t slot)
 {
     assert_int_equal(rho_hypotheses_count(&pool, slot), track->num);
     for (int i = 0; i < track->num; ++i) {
@@ -236,13 +237,14 @@ static void assert_same(const struct model_track *track, uint16_t slot)
     assert_null(rho_hypotheses_at(&pool, slot, (unsigned)track->num));
 }
 
-#define SHOWN_MIN (-9.0) /* less likely ones are left out of the mean */
+#define SHOWN_MIN (-9.0) /* hypotheses of a lower weight are left out of the mean */
 
 /*
- * The mean over all hypotheses and models, moved to one time, and its covariance with the spread,
- * in double precision.
+ * Compares with the mean over all hypotheses and models at one time, and its covariance with the
+ * spread of the means, in double precision.
  */
-static void assert_estimate(const struct model_track *track, uint16_t slot, int64_t time_us)
+static void assert_mean_estimate_agrees(const struct model_track *track, uint16_t slot,
+                                        int64_t time_us)
 {
     double mean[9] = {0.0}, covariance[6][6] = {{0.0}}, maneuver = 0.0, total = 0.0;
     struct rho_hypotheses_estimate estimate;
@@ -296,10 +298,12 @@ static void assert_estimate(const struct model_track *track, uint16_t slot, int6
 
 #define LOG_PD(pd) ((float)log(pd))
 
-/* Weighs all plots; what the box leaves out is in no gate. Returns how many were in one. */
-static int score_all(struct rho_hypotheses *of, uint16_t slot,
-                     const struct rho_hypotheses_scan *scan, int num_plots, double pd,
-                     const struct rho_hypotheses_clutter *clutter)
+/*
+ * Weighs all plots; checks that plots outside the box are in no gate. Returns how many are in one.
+ */
+static int score_plots(struct rho_hypotheses *of, uint16_t slot,
+                       const struct rho_hypotheses_scan *scan, int num_plots, double pd,
+                       const struct rho_hypotheses_clutter *clutter)
 {
     struct rho_hypotheses_box reach;
     int num = 0;
@@ -322,14 +326,14 @@ static int score_all(struct rho_hypotheses *of, uint16_t slot,
     return num;
 }
 
-static int most_hypotheses;
+static int num_hypotheses_max;
 
-static void follow(const struct scene *scene, int num_scans)
+static void compare_track_with_model(const struct scene *scene, int num_scans)
 {
-    const struct rho_imm_model model = some_model(60.0f);
-    const struct rho_hypotheses_clutter clutter = density_of(scene);
-    struct target target = some_target();
-    const struct rho_kalman first = first_estimate(&target, scene->num_axes);
+    const struct rho_imm_model model = test_model(60.0f);
+    const struct rho_hypotheses_clutter clutter = clutter_density_of(scene);
+    struct target target = random_target();
+    const struct rho_kalman first = random_first_estimate(&target, scene->num_axes);
     struct rho_plot plots[MODEL_PLOTS];
     struct model_track track;
     uint16_t slot = 99;
@@ -337,13 +341,13 @@ static void follow(const struct scene *scene, int num_scans)
     assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
     assert_int_equal(rho_hypotheses_open(&pool, &first, 0, &slot), RHO_OK);
     model_open(&track, &model, &first, 0);
-    assert_same(&track, slot);
+    assert_hypotheses_agree(&track, slot);
     for (int k = 1; k <= num_scans; ++k) {
         const int64_t time_us = (int64_t)(1e6 * scene->dt_s * k);
         struct rho_hypotheses_outcome outcome;
 
-        fly(&target, scene->dt_s, scene->violence * model.accel_sigma_mps2);
-        const int num_plots = some_plots(scene, &target, plots);
+        move_target(&target, scene->dt_s, scene->violence * model.accel_sigma_mps2);
+        const int num_plots = random_scan(scene, &target, plots);
         const struct rho_hypotheses_scan scan = {.time_us = time_us,
                                                  .measures = scene->measures,
                                                  .plots = plots,
@@ -351,45 +355,45 @@ static void follow(const struct scene *scene, int num_scans)
 
         assert_int_equal(rho_hypotheses_predict(&pool, slot, time_us), RHO_OK);
         model_predict(&track, time_us);
-        assert_same(&track, slot);
-        (void)score_all(&pool, slot, &scan, num_plots, scene->pd, &clutter);
+        assert_hypotheses_agree(&track, slot);
+        (void)score_plots(&pool, slot, &scan, num_plots, scene->pd, &clutter);
         assert_int_equal(rho_hypotheses_commit(&pool, slot, &scan, &outcome), RHO_OK);
         const double gain =
             model_take_scan(&track, &scan, num_plots, (double)LOG_PD(scene->pd), &clutter);
-        assert_same(&track, slot);
+        assert_hypotheses_agree(&track, slot);
         assert_float_equal(outcome.gain_nat, gain, 2e-3 + 1e-4 * fabs(gain));
         assert_int_equal(outcome.row, track.answers[0].picks[RHO_HYPOTHESES_MEMORY - 1]);
-        assert_estimate(&track, slot, time_us);
-        most_hypotheses = track.num > most_hypotheses ? track.num : most_hypotheses;
+        assert_mean_estimate_agrees(&track, slot, time_us);
+        num_hypotheses_max = track.num > num_hypotheses_max ? track.num : num_hypotheses_max;
     }
-    assert_no_node_is_lost(&pool);
+    assert_each_node_is_used_once(&pool);
     assert_int_equal(pool.updates_refused, 0);
 }
 
-static void scenes_are_answered_as_by_the_plain_rules(void **state)
+static void hypotheses_agree_with_the_plain_model(void **state)
 {
     (void)state;
     for (size_t n = 0; n < NUM(scenes); ++n) {
         dense_seed = 11 + n;
-        most_hypotheses = 0;
+        num_hypotheses_max = 0;
         for (int k = 0; k < 12; ++k) {
-            follow(&scenes[n], 40);
+            compare_track_with_model(&scenes[n], 40);
         }
-        assert_true(scenes[n].num_clutter == 0 || most_hypotheses == RHO_HYPOTHESES_OF_TRACK);
+        assert_true(scenes[n].num_clutter == 0 || num_hypotheses_max == RHO_HYPOTHESES_OF_TRACK);
     }
 }
 
-/* Children that others own are left out by the same rules: the best of what is free goes on. */
-static void plots_of_others_are_left_out_by_the_plain_rules(void **state)
+/* A fifth of the plots are free, the others belong to tracks 0 to 3; the track is number 2. */
+static void plots_claimed_by_other_tracks_are_left_out_as_in_the_model(void **state)
 {
     (void)state;
     dense_seed = 5;
     for (int n = 0; n < 20; ++n) {
         const struct scene *scene = &scenes[1 + n % 4];
-        const struct rho_imm_model model = some_model(60.0f);
-        const struct rho_hypotheses_clutter clutter = density_of(scene);
-        struct target target = some_target();
-        const struct rho_kalman first = first_estimate(&target, scene->num_axes);
+        const struct rho_imm_model model = test_model(60.0f);
+        const struct rho_hypotheses_clutter clutter = clutter_density_of(scene);
+        struct target target = random_target();
+        const struct rho_kalman first = random_first_estimate(&target, scene->num_axes);
         struct model_track track;
         uint16_t slot = 99;
 
@@ -401,8 +405,8 @@ static void plots_of_others_are_left_out_by_the_plain_rules(void **state)
             int16_t claims[MODEL_PLOTS];
             struct rho_hypotheses_outcome outcome;
 
-            fly(&target, scene->dt_s, scene->violence * model.accel_sigma_mps2);
-            const int num_plots = some_plots(scene, &target, plots);
+            move_target(&target, scene->dt_s, scene->violence * model.accel_sigma_mps2);
+            const int num_plots = random_scan(scene, &target, plots);
             for (int row = 0; row < num_plots; ++row) {
                 claims[row] = (int16_t)(uniform(0.0, 5.0) - 1.0);
             }
@@ -415,10 +419,10 @@ static void plots_of_others_are_left_out_by_the_plain_rules(void **state)
 
             assert_int_equal(rho_hypotheses_predict(&pool, slot, scan.time_us), RHO_OK);
             model_predict(&track, scan.time_us);
-            (void)score_all(&pool, slot, &scan, num_plots, scene->pd, &clutter);
+            (void)score_plots(&pool, slot, &scan, num_plots, scene->pd, &clutter);
             assert_int_equal(rho_hypotheses_commit(&pool, slot, &scan, &outcome), RHO_OK);
             (void)model_take_scan(&track, &scan, num_plots, (double)LOG_PD(scene->pd), &clutter);
-            assert_same(&track, slot);
+            assert_hypotheses_agree(&track, slot);
             assert_true(outcome.row < 0 || claims[outcome.row] < 0 || claims[outcome.row] == 2);
         }
     }
@@ -433,8 +437,11 @@ static void plots_of_others_are_left_out_by_the_plain_rules(void **state)
 #define SCAN_S 0.25
 #define CLUTTER 10
 
-/* At 781 m/s, 10 g to either side in turn. */
-static void weave(double x[6], double t)
+/*
+ * One step at 781 m/s: 10 g to the right, then to the left and again, and straight before and
+ * after.
+ */
+static void move_weaving_target(double x[6], double t)
 {
     const double side = t < 8.0 || t >= 32.0 ? 0.0
                         : t < 12.0           ? 1.0
@@ -456,10 +463,11 @@ static double distance(const double x[3], const float at[3])
 }
 
 /*
- * The target where it is seen, and clutter in a sphere around where it is expected; none at first.
+ * A plot of the target if it is in the beam and detected, and clutter in a sphere about `at`; the
+ * first scans have the target's plot alone.
  */
-static int look_along(const double x[3], const float at[3], double beam, int is_first,
-                      struct rho_plot plots[CLUTTER + 1])
+static int draw_plots_in_beam(const double x[3], const float at[3], double beam, int is_first,
+                              struct rho_plot plots[CLUTTER + 1])
 {
     const int is_seen = (uniform(0.0, 1.0) < 0.9 && distance(x, at) < beam) || is_first;
     int num = 0;
@@ -484,9 +492,9 @@ static int look_along(const double x[3], const float at[3], double beam, int is_
     return num;
 }
 
-static uint16_t open_in_space(const double x[3])
+static uint16_t open_track_in_space(const double x[3])
 {
-    const struct rho_imm_model model = some_model((float)(12.0 * G0));
+    const struct rho_imm_model model = test_model((float)(12.0 * G0));
     struct rho_kalman first;
     uint16_t slot = 99;
 
@@ -500,11 +508,11 @@ static uint16_t open_in_space(const double x[3])
     return slot;
 }
 
-/* The beam follows the prediction; lost is what was out of it once. */
-static int is_lost(void)
+/* The beam follows the track; true once the target is outside the beam. */
+static int is_weaving_target_lost(void)
 {
     double x[6] = {50e3, 35e3, 300.0, -600.0, -500.0, 0.0};
-    const uint16_t slot = open_in_space(x);
+    const uint16_t slot = open_track_in_space(x);
 
     for (int k = 1; k <= SCANS; ++k) {
         struct rho_hypotheses_estimate estimate;
@@ -515,15 +523,15 @@ static int is_lost(void)
                                            .plots = plots,
                                            .log_miss = (float)log(0.1)};
 
-        weave(x, SCAN_S * k);
+        move_weaving_target(x, SCAN_S * k);
         const double beam = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) * sin(0.6 / 57.29578);
         const struct rho_hypotheses_clutter clutter = {
             .log_per_m2 = (float)log(CLUTTER / (4.0 / 3.0 * 3.14159265 * beam * beam * beam))};
 
         assert_int_equal(rho_hypotheses_predict(&pool, slot, scan.time_us), RHO_OK);
         assert_int_equal(rho_hypotheses_estimate(&pool, slot, scan.time_us, &estimate), RHO_OK);
-        const int num = look_along(x, estimate.kalman.state, beam, k < 3, plots);
-        (void)score_all(&pool, slot, &scan, num, 0.9, &clutter);
+        const int num = draw_plots_in_beam(x, estimate.kalman.state, beam, k < 3, plots);
+        (void)score_plots(&pool, slot, &scan, num, 0.9, &clutter);
         assert_int_equal(rho_hypotheses_commit(&pool, slot, &scan, &outcome), RHO_OK);
         assert_int_equal(rho_hypotheses_estimate(&pool, slot, scan.time_us, &estimate), RHO_OK);
         if (k >= 3 && distance(x, estimate.kalman.state) > beam) {
@@ -534,23 +542,23 @@ static int is_lost(void)
 }
 
 /*
- * Seen every 250 ms with 10 m and P_D 0.9 among ten plots of clutter in 639 to 314 m; of 500 such
- * runs 1 is lost.
+ * The target is seen every 250 ms with a sigma of 10 m and P_D 0.9, among ten clutter plots within
+ * 639 to 314 m; 1 of 500 such runs loses it.
  */
-static void a_target_that_weaves_in_clutter_is_kept(void **state)
+static void a_weaving_target_in_clutter_stays_tracked(void **state)
 {
     int num_lost = 0;
 
     (void)state;
     dense_seed = 2;
     for (int n = 0; n < RUNS; ++n) {
-        num_lost += is_lost();
+        num_lost += is_weaving_target_lost();
     }
     assert_true(num_lost <= 2);
 }
 
-/* As far as the gate reaches with the plot's noise alone: what is farther off costs less. */
-static void the_margin_of_the_box_is_the_gate_s(void **state)
+/* A slot without hypotheses: the margin is the gate of the plot's noise alone. */
+static void the_box_margin_without_hypotheses_is_the_gate_of_the_plot_noise(void **state)
 {
     struct rho_hypotheses_box box = {0};
     (void)state;
@@ -561,10 +569,10 @@ static void the_margin_of_the_box_is_the_gate_s(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scenes_are_answered_as_by_the_plain_rules),
-        cmocka_unit_test(plots_of_others_are_left_out_by_the_plain_rules),
-        cmocka_unit_test(a_target_that_weaves_in_clutter_is_kept),
-        cmocka_unit_test(the_margin_of_the_box_is_the_gate_s),
+        cmocka_unit_test(hypotheses_agree_with_the_plain_model),
+        cmocka_unit_test(plots_claimed_by_other_tracks_are_left_out_as_in_the_model),
+        cmocka_unit_test(a_weaving_target_in_clutter_stays_tracked),
+        cmocka_unit_test(the_box_margin_without_hypotheses_is_the_gate_of_the_plot_noise),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Hypotheses at their limits: a full pool, plots of others, plots that are known, what is refused.
+ * Hypotheses at their limits: a full pool, plots claimed by other tracks, plots known to be the
+ * target's, refused calls.
  */
 #include <string.h>
 
@@ -14,7 +15,7 @@ static struct rho_hypotheses pool, copy;
 
 static const struct rho_hypotheses_clutter thin = {-11.0f, -6.0f, -6.0f, -6.0f};
 
-static struct rho_imm_model some_model(void)
+static struct rho_imm_model test_model(void)
 {
     struct rho_imm_model model;
 
@@ -22,9 +23,9 @@ static struct rho_imm_model some_model(void)
     return model;
 }
 
-static void begin(void)
+static void init_pool(void)
 {
-    const struct rho_imm_model model = some_model();
+    const struct rho_imm_model model = test_model();
 
     assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
 }
@@ -40,7 +41,7 @@ static struct rho_kalman estimate_at(float x_m, float y_m, float vx_mps)
     return first;
 }
 
-static uint16_t open_at(struct rho_hypotheses *of, float x_m, float y_m, float vx_mps)
+static uint16_t open_track_at(struct rho_hypotheses *of, float x_m, float y_m, float vx_mps)
 {
     const struct rho_kalman first = estimate_at(x_m, y_m, vx_mps);
     uint16_t slot = RHO_HYPOTHESES_SLOTS;
@@ -61,13 +62,13 @@ static struct rho_plot plot_at(float x_m, float y_m)
                              .sigma_range_rate_mps = 2.0f};
 }
 
-static void predict(struct rho_hypotheses *of, uint16_t slot, double time_s)
+static void predict_track(struct rho_hypotheses *of, uint16_t slot, double time_s)
 {
     assert_int_equal(rho_hypotheses_predict(of, slot, (int64_t)(1e6 * time_s)), RHO_OK);
 }
 
-static int weigh(struct rho_hypotheses *of, uint16_t slot, double time_s,
-                 const struct rho_plot *plots, int num, float *gain_nat)
+static int score_plots(struct rho_hypotheses *of, uint16_t slot, double time_s,
+                       const struct rho_plot *plots, int num, float *gain_nat)
 {
     int num_near = 0;
 
@@ -83,9 +84,9 @@ static int weigh(struct rho_hypotheses *of, uint16_t slot, double time_s,
     return num_near;
 }
 
-static struct rho_hypotheses_outcome commit(struct rho_hypotheses *of, uint16_t slot, double time_s,
-                                            const struct rho_plot *plots, const int16_t *claims,
-                                            int16_t own)
+static struct rho_hypotheses_outcome commit_scan(struct rho_hypotheses *of, uint16_t slot,
+                                                 double time_s, const struct rho_plot *plots,
+                                                 const int16_t *claims, int16_t own)
 {
     const struct rho_hypotheses_scan scan = {.time_us = (int64_t)(1e6 * time_s),
                                              .plots = plots,
@@ -98,18 +99,18 @@ static struct rho_hypotheses_outcome commit(struct rho_hypotheses *of, uint16_t 
     return outcome;
 }
 
-static struct rho_hypotheses_outcome scan_all(struct rho_hypotheses *of, uint16_t slot,
+static struct rho_hypotheses_outcome run_scan(struct rho_hypotheses *of, uint16_t slot,
                                               double time_s, const struct rho_plot *plots, int num)
 {
     float gain_nat = 0.0f;
 
-    predict(of, slot, time_s);
-    (void)weigh(of, slot, time_s, plots, num, &gain_nat);
-    return commit(of, slot, time_s, plots, NULL, 0);
+    predict_track(of, slot, time_s);
+    (void)score_plots(of, slot, time_s, plots, num, &gain_nat);
+    return commit_scan(of, slot, time_s, plots, NULL, 0);
 }
 
-/* Every node is somebody's, and nobody else's. */
-static void assert_no_node_is_lost(const struct rho_hypotheses *of)
+/* Each node of the pool belongs to one track's list or to the free list, and to one only. */
+static void assert_each_node_is_used_once(const struct rho_hypotheses *of)
 {
     static uint8_t uses[RHO_MAX_HYPOTHESES];
 
@@ -127,7 +128,7 @@ static void assert_no_node_is_lost(const struct rho_hypotheses *of)
     }
 }
 
-static void assert_ranked(const struct rho_hypotheses *of, uint16_t slot)
+static void assert_weights_fall_from_zero(const struct rho_hypotheses *of, uint16_t slot)
 {
     const unsigned num = rho_hypotheses_count(of, slot);
 
@@ -139,28 +140,30 @@ static void assert_ranked(const struct rho_hypotheses *of, uint16_t slot)
     }
 }
 
-/* ---- decisions that are undone --------------------------------------------------------------- */
+/*
+ * ---- decisions that are corrected later --------------------------------------------------------
+ */
 
 /*
- * A target at 100 m/s; at the third scan it is missed, and a plot of clutter lies 60 m beside its
- * path. That is taken, and two scans later it never was.
+ * A target at 100 m/s is missed at the third scan, and a clutter plot lies 60 m beside its path.
+ * The track takes that plot; after the seventh scan its state is that of a filter that missed it.
  */
-static void a_plot_of_clutter_that_was_taken_is_undone(void **state)
+static void a_clutter_plot_taken_by_mistake_is_undone_later(void **state)
 {
     (void)state;
-    begin();
-    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
     struct rho_imm clean = rho_hypotheses_at(&pool, slot, 0)->imm;
-    const struct rho_imm_model model = some_model();
+    const struct rho_imm_model model = test_model();
     struct rho_imm_step step;
 
     rho_imm_prepare_step(&step, &model, 1.0f);
     for (int k = 1; k <= 7; ++k) {
         const struct rho_plot plot = plot_at(100.0f * (float)k, k == 3 ? 60.0f : 0.0f);
-        const struct rho_hypotheses_outcome outcome = scan_all(&pool, slot, k, &plot, 1);
+        const struct rho_hypotheses_outcome outcome = run_scan(&pool, slot, k, &plot, 1);
 
         assert_int_equal(outcome.row, 0);
-        assert_ranked(&pool, slot);
+        assert_weights_fall_from_zero(&pool, slot);
         assert_int_equal(rho_imm_predict(&clean, &step), RHO_OK);
         if (k != 3) {
             struct rho_imm_plot seen;
@@ -179,21 +182,21 @@ static void a_plot_of_clutter_that_was_taken_is_undone(void **state)
 }
 
 /*
- * Of two that took the same plots lately only the better one goes on: wrong picks do not crowd out
- * what is new.
+ * Of hypotheses with the same latest plots only the best goes on, so that clutter taken long ago
+ * does not fill the list.
  */
-static void wrong_picks_do_not_survive(void **state)
+static void hypotheses_with_wrong_plots_do_not_survive(void **state)
 {
     (void)state;
-    begin();
-    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
 
-    for (int k = 1; k <= 3; ++k) { /* clutter on both sides */
+    for (int k = 1; k <= 3; ++k) { /* clutter on both sides of the target */
         const struct rho_plot plots[3] = {plot_at(100.0f * (float)k, 0.0f),
                                           plot_at(100.0f * (float)k, 30.0f),
                                           plot_at(100.0f * (float)k, -30.0f)};
 
-        (void)scan_all(&pool, slot, k, plots, 3);
+        (void)run_scan(&pool, slot, k, plots, 3);
         for (unsigned i = 0; i < rho_hypotheses_count(&pool, slot); ++i) {
             for (unsigned j = 0; j < i; ++j) {
                 assert_memory_not_equal(rho_hypotheses_at(&pool, slot, i)->picks,
@@ -206,14 +209,14 @@ static void wrong_picks_do_not_survive(void **state)
     for (int k = 4; k <= 12; ++k) {
         const struct rho_plot plot = plot_at(100.0f * (float)k, 0.0f);
 
-        assert_int_equal(scan_all(&pool, slot, k, &plot, 1).row, 0);
+        assert_int_equal(run_scan(&pool, slot, k, &plot, 1).row, 0);
     }
     for (unsigned i = 0; i < rho_hypotheses_count(&pool, slot); ++i) {
         assert_float_equal(rho_hypotheses_at(&pool, slot, i)->imm.steady.state[1], 0.0, 1.0);
     }
 }
 
-static void plots_of_others_are_left_out(void **state)
+static void plots_claimed_by_other_tracks_are_not_taken(void **state)
 {
     const struct rho_plot plots[2] = {plot_at(100.0f, 1.0f), plot_at(100.0f, 12.0f)};
     static const struct {
@@ -225,17 +228,20 @@ static void plots_of_others_are_left_out(void **state)
 
     (void)state;
     for (size_t k = 0; k < NUM(cases); ++k) {
-        begin();
-        const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+        init_pool();
+        const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
 
-        predict(&pool, slot, 1.0);
-        assert_int_equal(weigh(&pool, slot, 1.0, plots, 2, &gain_nat), 2);
-        assert_int_equal(commit(&pool, slot, 1.0, plots, cases[k].claims, 5).row, cases[k].row);
+        predict_track(&pool, slot, 1.0);
+        assert_int_equal(score_plots(&pool, slot, 1.0, plots, 2, &gain_nat), 2);
+        assert_int_equal(commit_scan(&pool, slot, 1.0, plots, cases[k].claims, 5).row,
+                         cases[k].row);
     }
 }
 
-/* However good the plot of another was: a miss goes on. */
-static void a_plot_of_another_does_not_make_a_miss_too_light(void **state)
+/*
+ * The plot belongs to another track: the only hypothesis left is the miss, however likely the plot.
+ */
+static void a_good_plot_of_another_track_leaves_the_miss_hypothesis(void **state)
 {
     static const int16_t claims[1] = {3};
     static const struct rho_hypotheses_clutter none = {-70.0f, 0.0f, 0.0f, 0.0f};
@@ -244,25 +250,28 @@ static void a_plot_of_another_does_not_make_a_miss_too_light(void **state)
     float gain_nat = 0.0f;
 
     (void)state;
-    begin();
-    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
-    predict(&pool, slot, 1.0);
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
+    predict_track(&pool, slot, 1.0);
     rho_hypotheses_begin_scan(&pool, slot, NULL);
     rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     assert_true(rho_hypotheses_score_plot(&pool, slot, &seen, 1000000, 0, -0.1f, &none, &gain_nat));
     assert_true(gain_nat > 40.0f);
-    const struct rho_hypotheses_outcome outcome = commit(&pool, slot, 1.0, &plot, claims, 5);
+    const struct rho_hypotheses_outcome outcome = commit_scan(&pool, slot, 1.0, &plot, claims, 5);
     assert_int_equal(outcome.row, RHO_HYPOTHESES_MISS);
     assert_float_equal(outcome.gain_nat, -2.3, 1e-5);
-    assert_ranked(&pool, slot);
+    assert_weights_fall_from_zero(&pool, slot);
 }
 
-/* ---- the box --------------------------------------------------------------------------------- */
+/*
+ * ---- the bounding box of gates ------------------------------------------------------------------
+ */
 
 /*
- * Whatever is in a gate is in the box: own times either way, heights, thin ellipses, poor sensors.
+ * Any plot in a gate is in the box: with own times before and after, heights, thin ellipses, large
+ * noise.
  */
-static void no_plot_in_a_gate_is_outside_of_the_box(void **state)
+static void plots_in_a_gate_are_inside_the_bounding_box(void **state)
 {
     unsigned num_near = 0, num_late = 0, num_outside = 0;
 
@@ -275,19 +284,19 @@ static void no_plot_in_a_gate_is_outside_of_the_box(void **state)
 
         rho_imm_model_default(&model, accel_mps2, 600.0f);
         assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
-        const uint16_t slot = open_at(&pool, 0.0f, 0.0f, (float)uniform(-300.0, 300.0));
+        const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, (float)uniform(-300.0, 300.0));
         const double time_s = pow(10.0, uniform(-1.0, 1.0)), lag_s = n % 3 ? time_s : 0.0;
 
-        for (int k = 1; k <= n % 8; ++k) { /* an acceleration is known, and how fast it is */
+        for (int k = 1; k <= n % 8; ++k) { /* the filter learns an acceleration */
             const double t = 0.25 * k;
             const struct rho_plot plot = plot_at((float)(0.4 * accel_mps2 * t * t), 0.0f);
             struct rho_imm_plot seen;
 
-            predict(&pool, slot, t);
+            predict_track(&pool, slot, t);
             rho_imm_prepare_plot(&seen, &plot, z, NULL);
             assert_int_equal(rho_hypotheses_update(&pool, slot, &seen, (int64_t)(1e6 * t)), RHO_OK);
         }
-        predict(&pool, slot, 2.0 + time_s);
+        predict_track(&pool, slot, 2.0 + time_s);
         rho_hypotheses_begin_scan(&pool, slot, &reach);
         const struct rho_imm *imm = &rho_hypotheses_at(&pool, slot, 0)->imm;
         for (int k = 0; k < 40; ++k) {
@@ -308,7 +317,8 @@ static void no_plot_in_a_gate_is_outside_of_the_box(void **state)
             plot.y_m = moved.state[1] + (float)(0.3 * far * spread * normal());
             plot.z_m = moved.state[2] +
                        (float)(0.3 * far * sqrt(moved.covariance[5] + noise * noise) * normal());
-            plot.z_m += moved.covariance[5] > 0.0f ? 0.0f : 3000.0f; /* a track without a height */
+            /* without a height in the track, the plot's may be anything */
+            plot.z_m += moved.covariance[5] > 0.0f ? 0.0f : 3000.0f;
             plot.offset_us = (int32_t)(1e6 * offset_s);
             plot.sigma_range_m = (float)noise;
             plot.sigma_cross_m = (float)(n % 2 ? noise : pow(10.0, uniform(0.0, 2.0)));
@@ -329,27 +339,28 @@ static void no_plot_in_a_gate_is_outside_of_the_box(void **state)
 
 /* ---- the pool -------------------------------------------------------------------------------- */
 
-/* As many plots around each track as make it take eight hypotheses. */
-static void crowd(struct rho_hypotheses *of, uint16_t slot, double time_s, float x_m, float y_m)
+/* Plots around a track that give it its largest number of hypotheses, eight. */
+static void scan_with_plots_for_eight_hypotheses(struct rho_hypotheses *of, uint16_t slot,
+                                                 double time_s, float x_m, float y_m)
 {
     struct rho_plot plots[5];
 
     for (int i = 0; i < 5; ++i) {
         plots[i] = plot_at(x_m + 14.0f * (float)(i - 2), y_m + 9.0f * (float)(i % 2));
     }
-    (void)scan_all(of, slot, time_s, plots, 5);
+    (void)run_scan(of, slot, time_s, plots, 5);
 }
 
-static void a_full_pool_takes_from_the_richest(void **state)
+static void a_full_pool_is_shared_equally_among_tracks(void **state)
 {
     const unsigned num_tracks = RHO_MAX_TRACKS;
     unsigned least = 99, most = 0;
     uint16_t slots[RHO_MAX_TRACKS];
 
     (void)state;
-    begin();
+    init_pool();
     for (unsigned i = 0; i < num_tracks; ++i) {
-        slots[i] = open_at(&pool, 0.0f, 1000.0f * (float)i, 0.0f);
+        slots[i] = open_track_at(&pool, 0.0f, 1000.0f * (float)i, 0.0f);
     }
     for (int k = 1; k <= 3; ++k) {
         for (unsigned i = 0; i < num_tracks; ++i) {
@@ -357,31 +368,31 @@ static void a_full_pool_takes_from_the_richest(void **state)
             const float weight = best->weight_nat;
 
             assert_true(weight == 0.0f);
-            crowd(&pool, slots[i], k, 0.0f, 1000.0f * (float)i);
-            assert_ranked(&pool, slots[i]);
+            scan_with_plots_for_eight_hypotheses(&pool, slots[i], k, 0.0f, 1000.0f * (float)i);
+            assert_weights_fall_from_zero(&pool, slots[i]);
         }
-        assert_no_node_is_lost(&pool);
+        assert_each_node_is_used_once(&pool);
     }
     for (unsigned i = 0; i < num_tracks; ++i) {
         const unsigned num = rho_hypotheses_count(&pool, slots[i]);
 
-        assert_ranked(&pool, slots[i]);
+        assert_weights_fall_from_zero(&pool, slots[i]);
         least = num < least ? num : least;
         most = num > most ? num : most;
     }
-    /* all are shared out: nobody has two more than another */
+    /* all nodes are used, and the numbers of hypotheses of any two tracks differ by one at most */
     assert_int_equal(pool.num_free, 0);
     assert_true(pool.hypotheses_cut > 0);
     assert_true(most <= least + 1);
 }
 
-/* A track that needs but one hypothesis gets it, while any other has two. */
-static void a_new_track_gets_its_hypothesis_from_others(void **state)
+/* A new track gets one node as long as another track has two. */
+static void a_new_track_in_a_full_pool_gets_a_node_of_another_track(void **state)
 {
     unsigned num = 0, num_given = 0;
 
     (void)state;
-    begin();
+    init_pool();
     while (num < RHO_HYPOTHESES_SLOTS && num < RHO_MAX_HYPOTHESES) {
         struct rho_kalman first = estimate_at(0.0f, 1000.0f * (float)num, 0.0f);
         const uint32_t cut = pool.hypotheses_cut + (pool.num_free == 0);
@@ -395,14 +406,14 @@ static void a_new_track_gets_its_hypothesis_from_others(void **state)
         num_given += pool.num_free == 0;
         if (num <= RHO_MAX_HYPOTHESES / RHO_HYPOTHESES_OF_TRACK) {
             for (int k = 1; k <= 3; ++k) {
-                crowd(&pool, slot, k, 0.0f, 1000.0f * (float)slot);
+                scan_with_plots_for_eight_hypotheses(&pool, slot, k, 0.0f, 1000.0f * (float)slot);
             }
         }
         assert_int_equal(rho_hypotheses_count(&pool, slot) > 0, 1);
     }
     assert_int_equal(num, RHO_HYPOTHESES_SLOTS);
     assert_true(num_given > 0);
-    assert_no_node_is_lost(&pool);
+    assert_each_node_is_used_once(&pool);
     for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; ++slot) {
         assert_true(rho_hypotheses_count(&pool, slot) >= 1);
     }
@@ -418,10 +429,10 @@ static void a_new_track_gets_its_hypothesis_from_others(void **state)
 }
 
 /*
- * Opened, closed, crowded, thinned out at random; a copy of the object that meets the same does the
- * same.
+ * Tracks are opened, closed, and get random plots. A copy of the pool, given the same calls, must
+ * have the same bytes.
  */
-static void random_calls(struct rho_hypotheses *of, int num_calls, int32_t *now_s)
+static void make_random_calls(struct rho_hypotheses *of, int num_calls, int32_t *now_s)
 {
     for (int n = 0; n < num_calls; ++n) {
         const uint16_t slot =
@@ -448,60 +459,62 @@ static void random_calls(struct rho_hypotheses *of, int num_calls, int32_t *now_
                 plots[i] = plot_at(x_m, imm->state[1] + (float)(30.0 * normal()));
                 plots[i].offset_us = choice < 0.2 ? (int32_t)uniform(-3e5, 3e5) : 0;
             }
-            (void)scan_all(of, slot, *now_s, plots, num);
-            assert_ranked(of, slot);
+            (void)run_scan(of, slot, *now_s, plots, num);
+            assert_weights_fall_from_zero(of, slot);
         }
         *now_s += n % 40 == 39;
     }
 }
 
-static void no_node_is_lost_and_a_copy_does_the_same(void **state)
+static void random_calls_lose_no_node_and_a_copy_stays_identical(void **state)
 {
     int32_t now_s = 1;
 
     (void)state;
-    begin();
+    init_pool();
     for (int k = 0; k < 20; ++k) {
-        random_calls(&pool, 200, &now_s);
-        assert_no_node_is_lost(&pool);
+        make_random_calls(&pool, 200, &now_s);
+        assert_each_node_is_used_once(&pool);
     }
     memcpy(&copy, &pool, sizeof pool);
     const uint64_t seed = dense_seed;
     int32_t later_s = now_s;
-    random_calls(&pool, 500, &now_s);
+    make_random_calls(&pool, 500, &now_s);
     dense_seed = seed;
-    random_calls(&copy, 500, &later_s);
+    make_random_calls(&copy, 500, &later_s);
     assert_memory_equal(&copy, &pool, sizeof pool);
     for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; ++slot) {
         rho_hypotheses_close(&pool, slot);
     }
     assert_int_equal(pool.num_free, RHO_MAX_HYPOTHESES);
-    assert_no_node_is_lost(&pool);
+    assert_each_node_is_used_once(&pool);
 }
 
-/* ---- what is refused ------------------------------------------------------------------------- */
+/*
+ * ---- refused updates and predictions ------------------------------------------------------------
+ */
 
 /*
- * A plot that is no number when it is to be taken: the hypothesis is as it was predicted, and has
- * missed.
+ * The plots are NAN and infinite when their hypotheses are updated: these keep the predicted state
+ * and count as misses.
  */
-static void a_refused_update_is_a_miss_and_counted(void **state)
+static void a_refused_update_becomes_a_miss_and_is_counted(void **state)
 {
     (void)state;
     for (int has_own_time = 0; has_own_time < 2; ++has_own_time) {
         float gain_nat;
 
-        begin();
-        const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+        init_pool();
+        const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
         struct rho_plot plots[2] = {plot_at(100.0f, 3.0f), plot_at(100.0f, 5.0f)};
 
-        predict(&pool, slot, 1.0);
+        predict_track(&pool, slot, 1.0);
         const struct rho_imm predicted = rho_hypotheses_at(&pool, slot, 0)->imm;
         plots[0].offset_us = plots[1].offset_us = has_own_time ? 100000 : 0;
-        assert_int_equal(weigh(&pool, slot, 1.0, plots, 2, &gain_nat), 2);
+        assert_int_equal(score_plots(&pool, slot, 1.0, plots, 2, &gain_nat), 2);
         plots[0].x_m = NAN;
         plots[1].y_m = INFINITY;
-        assert_int_equal(commit(&pool, slot, 1.0, plots, NULL, 0).row, RHO_HYPOTHESES_MISS);
+        assert_int_equal(commit_scan(&pool, slot, 1.0, plots, NULL, 0).row, RHO_HYPOTHESES_MISS);
         assert_int_equal(pool.updates_refused, 2);
         for (unsigned i = 0; i < rho_hypotheses_count(&pool, slot); ++i) {
             const struct rho_hypothesis *at = rho_hypotheses_at(&pool, slot, i);
@@ -512,53 +525,55 @@ static void a_refused_update_is_a_miss_and_counted(void **state)
         }
         pool.updates_refused = UINT32_MAX - 1;
         plots[0] = plots[1] = plot_at(200.0f, 0.0f);
-        predict(&pool, slot, 2.0);
-        assert_true(weigh(&pool, slot, 2.0, plots, 2, &gain_nat) > 0);
+        predict_track(&pool, slot, 2.0);
+        assert_true(score_plots(&pool, slot, 2.0, plots, 2, &gain_nat) > 0);
         plots[0].x_m = plots[1].x_m = NAN;
-        (void)commit(&pool, slot, 2.0, plots, NULL, 0);
+        (void)commit_scan(&pool, slot, 2.0, plots, NULL, 0);
         assert_true(pool.updates_refused == UINT32_MAX);
     }
 }
 
-static void what_cannot_be_predicted_is_given_up(void **state)
+static void hypotheses_that_cannot_be_predicted_are_dropped(void **state)
 {
     (void)state;
-    begin();
-    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
 
-    crowd(&pool, slot, 1.0, 100.0f, 0.0f);
+    scan_with_plots_for_eight_hypotheses(&pool, slot, 1.0, 100.0f, 0.0f);
     const unsigned num = rho_hypotheses_count(&pool, slot);
     assert_true(num > 2);
     pool.nodes[rho_hypotheses_at(&pool, slot, 0) - pool.nodes].imm.state[0] = NAN;
-    predict(&pool, slot, 2.0);
+    predict_track(&pool, slot, 2.0);
     assert_int_equal(rho_hypotheses_count(&pool, slot), num - 1);
-    assert_ranked(&pool, slot);
-    assert_no_node_is_lost(&pool);
+    assert_weights_fall_from_zero(&pool, slot);
+    assert_each_node_is_used_once(&pool);
     assert_int_equal(rho_hypotheses_predict(&pool, slot, INT64_C(90000000000)), RHO_ERROR_VALUE);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 0);
-    assert_no_node_is_lost(&pool);
+    assert_each_node_is_used_once(&pool);
     assert_int_equal(pool.num_free, RHO_MAX_HYPOTHESES);
 }
 
-/* ---- what is known to be the target's -------------------------------------------------------- */
+/*
+ * ---- plots and bearings known to be the target's ------------------------------------------------
+ */
 
-static void all_hypotheses_take_what_is_known(void **state)
+static void all_hypotheses_are_updated_with_a_plot_known_to_be_the_targets(void **state)
 {
     (void)state;
     for (int n = 0; n < 4; ++n) {
         const double offset_s = n % 2 ? -0.2 : 0.0;
         struct rho_imm expected[RHO_HYPOTHESES_OF_TRACK];
         struct rho_hypothesis before[RHO_HYPOTHESES_OF_TRACK];
-        const struct rho_imm_model model = some_model();
-        /* far from all predictions it is taken all the same */
+        const struct rho_imm_model model = test_model();
+        /* a plot far outside all gates is taken, too */
         const struct rho_plot plot = plot_at(n < 2 ? 200.0f : 2000.0f, 10.0f);
         struct rho_imm_plot seen;
         struct rho_imm_step step;
 
-        begin();
-        const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
-        crowd(&pool, slot, 1.0, 100.0f, 0.0f);
-        predict(&pool, slot, 2.0);
+        init_pool();
+        const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
+        scan_with_plots_for_eight_hypotheses(&pool, slot, 1.0, 100.0f, 0.0f);
+        predict_track(&pool, slot, 2.0);
         rho_imm_prepare_plot(&seen, &plot, 0, NULL);
         rho_imm_prepare_step(&step, &model, (float)offset_s);
         const unsigned num = rho_hypotheses_count(&pool, slot);
@@ -588,10 +603,10 @@ static void all_hypotheses_take_what_is_known(void **state)
 }
 
 /*
- * Backwards by many memories of an acceleration there is no estimate: nothing is taken, and nothing
- * changes.
+ * A prediction back by 300 s, many times the memory of an acceleration, has no estimate: the update
+ * is refused and the hypotheses stay.
  */
-static void what_is_too_old_to_be_known_changes_nothing(void **state)
+static void a_plot_or_bearing_that_is_too_old_changes_nothing(void **state)
 {
     const struct rho_plot plot = plot_at(100.0f, 0.0f);
     struct rho_imm_plot seen;
@@ -599,10 +614,10 @@ static void what_is_too_old_to_be_known_changes_nothing(void **state)
     (void)state;
     rho_imm_prepare_plot(&seen, &plot, 0, NULL);
     for (int is_bearing = 0; is_bearing < 2; ++is_bearing) {
-        begin();
-        const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+        init_pool();
+        const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
 
-        crowd(&pool, slot, 1.0, 100.0f, 0.0f);
+        scan_with_plots_for_eight_hypotheses(&pool, slot, 1.0, 100.0f, 0.0f);
         const unsigned num = rho_hypotheses_count(&pool, slot);
         memcpy(&copy, &pool, sizeof pool);
         const enum rho_status status =
@@ -615,22 +630,24 @@ static void what_is_too_old_to_be_known_changes_nothing(void **state)
             assert_memory_equal(rho_hypotheses_at(&pool, slot, i),
                                 rho_hypotheses_at(&copy, slot, i), sizeof(struct rho_hypothesis));
         }
-        predict(&pool, slot, 2.0);
+        predict_track(&pool, slot, 2.0);
         assert_int_equal(rho_hypotheses_count(&pool, slot), num);
     }
 }
 
-/* Weights move by how well a bearing was predicted: what lay beside it falls behind. */
-static void a_bearing_orders_the_hypotheses(void **state)
+/*
+ * A hypothesis whose bearing is predicted badly loses weight: here the second one becomes the best.
+ */
+static void a_bearing_reorders_the_hypotheses_by_likelihood(void **state)
 {
     (void)state;
-    begin();
-    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 0.0f);
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 0.0f);
     const struct rho_plot plots[2] = {plot_at(20.0f, 0.0f), plot_at(-21.0f, 0.0f)};
     double expected[RHO_HYPOTHESES_OF_TRACK], best = -1e9;
 
-    (void)scan_all(&pool, slot, 1.0, plots, 2);
-    predict(&pool, slot, 2.0);
+    (void)run_scan(&pool, slot, 1.0, plots, 2);
+    predict_track(&pool, slot, 2.0);
     const unsigned num = rho_hypotheses_count(&pool, slot);
     assert_true(num >= 2 && rho_hypotheses_at(&pool, slot, 0)->picks[2] == 0);
     for (unsigned i = 0; i < num; ++i) {
@@ -647,7 +664,7 @@ static void a_bearing_orders_the_hypotheses(void **state)
         rho_hypotheses_update_bearing(&pool, slot, 2000000, -21.0f, -9000.0f, 1.5707963f, 1e-4f),
         RHO_OK);
     assert_int_equal(rho_hypotheses_at(&pool, slot, 0)->picks[2], 1);
-    assert_ranked(&pool, slot);
+    assert_weights_fall_from_zero(&pool, slot);
     for (unsigned i = 0; i < num; ++i) {
         const struct rho_hypothesis *was = rho_hypotheses_at(&copy, slot, i);
 
@@ -659,14 +676,14 @@ static void a_bearing_orders_the_hypotheses(void **state)
             }
         }
     }
-    assert_no_node_is_lost(&pool);
+    assert_each_node_is_used_once(&pool);
 }
 
 /* ---- arguments ------------------------------------------------------------------------------- */
 
 static void arguments_are_checked(void **state)
 {
-    const struct rho_imm_model model = some_model();
+    const struct rho_imm_model model = test_model();
     struct rho_imm_model bad = model;
     const struct rho_kalman first = estimate_at(0.0f, 0.0f, 0.0f);
     const struct rho_plot plot = plot_at(0.0f, 0.0f);
@@ -686,7 +703,7 @@ static void arguments_are_checked(void **state)
     assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &bad), RHO_ERROR_CONFIG);
     memset(&pool, 0, sizeof pool);
     assert_int_equal(rho_hypotheses_open(&pool, &first, 0, &slot), RHO_ERROR_STATE);
-    begin();
+    init_pool();
     assert_int_equal(rho_hypotheses_open(NULL, &first, 0, &slot), RHO_ERROR_NULL);
     assert_int_equal(rho_hypotheses_open(&pool, NULL, 0, &slot), RHO_ERROR_NULL);
     assert_int_equal(rho_hypotheses_open(&pool, &first, 0, NULL), RHO_ERROR_NULL);
@@ -729,31 +746,34 @@ static void arguments_are_checked(void **state)
     assert_int_equal(rho_hypotheses_count(&pool, slot), 1);
 }
 
-/* The gate reaches sqrt(RHO_IMM_GATE) of a plot's sigmas; a later plot may be farther away. */
-static void the_boxs_margin_grows_with_noise_and_time(void **state)
+/*
+ * The margin is at least sqrt(RHO_IMM_GATE) sigmas of the plot, and for a plot at another time as
+ * much more as the target may move.
+ */
+static void the_box_margin_grows_with_noise_and_own_time(void **state)
 {
     struct rho_hypotheses_box box;
 
     (void)state;
-    begin();
-    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
-    predict(&pool, slot, 1.0);
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
+    predict_track(&pool, slot, 1.0);
     rho_hypotheses_begin_scan(&pool, slot, &box);
     const float margin_m = rho_hypotheses_box_margin_m(&pool, slot, &box, 20.0f, 0.0f);
     assert_true(margin_m >= sqrtf(RHO_IMM_GATE) * 20.0f && margin_m <= 2.0f * 20.0f * 6.0f);
     assert_float_equal(rho_hypotheses_box_margin_m(&pool, slot, &box, 40.0f, 0.0f), 2.0f * margin_m,
                        1e-3);
     assert_true(rho_hypotheses_box_margin_m(&pool, slot, &box, 20.0f, 1.0f) >=
-                margin_m + 100.0f); /* a second at 100 m/s */
+                margin_m + 100.0f); /* a second later at 100 m/s */
 }
 
-/* Moved back without noise and on again, a track is where it was, as uncertain as before. */
-static void a_track_returns_to_where_it_had_been(void **state)
+/* Moved back without noise and forward again, a track has its place, velocity and variance back. */
+static void prediction_back_without_noise_is_reversible(void **state)
 {
     (void)state;
-    begin();
-    const uint16_t slot = open_at(&pool, 500.0f, -200.0f, 100.0f);
-    predict(&pool, slot, 4.0);
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 500.0f, -200.0f, 100.0f);
+    predict_track(&pool, slot, 4.0);
     const struct rho_imm was = rho_hypotheses_at(&pool, slot, 0)->imm;
     assert_int_equal(rho_hypotheses_predict_noiseless(&pool, slot, 1000000), RHO_OK);
     const struct rho_imm *imm = &rho_hypotheses_at(&pool, slot, 0)->imm;
@@ -767,17 +787,17 @@ static void a_track_returns_to_where_it_had_been(void **state)
     assert_int_equal(rho_hypotheses_predict_noiseless(&pool, slot + 1, 0), RHO_ERROR_STATE);
 }
 
-/* The steps of the pool follow from the new mean time; a model without calm targets stays. */
-static void calm_targets_get_another_mean_time(void **state)
+/* The pool's steps follow the new mean interval; a model without calm targets ignores it. */
+static void the_mean_calm_interval_can_be_changed(void **state)
 {
-    struct rho_imm_model model = some_model();
+    struct rho_imm_model model = test_model();
     struct rho_imm_step expected;
 
     (void)state;
     assert_true(model.calm_s > 0.0f);
-    begin();
-    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
-    predict(&pool, slot, 2.0);
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
+    predict_track(&pool, slot, 2.0);
     rho_hypotheses_set_mean_manoeuvre_interval(&pool, 90.0f);
     model.calm_s = 90.0f;
     rho_imm_prepare_step(&expected, &model, 2.0f);
@@ -790,17 +810,17 @@ static void calm_targets_get_another_mean_time(void **state)
     assert_memory_equal(&pool.model, &model, sizeof model);
 }
 
-/* The learned mean time stays; what is no model is refused. */
-static void a_pool_gets_another_model(void **state)
+/* The mean calm interval that was learned stays; an invalid model is refused. */
+static void the_motion_model_of_a_pool_can_be_replaced(void **state)
 {
-    struct rho_imm_model model = some_model();
+    struct rho_imm_model model = test_model();
     struct rho_imm_step expected;
     static struct rho_hypotheses before;
 
     (void)state;
-    begin();
-    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
-    predict(&pool, slot, 2.0);
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
+    predict_track(&pool, slot, 2.0);
     rho_hypotheses_set_mean_manoeuvre_interval(&pool, 90.0f);
     model.drive_density *= 9.0f;
     assert_int_equal(rho_hypotheses_set_model_keeping_calm(&pool, &model), RHO_OK);
@@ -818,14 +838,14 @@ static void a_pool_gets_another_model(void **state)
     assert_memory_equal(&pool, &before, sizeof pool);
 }
 
-/* Each damage by itself: a node in two places, one too many, a number that is none, no object. */
+/* One damage at a time: a node with two owners, a wrong count, NAN, an invalid model, zeros. */
 static void a_damaged_pool_is_not_sound(void **state)
 {
     (void)state;
-    begin();
-    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
-    const uint16_t other = open_at(&pool, 900.0f, 0.0f, 100.0f);
-    predict(&pool, slot, 1.0);
+    init_pool();
+    const uint16_t slot = open_track_at(&pool, 0.0f, 0.0f, 100.0f);
+    const uint16_t other = open_track_at(&pool, 900.0f, 0.0f, 100.0f);
+    predict_track(&pool, slot, 1.0);
     assert_true(rho_hypotheses_is_sound(&pool));
     copy = pool;
     pool.node_of[slot][0] = pool.node_of[other][0];
@@ -850,24 +870,24 @@ static void a_damaged_pool_is_not_sound(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_plot_of_clutter_that_was_taken_is_undone),
-        cmocka_unit_test(wrong_picks_do_not_survive),
-        cmocka_unit_test(plots_of_others_are_left_out),
-        cmocka_unit_test(a_plot_of_another_does_not_make_a_miss_too_light),
-        cmocka_unit_test(no_plot_in_a_gate_is_outside_of_the_box),
-        cmocka_unit_test(a_full_pool_takes_from_the_richest),
-        cmocka_unit_test(a_new_track_gets_its_hypothesis_from_others),
-        cmocka_unit_test(no_node_is_lost_and_a_copy_does_the_same),
-        cmocka_unit_test(a_refused_update_is_a_miss_and_counted),
-        cmocka_unit_test(what_cannot_be_predicted_is_given_up),
-        cmocka_unit_test(all_hypotheses_take_what_is_known),
-        cmocka_unit_test(what_is_too_old_to_be_known_changes_nothing),
-        cmocka_unit_test(a_bearing_orders_the_hypotheses),
+        cmocka_unit_test(a_clutter_plot_taken_by_mistake_is_undone_later),
+        cmocka_unit_test(hypotheses_with_wrong_plots_do_not_survive),
+        cmocka_unit_test(plots_claimed_by_other_tracks_are_not_taken),
+        cmocka_unit_test(a_good_plot_of_another_track_leaves_the_miss_hypothesis),
+        cmocka_unit_test(plots_in_a_gate_are_inside_the_bounding_box),
+        cmocka_unit_test(a_full_pool_is_shared_equally_among_tracks),
+        cmocka_unit_test(a_new_track_in_a_full_pool_gets_a_node_of_another_track),
+        cmocka_unit_test(random_calls_lose_no_node_and_a_copy_stays_identical),
+        cmocka_unit_test(a_refused_update_becomes_a_miss_and_is_counted),
+        cmocka_unit_test(hypotheses_that_cannot_be_predicted_are_dropped),
+        cmocka_unit_test(all_hypotheses_are_updated_with_a_plot_known_to_be_the_targets),
+        cmocka_unit_test(a_plot_or_bearing_that_is_too_old_changes_nothing),
+        cmocka_unit_test(a_bearing_reorders_the_hypotheses_by_likelihood),
         cmocka_unit_test(arguments_are_checked),
-        cmocka_unit_test(the_boxs_margin_grows_with_noise_and_time),
-        cmocka_unit_test(a_track_returns_to_where_it_had_been),
-        cmocka_unit_test(calm_targets_get_another_mean_time),
-        cmocka_unit_test(a_pool_gets_another_model),
+        cmocka_unit_test(the_box_margin_grows_with_noise_and_own_time),
+        cmocka_unit_test(prediction_back_without_noise_is_reversible),
+        cmocka_unit_test(the_mean_calm_interval_can_be_changed),
+        cmocka_unit_test(the_motion_model_of_a_pool_can_be_replaced),
         cmocka_unit_test(a_damaged_pool_is_not_sound),
     };
 

@@ -18,28 +18,28 @@
 #define WRAP_ABSOLUTE 3e-7
 #define DIFFERENCE_ABSOLUTE 8e-7
 #define THETA_ABSOLUTE 4e-7
-#define RHO_RELATIVE 3e-7 /* of the point's distance from the origin */
+#define RHO_RELATIVE 3e-7 /* relative to the point's distance from the origin */
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
-/* How far apart two directions are, whichever way round. */
-static double apart(double a, double b)
+/* The angle between two directions, 0 to pi. */
+static double angle_between(double a, double b)
 {
     return fabs(remainder(a - b, TURN));
 }
 
-static void wrap_agrees_with_the_reference(void **state)
+static void wrapped_angles_agree_with_the_reference(void **state)
 {
     (void)state;
     for (size_t i = 0; i < NUM(angle_vectors); ++i) {
         const float wrapped = rho_angle_wrap(angle_vectors[i].a_rad);
 
         assert_true(wrapped >= -RHO_PI && wrapped < RHO_PI);
-        assert_true(apart(wrapped, angle_vectors[i].wrap) <= WRAP_ABSOLUTE);
+        assert_true(angle_between(wrapped, angle_vectors[i].wrap) <= WRAP_ABSOLUTE);
     }
 }
 
-static void difference_agrees_with_the_reference(void **state)
+static void angle_differences_agree_with_the_reference(void **state)
 {
     (void)state;
     for (size_t i = 0; i < NUM(angle_vectors); ++i) {
@@ -47,11 +47,11 @@ static void difference_agrees_with_the_reference(void **state)
         const float difference = rho_angle_difference(v->a_rad, v->b_rad);
 
         assert_true(difference >= -RHO_PI && difference < RHO_PI);
-        assert_true(apart(difference, v->difference) <= DIFFERENCE_ABSOLUTE);
+        assert_true(angle_between(difference, v->difference) <= DIFFERENCE_ABSOLUTE);
     }
 }
 
-static void wrap_over_a_dense_sweep(void **state)
+static void wrapping_is_right_over_a_dense_sweep(void **state)
 {
     (void)state;
     for (int i = -399000; i <= 399000; ++i) {
@@ -59,12 +59,12 @@ static void wrap_over_a_dense_sweep(void **state)
         const float wrapped = rho_angle_wrap(angle);
 
         assert_true(wrapped >= -RHO_PI && wrapped < RHO_PI);
-        assert_true(apart(wrapped, angle) <= WRAP_ABSOLUTE);
+        assert_true(angle_between(wrapped, angle) <= WRAP_ABSOLUTE);
     }
 }
 
 /* Floats on both sides of every odd multiple of pi. */
-static void wrap_at_the_cut(void **state)
+static void wrapping_is_right_next_to_odd_multiples_of_pi(void **state)
 {
     (void)state;
     for (int k = -31; k <= 31; k += 2) {
@@ -77,12 +77,12 @@ static void wrap_at_the_cut(void **state)
             const float wrapped = rho_angle_wrap(angle);
 
             assert_true(wrapped >= -RHO_PI && wrapped < RHO_PI);
-            assert_true(apart(wrapped, angle) <= WRAP_ABSOLUTE);
+            assert_true(angle_between(wrapped, angle) <= WRAP_ABSOLUTE);
         }
     }
 }
 
-static void wrap_leaves_a_wrapped_angle_alone(void **state)
+static void wrapping_leaves_a_wrapped_angle_alone(void **state)
 {
     const float angles[] = {0.0f, -0.0f, 1e-30f, 1.0f, -1.0f, -RHO_PI, nextafterf(RHO_PI, 0.0f)};
 
@@ -93,7 +93,7 @@ static void wrap_leaves_a_wrapped_angle_alone(void **state)
     assert_true(rho_angle_wrap(RHO_PI) < 0.0f);
 }
 
-static void angles_beyond_the_limit_are_no_number(void **state)
+static void angles_beyond_the_limit_give_nan(void **state)
 {
     const float beyond = nextafterf(100.0f, 200.0f);
     const float bad[] = {beyond, -beyond, FLT_MAX, -FLT_MAX, INFINITY, -INFINITY, NAN};
@@ -114,7 +114,7 @@ static void angles_beyond_the_limit_are_no_number(void **state)
     }
 }
 
-static void difference_goes_the_shorter_way(void **state)
+static void an_angle_difference_goes_the_shorter_way(void **state)
 {
     (void)state;
     assert_float_equal(rho_angle_difference(3.0f, -3.0f), 6.0 - TURN, 1e-6);
@@ -125,7 +125,7 @@ static void difference_goes_the_shorter_way(void **state)
     assert_float_equal(rho_angle_difference(0.0f, -RHO_PI), -RHO_PI, 3e-7);
 }
 
-static void sectors_hold_their_ends_and_what_is_between(void **state)
+static void sectors_contain_their_ends_and_all_between(void **state)
 {
     (void)state;
     assert_int_equal(rho_angle_in_sector(0.5f, 0.5f, 1.5f), 1);
@@ -134,19 +134,19 @@ static void sectors_hold_their_ends_and_what_is_between(void **state)
     assert_int_equal(rho_angle_in_sector(0.49f, 0.5f, 1.5f), 0);
     assert_int_equal(rho_angle_in_sector(1.51f, 0.5f, 1.5f), 0);
     assert_int_equal(rho_angle_in_sector(-3.0f, 0.5f, 1.5f), 0);
-    /* the same ends the other way round: the rest of the circle */
+    /* ends exchanged: the sector is the rest of the circle */
     assert_int_equal(rho_angle_in_sector(1.0f, 1.5f, 0.5f), 0);
     assert_int_equal(rho_angle_in_sector(-3.0f, 1.5f, 0.5f), 1);
     assert_int_equal(rho_angle_in_sector(0.5f, 1.5f, 0.5f), 1);
     assert_int_equal(rho_angle_in_sector(1.5f, 1.5f, 0.5f), 1);
-    /* across the cut, and with turns too many */
+    /* across +-pi, and angles off by whole turns */
     assert_int_equal(rho_angle_in_sector(RHO_PI, 3.0f, -3.0f), 1);
     assert_int_equal(rho_angle_in_sector(-RHO_PI, 3.0f, 3.3f), 1);
     assert_int_equal(rho_angle_in_sector(0.0f, 3.0f, -3.0f), 0);
     assert_int_equal(rho_angle_in_sector(1.0f + 2.0f * RHO_TWO_PI, 0.5f - RHO_TWO_PI, 1.5f), 1);
 }
 
-static void equal_ends_are_the_whole_circle(void **state)
+static void a_sector_with_equal_ends_is_the_whole_circle(void **state)
 {
     const float ends[][2] = {{0.0f, 0.0f},
                              {2.0f, 2.0f},
@@ -163,7 +163,7 @@ static void equal_ends_are_the_whole_circle(void **state)
     }
 }
 
-static void sectors_go_on_from_either_end(void **state)
+static void a_sector_continues_another_at_its_left_or_right_end(void **state)
 {
     const unsigned left = RHO_ANGLE_CONTINUES_LEFT, right = RHO_ANGLE_CONTINUES_RIGHT;
 
@@ -174,16 +174,22 @@ static void sectors_go_on_from_either_end(void **state)
     assert_int_equal(rho_angle_continued_ends(3.0f, -3.0f, -3.0f, -2.0f, 0.0f), left);
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.0009f, 1.5f, 0.0f), left);
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 0.9995f, 1.5f, 0.0f), left);
-    /* apart, and as far as is allowed; the nearer end */
+    /*
+     * a gap between the sectors; the last argument is the largest gap allowed, and the nearer end
+     * counts
+     */
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.2f, 1.5f, 0.0f), 0);
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 1.2f, 1.5f, 0.3f), left);
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, -1.5f, -0.2f, 0.3f), right);
     assert_int_equal(rho_angle_continued_ends(0.0f, 5.0f, 5.5f, 6.0f, 1.0f), right);
-    /* narrow ones: of two there is no circle, nor of one twice */
+    /*
+     * sectors narrower than the tolerance: two of them are no circle, and one does not continue
+     * itself
+     */
     assert_int_equal(rho_angle_continued_ends(0.0f, 4e-4f, 4e-4f, 8e-4f, 0.5f), left);
     assert_int_equal(rho_angle_continued_ends(1.0f, 1.0004f, 0.9996f, 1.0f, 0.5f), right);
     assert_int_equal(rho_angle_continued_ends(0.0f, 5e-4f, 0.0f, 5e-4f, 0.5f), 0);
-    /* overlap, the whole circle, no sector */
+    /* sectors that overlap, whole circles, NAN: no continuation */
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 0.5f, 1.5f, 0.3f), 0);
     assert_int_equal(rho_angle_continued_ends(0.0f, 6.1f, 0.0f, 0.2f, 0.5f), 0);
     assert_int_equal(rho_angle_continued_ends(0.0f, 1.0f, 0.0f, 1.0f, 0.5f), 0);
@@ -194,7 +200,7 @@ static void sectors_go_on_from_either_end(void **state)
     assert_float_equal(rho_angle_sector_width(2.0f, 2.0f), 2.0 * 3.14159265, 1e-6);
 }
 
-static void sectors_over_random_triples(void **state)
+static void random_sectors_contain_the_angles_between_their_ends(void **state)
 {
     uint32_t seed = 5;
 
@@ -215,7 +221,7 @@ static void sectors_over_random_triples(void **state)
     }
 }
 
-/* The same line, where (rho, 0) and (-rho, pi) are one. */
+/* Compares lines, where (rho, 0) and (-rho, pi) are the same one. */
 static void assert_line(struct rho_line line, double rho_m, double theta_rad, double reach_m)
 {
     double theta_error = line.theta_rad - theta_rad;
@@ -240,7 +246,7 @@ static void lines_agree_with_the_reference(void **state)
     }
 }
 
-static void lines_along_the_axes(void **state)
+static void lines_along_the_axes_have_exact_rho_and_theta(void **state)
 {
     (void)state;
     assert_line(rho_angle_line(5.0f, 2.0f, 1.0f, 0.0f), 2.0, HALF_TURN / 2.0, 1.0);
@@ -249,13 +255,16 @@ static void lines_along_the_axes(void **state)
     assert_line(rho_angle_line(5.0f, 2.0f, 0.0f, -1.0f), 5.0, 0.0, 1.0);
     assert_line(rho_angle_line(5.0f, 2.0f, -0.0f, 1.0f), 5.0, 0.0, 1.0);
     assert_line(rho_angle_line(-5.0f, 2.0f, -0.0f, -1.0f), -5.0, 0.0, 1.0);
-    /* so little off that theta rounds to pi: the same line as theta 0 */
+    /* nearly vertical, theta rounds to pi: returned as theta 0 */
     assert_line(rho_angle_line(5.0f, 0.0f, -1e-12f, -1.0f), 5.0, 0.0, 5.0);
     assert_line(rho_angle_line(5.0f, 0.0f, -1e-12f, 1.0f), 5.0, 0.0, 5.0);
 }
 
-/* The sign of the direction does not matter; mirror lines differ in the sign of rho. */
-static void a_line_has_no_sense_but_a_side(void **state)
+/*
+ * A direction and its opposite give the same line; a point mirrored in the origin changes the sign
+ * of rho.
+ */
+static void reversed_lines_are_equal_and_mirrored_lines_differ_in_rho(void **state)
 {
     (void)state;
     for (int i = 0; i < 360; ++i) {
@@ -269,7 +278,7 @@ static void a_line_has_no_sense_but_a_side(void **state)
     }
 }
 
-static void no_direction_is_no_line(void **state)
+static void a_line_without_a_direction_is_nan(void **state)
 {
     const float bad[][2] = {{0.0f, 0.0f},     {-0.0f, 0.0f},     {NAN, 1.0f}, {1.0f, NAN},
                             {INFINITY, 1.0f}, {1.0f, -INFINITY}, {NAN, NAN},  {INFINITY, INFINITY}};
@@ -284,7 +293,7 @@ static void no_direction_is_no_line(void **state)
     assert_true(isnan(rho_angle_line(NAN, 1.0f, 1.0f, 1.0f).rho_m));
 }
 
-static void cells_divide_the_half_turn(void **state)
+static void theta_cells_divide_half_a_turn_evenly(void **state)
 {
     (void)state;
     for (int32_t n = 1; n <= 720; ++n) {
@@ -296,7 +305,7 @@ static void cells_divide_the_half_turn(void **state)
     }
 }
 
-static void cells_outside_are_the_nearest(void **state)
+static void thetas_out_of_range_are_in_the_nearest_cell(void **state)
 {
     const int32_t counts[] = {1, 2, 180, 16777217, INT32_MAX};
 
@@ -321,7 +330,7 @@ static void cells_outside_are_the_nearest(void **state)
     assert_int_equal(rho_angle_clamped_theta_cell(1.0f, INT32_MIN), 0);
 }
 
-static void ends_of_sectors_are_within_a_turn_either_way(void **state)
+static void ends_of_sectors_are_within_one_turn_of_zero(void **state)
 {
     const float most_rad = RHO_TWO_PI, beyond_rad = nextafterf(RHO_TWO_PI, INFINITY);
 
@@ -338,24 +347,24 @@ static void ends_of_sectors_are_within_a_turn_either_way(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wrap_agrees_with_the_reference),
-        cmocka_unit_test(difference_agrees_with_the_reference),
-        cmocka_unit_test(wrap_over_a_dense_sweep),
-        cmocka_unit_test(wrap_at_the_cut),
-        cmocka_unit_test(wrap_leaves_a_wrapped_angle_alone),
-        cmocka_unit_test(angles_beyond_the_limit_are_no_number),
-        cmocka_unit_test(difference_goes_the_shorter_way),
-        cmocka_unit_test(sectors_hold_their_ends_and_what_is_between),
-        cmocka_unit_test(equal_ends_are_the_whole_circle),
-        cmocka_unit_test(sectors_go_on_from_either_end),
-        cmocka_unit_test(sectors_over_random_triples),
+        cmocka_unit_test(wrapped_angles_agree_with_the_reference),
+        cmocka_unit_test(angle_differences_agree_with_the_reference),
+        cmocka_unit_test(wrapping_is_right_over_a_dense_sweep),
+        cmocka_unit_test(wrapping_is_right_next_to_odd_multiples_of_pi),
+        cmocka_unit_test(wrapping_leaves_a_wrapped_angle_alone),
+        cmocka_unit_test(angles_beyond_the_limit_give_nan),
+        cmocka_unit_test(an_angle_difference_goes_the_shorter_way),
+        cmocka_unit_test(sectors_contain_their_ends_and_all_between),
+        cmocka_unit_test(a_sector_with_equal_ends_is_the_whole_circle),
+        cmocka_unit_test(a_sector_continues_another_at_its_left_or_right_end),
+        cmocka_unit_test(random_sectors_contain_the_angles_between_their_ends),
         cmocka_unit_test(lines_agree_with_the_reference),
-        cmocka_unit_test(lines_along_the_axes),
-        cmocka_unit_test(a_line_has_no_sense_but_a_side),
-        cmocka_unit_test(no_direction_is_no_line),
-        cmocka_unit_test(cells_divide_the_half_turn),
-        cmocka_unit_test(cells_outside_are_the_nearest),
-        cmocka_unit_test(ends_of_sectors_are_within_a_turn_either_way),
+        cmocka_unit_test(lines_along_the_axes_have_exact_rho_and_theta),
+        cmocka_unit_test(reversed_lines_are_equal_and_mirrored_lines_differ_in_rho),
+        cmocka_unit_test(a_line_without_a_direction_is_nan),
+        cmocka_unit_test(theta_cells_divide_half_a_turn_evenly),
+        cmocka_unit_test(thetas_out_of_range_are_in_the_nearest_cell),
+        cmocka_unit_test(ends_of_sectors_are_within_one_turn_of_zero),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

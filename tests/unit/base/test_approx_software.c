@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The tests of test_approx.c on what processors without an instruction for the square root run. */
+/*
+ * Runs the tests of test_approx.c on the software square root, for processors without an
+ * instruction.
+ */
 #define RHO_SOFTWARE_ROOT
 #define rho_sin software_sin
 #define rho_cos software_cos
@@ -10,5 +13,5 @@
 #define rho_sqrt software_sqrt
 #define rho_inverse_sqrt software_inverse_sqrt
 
-#include "../../src/base/approx.c" /* NOLINT: with these names it stands beside the library's */
+#include "../../src/base/approx.c" /* NOLINT: the macros rename its functions */
 #include "test_approx.c"           /* NOLINT */

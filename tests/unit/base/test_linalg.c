@@ -12,12 +12,12 @@
 #include "rhotrack/detail/linalg.h"
 #include "vectors/linalg_vectors.h"
 
-/* Relative to the largest entry of the row or vector, or to the value itself. */
+/* Tolerances, relative to the largest entry of the row or vector, or to the value itself. */
 #define CHOLESKY_RELATIVE 4e-6
 #define FORWARD_RELATIVE 2e-5
-#define BACKWARD_RELATIVE 3e-7 /* of the residual; worst of the vectors: 7.5e-8 */
+#define BACKWARD_RELATIVE 3e-7 /* of the residual; largest seen: 7.5e-8 */
 #define LOG_DETERMINANT_ABSOLUTE 2e-5
-#define DISTANCE2_RELATIVE 2e-4 /* S is nearly singular in a third of the vectors */
+#define DISTANCE2_RELATIVE 2e-4 /* wide, as S is nearly singular in a third of the vectors */
 #define LOG_DET_ABSOLUTE 2e-5
 #define UPDATE_RELATIVE 1e-5
 
@@ -26,7 +26,7 @@
 #define STATES 6
 #define PACKED 21
 
-static double largest(const double *values, int n)
+static double largest_magnitude(const double *values, int n)
 {
     double most = 0.0;
 
@@ -36,9 +36,9 @@ static double largest(const double *values, int n)
     return most;
 }
 
-static void assert_near(const float *got, const double *expected, int n, double relative)
+static void assert_near_reference(const float *got, const double *expected, int n, double relative)
 {
-    const double tolerance = relative * largest(expected, n);
+    const double tolerance = relative * largest_magnitude(expected, n);
 
     for (int i = 0; i < n; ++i) {
         assert_true(fabs(got[i] - expected[i]) <= tolerance);
@@ -52,7 +52,7 @@ static void fill(float *values, size_t n, float v)
     }
 }
 
-static void assert_all(const float *values, size_t n, float v)
+static void assert_all_equal_to(const float *values, size_t n, float v)
 {
     for (size_t i = 0; i < n; ++i) {
         assert_true(values[i] == v);
@@ -72,13 +72,14 @@ static void cholesky_agrees_with_the_reference(void **state)
         fill(l, NUM(l), GUARD);
         assert_int_equal(rho_linalg_cholesky(v->n, v->a, l), RHO_OK);
         for (int i = 0; i < v->n; ++i) {
-            assert_near(&l[RHO_TRIANGLE(i)], &v->factor[RHO_TRIANGLE(i)], i + 1, CHOLESKY_RELATIVE);
+            assert_near_reference(&l[RHO_TRIANGLE(i)], &v->factor[RHO_TRIANGLE(i)], i + 1,
+                                  CHOLESKY_RELATIVE);
         }
-        assert_all(&l[size], NUM(l) - size, GUARD);
+        assert_all_equal_to(&l[size], NUM(l) - size, GUARD);
     }
 }
 
-static void cholesky_works_in_place(void **state)
+static void cholesky_factors_in_place(void **state)
 {
     (void)state;
     for (size_t k = 0; k < NUM(cholesky_vectors); ++k) {
@@ -92,7 +93,7 @@ static void cholesky_works_in_place(void **state)
     }
 }
 
-static void forward_and_determinant_agree_with_the_reference(void **state)
+static void forward_solution_and_determinant_agree_with_the_reference(void **state)
 {
     (void)state;
     for (size_t k = 0; k < NUM(cholesky_vectors); ++k) {
@@ -103,15 +104,18 @@ static void forward_and_determinant_agree_with_the_reference(void **state)
         fill(b, NUM(b), GUARD);
         memcpy(b, v->b, (size_t)v->n * sizeof(float));
         rho_linalg_forward(v->n, l, b);
-        assert_near(b, v->forward, v->n, FORWARD_RELATIVE);
-        assert_all(&b[v->n], NUM(b) - (size_t)v->n, GUARD);
+        assert_near_reference(b, v->forward, v->n, FORWARD_RELATIVE);
+        assert_all_equal_to(&b[v->n], NUM(b) - (size_t)v->n, GUARD);
         assert_true(fabs(rho_linalg_log_determinant(v->n, l) - v->log_determinant) <=
                     LOG_DETERMINANT_ABSOLUTE);
     }
 }
 
-/* Row i of L^T x - b against what it is added up from: small however L is conditioned. */
-static void backward_solves_the_transposed_factor(void **state)
+/*
+ * Checks each row of L^T x = b, with a tolerance of the sum of the terms' magnitudes: this holds
+ * for ill-conditioned L, too.
+ */
+static void backward_substitution_solves_the_transposed_factor(void **state)
 {
     (void)state;
     for (size_t k = 0; k < NUM(cholesky_vectors); ++k) {
@@ -131,11 +135,11 @@ static void backward_solves_the_transposed_factor(void **state)
             }
             assert_float_equal(sum, v->b[i], BACKWARD_RELATIVE * size);
         }
-        assert_all(&x[v->n], NUM(x) - (size_t)v->n, GUARD);
+        assert_all_equal_to(&x[v->n], NUM(x) - (size_t)v->n, GUARD);
     }
 }
 
-static void forward_and_backward_solve_the_equations(void **state)
+static void forward_then_backward_substitution_solves_the_equations(void **state)
 {
     (void)state;
     for (size_t k = 0; k < NUM(cholesky_vectors); ++k) {
@@ -164,12 +168,13 @@ static void assert_cholesky_refuses(int n, const float *a, enum rho_status expec
 
     fill(l, NUM(l), GUARD);
     assert_int_equal(rho_linalg_cholesky(n, a, l), expected);
-    if (expected != RHO_ERROR_SINGULAR) { /* which is found halfway */
-        assert_all(l, NUM(l), GUARD);
+    /* a singular matrix is found halfway, when some of l is written */
+    if (expected != RHO_ERROR_SINGULAR) {
+        assert_all_equal_to(l, NUM(l), GUARD);
     }
 }
 
-static void cholesky_refuses_what_is_not_positive_definite(void **state)
+static void cholesky_refuses_matrices_that_are_not_positive_definite(void **state)
 {
     const float indefinite[3] = {1.0f, 2.0f, 1.0f};
     const float singular[3] = {1.0f, 1.0f, 1.0f};
@@ -190,7 +195,7 @@ static void cholesky_refuses_what_is_not_positive_definite(void **state)
     }
 }
 
-static void cholesky_refuses_bad_numbers_anywhere(void **state)
+static void cholesky_refuses_nan_infinity_and_overflow_in_any_element(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY, FLT_MAX};
 
@@ -204,7 +209,7 @@ static void cholesky_refuses_bad_numbers_anywhere(void **state)
             }
             a[place] = bad[k];
             if (bad[k] < INFINITY && place == RHO_AT(STATES - 1, STATES - 1)) {
-                continue; /* a large variance is a good one */
+                continue; /* FLT_MAX as the last variance is valid */
             }
             if (!(bad[k] == FLT_MAX &&
                   (place == 0 || place == 2 || place == 5 || place == 9 || place == 14))) {
@@ -234,13 +239,13 @@ static void sizes_and_pointers_are_checked(void **state)
     rho_linalg_forward(2, one, NULL);
     rho_linalg_backward(2, NULL, b);
     rho_linalg_backward(2, one, NULL);
-    assert_all(b, NUM(b), GUARD);
+    assert_all_equal_to(b, NUM(b), GUARD);
     assert_true(isnan(rho_linalg_log_determinant(2, NULL)));
 }
 
-/* --- gates --------------------------------------------------------------------------------- */
+/* --- normalised innovation squared (NIS) ----------------------------------------------------- */
 
-static void gate2_agrees_with_the_reference(void **state)
+static void nis_of_two_dimensions_agrees_with_the_reference(void **state)
 {
     (void)state;
     for (size_t i = 0; i < NUM(gate2_vectors); ++i) {
@@ -248,13 +253,13 @@ static void gate2_agrees_with_the_reference(void **state)
         float distance2[2] = {0.0f, GUARD}, log_det[2] = {0.0f, GUARD};
 
         assert_int_equal(rho_linalg_nis2(v->s, v->d, distance2, log_det), RHO_OK);
-        assert_near(distance2, &v->distance2, 1, DISTANCE2_RELATIVE);
+        assert_near_reference(distance2, &v->distance2, 1, DISTANCE2_RELATIVE);
         assert_true(fabs(log_det[0] - v->log_det) <= LOG_DET_ABSOLUTE);
         assert_true(distance2[1] == GUARD && log_det[1] == GUARD);
     }
 }
 
-static void gate3_agrees_with_the_reference(void **state)
+static void nis_of_three_dimensions_agrees_with_the_reference(void **state)
 {
     (void)state;
     for (size_t i = 0; i < NUM(gate3_vectors); ++i) {
@@ -262,14 +267,14 @@ static void gate3_agrees_with_the_reference(void **state)
         float distance2[2] = {0.0f, GUARD}, log_det[2] = {0.0f, GUARD};
 
         assert_int_equal(rho_linalg_nis3(v->s, v->d, distance2, log_det), RHO_OK);
-        assert_near(distance2, &v->distance2, 1, DISTANCE2_RELATIVE);
+        assert_near_reference(distance2, &v->distance2, 1, DISTANCE2_RELATIVE);
         assert_true(fabs(log_det[0] - v->log_det) <= LOG_DET_ABSOLUTE);
         assert_true(distance2[1] == GUARD && log_det[1] == GUARD);
     }
 }
 
-/* By hand: unit covariance, and one axis of other size. */
-static void gates_of_simple_matrices(void **state)
+/* Results by hand for diagonal covariances. */
+static void nis_of_diagonal_matrices_is_exact(void **state)
 {
     const float s2[3] = {1.0f, 0.0f, 4.0f}, d2[2] = {3.0f, 4.0f};
     const float s3[6] = {1.0f, 0.0f, 4.0f, 0.0f, 0.0f, 16.0f}, d3[3] = {1.0f, 2.0f, 8.0f};
@@ -284,7 +289,7 @@ static void gates_of_simple_matrices(void **state)
     assert_float_equal(log_det, log(64.0), 1e-6);
 }
 
-static void assert_gates_refuse(const float s[6], const float d[3], int try2)
+static void assert_nis_refused(const float s[6], const float d[3], int try2)
 {
     float distance2 = GUARD, log_det = GUARD;
 
@@ -295,7 +300,7 @@ static void assert_gates_refuse(const float s[6], const float d[3], int try2)
     assert_true(distance2 == GUARD && log_det == GUARD);
 }
 
-static void gates_refuse_bad_matrices_and_distances(void **state)
+static void nis_refuses_bad_matrices_and_innovations(void **state)
 {
     const float good[6] = {2.0f, 0.5f, 2.0f, 0.5f, 0.5f, 2.0f}, zero[3] = {0.0f};
     const float bad[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX};
@@ -311,13 +316,13 @@ static void gates_refuse_bad_matrices_and_distances(void **state)
             if (bad[k] == FLT_MAX && (place == 0 || place == 2 || place == 5)) {
                 continue;
             }
-            assert_gates_refuse(s, zero, place < 3);
+            assert_nis_refused(s, zero, place < 3);
         }
         for (int place = 0; place < 3; ++place) {
             float d[3] = {0.0f};
 
             d[place] = bad[k];
-            assert_gates_refuse(good, d, place < 2);
+            assert_nis_refused(good, d, place < 2);
         }
     }
     for (size_t k = 0; k < NUM(bad_variances); ++k) {
@@ -326,25 +331,25 @@ static void gates_refuse_bad_matrices_and_distances(void **state)
 
             memcpy(s, good, sizeof s);
             s[RHO_AT(i, i)] = bad_variances[k];
-            assert_gates_refuse(s, zero, i < 2);
+            assert_nis_refused(s, zero, i < 2);
         }
     }
 }
 
-/* Every principal minor of two is positive, the determinant is not; and products beyond float. */
-static void gate3_refuses_by_its_last_pivot(void **state)
+/* Two-by-two minors positive, determinant negative; products that overflow or underflow float. */
+static void nis_refuses_indefinite_matrices_and_overflow(void **state)
 {
     const float s[6] = {1.0f, 0.9f, 1.0f, 0.9f, -0.9f, 1.0f}, zero[3] = {0.0f};
     const float huge[6] = {1e20f, 0.0f, 1e20f, 0.0f, 0.0f, 1e20f};
     const float tiny[6] = {1e-20f, 0.0f, 1e-20f, 0.0f, 0.0f, 1e-20f};
 
     (void)state;
-    assert_gates_refuse(s, zero, 0);
-    assert_gates_refuse(huge, zero, 1);
-    assert_gates_refuse(tiny, zero, 0);
+    assert_nis_refused(s, zero, 0);
+    assert_nis_refused(huge, zero, 1);
+    assert_nis_refused(tiny, zero, 0);
 }
 
-static void gates_check_their_pointers(void **state)
+static void nis_checks_its_pointers(void **state)
 {
     const float s[6] = {2.0f, 0.5f, 2.0f, 0.5f, 0.5f, 2.0f}, d[3] = {0.0f};
     float v = GUARD;
@@ -361,13 +366,13 @@ static void gates_check_their_pointers(void **state)
     assert_true(v == GUARD);
 }
 
-/* --- scalar update ------------------------------------------------------------------------- */
+/* --- update of one element ------------------------------------------------------------------- */
 
 struct estimate {
     float before, x[STATES], between, p[PACKED], after;
 };
 
-static struct estimate some_estimate(void)
+static struct estimate test_estimate(void)
 {
     const struct cholesky_vector *v = &cholesky_vectors[2 * (STATES - 1)];
     struct estimate e = {.before = GUARD, .between = GUARD, .after = GUARD};
@@ -378,12 +383,12 @@ static struct estimate some_estimate(void)
     return e;
 }
 
-/* x + p_i innovation / s and P - p_i p_i^T / s, in double precision. */
-static void update_agrees_with_the_formula(void **state)
+/* Expected: x + p_i innovation / s and P - p_i p_i^T / s, in double precision. */
+static void an_element_update_agrees_with_the_formula(void **state)
 {
     (void)state;
     for (int index = 0; index < STATES; ++index) {
-        const struct estimate old = some_estimate();
+        const struct estimate old = test_estimate();
         struct estimate e = old;
         const double variance = 3.5, innovation = -7.25;
         const double sum = old.p[RHO_AT(index, index)] + variance;
@@ -411,11 +416,11 @@ static void update_agrees_with_the_formula(void **state)
 
 #define GROWTH_MAX (1.0f + 1.0f / 1048576.0f) /* 2^-20 */
 
-static void no_variance_grows_by_more_than_rounding(void **state)
+static void an_element_update_raises_variances_by_rounding_at_most(void **state)
 {
     (void)state;
     for (int index = 0; index < STATES; ++index) {
-        const struct estimate old = some_estimate();
+        const struct estimate old = test_estimate();
         struct estimate e = old;
 
         assert_int_equal(rho_linalg_update6_element(e.x, e.p, index, 1.0f, 1e20f, NULL), RHO_OK);
@@ -425,7 +430,7 @@ static void no_variance_grows_by_more_than_rounding(void **state)
     }
 }
 
-static void assert_update_refuses(struct estimate e, int index, float innovation, float variance,
+static void assert_update_refused(struct estimate e, int index, float innovation, float variance,
                                   enum rho_status expected)
 {
     const struct estimate old = e;
@@ -437,56 +442,56 @@ static void assert_update_refuses(struct estimate e, int index, float innovation
     assert_true(nis == GUARD);
 }
 
-static void update_refuses_bad_numbers(void **state)
+static void an_element_update_refuses_bad_numbers(void **state)
 {
-    const struct estimate e = some_estimate();
+    const struct estimate e = test_estimate();
     const float no_variance[] = {0.0f, -0.0f, -1.0f, NAN, INFINITY, -INFINITY};
     const float no_innovation[] = {NAN, INFINITY, -INFINITY, FLT_MAX, 1e25f};
     const int no_index[] = {-1, STATES, INT32_MAX, INT32_MIN};
 
     (void)state;
     for (size_t i = 0; i < NUM(no_variance); ++i) {
-        assert_update_refuses(e, 2, 1.0f, no_variance[i], RHO_ERROR_SINGULAR);
+        assert_update_refused(e, 2, 1.0f, no_variance[i], RHO_ERROR_SINGULAR);
     }
     for (size_t i = 0; i < NUM(no_innovation); ++i) {
-        assert_update_refuses(e, 2, no_innovation[i], 1.0f, RHO_ERROR_VALUE);
+        assert_update_refused(e, 2, no_innovation[i], 1.0f, RHO_ERROR_VALUE);
     }
     for (size_t i = 0; i < NUM(no_index); ++i) {
-        assert_update_refuses(e, no_index[i], 1.0f, 1.0f, RHO_ERROR_VALUE);
+        assert_update_refused(e, no_index[i], 1.0f, 1.0f, RHO_ERROR_VALUE);
     }
 }
 
-static void update_refuses_a_bad_estimate(void **state)
+static void an_element_update_refuses_a_bad_estimate(void **state)
 {
     const float no_variance[] = {-1.0f, NAN, INFINITY, -INFINITY};
     const float no_state[] = {NAN, INFINITY, -INFINITY};
 
     (void)state;
     for (size_t i = 0; i < NUM(no_variance); ++i) {
-        struct estimate e = some_estimate();
+        struct estimate e = test_estimate();
 
         e.p[RHO_AT(2, 2)] = no_variance[i];
-        assert_update_refuses(e, 2, 1.0f, 4.0f, RHO_ERROR_SINGULAR);
+        assert_update_refused(e, 2, 1.0f, 4.0f, RHO_ERROR_SINGULAR);
     }
     for (size_t i = 0; i < NUM(no_state); ++i) {
-        struct estimate e = some_estimate();
+        struct estimate e = test_estimate();
 
         e.x[4] = no_state[i];
-        assert_update_refuses(e, 2, 1.0f, 4.0f, RHO_ERROR_VALUE);
-        e = some_estimate();
+        assert_update_refused(e, 2, 1.0f, 4.0f, RHO_ERROR_VALUE);
+        e = test_estimate();
         e.p[RHO_AT(4, 2)] = no_state[i];
-        assert_update_refuses(e, 2, 1.0f, 4.0f, RHO_ERROR_VALUE);
+        assert_update_refused(e, 2, 1.0f, 4.0f, RHO_ERROR_VALUE);
     }
-    struct estimate e = some_estimate();
+    struct estimate e = test_estimate();
     e.p[RHO_AT(2, 2)] = 0.0f;
-    assert_update_refuses(e, 2, 1.0f, FLT_TRUE_MIN, RHO_ERROR_SINGULAR); /* 1 / s overflows */
+    assert_update_refused(e, 2, 1.0f, FLT_TRUE_MIN, RHO_ERROR_SINGULAR); /* 1 / s overflows */
     e.p[RHO_AT(2, 2)] = FLT_MAX;
-    assert_update_refuses(e, 2, 1.0f, FLT_MAX, RHO_ERROR_SINGULAR); /* the sum overflows */
+    assert_update_refused(e, 2, 1.0f, FLT_MAX, RHO_ERROR_SINGULAR); /* the sum overflows */
 }
 
-static void update_checks_its_pointers(void **state)
+static void an_element_update_checks_its_pointers(void **state)
 {
-    struct estimate e = some_estimate();
+    struct estimate e = test_estimate();
     const struct estimate old = e;
     float nis = GUARD;
 
@@ -498,8 +503,8 @@ static void update_checks_its_pointers(void **state)
     assert_int_equal(rho_linalg_update6_element(e.x, e.p, 0, 1.0f, 1.0f, NULL), RHO_OK);
 }
 
-/* A full matrix, element by element in double precision. */
-static void a_projection_is_the_product_and_its_variance(void **state)
+/* Compared with the product of the full matrix, in double precision. */
+static void a_projected_covariance_agrees_with_the_full_product(void **state)
 {
     double full[STATES][STATES], expected[STATES], variance = 0.0;
     float p[PACKED], row[STATES], projected[STATES];
@@ -520,32 +525,32 @@ static void a_projection_is_the_product_and_its_variance(void **state)
         variance += row[i] * expected[i];
     }
     assert_true(fabs(rho_linalg_project6(p, row, projected) - variance) <= 1e-6 * fabs(variance));
-    assert_near(projected, expected, STATES, 1e-6);
+    assert_near_reference(projected, expected, STATES, 1e-6);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cholesky_agrees_with_the_reference),
-        cmocka_unit_test(cholesky_works_in_place),
-        cmocka_unit_test(forward_and_determinant_agree_with_the_reference),
-        cmocka_unit_test(backward_solves_the_transposed_factor),
-        cmocka_unit_test(forward_and_backward_solve_the_equations),
-        cmocka_unit_test(cholesky_refuses_what_is_not_positive_definite),
-        cmocka_unit_test(cholesky_refuses_bad_numbers_anywhere),
+        cmocka_unit_test(cholesky_factors_in_place),
+        cmocka_unit_test(forward_solution_and_determinant_agree_with_the_reference),
+        cmocka_unit_test(backward_substitution_solves_the_transposed_factor),
+        cmocka_unit_test(forward_then_backward_substitution_solves_the_equations),
+        cmocka_unit_test(cholesky_refuses_matrices_that_are_not_positive_definite),
+        cmocka_unit_test(cholesky_refuses_nan_infinity_and_overflow_in_any_element),
         cmocka_unit_test(sizes_and_pointers_are_checked),
-        cmocka_unit_test(gate2_agrees_with_the_reference),
-        cmocka_unit_test(gate3_agrees_with_the_reference),
-        cmocka_unit_test(gates_of_simple_matrices),
-        cmocka_unit_test(gates_refuse_bad_matrices_and_distances),
-        cmocka_unit_test(gate3_refuses_by_its_last_pivot),
-        cmocka_unit_test(gates_check_their_pointers),
-        cmocka_unit_test(update_agrees_with_the_formula),
-        cmocka_unit_test(no_variance_grows_by_more_than_rounding),
-        cmocka_unit_test(update_refuses_bad_numbers),
-        cmocka_unit_test(update_refuses_a_bad_estimate),
-        cmocka_unit_test(update_checks_its_pointers),
-        cmocka_unit_test(a_projection_is_the_product_and_its_variance),
+        cmocka_unit_test(nis_of_two_dimensions_agrees_with_the_reference),
+        cmocka_unit_test(nis_of_three_dimensions_agrees_with_the_reference),
+        cmocka_unit_test(nis_of_diagonal_matrices_is_exact),
+        cmocka_unit_test(nis_refuses_bad_matrices_and_innovations),
+        cmocka_unit_test(nis_refuses_indefinite_matrices_and_overflow),
+        cmocka_unit_test(nis_checks_its_pointers),
+        cmocka_unit_test(an_element_update_agrees_with_the_formula),
+        cmocka_unit_test(an_element_update_raises_variances_by_rounding_at_most),
+        cmocka_unit_test(an_element_update_refuses_bad_numbers),
+        cmocka_unit_test(an_element_update_refuses_a_bad_estimate),
+        cmocka_unit_test(an_element_update_checks_its_pointers),
+        cmocka_unit_test(a_projected_covariance_agrees_with_the_full_product),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

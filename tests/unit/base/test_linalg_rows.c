@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* Scalar updates by rows, and turned frames, against full matrices in double precision. */
+/*
+ * Scalar updates by rows, and rotations of the covariance, compared with full matrices in double
+ * precision.
+ */
 #include <float.h>
 
 #include "dense_filter.h"
 #include "kalman_checks.h"
 
-/* In sigmas of the estimate before. Worst of the cases below: 1.2e-6, 2.7e-6 and 1.1e-5. */
+/* Tolerances in sigmas of the estimate before; largest errors seen: 1.2e-6, 2.7e-6 and 1.1e-5. */
 #define UPDATE_RELATIVE 4e-6
 #define TURN_RELATIVE 8e-6
 #define ORDER_RELATIVE 5e-5
-#define NIS_RELATIVE 4e-6 /* of the nis times how much the variances cancel along the row */
+#define NIS_RELATIVE 4e-6 /* times the NIS and the cancellation along the row */
 
 #define NUM_CASES 2000
 
 static const float some_row[STATES] = {0.5f, -0.25f, 0.75f, 1.5f, -2.0f, 0.125f};
 
-/* A state and its covariance side by side; the filter's own functions are not called here. */
+/* A state and a covariance; functions of the Kalman filter are not called in this test. */
 static struct rho_kalman random_estimate(double decades)
 {
     struct rho_kalman e;
@@ -27,7 +30,7 @@ static struct rho_kalman random_estimate(double decades)
     return e;
 }
 
-/* Every element counts about the same: a row in units of the sigmas. */
+/* A row in units of the sigmas, so that each element contributes about the same. */
 static void random_row(const struct rho_kalman *e, float row[STATES])
 {
     for (int i = 0; i < STATES; ++i) {
@@ -35,16 +38,16 @@ static void random_row(const struct rho_kalman *e, float row[STATES])
     }
 }
 
-static enum rho_status update(struct rho_kalman *e, const float *row, float innovation,
-                              float variance, float *nis)
+static enum rho_status update_by_row(struct rho_kalman *e, const float *row, float innovation,
+                                     float variance, float *nis)
 {
     return rho_linalg_update6_row(e->state, e->covariance, row, innovation, variance, nis);
 }
 
-/* --- rows ---------------------------------------------------------------------------------- */
+/* --- updates by rows ------------------------------------------------------------------------- */
 
-/* (sum |row_i| sigma_i)^2: what the variance along the row is added up from. */
-static double summed_up(const struct dense *d, const float row[STATES])
+/* (sum |row_i| sigma_i)^2: the largest that the variance along the row can be. */
+static double largest_variance_along_row(const struct dense *d, const float row[STATES])
 {
     double sum = 0.0;
 
@@ -67,11 +70,11 @@ static void a_row_update_agrees_with_the_joseph_form(void **state)
         random_row(&e, row);
         const struct dense_measurement measured = dense_row_measurement(row, innovation, variance);
         const double expected_nis = dense_update(&expected, &measured);
-        assert_int_equal(update(&e, row, innovation, variance, nis), RHO_OK);
+        assert_int_equal(update_by_row(&e, row, innovation, variance, nis), RHO_OK);
         assert_near_dense(e.state, e.covariance, &expected, &before, UPDATE_RELATIVE);
         assert_float_equal(nis[0], expected_nis,
                            NIS_RELATIVE * expected_nis *
-                               (1.0 + summed_up(&before, row) / variance));
+                               (1.0 + largest_variance_along_row(&before, row) / variance));
         assert_true(nis[1] == GUARD);
     }
 }
@@ -87,7 +90,7 @@ static void a_unit_row_is_an_update_of_its_element(void **state)
         float row[STATES] = {0.0f}, nis_one = GUARD, nis_other = GUARD;
 
         row[element] = 1.0f;
-        assert_int_equal(update(&one, row, 30.0f, variance, &nis_one), RHO_OK);
+        assert_int_equal(update_by_row(&one, row, 30.0f, variance, &nis_one), RHO_OK);
         assert_int_equal(rho_linalg_update6_element(other.state, other.covariance, element, 30.0f,
                                                     variance, &nis_other),
                          RHO_OK);
@@ -101,8 +104,8 @@ struct measured_row {
     float row[STATES], value;
 };
 
-/* What a target near the estimate would give: within a sigma or so. */
-static struct measured_row some_measured_row(const struct rho_kalman *e)
+/* A measurement along a random row, within a sigma or so of the estimate. */
+static struct measured_row random_measured_row(const struct rho_kalman *e)
 {
     struct measured_row m;
     double value = normal();
@@ -115,8 +118,8 @@ static struct measured_row some_measured_row(const struct rho_kalman *e)
     return m;
 }
 
-static void update_in_order(struct rho_kalman *e, const struct measured_row rows[3],
-                            const int order[3])
+static void update_by_rows_in_order(struct rho_kalman *e, const struct measured_row rows[3],
+                                    const int order[3])
 {
     for (int k = 0; k < 3; ++k) {
         const struct measured_row *m = &rows[order[k]];
@@ -125,7 +128,7 @@ static void update_in_order(struct rho_kalman *e, const struct measured_row rows
         for (int i = 0; i < STATES; ++i) {
             innovation -= (double)m->row[i] * e->state[i];
         }
-        assert_int_equal(update(e, m->row, (float)innovation, 0.5f, NULL), RHO_OK);
+        assert_int_equal(update_by_row(e, m->row, (float)innovation, 0.5f, NULL), RHO_OK);
     }
 }
 
@@ -142,20 +145,20 @@ static void the_order_of_rows_does_not_matter(void **state)
         struct measured_row rows[3];
 
         for (int k = 0; k < 3; ++k) {
-            rows[k] = some_measured_row(&e);
+            rows[k] = random_measured_row(&e);
         }
-        update_in_order(&first, rows, orders[0]);
+        update_by_rows_in_order(&first, rows, orders[0]);
         const struct dense expected = dense_of(first.state, first.covariance);
         for (size_t k = 1; k < NUM(orders); ++k) {
             struct rho_kalman other = e;
 
-            update_in_order(&other, rows, orders[k]);
+            update_by_rows_in_order(&other, rows, orders[k]);
             assert_near_dense(other.state, other.covariance, &expected, &before, ORDER_RELATIVE);
         }
     }
 }
 
-static void no_variance_grows_by_more_than_rounding(void **state)
+static void a_row_update_raises_variances_by_rounding_at_most(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
@@ -164,7 +167,7 @@ static void no_variance_grows_by_more_than_rounding(void **state)
         float row[STATES];
 
         random_row(&e, row);
-        assert_int_equal(update(&e, row, 1.0f, n % 2 == 0 ? 1e20f : 1.0f, NULL), RHO_OK);
+        assert_int_equal(update_by_row(&e, row, 1.0f, n % 2 == 0 ? 1e20f : 1.0f, NULL), RHO_OK);
         for (int i = 0; i < STATES; ++i) {
             assert_true(e.covariance[RHO_AT(i, i)] <=
                         before.covariance[RHO_AT(i, i)] * (1.0f + 1.0f / 1048576.0f));
@@ -172,7 +175,10 @@ static void no_variance_grows_by_more_than_rounding(void **state)
     }
 }
 
-/* Measured 10^8 times better than predicted, again and again: every digit cancels along the row. */
+/*
+ * Each measurement is 10^8 times better than the prediction: the variance along the row cancels in
+ * every digit.
+ */
 static void a_sharp_row_leaves_a_vague_estimate_positive_definite(void **state)
 {
     (void)state;
@@ -185,7 +191,7 @@ static void a_sharp_row_leaves_a_vague_estimate_positive_definite(void **state)
             for (int i = 0; i < STATES; ++i) {
                 row[i] = n % 2 == 0 ? (float)normal() : (float)(int)uniform(-2.0, 2.0);
             }
-            assert_int_equal(update(&e, row, (float)normal(), 1.0f, NULL), RHO_OK);
+            assert_int_equal(update_by_row(&e, row, (float)normal(), 1.0f, NULL), RHO_OK);
             assert_true(is_positive_definite(&e));
         }
     }
@@ -193,13 +199,13 @@ static void a_sharp_row_leaves_a_vague_estimate_positive_definite(void **state)
 
 /* --- refusals ------------------------------------------------------------------------------ */
 
-static void assert_refuses(struct rho_kalman e, const float row[STATES], float innovation,
-                           float variance, enum rho_status expected)
+static void assert_row_update_refused(struct rho_kalman e, const float row[STATES],
+                                      float innovation, float variance, enum rho_status expected)
 {
     const struct rho_kalman before = e;
     float nis = GUARD;
 
-    assert_int_equal(update(&e, row, innovation, variance, &nis), expected);
+    assert_int_equal(update_by_row(&e, row, innovation, variance, &nis), expected);
     assert_changed_nothing(&e, &before);
     assert_true(nis == GUARD);
 }
@@ -213,10 +219,10 @@ static void a_row_update_refuses_bad_numbers(void **state)
 
     (void)state;
     for (size_t k = 0; k < NUM(no_variance); ++k) {
-        assert_refuses(e, some_row, 1.0f, no_variance[k], RHO_ERROR_SINGULAR);
+        assert_row_update_refused(e, some_row, 1.0f, no_variance[k], RHO_ERROR_SINGULAR);
     }
     for (size_t k = 0; k < NUM(no_innovation); ++k) {
-        assert_refuses(e, some_row, no_innovation[k], 1.0f, RHO_ERROR_VALUE);
+        assert_row_update_refused(e, some_row, no_innovation[k], 1.0f, RHO_ERROR_VALUE);
     }
     for (size_t k = 0; k < NUM(no_element); ++k) {
         for (int i = 0; i < STATES; ++i) {
@@ -224,7 +230,7 @@ static void a_row_update_refuses_bad_numbers(void **state)
 
             memcpy(row, some_row, sizeof row);
             row[i] = no_element[k];
-            assert_refuses(e, row, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
+            assert_row_update_refused(e, row, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
         }
     }
 }
@@ -239,31 +245,34 @@ static void a_row_update_refuses_a_bad_estimate(void **state)
             struct rho_kalman e = opened_filter(3, 4.0f, 9.0f);
 
             e.state[i] = bad[k];
-            assert_refuses(e, some_row, 1.0f, 1.0f, RHO_ERROR_VALUE);
+            assert_row_update_refused(e, some_row, 1.0f, 1.0f, RHO_ERROR_VALUE);
         }
         for (int place = 0; place < PACKED; ++place) {
             struct rho_kalman e = opened_filter(3, 4.0f, 9.0f);
 
             e.covariance[place] = bad[k];
-            assert_refuses(e, some_row, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
+            assert_row_update_refused(e, some_row, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
         }
     }
 }
 
-/* Negative along the row, though no variance is; sums and quotients beyond float. */
-static void a_row_update_refuses_what_it_cannot_divide_by(void **state)
+/*
+ * The variance along the row is negative though each element's is not; then sums and quotients
+ * overflow float.
+ */
+static void a_row_update_refuses_variances_it_cannot_divide_by(void **state)
 {
     struct rho_kalman e = opened_filter(3, 4.0f, 9.0f);
     const float sum[STATES] = {1.0f, 1.0f}, nothing[STATES] = {0.0f};
 
     (void)state;
     e.covariance[RHO_AT(1, 0)] = -5.0f;
-    assert_refuses(e, sum, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
-    assert_refuses(e, sum, 1.0f, 1e6f, RHO_ERROR_SINGULAR);
+    assert_row_update_refused(e, sum, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
+    assert_row_update_refused(e, sum, 1.0f, 1e6f, RHO_ERROR_SINGULAR);
     e = opened_filter(3, 4.0f, 9.0f);
-    assert_refuses(e, nothing, 1.0f, FLT_TRUE_MIN, RHO_ERROR_SINGULAR);
+    assert_row_update_refused(e, nothing, 1.0f, FLT_TRUE_MIN, RHO_ERROR_SINGULAR);
     e.covariance[0] = FLT_MAX;
-    assert_refuses(e, sum, 1.0f, FLT_MAX, RHO_ERROR_SINGULAR);
+    assert_row_update_refused(e, sum, 1.0f, FLT_MAX, RHO_ERROR_SINGULAR);
 }
 
 static void a_row_update_checks_its_pointers(void **state)
@@ -277,21 +286,21 @@ static void a_row_update_checks_its_pointers(void **state)
                      RHO_ERROR_NULL);
     assert_int_equal(rho_linalg_update6_row(e.state, NULL, some_row, 1.0f, 1.0f, &nis),
                      RHO_ERROR_NULL);
-    assert_int_equal(update(&e, NULL, 1.0f, 1.0f, &nis), RHO_ERROR_NULL);
+    assert_int_equal(update_by_row(&e, NULL, 1.0f, 1.0f, &nis), RHO_ERROR_NULL);
     assert_changed_nothing(&e, &before);
     assert_true(nis == GUARD);
-    assert_int_equal(update(&e, some_row, 1.0f, 1.0f, NULL), RHO_OK);
+    assert_int_equal(update_by_row(&e, some_row, 1.0f, 1.0f, NULL), RHO_OK);
 }
 
-/* --- turns --------------------------------------------------------------------------------- */
+/* --- rotations ------------------------------------------------------------------------------- */
 
 struct plane {
     int a, b;
     float c, s;
 };
 
-/* All thirty pairs in turn, any angle, and now and then a right one. */
-static struct plane some_plane(int n)
+/* The n-th of all thirty pairs of elements, with a random angle or, one in seven, a right one. */
+static struct plane rotation_plane(int n)
 {
     const int a = n % STATES, b = (a + 1 + n / STATES % (STATES - 1)) % STATES;
     const double angle = n % 7 == 0 ? (n % 4) * 1.5707963267948966 : uniform(-4.0, 4.0);
@@ -299,12 +308,13 @@ static struct plane some_plane(int n)
     return (struct plane){a, b, (float)cos(angle), (float)sin(angle)};
 }
 
-static void turn(struct rho_kalman *e, const struct plane *plane)
+static void rotate_covariance(struct rho_kalman *e, const struct plane *plane)
 {
     rho_linalg_rotate6(e->covariance, plane->a, plane->b, plane->c, plane->s);
 }
 
-static struct dense turned(const struct rho_kalman *e, const struct plane *plane)
+static struct dense rotated_in_double_precision(const struct rho_kalman *e,
+                                                const struct plane *plane)
 {
     struct dense d = dense_of(e->state, e->covariance);
     double g[DENSE][DENSE] = {{0.0}};
@@ -319,8 +329,11 @@ static struct dense turned(const struct rho_kalman *e, const struct plane *plane
     return d;
 }
 
-/* In the plane a sigma may come from either element: the larger is the measure of both. */
-static struct dense measure_of(const struct rho_kalman *e, const struct plane *plane)
+/*
+ * The covariance with both variances of the plane set to the larger: the scale of rounding errors.
+ */
+static struct dense tolerance_scale_of_rotation(const struct rho_kalman *e,
+                                                const struct plane *plane)
 {
     struct dense d = dense_of(e->state, e->covariance);
     const double largest = fmax(d.p[plane->a][plane->a], d.p[plane->b][plane->b]);
@@ -329,51 +342,54 @@ static struct dense measure_of(const struct rho_kalman *e, const struct plane *p
     return d;
 }
 
-static void a_turn_agrees_with_the_matrix_product(void **state)
+static void a_rotation_agrees_with_the_matrix_product(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
         struct rho_kalman e = random_estimate(2.0);
-        const struct plane plane = some_plane(n);
-        const struct dense expected = turned(&e, &plane), measure = measure_of(&e, &plane);
+        const struct plane plane = rotation_plane(n);
+        const struct dense expected = rotated_in_double_precision(&e, &plane),
+                           measure = tolerance_scale_of_rotation(&e, &plane);
 
-        turn(&e, &plane);
+        rotate_covariance(&e, &plane);
         assert_near_dense(e.state, e.covariance, &expected, &measure, TURN_RELATIVE);
     }
 }
 
-static void turned_there_and_back_is_the_identity(void **state)
+static void a_rotation_there_and_back_restores_the_covariance(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
         const struct rho_kalman e = random_estimate(2.0);
-        const struct plane there = some_plane(n);
+        const struct plane there = rotation_plane(n);
         const struct plane back = {there.a, there.b, there.c, -there.s};
-        const struct plane swapped = {there.b, there.a, there.c, there.s}; /* the same as back */
+        /* elements exchanged: the opposite rotation, as `back` */
+        const struct plane swapped = {there.b, there.a, there.c, there.s};
         const struct dense expected = dense_of(e.state, e.covariance);
-        const struct dense measure = measure_of(&e, &there);
+        const struct dense measure = tolerance_scale_of_rotation(&e, &there);
         struct rho_kalman one = e, other = e;
 
-        turn(&one, &there);
-        turn(&one, &back);
-        turn(&other, &there);
-        turn(&other, &swapped);
+        rotate_covariance(&one, &there);
+        rotate_covariance(&one, &back);
+        rotate_covariance(&other, &there);
+        rotate_covariance(&other, &swapped);
         assert_near_dense(one.state, one.covariance, &expected, &measure, TURN_RELATIVE);
         assert_near_dense(other.state, other.covariance, &expected, &measure, TURN_RELATIVE);
     }
 }
 
-/* The two variances are not below those of exact arithmetic, nor above by more than is said. */
-static void a_turn_raises_variances_by_more_than_rounding(void **state)
+/* Rounding raises both variances by a little, by a bounded share of the larger, and lowers none. */
+static void a_rotation_raises_variances_by_rounding_but_never_lowers_them(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
         struct rho_kalman e = random_estimate(4.0);
-        const struct plane plane = some_plane(n);
-        const struct dense exact = turned(&e, &plane), measure = measure_of(&e, &plane);
+        const struct plane plane = rotation_plane(n);
+        const struct dense exact = rotated_in_double_precision(&e, &plane),
+                           measure = tolerance_scale_of_rotation(&e, &plane);
         const double most = measure.p[plane.a][plane.a] * 2.5 / 4194304.0;
 
-        turn(&e, &plane);
+        rotate_covariance(&e, &plane);
         const int elements[] = {plane.a, plane.b};
         for (int k = 0; k < 2; ++k) {
             const int i = elements[k];
@@ -384,8 +400,8 @@ static void a_turn_raises_variances_by_more_than_rounding(void **state)
     }
 }
 
-/* A line of sight that turns on and on: one sigma is 10^4 times below the others. */
-static void many_turns_leave_it_positive_definite(void **state)
+/* The frame turns 200 times; one sigma is 10^4 times smaller than the others. */
+static void many_rotations_leave_the_covariance_positive_definite(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES / 20; ++n) {
@@ -393,23 +409,23 @@ static void many_turns_leave_it_positive_definite(void **state)
 
         e.covariance[RHO_AT(n % STATES, n % STATES)] = 1.0f;
         for (int k = 0; k < 200; ++k) {
-            const struct plane plane = some_plane(k + n);
+            const struct plane plane = rotation_plane(k + n);
 
-            turn(&e, &plane);
+            rotate_covariance(&e, &plane);
             assert_true(is_positive_definite(&e));
         }
     }
 }
 
-static void what_is_zero_turns_to_zero(void **state)
+static void zero_covariances_stay_zero_when_rotated(void **state)
 {
     struct rho_kalman e = opened_filter(1, 4.0f, 9.0f);
     const struct rho_kalman before = e;
     const struct plane plane = {1, 2, 0.6f, 0.8f}, velocities = {4, 5, 0.6f, 0.8f};
 
     (void)state;
-    turn(&e, &plane);
-    turn(&e, &velocities);
+    rotate_covariance(&e, &plane);
+    rotate_covariance(&e, &velocities);
     for (int i = 0; i < PACKED; ++i) {
         assert_true(e.covariance[i] == before.covariance[i]);
     }
@@ -421,17 +437,17 @@ int main(void)
         cmocka_unit_test(a_row_update_agrees_with_the_joseph_form),
         cmocka_unit_test(a_unit_row_is_an_update_of_its_element),
         cmocka_unit_test(the_order_of_rows_does_not_matter),
-        cmocka_unit_test(no_variance_grows_by_more_than_rounding),
+        cmocka_unit_test(a_row_update_raises_variances_by_rounding_at_most),
         cmocka_unit_test(a_sharp_row_leaves_a_vague_estimate_positive_definite),
         cmocka_unit_test(a_row_update_refuses_bad_numbers),
         cmocka_unit_test(a_row_update_refuses_a_bad_estimate),
-        cmocka_unit_test(a_row_update_refuses_what_it_cannot_divide_by),
+        cmocka_unit_test(a_row_update_refuses_variances_it_cannot_divide_by),
         cmocka_unit_test(a_row_update_checks_its_pointers),
-        cmocka_unit_test(a_turn_agrees_with_the_matrix_product),
-        cmocka_unit_test(turned_there_and_back_is_the_identity),
-        cmocka_unit_test(a_turn_raises_variances_by_more_than_rounding),
-        cmocka_unit_test(many_turns_leave_it_positive_definite),
-        cmocka_unit_test(what_is_zero_turns_to_zero),
+        cmocka_unit_test(a_rotation_agrees_with_the_matrix_product),
+        cmocka_unit_test(a_rotation_there_and_back_restores_the_covariance),
+        cmocka_unit_test(a_rotation_raises_variances_by_rounding_but_never_lowers_them),
+        cmocka_unit_test(many_rotations_leave_the_covariance_positive_definite),
+        cmocka_unit_test(zero_covariances_stay_zero_when_rotated),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

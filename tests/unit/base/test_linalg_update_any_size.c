@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scalar updates and distances for states of 1 to 12 elements, against full matrices in double
- * precision.
+ * Scalar updates and normalised innovations for states of 1 to 12 elements, compared with full
+ * matrices in double precision.
  */
 #include <float.h>
 #include <string.h>
@@ -9,12 +9,12 @@
 #include "dense_filter.h"
 #include "kalman_checks.h"
 
-/* In sigmas of the estimate before. */
-#define UPDATE_RELATIVE 4e-6 /* worst of the cases below: 1.2e-6 */
+/* Tolerance of updates, in sigmas of the estimate before. */
+#define UPDATE_RELATIVE 4e-6 /* largest error seen: 1.2e-6 */
 
-/* Of a matrix correlated by 0.99 the distance loses two digits or three. */
-#define DISTANCE_RELATIVE 6e-5 /* worst of the cases below: 1.4e-5 */
-#define LOG_DET_ABSOLUTE 1e-4  /* 2.4e-5 */
+/* Tolerances of distances: with correlations of 0.99 they lose two or three digits. */
+#define DISTANCE_RELATIVE 6e-5 /* largest error seen: 1.4e-5 */
+#define LOG_DET_ABSOLUTE 1e-4  /* largest error seen: 2.4e-5 */
 
 #define MOST RHO_LINALG_MAX
 #define MOST_PACKED RHO_TRIANGLE(MOST)
@@ -29,10 +29,10 @@ struct wide {
     double x[MOST], p[MOST][MOST];
 };
 
-/* --- references ------------------------------------------------------------------------------ */
+/* --- reference in double precision ----------------------------------------------------------- */
 
-/* Correlated by up to 0.99 or so, sigmas of 1 to 1000. What lies beyond is guarded. */
-static struct sized some_estimate(int n)
+/* Correlations of up to 0.99, sigmas of 1 to 1000; elements beyond n are GUARD. */
+static struct sized random_estimate(int n)
 {
     struct sized e = {.n = n};
     double w[MOST][MOST], scale[MOST];
@@ -57,7 +57,7 @@ static struct sized some_estimate(int n)
     return e;
 }
 
-static struct wide wide_of(const struct sized *e)
+static struct wide double_precision_of(const struct sized *e)
 {
     struct wide d = {.x = {0.0}};
 
@@ -70,8 +70,9 @@ static struct wide wide_of(const struct sized *e)
     return d;
 }
 
-/* P - k s k^T and what Joseph's form adds to it, element by element. */
-static struct wide updated(int n, const struct wide *d, const double *h, double y, double r)
+/* The update in Joseph's form, (1 - k h) P (1 - k h)^T + k r k^T, element by element. */
+static struct wide updated_in_double_precision(int n, const struct wide *d, const double *h,
+                                               double y, double r)
 {
     struct wide out = {.x = {0.0}};
     double ph[MOST] = {0.0}, s = r;
@@ -95,8 +96,8 @@ static struct wide updated(int n, const struct wide *d, const double *h, double 
 
 static double worst_update;
 
-static void assert_near(const struct sized *e, const struct wide *expected,
-                        const struct wide *before)
+static void assert_near_reference(const struct sized *e, const struct wide *expected,
+                                  const struct wide *before)
 {
     for (int i = 0; i < e->n; ++i) {
         const double sigma = sqrt(before->p[i][i]);
@@ -118,8 +119,8 @@ static void assert_near(const struct sized *e, const struct wide *expected,
     }
 }
 
-/* A Cholesky of the open elements. */
-static int is_definite(const struct sized *e)
+/* Tries a Cholesky factorisation in double precision. */
+static int is_sized_positive_definite(const struct sized *e)
 {
     double l[MOST][MOST] = {{0.0}};
 
@@ -141,67 +142,72 @@ static int is_definite(const struct sized *e)
 
 /* --- updates --------------------------------------------------------------------------------- */
 
-static void an_update_of_an_element_is_that_of_full_matrices(void **state)
+static void an_element_update_agrees_with_full_matrices(void **state)
 {
     (void)state;
     worst_update = 0.0;
     for (int c = 0; c < MOST * CASES_OF_SIZE; ++c) {
-        struct sized e = some_estimate(1 + c % MOST);
+        struct sized e = random_estimate(1 + c % MOST);
         const int index = (int)uniform(0.0, e.n);
         const float own = e.p[RHO_AT(index, index)];
         const float variance = own * (float)pow(10.0, uniform(-6.0, 3.0));
         const float innovation = (float)(normal() * sqrt((double)own + variance));
-        const struct wide before = wide_of(&e);
+        const struct wide before = double_precision_of(&e);
         double h[MOST] = {0.0};
 
         h[index] = 1.0;
-        const struct wide expected = updated(e.n, &before, h, innovation, variance);
+        const struct wide expected =
+            updated_in_double_precision(e.n, &before, h, innovation, variance);
         assert_int_equal(rho_linalg_update_element(e.n, e.x, e.p, index, innovation, variance),
                          RHO_OK);
-        assert_near(&e, &expected, &before);
+        assert_near_reference(&e, &expected, &before);
     }
 }
 
-static void an_update_along_a_row_is_that_of_full_matrices(void **state)
+static void a_row_update_agrees_with_full_matrices(void **state)
 {
     (void)state;
     worst_update = 0.0;
     for (int c = 0; c < MOST * CASES_OF_SIZE; ++c) {
-        struct sized e = some_estimate(1 + c % MOST);
+        struct sized e = random_estimate(1 + c % MOST);
         const int num = 1 + (int)uniform(0.0, e.n);
         const float variance = (float)pow(10.0, uniform(-1.0, 2.0));
         const float innovation = (float)(normal() * 2.0);
-        const struct wide before = wide_of(&e);
+        const struct wide before = double_precision_of(&e);
         float row[MOST];
         double h[MOST] = {0.0};
 
-        for (int i = 0; i < MOST; ++i) { /* what lies beyond num is not read */
+        for (int i = 0; i < MOST; ++i) { /* elements from num on must not be read */
             row[i] = i < num ? (float)(normal() / sqrt(before.p[i][i])) : NAN;
             h[i] = i < num ? row[i] : 0.0;
         }
-        const struct wide expected = updated(e.n, &before, h, innovation, variance);
+        const struct wide expected =
+            updated_in_double_precision(e.n, &before, h, innovation, variance);
         assert_int_equal(rho_linalg_update_row(e.n, e.x, e.p, num, row, innovation, variance),
                          RHO_OK);
-        assert_near(&e, &expected, &before);
+        assert_near_reference(&e, &expected, &before);
     }
 }
 
-static void six_elements_are_updated_as_by_the_routine_for_six(void **state)
+static void the_general_update_agrees_with_that_for_six_elements(void **state)
 {
     (void)state;
     for (int c = 0; c < CASES_OF_SIZE; ++c) {
-        struct sized e = some_estimate(6), other = e;
+        struct sized e = random_estimate(6), other = e;
         const int index = c % 6;
 
         assert_int_equal(rho_linalg_update_element(6, e.x, e.p, index, 3.0f, 2.0f), RHO_OK);
         assert_int_equal(rho_linalg_update6_element(other.x, other.p, index, 3.0f, 2.0f, NULL),
                          RHO_OK);
-        const struct wide before = wide_of(&e), expected = wide_of(&other);
-        assert_near(&e, &expected, &before);
+        const struct wide before = double_precision_of(&e), expected = double_precision_of(&other);
+        assert_near_reference(&e, &expected, &before);
     }
 }
 
-/* Measured 10^8 times better than predicted, again and again: every digit cancels along the row. */
+/*
+ * Each measurement is 10^8 times better than the prediction: the variance along the row cancels in
+ * every digit.
+ */
 static void sharp_measurements_leave_a_vague_estimate_positive_definite(void **state)
 {
     (void)state;
@@ -224,17 +230,19 @@ static void sharp_measurements_leave_a_vague_estimate_positive_definite(void **s
             }
             assert_int_equal(rho_linalg_update_row(e.n, e.x, e.p, e.n, row, (float)normal(), 1.0f),
                              RHO_OK);
-            assert_true(is_definite(&e));
+            assert_true(is_sized_positive_definite(&e));
         }
     }
 }
 
-/* Measured elements one by one; what they are to each other was known before. */
+/*
+ * Correlated elements are measured one after the other, each 10^8 times better than it was known.
+ */
 static void sharp_elements_leave_a_correlated_estimate_positive_definite(void **state)
 {
     (void)state;
     for (int c = 0; c < MOST * 60; ++c) {
-        const struct sized before = some_estimate(1 + c % MOST);
+        const struct sized before = random_estimate(1 + c % MOST);
         struct sized e = before;
 
         for (int k = 0; k < 3 * e.n; ++k) {
@@ -244,19 +252,20 @@ static void sharp_elements_leave_a_correlated_estimate_positive_definite(void **
             assert_int_equal(
                 rho_linalg_update_element(e.n, e.x, e.p, index, (float)normal(), variance), RHO_OK);
             assert_true(e.p[RHO_AT(index, index)] <= variance * 1.000001f);
-            assert_true(is_definite(&e));
-            for (int i = 0; i < e.n; ++i) { /* a step's noise: the next one is vague again */
+            assert_true(is_sized_positive_definite(&e));
+            /* process noise makes the next element uncertain again */
+            for (int i = 0; i < e.n; ++i) {
                 e.p[RHO_AT(i, i)] += 0.01f * before.p[RHO_AT(i, i)];
             }
         }
     }
 }
 
-static void no_variance_grows_by_more_than_rounding(void **state)
+static void updates_raise_variances_by_rounding_at_most(void **state)
 {
     (void)state;
     for (int c = 0; c < MOST * CASES_OF_SIZE; ++c) {
-        const struct sized before = some_estimate(1 + c % MOST);
+        const struct sized before = random_estimate(1 + c % MOST);
         struct sized e = before;
         float row[MOST];
 
@@ -273,8 +282,8 @@ static void no_variance_grows_by_more_than_rounding(void **state)
     }
 }
 
-/* A row of 0 tells nothing and costs nothing; an element that is coupled to none changes none. */
-static void what_is_not_coupled_keeps_its_bytes(void **state)
+/* A row of zeros changes nothing; an element without covariances changes itself alone. */
+static void elements_that_are_not_coupled_keep_their_bytes(void **state)
 {
     struct sized e = {.n = 3, .x = {1.0f, 2.0f, 3.0f}};
     const float nothing[3] = {0.0f, 0.0f, 0.0f};
@@ -293,7 +302,7 @@ static void what_is_not_coupled_keeps_its_bytes(void **state)
     assert_memory_equal(&e, &before, sizeof e);
 }
 
-/* --- what updates refuse ---------------------------------------------------------------------- */
+/* --- refused updates ------------------------------------------------------------------------- */
 
 static void assert_update_refused(const struct sized *before, int index, const float *row,
                                   float innovation, float variance, enum rho_status expected)
@@ -308,14 +317,14 @@ static void assert_update_refused(const struct sized *before, int index, const f
     assert_memory_equal(&e, before, sizeof e);
 }
 
-static void an_update_refuses_bad_numbers_untouched(void **state)
+static void an_update_with_bad_numbers_is_refused_and_changes_nothing(void **state)
 {
     static const float no_variance[] = {0.0f, -0.0f, -1.0f, NAN, INFINITY, -INFINITY, FLT_MAX};
     static const float no_innovation[] = {NAN, INFINITY, -INFINITY, FLT_MAX, 1e30f};
 
     (void)state;
     for (int n = 1; n <= MOST; ++n) {
-        struct sized e = some_estimate(n);
+        struct sized e = random_estimate(n);
         float row[MOST] = {0.0f};
 
         e.p[0] = 1e33f;
@@ -325,9 +334,9 @@ static void an_update_refuses_bad_numbers_untouched(void **state)
                 assert_update_refused(&e, 0, row, 1.0f, no_variance[k], RHO_ERROR_SINGULAR);
             }
         }
-        e.p[0] = FLT_MAX; /* the sum is no number */
+        e.p[0] = FLT_MAX; /* the innovation's variance overflows */
         assert_update_refused(&e, 0, row, 1.0f, FLT_MAX, RHO_ERROR_SINGULAR);
-        e.p[0] = 0.0f; /* nor its inverse */
+        e.p[0] = 0.0f; /* the inverse of the innovation's variance overflows */
         assert_update_refused(&e, 0, row, 1.0f, FLT_TRUE_MIN, RHO_ERROR_SINGULAR);
         e.p[0] = -1.0f;
         assert_update_refused(&e, 0, row, 1.0f, 0.5f, RHO_ERROR_SINGULAR);
@@ -339,24 +348,24 @@ static void an_update_refuses_bad_numbers_untouched(void **state)
     }
 }
 
-static void an_update_refuses_a_bad_estimate_untouched(void **state)
+static void an_update_of_a_bad_estimate_is_refused_and_changes_nothing(void **state)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY};
 
     (void)state;
     for (int n = 1; n <= MOST; ++n) {
         for (size_t k = 0; k < NUM(bad); ++k) {
-            struct sized e = some_estimate(n);
+            struct sized e = random_estimate(n);
             float row[MOST] = {0.0f};
 
             row[n - 1] = 1.0f;
             e.x[0] = bad[k];
             assert_update_refused(&e, n - 1, row, 1.0f, 1.0f, RHO_ERROR_VALUE);
-            e = some_estimate(n);
+            e = random_estimate(n);
             e.p[RHO_AT(n - 1, n - 1)] = bad[k];
             assert_update_refused(&e, n - 1, row, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
-            if (n > 1) { /* what would spread into the state */
-                e = some_estimate(n);
+            if (n > 1) { /* a covariance that would spread into the state */
+                e = random_estimate(n);
                 e.p[RHO_AT(n - 1, 0)] = bad[k];
                 struct sized after = e;
                 assert_int_equal(rho_linalg_update_element(n, after.x, after.p, n - 1, 1.0f, 1.0f),
@@ -371,7 +380,7 @@ static void an_update_refuses_a_bad_estimate_untouched(void **state)
 
 static void an_update_checks_sizes_and_pointers(void **state)
 {
-    struct sized e = some_estimate(MOST);
+    struct sized e = random_estimate(MOST);
     const struct sized before = e;
     float row[MOST] = {1.0f};
 
@@ -395,10 +404,10 @@ static void an_update_checks_sizes_and_pointers(void **state)
     assert_memory_equal(&e, &before, sizeof e);
 }
 
-/* --- distances -------------------------------------------------------------------------------- */
+/* --- normalised innovation squared (NIS) ----------------------------------------------------- */
 
-/* Gauss and Jordan with the largest pivot: the inverse and the determinant. */
-static double invert(int n, double a[MOST][2 * MOST])
+/* Gauss-Jordan with partial pivoting on [A | 1]; returns ln |det A|. */
+static double invert_in_double_precision(int n, double a[MOST][2 * MOST])
 {
     double log_det = 0.0;
 
@@ -430,7 +439,7 @@ static double invert(int n, double a[MOST][2 * MOST])
     return log_det;
 }
 
-static double distance2_of(const struct sized *e, double *log_det)
+static double nis_by_full_inverse(const struct sized *e, double *log_det)
 {
     double a[MOST][2 * MOST] = {{0.0}}, distance2 = 0.0;
 
@@ -440,7 +449,7 @@ static double distance2_of(const struct sized *e, double *log_det)
             a[i][j] = e->p[RHO_AT(i, j)];
         }
     }
-    *log_det = invert(e->n, a);
+    *log_det = invert_in_double_precision(e->n, a);
     for (int i = 0; i < e->n; ++i) {
         for (int j = 0; j < e->n; ++j) {
             distance2 += (double)e->x[i] * a[i][e->n + j] * e->x[j];
@@ -449,26 +458,26 @@ static double distance2_of(const struct sized *e, double *log_det)
     return distance2;
 }
 
-static void a_match_is_the_mahalanobis_distance_and_the_determinant(void **state)
+static void nis_and_log_determinant_agree_with_a_full_inverse(void **state)
 {
     (void)state;
     for (int c = 0; c < MOST * CASES_OF_SIZE; ++c) {
-        struct sized e = some_estimate(1 + c % MOST);
+        struct sized e = random_estimate(1 + c % MOST);
         float distance2 = GUARD, log_det = GUARD;
         double expected_log_det;
 
         for (int i = 0; i < e.n; ++i) {
             e.x[i] = (float)(normal() * sqrt(e.p[RHO_AT(i, i)]));
         }
-        const double expected = distance2_of(&e, &expected_log_det);
+        const double expected = nis_by_full_inverse(&e, &expected_log_det);
         assert_true(rho_linalg_gated_nis(e.n, e.p, e.x, FLT_MAX, &distance2, &log_det));
         assert_float_equal(distance2, expected, DISTANCE_RELATIVE * expected);
         assert_float_equal(log_det, expected_log_det, LOG_DET_ABSOLUTE);
     }
 }
 
-/* On the border and beside it: exact numbers. */
-static void a_match_is_within_a_distance_that_counts(void **state)
+/* Values that are exact in float: NIS equal to the gate, and a gate 0.25 below it. */
+static void nis_at_the_gate_is_accepted_and_beyond_refused(void **state)
 {
     (void)state;
     for (int n = 1; n <= MOST; ++n) {
@@ -489,8 +498,8 @@ static void a_match_is_within_a_distance_that_counts(void **state)
     }
 }
 
-/* Products of all variances would be no numbers. */
-static void the_determinant_of_large_and_small_variances_is_a_number(void **state)
+/* Twelve variances of 1e12 or 1e-9, whose product is out of the range of float. */
+static void the_log_determinant_does_not_overflow_for_extreme_variances(void **state)
 {
     static const float variances[] = {1e12f, 1e-9f};
 
@@ -510,14 +519,14 @@ static void the_determinant_of_large_and_small_variances_is_a_number(void **stat
     }
 }
 
-static void a_match_refuses_what_is_not_positive_definite(void **state)
+static void nis_refuses_matrices_that_are_not_positive_definite(void **state)
 {
     static const float bad[] = {0.0f, -1.0f, NAN, INFINITY, -INFINITY};
 
     (void)state;
     for (int n = 1; n <= MOST; ++n) {
         for (int c = 0; c < n * (int)NUM(bad); ++c) {
-            struct sized e = some_estimate(n);
+            struct sized e = random_estimate(n);
             float distance2 = GUARD, log_det = GUARD;
 
             e.p[RHO_AT(c % n, c % n)] = bad[c / n];
@@ -525,7 +534,7 @@ static void a_match_refuses_what_is_not_positive_definite(void **state)
             assert_true(distance2 == GUARD && log_det == GUARD);
         }
         for (int i = 0; i < n; ++i) {
-            struct sized e = some_estimate(n);
+            struct sized e = random_estimate(n);
             float distance2 = GUARD, log_det = GUARD;
 
             e.x[i] = NAN;
@@ -535,9 +544,9 @@ static void a_match_refuses_what_is_not_positive_definite(void **state)
     }
 }
 
-static void a_match_checks_sizes_and_pointers(void **state)
+static void nis_checks_sizes_and_pointers(void **state)
 {
-    struct sized e = some_estimate(MOST);
+    struct sized e = random_estimate(MOST);
     float distance2 = GUARD, log_det = GUARD;
 
     (void)state;
@@ -553,21 +562,21 @@ static void a_match_checks_sizes_and_pointers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_update_of_an_element_is_that_of_full_matrices),
-        cmocka_unit_test(an_update_along_a_row_is_that_of_full_matrices),
-        cmocka_unit_test(six_elements_are_updated_as_by_the_routine_for_six),
+        cmocka_unit_test(an_element_update_agrees_with_full_matrices),
+        cmocka_unit_test(a_row_update_agrees_with_full_matrices),
+        cmocka_unit_test(the_general_update_agrees_with_that_for_six_elements),
         cmocka_unit_test(sharp_measurements_leave_a_vague_estimate_positive_definite),
         cmocka_unit_test(sharp_elements_leave_a_correlated_estimate_positive_definite),
-        cmocka_unit_test(no_variance_grows_by_more_than_rounding),
-        cmocka_unit_test(what_is_not_coupled_keeps_its_bytes),
-        cmocka_unit_test(an_update_refuses_bad_numbers_untouched),
-        cmocka_unit_test(an_update_refuses_a_bad_estimate_untouched),
+        cmocka_unit_test(updates_raise_variances_by_rounding_at_most),
+        cmocka_unit_test(elements_that_are_not_coupled_keep_their_bytes),
+        cmocka_unit_test(an_update_with_bad_numbers_is_refused_and_changes_nothing),
+        cmocka_unit_test(an_update_of_a_bad_estimate_is_refused_and_changes_nothing),
         cmocka_unit_test(an_update_checks_sizes_and_pointers),
-        cmocka_unit_test(a_match_is_the_mahalanobis_distance_and_the_determinant),
-        cmocka_unit_test(a_match_is_within_a_distance_that_counts),
-        cmocka_unit_test(the_determinant_of_large_and_small_variances_is_a_number),
-        cmocka_unit_test(a_match_refuses_what_is_not_positive_definite),
-        cmocka_unit_test(a_match_checks_sizes_and_pointers),
+        cmocka_unit_test(nis_and_log_determinant_agree_with_a_full_inverse),
+        cmocka_unit_test(nis_at_the_gate_is_accepted_and_beyond_refused),
+        cmocka_unit_test(the_log_determinant_does_not_overflow_for_extreme_variances),
+        cmocka_unit_test(nis_refuses_matrices_that_are_not_positive_definite),
+        cmocka_unit_test(nis_checks_sizes_and_pointers),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

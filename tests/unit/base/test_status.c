@@ -28,7 +28,7 @@ static void every_status_has_its_name(void **state)
     assert_int_equal(RHO_NUM_STATUS, 12);
 }
 
-static void names_differ(void **state)
+static void names_of_statuses_differ(void **state)
 {
     (void)state;
     for (int i = 0; i < RHO_NUM_STATUS; ++i) {
@@ -40,7 +40,7 @@ static void names_differ(void **state)
     }
 }
 
-static void other_values_are_unknown(void **state)
+static void statuses_out_of_range_are_named_unknown(void **state)
 {
     const int others[] = {RHO_NUM_STATUS, RHO_NUM_STATUS + 1, 255, 256, INT32_MAX, -1, INT32_MIN};
 
@@ -49,7 +49,7 @@ static void other_values_are_unknown(void **state)
         enum rho_status status;
         const int value = others[i];
 
-        /* By memcpy's way: the conversion of such a value is not what is tested. */
+        /* memcpy: converting such a value to the enum is implementation-defined. */
         _Static_assert(sizeof status == sizeof value, "an enum of another size");
         memcpy(&status, &value, sizeof status);
         assert_string_equal(rho_status_name(status), "unknown");
@@ -60,8 +60,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_status_has_its_name),
-        cmocka_unit_test(names_differ),
-        cmocka_unit_test(other_values_are_unknown),
+        cmocka_unit_test(names_of_statuses_differ),
+        cmocka_unit_test(statuses_out_of_range_are_named_unknown),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

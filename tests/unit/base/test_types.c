@@ -25,7 +25,7 @@ static void every_fate_has_its_name(void **state)
     }
 }
 
-static void other_fates_are_unknown(void **state)
+static void fates_out_of_range_are_named_unknown(void **state)
 {
     const int others[] = {RHO_NUM_FATES, 255, 256, INT32_MAX, -1, INT32_MIN};
 
@@ -57,7 +57,7 @@ static void counters_saturate(void **state)
     assert_int_equal(rho_count(0x80000000u, 0x7ffffffeu), UINT32_MAX - 1);
 }
 
-static void bits_are_counted(void **state)
+static void set_bits_are_counted(void **state)
 {
     (void)state;
     uint32_t mask = 0;
@@ -71,7 +71,7 @@ static void bits_are_counted(void **state)
     }
 }
 
-static void short_spans_are_rounded_once(void **state)
+static void short_time_spans_are_rounded_once(void **state)
 {
     (void)state;
     for (int64_t span = 0; span <= 1 << 24; span += 37) {
@@ -82,8 +82,8 @@ static void short_spans_are_rounded_once(void **state)
     }
 }
 
-/* The bits of the compiler's conversion, also where it is in doubt which float is the nearest. */
-static void long_spans_are_rounded_once(void **state)
+/* Spans have the bits of the compiler's conversion, also half way between two floats. */
+static void long_time_spans_are_rounded_once(void **state)
 {
     uint64_t random = 1;
     (void)state;
@@ -92,7 +92,7 @@ static void long_spans_are_rounded_once(void **state)
         const int width = 24 + i % 40;
         const uint64_t half = UINT64_C(1) << (width > 24 ? width - 25 : 0);
         uint64_t span = random >> (64 - width) | UINT64_C(1) << (width - 1);
-        if (i % 3 == 0) { /* in the middle between two floats, and just beside it */
+        if (i % 3 == 0) { /* half way between two floats, and 1 us beside it */
             span = (span & ~(2 * half - 1)) + half + (uint64_t)(i % 9) / 3 - 1;
         }
         span &= INT64_MAX;
@@ -104,7 +104,7 @@ static void long_spans_are_rounded_once(void **state)
     assert_true(rho_elapsed_us(8, -7) == 15);
 }
 
-static void assert_span(int64_t from_us, int64_t to_us)
+static void assert_seconds_between(int64_t from_us, int64_t to_us)
 {
     const double expected = ((double)to_us - (double)from_us) / 1e6;
     const double got = rho_seconds_between(from_us, to_us);
@@ -113,8 +113,8 @@ static void assert_span(int64_t from_us, int64_t to_us)
     assert_true(rho_seconds_between(to_us, from_us) == -rho_seconds_between(from_us, to_us));
 }
 
-/* The sanitizer sees signed overflow; the figures show wrapping. */
-static void any_two_times_have_a_span(void **state)
+/* Signed overflow would be reported by the sanitizer; wrapping would show in the values. */
+static void the_span_between_any_two_times_does_not_overflow(void **state)
 {
     const int64_t times[] = {
         INT64_MIN, INT64_MIN + 1,    -(INT64_C(1) << 40), -1000001,      -1,       0, 1,
@@ -125,9 +125,9 @@ static void any_two_times_have_a_span(void **state)
     for (size_t i = 0; i < n; ++i) {
         assert_true(rho_seconds_between(times[i], times[i]) == 0.0f);
         for (size_t j = 0; j < n; ++j) {
-            /* Doubles cannot tell neighbours this far out apart. */
+            /* A double cannot tell apart times this large that differ by little. */
             if (llabs((times[i] >> 1) - (times[j] >> 1)) > 4096) {
-                assert_span(times[i], times[j]);
+                assert_seconds_between(times[i], times[j]);
             }
         }
     }
@@ -136,7 +136,7 @@ static void any_two_times_have_a_span(void **state)
     assert_true(rho_seconds_between(-1, 1) == 2e-6f);
 }
 
-static void within_includes_its_ends(void **state)
+static void a_range_includes_its_ends(void **state)
 {
     (void)state;
     assert_int_equal(rho_is_within(1.0f, 1.0f, 2.0f), 1);
@@ -149,7 +149,7 @@ static void within_includes_its_ends(void **state)
     assert_int_equal(rho_is_within(FLT_TRUE_MIN, 0.0f, FLT_MIN), 1);
 }
 
-static void within_refuses_what_is_not_finite(void **state)
+static void values_that_are_not_finite_are_in_no_range(void **state)
 {
     (void)state;
     assert_int_equal(rho_is_within(NAN, -INFINITY, INFINITY), 0);
@@ -161,7 +161,7 @@ static void within_refuses_what_is_not_finite(void **state)
     assert_int_equal(rho_is_within(0.0f, -1.0f, NAN), 0);
 }
 
-static void a_plots_noise_is_its_larger_horizontal_sigma(void **state)
+static void the_noise_of_a_plot_is_its_larger_horizontal_sigma(void **state)
 {
     struct rho_plot plot = {.sigma_range_m = 15.0f, .sigma_cross_m = 180.0f, .sigma_up_m = 900.0f};
 
@@ -171,7 +171,7 @@ static void a_plots_noise_is_its_larger_horizontal_sigma(void **state)
     assert_true(rho_plot_sigma_m(&plot) == 15.0f);
 }
 
-static void finite_numbers_alone_are_finite(void **state)
+static void nan_and_infinity_are_not_finite(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY};
 
@@ -185,12 +185,12 @@ static void finite_numbers_alone_are_finite(void **state)
             values[place] = bad[i];
             assert_false(rho_is_finite(values[place]));
             assert_false(rho_are_finite(values, 3));
-            assert_true(rho_are_finite(values, place)); /* those before it */
+            assert_true(rho_are_finite(values, place)); /* the elements before the bad one */
         }
     }
 }
 
-static void coordinates_end_at_their_limit(void **state)
+static void coordinates_beyond_their_limit_are_refused(void **state)
 {
     (void)state;
     assert_true(rho_is_coordinate(RHO_LIMIT_POSITION_M));
@@ -200,8 +200,11 @@ static void coordinates_end_at_their_limit(void **state)
     assert_false(rho_is_coordinate(NAN));
 }
 
-/* A scan at the limit of times, a plot's own time after it, and a few more such moves. */
-static void stored_times_hold_the_latest_plot_of_the_latest_scan(void **state)
+/*
+ * A scan at the limit of times with a plot after it is stored, ten such offsets beyond the limit
+ * are not.
+ */
+static void stored_times_allow_own_times_beyond_the_last_scan_time(void **state)
 {
     (void)state;
     assert_true(rho_is_stored_time(RHO_LIMIT_TIME_US + RHO_LIMIT_OFFSET_US));
@@ -216,18 +219,18 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_fate_has_its_name),
-        cmocka_unit_test(other_fates_are_unknown),
+        cmocka_unit_test(fates_out_of_range_are_named_unknown),
         cmocka_unit_test(counters_saturate),
-        cmocka_unit_test(bits_are_counted),
-        cmocka_unit_test(short_spans_are_rounded_once),
-        cmocka_unit_test(long_spans_are_rounded_once),
-        cmocka_unit_test(any_two_times_have_a_span),
-        cmocka_unit_test(within_includes_its_ends),
-        cmocka_unit_test(within_refuses_what_is_not_finite),
-        cmocka_unit_test(a_plots_noise_is_its_larger_horizontal_sigma),
-        cmocka_unit_test(finite_numbers_alone_are_finite),
-        cmocka_unit_test(coordinates_end_at_their_limit),
-        cmocka_unit_test(stored_times_hold_the_latest_plot_of_the_latest_scan),
+        cmocka_unit_test(set_bits_are_counted),
+        cmocka_unit_test(short_time_spans_are_rounded_once),
+        cmocka_unit_test(long_time_spans_are_rounded_once),
+        cmocka_unit_test(the_span_between_any_two_times_does_not_overflow),
+        cmocka_unit_test(a_range_includes_its_ends),
+        cmocka_unit_test(values_that_are_not_finite_are_in_no_range),
+        cmocka_unit_test(the_noise_of_a_plot_is_its_larger_horizontal_sigma),
+        cmocka_unit_test(nan_and_infinity_are_not_finite),
+        cmocka_unit_test(coordinates_beyond_their_limit_are_refused),
+        cmocka_unit_test(stored_times_allow_own_times_beyond_the_last_scan_time),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

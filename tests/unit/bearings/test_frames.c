@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scans of single sensors into frames: against a model over lists, in any order of arrival; what is
- * refused; clocks.
+ * Assembly of single sensors' scans into frames: any order of arrival, late scans, clocks that
+ * jump, refused scans; compared with a model made of lists.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -31,14 +31,14 @@ static uint32_t random_below(uint32_t count)
 
 /* ---- scans ----------------------------------------------------------------------------------- */
 
-/* A scan with what it points to. The bearings tell scans apart: the first one is `tag`. */
+/* A scan with its bearings. The first bearing is `tag`, by which a test recognises the scan. */
 struct sent {
     struct rho_bearing_scan scan;
     struct rho_bearing bearings[2 * RHO_MAX_BEARINGS];
 };
 
-static struct rho_bearing_scan *make(struct sent *sent, unsigned sensor, int64_t time_us,
-                                     unsigned num_bearings, unsigned tag)
+static struct rho_bearing_scan *make_scan(struct sent *sent, unsigned sensor, int64_t time_us,
+                                          unsigned num_bearings, unsigned tag)
 {
     memset(sent, 0, sizeof *sent);
     sent->scan = (struct rho_bearing_scan){.time_us = time_us,
@@ -58,54 +58,54 @@ static struct rho_bearing_scan *make(struct sent *sent, unsigned sensor, int64_t
     return &sent->scan;
 }
 
-static struct rho_frames_config usual(void)
+static struct rho_frames_config default_config(void)
 {
     struct rho_frames_config config;
     rho_frames_config_default(&config);
     return config;
 }
 
-static void start_with(const struct rho_frames_config *config)
+static void init_frames(const struct rho_frames_config *config)
 {
     assert_int_equal(rho_frames_init(&frames, sizeof frames, config), RHO_OK);
 }
 
-static void start(void)
+static void init_default_frames(void)
 {
-    struct rho_frames_config config = usual();
-    start_with(&config);
+    struct rho_frames_config config = default_config();
+    init_frames(&config);
 }
 
-/* Returns how many scans the frame has that closed; 0: none closed. */
+/* Returns the number of scans of the frame that the push closed; 0: none closed. */
 static unsigned push_bearings(unsigned sensor, int64_t time_us, unsigned num_bearings, unsigned tag)
 {
     struct sent sent;
-    assert_int_equal(rho_frames_push(&frames, make(&sent, sensor, time_us, num_bearings, tag)),
+    assert_int_equal(rho_frames_push(&frames, make_scan(&sent, sensor, time_us, num_bearings, tag)),
                      RHO_OK);
-    memset(&sent, 0x5a, sizeof sent); /* it was copied */
+    memset(&sent, 0x5a, sizeof sent); /* the frames keep a copy */
     int has_closed = rho_frames_closed(&frames, &view);
     assert_int_equal(has_closed, view.frame.num_scans > 0);
     return view.frame.num_scans;
 }
 
-static unsigned push(unsigned sensor, int64_t time_us)
+static unsigned push_scan(unsigned sensor, int64_t time_us)
 {
     return push_bearings(sensor, time_us, 1, 0);
 }
 
-static unsigned close_open(void)
+static unsigned close_open_frame(void)
 {
     assert_int_equal(rho_frames_close(&frames), RHO_OK);
     (void)rho_frames_closed(&frames, &view);
     return view.frame.num_scans;
 }
 
-/* Two sensors' frame, every second from 0 on: `count` of them. */
-static void push_pairs(unsigned count)
+/* Pushes `count` frames of two sensors, one a second from time 0. */
+static void push_complete_frames(unsigned count)
 {
     for (unsigned k = 0; k < count; k++) {
-        assert_int_equal(push(0, k * SECOND_US), 0);
-        assert_int_equal(push(1, k * SECOND_US), 2);
+        assert_int_equal(push_scan(0, k * SECOND_US), 0);
+        assert_int_equal(push_scan(1, k * SECOND_US), 2);
     }
 }
 
@@ -114,7 +114,7 @@ static void push_pairs(unsigned count)
 static void a_frame_closes_with_its_last_sensor(void **state)
 {
     (void)state;
-    start();
+    init_default_frames();
     assert_int_equal(push_bearings(0, 7, 2, 100), 0);
     assert_int_equal(push_bearings(1, 5, 1, 200), 2);
     assert_int_equal(view.frame.time_us, 5);
@@ -134,91 +134,93 @@ static void a_frame_closes_with_its_last_sensor(void **state)
     assert_true(scans[1].bearings[1].sigma_rad == 0.01f && scans[0].bearings[0].snr_db == 1.0f);
 }
 
-static void the_tolerance_counts_from_the_earliest_scan(void **state)
+static void scans_join_a_frame_within_the_tolerance_of_its_earliest(void **state)
 {
     (void)state;
-    start();
-    assert_int_equal(push(0, 0), 0);
-    assert_int_equal(push(1, TOLERANCE_US), 2);
-    assert_int_equal(push(0, SECOND_US), 0);
-    assert_int_equal(push(1, SECOND_US + TOLERANCE_US + 1), 1); /* closes the other one's */
+    init_default_frames();
+    assert_int_equal(push_scan(0, 0), 0);
+    assert_int_equal(push_scan(1, TOLERANCE_US), 2);
+    assert_int_equal(push_scan(0, SECOND_US), 0);
+    /* too late for the frame, which it closes */
+    assert_int_equal(push_scan(1, SECOND_US + TOLERANCE_US + 1), 1);
     assert_int_equal(view.frame.time_us, SECOND_US);
     assert_int_equal(view.frame.scans[0].sensor_id, 40);
-    assert_int_equal(close_open(), 1);
+    assert_int_equal(close_open_frame(), 1);
     assert_int_equal(frames.counters.frames, 3);
     assert_int_equal(frames.counters.frames_incomplete, 2);
     assert_int_equal(frames.sensors[0].missing, 1);
     assert_int_equal(frames.sensors[1].missing, 1);
 }
 
-static void an_earlier_scan_may_still_join(void **state)
+static void a_scan_that_is_earlier_may_join_the_open_frame(void **state)
 {
     (void)state;
-    start();
-    push_pairs(1);
-    assert_int_equal(push(0, SECOND_US), 0);
-    assert_int_equal(push(1, SECOND_US - TOLERANCE_US), 2);
+    init_default_frames();
+    push_complete_frames(1);
+    assert_int_equal(push_scan(0, SECOND_US), 0);
+    assert_int_equal(push_scan(1, SECOND_US - TOLERANCE_US), 2);
     assert_int_equal(view.frame.time_us, SECOND_US - TOLERANCE_US);
-    assert_int_equal(push(0, 2 * SECOND_US), 0);
-    assert_int_equal(push(1, 2 * SECOND_US - TOLERANCE_US - 1), 0); /* too old for it */
+    assert_int_equal(push_scan(0, 2 * SECOND_US), 0);
+    /* too early for the open frame */
+    assert_int_equal(push_scan(1, 2 * SECOND_US - TOLERANCE_US - 1), 0);
     assert_int_equal(frames.counters.scans_late, 1);
-    assert_int_equal(close_open(), 1);
+    assert_int_equal(close_open_frame(), 1);
 }
 
 static void a_sensor_that_reports_again_closes_the_frame(void **state)
 {
     (void)state;
-    start();
-    push_pairs(1);
-    assert_int_equal(push(0, SECOND_US), 0);
-    assert_int_equal(push(0, SECOND_US + 1), 1);
+    init_default_frames();
+    push_complete_frames(1);
+    assert_int_equal(push_scan(0, SECOND_US), 0);
+    assert_int_equal(push_scan(0, SECOND_US + 1), 1);
     assert_int_equal(view.frame.time_us, SECOND_US);
-    assert_int_equal(push(1, SECOND_US + 2), 2);
+    assert_int_equal(push_scan(1, SECOND_US + 2), 2);
     assert_int_equal(view.frame.time_us, SECOND_US + 1);
-    assert_int_equal(push(0, 2 * SECOND_US), 0);
-    assert_int_equal(push(0, 2 * SECOND_US), 0); /* the same again: no frame may have its time */
+    assert_int_equal(push_scan(0, 2 * SECOND_US), 0);
+    assert_int_equal(push_scan(0, 2 * SECOND_US), 0); /* repeated: frames must differ in time */
     assert_int_equal(frames.counters.scans_late, 1);
 }
 
 static void the_caller_closes_a_frame(void **state)
 {
     (void)state;
-    start();
-    assert_int_equal(close_open(), 0);
-    assert_int_equal(push(0, 0), 0);
-    assert_int_equal(close_open(), 1);
-    assert_int_equal(close_open(), 0);
-    assert_int_equal(push(0, 0), 0);
+    init_default_frames();
+    assert_int_equal(close_open_frame(), 0);
+    assert_int_equal(push_scan(0, 0), 0);
+    assert_int_equal(close_open_frame(), 1);
+    assert_int_equal(close_open_frame(), 0);
+    assert_int_equal(push_scan(0, 0), 0);
     assert_int_equal(frames.counters.scans_late, 1);
     assert_int_equal(frames.counters.frames, 1);
     assert_int_equal(frames.counters.frames_incomplete, 0); /* no other sensor is known */
 }
 
-static void no_frame_is_complete_with_fewer_sensors_than_there_are(void **state)
+static void a_frame_waits_for_the_smallest_number_of_sensors(void **state)
 {
     (void)state;
-    struct rho_frames_config config = usual();
+    struct rho_frames_config config = default_config();
     config.sensors_min = SENSORS;
-    start_with(&config);
+    init_frames(&config);
     for (unsigned s = 0; s < SENSORS; s++) {
-        assert_int_equal(push(s, s), s + 1 == SENSORS ? SENSORS : 0);
+        assert_int_equal(push_scan(s, s), s + 1 == SENSORS ? SENSORS : 0);
     }
     assert_int_equal(frames.counters.frames_incomplete, 0);
 }
 
-/* ---- late, silent ---------------------------------------------------------------------------- */
+/* ---- late scans and silent sensors ---------------------------------------------------------- */
 
 static void late_scans_are_counted_and_left_out(void **state)
 {
     (void)state;
-    start();
-    push_pairs(3);
-    assert_int_equal(push(0, 2 * SECOND_US), 0);
-    assert_int_equal(push(1, SECOND_US), 0);
+    init_default_frames();
+    push_complete_frames(3);
+    assert_int_equal(push_scan(0, 2 * SECOND_US), 0);
+    assert_int_equal(push_scan(1, SECOND_US), 0);
     assert_int_equal(frames.counters.scans_late, 2);
     assert_int_equal(frames.counters.scans_taken, 6);
-    assert_int_equal(close_open(), 0);
-    assert_int_equal(push(0, 2 * SECOND_US + 1), 0);
+    assert_int_equal(close_open_frame(), 0);
+    assert_int_equal(push_scan(0, 2 * SECOND_US + 1), 0);
     assert_int_equal(frames.counters.scans_taken, 7);
 }
 
@@ -226,30 +228,30 @@ static void a_silent_sensor_is_waited_for_three_frames(void **state)
 {
     (void)state;
     unsigned closed_late = 0;
-    start();
-    push_pairs(1);
-    for (unsigned k = 1; k <= 10; k++) { /* a third one instead of the second one */
-        closed_late += push(0, k * SECOND_US) > 0;
-        (void)push(2, k * SECOND_US);
+    init_default_frames();
+    push_complete_frames(1);
+    for (unsigned k = 1; k <= 10; k++) { /* sensor 2 reports, sensor 1 has fallen silent */
+        closed_late += push_scan(0, k * SECOND_US) > 0;
+        (void)push_scan(2, k * SECOND_US);
     }
-    assert_int_equal(closed_late, 3); /* with the next scan */
+    assert_int_equal(closed_late, 3); /* frames that only the next scan closed */
     assert_int_equal(frames.sensors[1].silent, 10);
     assert_int_equal(frames.sensors[1].missing, 10);
     assert_int_equal(frames.counters.frames, 11);
-    assert_int_equal(push(1, 10 * SECOND_US + 1), 0); /* back */
-    assert_int_equal(push(0, 11 * SECOND_US), 1);
-    assert_int_equal(push(2, 11 * SECOND_US), 0); /* waited for again */
-    assert_int_equal(push(1, 11 * SECOND_US), 3);
+    assert_int_equal(push_scan(1, 10 * SECOND_US + 1), 0); /* sensor 1 reports again */
+    assert_int_equal(push_scan(0, 11 * SECOND_US), 1);
+    assert_int_equal(push_scan(2, 11 * SECOND_US), 0); /* sensor 1 is waited for again */
+    assert_int_equal(push_scan(1, 11 * SECOND_US), 3);
 }
 
-static void a_sensor_that_comes_last_is_not_late_for_ever(void **state)
+static void a_sensor_that_joins_last_is_late_only_once(void **state)
 {
     (void)state;
-    start();
-    for (unsigned k = 0; k < 8; k++) { /* the first frame is complete without the third one */
-        (void)push(0, k * SECOND_US + 2);
-        (void)push(1, k * SECOND_US + 1);
-        (void)push(2, k * SECOND_US);
+    init_default_frames();
+    for (unsigned k = 0; k < 8; k++) { /* sensor 2 is unknown when the first frame closes */
+        (void)push_scan(0, k * SECOND_US + 2);
+        (void)push_scan(1, k * SECOND_US + 1);
+        (void)push_scan(2, k * SECOND_US);
     }
     assert_int_equal(frames.counters.scans_late, 1);
     assert_int_equal(frames.counters.frames, 8);
@@ -258,61 +260,62 @@ static void a_sensor_that_comes_last_is_not_late_for_ever(void **state)
 
 /* ---- clocks ---------------------------------------------------------------------------------- */
 
-static void one_wrong_time_changes_nothing(void **state)
+static void single_scans_with_wrong_times_change_nothing(void **state)
 {
     (void)state;
-    start();
-    push_pairs(3);
-    assert_int_equal(push(0, 3 * SECOND_US), 0);
-    assert_int_equal(push(1, RHO_LIMIT_TIME_US), 0);
-    assert_int_equal(push(1, -RHO_LIMIT_TIME_US), 0);
-    assert_int_equal(push(1, 3 * SECOND_US), 2);
+    init_default_frames();
+    push_complete_frames(3);
+    assert_int_equal(push_scan(0, 3 * SECOND_US), 0);
+    assert_int_equal(push_scan(1, RHO_LIMIT_TIME_US), 0);
+    assert_int_equal(push_scan(1, -RHO_LIMIT_TIME_US), 0);
+    assert_int_equal(push_scan(1, 3 * SECOND_US), 2);
     assert_int_equal(frames.counters.scans_off_clock, 2);
     assert_int_equal(frames.counters.scans_late, 0);
     assert_int_equal(frames.counters.clock_jumps, 0);
 }
 
-static void a_jump_is_off_the_clock_beyond_its_limit(void **state)
+static void a_scan_beyond_the_largest_time_jump_is_off_the_clock(void **state)
 {
     (void)state;
-    start();
-    push_pairs(1);
-    assert_int_equal(push(0, 30 * SECOND_US), 0);
-    assert_int_equal(push(1, 0), 0);
+    init_default_frames();
+    push_complete_frames(1);
+    assert_int_equal(push_scan(0, 30 * SECOND_US), 0);
+    assert_int_equal(push_scan(1, 0), 0);
     assert_int_equal(frames.counters.scans_late, 1);
-    assert_int_equal(push(0, 60 * SECOND_US + 1), 0);
-    assert_int_equal(push(1, -1), 0);
+    assert_int_equal(push_scan(0, 60 * SECOND_US + 1), 0);
+    assert_int_equal(push_scan(1, -1), 0);
     assert_int_equal(frames.counters.scans_off_clock, 2);
     assert_int_equal(frames.counters.scans_taken, 3);
 }
 
-static void one_sensor_of_three_far_ahead_locks_nobody_out(void **state)
+static void one_sensor_with_a_wrong_clock_does_not_stop_the_others(void **state)
 {
     (void)state;
     const int64_t ahead_us = 3600 * SECOND_US;
-    start();
+    init_default_frames();
     for (unsigned k = 0; k < 1000; k++) {
         int64_t time_us = k * SECOND_US;
-        (void)push(0, time_us);
-        (void)push(1, time_us);
-        (void)push(2, k < 5 ? time_us : time_us + ahead_us);
+        (void)push_scan(0, time_us);
+        (void)push_scan(1, time_us);
+        (void)push_scan(2, k < 5 ? time_us : time_us + ahead_us);
     }
     assert_int_equal(frames.counters.clock_jumps, 0);
     assert_int_equal(frames.counters.scans_off_clock, 995);
-    assert_int_equal(frames.counters.scans_late, 1); /* the first frame closed with two */
+    /* sensor 2's first, as two sensors completed that frame */
+    assert_int_equal(frames.counters.scans_late, 1);
     assert_int_equal(frames.counters.scans_taken, 2004);
 }
 
-static void the_most_sensors_are_followed_where_the_first_was_wrong(void **state)
+static void the_clock_of_most_sensors_wins_over_a_wrong_first_one(void **state)
 {
     (void)state;
     unsigned restarts = 0;
     int64_t last_us = INT64_MAX;
-    start();
+    init_default_frames();
     for (unsigned k = 0; k < 20; k++) {
         for (unsigned s = 0; s < 3; s++) {
             int64_t time_us = k * SECOND_US + (s == 0 ? 3600 * SECOND_US : 0);
-            if (push(s, time_us) > 0) {
+            if (push_scan(s, time_us) > 0) {
                 assert_true(view.is_restart || view.frame.time_us > last_us ||
                             frames.counters.frames == 1);
                 restarts += (unsigned)view.is_restart;
@@ -326,24 +329,25 @@ static void the_most_sensors_are_followed_where_the_first_was_wrong(void **state
     assert_true(frames.counters.frames > 12);
 }
 
-static void all_clocks_set_together_are_followed(void **state)
+static void a_jump_of_all_clocks_restarts_the_frames(void **state)
 {
     (void)state;
     static const int64_t jumps_us[] = {100000 * SECOND_US, -100000 * SECOND_US};
     for (unsigned i = 0; i < 2; i++) {
-        start();
-        push_pairs(3);
-        assert_int_equal(push(0, 3 * SECOND_US), 0);
+        init_default_frames();
+        push_complete_frames(3);
+        assert_int_equal(push_scan(0, 3 * SECOND_US), 0);
         for (unsigned k = 0; k < 4; k++) {
-            assert_int_equal(push(k % 2, k / 2 * SECOND_US + jumps_us[i]), 0);
+            assert_int_equal(push_scan(k % 2, k / 2 * SECOND_US + jumps_us[i]), 0);
         }
-        assert_int_equal(push(0, 2 * SECOND_US + jumps_us[i]), 1); /* the frame before it */
+        /* closes the last frame before the jump */
+        assert_int_equal(push_scan(0, 2 * SECOND_US + jumps_us[i]), 1);
         assert_int_equal(view.frame.time_us, 3 * SECOND_US);
         assert_int_equal(view.is_restart, 0);
-        assert_int_equal(push(1, 2 * SECOND_US + jumps_us[i] - 1), 2);
+        assert_int_equal(push_scan(1, 2 * SECOND_US + jumps_us[i] - 1), 2);
         assert_int_equal(view.is_restart, 1);
-        assert_int_equal(push(0, 3 * SECOND_US + jumps_us[i]), 0);
-        assert_int_equal(push(1, 3 * SECOND_US + jumps_us[i]), 2);
+        assert_int_equal(push_scan(0, 3 * SECOND_US + jumps_us[i]), 0);
+        assert_int_equal(push_scan(1, 3 * SECOND_US + jumps_us[i]), 2);
         assert_int_equal(view.is_restart, 0);
         assert_int_equal(frames.counters.scans_off_clock, 4);
         assert_int_equal(frames.counters.clock_jumps, 1);
@@ -354,14 +358,14 @@ static void all_clocks_set_together_are_followed(void **state)
 
 #define ROUNDS 6
 
-/* Scan s of round k; times within the tolerance, two of them alike. */
-static struct rho_bearing_scan *scan_of(struct sent *sent, unsigned k, unsigned s)
+/* Scan of sensor s in round k; times are within the tolerance and some are equal. */
+static struct rho_bearing_scan *scan_of_round(struct sent *sent, unsigned k, unsigned s)
 {
     int64_t time_us = k * SECOND_US + (int64_t)(s * 7919u * (k + 1u) % 3u) * (TOLERANCE_US / 2);
-    return make(sent, s, time_us, (s + k) % (RHO_MAX_BEARINGS + 1u), 100 * k + 10 * s);
+    return make_scan(sent, s, time_us, (s + k) % (RHO_MAX_BEARINGS + 1u), 100 * k + 10 * s);
 }
 
-/* All that a view shows, without the pointers. */
+/* The contents of a view without its pointers, to be compared by bytes. */
 struct shown {
     int64_t time_us;
     uint32_t num_scans;
@@ -370,7 +374,7 @@ struct shown {
     struct rho_bearing bearings[SENSORS][RHO_MAX_BEARINGS];
 };
 
-static void look(const struct rho_frame_view *from, struct shown *shown)
+static void copy_view(const struct rho_frame_view *from, struct shown *shown)
 {
     memset(shown, 0, sizeof *shown);
     shown->time_us = from->frame.time_us;
@@ -385,8 +389,8 @@ static void look(const struct rho_frame_view *from, struct shown *shown)
     }
 }
 
-/* Permutation number `which` of 0 .. count - 1. */
-static void permute(unsigned which, unsigned count, unsigned *order)
+/* Writes permutation number `which` of 0 to count - 1 into `order`. */
+static void make_permutation(unsigned which, unsigned count, unsigned *order)
 {
     for (unsigned i = 0; i < count; i++) {
         unsigned place = which % (i + 1u);
@@ -396,20 +400,20 @@ static void permute(unsigned which, unsigned count, unsigned *order)
     }
 }
 
-/* Frames of rounds whose scans come in this order each, one order a round on. */
-static void run_rounds(unsigned which, struct shown shown[ROUNDS])
+/* Runs rounds of scans, each round in the permutation after the last one's; copies the frames. */
+static void run_rounds_in_order(unsigned which, struct shown shown[ROUNDS])
 {
-    struct rho_frames_config config = usual();
+    struct rho_frames_config config = default_config();
     config.sensors_min = SENSORS;
-    start_with(&config);
+    init_frames(&config);
     for (unsigned k = 0; k < ROUNDS; k++) {
         unsigned order[SENSORS], closed = 0;
-        permute(which + k * (which > 0), SENSORS, order);
+        make_permutation(which + k * (which > 0), SENSORS, order);
         for (unsigned i = 0; i < SENSORS; i++) {
             struct sent sent;
-            assert_int_equal(rho_frames_push(&frames, scan_of(&sent, k, order[i])), RHO_OK);
+            assert_int_equal(rho_frames_push(&frames, scan_of_round(&sent, k, order[i])), RHO_OK);
             if (rho_frames_closed(&frames, &view)) {
-                look(&view, &shown[k]);
+                copy_view(&view, &shown[k]);
                 closed++;
             }
         }
@@ -417,7 +421,7 @@ static void run_rounds(unsigned which, struct shown shown[ROUNDS])
     }
 }
 
-static void any_order_within_the_tolerance_gives_the_same_bytes(void **state)
+static void the_order_of_arrival_within_the_tolerance_does_not_matter(void **state)
 {
     (void)state;
     static struct shown first[ROUNDS], other[ROUNDS];
@@ -425,34 +429,36 @@ static void any_order_within_the_tolerance_gives_the_same_bytes(void **state)
     for (unsigned i = 2; i <= SENSORS; i++) {
         permutations *= i;
     }
-    run_rounds(0, first);
+    run_rounds_in_order(0, first);
     for (unsigned k = 0; k < ROUNDS; k++) {
         assert_int_equal(first[k].num_scans, SENSORS);
     }
     for (unsigned which = 1; which < permutations; which++) {
-        run_rounds(which, other);
+        run_rounds_in_order(which, other);
         assert_memory_equal(other, first, sizeof first);
     }
 }
 
-/* ---- the model ------------------------------------------------------------------------------- */
+/* ---- comparison with a model ---------------------------------------------------------------- */
 
 #define MODEL_SCANS 400
 
-/* What is to come of scans that have come so far: lists, gone through anew each time. */
+/*
+ * All scans pushed so far; times and members of frames are searched for in these lists each time.
+ */
 struct model {
     unsigned count;
     int64_t time_us[MODEL_SCANS];
     unsigned sensor[MODEL_SCANS];
-    unsigned frame[MODEL_SCANS]; /* number of its frame, from 1; 0: late */
-    unsigned frames;             /* so many, the last one open unless is_closed */
+    unsigned frame[MODEL_SCANS]; /* number of the scan's frame, from 1; 0: late */
+    unsigned frames;             /* number of frames; the last one is open unless is_closed */
     int is_closed;
-    unsigned seen[SENSORS]; /* 1: known; frames it was missing in, in a row */
+    unsigned seen[SENSORS]; /* seen: 1 for a known sensor; silent: frames in a row without it */
     unsigned silent[SENSORS];
 };
 
-static int model_time(const struct model *model, unsigned frame, int64_t *first_us,
-                      int64_t *last_us)
+static int model_frame_times(const struct model *model, unsigned frame, int64_t *first_us,
+                             int64_t *last_us)
 {
     int count = 0;
     for (unsigned i = 0; i < model->count; i++) {
@@ -475,7 +481,7 @@ static int model_has(const struct model *model, unsigned frame, unsigned sensor)
     return 0;
 }
 
-static void model_close(struct model *model)
+static void model_close_frame(struct model *model)
 {
     for (unsigned s = 0; s < SENSORS; s++) {
         model->silent[s] += model->seen[s] && !model_has(model, model->frames, s);
@@ -493,14 +499,14 @@ static int model_is_complete(const struct model *model)
     return have >= 2 && lack == 0;
 }
 
-/* Returns the number of the frame that this closes, or 0. */
+/* Returns the number of the frame that the scan closes, or 0. */
 static unsigned model_push(struct model *model, unsigned sensor, int64_t time_us)
 {
     int64_t first_us = 0, last_us = 0, closed_us = 0, end_us = 0;
     unsigned open = model->is_closed ? 0 : model->frames, closes = 0;
     unsigned closed = model->is_closed ? model->frames : model->frames - 1u;
-    int has_open = model_time(model, open, &first_us, &last_us);
-    int has_closed = model_time(model, closed, &closed_us, &end_us);
+    int has_open = model_frame_times(model, open, &first_us, &last_us);
+    int has_closed = model_frame_times(model, closed, &closed_us, &end_us);
     int fits = has_open && !model_has(model, open, sensor) && last_us - time_us <= TOLERANCE_US &&
                time_us - first_us <= TOLERANCE_US;
     unsigned i = model->count++;
@@ -510,7 +516,7 @@ static unsigned model_push(struct model *model, unsigned sensor, int64_t time_us
     if ((!has_closed || time_us > closed_us) && (fits || !has_open || time_us > first_us)) {
         if (!fits) {
             if (has_open) {
-                model_close(model);
+                model_close_frame(model);
                 closes = open;
             }
             model->frames++;
@@ -521,17 +527,17 @@ static unsigned model_push(struct model *model, unsigned sensor, int64_t time_us
     model->seen[sensor] = 1;
     model->silent[sensor] = 0;
     if (model->frame[i] > 0 && model_is_complete(model)) {
-        model_close(model);
+        model_close_frame(model);
         closes = model->frames;
     }
     return closes;
 }
 
-/* The closed frame is the model's: its scans, each once, in the order of sensor_id. */
-static void compare(const struct model *model, unsigned frame)
+/* The closed frame has the model's scans, each once, in the order of sensor_id. */
+static void compare_closed_frame(const struct model *model, unsigned frame)
 {
     int64_t first_us = 0, last_us = 0;
-    int count = model_time(model, frame, &first_us, &last_us);
+    int count = model_frame_times(model, frame, &first_us, &last_us);
     assert_int_equal(view.frame.num_scans, count);
     if (count == 0) {
         return;
@@ -547,11 +553,8 @@ static void compare(const struct model *model, unsigned frame)
     }
 }
 
-/*
- * Rounds of scans, some missing, most within the tolerance, some late by a round or more, some
- * twice.
- */
-static int64_t random_time(unsigned i)
+/* Times of scans in rounds of 0.1 s: most within the tolerance, some late by a round or more. */
+static int64_t random_scan_time(unsigned i)
 {
     int64_t round_us = i / SENSORS * 100000;
     unsigned kind = random_below(20);
@@ -559,24 +562,25 @@ static int64_t random_time(unsigned i)
     return round_us + spread_us - (kind == 19 ? random_below(300000) : 0);
 }
 
-static void run_model(struct model *model, struct rho_batch *batch)
+static void compare_run_with_model(struct model *model, struct rho_batch *batch)
 {
     uint32_t late = 0, closed = 0;
     unsigned active = 2 + random_below(SENSORS - 1);
     memset(model, 0, sizeof *model);
-    start();
+    init_default_frames();
     for (unsigned i = 0; i < MODEL_SCANS; i++) {
         unsigned sensor = random_below(10) < 9 ? i % active : random_below(active);
-        int64_t time_us = random_time(i);
+        int64_t time_us = random_scan_time(i);
         unsigned has = push_bearings(sensor, time_us, 1, i);
         unsigned closes = model_push(model, sensor, time_us);
         assert_int_equal(has > 0, closes > 0);
-        compare(model, closes);
+        compare_closed_frame(model, closes);
         late += model->frame[i] == 0;
         closed += closes > 0;
         if (has > 0) {
             uint8_t fates[SENSORS] = {RHO_FATE_HELD};
-            assert_int_equal(rho_batch_push(batch, &view.frame, fates), RHO_OK); /* times rise */
+            /* the batch takes frames of rising times only */
+            assert_int_equal(rho_batch_push(batch, &view.frame, fates), RHO_OK);
         }
         assert_int_equal(frames.counters.scans_late, late);
         assert_int_equal(frames.counters.scans_taken, i + 1u - late);
@@ -585,7 +589,7 @@ static void run_model(struct model *model, struct rho_batch *batch)
     assert_true(late > 5 && late < MODEL_SCANS / 2 && closed > 30);
 }
 
-static void frames_are_the_models_in_random_orders(void **state)
+static void frames_of_random_scans_agree_with_the_model(void **state)
 {
     (void)state;
     static struct model model;
@@ -593,7 +597,7 @@ static void frames_are_the_models_in_random_orders(void **state)
     random_state = 11;
     for (unsigned run = 0; run < 100; run++) {
         assert_int_equal(rho_batch_init(&batch, 4, 1e6f), RHO_OK);
-        run_model(&model, &batch);
+        compare_run_with_model(&model, &batch);
     }
 }
 
@@ -602,7 +606,7 @@ static void frames_are_the_models_in_random_orders(void **state)
 static void bearings_beyond_the_capacity_are_counted(void **state)
 {
     (void)state;
-    start();
+    init_default_frames();
     assert_int_equal(push_bearings(0, 0, RHO_MAX_BEARINGS + 3, 0), 0);
     assert_int_equal(push_bearings(1, 0, RHO_MAX_BEARINGS, 500), 2);
     assert_int_equal(frames.counters.bearings_no_room, 3);
@@ -613,25 +617,25 @@ static void bearings_beyond_the_capacity_are_counted(void **state)
     }
 }
 
-static void counters_stop_at_their_end(void **state)
+static void counters_saturate(void **state)
 {
     (void)state;
-    start();
-    push_pairs(2);
+    init_default_frames();
+    push_complete_frames(2);
     memset(&frames.counters, 0xff, sizeof frames.counters);
     frames.sensors[0].missing = frames.sensors[0].silent = UINT32_MAX;
     struct rho_frames_counters full = frames.counters;
-    assert_int_equal(push(0, 0), 0);
+    assert_int_equal(push_scan(0, 0), 0);
     assert_int_equal(push_bearings(1, 2 * SECOND_US, RHO_MAX_BEARINGS + 1, 0), 0);
-    assert_int_equal(push(1, 3 * SECOND_US), 1);
+    assert_int_equal(push_scan(1, 3 * SECOND_US), 1);
     for (unsigned i = 0; i < 5; i++) {
-        (void)push(1, 1000 * SECOND_US);
+        (void)push_scan(1, 1000 * SECOND_US);
     }
     assert_memory_equal(&frames.counters, &full, sizeof full);
     assert_true(frames.sensors[0].missing == UINT32_MAX);
 }
 
-static void a_copy_goes_on_alike(void **state)
+static void a_copied_object_continues_identically(void **state)
 {
     (void)state;
     static struct rho_frames copy;
@@ -639,29 +643,29 @@ static void a_copy_goes_on_alike(void **state)
     struct shown shown, shown_of_copy;
     struct sent sent;
     random_state = 5;
-    start();
+    init_default_frames();
     for (unsigned i = 0; i < 200; i++) {
         unsigned sensor = random_below(SENSORS);
-        int64_t time_us = random_time(i);
+        int64_t time_us = random_scan_time(i);
         memcpy(&copy, &frames, sizeof copy);
-        make(&sent, sensor, time_us, random_below(RHO_MAX_BEARINGS + 1), i);
+        make_scan(&sent, sensor, time_us, random_below(RHO_MAX_BEARINGS + 1), i);
         assert_int_equal(rho_frames_push(&copy, &sent.scan), RHO_OK);
         assert_int_equal(rho_frames_push(&frames, &sent.scan), RHO_OK);
         assert_memory_equal(&copy, &frames, sizeof copy);
         (void)rho_frames_closed(&frames, &view);
         (void)rho_frames_closed(&copy, &of_copy);
-        look(&view, &shown);
+        copy_view(&view, &shown);
         before = frames;
-        memset(&frames, 0, sizeof frames); /* the copy needs nothing of it */
-        look(&of_copy, &shown_of_copy);
+        memset(&frames, 0, sizeof frames); /* the copy must not depend on the original */
+        copy_view(&of_copy, &shown_of_copy);
         assert_memory_equal(&shown, &shown_of_copy, sizeof shown);
         frames = before;
     }
 }
 
-/* ---- what is refused ------------------------------------------------------------------------- */
+/* ---- refusals ------------------------------------------------------------------------------- */
 
-static void expect_config(const struct rho_frames_config *config, enum rho_status status)
+static void expect_config_status(const struct rho_frames_config *config, enum rho_status status)
 {
     memset(&frames, 0x5a, sizeof frames);
     before = frames;
@@ -673,12 +677,12 @@ static void expect_config(const struct rho_frames_config *config, enum rho_statu
 
 #define EXPECT_FIELD(field, value, status)                                                         \
     do {                                                                                           \
-        struct rho_frames_config config = usual();                                                 \
+        struct rho_frames_config config = default_config();                                        \
         config.field = (value);                                                                    \
-        expect_config(&config, (status));                                                          \
+        expect_config_status(&config, (status));                                                   \
     } while (0)
 
-static void configurations_have_limits(void **state)
+static void configurations_out_of_range_are_refused(void **state)
 {
     (void)state;
     EXPECT_FIELD(tolerance_us, -1, RHO_ERROR_CONFIG);
@@ -700,25 +704,25 @@ static void configurations_have_limits(void **state)
     EXPECT_FIELD(sensors_min, 1, RHO_ERROR_CONFIG);
     EXPECT_FIELD(sensors_min, SENSORS, RHO_OK);
     EXPECT_FIELD(sensors_min, SENSORS + 1, RHO_ERROR_CONFIG);
-    struct rho_frames_config config = usual();
+    struct rho_frames_config config = default_config();
     assert_int_equal(rho_frames_init(NULL, sizeof frames, &config), RHO_ERROR_NULL);
     assert_int_equal(rho_frames_init(&frames, sizeof frames, NULL), RHO_ERROR_NULL);
     before = frames;
     assert_int_equal(rho_frames_init(&frames, sizeof frames - 1, &config), RHO_ERROR_SIZE);
     assert_memory_equal(&frames, &before, sizeof frames);
-    expect_config(&config, RHO_OK);
+    expect_config_status(&config, RHO_OK);
 }
 
-/* Two known sensors, a closed frame, an open one. */
-static void start_between(void)
+/* Prepares two known sensors, a closed frame and an open one. */
+static void init_with_closed_and_open_frame(void)
 {
-    start();
-    push_pairs(1);
+    init_default_frames();
+    push_complete_frames(1);
     assert_int_equal(push_bearings(0, SECOND_US, 2, 0), 0);
     before = frames;
 }
 
-static void expect_refused(const struct rho_bearing_scan *scan, enum rho_status status)
+static void expect_scan_refused(const struct rho_bearing_scan *scan, enum rho_status status)
 {
     assert_int_equal(rho_frames_push(&frames, scan), status);
     assert_memory_equal(&frames, &before, sizeof frames);
@@ -727,15 +731,15 @@ static void expect_refused(const struct rho_bearing_scan *scan, enum rho_status 
 #define EXPECT_REFUSED(sensor, field, value, status)                                               \
     do {                                                                                           \
         struct sent sent;                                                                          \
-        make(&sent, sensor, SECOND_US, 1, 0)->field = (value);                                     \
-        expect_refused(&sent.scan, (status));                                                      \
+        make_scan(&sent, sensor, SECOND_US, 1, 0)->field = (value);                                \
+        expect_scan_refused(&sent.scan, (status));                                                 \
     } while (0)
 
 static void refused_scans_change_nothing(void **state)
 {
     (void)state;
     const float nan = (float)(0.0 * (double)__builtin_inff());
-    start_between();
+    init_with_closed_and_open_frame();
     EXPECT_REFUSED(1, bearings, NULL, RHO_ERROR_NULL);
     EXPECT_REFUSED(1, time_us, RHO_LIMIT_TIME_US + 1, RHO_ERROR_VALUE);
     EXPECT_REFUSED(1, time_us, INT64_MIN, RHO_ERROR_VALUE);
@@ -743,31 +747,32 @@ static void refused_scans_change_nothing(void **state)
     EXPECT_REFUSED(1, sector_from_rad, 6.3f, RHO_ERROR_VALUE);
     EXPECT_REFUSED(1, sector_to_rad, -6.3f, RHO_ERROR_VALUE);
     EXPECT_REFUSED(1, x_m, nan, RHO_ERROR_VALUE);
-    EXPECT_REFUSED(1, x_m, 1000.001f, RHO_ERROR_VALUE); /* it has moved */
+    EXPECT_REFUSED(1, x_m, 1000.001f, RHO_ERROR_VALUE); /* the sensor has moved */
     EXPECT_REFUSED(1, y_m, -4.999f, RHO_ERROR_VALUE);
     EXPECT_REFUSED(2, x_m, 2.1e6f, RHO_ERROR_VALUE);
     EXPECT_REFUSED(2, y_m, -__builtin_inff(), RHO_ERROR_VALUE);
-    EXPECT_REFUSED(2, x_m, 1000.9f, RHO_ERROR_VALUE); /* where another one is */
+    EXPECT_REFUSED(2, x_m, 1000.9f, RHO_ERROR_VALUE); /* less than a metre from sensor 1 */
     EXPECT_REFUSED(1, time_us, -RHO_LIMIT_TIME_US - 1, RHO_ERROR_VALUE);
-    expect_refused(NULL, RHO_ERROR_NULL);
+    expect_scan_refused(NULL, RHO_ERROR_NULL);
     struct sent sent;
-    assert_int_equal(rho_frames_push(NULL, make(&sent, 1, 0, 0, 0)), RHO_ERROR_NULL);
+    assert_int_equal(rho_frames_push(NULL, make_scan(&sent, 1, 0, 0, 0)), RHO_ERROR_NULL);
     sent.scan.bearings = NULL;
     sent.scan.time_us = SECOND_US;
-    assert_int_equal(rho_frames_push(&frames, &sent.scan), RHO_OK); /* none, and none needed */
+    /* no bearings: no array is needed */
+    assert_int_equal(rho_frames_push(&frames, &sent.scan), RHO_OK);
     (void)rho_frames_closed(&frames, &view);
     assert_int_equal(view.frame.num_scans, 2);
 }
 
-static void a_refused_scan_leaves_the_closed_frame(void **state)
+static void a_refused_scan_keeps_the_closed_frame(void **state)
 {
     (void)state;
     struct sent sent;
-    start();
-    push_pairs(1);
+    init_default_frames();
+    push_complete_frames(1);
     before = frames;
-    make(&sent, 1, 0, 1, 0)->x_m = 77.0f;
-    expect_refused(&sent.scan, RHO_ERROR_VALUE);
+    make_scan(&sent, 1, 0, 1, 0)->x_m = 77.0f;
+    expect_scan_refused(&sent.scan, RHO_ERROR_VALUE);
     assert_int_equal(rho_frames_closed(&frames, &view), 1);
     assert_int_equal(view.frame.num_scans, 2);
 }
@@ -775,22 +780,22 @@ static void a_refused_scan_leaves_the_closed_frame(void **state)
 static void one_sensor_too_many_is_refused(void **state)
 {
     (void)state;
-    start();
+    init_default_frames();
     for (unsigned s = 0; s < SENSORS; s++) {
-        (void)push(s, 0);
+        (void)push_scan(s, 0);
     }
     before = frames;
     struct sent sent;
-    expect_refused(make(&sent, SENSORS, SECOND_US, 1, 0), RHO_ERROR_CAPACITY);
+    expect_scan_refused(make_scan(&sent, SENSORS, SECOND_US, 1, 0), RHO_ERROR_CAPACITY);
 }
 
-static void what_was_never_initialised_is_refused(void **state)
+static void an_object_without_init_is_refused(void **state)
 {
     (void)state;
     struct sent sent;
     memset(&frames, 0, sizeof frames);
     before = frames;
-    expect_refused(make(&sent, 0, 0, 1, 0), RHO_ERROR_STATE);
+    expect_scan_refused(make_scan(&sent, 0, 0, 1, 0), RHO_ERROR_STATE);
     assert_int_equal(rho_frames_close(&frames), RHO_ERROR_STATE);
     assert_int_equal(rho_frames_close(NULL), RHO_ERROR_NULL);
     assert_memory_equal(&frames, &before, sizeof frames);
@@ -798,34 +803,34 @@ static void what_was_never_initialised_is_refused(void **state)
     assert_int_equal(rho_frames_closed(NULL, &view), 0);
     assert_int_equal(view.frame.num_scans, 0);
     assert_null(view.frame.scans);
-    start();
+    init_default_frames();
     assert_int_equal(rho_frames_closed(&frames, NULL), 0);
 }
 
-static void times_at_their_ends_are_taken(void **state)
+static void the_first_and_last_possible_times_are_accepted(void **state)
 {
     (void)state;
-    start();
-    assert_int_equal(push(0, -RHO_LIMIT_TIME_US), 0);
-    assert_int_equal(push(1, -RHO_LIMIT_TIME_US), 2);
+    init_default_frames();
+    assert_int_equal(push_scan(0, -RHO_LIMIT_TIME_US), 0);
+    assert_int_equal(push_scan(1, -RHO_LIMIT_TIME_US), 2);
     for (unsigned i = 0; i < 5; i++) {
-        assert_int_equal(push(0, RHO_LIMIT_TIME_US), 0);
+        assert_int_equal(push_scan(0, RHO_LIMIT_TIME_US), 0);
     }
-    assert_int_equal(push(1, RHO_LIMIT_TIME_US - TOLERANCE_US), 2);
+    assert_int_equal(push_scan(1, RHO_LIMIT_TIME_US - TOLERANCE_US), 2);
     assert_int_equal(view.is_restart, 1);
 }
 
-/* Bearings of sensors less than a metre apart do not cross. */
-static void sensors_are_a_metre_apart(void **state)
+/* Bearings of sensors less than a metre apart are not crossed. */
+static void sensors_less_than_a_metre_apart_are_refused(void **state)
 {
     struct sent first, near, other;
 
     (void)state;
-    start();
-    assert_int_equal(rho_frames_push(&frames, make(&first, 0, 0, 1, 0)), RHO_OK);
-    make(&near, 1, 0, 1, 0)->x_m = first.scan.x_m + 0.95f;
+    init_default_frames();
+    assert_int_equal(rho_frames_push(&frames, make_scan(&first, 0, 0, 1, 0)), RHO_OK);
+    make_scan(&near, 1, 0, 1, 0)->x_m = first.scan.x_m + 0.95f;
     assert_int_equal(rho_frames_push(&frames, &near.scan), RHO_ERROR_VALUE);
-    make(&other, 1, 0, 1, 0)->x_m = first.scan.x_m + 1.05f;
+    make_scan(&other, 1, 0, 1, 0)->x_m = first.scan.x_m + 1.05f;
     assert_int_equal(rho_frames_push(&frames, &other.scan), RHO_OK);
 }
 
@@ -833,31 +838,31 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_frame_closes_with_its_last_sensor),
-        cmocka_unit_test(the_tolerance_counts_from_the_earliest_scan),
-        cmocka_unit_test(an_earlier_scan_may_still_join),
+        cmocka_unit_test(scans_join_a_frame_within_the_tolerance_of_its_earliest),
+        cmocka_unit_test(a_scan_that_is_earlier_may_join_the_open_frame),
         cmocka_unit_test(a_sensor_that_reports_again_closes_the_frame),
         cmocka_unit_test(the_caller_closes_a_frame),
-        cmocka_unit_test(no_frame_is_complete_with_fewer_sensors_than_there_are),
+        cmocka_unit_test(a_frame_waits_for_the_smallest_number_of_sensors),
         cmocka_unit_test(late_scans_are_counted_and_left_out),
         cmocka_unit_test(a_silent_sensor_is_waited_for_three_frames),
-        cmocka_unit_test(a_sensor_that_comes_last_is_not_late_for_ever),
-        cmocka_unit_test(one_wrong_time_changes_nothing),
-        cmocka_unit_test(a_jump_is_off_the_clock_beyond_its_limit),
-        cmocka_unit_test(one_sensor_of_three_far_ahead_locks_nobody_out),
-        cmocka_unit_test(the_most_sensors_are_followed_where_the_first_was_wrong),
-        cmocka_unit_test(all_clocks_set_together_are_followed),
-        cmocka_unit_test(any_order_within_the_tolerance_gives_the_same_bytes),
-        cmocka_unit_test(frames_are_the_models_in_random_orders),
+        cmocka_unit_test(a_sensor_that_joins_last_is_late_only_once),
+        cmocka_unit_test(single_scans_with_wrong_times_change_nothing),
+        cmocka_unit_test(a_scan_beyond_the_largest_time_jump_is_off_the_clock),
+        cmocka_unit_test(one_sensor_with_a_wrong_clock_does_not_stop_the_others),
+        cmocka_unit_test(the_clock_of_most_sensors_wins_over_a_wrong_first_one),
+        cmocka_unit_test(a_jump_of_all_clocks_restarts_the_frames),
+        cmocka_unit_test(the_order_of_arrival_within_the_tolerance_does_not_matter),
+        cmocka_unit_test(frames_of_random_scans_agree_with_the_model),
         cmocka_unit_test(bearings_beyond_the_capacity_are_counted),
-        cmocka_unit_test(counters_stop_at_their_end),
-        cmocka_unit_test(a_copy_goes_on_alike),
-        cmocka_unit_test(configurations_have_limits),
+        cmocka_unit_test(counters_saturate),
+        cmocka_unit_test(a_copied_object_continues_identically),
+        cmocka_unit_test(configurations_out_of_range_are_refused),
         cmocka_unit_test(refused_scans_change_nothing),
-        cmocka_unit_test(a_refused_scan_leaves_the_closed_frame),
+        cmocka_unit_test(a_refused_scan_keeps_the_closed_frame),
         cmocka_unit_test(one_sensor_too_many_is_refused),
-        cmocka_unit_test(what_was_never_initialised_is_refused),
-        cmocka_unit_test(times_at_their_ends_are_taken),
-        cmocka_unit_test(sensors_are_a_metre_apart),
+        cmocka_unit_test(an_object_without_init_is_refused),
+        cmocka_unit_test(the_first_and_last_possible_times_are_accepted),
+        cmocka_unit_test(sensors_less_than_a_metre_apart_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

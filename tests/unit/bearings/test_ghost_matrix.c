@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The ghost matrix: the paper's steps by hand, and what pruning does to targets and ghosts in many
- * simulated scans.
+ * The ghost matrix: the paper's pruning steps by hand, and shares of ghosts and targets that
+ * pruning removes in many simulated scans.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -35,15 +35,15 @@ static double normal(void)
 static struct rho_crossing_base base;
 static struct rho_ghost_matrix matrix;
 
-static void set_base(void) /* the paper's */
+static void set_paper_base(void) /* sensors at (0, +-10 km), as in the paper */
 {
     assert_int_equal(rho_crossing_set_base(&base, 0.0f, -10e3f, 0.0f, 10e3f), RHO_OK);
 }
 
-/* ---- by hand --------------------------------------------------------------------------------- */
+/* ---- matrices by hand ------------------------------------------------------------------------ */
 
-/* A matrix of which crossings are there: rows of '1' and '0'. */
-static void lay(unsigned rows, unsigned columns, const char *const *text)
+/* Sets the matrix from rows of text: '1' is a crossing, '0' is none. */
+static void set_matrix(unsigned rows, unsigned columns, const char *const *text)
 {
     memset(&matrix, 0, sizeof matrix);
     matrix.rows = (uint16_t)rows;
@@ -56,7 +56,7 @@ static void lay(unsigned rows, unsigned columns, const char *const *text)
     }
 }
 
-static void expect(const char *const *text)
+static void expect_reasons(const char *const *text)
 {
     static const char letters[RHO_NUM_GHOST_REASONS] = {'1', 's', 'a', '0', 'r', 'c', 'u'};
     for (unsigned i = 0; i < matrix.rows; i++) {
@@ -67,76 +67,82 @@ static void expect(const char *const *text)
     }
 }
 
-static void a_single_crossing_takes_its_beams(void **state)
+static void a_rows_only_crossing_removes_the_others_of_its_column(void **state)
 {
     (void)state;
-    lay(2, 2, (const char *const[]){"10", "11"});
+    set_matrix(2, 2, (const char *const[]){"10", "11"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_LITERAL), 1);
-    expect((const char *const[]){"10", "r1"});
+    expect_reasons((const char *const[]){"10", "r1"});
 }
 
-static void what_is_left_of_a_row_can_be_single_in_turn(void **state)
+static void removals_leave_further_rows_with_one_crossing(void **state)
 {
     (void)state;
-    lay(3, 3, (const char *const[]){"111", "110", "100"});
+    set_matrix(3, 3, (const char *const[]){"111", "110", "100"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_LITERAL), 3);
-    expect((const char *const[]){"rr1", "r10", "100"});
+    expect_reasons((const char *const[]){"rr1", "r10", "100"});
 }
 
-static void columns_come_after_rows(void **state)
+static void columns_with_one_crossing_are_pruned_after_rows(void **state)
 {
     (void)state;
-    lay(2, 3, (const char *const[]){"110", "111"});
+    set_matrix(2, 3, (const char *const[]){"110", "111"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_LITERAL), 3);
-    expect((const char *const[]){"1c0", "cc1"});
+    expect_reasons((const char *const[]){"1c0", "cc1"});
 }
 
-static void nothing_single_leaves_all(void **state)
+static void without_single_crossings_nothing_is_removed(void **state)
 {
     (void)state;
-    lay(2, 2, (const char *const[]){"11", "11"});
+    set_matrix(2, 2, (const char *const[]){"11", "11"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_LITERAL), 0);
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
-    expect((const char *const[]){"11", "11"});
+    expect_reasons((const char *const[]){"11", "11"});
 }
 
-/* The literal rule takes the first row's word for it. */
-static void two_beams_that_want_one(void **state)
+/* Rows 0 and 1 have only column 0: the literal rule gives it to row 0, the safe rule keeps both. */
+static void of_two_beams_with_one_crossing_the_literal_rule_keeps_the_first(void **state)
 {
     (void)state;
-    lay(2, 2, (const char *const[]){"10", "10"});
+    set_matrix(2, 2, (const char *const[]){"10", "10"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_LITERAL), 1);
-    expect((const char *const[]){"10", "r0"});
-    lay(2, 2, (const char *const[]){"10", "10"});
+    expect_reasons((const char *const[]){"10", "r0"});
+    set_matrix(2, 2, (const char *const[]){"10", "10"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
-    expect((const char *const[]){"10", "10"});
+    expect_reasons((const char *const[]){"10", "10"});
 }
 
-static void the_safe_rule_wants_as_many_of_each(void **state)
+static void the_safe_rule_prunes_square_matrices_only(void **state)
 {
     (void)state;
-    lay(2, 3, (const char *const[]){"110", "111"});
+    set_matrix(2, 3, (const char *const[]){"110", "111"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
-    lay(3, 3, (const char *const[]){"111", "110", "100"});
+    set_matrix(3, 3, (const char *const[]){"111", "110", "100"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 3);
-    expect((const char *const[]){"uu1", "u10", "100"});
-    lay(3, 3, (const char *const[]){"111", "110", "100"});
+    expect_reasons((const char *const[]){"uu1", "u10", "100"});
+    set_matrix(3, 3, (const char *const[]){"111", "110", "100"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_NO_RULE), 0);
-    expect((const char *const[]){"111", "110", "100"});
+    expect_reasons((const char *const[]){"111", "110", "100"});
 }
 
-/* Two beams that meet the same two: no single crossing, and yet the third's is known. */
-static void a_complete_matching_decides_more_than_single_crossings(void **state)
+/*
+ * Two rows share the first two columns: no row has a single crossing, but the third row's must be
+ * column 2.
+ */
+static void the_safe_rule_prunes_by_matchings_without_single_crossings(void **state)
 {
     (void)state;
-    lay(3, 3, (const char *const[]){"110", "110", "111"});
+    set_matrix(3, 3, (const char *const[]){"110", "110", "111"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 2);
-    expect((const char *const[]){"110", "110", "uu1"});
-    lay(3, 3, (const char *const[]){"110", "110", "110"});
+    expect_reasons((const char *const[]){"110", "110", "uu1"});
+    set_matrix(3, 3, (const char *const[]){"110", "110", "110"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
 }
 
-/* Crossings of all complete matchings that go on from row i with the columns that are left. */
+/*
+ * Marks in `found` the crossings of all complete matchings of the rows from i with the columns in
+ * `left`; returns their number.
+ */
 static unsigned add_matchings(unsigned i, unsigned left, uint16_t found[])
 {
     unsigned matchings = 0;
@@ -153,7 +159,7 @@ static unsigned add_matchings(unsigned i, unsigned left, uint16_t found[])
     return matchings;
 }
 
-static void draw_matrix(unsigned size, double share)
+static void draw_random_matrix(unsigned size, double share)
 {
     memset(&matrix, 0, sizeof matrix);
     matrix.rows = matrix.columns = (uint16_t)size;
@@ -166,15 +172,15 @@ static void draw_matrix(unsigned size, double share)
     }
 }
 
-/* Beside all matchings, enumerated. */
-static void the_safe_rule_leaves_what_a_complete_matching_has(void **state)
+/* Compared with all complete matchings, enumerated. */
+static void the_safe_rule_keeps_all_crossings_of_complete_matchings(void **state)
 {
     unsigned without = 0, removed = 0;
     (void)state;
     for (unsigned draw = 0; draw < 2000; draw++) {
         const unsigned size = 1 + draw % (RHO_MAX_BEARINGS < 7 ? RHO_MAX_BEARINGS : 7);
         uint16_t found[RHO_MAX_BEARINGS] = {0};
-        draw_matrix(size, uniform(0.2, 0.9));
+        draw_random_matrix(size, uniform(0.2, 0.9));
         const struct rho_ghost_matrix before = matrix;
         const unsigned matchings = add_matchings(0, (1u << size) - 1u, found);
         const unsigned now = rho_ghost_prune(&matrix, RHO_GHOST_SAFE);
@@ -194,15 +200,14 @@ static void the_safe_rule_leaves_what_a_complete_matching_has(void **state)
 }
 
 /*
- * Figure 1 of the paper: two targets, four crossings, of which the wide one has no partner in
- * range.
+ * Figure 1 of the paper: of the four crossings of two targets' beams, the two ghosts are removed.
  */
-static void the_papers_figure_1(void **state)
+static void figure_1_of_the_paper_keeps_its_targets_alone(void **state)
 {
     (void)state;
     const float near_m[2] = {30e3f, 0.0f}, far_m[2] = {60e3f, 25e3f};
     float a[2], b[2];
-    set_base();
+    set_paper_base();
     for (int i = 0; i < 2; i++) {
         const float *target = i ? far_m : near_m;
         a[i] = atan2f(target[1] + 10e3f, target[0]);
@@ -219,12 +224,12 @@ static void the_papers_figure_1(void **state)
     assert_int_not_equal(matrix.reason[1][0], RHO_GHOST_KEPT);
 }
 
-/* ---- many scans ------------------------------------------------------------------------------ */
+/* ---- simulated scans ------------------------------------------------------------------------- */
 
 struct look {
     unsigned count;
     float bearing_rad[64];
-    int target[64]; /* -1: a false alarm */
+    int target[64]; /* -1 for a false alarm */
 };
 
 struct scene {
@@ -233,8 +238,8 @@ struct scene {
     double pd, false_alarms;
 };
 
-/* 20 to 75 km in front, as far as 50 km to either side. */
-static void place_targets(struct scene *scene)
+/* Draws targets 20 to 75 km in front of the sensors, up to 50 km to either side. */
+static void draw_targets(struct scene *scene)
 {
     for (unsigned i = 0; i < scene->targets; i++) {
         do {
@@ -244,8 +249,8 @@ static void place_targets(struct scene *scene)
     }
 }
 
-/* In any order: the literal rule goes by it. */
-static void shuffle(struct look *look)
+/* The literal rule depends on the order of bearings. */
+static void shuffle_bearings(struct look *look)
 {
     for (unsigned i = look->count; i > 1; i--) {
         unsigned j = (unsigned)uniform(0.0, i);
@@ -258,7 +263,7 @@ static void shuffle(struct look *look)
     }
 }
 
-static void look_from(const struct scene *scene, double sensor_y_m, struct look *look)
+static void draw_bearings_from(const struct scene *scene, double sensor_y_m, struct look *look)
 {
     unsigned alarms = 0;
     look->count = 0;
@@ -279,15 +284,15 @@ static void look_from(const struct scene *scene, double sensor_y_m, struct look 
         look->target[look->count] = -1;
         look->bearing_rad[look->count++] = (float)uniform(-0.5 * PI, 0.5 * PI);
     }
-    shuffle(look);
+    shuffle_bearings(look);
 }
 
 struct shares {
     double ghosts_removed, targets_lost;
 };
 
-static void count_removed(const struct look *a, const struct look *b, double ghosts[2],
-                          double targets[2])
+static void count_removed_crossings(const struct look *a, const struct look *b, double ghosts[2],
+                                    double targets[2])
 {
     for (unsigned i = 0; i < a->count; i++) {
         for (unsigned j = 0; j < b->count; j++) {
@@ -298,17 +303,17 @@ static void count_removed(const struct look *a, const struct look *b, double gho
     }
 }
 
-static struct shares shares_of(unsigned targets, double pd, double false_alarms,
-                               enum rho_ghost_rule rule)
+static struct shares shares_removed(unsigned targets, double pd, double false_alarms,
+                                    enum rho_ghost_rule rule)
 {
     struct scene scene = {.targets = targets, .pd = pd, .false_alarms = false_alarms};
     double ghosts[2] = {0}, seen[2] = {0};
-    set_base();
+    set_paper_base();
     for (int run = 0; run < 4000; run++) {
         struct look a, b;
-        place_targets(&scene);
-        look_from(&scene, -10e3, &a);
-        look_from(&scene, 10e3, &b);
+        draw_targets(&scene);
+        draw_bearings_from(&scene, -10e3, &a);
+        draw_bearings_from(&scene, 10e3, &b);
         if (a.count > RHO_MAX_BEARINGS || b.count > RHO_MAX_BEARINGS) {
             continue;
         }
@@ -316,7 +321,7 @@ static struct shares shares_of(unsigned targets, double pd, double false_alarms,
                                         b.count, RANGE_MAX_M),
                          RHO_OK);
         rho_ghost_prune(&matrix, rule);
-        count_removed(&a, &b, ghosts, seen);
+        count_removed_crossings(&a, &b, ghosts, seen);
     }
     return (struct shares){ghosts[1] / ghosts[0], seen[1] / seen[0]};
 }
@@ -324,9 +329,9 @@ static struct shares shares_of(unsigned targets, double pd, double false_alarms,
 static void clean_scans_keep_their_targets_and_lose_their_ghosts(void **state)
 {
     (void)state;
-    struct shares literal = shares_of(2, 1.0, 0.0, RHO_GHOST_LITERAL);
-    struct shares safe = shares_of(2, 1.0, 0.0, RHO_GHOST_SAFE);
-    struct shares none = shares_of(2, 1.0, 0.0, RHO_GHOST_NO_RULE);
+    struct shares literal = shares_removed(2, 1.0, 0.0, RHO_GHOST_LITERAL);
+    struct shares safe = shares_removed(2, 1.0, 0.0, RHO_GHOST_SAFE);
+    struct shares none = shares_removed(2, 1.0, 0.0, RHO_GHOST_NO_RULE);
     print_message("ghosts removed: literal %.3f, safe %.3f, by side and range %.3f\n",
                   literal.ghosts_removed, safe.ghosts_removed, none.ghosts_removed);
     assert_true(literal.ghosts_removed >= 0.74);
@@ -336,12 +341,12 @@ static void clean_scans_keep_their_targets_and_lose_their_ghosts(void **state)
                 none.targets_lost <= 0.0);
 }
 
-/* The paper's rule needs scans without misses and false alarms: what the safe one is for. */
-static void false_alarms_and_misses_cost_the_literal_rule_targets(void **state)
+/* The literal rule assumes scans without misses and false alarms; the safe rule does not. */
+static void misses_and_false_alarms_make_the_literal_rule_lose_targets(void **state)
 {
     (void)state;
-    struct shares literal = shares_of(2, 0.9, 1.0, RHO_GHOST_LITERAL);
-    struct shares safe = shares_of(2, 0.9, 1.0, RHO_GHOST_SAFE);
+    struct shares literal = shares_removed(2, 0.9, 1.0, RHO_GHOST_LITERAL);
+    struct shares safe = shares_removed(2, 0.9, 1.0, RHO_GHOST_SAFE);
     print_message("targets lost: literal %.4f, safe %.4f; ghosts removed: %.3f, %.3f\n",
                   literal.targets_lost, safe.targets_lost, literal.ghosts_removed,
                   safe.ghosts_removed);
@@ -350,12 +355,12 @@ static void false_alarms_and_misses_cost_the_literal_rule_targets(void **state)
     assert_in_range((int)(1000 * safe.ghosts_removed), 450, 550);
 }
 
-/* More targets: more than the literal rule finds, and no target is lost. */
-static void the_safe_rule_finds_more_ghosts_of_more_targets(void **state)
+/* With six targets the safe rule removes more ghosts than the literal one, and no target. */
+static void the_safe_rule_removes_more_ghosts_of_six_targets(void **state)
 {
     (void)state;
-    struct shares literal = shares_of(6, 1.0, 0.0, RHO_GHOST_LITERAL);
-    struct shares safe = shares_of(6, 1.0, 0.0, RHO_GHOST_SAFE);
+    struct shares literal = shares_removed(6, 1.0, 0.0, RHO_GHOST_LITERAL);
+    struct shares safe = shares_removed(6, 1.0, 0.0, RHO_GHOST_SAFE);
     print_message("six targets, ghosts removed: literal %.3f, safe %.3f\n", literal.ghosts_removed,
                   safe.ghosts_removed);
     assert_true(safe.ghosts_removed >= literal.ghosts_removed + 0.05);
@@ -369,7 +374,7 @@ static void bad_arguments_are_refused(void **state)
     (void)state;
     float bearings[RHO_MAX_BEARINGS + 1] = {0};
     const float bad[] = {0.1f, NAN}, far[] = {99.0f}, farther[] = {101.0f};
-    set_base();
+    set_paper_base();
     assert_int_equal(rho_ghost_fill(&matrix, &base, far, 1, far, 1, 1.0f), RHO_OK);
     memset(&matrix, 0x5a, sizeof matrix);
     struct rho_ghost_matrix before = matrix;
@@ -406,18 +411,18 @@ static void every_reason_has_a_name(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_single_crossing_takes_its_beams),
-        cmocka_unit_test(what_is_left_of_a_row_can_be_single_in_turn),
-        cmocka_unit_test(columns_come_after_rows),
-        cmocka_unit_test(nothing_single_leaves_all),
-        cmocka_unit_test(two_beams_that_want_one),
-        cmocka_unit_test(the_safe_rule_wants_as_many_of_each),
-        cmocka_unit_test(a_complete_matching_decides_more_than_single_crossings),
-        cmocka_unit_test(the_safe_rule_leaves_what_a_complete_matching_has),
-        cmocka_unit_test(the_papers_figure_1),
+        cmocka_unit_test(a_rows_only_crossing_removes_the_others_of_its_column),
+        cmocka_unit_test(removals_leave_further_rows_with_one_crossing),
+        cmocka_unit_test(columns_with_one_crossing_are_pruned_after_rows),
+        cmocka_unit_test(without_single_crossings_nothing_is_removed),
+        cmocka_unit_test(of_two_beams_with_one_crossing_the_literal_rule_keeps_the_first),
+        cmocka_unit_test(the_safe_rule_prunes_square_matrices_only),
+        cmocka_unit_test(the_safe_rule_prunes_by_matchings_without_single_crossings),
+        cmocka_unit_test(the_safe_rule_keeps_all_crossings_of_complete_matchings),
+        cmocka_unit_test(figure_1_of_the_paper_keeps_its_targets_alone),
         cmocka_unit_test(clean_scans_keep_their_targets_and_lose_their_ghosts),
-        cmocka_unit_test(false_alarms_and_misses_cost_the_literal_rule_targets),
-        cmocka_unit_test(the_safe_rule_finds_more_ghosts_of_more_targets),
+        cmocka_unit_test(misses_and_false_alarms_make_the_literal_rule_lose_targets),
+        cmocka_unit_test(the_safe_rule_removes_more_ghosts_of_six_targets),
         cmocka_unit_test(bad_arguments_are_refused),
         cmocka_unit_test(every_reason_has_a_name),
     };

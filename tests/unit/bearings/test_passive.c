@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Tracks from bearings: what is found in many scenes, how well, and what a batch is. */
+/*
+ * Tracks from bearings: shares found, ghosts and errors over many scenes; single scenes; the batch.
+ */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,23 +17,23 @@
 static struct rho_passive passive, other;
 static struct scene scene;
 
-/* ---- the best fit there is ------------------------------------------------------------------- */
+/* ---- the best possible fit ------------------------------------------------------------------- */
 
 /*
- * Maximum likelihood with the true association: place at mid-batch and velocity, in double
- * precision.
+ * Maximum likelihood with the true association, in double precision: place at mid-batch and
+ * velocity.
  */
 struct fit {
     double state[4], covariance[4][4];
 };
 
-static double middle_s(void)
+static double mid_batch_time_s(void)
 {
     return 0.5 * (scene.time_s[0] + scene.time_s[scene.scans - 1]);
 }
 
-/* Gauss-Jordan; a is positive definite. */
-static void invert(double a[4][4], double inverse[4][4])
+/* Gauss-Jordan without pivoting, as a is positive definite. */
+static void invert_matrix(double a[4][4], double inverse[4][4])
 {
     for (int i = 0; i < 4; i++) {
         for (int j = 0; j < 4; j++) {
@@ -58,10 +60,11 @@ struct normal_equations {
     double a[4][4], b[4];
 };
 
-static void add_seen(struct normal_equations *equations, const double state[4], unsigned k,
-                     unsigned s, const struct rho_bearing *seen)
+static void add_bearing_to_normal_equations(struct normal_equations *equations,
+                                            const double state[4], unsigned k, unsigned s,
+                                            const struct rho_bearing *seen)
 {
-    double t_s = scene.time_s[k] - middle_s();
+    double t_s = scene.time_s[k] - mid_batch_time_s();
     double dx_m = state[0] + t_s * state[2] - scene.sensor_x_m[s];
     double dy_m = state[1] + t_s * state[3] - scene.sensor_y_m[s];
     double range2 = dx_m * dx_m + dy_m * dy_m, weight = 1.0 / pow(seen->sigma_rad, 2.0);
@@ -75,7 +78,7 @@ static void add_seen(struct normal_equations *equations, const double state[4], 
     }
 }
 
-static struct normal_equations equations_of(int target, const double state[4])
+static struct normal_equations normal_equations_of_target(int target, const double state[4])
 {
     struct normal_equations equations = {.b = {0}};
     for (int i = 2; i < 4; i++) {
@@ -87,7 +90,7 @@ static struct normal_equations equations_of(int target, const double state[4])
             const struct look *look = &scene.look[k][s];
             for (unsigned i = 0; i < look->count; i++) {
                 if (look->target[i] == target && !look->is_absent) {
-                    add_seen(&equations, state, k, s, &look->bearings[i]);
+                    add_bearing_to_normal_equations(&equations, state, k, s, &look->bearings[i]);
                 }
             }
         }
@@ -95,14 +98,15 @@ static struct normal_equations equations_of(int target, const double state[4])
     return equations;
 }
 
-static struct fit best_fit(unsigned target)
+static struct fit fit_with_true_association(unsigned target)
 {
     const struct target *truth = &scene.target[target];
-    struct fit fit = {.state = {target_x_m(truth, middle_s()), target_y_m(truth, middle_s()),
-                                truth->vx_mps, truth->vy_mps}};
+    struct fit fit = {.state = {target_x_m(truth, mid_batch_time_s()),
+                                target_y_m(truth, mid_batch_time_s()), truth->vx_mps,
+                                truth->vy_mps}};
     for (int step = 0; step < 12; step++) {
-        struct normal_equations equations = equations_of((int)target, fit.state);
-        invert(equations.a, fit.covariance);
+        struct normal_equations equations = normal_equations_of_target((int)target, fit.state);
+        invert_matrix(equations.a, fit.covariance);
         for (int i = 0; i < 4; i++) {
             for (int j = 0; j < 4; j++) {
                 fit.state[i] += fit.covariance[i][j] * equations.b[j];
@@ -112,7 +116,7 @@ static struct fit best_fit(unsigned target)
     return fit;
 }
 
-/* ---- many scenes ----------------------------------------------------------------------------- */
+/* ---- figures of many scenes ----------------------------------------------------------------- */
 
 struct figures {
     unsigned runs, targets, found, ghosts;
@@ -131,7 +135,7 @@ static double nees_of(const struct rho_passive_track *track, const struct target
             a[i][j] = track->covariance[row * (row + 1) / 2 + column];
         }
     }
-    invert(a, inverse);
+    invert_matrix(a, inverse);
     for (int i = 0; i < 4; i++) {
         for (int j = 0; j < 4; j++) {
             sum += off[i] * inverse[i][j] * off[j];
@@ -140,24 +144,25 @@ static double nees_of(const struct rho_passive_track *track, const struct target
     return sum;
 }
 
-/* How far a track is from a target at mid-batch. */
-static double miss_m(const struct rho_passive_track *track, const struct target *truth)
+/* Distance of a track from a target at mid-batch. */
+static double mid_batch_error_m(const struct rho_passive_track *track, const struct target *truth)
 {
     double half_s = 0.5 * scene_span_s(&scene);
-    return hypot(track->x_m - half_s * track->vx_mps - target_x_m(truth, middle_s()),
-                 track->y_m - half_s * track->vy_mps - target_y_m(truth, middle_s()));
+    return hypot(track->x_m - half_s * track->vx_mps - target_x_m(truth, mid_batch_time_s()),
+                 track->y_m - half_s * track->vy_mps - target_y_m(truth, mid_batch_time_s()));
 }
 
 /*
- * The nearest track within max(1 km, 4 sd) that is no other target's; num_tracks where there is
- * none.
+ * Returns the nearest track within max(1 km, 4 standard deviations) that no other target has taken;
+ * num_tracks: none.
  */
-static unsigned find_track(unsigned target, const struct fit *best, const uint8_t *is_taken)
+static unsigned find_nearest_free_track(unsigned target, const struct fit *best,
+                                        const uint8_t *is_taken)
 {
     double least_m = fmax(1000.0, 4.0 * sqrt(best->covariance[0][0] + best->covariance[1][1]));
     unsigned nearest = passive.num_tracks;
     for (unsigned i = 0; i < passive.num_tracks; i++) {
-        double off_m = miss_m(&passive.tracks[i], &scene.target[target]);
+        double off_m = mid_batch_error_m(&passive.tracks[i], &scene.target[target]);
         if (!is_taken[i] && off_m < least_m) {
             least_m = off_m;
             nearest = i;
@@ -172,14 +177,15 @@ static void add_figures(struct figures *figures)
     unsigned found = 0;
     for (unsigned i = 0; i < scene.targets; i++) {
         const struct target *truth = &scene.target[i];
-        struct fit best = best_fit(i);
-        unsigned at = find_track(i, &best, is_taken);
+        struct fit best = fit_with_true_association(i);
+        unsigned at = find_nearest_free_track(i, &best, is_taken);
         if (at < passive.num_tracks) {
             is_taken[at] = 1;
             found++;
-            figures->error2 += pow(miss_m(&passive.tracks[at], truth), 2.0);
-            figures->best_error2 += pow(best.state[0] - target_x_m(truth, middle_s()), 2.0) +
-                                    pow(best.state[1] - target_y_m(truth, middle_s()), 2.0);
+            figures->error2 += pow(mid_batch_error_m(&passive.tracks[at], truth), 2.0);
+            figures->best_error2 +=
+                pow(best.state[0] - target_x_m(truth, mid_batch_time_s()), 2.0) +
+                pow(best.state[1] - target_y_m(truth, mid_batch_time_s()), 2.0);
             double nees = nees_of(&passive.tracks[at], truth);
             assert_true(nees > 0.0);
             figures->nees += nees;
@@ -191,8 +197,8 @@ static void add_figures(struct figures *figures)
     figures->ghosts += passive.num_tracks - found;
 }
 
-/* `from` is the scene to draw again and again. */
-static struct figures figures_of(const struct scene *from, unsigned runs)
+/* Draws `from` anew for each run and sums the figures. */
+static struct figures figures_of_scenes(const struct scene *from, unsigned runs)
 {
     struct figures figures = {0};
     for (unsigned run = 0; run < runs; run++) {
@@ -228,7 +234,7 @@ static void print_figures(const char *what, const struct figures *figures)
                   figures->nees / figures->found);
 }
 
-static void add_all(struct figures *sum, const struct figures *figures)
+static void sum_figures(struct figures *sum, const struct figures *figures)
 {
     sum->runs += figures->runs;
     sum->targets += figures->targets;
@@ -240,10 +246,10 @@ static void add_all(struct figures *sum, const struct figures *figures)
 }
 
 /*
- * Two targets can be such that their ghosts fly straight too and fit the noisy bearings better,
- * once in some hundred scenes: the figures are of many.
+ * Once in some hundred scenes the ghosts of two targets fly straight, too, and fit the noisy
+ * bearings better: the bounds hold for many scenes, not for each.
  */
-static void clean_scenes_yield_their_targets_and_no_ghosts(void **state)
+static void two_sensors_find_all_targets_of_scenes_without_clutter(void **state)
 {
     (void)state;
     static const double sigmas_deg[3] = {0.05, 0.1, 0.2};
@@ -251,23 +257,23 @@ static void clean_scenes_yield_their_targets_and_no_ghosts(void **state)
     random_state = 77;
     for (int i = 0; i < 3; i++) {
         struct scene from = scene_of(2, 2, sigmas_deg[i], 1.0, 0.0);
-        struct figures figures = figures_of(&from, 300);
+        struct figures figures = figures_of_scenes(&from, 300);
         print_figures("2 sensors, 2 targets, clean", &figures);
         assert_true(found_share(&figures) >= 0.99);
         assert_true(ghosts_a_run(&figures) <= 0.02);
         assert_true(error_ratio(&figures) <= 1.08);
-        add_all(&sum, &figures);
+        sum_figures(&sum, &figures);
     }
     assert_true(sum.found >= 1780);
     assert_in_range((int)(100.0 * sum.nees / sum.found), 350, 470);
 }
 
-static void misses_and_false_bearings_leave_two_sensors_most_targets(void **state)
+static void two_sensors_find_most_targets_among_misses_and_false_bearings(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 4, 0.1, 0.9, 1.0);
     random_state = 2;
-    struct figures figures = figures_of(&from, 60);
+    struct figures figures = figures_of_scenes(&from, 60);
     print_figures("2 sensors, 4 targets, P_D 0.9, 1 false", &figures);
     assert_true(found_share(&figures) >= 0.94);
     assert_true(ghosts_a_run(&figures) <= 0.12);
@@ -275,12 +281,12 @@ static void misses_and_false_bearings_leave_two_sensors_most_targets(void **stat
     assert_in_range((int)(100.0 * figures.nees / figures.found), 350, 470);
 }
 
-static void three_sensors_find_them_all(void **state)
+static void three_sensors_find_all_targets_among_misses_and_false_bearings(void **state)
 {
     (void)state;
     struct scene from = scene_of(3, 4, 0.1, 0.9, 1.0);
     random_state = 3;
-    struct figures figures = figures_of(&from, 60);
+    struct figures figures = figures_of_scenes(&from, 60);
     print_figures("3 sensors, 4 targets, P_D 0.9, 1 false", &figures);
     assert_true(found_share(&figures) >= 0.99);
     assert_true(ghosts_a_run(&figures) <= 0.02);
@@ -288,36 +294,36 @@ static void three_sensors_find_them_all(void **state)
     assert_in_range((int)(100.0 * figures.nees / figures.found), 350, 470);
 }
 
-static void false_bearings_alone_are_no_track(void **state)
+static void false_bearings_alone_make_no_track(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 0, 0.1, 0.9, 4.0);
     random_state = 4;
-    struct figures figures = figures_of(&from, 60);
+    struct figures figures = figures_of_scenes(&from, 60);
     assert_int_equal(figures.ghosts, 0);
 }
 
-static void scans_may_come_at_unequal_intervals(void **state)
+static void targets_are_found_from_scans_at_unequal_intervals(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
     from.jitter_s = 7.0;
     random_state = 5;
-    struct figures figures = figures_of(&from, 25);
+    struct figures figures = figures_of_scenes(&from, 25);
     print_figures("unequal intervals", &figures);
     assert_true(found_share(&figures) >= 0.98 && ghosts_a_run(&figures) <= 0.04);
     assert_true(error_ratio(&figures) <= 1.08);
     assert_in_range((int)(100.0 * figures.nees / figures.found), 300, 500);
 }
 
-static void every_bearing_counts_by_its_own_sigma(void **state)
+static void bearings_are_weighted_by_their_own_sigmas(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
     from.sigma_from_rad = 0.02 * DEG_RAD;
     from.sigma_to_rad = 0.3 * DEG_RAD;
     random_state = 6;
-    struct figures figures = figures_of(&from, 40);
+    struct figures figures = figures_of_scenes(&from, 40);
     print_figures("own sigmas", &figures);
     assert_true(found_share(&figures) >= 0.98 && ghosts_a_run(&figures) <= 0.04);
     assert_true(error_ratio(&figures) <= 1.08);
@@ -326,7 +332,7 @@ static void every_bearing_counts_by_its_own_sigma(void **state)
 
 /* ---- one scene ------------------------------------------------------------------------------- */
 
-static void draw(const struct scene *from, uint64_t seed)
+static void draw_seeded_scene(const struct scene *from, uint64_t seed)
 {
     random_state = seed;
     scene = *from;
@@ -339,9 +345,9 @@ static void search_into(struct rho_passive *into)
     assert_true(are_tracks_sound(into));
 }
 
-/* A track of the unmoved scene where it is in the moved one. */
-static struct rho_passive_track moved(const struct rho_passive_track *from, double turn_rad,
-                                      double x_m, double y_m)
+/* A track after the scene was rotated and shifted. */
+static struct rho_passive_track moved_track(const struct rho_passive_track *from, double turn_rad,
+                                            double x_m, double y_m)
 {
     double c = cos(turn_rad), s = sin(turn_rad);
     struct rho_passive_track to = *from;
@@ -352,7 +358,7 @@ static struct rho_passive_track moved(const struct rho_passive_track *from, doub
     return to;
 }
 
-static int is_among(const struct rho_passive *tracks, const struct rho_passive_track *sought)
+static int has_track(const struct rho_passive *tracks, const struct rho_passive_track *sought)
 {
     for (unsigned i = 0; i < tracks->num_tracks; i++) {
         const struct rho_passive_track *track = &tracks->tracks[i];
@@ -365,30 +371,30 @@ static int is_among(const struct rho_passive *tracks, const struct rho_passive_t
     return 0;
 }
 
-static void expect_moved(double turn_rad, double x_m, double y_m)
+static void expect_tracks_move_with_scene(double turn_rad, double x_m, double y_m)
 {
     move_scene(&scene, turn_rad, x_m, y_m);
     search_into(&other);
     assert_int_equal(other.num_tracks, passive.num_tracks);
     for (unsigned i = 0; i < passive.num_tracks; i++) {
-        struct rho_passive_track sought = moved(&passive.tracks[i], turn_rad, x_m, y_m);
-        assert_true(is_among(&other, &sought));
+        struct rho_passive_track sought = moved_track(&passive.tracks[i], turn_rad, x_m, y_m);
+        assert_true(has_track(&other, &sought));
     }
 }
 
-static void a_scene_may_lie_anywhere_and_any_way_round(void **state)
+static void tracks_move_and_rotate_with_the_scene(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
     for (unsigned i = 0; i < 16; i++) {
-        draw(&from, 100 + i);
+        draw_seeded_scene(&from, 100 + i);
         search_into(&passive);
         assert_int_equal(passive.num_tracks, 2);
-        expect_moved(i * 2.0 * PI / 16.0 + 0.01, 300e3, -200e3);
+        expect_tracks_move_with_scene(i * 2.0 * PI / 16.0 + 0.01, 300e3, -200e3);
     }
 }
 
-static int same_tracks(void)
+static int are_tracks_and_work_equal(void)
 {
     return passive.num_tracks == other.num_tracks &&
            memcmp(passive.tracks, other.tracks, passive.num_tracks * sizeof passive.tracks[0]) ==
@@ -396,25 +402,25 @@ static int same_tracks(void)
            memcmp(&passive.work, &other.work, sizeof passive.work) == 0;
 }
 
-static void the_same_input_makes_the_same_bytes(void **state)
+static void the_same_input_gives_the_same_bytes(void **state)
 {
     (void)state;
     struct scene from = scene_of(3, 4, 0.1, 0.9, 1.0);
-    draw(&from, 8);
+    draw_seeded_scene(&from, 8);
     memset(&other, 0xa5, sizeof other);
     search_into(&passive);
     search_into(&other);
     assert_true(passive.num_tracks >= 3);
-    assert_true(same_tracks());
+    assert_true(are_tracks_and_work_equal());
     assert_int_equal(rho_passive_search(&other), RHO_OK);
-    assert_true(same_tracks());
+    assert_true(are_tracks_and_work_equal());
 }
 
-static void the_order_of_bearings_is_no_matter(void **state)
+static void the_order_of_bearings_does_not_matter(void **state)
 {
     (void)state;
     struct scene from = scene_of(3, 3, 0.1, 0.9, 1.0);
-    draw(&from, 9);
+    draw_seeded_scene(&from, 9);
     search_into(&passive);
     for (unsigned k = 0; k < scene.scans; k++) {
         for (unsigned s = 0; s < scene.sensors; s++) {
@@ -422,17 +428,17 @@ static void the_order_of_bearings_is_no_matter(void **state)
         }
     }
     assert_true(passive.num_tracks >= 2);
-    expect_moved(0.0, 0.0, 0.0);
+    expect_tracks_move_with_scene(0.0, 0.0, 0.0);
 }
 
 /* ---- the batch ------------------------------------------------------------------------------- */
 
-static void a_ninth_frame_lets_the_oldest_leave(void **state)
+static void a_ninth_frame_replaces_the_oldest(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
     from.scans = 9;
-    draw(&from, 10);
+    draw_seeded_scene(&from, 10);
     search_into(&passive);
     assert_int_equal(passive.batch.num_scans, 8);
     assert_true(passive.batch.time_us[0] == 10000000 && passive.batch.time_us[7] == 80000000);
@@ -440,14 +446,14 @@ static void a_ninth_frame_lets_the_oldest_leave(void **state)
     assert_int_equal(push_scans_from(&other, &scene, 1), RHO_OK);
     assert_int_equal(rho_passive_search(&other), RHO_OK);
     assert_int_equal(passive.num_tracks, 2);
-    assert_true(same_tracks());
+    assert_true(are_tracks_and_work_equal());
 }
 
-static void a_track_is_at_the_newest_scan(void **state)
+static void tracks_are_reported_at_the_newest_scans_time(void **state)
 {
     (void)state;
     struct scene from = scene_of(3, 1, 0.05, 1.0, 0.0);
-    draw(&from, 11);
+    draw_seeded_scene(&from, 11);
     search_into(&passive);
     const struct target *truth = &scene.target[0];
     assert_int_equal(passive.num_tracks, 1);
@@ -459,12 +465,12 @@ static void a_track_is_at_the_newest_scan(void **state)
                 4.0 * sqrt(passive.tracks[0].covariance[2]));
 }
 
-static void a_push_forgets_the_last_search(void **state)
+static void a_push_discards_the_tracks_of_the_last_search(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
     from.scans = 9;
-    draw(&from, 12);
+    draw_seeded_scene(&from, 12);
     assert_int_equal(start_passive(&passive), RHO_OK);
     scene.scans = 8;
     assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
@@ -475,12 +481,12 @@ static void a_push_forgets_the_last_search(void **state)
     assert_int_equal(passive.num_tracks, 0);
 }
 
-static void four_scans_are_the_fewest(void **state)
+static void a_track_needs_at_least_four_scans(void **state)
 {
     (void)state;
     struct scene from = scene_of(3, 1, 0.05, 1.0, 0.0);
     for (from.scans = 3; from.scans <= 4; from.scans++) {
-        draw(&from, 13);
+        draw_seeded_scene(&from, 13);
         search_into(&passive);
         assert_int_equal(passive.num_tracks, from.scans == 4);
     }
@@ -489,14 +495,14 @@ static void four_scans_are_the_fewest(void **state)
 enum third { SAW_NOTHING, WAS_ABSENT, LOOKED_AWAY, LOOKED_THERE };
 
 /*
- * Sensor 2 sees the target at the first scan only: the other two alone have two thirds of the
- * bearings.
+ * Searches a scene in which the third sensor sees the target at the first scan only: two thirds of
+ * the bearings are left.
  */
-static void search_without_third(enum third third, float hits_min)
+static void search_without_third_sensor(enum third third, float hits_min)
 {
     struct rho_passive_config config;
     struct scene from = scene_of(3, 1, 0.05, 1.0, 0.0);
-    draw(&from, 14);
+    draw_seeded_scene(&from, 14);
     for (unsigned k = 1; k < scene.scans; k++) {
         scene.look[k][2].count = 0;
         scene.look[k][2].is_absent = third == WAS_ABSENT;
@@ -507,56 +513,57 @@ static void search_without_third(enum third third, float hits_min)
     }
     rho_passive_config_default(&config);
     config.hits_min = hits_min;
-    config.field_of_view_rad = (float)(2.0 * PI); /* the density's lower limit, in either case */
+    /* the lower limit of the false bearings' density, whatever `third` is */
+    config.field_of_view_rad = (float)(2.0 * PI);
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
     assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
     assert_int_equal(rho_passive_search(&passive), RHO_OK);
     assert_true(are_tracks_sound(&passive));
 }
 
-static void what_a_sensor_did_not_look_at_is_no_miss(void **state)
+static void targets_outside_a_sensors_sector_do_not_count_as_missed(void **state)
 {
     (void)state;
-    search_without_third(WAS_ABSENT, 0.9f);
+    search_without_third_sensor(WAS_ABSENT, 0.9f);
     assert_int_equal(passive.num_tracks, 1);
     assert_int_equal(passive.tracks[0].hits, 17);
     int32_t score_mnat = passive.tracks[0].score_mnat;
-    search_without_third(LOOKED_AWAY, 0.9f);
+    search_without_third_sensor(LOOKED_AWAY, 0.9f);
     assert_int_equal(passive.num_tracks, 1);
     assert_int_equal(passive.tracks[0].hits, 17);
     assert_int_equal(passive.tracks[0].score_mnat, score_mnat);
-    search_without_third(SAW_NOTHING, 0.9f);
+    search_without_third_sensor(SAW_NOTHING, 0.9f);
     assert_int_equal(passive.num_tracks, 0);
-    search_without_third(LOOKED_THERE, 0.9f);
+    search_without_third_sensor(LOOKED_THERE, 0.9f);
     assert_int_equal(passive.num_tracks, 0);
 }
 
 static void a_miss_costs_the_logarithm_of_its_probability(void **state)
 {
     (void)state;
-    search_without_third(WAS_ABSENT, 0.65f);
+    search_without_third_sensor(WAS_ABSENT, 0.65f);
     assert_int_equal(passive.num_tracks, 1);
     int32_t score_mnat = passive.tracks[0].score_mnat;
-    search_without_third(SAW_NOTHING, 0.65f);
+    search_without_third_sensor(SAW_NOTHING, 0.65f);
     assert_int_equal(passive.num_tracks, 1);
     assert_in_range(score_mnat - passive.tracks[0].score_mnat, 16118 - 20, 16118 + 20);
 }
 
-static void one_sensor_makes_no_track(void **state)
+static void one_sensor_alone_makes_no_track(void **state)
 {
     (void)state;
     struct scene from = scene_of(1, 2, 0.1, 1.0, 1.0);
-    draw(&from, 15);
+    draw_seeded_scene(&from, 15);
     search_into(&passive);
     assert_int_equal(passive.batch.num_sensors, 1);
     assert_int_equal(passive.num_tracks, 0);
 }
 
-static void the_work_is_counted(void **state)
+static void a_search_counts_its_work(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
-    draw(&from, 16);
+    draw_seeded_scene(&from, 16);
     search_into(&passive);
     assert_int_equal(passive.work.crossings, 32);
     assert_in_range(passive.work.ghosts, 1, 16);
@@ -564,14 +571,14 @@ static void the_work_is_counted(void **state)
     assert_true(passive.work.peaks > 0 && passive.work.hypotheses > 0 && passive.work.fits > 0);
 }
 
-/* ---- figures that must hold together --------------------------------------------------------- */
+/* ---- scores, sigmas, pairs of sensors ------------------------------------------------------- */
 
-static void the_best_score_comes_first(void **state)
+static void tracks_are_sorted_by_falling_score(void **state)
 {
     (void)state;
     struct scene from = scene_of(3, 4, 0.1, 0.9, 1.0);
     for (unsigned run = 0; run < 60; run++) {
-        draw(&from, 1 + run);
+        draw_seeded_scene(&from, 1 + run);
         search_into(&passive);
         for (unsigned i = 1; i < passive.num_tracks; i++) {
             assert_true(passive.tracks[i - 1].score_mnat >= passive.tracks[i].score_mnat);
@@ -579,8 +586,8 @@ static void the_best_score_comes_first(void **state)
     }
 }
 
-/* One target of two sensors of such sigmas. Returns how often it was found. */
-static unsigned find_with(double sigma_a_rad, double sigma_b_rad, unsigned runs)
+/* Returns in how many runs two sensors with these sigmas found a single target. */
+static unsigned count_found_with_sigmas(double sigma_a_rad, double sigma_b_rad, unsigned runs)
 {
     unsigned found = 0;
     random_state = 5;
@@ -594,17 +601,17 @@ static unsigned find_with(double sigma_a_rad, double sigma_b_rad, unsigned runs)
                 see_look(&scene, k, s);
             }
         }
-        search_into(&passive); /* its tracks have a covariance */
+        search_into(&passive); /* checks that the track's covariance is positive */
         found += passive.num_tracks == 1;
     }
     return found;
 }
 
-static void a_coarse_sensor_helps_a_precise_one(void **state)
+static void a_coarse_and_a_precise_sensor_find_the_target(void **state)
 {
     (void)state;
-    assert_true(find_with(1e-4, 0.01, 30) >= 29);
-    assert_true(find_with(1e-5, 0.01, 30) >= 29);
+    assert_true(count_found_with_sigmas(1e-4, 0.01, 30) >= 29);
+    assert_true(count_found_with_sigmas(1e-5, 0.01, 30) >= 29);
 }
 
 static void targets_beyond_200_km_are_found(void **state)
@@ -627,13 +634,14 @@ static void targets_beyond_200_km_are_found(void **state)
         assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
         assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
         assert_int_equal(rho_passive_search(&passive), RHO_OK);
-        found += passive.num_tracks == 1 && miss_m(&passive.tracks[0], &scene.target[0]) < 15e3;
+        found += passive.num_tracks == 1 &&
+                 mid_batch_error_m(&passive.tracks[0], &scene.target[0]) < 15e3;
     }
     assert_int_equal(found, 10);
 }
 
-/* They say nothing of range and speed, whatever share of the bearings is asked for. */
-static void bearings_of_one_sensor_alone_are_no_track(void **state)
+/* Bearings of one sensor leave range and speed unknown, even if 40 % of all bearings would do. */
+static void every_track_has_bearings_of_two_sensors(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 2, 0.1, 0.9, 1.0);
@@ -641,7 +649,7 @@ static void bearings_of_one_sensor_alone_are_no_track(void **state)
     rho_passive_config_default(&config);
     config.hits_min = 0.4f;
     for (unsigned run = 0; run < 60; run++) {
-        draw(&from, 200 + run);
+        draw_seeded_scene(&from, 200 + run);
         assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
         assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
         assert_int_equal(rho_passive_search(&passive), RHO_OK);
@@ -656,11 +664,11 @@ static void bearings_of_one_sensor_alone_are_no_track(void **state)
     }
 }
 
-/* Each bearing is so many of its sigmas off, to either side by turns. */
-static void scatter(double sigmas)
+/* Searches a scene whose bearings are this many sigmas off, to alternating sides. */
+static void search_scattered_bearings(double sigmas)
 {
     struct scene from = scene_of(2, 1, 0.1, 1.0, 0.0);
-    draw(&from, 21);
+    draw_seeded_scene(&from, 21);
     for (unsigned k = 0; k < scene.scans; k++) {
         for (unsigned s = 0; s < scene.sensors; s++) {
             double dx_m = target_x_m(&scene.target[0], scene.time_s[k]) - scene.sensor_x_m[s];
@@ -673,21 +681,21 @@ static void scatter(double sigmas)
 }
 
 /*
- * 16 bearings within their gates, 12 degrees of freedom: chi-square of 16 and 77 at most, 99.9 %
- * are below 33.
+ * Chi-square with 12 degrees of freedom, 99.9 % below 33: 16 bearings one sigma off sum up to 16,
+ * 2.2 sigmas off to 77, though each is in its gate.
  */
-static void bearings_that_scatter_too_much_are_no_track(void **state)
+static void bearings_that_scatter_too_much_make_no_track(void **state)
 {
     (void)state;
-    scatter(1.0);
+    search_scattered_bearings(1.0);
     assert_int_equal(passive.num_tracks, 1);
     assert_int_equal(passive.tracks[0].hits, 16);
-    scatter(2.2);
+    search_scattered_bearings(2.2);
     assert_int_equal(passive.num_tracks, 0);
 }
 
-/* Sensors make n (n - 1) / 2 pairs, whichever scans they saw the target in. */
-static void pairs_are_those_of_sensors_that_saw_the_track(void **state)
+/* n sensors make n (n - 1) / 2 pairs, whichever scans they saw the target in. */
+static void sensor_pairs_are_counted_from_the_tracks_claims(void **state)
 {
     struct rho_passive_track track = {.hits = 0};
 
@@ -703,29 +711,29 @@ static void pairs_are_those_of_sensors_that_saw_the_track(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(clean_scenes_yield_their_targets_and_no_ghosts),
-        cmocka_unit_test(misses_and_false_bearings_leave_two_sensors_most_targets),
-        cmocka_unit_test(three_sensors_find_them_all),
-        cmocka_unit_test(false_bearings_alone_are_no_track),
-        cmocka_unit_test(scans_may_come_at_unequal_intervals),
-        cmocka_unit_test(every_bearing_counts_by_its_own_sigma),
-        cmocka_unit_test(a_scene_may_lie_anywhere_and_any_way_round),
-        cmocka_unit_test(the_same_input_makes_the_same_bytes),
-        cmocka_unit_test(the_order_of_bearings_is_no_matter),
-        cmocka_unit_test(a_ninth_frame_lets_the_oldest_leave),
-        cmocka_unit_test(a_track_is_at_the_newest_scan),
-        cmocka_unit_test(a_push_forgets_the_last_search),
-        cmocka_unit_test(four_scans_are_the_fewest),
-        cmocka_unit_test(what_a_sensor_did_not_look_at_is_no_miss),
+        cmocka_unit_test(two_sensors_find_all_targets_of_scenes_without_clutter),
+        cmocka_unit_test(two_sensors_find_most_targets_among_misses_and_false_bearings),
+        cmocka_unit_test(three_sensors_find_all_targets_among_misses_and_false_bearings),
+        cmocka_unit_test(false_bearings_alone_make_no_track),
+        cmocka_unit_test(targets_are_found_from_scans_at_unequal_intervals),
+        cmocka_unit_test(bearings_are_weighted_by_their_own_sigmas),
+        cmocka_unit_test(tracks_move_and_rotate_with_the_scene),
+        cmocka_unit_test(the_same_input_gives_the_same_bytes),
+        cmocka_unit_test(the_order_of_bearings_does_not_matter),
+        cmocka_unit_test(a_ninth_frame_replaces_the_oldest),
+        cmocka_unit_test(tracks_are_reported_at_the_newest_scans_time),
+        cmocka_unit_test(a_push_discards_the_tracks_of_the_last_search),
+        cmocka_unit_test(a_track_needs_at_least_four_scans),
+        cmocka_unit_test(targets_outside_a_sensors_sector_do_not_count_as_missed),
         cmocka_unit_test(a_miss_costs_the_logarithm_of_its_probability),
-        cmocka_unit_test(one_sensor_makes_no_track),
-        cmocka_unit_test(the_work_is_counted),
-        cmocka_unit_test(the_best_score_comes_first),
-        cmocka_unit_test(a_coarse_sensor_helps_a_precise_one),
+        cmocka_unit_test(one_sensor_alone_makes_no_track),
+        cmocka_unit_test(a_search_counts_its_work),
+        cmocka_unit_test(tracks_are_sorted_by_falling_score),
+        cmocka_unit_test(a_coarse_and_a_precise_sensor_find_the_target),
         cmocka_unit_test(targets_beyond_200_km_are_found),
-        cmocka_unit_test(bearings_of_one_sensor_alone_are_no_track),
-        cmocka_unit_test(bearings_that_scatter_too_much_are_no_track),
-        cmocka_unit_test(pairs_are_those_of_sensors_that_saw_the_track),
+        cmocka_unit_test(every_track_has_bearings_of_two_sensors),
+        cmocka_unit_test(bearings_that_scatter_too_much_make_no_track),
+        cmocka_unit_test(sensor_pairs_are_counted_from_the_tracks_claims),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

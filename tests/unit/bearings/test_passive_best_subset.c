@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Which candidates are tracks together, of candidates that are made by hand: bearings of a scene
- * seldom leave a choice whose best start is the ninth. So the test includes a private header.
+ * Which subset of candidates becomes tracks. Candidates are made by hand through a private header,
+ * as drawn scenes seldom have a best subset that starts from the ninth candidate.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,8 +16,8 @@
 static struct rho_passive passive;
 static struct rho_passive_search search = {.passive = &passive, .share_nat = 100.0f};
 
-/* Claims bearing 1 of sensor 0 in these scans, a bit each. */
-static void add(float score_nat, unsigned scans)
+/* Adds a candidate that claims bearing 1 of sensor 0 in the scans of this bit mask. */
+static void add_candidate(float score_nat, unsigned scans)
 {
     struct rho_passive_candidate *candidate = &passive.candidates[passive.num_candidates++];
     *candidate = (struct rho_passive_candidate){.score_nat = score_nat};
@@ -27,7 +27,7 @@ static void add(float score_nat, unsigned scans)
     }
 }
 
-static void begin(void)
+static void begin_candidates(void)
 {
     memset(&passive, 0, sizeof passive);
     passive.batch.num_scans = 8;
@@ -35,58 +35,62 @@ static void begin(void)
 }
 
 /*
- * So many candidates that leave room for no other one, the best worth 20 nat, and two worth 15
- * each that are tracks together.
+ * `before` candidates of about 20 nat that exclude all others, then two of 15 nat that can be
+ * tracks together. Returns the score of the subset chosen.
  */
-static float best_total(unsigned before)
+static float total_of_best_subset(unsigned before)
 {
     struct rho_passive_choice best;
-    begin();
+    begin_candidates();
     for (unsigned i = 0; i < before; i++) {
-        add(20.0f - 0.1f * (float)i, 3);
+        add_candidate(20.0f - 0.1f * (float)i, 3);
     }
-    add(15.0f, 1);
-    add(15.0f, 2);
+    add_candidate(15.0f, 1);
+    add_candidate(15.0f, 2);
     rho_passive_choose_candidates(&search, &best);
     return best.total_nat;
 }
 
-static void the_best_choice_of_twelve_starts_is_taken(void **state)
+static void the_best_subset_of_the_first_twelve_starts_is_chosen(void **state)
 {
     (void)state;
-    assert_true(best_total(0) == 30.0f);
-    assert_true(best_total(8) == 30.0f);
-    assert_true(best_total(11) == 30.0f);
-    assert_true(best_total(12) == 20.0f);
-    assert_true(best_total(18) == 20.0f);
+    assert_true(total_of_best_subset(0) == 30.0f);
+    assert_true(total_of_best_subset(8) == 30.0f);
+    assert_true(total_of_best_subset(11) == 30.0f);
+    assert_true(total_of_best_subset(12) == 20.0f);
+    assert_true(total_of_best_subset(18) == 20.0f);
 }
 
-static void a_millinat_is_a_gain_and_less_is_none(void **state)
+static void a_candidate_worth_less_than_a_millinat_is_left_out(void **state)
 {
     struct rho_passive_choice best;
     (void)state;
     for (int i = 0; i < 2; i++) {
-        begin();
-        for (int strong = 0; strong < 12; strong++) { /* no start is left for the last one */
-            add(5.0f, 0);
+        begin_candidates();
+        /* twelve starts, so that none begins with the last candidate */
+        for (int strong = 0; strong < 12; strong++) {
+            add_candidate(5.0f, 0);
         }
-        add(i ? 1.4e-3f : 0.7e-3f, 0);
+        add_candidate(i ? 1.4e-3f : 0.7e-3f, 0);
         rho_passive_choose_candidates(&search, &best);
         assert_int_equal(best.is_in[11], 1);
         assert_int_equal(best.is_in[12], i);
     }
 }
 
-/* Seven bearings of ten: the same target, left out with it. Six: another one. */
-static void most_bearings_alike_are_one_target(void **state)
+/*
+ * With seven of ten bearings in common the second candidate is excluded as the same target, with
+ * six it is not.
+ */
+static void candidates_that_share_70_percent_of_bearings_are_one_target(void **state)
 {
     struct rho_passive_choice best;
     (void)state;
     for (int i = 0; i < 2; i++) {
-        begin();
-        add(20.0f, 0xff);
+        begin_candidates();
+        add_candidate(20.0f, 0xff);
         passive.candidates[0].hits = 10;
-        add(10.0f, i ? 0x7f : 0x3f);
+        add_candidate(10.0f, i ? 0x7f : 0x3f);
         rho_passive_choose_candidates(&search, &best);
         assert_int_equal(best.is_in[0], 1);
         rho_passive_exclude_target(&best, 0);
@@ -100,9 +104,9 @@ static void most_bearings_alike_are_one_target(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_best_choice_of_twelve_starts_is_taken),
-        cmocka_unit_test(a_millinat_is_a_gain_and_less_is_none),
-        cmocka_unit_test(most_bearings_alike_are_one_target),
+        cmocka_unit_test(the_best_subset_of_the_first_twelve_starts_is_chosen),
+        cmocka_unit_test(a_candidate_worth_less_than_a_millinat_is_left_out),
+        cmocka_unit_test(candidates_that_share_70_percent_of_bearings_are_one_target),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

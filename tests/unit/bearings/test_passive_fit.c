@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * How far a fit may move a state, what a search is prepared with, and which lines it takes. Fits
- * that diverge begin with crossings that no scene makes on purpose, so the test includes a private
- * header.
+ * Limits of the passive search: steps of a fit, floors of its densities, votes of its lines. A
+ * private header is included, as no drawn scene makes a fit diverge.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,8 +17,8 @@
 static struct rho_passive passive = {.config = {.range_max_m = 1000.0f}};
 static struct rho_passive_search search = {.passive = &passive, .half_s = 10.0f};
 
-/* Without bearings the displacement goes to 0, a tenth of the range at a time. */
-static void a_fit_stays_within_two_ranges_and_steps_a_tenth_of_one(void **state)
+/* Without bearings the displacement goes to 0 in steps of a tenth of the range, 1000 m. */
+static void a_fit_is_bounded_to_two_ranges_and_steps_of_a_tenth(void **state)
 {
     static const uint8_t no_claims[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
     float state_m[4] = {5000.0f, -5000.0f, 500.0f, -60.0f};
@@ -29,8 +28,11 @@ static void a_fit_stays_within_two_ranges_and_steps_a_tenth_of_one(void **state)
     assert_true(fabsf(state_m[2] - 400.0f) < 1e-3f && fabsf(state_m[3]) < 1e-3f);
 }
 
-/* Four bearings in eight looks of pi are fewer than 0.3 a radian; sigmas have a ratio of 200. */
-static void few_bearings_and_sharp_ones_have_a_floor(void **state)
+/*
+ * Four bearings in eight scans of pi rad are less than the floor of 0.3 a radian; the smallest
+ * sigma is the largest one / 200.
+ */
+static void false_bearing_density_and_smallest_sigma_have_floors(void **state)
 {
     static struct rho_passive few = {.config = {.pd = 0.9f,
                                                 .field_of_view_rad = 3.14159265f,
@@ -53,10 +55,10 @@ static void few_bearings_and_sharp_ones_have_a_floor(void **state)
 }
 
 /*
- * Two scans have crossings: those of one target are on lines of two votes. Those too far from each
- * other for a line are on none, in the second pass as well, though half of two is one.
+ * Crossings of two scans: on one line if of one target, else too far apart for any line. The second
+ * pass must not accept a line of one vote either, though half of two is one.
  */
-static void a_line_has_two_votes(void **state)
+static void a_line_needs_two_votes(void **state)
 {
     static struct rho_passive searched;
     static struct scene scene;
@@ -86,9 +88,9 @@ static void a_line_has_two_votes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_fit_stays_within_two_ranges_and_steps_a_tenth_of_one),
-        cmocka_unit_test(few_bearings_and_sharp_ones_have_a_floor),
-        cmocka_unit_test(a_line_has_two_votes),
+        cmocka_unit_test(a_fit_is_bounded_to_two_ranges_and_steps_of_a_tenth),
+        cmocka_unit_test(false_bearing_density_and_smallest_sigma_have_floors),
+        cmocka_unit_test(a_line_needs_two_votes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tracks from bearings: what is refused, what becomes of bad bearings, full capacities and hostile
- * input.
+ * Tracks from bearings at their limits: refused frames and configurations, invalid bearings, full
+ * capacities, hostile input.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -20,23 +20,23 @@ static struct rho_passive passive, before;
 static struct scene scene;
 static struct full_frame full;
 
-static void start_with(const struct rho_passive_config *config)
+static void init_passive(const struct rho_passive_config *config)
 {
     assert_int_equal(rho_passive_init(&passive, sizeof passive, config), RHO_OK);
 }
 
-static void start(void)
+static void init_default_passive(void)
 {
     assert_int_equal(start_passive(&passive), RHO_OK);
 }
 
-/* A drawn scene, its first 5 frames pushed and searched, its sixth in `full`. */
-static void start_batch(void)
+/* Draws a scene, pushes and searches its first five frames, and puts the sixth into `full`. */
+static void prepare_batch(void)
 {
     random_state = 3;
     scene = scene_of(2, 2, 0.1, 1.0, 0.0);
     draw_scene(&scene);
-    start();
+    init_default_passive();
     for (unsigned k = 0; k < 5; k++) {
         assert_int_equal(push_scan(&passive, &scene, k), RHO_OK);
     }
@@ -45,7 +45,7 @@ static void start_batch(void)
     before = passive;
 }
 
-static void expect_refused(enum rho_status status)
+static void expect_frame_refused(enum rho_status status)
 {
     uint8_t fates[sizeof full.fates];
     memcpy(fates, full.fates, sizeof fates);
@@ -57,7 +57,7 @@ static void expect_refused(enum rho_status status)
 
 /* ---- configuration --------------------------------------------------------------------------- */
 
-static void expect_config(const struct rho_passive_config *config, enum rho_status status)
+static void expect_config_status(const struct rho_passive_config *config, enum rho_status status)
 {
     memset(&passive, 0x5a, sizeof passive);
     before = passive;
@@ -72,10 +72,10 @@ static void expect_config(const struct rho_passive_config *config, enum rho_stat
         struct rho_passive_config config;                                                          \
         rho_passive_config_default(&config);                                                       \
         config.field = (value);                                                                    \
-        expect_config(&config, (status));                                                          \
+        expect_config_status(&config, (status));                                                   \
     } while (0)
 
-static void scans_and_rules_have_limits(void **state)
+static void numbers_of_scans_and_rules_out_of_range_are_refused(void **state)
 {
     (void)state;
     EXPECT_FIELD(scans, 3, RHO_ERROR_CONFIG);
@@ -89,7 +89,7 @@ static void scans_and_rules_have_limits(void **state)
     EXPECT_FIELD(rule, (enum rho_ghost_rule) - 1, RHO_ERROR_CONFIG);
 }
 
-static void what_targets_and_sensors_are_has_limits(void **state)
+static void target_and_sensor_parameters_out_of_range_are_refused(void **state)
 {
     (void)state;
     EXPECT_FIELD(range_max_m, 999.0f, RHO_ERROR_CONFIG);
@@ -118,7 +118,7 @@ static void what_targets_and_sensors_are_has_limits(void **state)
     EXPECT_FIELD(false_tracks_per_hour, 1.1e6f, RHO_ERROR_CONFIG);
 }
 
-static void cells_must_hold_what_is_in_range(void **state)
+static void cells_too_small_or_large_for_the_range_are_refused(void **state)
 {
     (void)state;
     float least_m = 2.0f * 100000.0f / (float)RHO_PASSIVE_RHO_CELLS;
@@ -148,7 +148,7 @@ static void parameters_that_are_not_finite_are_refused(void **state)
     }
 }
 
-static void the_default_is_what_the_header_says(void **state)
+static void the_default_configuration_is_that_of_the_header(void **state)
 {
     (void)state;
     struct rho_passive_config config;
@@ -163,13 +163,13 @@ static void the_default_is_what_the_header_says(void **state)
     assert_float_equal(config.false_tracks_per_hour, 1.0, 0.0);
     assert_float_equal(config.rho_cell_m, 2000.0, 0.0);
     assert_float_equal(config.theta_cell_rad, 5.0 * DEG_RAD, 1e-6);
-    expect_config(&config, RHO_OK);
+    expect_config_status(&config, RHO_OK);
 }
 
-static void a_configuration_may_be_the_objects_own(void **state)
+static void an_object_can_be_initialised_with_its_own_configuration(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &passive.config), RHO_OK);
     assert_int_equal(passive.config.scans, 8);
     assert_int_equal(passive.batch.num_scans + passive.batch.num_sensors, 0);
@@ -180,7 +180,7 @@ static void a_configuration_may_be_the_objects_own(void **state)
 static void null_pointers_are_refused(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     assert_int_equal(rho_passive_init(NULL, sizeof passive, &passive.config), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_init(&passive, sizeof passive, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_push(NULL, &full.frame, full.fates), RHO_ERROR_NULL);
@@ -188,28 +188,28 @@ static void null_pointers_are_refused(void **state)
     assert_int_equal(rho_passive_push(&passive, &full.frame, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_search(NULL), RHO_ERROR_NULL);
     full.scans[1].bearings = NULL;
-    expect_refused(RHO_ERROR_NULL);
+    expect_frame_refused(RHO_ERROR_NULL);
     full.frame.scans = NULL;
-    expect_refused(RHO_ERROR_NULL);
+    expect_frame_refused(RHO_ERROR_NULL);
 }
 
-static void another_size_is_refused(void **state)
+static void a_wrong_object_size_is_refused(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     assert_int_equal(rho_passive_init(&passive, sizeof passive - 1, &before.config),
                      RHO_ERROR_SIZE);
     assert_int_equal(rho_passive_init(&passive, 0, &before.config), RHO_ERROR_SIZE);
     assert_memory_equal(&passive, &before, sizeof passive);
 }
 
-static void what_was_never_initialised_is_refused(void **state)
+static void an_object_without_init_is_refused(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     memset(&passive, 0, sizeof passive);
     before = passive;
-    expect_refused(RHO_ERROR_STATE);
+    expect_frame_refused(RHO_ERROR_STATE);
     assert_int_equal(rho_passive_search(&passive), RHO_ERROR_STATE);
     assert_memory_equal(&passive, &before, sizeof passive);
 }
@@ -217,13 +217,13 @@ static void what_was_never_initialised_is_refused(void **state)
 static void a_frame_must_be_newer_than_the_newest(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     full.frame.time_us = passive.batch.time_us[4];
-    expect_refused(RHO_ERROR_STATE);
+    expect_frame_refused(RHO_ERROR_STATE);
     full.frame.time_us = passive.batch.time_us[0];
-    expect_refused(RHO_ERROR_STATE);
+    expect_frame_refused(RHO_ERROR_STATE);
     full.frame.time_us = INT64_MIN;
-    expect_refused(RHO_ERROR_STATE);
+    expect_frame_refused(RHO_ERROR_STATE);
     full.frame.time_us = passive.batch.time_us[4] + 1;
     assert_int_equal(rho_passive_accepts(&passive, &full.frame), RHO_OK);
     assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
@@ -232,43 +232,43 @@ static void a_frame_must_be_newer_than_the_newest(void **state)
 static void a_sensor_that_moved_is_refused(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     full.scans[1].x_m += 0.5f;
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
     full.scans[1].x_m = NAN;
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
     full.scans[1].x_m = INFINITY;
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
 }
 
 static void a_sensor_twice_in_a_frame_is_refused(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     full.scans[1] = full.scans[0];
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
 }
 
-static void a_new_sensor_must_have_its_own_place(void **state)
+static void a_new_sensor_too_near_or_too_far_is_refused(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     full.scans[1].sensor_id = 99;
-    expect_refused(RHO_ERROR_VALUE); /* where another one stands */
+    expect_frame_refused(RHO_ERROR_VALUE); /* at the place of another sensor */
     full.scans[1].y_m += 0.9f * RHO_CROSSING_BASE_MIN_M;
-    expect_refused(RHO_ERROR_VALUE);
-    full.scans[1].y_m = 3.0e5f; /* lines would leave the cells */
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
+    full.scans[1].y_m = 3.0e5f; /* crossings' lines would leave the cells */
+    expect_frame_refused(RHO_ERROR_VALUE);
     full.scans[1].y_m = NAN;
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
     full.scans[1].y_m = 1.1f * RHO_LIMIT_POSITION_M;
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
     full.scans[1].y_m = 9.0e3f;
     assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
     assert_int_equal(passive.batch.num_sensors, 3);
 }
 
-/* Sensors 0 .. count - 1 a kilometre apart, one to a frame; returns the last outcome. */
+/* Pushes sensors a kilometre apart, one a frame; returns the last status. */
 static enum rho_status push_sensors(unsigned count)
 {
     enum rho_status status = RHO_OK;
@@ -282,38 +282,38 @@ static enum rho_status push_sensors(unsigned count)
     return status;
 }
 
-static void too_many_sensors_are_refused(void **state)
+static void sensors_beyond_the_capacity_are_refused(void **state)
 {
     (void)state;
-    start();
+    init_default_passive();
     assert_int_equal(push_sensors(RHO_MAX_PASSIVE_SENSORS), RHO_OK);
-    start();
+    init_default_passive();
     assert_int_equal(push_sensors(RHO_MAX_PASSIVE_SENSORS + 1), RHO_ERROR_CAPACITY);
     assert_memory_equal(&passive, &before, sizeof passive);
 }
 
-/* The first of the frame's scans is good, the second is refused. */
-static void a_refused_frame_teaches_no_sensor(void **state)
+/* The frame's first scan is valid, its second one is refused. */
+static void a_refused_frame_adds_no_sensor(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     full.scans[0].sensor_id = full.scans[1].sensor_id = 99;
     full.scans[0].x_m = 5.0e3f;
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
 }
 
 /* ---- fates ----------------------------------------------------------------------------------- */
 
-/* One sensor's bearings as the first frame; the fates come in `full`. */
+/* Pushes one sensor's bearings as the first frame; fates are written to `full`. */
 static void push_bearings(const struct rho_bearing *bearings, unsigned count)
 {
     struct rho_bearing_scan scan = {.sensor_id = 1, .num_bearings = count, .bearings = bearings};
     struct rho_frame frame = {.num_scans = 1, .scans = &scan};
-    start();
+    init_default_passive();
     assert_int_equal(rho_passive_push(&passive, &frame, full.fates), RHO_OK);
 }
 
-static uint8_t fate_of(float bearing_rad, float sigma_rad)
+static uint8_t fate_of_pushed_bearing(float bearing_rad, float sigma_rad)
 {
     struct rho_bearing bearing = {.bearing_rad = bearing_rad, .sigma_rad = sigma_rad};
     full.fates[0] = RHO_FATE_HELD;
@@ -322,19 +322,19 @@ static uint8_t fate_of(float bearing_rad, float sigma_rad)
     return full.fates[0];
 }
 
-static void bad_bearings_are_invalid(void **state)
+static void bearings_out_of_range_get_the_fate_invalid(void **state)
 {
     (void)state;
     const float pi = (float)PI, bad[] = {NAN, INFINITY, -INFINITY, 3.1417f, -3.1417f, 1e30f};
     for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        assert_int_equal(fate_of(bad[i], 0.01f), RHO_FATE_INVALID);
+        assert_int_equal(fate_of_pushed_bearing(bad[i], 0.01f), RHO_FATE_INVALID);
     }
-    assert_int_equal(fate_of(pi, 0.01f), RHO_FATE_HELD);
-    assert_int_equal(fate_of(-pi, 0.01f), RHO_FATE_HELD);
-    assert_int_equal(fate_of(0.0f, 0.01f), RHO_FATE_HELD);
+    assert_int_equal(fate_of_pushed_bearing(pi, 0.01f), RHO_FATE_HELD);
+    assert_int_equal(fate_of_pushed_bearing(-pi, 0.01f), RHO_FATE_HELD);
+    assert_int_equal(fate_of_pushed_bearing(0.0f, 0.01f), RHO_FATE_HELD);
 }
 
-static void bad_sigmas_are_invalid(void **state)
+static void sigmas_out_of_range_get_the_fate_invalid(void **state)
 {
     (void)state;
     const float bad[] = {NAN,
@@ -344,10 +344,10 @@ static void bad_sigmas_are_invalid(void **state)
                          0.9f * RHO_LIMIT_SIGMA_RAD_MIN,
                          1.1f * RHO_LIMIT_SIGMA_RAD_MAX};
     for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        assert_int_equal(fate_of(0.1f, bad[i]), RHO_FATE_INVALID);
+        assert_int_equal(fate_of_pushed_bearing(0.1f, bad[i]), RHO_FATE_INVALID);
     }
-    assert_int_equal(fate_of(0.1f, RHO_LIMIT_SIGMA_RAD_MIN), RHO_FATE_HELD);
-    assert_int_equal(fate_of(0.1f, RHO_LIMIT_SIGMA_RAD_MAX), RHO_FATE_HELD);
+    assert_int_equal(fate_of_pushed_bearing(0.1f, RHO_LIMIT_SIGMA_RAD_MIN), RHO_FATE_HELD);
+    assert_int_equal(fate_of_pushed_bearing(0.1f, RHO_LIMIT_SIGMA_RAD_MAX), RHO_FATE_HELD);
 }
 
 static void bearings_beyond_the_capacity_find_no_room(void **state)
@@ -357,7 +357,7 @@ static void bearings_beyond_the_capacity_find_no_room(void **state)
     for (unsigned i = 0; i < RHO_MAX_BEARINGS + 3; i++) {
         bearings[i] = (struct rho_bearing){.bearing_rad = 0.01f * (float)i, .sigma_rad = 0.001f};
     }
-    bearings[1].bearing_rad = NAN; /* takes no room */
+    bearings[1].bearing_rad = NAN; /* invalid: takes no room */
     memset(full.fates, RHO_FATE_HELD, sizeof full.fates);
     push_bearings(bearings, RHO_MAX_BEARINGS + 3);
     for (unsigned i = 0; i < RHO_MAX_BEARINGS + 3; i++) {
@@ -368,7 +368,7 @@ static void bearings_beyond_the_capacity_find_no_room(void **state)
     assert_int_equal(passive.batch.num_bearings[0][0], RHO_MAX_BEARINGS);
 }
 
-static void bearings_that_are_not_held_are_left_alone(void **state)
+static void bearings_with_another_fate_than_held_are_not_taken(void **state)
 {
     (void)state;
     const struct rho_bearing bearings[4] = {{.bearing_rad = 0.1f, .sigma_rad = 0.01f},
@@ -383,11 +383,11 @@ static void bearings_that_are_not_held_are_left_alone(void **state)
     assert_float_equal(passive.batch.bearings[0][0][0].bearing_rad, 0.3, 1e-6);
 }
 
-/* The second scan's fates follow the first one's. */
+/* Fates of the second scan follow those of the first. */
 static void fates_come_in_the_order_of_scans(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     scene.look[5][1].bearings[1].sigma_rad = 0.0f;
     assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
     for (unsigned i = 0; i < 4; i++) {
@@ -395,7 +395,7 @@ static void fates_come_in_the_order_of_scans(void **state)
     }
 }
 
-/* ---- full and strange ------------------------------------------------------------------------ */
+/* ---- full batches and degenerate geometry --------------------------------------------------- */
 
 static void expect_sound_search(void)
 {
@@ -403,12 +403,12 @@ static void expect_sound_search(void)
     assert_true(are_tracks_sound(&passive));
 }
 
-static void push_all(void)
+static void push_scene(void)
 {
     assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
 }
 
-static void fill_looks(void)
+static void fill_scans_with_false_bearings(void)
 {
     for (unsigned k = 0; k < scene.scans; k++) {
         for (unsigned s = 0; s < scene.sensors; s++) {
@@ -419,8 +419,8 @@ static void fill_looks(void)
     }
 }
 
-/* As many sensors, scans and bearings as there may be, all false. */
-static void search_full(enum rho_ghost_rule rule)
+/* Searches as many sensors, scans and bearings as fit, all of them false. */
+static void search_full_batch(enum rho_ghost_rule rule)
 {
     struct rho_passive_config config;
     rho_passive_config_default(&config);
@@ -430,18 +430,18 @@ static void search_full(enum rho_ghost_rule rule)
     scene = scene_of(RHO_MAX_PASSIVE_SENSORS, 0, 0.1, 0.9, 0.0);
     scene.scans = RHO_MAX_PASSIVE_SCANS;
     set_scan_times(&scene);
-    fill_looks();
-    start_with(&config);
-    push_all();
+    fill_scans_with_false_bearings();
+    init_passive(&config);
+    push_scene();
     expect_sound_search();
 }
 
-/* As many sensors and scans as there is room for, each look full. */
-static void every_capacity_full_of_false_bearings(void **state)
+/* The largest number of sensors and scans, each scan full of false bearings. */
+static void a_full_batch_of_false_bearings_makes_one_track_at_most(void **state)
 {
     (void)state;
     const struct rho_passive_work *work = &passive.work;
-    search_full(RHO_GHOST_SAFE);
+    search_full_batch(RHO_GHOST_SAFE);
     print_message("full: %u crossings, %u dropped, %u lines, %u hypotheses, %u fits, %u tracks\n",
                   work->crossings, work->points_dropped, work->peaks, work->hypotheses, work->fits,
                   passive.num_tracks);
@@ -450,7 +450,7 @@ static void every_capacity_full_of_false_bearings(void **state)
                                           RHO_MAX_BEARINGS);
     assert_true(work->ghosts > 0 && work->points_dropped > 0);
     assert_true(work->peaks > 10 && work->hypotheses > 10000 && work->fits > 100);
-    assert_in_range(passive.num_tracks, 0, 1); /* chance */
+    assert_in_range(passive.num_tracks, 0, 1); /* one may arise by chance */
 }
 
 #define CROSSINGS_MOST                                                                             \
@@ -460,11 +460,11 @@ static void every_capacity_full_of_false_bearings(void **state)
 static double traces_m2[CROSSINGS_MOST];
 
 /*
- * The trace of a crossing's covariance, as far as the rays meet within the range; else -1. In
- * double precision.
+ * Trace of the covariance of a crossing in double precision; -1 if the rays do not meet within the
+ * range.
  */
-static double trace_m2(unsigned a, unsigned b, const struct rho_bearing *of_a,
-                       const struct rho_bearing *of_b)
+static double crossing_trace_m2(unsigned a, unsigned b, const struct rho_bearing *of_a,
+                                const struct rho_bearing *of_b)
 {
     double sine = sin((double)of_b->bearing_rad - (double)of_a->bearing_rad);
     double dx_m = scene.sensor_x_m[b] - scene.sensor_x_m[a];
@@ -491,8 +491,9 @@ static unsigned collect_traces(void)
         for (unsigned b = a + 1; b < scene.sensors; b++) {
             for (unsigned k = 0; k < scene.scans; k++) {
                 for (unsigned i = 0; i < RHO_MAX_BEARINGS * RHO_MAX_BEARINGS; i++) {
-                    double trace = trace_m2(a, b, &scene.look[k][a].bearings[i / RHO_MAX_BEARINGS],
-                                            &scene.look[k][b].bearings[i % RHO_MAX_BEARINGS]);
+                    double trace =
+                        crossing_trace_m2(a, b, &scene.look[k][a].bearings[i / RHO_MAX_BEARINGS],
+                                          &scene.look[k][b].bearings[i % RHO_MAX_BEARINGS]);
                     traces_m2[count] = trace;
                     count += trace >= 0.0;
                 }
@@ -506,8 +507,8 @@ static unsigned collect_traces(void)
 static void the_most_certain_crossings_are_kept(void **state)
 {
     (void)state;
-    search_full(RHO_GHOST_NO_RULE);
-    assert_int_equal(passive.num_tracks, 0); /* so that the second pass has all bearings */
+    search_full_batch(RHO_GHOST_NO_RULE);
+    assert_int_equal(passive.num_tracks, 0); /* no track: the second pass has all bearings */
     assert_true(collect_traces() > RHO_MAX_PASSIVE_POINTS);
     assert_int_equal(passive.num_points, RHO_MAX_PASSIVE_POINTS);
     double kept_m2 = 0.0, least_m2 = 0.0;
@@ -518,9 +519,9 @@ static void the_most_certain_crossings_are_kept(void **state)
     assert_true(fabs(kept_m2 / least_m2 - 1.0) < 1e-4);
 }
 
-/* All looks have the same bearings. */
-static void push_same(unsigned sensors, const double *bearings_rad, unsigned count,
-                      double sigma_rad)
+/* Searches a scene whose scans all have the same bearings. */
+static void search_equal_scans(unsigned sensors, const double *bearings_rad, unsigned count,
+                               double sigma_rad)
 {
     scene = scene_of(sensors, 0, 0.1, 0.9, 0.0);
     set_scan_times(&scene);
@@ -531,45 +532,48 @@ static void push_same(unsigned sensors, const double *bearings_rad, unsigned cou
             }
         }
     }
-    start();
-    push_all();
+    init_default_passive();
+    push_scene();
     expect_sound_search();
 }
 
-static void bearings_that_are_all_equal_meet_nowhere(void **state)
+static void parallel_bearings_make_no_track(void **state)
 {
     (void)state;
     double bearings_rad[RHO_MAX_BEARINGS];
     for (unsigned i = 0; i < RHO_MAX_BEARINGS; i++) {
         bearings_rad[i] = 0.3;
     }
-    push_same(2, bearings_rad, RHO_MAX_BEARINGS, 0.001);
+    search_equal_scans(2, bearings_rad, RHO_MAX_BEARINGS, 0.001);
     assert_int_equal(passive.num_tracks, 0);
-    push_same(2, bearings_rad, 1, RHO_LIMIT_SIGMA_RAD_MIN);
+    search_equal_scans(2, bearings_rad, 1, RHO_LIMIT_SIGMA_RAD_MIN);
     assert_int_equal(passive.num_tracks, 0);
-    push_same(3, bearings_rad, RHO_MAX_BEARINGS, RHO_LIMIT_SIGMA_RAD_MAX);
+    search_equal_scans(3, bearings_rad, RHO_MAX_BEARINGS, RHO_LIMIT_SIGMA_RAD_MAX);
 }
 
-/* Both ways at once, something may lie on the line: nobody knows where. */
-static void bearings_along_the_base_make_no_place(void **state)
+/*
+ * With bearings both ways along the base a target may be anywhere on it: tracks have a sigma of 50
+ * km at least.
+ */
+static void bearings_along_the_base_make_no_certain_track(void **state)
 {
     (void)state;
     const double along_rad[2] = {0.5 * PI, -0.5 * PI};
-    push_same(2, along_rad, 1, 0.001);
+    search_equal_scans(2, along_rad, 1, 0.001);
     assert_int_equal(passive.num_tracks, 0);
-    push_same(2, along_rad + 1, 1, 0.001);
+    search_equal_scans(2, along_rad + 1, 1, 0.001);
     assert_int_equal(passive.num_tracks, 0);
-    push_same(2, along_rad, 2, 0.001);
+    search_equal_scans(2, along_rad, 2, 0.001);
     for (unsigned i = 0; i < passive.num_tracks; i++) {
         assert_true(passive.tracks[i].covariance[2] > 50e3f * 50e3f);
     }
 }
 
 /*
- * Beyond one end of the base the bearings say nothing of the range: nothing is found of it, or said
- * to be uncertain.
+ * On the extension of the base bearings hold no range: tracks are not found, or have a sigma above
+ * 500 m.
  */
-static void targets_on_the_bases_extension_are_no_certain_tracks(void **state)
+static void targets_on_the_extended_base_make_no_certain_track(void **state)
 {
     (void)state;
     for (unsigned run = 0; run < 20; run++) {
@@ -578,8 +582,8 @@ static void targets_on_the_bases_extension_are_no_certain_tracks(void **state)
         set_scan_times(&scene);
         scene.target[0] = (struct target){.y_m = uniform(20e3, 70e3), .vy_mps = -200.0};
         see_all_looks(&scene);
-        start();
-        push_all();
+        init_default_passive();
+        push_scene();
         expect_sound_search();
         for (unsigned i = 0; i < passive.num_tracks; i++) {
             assert_true(passive.tracks[i].covariance[2] > 500.0f * 500.0f);
@@ -587,74 +591,74 @@ static void targets_on_the_bases_extension_are_no_certain_tracks(void **state)
     }
 }
 
-static void a_target_through_a_sensor_does_no_harm(void **state)
+static void a_target_that_passes_over_a_sensor_does_no_harm(void **state)
 {
     (void)state;
     random_state = 60;
     scene = scene_of(2, 1, 0.1, 1.0, 0.0);
     set_scan_times(&scene);
     scene.target[0] = (struct target){.x_m = 4e3, .y_m = -10e3, .vx_mps = -100.0};
-    see_all_looks(&scene); /* it is at sensor 0 at the fifth scan */
-    start();
-    push_all();
+    see_all_looks(&scene); /* the target is at sensor 0 in the fifth scan */
+    init_default_passive();
+    push_scene();
     expect_sound_search();
 }
 
-static void frames_without_scans_or_bearings_are_frames(void **state)
+static void frames_without_scans_or_bearings_are_accepted(void **state)
 {
     (void)state;
-    start();
+    init_default_passive();
     for (unsigned k = 0; k < 10; k++) {
         struct rho_frame frame = {.time_us = (int64_t)k};
         assert_int_equal(rho_passive_push(&passive, &frame, NULL), RHO_OK);
     }
     assert_int_equal(passive.batch.num_scans, 8);
     expect_sound_search();
-    push_same(2, NULL, 0, 0.001);
+    search_equal_scans(2, NULL, 0, 0.001);
     assert_int_equal(passive.num_tracks, 0);
 }
 
-/* Steps too small or too large for floats to tell scans apart. */
-static void any_times_do(void **state)
+/* Intervals of 1 us, and intervals so large that float loses them. */
+static void extreme_scan_times_are_accepted(void **state)
 {
     (void)state;
     static const int64_t times_us[8] = {INT64_MIN, -RHO_LIMIT_TIME_US, -1,       0, 1,
                                         2,         RHO_LIMIT_TIME_US,  INT64_MAX};
-    start_batch();
+    prepare_batch();
     for (unsigned from = 0; from < 3; from++) {
-        start();
+        init_default_passive();
         for (unsigned k = 0; k < 8; k++) {
             fill_frame(&scene, k, &full);
             full.frame.time_us = from == 0 ? times_us[k] : from == 1 ? k : times_us[7] - 7 + k;
             assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
-            assert_true(rho_passive_is_sound(&passive)); /* else it had no image */
+            assert_true(rho_passive_is_sound(&passive)); /* an unsound object could not be saved */
         }
         expect_sound_search();
     }
 }
 
-/* ---- fuzz ------------------------------------------------------------------------------------ */
+/* ---- random input --------------------------------------------------------------------------- */
 
-/* Mostly what is believed, sometimes anything. */
-static float some_float(double from, double to)
+/* A value between `from` and `to`; any float in one of ten draws. */
+static float random_float(double from, double to)
 {
     return float_or_any(from, to, 0.1);
 }
 
-static void any_look(struct look *look)
+static void make_random_bearings(struct look *look)
 {
     look->count = (unsigned)uniform(0.0, RHO_MAX_BEARINGS + 2.0);
     for (unsigned i = 0; i < look->count; i++) {
-        look->bearings[i].bearing_rad = some_float(-PI, PI);
+        look->bearings[i].bearing_rad = random_float(-PI, PI);
         look->bearings[i].sigma_rad = (float)exp(uniform(-7.0, 0.0));
     }
 }
 
-static void any_frame(unsigned step)
+static void make_random_frame(unsigned step)
 {
     for (unsigned s = 0; s < SCENE_SENSORS; s++) {
         struct rho_bearing_scan *scan = &full.scans[s];
-        any_look(&scene.look[0][s]);
+        make_random_bearings(&scene.look[0][s]);
         scan->sensor_id = (int32_t)(uniform(0.0, 1.0) < 0.95 ? s : random_bits() % 6);
         scan->x_m = uniform(0.0, 1.0) < 0.03 ? any_float() : 7e3f * (float)(s + 1);
         scan->y_m = uniform(0.0, 1.0) < 0.03 ? any_float() : -3e3f * (float)(s * s);
@@ -666,24 +670,24 @@ static void any_frame(unsigned step)
     full.frame.scans = full.scans;
 }
 
-static void set_fates(void)
+static void draw_fates(void)
 {
     for (unsigned i = 0; i < sizeof full.fates; i++) {
         full.fates[i] = uniform(0.0, 1.0) < 0.05 ? (uint8_t)random_bits() : RHO_FATE_HELD;
     }
 }
 
-static void random_frames_break_nothing(void **state)
+static void random_frames_leave_sound_tracks(void **state)
 {
     (void)state;
     unsigned taken = 0, tracks = 0;
     memset(&full, 0, sizeof full);
     random_state = 70;
     for (unsigned run = 0; run < 12; run++) {
-        start();
+        init_default_passive();
         for (unsigned step = 0; step < 25; step++) {
-            any_frame(step);
-            set_fates();
+            make_random_frame(step);
+            draw_fates();
             enum rho_status status = rho_passive_push(&passive, &full.frame, full.fates);
             taken += status == RHO_OK;
             tracks += passive.num_tracks;
@@ -695,29 +699,30 @@ static void random_frames_break_nothing(void **state)
     assert_true(taken > 40);
 }
 
-static struct rho_passive_config some_config(void)
+static struct rho_passive_config random_config(void)
 {
     struct rho_passive_config config;
     config.scans = (uint16_t)uniform(3.0, 10.0);
-    config.range_max_m = some_float(1e3, 2e5);
-    config.v_max_mps = some_float(1.0, 2e3);
-    config.pd = some_float(0.01, 0.999);
-    config.field_of_view_rad = some_float(0.01, 6.28);
-    config.hits_min = (float)uniform(0.55, 1.0); /* of two sensors: bearings of both */
-    config.rho_cell_m = some_float(1e3, 1e4);
-    config.theta_cell_rad = some_float(0.08, 0.5);
+    config.range_max_m = random_float(1e3, 2e5);
+    config.v_max_mps = random_float(1.0, 2e3);
+    config.pd = random_float(0.01, 0.999);
+    config.field_of_view_rad = random_float(0.01, 6.28);
+    /* above a half, so that tracks of two sensors have bearings of both */
+    config.hits_min = (float)uniform(0.55, 1.0);
+    config.rho_cell_m = random_float(1e3, 1e4);
+    config.theta_cell_rad = random_float(0.08, 0.5);
     config.rule = (enum rho_ghost_rule)(random_bits() % 3);
-    config.false_tracks_per_hour = some_float(1e-6, 1e6);
+    config.false_tracks_per_hour = random_float(1e-6, 1e6);
     return config;
 }
 
-static void random_configurations_break_nothing(void **state)
+static void random_configurations_leave_sound_tracks(void **state)
 {
     (void)state;
     unsigned taken = 0;
-    start_batch();
+    prepare_batch();
     for (unsigned run = 0; run < 300; run++) {
-        struct rho_passive_config config = some_config();
+        struct rho_passive_config config = random_config();
         if (rho_passive_init(&passive, sizeof passive, &config) == RHO_OK) {
             enum rho_status status = push_scans_from(&passive, &scene, 0);
             assert_true(status == RHO_OK || status == RHO_ERROR_VALUE);
@@ -729,15 +734,15 @@ static void random_configurations_break_nothing(void **state)
     assert_true(taken > 30);
 }
 
-static void small_places_hold_a_batch(void **state)
+static void a_batch_of_four_scans_keeps_the_newest_four(void **state)
 {
     (void)state;
     struct rho_passive_config config;
     rho_passive_config_default(&config);
     config.scans = 4;
-    start_batch();
-    start_with(&config);
-    push_all();
+    prepare_batch();
+    init_passive(&config);
+    push_scene();
     assert_int_equal(passive.batch.num_scans, 4);
     expect_sound_search();
 }
@@ -745,37 +750,37 @@ static void small_places_hold_a_batch(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scans_and_rules_have_limits),
-        cmocka_unit_test(what_targets_and_sensors_are_has_limits),
-        cmocka_unit_test(cells_must_hold_what_is_in_range),
+        cmocka_unit_test(numbers_of_scans_and_rules_out_of_range_are_refused),
+        cmocka_unit_test(target_and_sensor_parameters_out_of_range_are_refused),
+        cmocka_unit_test(cells_too_small_or_large_for_the_range_are_refused),
         cmocka_unit_test(parameters_that_are_not_finite_are_refused),
-        cmocka_unit_test(the_default_is_what_the_header_says),
-        cmocka_unit_test(a_configuration_may_be_the_objects_own),
+        cmocka_unit_test(the_default_configuration_is_that_of_the_header),
+        cmocka_unit_test(an_object_can_be_initialised_with_its_own_configuration),
         cmocka_unit_test(null_pointers_are_refused),
-        cmocka_unit_test(another_size_is_refused),
-        cmocka_unit_test(what_was_never_initialised_is_refused),
+        cmocka_unit_test(a_wrong_object_size_is_refused),
+        cmocka_unit_test(an_object_without_init_is_refused),
         cmocka_unit_test(a_frame_must_be_newer_than_the_newest),
         cmocka_unit_test(a_sensor_that_moved_is_refused),
         cmocka_unit_test(a_sensor_twice_in_a_frame_is_refused),
-        cmocka_unit_test(a_new_sensor_must_have_its_own_place),
-        cmocka_unit_test(too_many_sensors_are_refused),
-        cmocka_unit_test(a_refused_frame_teaches_no_sensor),
-        cmocka_unit_test(bad_bearings_are_invalid),
-        cmocka_unit_test(bad_sigmas_are_invalid),
+        cmocka_unit_test(a_new_sensor_too_near_or_too_far_is_refused),
+        cmocka_unit_test(sensors_beyond_the_capacity_are_refused),
+        cmocka_unit_test(a_refused_frame_adds_no_sensor),
+        cmocka_unit_test(bearings_out_of_range_get_the_fate_invalid),
+        cmocka_unit_test(sigmas_out_of_range_get_the_fate_invalid),
         cmocka_unit_test(bearings_beyond_the_capacity_find_no_room),
-        cmocka_unit_test(bearings_that_are_not_held_are_left_alone),
+        cmocka_unit_test(bearings_with_another_fate_than_held_are_not_taken),
         cmocka_unit_test(fates_come_in_the_order_of_scans),
-        cmocka_unit_test(every_capacity_full_of_false_bearings),
+        cmocka_unit_test(a_full_batch_of_false_bearings_makes_one_track_at_most),
         cmocka_unit_test(the_most_certain_crossings_are_kept),
-        cmocka_unit_test(bearings_that_are_all_equal_meet_nowhere),
-        cmocka_unit_test(bearings_along_the_base_make_no_place),
-        cmocka_unit_test(targets_on_the_bases_extension_are_no_certain_tracks),
-        cmocka_unit_test(a_target_through_a_sensor_does_no_harm),
-        cmocka_unit_test(frames_without_scans_or_bearings_are_frames),
-        cmocka_unit_test(any_times_do),
-        cmocka_unit_test(random_frames_break_nothing),
-        cmocka_unit_test(random_configurations_break_nothing),
-        cmocka_unit_test(small_places_hold_a_batch),
+        cmocka_unit_test(parallel_bearings_make_no_track),
+        cmocka_unit_test(bearings_along_the_base_make_no_certain_track),
+        cmocka_unit_test(targets_on_the_extended_base_make_no_certain_track),
+        cmocka_unit_test(a_target_that_passes_over_a_sensor_does_no_harm),
+        cmocka_unit_test(frames_without_scans_or_bearings_are_accepted),
+        cmocka_unit_test(extreme_scan_times_are_accepted),
+        cmocka_unit_test(random_frames_leave_sound_tracks),
+        cmocka_unit_test(random_configurations_leave_sound_tracks),
+        cmocka_unit_test(a_batch_of_four_scans_keeps_the_newest_four),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

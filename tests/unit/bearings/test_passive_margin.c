@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * How much tracks of bearings are worth over any other explanation. Two sensors at (0, -b) and (0,
- * b), targets at (x, y) and (x, -y): the ghosts are at x b / (b + y) and x b / (b - y) on the axis
- * between the sensors. Where y stands still and x moves evenly they move evenly too, and nothing
- * tells them from the targets.
+ * Margins of tracks from bearings: how much better they score than any other explanation. For
+ * sensors at (0, +-b) and targets at (x, +-y) the ghosts are on the x axis at x b / (b + y) and x b
+ * / (b - y). If y is constant and x changes evenly the ghosts move evenly, too, and cannot be told
+ * from targets.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -17,7 +17,7 @@
 #include "bearing_frame_chain.h"
 
 #define RUNS 20
-#define START_MNAT 4605 /* a hundred to one: what the tracker asks for */
+#define START_MNAT 4605 /* a ratio of a hundred to one, which the tracker requires */
 
 /* ---- scenes ---------------------------------------------------------------------------------- */
 
@@ -30,24 +30,24 @@ static void set_scene(unsigned sensors, unsigned targets, double away_mps)
     set_scan_times(&scene);
 }
 
-static double miss_m(const struct rho_passive_track *track, const struct target *target)
+static double final_error_m(const struct rho_passive_track *track, const struct target *target)
 {
     double end_s = scene_span_s(&scene);
     return hypot(track->x_m - target_x_m(target, end_s), track->y_m - target_y_m(target, end_s));
 }
 
-/* The track within 1.5 km of a target, NULL where there is none. */
-static const struct rho_passive_track *found_of(unsigned target)
+/* The track within 1.5 km of a target; NULL: none. */
+static const struct rho_passive_track *track_of_target(unsigned target)
 {
     for (unsigned i = 0; i < passive.num_tracks; i++) {
-        if (miss_m(&passive.tracks[i], &scene.target[target]) < 1500.0) {
+        if (final_error_m(&passive.tracks[i], &scene.target[target]) < 1500.0) {
             return &passive.tracks[i];
         }
     }
     return NULL;
 }
 
-static void search_anew(void)
+static void draw_and_search(void)
 {
     see_all_looks(&scene);
     assert_int_equal(search_scene(&passive, &scene), RHO_OK);
@@ -63,7 +63,7 @@ static void test_two_targets_and_their_two_ghosts_have_next_to_no_margin(void **
     set_scene(2, 2, 0.0);
     unsigned kept = 0;
     for (int run = 0; run < RUNS; run++) {
-        search_anew();
+        draw_and_search();
         assert_int_equal(passive.num_tracks, 2);
         for (unsigned i = 0; i < 2; i++) {
             assert_in_range(passive.tracks[i].margin_mnat, 0, 8000);
@@ -73,20 +73,20 @@ static void test_two_targets_and_their_two_ghosts_have_next_to_no_margin(void **
     assert_in_range(kept, 0, 2);
 }
 
-/* Both are found, run after run, and nothing else explains their bearings. */
+/* In each run both targets are found and have a large margin. */
 static void expect_clear_targets(void)
 {
     for (int run = 0; run < RUNS; run++) {
-        search_anew();
+        draw_and_search();
         assert_int_equal(passive.num_tracks, 2);
         for (unsigned i = 0; i < 2; i++) {
-            assert_non_null(found_of(i));
+            assert_non_null(track_of_target(i));
             assert_true(passive.tracks[i].margin_mnat > 20000);
         }
     }
 }
 
-static void test_targets_whose_ghosts_turn_have_a_margin(void **state)
+static void test_targets_whose_ghosts_accelerate_have_a_large_margin(void **state)
 {
     (void)state;
     random_state = 42;
@@ -94,7 +94,7 @@ static void test_targets_whose_ghosts_turn_have_a_margin(void **state)
     expect_clear_targets();
 }
 
-static void test_a_third_sensor_tells_targets_from_their_ghosts(void **state)
+static void test_a_third_sensor_gives_targets_a_large_margin(void **state)
 {
     (void)state;
     random_state = 43;
@@ -102,15 +102,15 @@ static void test_a_third_sensor_tells_targets_from_their_ghosts(void **state)
     expect_clear_targets();
 }
 
-static void test_a_clear_target_has_its_own_margin(void **state)
+static void test_an_unambiguous_target_has_a_large_margin_beside_ambiguous_ones(void **state)
 {
     (void)state;
     random_state = 44;
     set_scene(2, 3, 0.0);
     for (int run = 0; run < RUNS; run++) {
-        search_anew();
+        draw_and_search();
         assert_int_equal(passive.num_tracks, 3);
-        const struct rho_passive_track *clear = found_of(2);
+        const struct rho_passive_track *clear = track_of_target(2);
         assert_non_null(clear);
         assert_true(clear->margin_mnat > 20000);
         for (unsigned i = 0; i < 3; i++) {
@@ -119,17 +119,17 @@ static void test_a_clear_target_has_its_own_margin(void **state)
     }
 }
 
-/* A track alone is worth its score over none. */
+/* The only other explanation of a single track is no track: its margin is its score. */
 static void test_the_margin_of_a_lone_target_is_its_score(void **state)
 {
     (void)state;
     random_state = 45;
     set_scene(2, 1, 0.0);
     for (int run = 0; run < RUNS; run++) {
-        search_anew();
+        draw_and_search();
         assert_int_equal(passive.num_tracks, 1);
         assert_in_range(passive.tracks[0].margin_mnat, passive.tracks[0].score_mnat - 2,
-                        passive.tracks[0].score_mnat + 2); /* float32 */
+                        passive.tracks[0].score_mnat + 2); /* rounding of float */
     }
 }
 
@@ -142,7 +142,7 @@ static unsigned started_after(unsigned frames)
     return tracker.counters.tracks_started;
 }
 
-static void test_the_tracker_waits_where_ghosts_are_as_good(void **state)
+static void test_the_tracker_starts_no_track_that_ghosts_explain_as_well(void **state)
 {
     (void)state;
     random_state = 46;
@@ -160,11 +160,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_two_targets_and_their_two_ghosts_have_next_to_no_margin),
-        cmocka_unit_test(test_targets_whose_ghosts_turn_have_a_margin),
-        cmocka_unit_test(test_a_third_sensor_tells_targets_from_their_ghosts),
-        cmocka_unit_test(test_a_clear_target_has_its_own_margin),
+        cmocka_unit_test(test_targets_whose_ghosts_accelerate_have_a_large_margin),
+        cmocka_unit_test(test_a_third_sensor_gives_targets_a_large_margin),
+        cmocka_unit_test(test_an_unambiguous_target_has_a_large_margin_beside_ambiguous_ones),
         cmocka_unit_test(test_the_margin_of_a_lone_target_is_its_score),
-        cmocka_unit_test(test_the_tracker_waits_where_ghosts_are_as_good),
+        cmocka_unit_test(test_the_tracker_starts_no_track_that_ghosts_explain_as_well),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

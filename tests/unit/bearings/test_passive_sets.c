@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bearings that are given out to tracks together. Targets that fly side by side are a few standard
- * deviations apart, so that each look has bearings that several tracks could have; who gets which
- * is compared with other ways to give them out.
+ * Assignment of bearings to several tracks at once. Targets fly side by side a few standard
+ * deviations apart, so that several tracks could claim a bearing; the claims are compared with
+ * exchanged ones.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -24,10 +24,7 @@ static struct scene scene;
 
 /* ---- scenes ---------------------------------------------------------------------------------- */
 
-/*
- * Targets side by side across the line of sight, `apart_m` from one to the next, that fly as fast
- * but for `mps`.
- */
+/* Targets in line abreast, `apart_m` from each other, whose velocities differ by up to `mps`. */
 static void draw_formation(unsigned targets, double apart_m, double mps, double pd)
 {
     scene = scene_of(2, targets, 0.1, pd, 0.0);
@@ -40,10 +37,11 @@ static void draw_formation(unsigned targets, double apart_m, double mps, double 
     see_all_looks(&scene);
 }
 
-/* ---- what could have been given -------------------------------------------------------------- */
+/* ---- better claims -------------------------------------------------------------------------- */
 
-/* A bearing's square of sigmas off a track; beyond the gate: as bad as none. */
-static double off2(const struct rho_passive_track *track, unsigned k, unsigned s, unsigned claim)
+/* Squared distance of a bearing from a track in sigmas. */
+static double bearing_nis(const struct rho_passive_track *track, unsigned k, unsigned s,
+                          unsigned claim)
 {
     double t_s = (double)(passive.batch.time_us[k] - passive.batch.time_us[scene.scans - 1]) * 1e-6;
     double dx_m = (double)track->x_m + t_s * (double)track->vx_mps - scene.sensor_x_m[s];
@@ -54,23 +52,23 @@ static double off2(const struct rho_passive_track *track, unsigned k, unsigned s
     return n * n;
 }
 
-/* What two tracks have of a look, and what they would have the other way round. */
-static int is_better_exchanged(const struct rho_passive_track *a, const struct rho_passive_track *b,
-                               unsigned k, unsigned s, double least)
+/*
+ * True if two tracks fit a scan's bearings better by more than `least` with their claims exchanged.
+ */
+static int is_exchange_better(const struct rho_passive_track *a, const struct rho_passive_track *b,
+                              unsigned k, unsigned s, double least)
 {
     unsigned of_a = a->claim[k][s], of_b = b->claim[k][s];
-    if (of_a == 0 || of_b == 0 || off2(a, k, s, of_b) > GATE * GATE ||
-        off2(b, k, s, of_a) > GATE * GATE) {
+    if (of_a == 0 || of_b == 0 || bearing_nis(a, k, s, of_b) > GATE * GATE ||
+        bearing_nis(b, k, s, of_a) > GATE * GATE) {
         return 0;
     }
-    double as_is = off2(a, k, s, of_a) + off2(b, k, s, of_b);
-    return off2(a, k, s, of_b) + off2(b, k, s, of_a) < as_is - least;
+    double as_is = bearing_nis(a, k, s, of_a) + bearing_nis(b, k, s, of_b);
+    return bearing_nis(a, k, s, of_b) + bearing_nis(b, k, s, of_a) < as_is - least;
 }
 
-/*
- * A track without a bearing that another one has, while there is one in the gate that nobody has.
- */
-static int has_left(unsigned k, unsigned s)
+/* True if a track has no bearing of the scan though an unclaimed one is within three sigmas. */
+static int has_unclaimed_bearing_in_gate(unsigned k, unsigned s)
 {
     for (unsigned claim = 1; claim <= passive.batch.num_bearings[k][s]; claim++) {
         int is_taken = 0;
@@ -78,7 +76,8 @@ static int has_left(unsigned k, unsigned s)
             is_taken |= passive.tracks[i].claim[k][s] == claim;
         }
         for (unsigned i = 0; i < passive.num_tracks && !is_taken; i++) {
-            if (passive.tracks[i].claim[k][s] == 0 && off2(&passive.tracks[i], k, s, claim) < 9.0) {
+            if (passive.tracks[i].claim[k][s] == 0 &&
+                bearing_nis(&passive.tracks[i], k, s, claim) < 9.0) {
                 return 1;
             }
         }
@@ -87,25 +86,25 @@ static int has_left(unsigned k, unsigned s)
 }
 
 /*
- * Of all looks: those in which two tracks had better exchange their bearings, and in which one was
- * left.
+ * Numbers of scans searched, of pairs of tracks with claims better exchanged, and of scans with an
+ * unclaimed bearing.
  */
 struct count {
     unsigned looks, exchanges, left;
     unsigned targets, tracks;
-    double score_nat; /* of all tracks */
+    double score_nat; /* sum over all tracks */
 };
 
-static void count_looks(struct count *count)
+static void count_claim_errors(struct count *count)
 {
     for (unsigned k = 0; k < scene.scans; k++) {
         for (unsigned s = 0; s < scene.sensors; s++) {
             count->looks++;
-            count->left += (unsigned)has_left(k, s);
+            count->left += (unsigned)has_unclaimed_bearing_in_gate(k, s);
             for (unsigned i = 0; i < passive.num_tracks; i++) {
                 for (unsigned j = 0; j < i; j++) {
-                    count->exchanges += (unsigned)is_better_exchanged(
-                        &passive.tracks[i], &passive.tracks[j], k, s, 1.0);
+                    count->exchanges += (unsigned)is_exchange_better(&passive.tracks[i],
+                                                                     &passive.tracks[j], k, s, 1.0);
                 }
             }
         }
@@ -119,7 +118,7 @@ static void search_formations(struct count *count, double apart_m, double mps, d
             draw_formation(targets, apart_m, mps, pd);
             assert_int_equal(search_scene(&passive, &scene), RHO_OK);
             assert_true(are_tracks_sound(&passive));
-            count_looks(count);
+            count_claim_errors(count);
             for (unsigned i = 0; i < passive.num_tracks; i++) {
                 count->score_nat += 1e-3 * passive.tracks[i].score_mnat;
             }
@@ -129,10 +128,13 @@ static void search_formations(struct count *count, double apart_m, double mps, d
     }
 }
 
-/* ---- what must hold -------------------------------------------------------------------------- */
+/* ---- claims of formations ------------------------------------------------------------------- */
 
-/* The fit that comes last moves what was nearest by a little; it is a look in a thousand. */
-static void test_each_look_is_given_out_as_well_as_can_be(void **state)
+/*
+ * The last fit moves tracks a little after bearings were claimed: one claim in a thousand may be
+ * worse.
+ */
+static void test_bearings_of_each_scan_are_assigned_to_tracks_optimally(void **state)
 {
     (void)state;
     struct count count = {0};
@@ -145,8 +147,8 @@ static void test_each_look_is_given_out_as_well_as_can_be(void **state)
     assert_in_range(count.left, 0, 6);
     assert_in_range(count.tracks, count.targets * 97 / 100, count.targets);
     /*
-     * Sets that turn out to be better than the best one take its place, in 13 of these searches
-     * more than twice: 101454.6 nat, and 13 less where two sets may.
+     * A better set of tracks found later replaces the best one, more than twice in 13 searches:
+     * 101454.6 nat. With two replacements at most it would be 13 nat less.
      */
     assert_true(count.score_nat > 101448.0);
 }
@@ -154,7 +156,7 @@ static void test_each_look_is_given_out_as_well_as_can_be(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_each_look_is_given_out_as_well_as_can_be),
+        cmocka_unit_test(test_bearings_of_each_scan_are_assigned_to_tracks_optimally),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two models that interact, as textbooks have them: nine states and full matrices in double
- * precision for both, vector updates with an inverse, mixing by the definition over a chain of
- * three states, Singer's noise by numerical integration. It shares nothing with the library but the
- * order of the states and of the packed triangle, and the names of its inputs.
- *
- * The steady model has the acceleration, too: 0, and known to be. Calm and agile targets share it.
+ * Reference of the interacting multiple model filter in double precision: nine states and full
+ * matrices for both models, vector updates with an inverse, mixing over a chain of three states,
+ * Singer's noise by numerical integration. The library shares only the order of states and of the
+ * packed triangle. The steady model has an acceleration, too, known to be 0; calm and agile targets
+ * share it.
  */
 #ifndef RHOTRACK_TESTS_IMM_REFERENCE_H
 #define RHOTRACK_TESTS_IMM_REFERENCE_H
@@ -32,7 +31,7 @@ struct wide_model {
     double x[WIDE], p[WIDE][WIDE];
 };
 
-/* A measurement of h x with noise covariance r; y is its measured minus predicted value. */
+/* A measurement h x with noise covariance r; y is the innovation, measured minus predicted. */
 struct wide_rows {
     int num;
     double h[WIDE_ROWS][WIDE], y[WIDE_ROWS], r[WIDE_ROWS][WIDE_ROWS];
@@ -42,7 +41,7 @@ struct wide_step {
     double f[WIDE][WIDE], q[WIDE][WIDE];
 };
 
-/* The larger pivot first; returns ln |det|. */
+/* Inverts by Gauss-Jordan with partial pivoting; returns ln |det a|. */
 static inline double wide_invert(int n, double a[WIDE_ROWS][WIDE_ROWS],
                                  double inverse[WIDE_ROWS][WIDE_ROWS])
 {
@@ -108,7 +107,7 @@ static inline void wide_predict(struct wide_model *m, const struct wide_step *st
     }
 }
 
-/* p h^T by columns, and h p h^T + r. */
+/* Computes p h^T and the innovation covariance h p h^T + r. */
 static inline void wide_innovation_covariance(const struct wide_model *m, const struct wide_rows *z,
                                               double ph[WIDE][WIDE_ROWS],
                                               double s[WIDE_ROWS][WIDE_ROWS])
@@ -131,7 +130,7 @@ static inline void wide_innovation_covariance(const struct wide_model *m, const 
     }
 }
 
-/* ln of the density of y, and y^T S^-1 y. */
+/* Log density of the innovation y; distance2 gets y^T S^-1 y. */
 static inline double wide_log_density(const struct wide_model *m, const struct wide_rows *z,
                                       double *distance2)
 {
@@ -169,7 +168,7 @@ static inline void wide_update(struct wide_model *m, const struct wide_rows *z)
             }
         }
     }
-    /* Joseph: rest p rest^T + gain r gain^T */
+    /* Joseph's form: rest p rest^T + gain r gain^T */
     for (int i = 0; i < WIDE; ++i) {
         for (int j = 0; j < WIDE; ++j) {
             for (int k = 0; k < WIDE; ++k) {
@@ -193,13 +192,13 @@ static inline void wide_update(struct wide_model *m, const struct wide_rows *z)
 
 /* ---- Singer's model -------------------------------------------------------------------------- */
 
-/* What a unit of acceleration has done to position, velocity and itself after t. */
+/* Position, velocity and acceleration at t from an acceleration of 1 at time 0. */
 static inline void singer_response(double t, double memory, double out[3])
 {
     const double x = t / memory;
     double first = 0.0, second = 0.0, term = 1.0;
 
-    if (fabs(x) < 0.5) { /* sums of (-x)^k / (k + 1)! and / (k + 2)! */
+    if (fabs(x) < 0.5) { /* power series: sums of (-x)^k / (k + 1)! and / (k + 2)! */
         for (int k = 0; k < 30; ++k) {
             first += term / (k + 1);
             second += term / (k + 1) / (k + 2);
@@ -214,7 +213,7 @@ static inline void singer_response(double t, double memory, double out[3])
     out[2] = exp(-x);
 }
 
-/* Simpson over 2 n panels of the outer product of the response, added to q. */
+/* Adds the integral of the response's outer product to q, by Simpson's rule over 2 n panels. */
 static inline void singer_integrate(double from, double to, double memory, int n, double q[3][3])
 {
     const double h = (to - from) / (2.0 * n);
@@ -231,8 +230,8 @@ static inline void singer_integrate(double from, double to, double memory, int n
 }
 
 /*
- * The noise of an interval for a driving noise of density 1: beyond forty memories it is but a
- * polynomial.
+ * Process noise of an interval for white driving noise of density 1. After forty memories the
+ * response is a polynomial, which two panels integrate exactly.
  */
 static inline void singer_noise(double dt, double memory, double q[3][3])
 {
@@ -250,7 +249,7 @@ static inline void singer_noise(double dt, double memory, double q[3][3])
 struct reference {
     struct wide_model models[2];
     double probability; /* of the manoeuvring model */
-    double calm;        /* share of steady targets that is calm */
+    double calm;        /* calm share of the steady targets */
     int has_z;
     int is_apart; /* no covariances between axes */
 };
@@ -291,7 +290,7 @@ reference_step(const struct reference *r, const struct rho_imm_model *model, dou
     return step;
 }
 
-/* Without mixing. */
+/* Predicts both models without mixing. */
 static inline void reference_predict_unmixed(struct reference *r, const struct rho_imm_model *model,
                                              double dt)
 {
@@ -323,15 +322,15 @@ static inline struct wide_model reference_mixed_model(const struct wide_model mo
     return mean;
 }
 
-/* The chain's states, and the model that each follows. */
+/* States of the Markov chain, and the motion model of each. */
 #define CALM 0
 #define AGILE 1
 #define PULLING 2
 static const int chain_models[3] = {STEADY, STEADY, MANOEUVRE};
 
 /*
- * True where manoeuvres end: those of low odds give nothing back to the steady model, where any
- * target is calm.
+ * True if the manoeuvring model is mixed back into the steady one: with calm targets it must have
+ * odds of 0.16 at least.
  */
 static inline int reference_manoeuvre_ends(const struct rho_imm_model *model, double probability)
 {
@@ -339,9 +338,9 @@ static inline int reference_manoeuvre_ends(const struct rho_imm_model *model, do
 }
 
 /*
- * Probabilities of a change by the state before and after. Agile targets and manoeuvres alternate
- * as a chain of two in continuous time; calm ones leave by their own rate, no sooner than agile
- * ones; an agile target that stays steady settles.
+ * Transition probabilities of the chain, by states before and after. Agile targets and manoeuvres
+ * alternate in continuous time; calm targets begin to manoeuvre at a rate of their own, not above
+ * that of agile ones; agile targets that stay steady become calm.
  */
 static inline void reference_change_probabilities(const struct rho_imm_model *model, double dt,
                                                   int returns, double change[3][3])
@@ -388,7 +387,7 @@ static inline void reference_mix(struct reference *r, const struct rho_imm_model
     r->probability = is[PULLING];
     r->calm = is[CALM] / (is[CALM] + is[AGILE]);
     for (int i = 0; i < WIDE * WIDE; ++i) {
-        if (i / WIDE > 5 || i % WIDE > 5) { /* known to be 0 */
+        if (i / WIDE > 5 || i % WIDE > 5) { /* the steady model's acceleration is known to be 0 */
             mixed[STEADY].p[i / WIDE][i % WIDE] = 0.0;
             mixed[STEADY].x[i / WIDE > 5 ? i / WIDE : i % WIDE] = 0.0;
         }
@@ -400,8 +399,8 @@ static inline void reference_mix(struct reference *r, const struct rho_imm_model
 }
 
 /*
- * Whether manoeuvres end is the caller's to say: at that bound, rounding would send two paths
- * apart.
+ * Mixes and predicts. The caller decides whether manoeuvres end, as rounding near the odds of 0.16
+ * would make library and reference differ.
  */
 static inline void reference_predict(struct reference *r, const struct rho_imm_model *model,
                                      double dt, int returns)
@@ -440,7 +439,7 @@ static inline void reference_start(struct reference *r, const struct rho_imm_mod
 
 /* ---- plots ----------------------------------------------------------------------------------- */
 
-/* What the sensor saw, in double precision, and with what noise. */
+/* A plot, what is measured of it, and the sensor. */
 struct reference_plot {
     const struct rho_plot *plot;
     uint32_t measures;
@@ -512,7 +511,7 @@ static inline void reference_add_velocity(const struct wide_model *m,
     z->num = 2 * axes;
 }
 
-/* The rate along the line of sight, its derivative, and as noise what the derivative leaves out. */
+/* Adds a row for the range rate, linearised; the linearisation error counts as noise. */
 static inline void reference_add_range_rate(const struct reference *r, const struct wide_model *m,
                                             const struct reference_plot *seen, struct wide_rows *z)
 {
@@ -541,7 +540,7 @@ static inline void reference_add_range_rate(const struct reference *r, const str
 
 struct reference_match {
     double distance2[2], log_likelihood, probability;
-    double nearest2; /* of both models */
+    double nearest2; /* the smaller one of both models */
 };
 
 static inline void reference_combine_densities(double probability, const double log_density[2],
@@ -588,8 +587,8 @@ static inline struct reference_match reference_match_plot(const struct reference
 }
 
 /*
- * Place and velocity at once, and then the range rate, linearised where these have led; a first
- * height at last.
+ * Updates with place and velocity at once, then with the range rate, linearised at the new
+ * estimate; a first height opens the axis at the end.
  */
 static inline void reference_update(struct reference *r, const struct rho_imm_model *model,
                                     const struct reference_plot *seen, double probability)
@@ -626,8 +625,8 @@ static inline void reference_update(struct reference *r, const struct rho_imm_mo
 }
 
 /*
- * A bearing in metres across the line of sight; as noise what its derivative leaves out, from the
- * covariance along and across the line. Returns ln of its density over both models.
+ * Updates with a bearing, in metres across the line of sight; the linearisation error counts as
+ * noise. Returns the log density over both models.
  */
 static inline double reference_bearing(struct reference *r, double x, double y, double bearing,
                                        double sigma)
@@ -660,9 +659,9 @@ static inline double reference_bearing(struct reference *r, double x, double y, 
     return match.log_likelihood;
 }
 
-/* ---- judges ---------------------------------------------------------------------------------- */
+/* ---- comparison ------------------------------------------------------------------------------ */
 
-/* The library's estimate as it is: a reference that does only the next step beside it. */
+/* A reference with the library's present estimate, to compare the next step alone. */
 static inline struct reference reference_of(const struct rho_imm *imm)
 {
     struct reference r = {.probability = imm->probability,
@@ -681,18 +680,18 @@ static inline struct reference reference_of(const struct rho_imm *imm)
     return r;
 }
 
-/* The largest differences between the library and the reference that were met. */
+/* Largest differences between library and reference seen so far. */
 struct reference_worst {
-    double state;      /* in sigmas, beyond the rounding of a state itself */
+    double state;      /* in sigmas, beyond the relative rounding of a state */
     double covariance; /* in products of two sigmas */
     double probability, log_likelihood, distance2, calm;
 };
 
-#define REFERENCE_ROUNDING 5e-7 /* of a state itself: eight units of float32 */
+#define REFERENCE_ROUNDING 5e-7 /* relative rounding of a state: eight units of float */
 
 /*
- * Sigmas are those of `before`, or of `m` where they are larger: rounding is of the size of what
- * was there.
+ * Differences are in sigmas of `before` or of `m`, the larger ones, as rounding errors are
+ * proportional to the larger estimate.
  */
 static inline void reference_compare_model(const float *state, const float *covariance, int num,
                                            const struct wide_model *m,
@@ -723,7 +722,7 @@ static inline void reference_compare_model(const float *state, const float *cova
     }
 }
 
-/* Both models, one step after `before`. */
+/* Compares both models one step after `before`. */
 static inline void reference_compare(const struct rho_imm *imm, const struct reference *r,
                                      const struct reference *before, struct reference_worst *worst)
 {
@@ -737,7 +736,7 @@ static inline void reference_compare(const struct rho_imm *imm, const struct ref
                 isfinite(worst->probability) && isfinite(worst->calm));
 }
 
-/* The mean over both models, with its acceleration. */
+/* Compares the mean over both models, and its acceleration. */
 static inline void reference_compare_mean(const struct rho_imm *imm, const struct reference *r,
                                           struct reference_worst *worst)
 {

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Input estimation twice over in double precision, with full matrices and vector updates:
- * `augmented` has the input as three more states, unknown constants; `two_stage` is the paper's
- * filter without input beside sensitivities and recursive least squares. Neither knows of the
- * other.
+ * Two references of input estimation in double precision, independent of each other: `augmented` is
+ * a Kalman filter with the input as three more states, constant and unknown; `two_stage` is the
+ * paper's method, a filter without input, sensitivities and recursive least squares.
  */
 #ifndef RHOTRACK_TESTS_INPUT_ESTIMATION_REFERENCE_H
 #define RHOTRACK_TESTS_INPUT_ESTIMATION_REFERENCE_H
@@ -22,7 +21,7 @@ struct ref_setting {
     double density, q_position, q_velocity; /* variances added a step */
 };
 
-/* values[i] of rows[i] . x, with noise covariance r. */
+/* Measurements values[i] of rows[i] . x with noise covariance r. */
 struct ref_measured {
     int num;
     double rows[REF_ROWS][REF_STATES], values[REF_ROWS], r[REF_ROWS][REF_ROWS];
@@ -30,7 +29,7 @@ struct ref_measured {
 
 struct ref_augmented {
     double x[REF_ALL], p[REF_ALL][REF_ALL];
-    int present; /* bit an axis */
+    int present; /* one bit an axis: the input is present */
 };
 
 struct ref_two_stage {
@@ -43,7 +42,7 @@ struct ref_two_stage {
 
 typedef double ref_matrix[REF_ALL][REF_ALL];
 
-/* c := a b or a b^T */
+/* Computes c := a b, or a b^T. */
 static inline void ref_product(int n, int k, int m, ref_matrix a, ref_matrix b, int transpose,
                                ref_matrix c)
 {
@@ -59,7 +58,7 @@ static inline void ref_product(int n, int k, int m, ref_matrix a, ref_matrix b, 
     memcpy(c, result, sizeof result);
 }
 
-/* Gauss and Jordan; a is positive definite. */
+/* Inverts by Gauss-Jordan without pivoting, as a is positive definite. */
 static inline void ref_invert(int n, ref_matrix a)
 {
     for (int k = 0; k < n; ++k) {
@@ -91,7 +90,7 @@ static inline void ref_symmetrise(int n, ref_matrix a)
     }
 }
 
-/* F of 6 or 9 states. */
+/* Transition matrix of 6 states, or of 9 with the input. */
 static inline void ref_transition(const struct ref_setting *s, int num, ref_matrix f)
 {
     memset(f, 0, sizeof(ref_matrix));
@@ -118,8 +117,8 @@ static inline void ref_add_noise(const struct ref_setting *s, ref_matrix p)
 }
 
 /*
- * The vector update of n states; gain and the inverse of the innovation's covariance for who wants
- * them.
+ * Vector update of n states; also returns the gain, the innovation and the inverse of its
+ * covariance.
  */
 static inline void ref_update(int n, double *x, ref_matrix p, const struct ref_measured *z,
                               ref_matrix gain, ref_matrix inverse, double innovation[REF_ROWS])
@@ -154,7 +153,7 @@ static inline void ref_update(int n, double *x, ref_matrix p, const struct ref_m
     ref_symmetrise(n, p);
 }
 
-/* --- the input as states --------------------------------------------------------------------- */
+/* --- augmented filter ------------------------------------------------------------------------ */
 
 static inline void ref_augmented_forget_axis(struct ref_augmented *a, int axis, double v0)
 {
@@ -180,8 +179,8 @@ static inline void ref_augmented_start(struct ref_augmented *a, const double x[6
 }
 
 /*
- * V / gamma while what the input does to the rest, cov(x, u) V^-1, and what is uncertain without
- * it, stay: p = [B + M V M^T, M V; V M^T, V].
+ * Widens the input's covariance V by 1 / gamma. The sensitivity M = cov(x, u) V^-1 and the
+ * covariance B without input stay: p = [B + M V M^T, M V; V M^T, V].
  */
 static inline void ref_augmented_widen(struct ref_augmented *a, const struct ref_setting *s)
 {
@@ -250,7 +249,7 @@ static inline void ref_augmented_update(struct ref_augmented *a, const struct re
     ref_update(REF_ALL, a->x, a->p, z, gain, inverse, innovation);
 }
 
-/* An input that never was is measured to be 0, without noise. */
+/* Removes an input's effect: an update with a noiseless measurement that it was 0. */
 static inline void ref_augmented_remove_input(struct ref_augmented *a, int k)
 {
     double column[REF_ALL];
@@ -267,7 +266,10 @@ static inline void ref_augmented_remove_input(struct ref_augmented *a, int k)
     }
 }
 
-/* Sigmas that the nearest decision was away from going the other way; the weakest first. */
+/*
+ * Drops inputs below the threshold, the least significant first. Returns how many sigmas the
+ * closest decision was from the threshold.
+ */
 static inline double ref_augmented_decide(struct ref_augmented *a, const struct ref_setting *s)
 {
     double margin = 1e9;
@@ -344,7 +346,8 @@ static inline void ref_two_stage_predict(struct ref_two_stage *t, const struct r
 }
 
 /*
- * (11) to (13): v := v - v n' (n v n' + s)^-1 n v, u := u + v n' s^-1 (innovation - n u); n = h m.
+ * Equations (11) to (13) with n = h m: v := v - v n' (n v n' + s)^-1 n v, u := u + v n' s^-1
+ * (innovation - n u).
  */
 static inline void ref_two_stage_estimate_input(struct ref_two_stage *t, int num, ref_matrix n,
                                                 ref_matrix inverse, const double innovation[])
@@ -413,7 +416,7 @@ static inline void ref_two_stage_update(struct ref_two_stage *t, const struct re
     ref_two_stage_estimate_input(t, z->num, n, inverse, innovation);
 }
 
-/* The corrected estimate: x + M u, P + M V M^T, (14) to (18). */
+/* The estimate with input, equations (14) to (18): x + M u, P + M V M^T. */
 static inline void ref_two_stage_correct(const struct ref_two_stage *t, double x[6], double p[6][6])
 {
     for (int i = 0; i < 6; ++i) {

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Extents from plots spread over a rectangle: without their noise, whatever the heading. */
+/*
+ * Length and width of bodies from plots spread over a rectangle: plot noise removed, any heading.
+ */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,8 +13,9 @@
 #include "random_draws.h"
 #include "rhotrack/detail/body_extent_filter.h"
 
-/* n plots of a body of 12 by 3 m, each axis with so much noise. */
-static void add_plot(struct rho_body_look *look, double along_m, double across_m, double sigma_m)
+/* Adds a plot in body axes with the same noise along and across. */
+static void add_plot_to_look(struct rho_body_look *look, double along_m, double across_m,
+                             double sigma_m)
 {
     look->num_plots++;
     look->along_m2 += (float)(along_m * along_m);
@@ -22,25 +25,25 @@ static void add_plot(struct rho_body_look *look, double along_m, double across_m
     look->noise_across_m2 += (float)(sigma_m * sigma_m);
 }
 
-static struct rho_body_look look_of(unsigned n, double sigma_m)
+static struct rho_body_look random_look(unsigned n, double sigma_m)
 {
     struct rho_body_look look = {0};
     for (unsigned i = 0; i < n; i++) {
         double along_m = uniform(-6.0, 6.0), across_m = uniform(-1.5, 1.5);
         along_m += sigma_m * normal();
         across_m += sigma_m * normal();
-        add_plot(&look, along_m, across_m, sigma_m);
+        add_plot_to_look(&look, along_m, across_m, sigma_m);
     }
     return look;
 }
 
-static void moves(struct rho_body_filter *body, float vx_mps, float vy_mps, float variance)
+static void set_velocity(struct rho_body_filter *body, float vx_mps, float vy_mps, float variance)
 {
     rho_body_set_heading_if_moving(body, (const float[2]){vx_mps, vy_mps},
                                    (const float[3]){variance, 0, variance});
 }
 
-static void sides_without_noise(void **state)
+static void length_and_width_are_estimated_without_the_plots_noise(void **state)
 {
     static const double sigmas_m[] = {0.01, 0.5, 1.0};
     (void)state;
@@ -49,9 +52,9 @@ static void sides_without_noise(void **state)
         struct rho_body_filter body;
         struct rho_body shape;
         rho_body_filter_init(&body, 7, 9.0f);
-        moves(&body, 0.0f, 20.0f, 0.0f);
+        set_velocity(&body, 0.0f, 20.0f, 0.0f);
         for (int k = 0; k < 400; k++) {
-            const struct rho_body_look look = look_of(1u + (unsigned)k % 5u, sigmas_m[i]);
+            const struct rho_body_look look = random_look(1u + (unsigned)k % 5u, sigmas_m[i]);
             rho_body_add_plots(&body, &look);
         }
         rho_body_shape(&body, &shape);
@@ -68,23 +71,28 @@ static void sides_without_noise(void **state)
     }
 }
 
-/* n scatterers of a body of 12 by 2 m, each seen .7 of the time, at a heading that is off. */
-static struct rho_body_look look_at(const double (*places_m)[2], unsigned n, double off_rad,
-                                    double sigma_m)
+/*
+ * Plots of scatterers, each seen with probability 0.7, of a body whose heading is off by off_rad.
+ */
+static struct rho_body_look look_of_scatterers(const double (*places_m)[2], unsigned n,
+                                               double off_rad, double sigma_m)
 {
     struct rho_body_look look = {0};
     for (unsigned i = 0; i < n; i++) {
         const double along_m = places_m[i][0] + sigma_m * normal(),
                      across_m = places_m[i][1] + off_rad * along_m + sigma_m * normal();
         if (uniform(0.0, 1.0) < 0.7) {
-            add_plot(&look, along_m, across_m, sigma_m);
+            add_plot_to_look(&look, along_m, across_m, sigma_m);
         }
     }
     return look;
 }
 
-/* Parts of both sides, each with one scatterer anywhere in it; their mean is the track's place. */
-static void place(double (*places_m)[2], unsigned n)
+/*
+ * Draws one scatterer in each of n parts of a body of 12 by 2 m; their mean, the track's place, is
+ * 0.
+ */
+static void draw_scatterers(double (*places_m)[2], unsigned n)
 {
     double mean_m[2] = {0.0, 0.0};
     unsigned side[16];
@@ -107,11 +115,11 @@ static void place(double (*places_m)[2], unsigned n)
 }
 
 /*
- * Errors of the heading, ten looks each, make a body look wider. By how far its plots seem turned
- * they are told from the width. Errors are as large as the sigmas say, for any number of
- * scatterers: mean squares over 100 bodies, which scatter by .15 or so.
+ * The heading's error stays for ten looks and makes a body look wider; the slope of its plots tells
+ * it from the width. For any number of scatterers the mean squared error over 100 bodies must be
+ * about sigma^2; its standard deviation is some 0.15.
  */
-static void sides_are_off_by_their_sigmas(void **state)
+static void errors_of_length_and_width_agree_with_their_sigmas(void **state)
 {
     static const unsigned counts[] = {3, 5, 10};
     (void)state;
@@ -122,14 +130,14 @@ static void sides_are_off_by_their_sigmas(void **state)
             struct rho_body_filter body;
             struct rho_body shape;
             double places_m[16][2], off_rad = 0.0;
-            place(places_m, counts[c]);
+            draw_scatterers(places_m, counts[c]);
             rho_body_filter_init(&body, 1, 9.0f);
             for (int k = 0; k < 200; k++) {
                 off_rad = k % 10 ? off_rad : 0.1 * normal();
-                /* velocities are better than they are said to be: sigma .18 rad */
-                moves(&body, 10.0f, 0.0f, 3.3f);
+                /* sigma 0.18 rad, though the heading's error is 0.1 rad */
+                set_velocity(&body, 10.0f, 0.0f, 3.3f);
                 const struct rho_body_look look =
-                    look_at((const double(*)[2])places_m, counts[c], off_rad, 0.3);
+                    look_of_scatterers((const double(*)[2])places_m, counts[c], off_rad, 0.3);
                 rho_body_add_plots(&body, &look);
             }
             rho_body_shape(&body, &shape);
@@ -144,19 +152,17 @@ static void sides_are_off_by_their_sigmas(void **state)
     }
 }
 
-/*
- * One look that a neighbour's plot strays into: not a wide body for the rest of the track's life.
- */
-static void a_stray_plot_is_no_width(void **state)
+/* A neighbour's plot in the first look: the width must recover. */
+static void one_stray_plot_does_not_widen_a_body_for_long(void **state)
 {
     struct rho_body_filter body;
     struct rho_body shape;
     (void)state;
     random_state = 7;
     rho_body_filter_init(&body, 1, 9.0f);
-    moves(&body, 10.0f, 0.0f, 0.0f);
+    set_velocity(&body, 10.0f, 0.0f, 0.0f);
     for (int k = 0; k < 40; k++) {
-        struct rho_body_look look = look_of(3, 0.1);
+        struct rho_body_look look = random_look(3, 0.1);
         look.across_m2 += k == 0 ? 150.0f : 0.0f;
         rho_body_add_plots(&body, &look);
     }
@@ -164,8 +170,10 @@ static void a_stray_plot_is_no_width(void **state)
     assert_true(shape.width_m < 4.0f);
 }
 
-/* All are seen: their mean is known. Of several one is missed, or all but one. */
-static void those_missed_move_the_mean(void **state)
+/*
+ * If all scatterers are seen the mean is known; the variance rises with the share that is missed.
+ */
+static void the_variance_of_the_mean_follows_the_share_of_missed_scatterers(void **state)
 {
     struct rho_body_filter body;
     (void)state;
@@ -179,21 +187,21 @@ static void those_missed_move_the_mean(void **state)
     assert_true(fabs((double)rho_body_mean_variance_share(&body, 2) - 0.75) < 0.05);
 }
 
-static void heading_comes_from_sure_velocities(void **state)
+static void the_heading_follows_velocities_that_are_well_known(void **state)
 {
     struct rho_body_filter body;
-    struct rho_body_look look = look_of(5, 0.1);
+    struct rho_body_look look = random_look(5, 0.1);
     (void)state;
     rho_body_filter_init(&body, 1, 9.0f);
-    moves(&body, 1.0f, 0.0f, 0.2f);
+    set_velocity(&body, 1.0f, 0.0f, 0.2f);
     assert_int_equal(body.has_heading, 0);
     rho_body_add_plots(&body, &look);
     assert_true(body.along_m2 == 9.0f && body.most_plots == 5);
-    /* as long as nothing is known, a gate counts on more */
+    /* the bound for gates is larger while the length is unknown */
     assert_true(rho_body_along_bound_m2(&body) > 1.5f * 9.0f);
-    moves(&body, 0.0f, 0.0f, 0.0f);
+    set_velocity(&body, 0.0f, 0.0f, 0.0f);
     assert_int_equal(body.has_heading, 0);
-    moves(&body, 3.0f, 4.0f, 0.25f);
+    set_velocity(&body, 3.0f, 4.0f, 0.25f);
     assert_int_equal(body.has_heading, 1);
     assert_true(fabs((double)body.cos_heading - 0.6) < 1e-6 &&
                 fabs((double)body.sin_heading - 0.8) < 1e-6 &&
@@ -203,13 +211,13 @@ static void heading_comes_from_sure_velocities(void **state)
     assert_true(body.along_m2 == 9.0f);
 }
 
-static void axes_there_and_back(void **state)
+static void rotating_a_covariance_to_body_axes_and_back_restores_it(void **state)
 {
     struct rho_body_filter body;
     float world[3], axes[3];
     (void)state;
     rho_body_filter_init(&body, 1, 9.0f);
-    moves(&body, 3.0f, 4.0f, 0.0f);
+    set_velocity(&body, 3.0f, 4.0f, 0.0f);
     body.along_m2 = 16.0f;
     body.across_m2 = 1.0f;
     rho_body_place_covariance(&body, world);
@@ -221,14 +229,14 @@ static void axes_there_and_back(void **state)
                 fabs((double)axes[2] - 1) < 1e-5);
 }
 
-/* A body that seems to have no width, or less, is as slim as bodies are. */
-static void width_has_a_floor(void **state)
+/* Plots without any spread across, or less than their noise: the width is the smallest allowed. */
+static void the_width_is_at_least_a_sixteenth_of_the_length(void **state)
 {
     struct rho_body_filter body;
     struct rho_body shape;
     (void)state;
     rho_body_filter_init(&body, 1, 9.0f);
-    moves(&body, 10.0f, 0.0f, 0.0f);
+    set_velocity(&body, 10.0f, 0.0f, 0.0f);
     for (int k = 0; k < 50; k++) {
         const struct rho_body_look look = {.num_plots = 3,
                                            .along_m2 = 3.0f * 12.0f,
@@ -240,42 +248,42 @@ static void width_has_a_floor(void **state)
     assert_true(fabs((double)(shape.length_m / shape.width_m) - 16.0) < 1e-3);
 }
 
-/* ---- figures --------------------------------------------------------------------------------- */
+/* ---- constants and formulas ----------------------------------------------------------------- */
 
 static void expect_close(double is, double wanted)
 {
     assert_true(fabs(is - wanted) <= 2e-5 * fabs(wanted));
 }
 
-static void a_heading_takes_a_speed_of_three_sigmas(void **state)
+static void a_heading_needs_a_speed_of_three_sigmas(void **state)
 {
     struct rho_body_filter body;
     (void)state;
     rho_body_filter_init(&body, 1, 9.0f);
-    moves(&body, 2.9f, 0.0f, 1.0f);
+    set_velocity(&body, 2.9f, 0.0f, 1.0f);
     assert_int_equal(body.has_heading, 0);
-    moves(&body, 3.1f, 0.0f, 1.0f);
+    set_velocity(&body, 3.1f, 0.0f, 1.0f);
     assert_int_equal(body.has_heading, 1);
 }
 
 /*
- * Before and after the first heading: as long as it is thought plus what 20 weights leave open, and
- * a third as wide.
+ * The bound along is the prior variance plus its uncertainty at a weight of 20; after the first
+ * heading the width is a third of the length.
  */
-static void what_a_new_body_is_taken_for(void **state)
+static void a_new_body_has_the_prior_length_and_a_third_of_it_as_width(void **state)
 {
     struct rho_body_filter body;
     float world[3];
     (void)state;
     rho_body_filter_init(&body, 1, 9.0f);
     expect_close((double)rho_body_along_bound_m2(&body), 9.0 + 9.0 * 20.0 / 20.3);
-    moves(&body, 10.0f, 0.0f, 0.0f);
+    set_velocity(&body, 10.0f, 0.0f, 0.0f);
     rho_body_place_covariance(&body, world);
     expect_close((double)world[0], 9.0);
     expect_close((double)world[2], 9.0 / 9.0);
 }
 
-/* Both axes by the head of body_extent_filter.c, in double precision. */
+/* The filter by the formulas at the head of body_extent_filter.c, in double precision. */
 struct axis {
     double mean_m2, weight, variance_m4, prior_share;
 };
@@ -284,33 +292,33 @@ struct reference {
     double along_m2, across_m2, slope, slope_weight, plots, most;
 };
 
-static const double prior_m2 = 9.0, turned = 0.3 * 0.12 * 0.12; /* heading of .12 rad */
+static const double prior_m2 = 9.0, turned = 0.3 * 0.12 * 0.12; /* heading sigma of 0.12 rad */
 
-static double squares_of(double v_m2, double own_m2)
+static double variance_factor(double v_m2, double own_m2)
 {
     return pow(own_m2 / v_m2 + 1.0, 2.0) - 1.0 + 0.2;
 }
 
-static void learn(struct axis *axis, double usual_m2, double seen_m2, double own_m2, double n)
+static void update_axis(struct axis *axis, double usual_m2, double seen_m2, double own_m2, double n)
 {
-    const double more = n / squares_of(usual_m2, own_m2), v_m2 = fmax(axis->mean_m2, 1e-3);
+    const double more = n / variance_factor(usual_m2, own_m2), v_m2 = fmax(axis->mean_m2, 1e-3);
     axis->weight = fmax(1.0 - more / 2500.0, 0.0) * axis->weight + more;
     const double gain = more / axis->weight;
     axis->mean_m2 += gain * (seen_m2 - axis->mean_m2);
     axis->variance_m4 = pow(1.0 - gain, 2.0) * axis->variance_m4 +
-                        pow(gain * v_m2, 2.0) * 2.0 / n * squares_of(v_m2, own_m2);
+                        pow(gain * v_m2, 2.0) * 2.0 / n * variance_factor(v_m2, own_m2);
     axis->prior_share *= 1.0 - gain;
 }
 
-static double usual_along_m2(const struct reference *body)
+static double length_variance_for_weights_m2(const struct reference *body)
 {
     return fmax(body->along_m2, prior_m2 / 16.0);
 }
 
-static void learn_across(struct reference *body, const struct rho_body_look *look, double missed)
+static void update_width(struct reference *body, const struct rho_body_look *look, double missed)
 {
     const double n = look->num_plots, noise_m2 = (double)look->noise_across_m2 / n;
-    const double usual_m2 = usual_along_m2(body) / 16.0;
+    const double usual_m2 = length_variance_for_weights_m2(body) / 16.0;
     const double along_m2 = fmax((double)look->along_m2, n * 1e-3);
     const double slope_variance = (noise_m2 + missed * usual_m2) / along_m2;
     const double k = turned / (turned + slope_variance), gone = 1.0 - pow(1.0 - k, 2.0);
@@ -320,32 +328,36 @@ static void learn_across(struct reference *body, const struct rho_body_look *loo
                               k * k * along_m2 * (off * off + 1.0 / body->slope_weight);
     const double most_m2 = (n + 12.0) * (fmax(usual_m2, body->across_m2) + own_m2);
     if (n - gone > 0.1) {
-        learn(&body->across, usual_m2,
-              (fmin(squares_m2, most_m2) - (n - gone) * noise_m2) / (n - missed * gone) - left_m2,
-              own_m2, n - gone);
+        update_axis(&body->across, usual_m2,
+                    (fmin(squares_m2, most_m2) - (n - gone) * noise_m2) / (n - missed * gone) -
+                        left_m2,
+                    own_m2, n - gone);
     }
     const double more = 1.0 / (slope_variance + 10.0 * turned);
     body->slope_weight = fmax(1.0 - n / 500.0, 0.0) * body->slope_weight + more;
     body->slope += more / body->slope_weight * off;
 }
 
-static void add(struct reference *body, const struct rho_body_look *look)
+static void update_reference(struct reference *body, const struct rho_body_look *look)
 {
     const double n = look->num_plots;
     body->most = fmax(body->most, n);
     const double missed =
         n > 1.0 ? (body->most - n) / (body->most - 1.0) + 0.5 / pow(body->most, 2.0) : 1.0;
     const double own_m2 = (double)look->noise_along_m2 / n + turned * body->across_m2;
-    learn(&body->along, usual_along_m2(body), (double)look->along_m2 / n - own_m2, own_m2, n);
+    update_axis(&body->along, length_variance_for_weights_m2(body),
+                (double)look->along_m2 / n - own_m2, own_m2, n);
     body->along_m2 = fmax(body->along.mean_m2, 1e-3);
-    learn_across(body, look, missed);
+    update_width(body, look, missed);
     body->across_m2 = fmax(body->across.mean_m2, body->along_m2 / 256.0);
     body->plots = fmin(body->plots + n, 500.0);
 }
 
-/* The sigma of a side, by what plots, scatterers that stay and the heading leave of it. */
-static double sigma_of_side(const struct axis *axis, double spread_m2, double turned_m2,
-                            double most)
+/*
+ * Sigma of a side from the number of plots, scatterers that stay in place, and the heading's error.
+ */
+static double expected_sigma_of_side(const struct axis *axis, double spread_m2, double turned_m2,
+                                     double most)
 {
     const double length_m = sqrt(12.0 * spread_m2), told = 1.0 - axis->prior_share;
     const double stays_m =
@@ -355,10 +367,10 @@ static double sigma_of_side(const struct axis *axis, double spread_m2, double tu
 }
 
 /*
- * Looks of few plots and of many, seen from a body that is turned, with a stray plot, of less
- * spread than their noise, and of noise alone.
+ * Looks with few and many plots, rotated ones, one with a stray plot, some with less spread than
+ * noise, and with noise alone.
  */
-static void every_look_as_derived(void **state)
+static void every_update_agrees_with_the_derivation(void **state)
 {
     static const struct rho_body_look looks[] = {
         {2, 30.0f, 3.0f, 4.0f, 0.5f, 0.4f},          {5, 80.0f, 2.0f, 3.0f, 1.0f, 0.8f},
@@ -381,10 +393,10 @@ static void every_look_as_derived(void **state)
     struct rho_body shape;
     (void)state;
     rho_body_filter_init(&body, 1, (float)prior_m2);
-    moves(&body, 10.0f, 0.0f, 1.44f);
+    set_velocity(&body, 10.0f, 0.0f, 1.44f);
     for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++) {
         rho_body_add_plots(&body, &looks[i]);
-        add(&reference, &looks[i]);
+        update_reference(&reference, &looks[i]);
         rho_body_shape(&body, &shape);
         const double off_m2 = fmin(turned, 1.0 / reference.slope_weight),
                      off = sqrt(off_m2 * (off_m2 + 4.0 * pow(reference.slope, 2.0)));
@@ -394,53 +406,54 @@ static void every_look_as_derived(void **state)
         expect_close((double)rho_body_along_bound_m2(&body),
                      reference.along_m2 + prior_m2 * 20.0 / (20.0 + reference.along.weight));
         expect_close((double)shape.sigma_length_m,
-                     sigma_of_side(&reference.along, reference.along_m2,
-                                   off_m2 * reference.across_m2, reference.most));
+                     expected_sigma_of_side(&reference.along, reference.along_m2,
+                                            off_m2 * reference.across_m2, reference.most));
         expect_close((double)shape.sigma_width_m,
-                     sigma_of_side(&reference.across, reference.across_m2, off * reference.along_m2,
-                                   reference.most));
+                     expected_sigma_of_side(&reference.across, reference.across_m2,
+                                            off * reference.along_m2, reference.most));
     }
     expect_close(reference.along_m2, 1e-3);
 }
 
 /*
- * A plot alone, at this place along a body of 3.5 m whose heading is known to .3 rad: the farther
- * out it is, the more of it tells the turn. The width is learned where a tenth of it is left.
+ * Adds one plot at along_m to a body of 3.5 m with a heading sigma of 0.3 rad. The farther out a
+ * plot is, the more its offset across is due to the heading; the width is updated if a tenth of it
+ * is left.
  */
-static int learns_width(double along_m)
+static int does_plot_update_width(double along_m)
 {
     struct rho_body_filter body;
     struct rho_body_look look = {0};
     rho_body_filter_init(&body, 1, 1.0f);
-    moves(&body, 10.0f, 0.0f, 9.0f);
+    set_velocity(&body, 10.0f, 0.0f, 9.0f);
     body.along.weight = 2000.0f;
     const float before = body.across.weight;
-    add_plot(&look, along_m, 0.0, 0.0);
+    add_plot_to_look(&look, along_m, 0.0, 0.0);
     rho_body_add_plots(&body, &look);
     return body.across.weight > before;
 }
 
-static void a_plot_that_tells_little_but_the_turn_tells_no_width(void **state)
+static void a_plot_far_out_along_the_body_does_not_update_the_width(void **state)
 {
     (void)state;
-    assert_true(learns_width(1.97));  /* .14 of a plot */
-    assert_false(learns_width(2.53)); /* .07 */
+    assert_true(does_plot_update_width(1.97));  /* 0.14 of the plot is left */
+    assert_false(does_plot_update_width(2.53)); /* 0.07 is left */
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sides_without_noise),
-        cmocka_unit_test(sides_are_off_by_their_sigmas),
-        cmocka_unit_test(a_stray_plot_is_no_width),
-        cmocka_unit_test(those_missed_move_the_mean),
-        cmocka_unit_test(heading_comes_from_sure_velocities),
-        cmocka_unit_test(axes_there_and_back),
-        cmocka_unit_test(width_has_a_floor),
-        cmocka_unit_test(a_heading_takes_a_speed_of_three_sigmas),
-        cmocka_unit_test(what_a_new_body_is_taken_for),
-        cmocka_unit_test(every_look_as_derived),
-        cmocka_unit_test(a_plot_that_tells_little_but_the_turn_tells_no_width),
+        cmocka_unit_test(length_and_width_are_estimated_without_the_plots_noise),
+        cmocka_unit_test(errors_of_length_and_width_agree_with_their_sigmas),
+        cmocka_unit_test(one_stray_plot_does_not_widen_a_body_for_long),
+        cmocka_unit_test(the_variance_of_the_mean_follows_the_share_of_missed_scatterers),
+        cmocka_unit_test(the_heading_follows_velocities_that_are_well_known),
+        cmocka_unit_test(rotating_a_covariance_to_body_axes_and_back_restores_it),
+        cmocka_unit_test(the_width_is_at_least_a_sixteenth_of_the_length),
+        cmocka_unit_test(a_heading_needs_a_speed_of_three_sigmas),
+        cmocka_unit_test(a_new_body_has_the_prior_length_and_a_third_of_it_as_width),
+        cmocka_unit_test(every_update_agrees_with_the_derivation),
+        cmocka_unit_test(a_plot_far_out_along_the_body_does_not_update_the_width),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

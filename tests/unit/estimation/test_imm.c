@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Two models that interact, against full matrices in double precision (imm_reference.h). */
+/*
+ * The interacting multiple model filter, compared with full matrices in double precision
+ * (imm_reference.h).
+ */
 #include <float.h>
 #include <string.h>
 
@@ -8,7 +11,7 @@
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
-static struct rho_imm_model some_model(void)
+static struct rho_imm_model random_model(void)
 {
     struct rho_imm_model model;
 
@@ -17,18 +20,18 @@ static struct rho_imm_model some_model(void)
     return model;
 }
 
-/* ---- what an interval does ------------------------------------------------------------------- */
+/* ---- steps ---------------------------------------------------------------------------------- */
 
 /*
- * Intervals of 1 ms to 10^4 s, memories of 0.5 to 1000 s; of the value itself, of its sigmas. Worst
- * of those below:
+ * Tolerances of step coefficients for 1 ms to 10^4 s and memories of 0.5 to 1000 s, in brackets the
+ * largest errors seen; noise is relative to products of sigmas.
  */
-#define RESPONSE_RELATIVE 1.5e-6 /* 5.2e-7 */
-#define NOISE_RELATIVE 2.5e-6    /* 7.7e-7 */
-#define CHANGE_ABSOLUTE 2e-7     /* 8e-8 */
-#define BACK_RELATIVE 4e-6       /* 1.8e-6 */
+#define RESPONSE_RELATIVE 1.5e-6 /* (5.2e-7) */
+#define NOISE_RELATIVE 2.5e-6    /* (7.7e-7) */
+#define CHANGE_ABSOLUTE 2e-7     /* (8e-8) */
+#define BACK_RELATIVE 4e-6       /* (1.8e-6) */
 
-static struct rho_imm_model interval_model(double memory_s)
+static struct rho_imm_model model_with_memory(double memory_s)
 {
     return (struct rho_imm_model){.quiet_density = 2.0f,
                                   .drive_density = 50.0f,
@@ -39,13 +42,13 @@ static struct rho_imm_model interval_model(double memory_s)
                                   .accel_sigma_mps2 = 100.0f};
 }
 
-static void an_interval_is_singers(void **state)
+static void steps_agree_with_singers_model_and_the_markov_chain(void **state)
 {
     double worst_response = 0.0, worst_noise = 0.0, worst_change = 0.0;
 
     (void)state;
     for (int n = 0; n < 1500; ++n) {
-        struct rho_imm_model model = interval_model(0.5 * pow(10.0, uniform(0.0, 3.301)));
+        struct rho_imm_model model = model_with_memory(0.5 * pow(10.0, uniform(0.0, 3.301)));
         const float dt_s = (float)pow(10.0, uniform(-3.0, 4.0));
         model.steady_s = (float)pow(10.0, uniform(0.0, 3.0));
         if (n % 3) {
@@ -76,7 +79,8 @@ static void an_interval_is_singers(void **state)
         worst_change = fmax(worst_change, fabs(step.begins - begins * moved));
         worst_change = fmax(worst_change, fabs(step.ends - ends * moved));
         const double calm_s =
-            fmax(model.calm_s, model.steady_s); /* never less steady than others */
+            /* calm targets manoeuvre no sooner than agile ones */
+            fmax(model.calm_s, model.steady_s);
         const double calm_begins = n % 3 ? fmin(-expm1(-dt_s / calm_s), begins * moved) : 0.0;
         worst_change = fmax(worst_change, fabs(step.calm_begins - calm_begins));
         assert_true(step.calm_begins <= step.begins);
@@ -86,7 +90,7 @@ static void an_interval_is_singers(void **state)
         assert_true(step.quiet_density == model.quiet_density &&
                     step.calm_density == model.calm_density);
         assert_true(step.dt_s == dt_s);
-        for (int i = 0; i < 3; ++i) { /* integral of [u^2 u; u 1] */
+        for (int i = 0; i < 3; ++i) { /* dt^3/3, dt^2/2, dt: white noise of density 1 */
             const double quiet = pow(dt_s, 3 - i) / (3 - i);
             assert_float_equal(step.quiet_noise[i], quiet, 1e-6 * quiet);
         }
@@ -98,14 +102,14 @@ static void an_interval_is_singers(void **state)
     assert_true(worst_change <= CHANGE_ABSOLUTE);
 }
 
-/* One interval after the other: F2 F1 and F2 Q1 F2^T + Q2. */
-static void several_short_intervals_are_one_long_one(void **state)
+/* Compared with F2 F1 and F2 Q1 F2^T + Q2 of two steps. */
+static void two_short_steps_equal_one_long_step(void **state)
 {
     double worst_response = 0.0, worst_noise = 0.0;
 
     (void)state;
     for (int n = 0; n < 5000; ++n) {
-        const struct rho_imm_model model = interval_model(0.5 * pow(10.0, uniform(0.0, 3.301)));
+        const struct rho_imm_model model = model_with_memory(0.5 * pow(10.0, uniform(0.0, 3.301)));
         const float first_s = (float)(model.memory_s * pow(10.0, uniform(-3.0, 1.5)));
         const float second_s = (float)(first_s * pow(10.0, uniform(-1.0, 1.0)));
         struct rho_imm_step a, b, both;
@@ -149,13 +153,13 @@ static void several_short_intervals_are_one_long_one(void **state)
     assert_true(worst_noise <= NOISE_RELATIVE);
 }
 
-static void backwards_is_the_inverse_without_noise_or_change(void **state)
+static void a_step_backwards_is_the_inverse_without_noise(void **state)
 {
     double worst = 0.0;
 
     (void)state;
     for (int n = 0; n < 5000; ++n) {
-        struct rho_imm_model model = interval_model(0.5 * pow(10.0, uniform(0.0, 3.301)));
+        struct rho_imm_model model = model_with_memory(0.5 * pow(10.0, uniform(0.0, 3.301)));
         const float dt_s = (float)(model.memory_s * pow(10.0, uniform(-4.0, 0.7)));
         model.calm_s = model.settle_s = n % 2 ? 100.0f : 0.0f;
         struct rho_imm_step forth, back;
@@ -164,7 +168,7 @@ static void backwards_is_the_inverse_without_noise_or_change(void **state)
         rho_imm_prepare_step(&back, &model, -dt_s);
         const double f = forth.position_by_accel, g = forth.velocity_by_accel;
         const double h = forth.accel_by_accel;
-        /* of the inverse: acceleration 1 / h, velocity -g / h, position (g dt - f) / h */
+        /* expected: acceleration 1 / h, velocity -g / h, position (g dt - f) / h */
         worst = fmax(worst, fabs(back.accel_by_accel * h - 1.0));
         worst = fmax(worst, fabs(back.velocity_by_accel * h / g + 1.0));
         worst = fmax(worst, fabs(back.position_by_accel * h / (g * dt_s - f) - 1.0));
@@ -180,9 +184,9 @@ static void backwards_is_the_inverse_without_noise_or_change(void **state)
     assert_true(worst <= BACK_RELATIVE);
 }
 
-static void no_time_is_no_change(void **state)
+static void a_step_of_no_time_changes_nothing(void **state)
 {
-    struct rho_imm_model model = interval_model(3.0);
+    struct rho_imm_model model = model_with_memory(3.0);
     struct rho_imm_step step;
 
     (void)state;
@@ -197,29 +201,29 @@ static void no_time_is_no_change(void **state)
     }
 }
 
-/* ---- sequences ------------------------------------------------------------------------------- */
+/* ---- sequences of plots --------------------------------------------------------------------- */
 
 struct course {
     const char *name;
     uint32_t measures;
-    int num_axes;          /* of the estimate that it starts from */
-    double share_of_z;     /* scans that measure heights, too: a first z opens the axis */
-    double own_share;      /* plots with own noise along, across, up: a thin ellipse */
-    double dt_min, dt_max; /* s: any interval between */
-    double offset_s;       /* plots have own times, so much either way */
-    double bearing_share;  /* scans that have a bearing from a place instead */
-    double violence;       /* times the model's acceleration, and as much sharper plots */
-    int has_two_states;    /* no target is calm */
+    int num_axes; /* of the first estimate */
+    /* share of scans that measure heights, too; the first height opens the axis */
+    double share_of_z;
+    double own_share;      /* share of plots with different noise along, across and up */
+    double dt_min, dt_max; /* smallest and largest interval, s */
+    double offset_s;       /* plots' own times differ from the scan's by up to this, either way */
+    double bearing_share;  /* share of scans that have a bearing instead of a plot */
+    double violence;       /* factor on the target's acceleration; sigmas are divided by it */
+    int has_two_states;    /* there are no calm targets */
     struct reference_worst by_step, by_mean;
 };
 
 /*
- * The bars stand at twice the worst of thirty times as many sequences, as gcc and clang draw them.
- * After one step float rounding is of the size of what was there before. By itself the mean keeps
- * to the reference's but where a first height left its speed unknown: each update raises that
- * variance, 10^6 m^2/s^2, by 2^-20 of itself, and the next height leaves little else. The steady
- * filter of a calm target looks back further, and rounding lasts longer in it. The share of calm
- * targets has one bar for all courses.
+ * Bounds are twice the largest errors of thirty times as many sequences, with gcc and clang. After
+ * one step errors are of float rounding. The mean of a whole sequence is as near, but for courses
+ * in which a first height left its speed unknown: each update raises that variance, 10^6 m^2/s^2,
+ * by 2^-20 of itself, and the next height removes nearly all of it. Rounding lasts longer in the
+ * steady filter of calm targets, whose memory is longer.
  */
 #define CALM_BY_STEP 6e-6
 #define CALM_BY_MEAN 0.15
@@ -382,7 +386,7 @@ struct truth {
     double x[6], until_s, accel[3];
 };
 
-static struct truth some_truth(double speed_mps)
+static struct truth random_truth(double speed_mps)
 {
     struct truth truth = {.until_s = 0.0};
 
@@ -393,8 +397,9 @@ static struct truth some_truth(double speed_mps)
     return truth;
 }
 
-/* Stretches without acceleration, and others with as much as the model thinks. */
-static void fly(struct truth *truth, double dt, const struct rho_imm_model *model, double violence)
+/* Moves with constant acceleration, which changes now and then and is 0 half of the time. */
+static void move_truth(struct truth *truth, double dt, const struct rho_imm_model *model,
+                       double violence)
 {
     truth->until_s -= dt;
     if (truth->until_s <= 0.0) {
@@ -418,8 +423,8 @@ static void fly(struct truth *truth, double dt, const struct rho_imm_model *mode
     }
 }
 
-static struct rho_plot some_plot(const struct course *course, const struct truth *truth,
-                                 const struct rho_sensor *sensor)
+static struct rho_plot random_plot(const struct course *course, const struct truth *truth,
+                                   const struct rho_sensor *sensor)
 {
     const int has_own = uniform(0.0, 1.0) < course->own_share;
     const double sigma = 10.0 * pow(10.0, uniform(-0.5, 0.5)) / fmax(1.0, course->violence);
@@ -448,7 +453,7 @@ static struct rho_plot some_plot(const struct course *course, const struct truth
     return plot;
 }
 
-static struct rho_kalman first_estimate(const struct truth *truth, int num_axes)
+static struct rho_kalman random_first_estimate(const struct truth *truth, int num_axes)
 {
     struct rho_kalman kalman;
 
@@ -466,19 +471,20 @@ static struct rho_kalman first_estimate(const struct truth *truth, int num_axes)
 struct pair {
     struct rho_imm_model model;
     struct rho_imm imm;
-    struct reference reference; /* goes by itself, from the start */
+    struct reference reference; /* follows the whole sequence independently */
     struct reference_worst by_step,
-        by_mean; /* differences after one step; of the mean, by itself */
+        by_mean; /* by_step: both models after one step; by_mean: the mean of the whole sequence */
     int num_in_gate, num_plots;
 };
 
-static void compare(struct pair *pair, const struct reference *same, const struct reference *before)
+static void compare_pair(struct pair *pair, const struct reference *same,
+                         const struct reference *before)
 {
     reference_compare(&pair->imm, same, before, &pair->by_step);
     reference_compare_mean(&pair->imm, &pair->reference, &pair->by_mean);
 }
 
-static void move_both(struct pair *pair, float dt_s, int is_prediction)
+static void predict_pair(struct pair *pair, float dt_s, int is_prediction)
 {
     const struct reference before = reference_of(&pair->imm);
     struct reference same = before;
@@ -497,17 +503,17 @@ static void move_both(struct pair *pair, float dt_s, int is_prediction)
         reference_predict_unmixed(&pair->reference, &pair->model, dt_s);
         reference_predict_unmixed(&same, &pair->model, dt_s);
     }
-    compare(pair, &same, &before);
+    compare_pair(pair, &same, &before);
 }
 
-static void note(double *worst, double difference)
+static void keep_largest(double *worst, double difference)
 {
     *worst = fmax(*worst, fabs(difference));
 }
 
-/* The same plot to both. */
-static void show_both(struct pair *pair, const struct rho_plot *plot, uint32_t measures,
-                      const struct rho_sensor *sensor)
+/* Scores and updates the library and both references with a plot, and compares. */
+static void update_pair_with_plot(struct pair *pair, const struct rho_plot *plot, uint32_t measures,
+                                  const struct rho_sensor *sensor)
 {
     const struct reference_plot seen_by_same = {plot, measures, sensor};
     const struct reference before = reference_of(&pair->imm);
@@ -527,18 +533,19 @@ static void show_both(struct pair *pair, const struct rho_plot *plot, uint32_t m
     assert_int_equal(match.num_axes, same.has_z && (measures & RHO_MEASURES_Z) ? 3 : 2);
     assert_int_equal(match.has_velocity, (measures & RHO_MEASURES_VELOCITY) != 0);
     assert_int_equal(match.has_range_rate, (measures & RHO_MEASURES_RANGE_RATE) != 0);
-    note(&pair->by_step.distance2, match.nis - here.nearest2);
-    note(&pair->by_step.log_likelihood, match.log_likelihood - here.log_likelihood);
-    note(&pair->by_mean.log_likelihood, match.log_likelihood - there.log_likelihood);
+    keep_largest(&pair->by_step.distance2, match.nis - here.nearest2);
+    keep_largest(&pair->by_step.log_likelihood, match.log_likelihood - here.log_likelihood);
+    keep_largest(&pair->by_mean.log_likelihood, match.log_likelihood - there.log_likelihood);
     pair->num_in_gate++;
     assert_int_equal(rho_imm_update(&pair->imm, &pair->model, &seen, &match), RHO_OK);
     reference_update(&pair->reference, &pair->model, &seen_by_same, there.probability);
     reference_update(&same, &pair->model, &seen_by_same, here.probability);
-    compare(pair, &same, &before);
+    compare_pair(pair, &same, &before);
     assert_int_equal(pair->imm.is_coupled, !pair->reference.is_apart);
 }
 
-static void bear_both(struct pair *pair, const struct truth *truth, const struct rho_sensor *from)
+static void update_pair_with_bearing(struct pair *pair, const struct truth *truth,
+                                     const struct rho_sensor *from)
 {
     const struct reference before = reference_of(&pair->imm);
     const float sigma_rad = (float)uniform(1e-3, 2e-2);
@@ -550,25 +557,25 @@ static void bear_both(struct pair *pair, const struct truth *truth, const struct
     assert_int_equal(
         rho_imm_update_bearing(&pair->imm, from->x_m, from->y_m, bearing_rad, sigma_rad, &gain_nat),
         RHO_OK);
-    note(&pair->by_step.log_likelihood,
-         gain_nat - reference_bearing(&same, from->x_m, from->y_m, bearing_rad, sigma_rad));
-    note(&pair->by_mean.log_likelihood,
-         gain_nat -
-             reference_bearing(&pair->reference, from->x_m, from->y_m, bearing_rad, sigma_rad));
-    compare(pair, &same, &before);
+    keep_largest(&pair->by_step.log_likelihood,
+                 gain_nat - reference_bearing(&same, from->x_m, from->y_m, bearing_rad, sigma_rad));
+    keep_largest(&pair->by_mean.log_likelihood,
+                 gain_nat - reference_bearing(&pair->reference, from->x_m, from->y_m, bearing_rad,
+                                              sigma_rad));
+    compare_pair(pair, &same, &before);
 }
 
-static void follow(const struct course *course, struct pair *pair)
+static void follow_course(const struct course *course, struct pair *pair)
 {
     const struct rho_sensor sensor = {
         .x_m = (float)uniform(-1e5, 1e5), .y_m = (float)uniform(-1e5, 1e5), .z_m = 50.0f};
 
-    pair->model = some_model();
+    pair->model = random_model();
     if (course->has_two_states) {
         pair->model.calm_s = pair->model.settle_s = 0.0f;
     }
-    struct truth truth = some_truth(pair->model.speed_sigma_mps);
-    const struct rho_kalman first = first_estimate(&truth, course->num_axes);
+    struct truth truth = random_truth(pair->model.speed_sigma_mps);
+    const struct rho_kalman first = random_first_estimate(&truth, course->num_axes);
 
     rho_imm_start(&pair->imm, &pair->model, &first);
     reference_start(&pair->reference, &pair->model, &first);
@@ -578,29 +585,29 @@ static void follow(const struct course *course, struct pair *pair)
         const uint32_t z = uniform(0.0, 1.0) < course->share_of_z ? RHO_MEASURES_Z : 0;
         const int is_missed = uniform(0.0, 1.0) < MISSED;
 
-        fly(&truth, dt_s, &pair->model, fmax(1.0, course->violence));
-        move_both(pair, dt_s, 1);
+        move_truth(&truth, dt_s, &pair->model, fmax(1.0, course->violence));
+        predict_pair(pair, dt_s, 1);
         if (is_missed) {
             continue;
         }
         if (uniform(0.0, 1.0) < course->bearing_share) {
-            bear_both(pair, &truth, &sensor);
+            update_pair_with_bearing(pair, &truth, &sensor);
             continue;
         }
-        if (course->offset_s > 0.0) { /* there, and on from there */
+        if (course->offset_s > 0.0) { /* to the plot's own time and back */
             struct truth then = truth;
 
-            move_both(pair, offset_s, 0);
+            predict_pair(pair, offset_s, 0);
             for (int i = 0; i < 3; ++i) {
                 then.x[i] += offset_s * then.x[3 + i];
             }
-            const struct rho_plot plot = some_plot(course, &then, &sensor);
-            show_both(pair, &plot, course->measures | z, &sensor);
-            move_both(pair, -offset_s, 0);
+            const struct rho_plot plot = random_plot(course, &then, &sensor);
+            update_pair_with_plot(pair, &plot, course->measures | z, &sensor);
+            predict_pair(pair, -offset_s, 0);
             continue;
         }
-        const struct rho_plot plot = some_plot(course, &truth, &sensor);
-        show_both(pair, &plot, course->measures | z, &sensor);
+        const struct rho_plot plot = random_plot(course, &truth, &sensor);
+        update_pair_with_plot(pair, &plot, course->measures | z, &sensor);
     }
 }
 
@@ -615,7 +622,7 @@ static void assert_within(const struct reference_worst *worst, const struct refe
     assert_true(worst->calm <= calm);
 }
 
-static void sequences_of_plots_are_followed_as_by_full_matrices(void **state)
+static void sequences_of_plots_agree_with_the_full_matrix_reference(void **state)
 {
     (void)state;
     for (size_t c = 0; c < NUM(courses); ++c) {
@@ -624,7 +631,7 @@ static void sequences_of_plots_are_followed_as_by_full_matrices(void **state)
 
         dense_seed = 7 + c;
         for (int n = 0; n < SEQUENCES_OF_COURSE; ++n) {
-            follow(course, &pair);
+            follow_course(course, &pair);
         }
         assert_within(&pair.by_step, &course->by_step, course->has_two_states ? 0.0 : CALM_BY_STEP);
         assert_within(&pair.by_mean, &course->by_mean, course->has_two_states ? 0.0 : CALM_BY_MEAN);
@@ -634,25 +641,23 @@ static void sequences_of_plots_are_followed_as_by_full_matrices(void **state)
 
 /* ---- mixing ---------------------------------------------------------------------------------- */
 
-/*
- * A model that is all but certain, or certain: shares of the other are small, and none is more than
- * 1.
- */
-static void mixing_is_right_where_a_model_is_certain(void **state)
+/* One model is certain or nearly so: shares of the other are tiny, and none may exceed 1. */
+static void mixing_agrees_with_the_reference_for_nearly_certain_models(void **state)
 {
     static const float probabilities[] = {0.0f,    1e-30f,   1e-8f,       1e-4f, 0.5f,
                                           0.9999f, 0.99999f, 0.99999994f, 1.0f};
     static const float intervals_s[] = {1e-6f, 1e-5f, 2e-5f, 3e-5f, 1e-4f, 1e-2f, 1.0f, 1e3f};
-    static const float calms[] = {-1.0f, 0.0f, 0.5f, 0.99999994f, 1.0f}; /* -1: two states */
+    /* -1: a chain of two states, without calm targets */
+    static const float calms[] = {-1.0f, 0.0f, 0.5f, 0.99999994f, 1.0f};
     const size_t num_pairs = NUM(probabilities) * NUM(intervals_s);
     struct reference_worst worst[2] = {{.state = 0.0}}; /* of two states, of three */
 
     (void)state;
     for (size_t n = 0; n < num_pairs * NUM(calms); ++n) {
         const float calm = calms[n / num_pairs];
-        struct rho_imm_model model = interval_model(5.0);
-        struct truth truth = some_truth(200.0);
-        const struct rho_kalman first = first_estimate(&truth, 3);
+        struct rho_imm_model model = model_with_memory(5.0);
+        struct truth truth = random_truth(200.0);
+        const struct rho_kalman first = random_first_estimate(&truth, 3);
         struct rho_imm imm;
         struct rho_imm_step step;
 
@@ -678,26 +683,29 @@ static void mixing_is_right_where_a_model_is_certain(void **state)
                           reference_manoeuvre_ends(&model, before.probability));
         assert_int_equal(rho_imm_predict(&imm, &step), RHO_OK);
         assert_float_equal(imm.probability, expected.probability, 2e-7);
-        /* of all targets: of steady ones there may be but a unit of rounding */
+        /* share of all targets: as a share of the steady ones it may be rounding alone */
         assert_float_equal((1.0 - expected.probability) * imm.calm,
                            (1.0 - expected.probability) * expected.calm, 3e-7);
         if (step.begins >=
-            1e-5f) { /* less is rounded by much of itself: 3e-8, a unit beside a half */
+            1e-5f) { /* smaller shares have a large relative error: 3e-8, one rounding of 0.5 */
             reference_compare(&imm, &expected, &before, &worst[calm >= 0.0f]);
         }
     }
-    assert_true(worst[0].state <= 3e-5 && worst[0].covariance <= 3e-4); /* 6.1e-6, 7.8e-5 */
-    assert_true(worst[1].state <= 2e-4 && worst[1].covariance <= 6e-4); /* 7.6e-5, 1.9e-4 */
+    /* largest seen: 6.1e-6, 7.8e-5 */
+    assert_true(worst[0].state <= 3e-5 && worst[0].covariance <= 3e-4);
+    /* largest seen: 7.6e-5, 1.9e-4 */
+    assert_true(worst[1].state <= 2e-4 && worst[1].covariance <= 6e-4);
 }
 
-/* ---- paths ----------------------------------------------------------------------------------- */
+/* ---- coupled and decoupled axes ------------------------------------------------------------- */
 
 /*
- * Steps of both a decoupled and a coupled filter on the same plots: they differ by what the way
- * between the models couples.
+ * Steps a decoupled and a coupled filter with the same plots. Only mixing makes them differ: it
+ * couples axes in which the models' means are apart.
  */
-static void follow_twice(struct rho_imm both[2], const struct rho_imm_model *model, int num_axes,
-                         double across, struct reference_worst *worst)
+static void compare_coupled_and_decoupled(struct rho_imm both[2], const struct rho_imm_model *model,
+                                          int num_axes, double across,
+                                          struct reference_worst *worst)
 {
     struct rho_imm_step step;
 
@@ -722,13 +730,13 @@ static void follow_twice(struct rho_imm both[2], const struct rho_imm_model *mod
             assert_int_equal(rho_imm_update(&both[i], model, &seen, &match[i]), RHO_OK);
             rho_imm_estimate(&both[i], &estimate[i], NULL);
         }
-        note(&worst->log_likelihood, match[0].log_likelihood - match[1].log_likelihood);
-        note(&worst->probability, match[0].probability - match[1].probability);
+        keep_largest(&worst->log_likelihood, match[0].log_likelihood - match[1].log_likelihood);
+        keep_largest(&worst->probability, match[0].probability - match[1].probability);
         for (int i = 0; i < 3 + num_axes; ++i) {
             const double sigma = sqrt(estimate[1].covariance[RHO_AT(i, i)]);
 
             if (sigma > 0.0) {
-                note(&worst->state, (estimate[0].state[i] - estimate[1].state[i]) / sigma);
+                keep_largest(&worst->state, (estimate[0].state[i] - estimate[1].state[i]) / sigma);
             }
         }
     }
@@ -736,7 +744,7 @@ static void follow_twice(struct rho_imm both[2], const struct rho_imm_model *mod
     assert_true(both[1].is_coupled);
 }
 
-static void follow_along(double across, struct reference_worst *worst)
+static void compare_paths_of_targets(double across, struct reference_worst *worst)
 {
     struct rho_imm_model model;
 
@@ -760,39 +768,38 @@ static void follow_along(double across, struct reference_worst *worst)
         rho_imm_start(&both[0], &model, &first);
         both[1] = both[0];
         both[1].is_coupled = 1;
-        follow_twice(both, &model, num_axes, across, worst);
+        compare_coupled_and_decoupled(both, &model, num_axes, across, worst);
     }
 }
 
 /*
- * While the way between the models lies along one axis the paths are the same. Else the coupled
- * path has the product of that way in x and in y, too; worst of the cases below: 0.44 sigmas, 0.3
- * of probability, 0.62 nats.
+ * For motion along one axis both filters agree. For a turning target mixing couples x and y in the
+ * coupled filter: the largest differences are 0.44 sigmas, 0.3 of probability, 0.62 nat.
  */
-static void the_decoupled_path_is_the_coupled_one_but_for_the_spread_between_axes(void **state)
+static void the_decoupled_filter_equals_the_coupled_one_for_motion_along_an_axis(void **state)
 {
     struct reference_worst straight = {.state = 0.0}, slanted = straight;
 
     (void)state;
-    follow_along(0.0, &straight);
-    follow_along(1.0, &slanted);
+    compare_paths_of_targets(0.0, &straight);
+    compare_paths_of_targets(1.0, &slanted);
     assert_true(straight.state <= 1e-3 && straight.probability <= 1e-3);
     assert_true(straight.log_likelihood <= 1e-3);
     assert_true(slanted.state <= 0.7 && slanted.probability <= 0.45);
     assert_true(slanted.log_likelihood <= 1.0);
 }
 
-/* A gate that is opened once weighs as the plot by itself does. */
-static void a_gate_weighs_as_one_plot_does(void **state)
+/* A gate prepared for many plots of equal noise gives the score of each plot by itself. */
+static void a_prepared_gate_scores_as_a_single_plot_does(void **state)
 {
     int num_in_gate = 0;
 
     (void)state;
     for (int n = 0; n < 3000; ++n) {
-        const struct rho_imm_model model = some_model();
+        const struct rho_imm_model model = random_model();
         const uint32_t measures = n % 3 ? RHO_MEASURES_Z : 0u;
-        struct truth truth = some_truth(model.speed_sigma_mps);
-        const struct rho_kalman first = first_estimate(&truth, 2 + n % 2);
+        struct truth truth = random_truth(model.speed_sigma_mps);
+        const struct rho_kalman first = random_first_estimate(&truth, 2 + n % 2);
         const float sigma_m = (float)pow(10.0, uniform(-1.0, 1.5));
         const float less = n % 4 ? 1e-4f : 1.0f;
         struct rho_imm_gate gate;
@@ -834,10 +841,7 @@ static void a_gate_weighs_as_one_plot_does(void **state)
             assert_float_equal(probability, one.probability, 1e-5);
             assert_int_equal(gate.num_axes, one.num_axes);
             assert_true(one.has_velocity == 0 && one.has_range_rate == 0);
-            /*
-             * one that is likelier than enough is never left out, one that is less likely by ln 2
-             * always
-             */
+            /* with a limit: a likelier plot always has a score, one less likely by ln 2 never */
             assert_true(rho_imm_score_position_in_gate(&gate, place_m,
                                                        nextafterf(log_likelihood, -INFINITY),
                                                        &log_likelihood, &probability));
@@ -852,13 +856,13 @@ static void a_gate_weighs_as_one_plot_does(void **state)
     assert_true(num_in_gate > 3000);
 }
 
-/* ---- starts, bearings, estimates ------------------------------------------------------------- */
+/* ---- first estimates, bearings, range rates ------------------------------------------------- */
 
-static void both_models_start_from_the_estimate(void **state)
+static void both_models_start_from_the_given_estimate(void **state)
 {
     (void)state;
     for (int n = 0; n < 200; ++n) {
-        const struct rho_imm_model model = some_model();
+        const struct rho_imm_model model = random_model();
         struct rho_kalman first, mean;
         struct rho_imm imm;
         float accel_mps2[3] = {7.0f, 7.0f, 7.0f};
@@ -885,10 +889,10 @@ static void both_models_start_from_the_estimate(void **state)
     }
 }
 
-/* Any one covariance between axes couples them; those within an axis do not. */
-static void an_estimate_is_coupled_where_any_two_axes_are(void **state)
+/* Covariances within an axis do not couple the filter, any one between axes does. */
+static void one_covariance_between_axes_makes_the_filter_coupled(void **state)
 {
-    const struct rho_imm_model model = interval_model(5.0);
+    const struct rho_imm_model model = model_with_memory(5.0);
 
     (void)state;
     for (int i = 0; i < 6; ++i) {
@@ -906,12 +910,12 @@ static void an_estimate_is_coupled_where_any_two_axes_are(void **state)
     }
 }
 
-/* Near the sensor too, where the line of sight turns much within what is known of the place. */
-static void range_rates_without_a_height_are_those_the_kalman_filter_expects(void **state)
+/* Also near the sensor, where the line of sight is uncertain. */
+static void predicted_range_rates_agree_with_the_kalman_filters(void **state)
 {
     const struct rho_sensor sensor = {
         .sensor_id = 1, .x_m = 300.0f, .y_m = -200.0f, .z_m = 40.0f, .range_max_m = 1e6f};
-    struct rho_imm_model model = some_model();
+    struct rho_imm_model model = random_model();
 
     (void)state;
     for (int n = 0; n < 500; ++n) {
@@ -947,11 +951,11 @@ static void range_rates_without_a_height_are_those_the_kalman_filter_expects(voi
     }
 }
 
-static void a_bearing_from_its_own_place_does_nothing(void **state)
+static void a_bearing_from_the_targets_place_changes_nothing(void **state)
 {
-    const struct rho_imm_model model = interval_model(5.0);
-    struct truth truth = some_truth(200.0);
-    const struct rho_kalman first = first_estimate(&truth, 2);
+    const struct rho_imm_model model = model_with_memory(5.0);
+    struct truth truth = random_truth(200.0);
+    const struct rho_kalman first = random_first_estimate(&truth, 2);
     float gain_nat = 7.0f;
     struct rho_imm imm;
 
@@ -965,10 +969,12 @@ static void a_bearing_from_its_own_place_does_nothing(void **state)
     assert_memory_equal(&imm, &before, sizeof imm);
 }
 
-/* The likelihood of a plot with a range rate, whether its sensor's rates were predicted before. */
-static void scores_with_rates_predicted_before_are_the_same(void **state)
+/*
+ * Compares the scores of a plot with a range rate, with and without rates prepared for its sensor.
+ */
+static void scores_with_prepared_range_rates_equal_scores_without(void **state)
 {
-    const struct rho_imm_model model = interval_model(5.0);
+    const struct rho_imm_model model = model_with_memory(5.0);
     const struct rho_sensor sensor = {.x_m = -300.0f, .y_m = 40.0f};
     int num_near = 0;
 
@@ -1009,19 +1015,19 @@ static void scores_with_rates_predicted_before_are_the_same(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_interval_is_singers),
-        cmocka_unit_test(several_short_intervals_are_one_long_one),
-        cmocka_unit_test(backwards_is_the_inverse_without_noise_or_change),
-        cmocka_unit_test(no_time_is_no_change),
-        cmocka_unit_test(sequences_of_plots_are_followed_as_by_full_matrices),
-        cmocka_unit_test(mixing_is_right_where_a_model_is_certain),
-        cmocka_unit_test(the_decoupled_path_is_the_coupled_one_but_for_the_spread_between_axes),
-        cmocka_unit_test(a_gate_weighs_as_one_plot_does),
-        cmocka_unit_test(both_models_start_from_the_estimate),
-        cmocka_unit_test(an_estimate_is_coupled_where_any_two_axes_are),
-        cmocka_unit_test(range_rates_without_a_height_are_those_the_kalman_filter_expects),
-        cmocka_unit_test(a_bearing_from_its_own_place_does_nothing),
-        cmocka_unit_test(scores_with_rates_predicted_before_are_the_same),
+        cmocka_unit_test(steps_agree_with_singers_model_and_the_markov_chain),
+        cmocka_unit_test(two_short_steps_equal_one_long_step),
+        cmocka_unit_test(a_step_backwards_is_the_inverse_without_noise),
+        cmocka_unit_test(a_step_of_no_time_changes_nothing),
+        cmocka_unit_test(sequences_of_plots_agree_with_the_full_matrix_reference),
+        cmocka_unit_test(mixing_agrees_with_the_reference_for_nearly_certain_models),
+        cmocka_unit_test(the_decoupled_filter_equals_the_coupled_one_for_motion_along_an_axis),
+        cmocka_unit_test(a_prepared_gate_scores_as_a_single_plot_does),
+        cmocka_unit_test(both_models_start_from_the_given_estimate),
+        cmocka_unit_test(one_covariance_between_axes_makes_the_filter_coupled),
+        cmocka_unit_test(predicted_range_rates_agree_with_the_kalman_filters),
+        cmocka_unit_test(a_bearing_from_the_targets_place_changes_nothing),
+        cmocka_unit_test(scores_with_prepared_range_rates_equal_scores_without),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Two models that interact at their limits: what they refuse, and what rounding must not do. */
+/*
+ * The interacting multiple model filter at its limits: refused calls, and rounding in extreme
+ * cases.
+ */
 #include <float.h>
 #include <string.h>
 
@@ -11,7 +14,7 @@
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 #define PLACED RHO_TRIANGLE(RHO_IMM_STATES)
 
-static struct rho_imm_model some_model(float accel_max_mps2, float v_max_mps)
+static struct rho_imm_model model_of_limits(float accel_max_mps2, float v_max_mps)
 {
     struct rho_imm_model model;
 
@@ -19,8 +22,8 @@ static struct rho_imm_model some_model(float accel_max_mps2, float v_max_mps)
     return model;
 }
 
-static struct rho_imm started(const struct rho_imm_model *model, int num_axes,
-                              float position_variance)
+static struct rho_imm started_filter(const struct rho_imm_model *model, int num_axes,
+                                     float position_variance)
 {
     struct rho_kalman first;
     struct rho_imm imm;
@@ -36,7 +39,8 @@ static struct rho_imm started(const struct rho_imm_model *model, int num_axes,
     return imm;
 }
 
-static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_model *model, float dt_s)
+static enum rho_status predict_filter(struct rho_imm *imm, const struct rho_imm_model *model,
+                                      float dt_s)
 {
     struct rho_imm_step step;
 
@@ -44,12 +48,9 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_model *
     return rho_imm_predict(imm, &step);
 }
 
-/*
- * Weighs and updates; a plot that is in no gate updates all the same, with the probability as it
- * is.
- */
-static enum rho_status take(struct rho_imm *imm, const struct rho_imm_model *model,
-                            const struct rho_plot *plot, uint32_t measures)
+/* Scores and updates; a plot outside the gate updates, too, and the probability stays. */
+static enum rho_status update_with_plot(struct rho_imm *imm, const struct rho_imm_model *model,
+                                        const struct rho_plot *plot, uint32_t measures)
 {
     struct rho_imm_plot seen;
     struct rho_imm_match match;
@@ -73,8 +74,11 @@ static struct rho_plot plot_at(float x_m, float y_m, float z_m, float sigma_m)
                              .sigma_range_rate_mps = 1.0f};
 }
 
-/* Cholesky in double precision of the open elements, with their variances raised by a share. */
-static int is_definite(int n, const float *covariance, double share)
+/*
+ * Tries a Cholesky factorisation of the open elements in double precision, their variances raised
+ * by `share`.
+ */
+static int is_positive_definite(int n, const float *covariance, double share)
 {
     double l[RHO_IMM_STATES][RHO_IMM_STATES] = {{0.0}};
 
@@ -98,7 +102,8 @@ static int is_definite(int n, const float *covariance, double share)
     return 1;
 }
 
-static void assert_variances(int n, const float *state, const float *covariance, int has_z)
+static void assert_finite_and_within_limits(int n, const float *state, const float *covariance,
+                                            int has_z)
 {
     for (int i = 0; i < n; ++i) {
         const float variance = covariance[RHO_AT(i, i)];
@@ -115,25 +120,25 @@ static void assert_variances(int n, const float *state, const float *covariance,
     }
 }
 
-static void assert_sane(const struct rho_imm *imm)
+static void assert_valid_filter(const struct rho_imm *imm)
 {
     const int has_z = rho_kalman_is_axis_open(&imm->steady, 2);
 
-    assert_variances(6, imm->steady.state, imm->steady.covariance, has_z);
-    assert_variances(RHO_IMM_STATES, imm->state, imm->covariance, has_z);
+    assert_finite_and_within_limits(6, imm->steady.state, imm->steady.covariance, has_z);
+    assert_finite_and_within_limits(RHO_IMM_STATES, imm->state, imm->covariance, has_z);
     assert_true(imm->probability >= 0.0f && imm->probability <= 1.0f);
     assert_true(imm->calm >= 0.0f && imm->calm <= 1.0f);
 }
 
-static void assert_definite(const struct rho_imm *imm)
+static void assert_positive_definite(const struct rho_imm *imm)
 {
-    assert_true(is_definite(6, imm->steady.covariance, 0.0));
-    assert_true(is_definite(RHO_IMM_STATES, imm->covariance, 0.0));
+    assert_true(is_positive_definite(6, imm->steady.covariance, 0.0));
+    assert_true(is_positive_definite(RHO_IMM_STATES, imm->covariance, 0.0));
 }
 
-/* ---- sizes, models --------------------------------------------------------------------------- */
+/* ---- sizes and models ----------------------------------------------------------------------- */
 
-static void hypotheses_are_small(void **state)
+static void filters_and_hypotheses_fit_their_memory_budget(void **state)
 {
     (void)state;
     assert_true(sizeof(struct rho_imm) <= 512);
@@ -146,7 +151,7 @@ static void hypotheses_are_small(void **state)
 #endif
 }
 
-static void the_default_follows_what_targets_may_do(void **state)
+static void the_default_model_follows_speed_and_acceleration_limits(void **state)
 {
     static const float accels[] = {0.0f, 0.01f, 1.0f, 5.0f, 120.0f, 300.0f, 1000.0f};
     static const float speeds[] = {1.0f, 10.0f, 300.0f, 1000.0f, 20000.0f};
@@ -154,14 +159,14 @@ static void the_default_follows_what_targets_may_do(void **state)
     (void)state;
     for (size_t n = 0; n < NUM(accels) * NUM(speeds); ++n) {
         const double a = accels[n % NUM(accels)], v = speeds[n / NUM(accels)];
-        const struct rho_imm_model model = some_model((float)a, (float)v);
+        const struct rho_imm_model model = model_of_limits((float)a, (float)v);
         const double turn_s = a * 1000.0 > v ? v / a : 1000.0;
 
         assert_true(rho_imm_model_is_usable(&model));
         assert_float_equal(model.memory_s, fmax(3.0, 0.35 * turn_s), 1e-6 * turn_s + 1e-6);
         assert_float_equal(model.maneuver_s, fmax(4.0, 0.47 * turn_s), 1e-6 * turn_s + 1e-6);
         assert_true(model.steady_s == model.maneuver_s);
-        /* the standing variance of a Singer process is density times memory / 2 */
+        /* stationary variance of a Singer process: density times memory / 2 */
         assert_float_equal(0.5 * model.drive_density * model.memory_s, pow(0.8 * a, 2),
                            1e-5 * a * a);
         assert_float_equal(model.quiet_density, fmin(1.0, 0.0025 * a * a), 1e-6);
@@ -171,15 +176,15 @@ static void the_default_follows_what_targets_may_do(void **state)
     }
 }
 
-static void models_out_of_their_ranges_are_not_usable(void **state)
+static void models_with_parameters_out_of_range_are_refused(void **state)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, -1.0f, 1e9f};
-    const struct rho_imm_model good = some_model(30.0f, 300.0f);
+    const struct rho_imm_model good = model_of_limits(30.0f, 300.0f);
     struct rho_imm_model model;
     const struct {
         float *field;
-        int may_be_0; /* a density or an acceleration may; a time or a speed may not */
-    } cases[] = {{&model.quiet_density, 0}, /* calm_density is no larger */
+        int may_be_0; /* true for densities and accelerations, not for times and speeds */
+    } cases[] = {{&model.quiet_density, 0}, /* 0 is less than calm_density */
                  {&model.calm_density, 1},  {&model.drive_density, 1},
                  {&model.memory_s, 0},      {&model.steady_s, 0},
                  {&model.maneuver_s, 0},    {&model.calm_s, 1},
@@ -200,10 +205,10 @@ static void models_out_of_their_ranges_are_not_usable(void **state)
     }
 }
 
-/* A calm target is at most as restless as another; where none is calm nobody settles. */
-static void calm_targets_are_those_of_a_usable_model(void **state)
+/* calm_density may not exceed quiet_density; without calm targets settle_s may be 0. */
+static void models_with_calm_targets_noisier_than_others_are_refused(void **state)
 {
-    struct rho_imm_model model = some_model(30.0f, 300.0f);
+    struct rho_imm_model model = model_of_limits(30.0f, 300.0f);
 
     (void)state;
     model.calm_density = model.quiet_density;
@@ -222,21 +227,21 @@ static void calm_targets_are_those_of_a_usable_model(void **state)
     assert_false(rho_imm_model_is_usable(&model));
 }
 
-/* ---- vague and sharp ------------------------------------------------------------------------- */
+/* ---- vague estimates and sharp sensors ------------------------------------------------------ */
 
 /*
- * P0 / R = 5e8, again and again: as a target that is seen first by a poor sensor, then by a very
- * good one.
+ * The variance is 5e8 times that of the plots, as when a very good sensor sees a target after a
+ * poor one.
  */
-static void a_vague_start_survives_a_sharp_sensor(void **state)
+static void a_vague_start_with_a_sharp_sensor_stays_positive_definite(void **state)
 {
     (void)state;
     for (int n = 0; n < 400; ++n) {
         const uint32_t measures = (n & 1 ? RHO_MEASURES_Z : 0u) |
                                   (n & 2 ? RHO_MEASURES_VELOCITY : 0u) |
                                   (n & 4 ? RHO_MEASURES_RANGE_RATE : 0u);
-        const struct rho_imm_model model = some_model(100.0f, 1000.0f);
-        struct rho_imm imm = started(&model, 2 + (n & 1), 5e8f);
+        const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
+        struct rho_imm imm = started_filter(&model, 2 + (n & 1), 5e8f);
 
         for (int k = 0; k < 30; ++k) {
             struct rho_plot plot = plot_at((float)(1000.0 + normal()), (float)(2000.0 + normal()),
@@ -246,21 +251,21 @@ static void a_vague_start_survives_a_sharp_sensor(void **state)
             if (n & 8) {
                 plot.sigma_cross_m = 30.0f;
             }
-            assert_int_equal(predict(&imm, &model, (float)uniform(0.1, 2.0)), RHO_OK);
-            assert_int_equal(take(&imm, &model, &plot, measures), RHO_OK);
-            assert_sane(&imm);
-            assert_definite(&imm);
+            assert_int_equal(predict_filter(&imm, &model, (float)uniform(0.1, 2.0)), RHO_OK);
+            assert_int_equal(update_with_plot(&imm, &model, &plot, measures), RHO_OK);
+            assert_valid_filter(&imm);
+            assert_positive_definite(&imm);
         }
     }
 }
 
-/* From a millimetre to 100 km from one plot to the next. */
-static void any_sigma_follows_any_other(void **state)
+/* Each plot's sigma is drawn from a millimetre to 100 km. */
+static void sigmas_from_millimetres_to_100_km_stay_positive_definite(void **state)
 {
     (void)state;
     for (int n = 0; n < 200; ++n) {
-        const struct rho_imm_model model = some_model(100.0f, 1000.0f);
-        struct rho_imm imm = started(&model, 3, 1e6f);
+        const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
+        struct rho_imm imm = started_filter(&model, 3, 1e6f);
 
         for (int k = 0; k < 50; ++k) {
             const float sigma_m = (float)pow(10.0, uniform(-3.0, 5.0));
@@ -268,31 +273,32 @@ static void any_sigma_follows_any_other(void **state)
                 plot_at((float)(1000.0 + sigma_m * normal()), (float)(2000.0 + sigma_m * normal()),
                         (float)(3000.0 + sigma_m * normal()), sigma_m);
 
-            assert_int_equal(predict(&imm, &model, (float)uniform(0.1, 10.0)), RHO_OK);
-            assert_int_equal(take(&imm, &model, &plot, n % 2 ? RHO_MEASURES_Z : 0u), RHO_OK);
-            assert_sane(&imm);
-            assert_definite(&imm);
+            assert_int_equal(predict_filter(&imm, &model, (float)uniform(0.1, 10.0)), RHO_OK);
+            assert_int_equal(update_with_plot(&imm, &model, &plot, n % 2 ? RHO_MEASURES_Z : 0u),
+                             RHO_OK);
+            assert_valid_filter(&imm);
+            assert_positive_definite(&imm);
         }
     }
 }
 
-/* ---- a hostile walk -------------------------------------------------------------------------- */
+/* ---- random hostile calls ------------------------------------------------------------------- */
 
-static float spread(double from, double to)
+static float random_power_of_ten(double from, double to)
 {
     return (float)pow(10.0, uniform(from, to));
 }
 
-static uint32_t some_measures(void)
+static uint32_t random_measures(void)
 {
     const double choice = uniform(0.0, 8.0);
 
     return (uint32_t)choice & 7u;
 }
 
-static struct rho_plot hostile_plot(const struct rho_imm *imm)
+static struct rho_plot random_hostile_plot(const struct rho_imm *imm)
 {
-    const float sigma_m = spread(-3.0, 5.0);
+    const float sigma_m = random_power_of_ten(-3.0, 5.0);
     struct rho_plot plot = plot_at(imm->state[0], imm->state[1], imm->state[2], sigma_m);
     float *const places[3] = {&plot.x_m, &plot.y_m, &plot.z_m};
 
@@ -306,22 +312,22 @@ static struct rho_plot hostile_plot(const struct rho_imm *imm)
     plot.vy_mps = imm->state[4];
     plot.vz_mps = (float)uniform(-100.0, 100.0);
     plot.range_rate_mps = (float)uniform(-1e3, 1e3);
-    plot.sigma_mps = spread(-3.0, 5.0);
-    plot.sigma_range_rate_mps = spread(-3.0, 5.0);
+    plot.sigma_mps = random_power_of_ten(-3.0, 5.0);
+    plot.sigma_range_rate_mps = random_power_of_ten(-3.0, 5.0);
     if (uniform(0.0, 1.0) < 0.5) {
-        plot.sigma_cross_m = spread(-3.0, 5.0);
-        plot.sigma_up_m = spread(-3.0, 5.0);
+        plot.sigma_cross_m = random_power_of_ten(-3.0, 5.0);
+        plot.sigma_up_m = random_power_of_ten(-3.0, 5.0);
     }
     return plot;
 }
 
-static enum rho_status hostile_step(struct rho_imm *imm, const struct rho_imm_model *model)
+static enum rho_status make_random_call(struct rho_imm *imm, const struct rho_imm_model *model)
 {
     const double choice = uniform(0.0, 1.0);
     float gain_nat;
 
     if (choice < 0.4) {
-        return predict(imm, model, spread(-6.0, 3.0));
+        return predict_filter(imm, model, random_power_of_ten(-6.0, 3.0));
     }
     if (choice < 0.45) {
         struct rho_imm_step step;
@@ -331,56 +337,60 @@ static enum rho_status hostile_step(struct rho_imm *imm, const struct rho_imm_mo
     }
     if (choice < 0.55) {
         return rho_imm_update_bearing(imm, (float)uniform(-1e5, 1e5), (float)uniform(-1e5, 1e5),
-                                      (float)uniform(-3.14, 3.14), spread(-6.0, -0.4), &gain_nat);
+                                      (float)uniform(-3.14, 3.14), random_power_of_ten(-6.0, -0.4),
+                                      &gain_nat);
     }
-    const struct rho_plot plot = hostile_plot(imm);
-    const uint32_t measures = some_measures();
-    return take(imm, model, &plot, measures);
+    const struct rho_plot plot = random_hostile_plot(imm);
+    const uint32_t measures = random_measures();
+    return update_with_plot(imm, model, &plot, measures);
 }
 
-/* A step that is refused leaves an object of no use: the walk goes on from where it was. */
-static void a_hostile_walk_stays_sane(void **state)
+/* A refused call may leave an invalid filter, so the test goes on from the one before. */
+static void random_hostile_calls_leave_a_valid_filter(void **state)
 {
     unsigned num_refused = 0, num_definite = 0, num_judged = 0;
-    struct rho_imm_model model = some_model(100.0f, 1000.0f);
-    struct rho_imm imm = started(&model, 2, 1e4f);
+    struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
+    struct rho_imm imm = started_filter(&model, 2, 1e4f);
 
     (void)state;
     for (int n = 0; n < 100000; ++n) {
         const struct rho_imm before = imm;
 
-        if (hostile_step(&imm, &model) != RHO_OK) {
+        if (make_random_call(&imm, &model) != RHO_OK) {
             imm = before;
             num_refused++;
         }
-        assert_sane(&imm);
+        assert_valid_filter(&imm);
         if (n % 16 == 0) {
             num_judged++;
-            num_definite += is_definite(6, imm.steady.covariance, 1e-6) &&
-                            is_definite(RHO_IMM_STATES, imm.covariance, 1e-6);
+            num_definite += is_positive_definite(6, imm.steady.covariance, 1e-6) &&
+                            is_positive_definite(RHO_IMM_STATES, imm.covariance, 1e-6);
         }
         if (n % 200 == 199) {
-            const float accel_mps2 = spread(0.0, 3.0);
+            const float accel_mps2 = random_power_of_ten(0.0, 3.0);
 
-            model = some_model(accel_mps2, spread(0.0, 4.0));
-            imm = started(&model, 2 + (n / 200) % 2, spread(-6.0, 8.0));
+            model = model_of_limits(accel_mps2, random_power_of_ten(0.0, 4.0));
+            imm = started_filter(&model, 2 + (n / 200) % 2, random_power_of_ten(-6.0, 8.0));
         }
     }
-    /* 9522, and 6234: what was singular before, and measured 10^8 times sharper */
+    /*
+     * 9522 were refused; 6234 of 6250 covariances were positive definite, the others singular
+     * before a plot 10^8 times sharper
+     */
     assert_in_range(num_refused, 1000, 20000);
     assert_true(num_judged == 6250 && num_definite >= 6220);
 }
 
 /* ---- refusals -------------------------------------------------------------------------------- */
 
-static void a_step_refuses_times_that_are_none(void **state)
+static void steps_of_invalid_time_are_refused(void **state)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, 1.1e5f, -1.1e5f};
-    const struct rho_imm_model model = some_model(100.0f, 1000.0f);
+    const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
 
     (void)state;
     for (size_t k = 0; k < NUM(bad); ++k) {
-        struct rho_imm imm = started(&model, 3, 100.0f);
+        struct rho_imm imm = started_filter(&model, 3, 100.0f);
         struct rho_imm_step step;
 
         rho_imm_prepare_step(&step, &model, bad[k]);
@@ -389,77 +399,77 @@ static void a_step_refuses_times_that_are_none(void **state)
     }
 }
 
-/* Of a target that hardly moves, so that nothing grows too large. */
-static void a_step_has_a_day_at_most(void **state)
+/* A target that hardly moves, so that no variance exceeds its limit. */
+static void steps_are_limited_to_about_a_day(void **state)
 {
     const struct rho_imm_model model = {
         .memory_s = 1e6f, .steady_s = 1.0f, .maneuver_s = 1.0f, .speed_sigma_mps = 1e-3f};
-    struct rho_imm imm = started(&model, 3, 1.0f);
+    struct rho_imm imm = started_filter(&model, 3, 1.0f);
 
     (void)state;
-    assert_int_equal(predict(&imm, &model, 1.0e5f), RHO_OK);
-    assert_int_equal(predict(&imm, &model, -1.0e5f), RHO_OK);
-    assert_int_equal(predict(&imm, &model, 1.1e5f), RHO_ERROR_VALUE);
-    assert_int_equal(predict(&imm, &model, -1.1e5f), RHO_ERROR_VALUE);
+    assert_int_equal(predict_filter(&imm, &model, 1.0e5f), RHO_OK);
+    assert_int_equal(predict_filter(&imm, &model, -1.0e5f), RHO_OK);
+    assert_int_equal(predict_filter(&imm, &model, 1.1e5f), RHO_ERROR_VALUE);
+    assert_int_equal(predict_filter(&imm, &model, -1.1e5f), RHO_ERROR_VALUE);
 }
 
-static void what_grows_beyond_the_limit_is_refused(void **state)
+static void predictions_beyond_the_largest_variance_are_refused(void **state)
 {
-    const struct rho_imm_model model = some_model(100.0f, 1000.0f);
+    const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
 
     (void)state;
     for (int coupled = 0; coupled < 2; ++coupled) {
-        struct rho_imm imm = started(&model, 3, 100.0f);
+        struct rho_imm imm = started_filter(&model, 3, 100.0f);
         int num_steps = 0;
 
         imm.is_coupled = (uint8_t)coupled;
-        while (predict(&imm, &model, 30.0f) == RHO_OK) {
-            assert_sane(&imm);
+        while (predict_filter(&imm, &model, 30.0f) == RHO_OK) {
+            assert_valid_filter(&imm);
             assert_true(++num_steps < 1000);
         }
         assert_true(num_steps > 3);
-        /* in one step */
-        imm = started(&model, 3, 100.0f);
+        /* the limit is exceeded in one step */
+        imm = started_filter(&model, 3, 100.0f);
         imm.is_coupled = (uint8_t)coupled;
-        assert_int_equal(predict(&imm, &model, 1e5f), RHO_ERROR_VALUE);
-        imm = started(&model, 3, RHO_KALMAN_VARIANCE_MAX);
+        assert_int_equal(predict_filter(&imm, &model, 1e5f), RHO_ERROR_VALUE);
+        imm = started_filter(&model, 3, RHO_KALMAN_VARIANCE_MAX);
         imm.is_coupled = (uint8_t)coupled;
-        assert_int_equal(predict(&imm, &model, 1.0f), RHO_ERROR_VALUE);
+        assert_int_equal(predict_filter(&imm, &model, 1.0f), RHO_ERROR_VALUE);
     }
 }
 
-/* Any element that is no number is found by a prediction of any length, coupled or not. */
-static void what_is_no_number_is_refused(void **state)
+/* NAN or infinity in any element makes a prediction fail, whether the axes are coupled or not. */
+static void filters_that_hold_nan_or_infinity_are_not_predicted(void **state)
 {
     static const float bad[] = {NAN, INFINITY};
-    const struct rho_imm_model model = some_model(100.0f, 1000.0f);
+    const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
 
     (void)state;
     for (size_t k = 0; k < 2 * NUM(bad); ++k) {
         for (int i = 0; i < RHO_IMM_STATES; ++i) {
-            struct rho_imm imm = started(&model, 3, 100.0f);
+            struct rho_imm imm = started_filter(&model, 3, 100.0f);
 
             imm.is_coupled = k % 2;
             imm.state[i] = bad[k / 2];
-            assert_int_not_equal(predict(&imm, &model, 1.0f), RHO_OK);
-            imm = started(&model, 3, 100.0f);
+            assert_int_not_equal(predict_filter(&imm, &model, 1.0f), RHO_OK);
+            imm = started_filter(&model, 3, 100.0f);
             imm.is_coupled = k % 2;
             imm.covariance[RHO_AT(i, i)] = bad[k / 2];
-            assert_int_not_equal(predict(&imm, &model, 1.0f), RHO_OK);
+            assert_int_not_equal(predict_filter(&imm, &model, 1.0f), RHO_OK);
             if (i < 6) {
-                imm = started(&model, 3, 100.0f);
+                imm = started_filter(&model, 3, 100.0f);
                 imm.is_coupled = k % 2;
                 imm.steady.covariance[RHO_AT(i, i)] = bad[k / 2];
-                assert_int_not_equal(predict(&imm, &model, 1.0f), RHO_OK);
+                assert_int_not_equal(predict_filter(&imm, &model, 1.0f), RHO_OK);
             }
         }
     }
 }
 
-static void a_plot_that_is_no_number_is_in_no_gate_and_no_update(void **state)
+static void plots_that_are_not_finite_are_in_no_gate_and_refused(void **state)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY};
-    const struct rho_imm_model model = some_model(100.0f, 1000.0f);
+    const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
 
     (void)state;
     for (size_t n = 0; n < 4 * NUM(bad) * 7; ++n) {
@@ -469,7 +479,7 @@ static void a_plot_that_is_no_number_is_in_no_gate_and_no_update(void **state)
         struct rho_plot plot = plot_at(1000.0f, 2000.0f, 3000.0f, 10.0f);
         float *const fields[7] = {&plot.x_m,    &plot.y_m,    &plot.z_m,           &plot.vx_mps,
                                   &plot.vy_mps, &plot.vz_mps, &plot.range_rate_mps};
-        struct rho_imm imm = started(&model, 3, 100.0f);
+        struct rho_imm imm = started_filter(&model, 3, 100.0f);
         struct rho_imm_plot seen;
         struct rho_imm_match match;
 
@@ -482,41 +492,42 @@ static void a_plot_that_is_no_number_is_in_no_gate_and_no_update(void **state)
     }
 }
 
-/* An estimate that is none takes no plot, coupled or not. */
-static void what_is_no_estimate_takes_no_plot(void **state)
+/* A negative variance or a state that is not finite makes an update fail, coupled or not. */
+static void invalid_estimates_are_not_updated(void **state)
 {
     static const float bad_states[] = {NAN, INFINITY, -INFINITY};
-    const struct rho_imm_model model = some_model(100.0f, 1000.0f);
+    const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
     const struct rho_plot plot = plot_at(1000.0f, 2000.0f, 3000.0f, 10.0f);
 
     (void)state;
     for (int n = 0; n < 2; ++n) {
-        for (int i = 0; i < 2; ++i) { /* a height that is none is opened */
-            struct rho_imm imm = started(&model, 3, 100.0f);
+        for (int i = 0; i < 2; ++i) { /* not z: a height without variance is opened */
+            struct rho_imm imm = started_filter(&model, 3, 100.0f);
 
             imm.is_coupled = (uint8_t)n;
             imm.covariance[RHO_AT(i, i)] = -50.0f;
-            assert_int_not_equal(take(&imm, &model, &plot, RHO_MEASURES_Z), RHO_OK);
-            imm = started(&model, 3, 100.0f);
+            assert_int_not_equal(update_with_plot(&imm, &model, &plot, RHO_MEASURES_Z), RHO_OK);
+            imm = started_filter(&model, 3, 100.0f);
             imm.is_coupled = (uint8_t)n;
             imm.steady.covariance[RHO_AT(i, i)] = -50.0f;
-            const enum rho_status status = take(&imm, &model, &plot, RHO_MEASURES_Z);
-            assert_true(status != RHO_OK || n == 1); /* the update of another axis lifts it */
+            const enum rho_status status = update_with_plot(&imm, &model, &plot, RHO_MEASURES_Z);
+            /* an update of another axis may raise the variance */
+            assert_true(status != RHO_OK || n == 1);
         }
         for (size_t k = 0; k < NUM(bad_states) * RHO_IMM_STATES; ++k) {
-            struct rho_imm imm = started(&model, 3, 100.0f);
+            struct rho_imm imm = started_filter(&model, 3, 100.0f);
 
             imm.is_coupled = (uint8_t)n;
             imm.state[k % RHO_IMM_STATES] = bad_states[k / RHO_IMM_STATES];
-            assert_int_not_equal(take(&imm, &model, &plot, RHO_MEASURES_Z), RHO_OK);
+            assert_int_not_equal(update_with_plot(&imm, &model, &plot, RHO_MEASURES_Z), RHO_OK);
         }
     }
 }
 
 static void pointers_and_bearings_are_checked(void **state)
 {
-    const struct rho_imm_model model = some_model(100.0f, 1000.0f);
-    struct rho_imm imm = started(&model, 3, 100.0f);
+    const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
+    struct rho_imm imm = started_filter(&model, 3, 100.0f);
     const struct rho_imm before = imm;
     const struct rho_plot plot = plot_at(1000.0f, 2000.0f, 3000.0f, 10.0f);
     struct rho_imm_step step;
@@ -550,17 +561,17 @@ static void pointers_and_bearings_are_checked(void **state)
     assert_true(gain_nat == 7.0f);
 }
 
-/* ---- gates, snapshots ------------------------------------------------------------------------ */
+/* ---- gates, copies -------------------------------------------------------------------------- */
 
-/* Just within and just without, along an axis and in two; the other model is far off. */
-static void a_plot_is_in_the_gate_of_either_model(void **state)
+/* A plot just inside or just outside the gate of one model, while the other model is far away. */
+static void a_plot_in_the_gate_of_one_model_is_in_the_gate(void **state)
 {
-    const struct rho_imm_model model = some_model(100.0f, 1000.0f);
+    const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
 
     (void)state;
     for (int n = 0; n < 8; ++n) {
         const int is_inside = n & 1, is_steady = n & 2, is_coupled = n & 4;
-        struct rho_imm imm = started(&model, 2, 300.0f);
+        struct rho_imm imm = started_filter(&model, 2, 300.0f);
         struct rho_imm_match match;
         struct rho_imm_plot seen;
         const double reach = sqrt(30.0 * 400.0) * (is_inside ? 0.999 : 1.001);
@@ -585,13 +596,13 @@ static void a_plot_is_in_the_gate_of_either_model(void **state)
 }
 
 /*
- * Rounding leaves no doubt of a manoeuvre; the next plot, or a bearing of the same time, says that
- * there is none.
+ * One model has the probability 1 by rounding; a plot or a bearing that only the other explains
+ * must restore that one.
  */
-static void a_model_that_was_ruled_out_comes_back(void **state)
+static void a_model_of_probability_zero_can_recover(void **state)
 {
-    const struct rho_imm_model model = some_model(100.0f, 1000.0f);
-    struct rho_imm imm = started(&model, 2, 100.0f);
+    const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
+    struct rho_imm imm = started_filter(&model, 2, 100.0f);
     const struct rho_plot plot = plot_at(1000.0f, 2000.0f, 0.0f, 10.0f);
     struct rho_imm_plot seen;
     struct rho_imm_match match;
@@ -615,25 +626,25 @@ static void a_model_that_was_ruled_out_comes_back(void **state)
     assert_true(match.probability == 1.0f && match.log_likelihood < -20.0f);
 }
 
-static void a_copy_goes_on_with_the_same_bytes(void **state)
+static void a_copied_filter_continues_identically(void **state)
 {
     (void)state;
     for (int n = 0; n < 50; ++n) {
-        const struct rho_imm_model model = some_model(100.0f, 1000.0f);
-        struct rho_imm one = started(&model, 2 + n % 2, 100.0f), other;
+        const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
+        struct rho_imm one = started_filter(&model, 2 + n % 2, 100.0f), other;
         const uint64_t seed = dense_seed;
 
         for (int k = 0; k < 20; ++k) {
-            (void)hostile_step(&one, &model);
+            (void)make_random_call(&one, &model);
         }
         memcpy(&other, &one, sizeof one);
         dense_seed = seed;
         for (int k = 0; k < 20; ++k) {
-            (void)hostile_step(&one, &model);
+            (void)make_random_call(&one, &model);
         }
         dense_seed = seed;
         for (int k = 0; k < 20; ++k) {
-            (void)hostile_step(&other, &model);
+            (void)make_random_call(&other, &model);
         }
         assert_memory_equal(&one, &other, sizeof one);
     }
@@ -642,23 +653,23 @@ static void a_copy_goes_on_with_the_same_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hypotheses_are_small),
-        cmocka_unit_test(the_default_follows_what_targets_may_do),
-        cmocka_unit_test(models_out_of_their_ranges_are_not_usable),
-        cmocka_unit_test(calm_targets_are_those_of_a_usable_model),
-        cmocka_unit_test(a_vague_start_survives_a_sharp_sensor),
-        cmocka_unit_test(any_sigma_follows_any_other),
-        cmocka_unit_test(a_hostile_walk_stays_sane),
-        cmocka_unit_test(a_step_refuses_times_that_are_none),
-        cmocka_unit_test(a_step_has_a_day_at_most),
-        cmocka_unit_test(what_grows_beyond_the_limit_is_refused),
-        cmocka_unit_test(what_is_no_number_is_refused),
-        cmocka_unit_test(a_plot_that_is_no_number_is_in_no_gate_and_no_update),
-        cmocka_unit_test(what_is_no_estimate_takes_no_plot),
+        cmocka_unit_test(filters_and_hypotheses_fit_their_memory_budget),
+        cmocka_unit_test(the_default_model_follows_speed_and_acceleration_limits),
+        cmocka_unit_test(models_with_parameters_out_of_range_are_refused),
+        cmocka_unit_test(models_with_calm_targets_noisier_than_others_are_refused),
+        cmocka_unit_test(a_vague_start_with_a_sharp_sensor_stays_positive_definite),
+        cmocka_unit_test(sigmas_from_millimetres_to_100_km_stay_positive_definite),
+        cmocka_unit_test(random_hostile_calls_leave_a_valid_filter),
+        cmocka_unit_test(steps_of_invalid_time_are_refused),
+        cmocka_unit_test(steps_are_limited_to_about_a_day),
+        cmocka_unit_test(predictions_beyond_the_largest_variance_are_refused),
+        cmocka_unit_test(filters_that_hold_nan_or_infinity_are_not_predicted),
+        cmocka_unit_test(plots_that_are_not_finite_are_in_no_gate_and_refused),
+        cmocka_unit_test(invalid_estimates_are_not_updated),
         cmocka_unit_test(pointers_and_bearings_are_checked),
-        cmocka_unit_test(a_plot_is_in_the_gate_of_either_model),
-        cmocka_unit_test(a_model_that_was_ruled_out_comes_back),
-        cmocka_unit_test(a_copy_goes_on_with_the_same_bytes),
+        cmocka_unit_test(a_plot_in_the_gate_of_one_model_is_in_the_gate),
+        cmocka_unit_test(a_model_of_probability_zero_can_recover),
+        cmocka_unit_test(a_copied_filter_continues_identically),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

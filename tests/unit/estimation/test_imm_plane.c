@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two constants of the filter with two models whose edges no plot meets but by chance: this test
- * includes private headers.
+ * Two constants of the filter with two models, tested through private headers, as plots hardly ever
+ * meet their limits.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 #include "../../src/estimation/imm_axis_access.h"
 #include "../../src/estimation/imm_plane.h"
 
-static void a_range_rate_needs_a_metre(void **state)
+static void a_range_rate_is_predicted_from_a_metre_of_range_on(void **state)
 {
     static const float covariance[RHO_TRIANGLE(RHO_IMM_STATES)] = {1.0f, 0.0f, 1.0f};
     struct plane_rate rate;
@@ -30,8 +30,8 @@ static void a_range_rate_needs_a_metre(void **state)
     }
 }
 
-/* A model with no probability at all has 1e-9 of it, which evidence of e^20 makes a half. */
-static void a_ruled_out_model_keeps_a_billionth(void **state)
+/* A likelihood ratio of 10^9 raises the probability of the model that had none to a half. */
+static void a_model_of_probability_zero_keeps_a_billionth(void **state)
 {
     static const float variance[2] = {4.0f, 4.0f};
     const float far = (float)sqrt(4.0 * 2.0 * log(1e9)), far_and_near[2] = {far, 0.0f},
@@ -50,8 +50,8 @@ static void a_ruled_out_model_keeps_a_billionth(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_range_rate_needs_a_metre),
-        cmocka_unit_test(a_ruled_out_model_keeps_a_billionth),
+        cmocka_unit_test(a_range_rate_is_predicted_from_a_metre_of_range_on),
+        cmocka_unit_test(a_model_of_probability_zero_keeps_a_billionth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Input estimation against an augmented Kalman filter in double precision, and its decisions. */
+/*
+ * Input estimation and its decisions, compared with an augmented Kalman filter in double precision.
+ */
 #include "dense_filter.h"
 #include "input_estimation_reference.h"
 #include "kalman_checks.h"
@@ -8,21 +10,24 @@
 
 #define STEPS 160
 
-/* Two-stage against augmented, both in double precision. Positions are of the size 1e4. */
+/*
+ * Tolerance between the two-stage and the augmented filter, both in double precision; positions are
+ * about 1e4.
+ */
 #define DOUBLE_RELATIVE 1e-9
 #define POSITION_SIZE 1e4
 
 /*
- * The library: in sigmas, of variances, and of a state itself. Worst of the runs: 1.1e-3 and 2e-5;
- * along the line of sight, where after many plots an input is known to a digit or two of its
- * positions, 2.3e-2 and 4e-4.
+ * Tolerances of the library, in sigmas and relative to variances; largest seen: 1.1e-3 and 2e-5.
+ * With noise along the line of sight, where inputs have one or two digits after many plots, 2.3e-2
+ * and 4e-4 are seen.
  */
 static const struct tolerance {
     double sigmas, variance;
 } tight = {2e-3, 5e-5}, loose = {6e-2, 1e-3};
 
 #define ROUNDING 5e-7
-#define TOSS_UP 0.01 /* sigmas from the threshold */
+#define TOSS_UP 0.01 /* a decision this near to the threshold, in sigmas, may go either way */
 
 /* --- a target and its plots ------------------------------------------------------------------ */
 
@@ -30,7 +35,7 @@ enum noise_kind { POSITION_VELOCITY, POSITION, POLAR };
 
 struct scene {
     enum noise_kind kind;
-    double sigma_m, sigma_cross_m; /* cross: where polar */
+    double sigma_m, sigma_cross_m; /* sigma_cross_m counts for POLAR alone */
     double input_mps2[3], from_s, to_s;
     double pd;
     struct ref_setting setting;
@@ -72,18 +77,15 @@ static void move_truth(double truth[6], const struct scene *scene, double t_s)
     }
 }
 
-/*
- * What is measured, as the library and as the references take it: the same numbers, rounded to
- * float.
- */
+/* A measurement for the library and for the references: the same numbers, rounded to float. */
 struct look {
-    int num_elements; /* 6, 3 or, along the line of sight, 0 */
+    int num_elements; /* 6, 3, or 0 for a polar plot */
     float values[6], variance;
     struct rho_measurement seen;
     struct ref_measured reference;
 };
 
-static void look_at_elements(struct look *look, const double truth[6], const struct scene *scene)
+static void measure_elements(struct look *look, const double truth[6], const struct scene *scene)
 {
     look->num_elements = scene->kind == POSITION_VELOCITY ? 6 : 3;
     look->variance = (float)(scene->sigma_m * scene->sigma_m);
@@ -96,9 +98,8 @@ static void look_at_elements(struct look *look, const double truth[6], const str
     }
 }
 
-/* The plot's own place gives the line of sight, so that there is one whatever its noise. */
-static void look_from_the_origin(struct look *look, const double truth[6],
-                                 const struct scene *scene)
+/* The line of sight is that to the noisy plot, as in the library. */
+static void measure_polar_plot(struct look *look, const double truth[6], const struct scene *scene)
 {
     static const double origin[3] = {0.0, 0.0, 0.0};
     struct rho_plot plot = {.sigma_range_m = (float)scene->sigma_m,
@@ -113,7 +114,7 @@ static void look_from_the_origin(struct look *look, const double truth[6],
     for (int i = 0; i < 3; ++i) {
         noise[i] = normal();
         at[i] = truth[i];
-        for (int j = 0; j <= i; ++j) { /* a factor of the noise's covariance */
+        for (int j = 0; j <= i; ++j) { /* Cholesky factor of the noise covariance */
             double rest = there.r[i][j];
             for (int k = 0; k < j; ++k) {
                 rest -= l[i][k] * l[j][k];
@@ -136,19 +137,19 @@ static void look_from_the_origin(struct look *look, const double truth[6],
     }
 }
 
-static struct look look_at(const double truth[6], const struct scene *scene)
+static struct look measure(const double truth[6], const struct scene *scene)
 {
     struct look look = {.num_elements = 0};
 
     if (scene->kind == POLAR) {
-        look_from_the_origin(&look, truth, scene);
+        measure_polar_plot(&look, truth, scene);
     } else {
-        look_at_elements(&look, truth, scene);
+        measure_elements(&look, truth, scene);
     }
     return look;
 }
 
-/* ---- the library beside the augmented filter ------------------------------------------------- */
+/* ---- library and augmented filter ----------------------------------------------------------- */
 
 struct pair {
     struct rho_input_config config;
@@ -202,8 +203,9 @@ static struct tolerance tolerance_of(const struct scene *scene)
     return scene->kind == POLAR ? loose : tight;
 }
 
-static void assert_near(const struct rho_kalman *estimate, const struct ref_augmented *augmented,
-                        struct tolerance may_be)
+static void assert_estimate_near_reference(const struct rho_kalman *estimate,
+                                           const struct ref_augmented *augmented,
+                                           struct tolerance may_be)
 {
     for (int i = 0; i < STATES; ++i) {
         const double sigma = sqrt(augmented->p[i][i]);
@@ -218,8 +220,9 @@ static void assert_near(const struct rho_kalman *estimate, const struct ref_augm
     assert_true(is_positive_definite(estimate));
 }
 
-static void assert_same_inputs(const struct rho_input *input, const struct ref_augmented *augmented,
-                               struct tolerance may_be)
+static void assert_inputs_near_reference(const struct rho_input *input,
+                                         const struct ref_augmented *augmented,
+                                         struct tolerance may_be)
 {
     for (int a = 0; a < 3; ++a) {
         const double sigma = sqrt(augmented->p[6 + a][6 + a]);
@@ -241,10 +244,10 @@ static void predict_pair(struct pair *pair, const struct scene *scene)
                      RHO_OK);
     ref_augmented_predict(&pair->augmented, &scene->setting);
     rho_input_estimate_for_gate(&pair->input, &estimate);
-    assert_near(&estimate, &pair->augmented, tolerance_of(scene));
+    assert_estimate_near_reference(&estimate, &pair->augmented, tolerance_of(scene));
 }
 
-/* Returns 0 where the decision was a toss-up, and the two did not agree. */
+/* Returns 0 if the decisions differ and the reference's was a toss-up. */
 static int decide_pair(struct pair *pair, const struct scene *scene)
 {
     const double margin = ref_augmented_decide(&pair->augmented, &scene->setting);
@@ -256,8 +259,8 @@ static int decide_pair(struct pair *pair, const struct scene *scene)
     }
     assert_int_equal(pair->input.present, pair->augmented.present);
     rho_input_estimate(&pair->input, &estimate);
-    assert_near(&estimate, &pair->augmented, tolerance_of(scene));
-    assert_same_inputs(&pair->input, &pair->augmented, tolerance_of(scene));
+    assert_estimate_near_reference(&estimate, &pair->augmented, tolerance_of(scene));
+    assert_inputs_near_reference(&pair->input, &pair->augmented, tolerance_of(scene));
     return 1;
 }
 
@@ -265,8 +268,8 @@ struct tally {
     int onsets, stops, steps;
 };
 
-/* Until the end, or a decision that is a toss-up. */
-static void run_pair(const struct scene *scene, struct tally *tally)
+/* Runs until the end, or until a toss-up is decided differently. */
+static void compare_run(const struct scene *scene, struct tally *tally)
 {
     double truth[6];
 
@@ -277,7 +280,7 @@ static void run_pair(const struct scene *scene, struct tally *tally)
 
         move_truth(truth, scene, scene->setting.dt * k);
         predict_pair(&pair, scene);
-        const struct look look = look_at(truth, scene);
+        const struct look look = measure(truth, scene);
         const double chance = uniform(0.0, 1.0);
         if (chance >= scene->pd) {
             continue;
@@ -293,10 +296,10 @@ static void run_pair(const struct scene *scene, struct tally *tally)
     }
 }
 
-/* ---- two stages are an augmented filter ------------------------------------------------------ */
+/* ---- two-stage and augmented filter --------------------------------------------------------- */
 
-static void assert_stages_are_augmented(const struct ref_two_stage *t,
-                                        const struct ref_augmented *a)
+static void assert_two_stage_equals_augmented(const struct ref_two_stage *t,
+                                              const struct ref_augmented *a)
 {
     double x[6], p[6][6];
 
@@ -318,7 +321,7 @@ static void assert_stages_are_augmented(const struct ref_two_stage *t,
     }
 }
 
-static void run_stages(const struct scene *scene)
+static void compare_two_stage_with_augmented(const struct scene *scene)
 {
     double truth[6];
     struct ref_two_stage stages;
@@ -331,14 +334,14 @@ static void run_stages(const struct scene *scene)
         move_truth(truth, scene, scene->setting.dt * k);
         ref_two_stage_predict(&stages, &scene->setting);
         ref_augmented_predict(&augmented, &scene->setting);
-        const struct look look = look_at(truth, scene);
+        const struct look look = measure(truth, scene);
         ref_two_stage_update(&stages, &look.reference);
         ref_augmented_update(&augmented, &look.reference);
-        assert_stages_are_augmented(&stages, &augmented);
+        assert_two_stage_equals_augmented(&stages, &augmented);
     }
 }
 
-static void two_stages_in_double_precision_are_an_augmented_filter(void **state)
+static void the_papers_two_stage_filter_equals_an_augmented_filter(void **state)
 {
     (void)state;
     for (int kind = POSITION_VELOCITY; kind <= POLAR; ++kind) {
@@ -349,13 +352,15 @@ static void two_stages_in_double_precision_are_an_augmented_filter(void **state)
             scene.setting.is_physical = is_physical;
             scene.sigma_m = kind == POSITION_VELOCITY ? 1.0 : 10.0;
             scene.sigma_cross_m = 150.0;
-            run_stages(&scene);
+            compare_two_stage_with_augmented(&scene);
         }
     }
 }
 
-/* Without decisions: whatever is above nothing is an input. */
-static void the_library_is_the_augmented_filter(void **state)
+/*
+ * A threshold of nearly 0 makes every input significant, so that there are no decisions to differ.
+ */
+static void the_library_agrees_with_the_augmented_filter(void **state)
 {
     (void)state;
     for (int kind = POSITION_VELOCITY; kind <= POLAR; ++kind) {
@@ -375,15 +380,15 @@ static void the_library_is_the_augmented_filter(void **state)
 
                 move_truth(truth, &scene, scene.setting.dt * k);
                 predict_pair(&pair, &scene);
-                const struct look look = look_at(truth, &scene);
+                const struct look look = measure(truth, &scene);
                 update_input(&pair, &look);
                 ref_augmented_update(&pair.augmented, &look.reference);
                 rho_input_test_and_end_inputs(&pair.input, &pair.config);
                 assert_int_equal(pair.input.present, 7);
                 pair.augmented.present = 7;
                 rho_input_estimate(&pair.input, &estimate);
-                assert_near(&estimate, &pair.augmented, tolerance_of(&scene));
-                assert_same_inputs(&pair.input, &pair.augmented, tolerance_of(&scene));
+                assert_estimate_near_reference(&estimate, &pair.augmented, tolerance_of(&scene));
+                assert_inputs_near_reference(&pair.input, &pair.augmented, tolerance_of(&scene));
             }
         }
     }
@@ -391,19 +396,19 @@ static void the_library_is_the_augmented_filter(void **state)
 
 /* --- decisions ------------------------------------------------------------------------------- */
 
-static void run_many(const struct scene *scene, int runs, struct tally least)
+static void compare_runs(const struct scene *scene, int runs, struct tally least)
 {
     struct tally tally = {0, 0, 0};
 
     for (int n = 0; n < runs; ++n) {
-        run_pair(scene, &tally);
+        compare_run(scene, &tally);
     }
     assert_true(tally.onsets >= least.onsets);
     assert_true(tally.stops >= least.stops);
     assert_true(tally.steps >= least.steps);
 }
 
-static void decisions_with_measured_velocities(void **state)
+static void decisions_agree_with_measured_velocities(void **state)
 {
     (void)state;
     for (int n = 0; n < 4; ++n) {
@@ -411,11 +416,11 @@ static void decisions_with_measured_velocities(void **state)
 
         scene.setting.is_physical = n % 2;
         scene.setting.gamma = n / 2 ? 0.5 : 1.0;
-        run_many(&scene, 20, (struct tally){20, n / 2 ? 60 : 5, 3000});
+        compare_runs(&scene, 20, (struct tally){20, n / 2 ? 60 : 5, 3000});
     }
 }
 
-static void decisions_with_positions_alone_and_misses(void **state)
+static void decisions_agree_with_positions_alone_and_misses(void **state)
 {
     struct scene scene = plain;
 
@@ -429,11 +434,11 @@ static void decisions_with_positions_alone_and_misses(void **state)
     scene.setting.q_position = 0.0;
     scene.setting.q_velocity = 0.0;
     scene.setting.density = 20.0;
-    run_many(&scene, 20, (struct tally){20, 30, 2000});
+    compare_runs(&scene, 20, (struct tally){20, 30, 2000});
 }
 
-/* Noise along the line of sight couples the axes, their inputs and what becomes of them. */
-static void decisions_along_the_line_of_sight(void **state)
+/* Noise along the line of sight couples the axes and so the inputs and their decisions. */
+static void decisions_agree_with_noise_along_the_line_of_sight(void **state)
 {
     struct scene scene = plain;
 
@@ -449,21 +454,21 @@ static void decisions_along_the_line_of_sight(void **state)
     scene.to_s = 60.0;
     for (int n = 0; n < 2; ++n) {
         scene.setting.gamma = n ? 0.8 : 1.0;
-        run_many(&scene, 20, (struct tally){30, n ? 50 : 1, 2000});
+        compare_runs(&scene, 20, (struct tally){30, n ? 50 : 1, 2000});
     }
 }
 
-/* ---- rows that depend on the estimate -------------------------------------------------------- */
+/* ---- measurements that are linearised -------------------------------------------------------- */
 
-/* After ten seconds, four of them with inputs on all axes. */
-static struct pair manoeuvring(const struct scene *scene, double truth[6])
+/* A pair after ten seconds, in the last four of which all axes have inputs. */
+static struct pair manoeuvring_pair(const struct scene *scene, double truth[6])
 {
     start_truth(truth);
     struct pair pair = start_pair(scene, truth);
     for (int k = 1; k <= 40; ++k) {
         move_truth(truth, scene, scene->setting.dt * k);
         predict_pair(&pair, scene);
-        const struct look look = look_at(truth, scene);
+        const struct look look = measure(truth, scene);
         update_input(&pair, &look);
         ref_augmented_update(&pair.augmented, &look.reference);
         assert_true(decide_pair(&pair, scene));
@@ -472,7 +477,7 @@ static struct pair manoeuvring(const struct scene *scene, double truth[6])
     return pair;
 }
 
-static struct dense corrected_of(const struct ref_augmented *augmented)
+static struct dense estimate_of_augmented(const struct ref_augmented *augmented)
 {
     struct dense d;
 
@@ -483,7 +488,7 @@ static struct dense corrected_of(const struct ref_augmented *augmented)
     return d;
 }
 
-/* One row, linearised at the corrected estimate, for the augmented filter. */
+/* Updates the augmented filter by one row, linearised at its estimate. */
 static void update_by_row(struct ref_augmented *augmented, const struct dense_measurement *m)
 {
     struct ref_measured z = {.num = 1, .values = {m->y[0]}, .r = {{m->r[0][0]}}};
@@ -495,13 +500,13 @@ static void update_by_row(struct ref_augmented *augmented, const struct dense_me
     ref_augmented_update(augmented, &z);
 }
 
-static void assert_same_estimate(const struct pair *pair)
+static void assert_pair_agrees(const struct pair *pair)
 {
     struct rho_kalman estimate;
 
     rho_input_estimate(&pair->input, &estimate);
-    assert_near(&estimate, &pair->augmented, loose);
-    assert_same_inputs(&pair->input, &pair->augmented, loose);
+    assert_estimate_near_reference(&estimate, &pair->augmented, loose);
+    assert_inputs_near_reference(&pair->input, &pair->augmented, loose);
 }
 
 static void range_rates_are_linearised_at_the_corrected_estimate(void **state)
@@ -515,18 +520,21 @@ static void range_rates_are_linearised_at_the_corrected_estimate(void **state)
         struct scene scene = plain;
 
         scene.setting.is_physical = is_physical;
-        struct pair pair = manoeuvring(&scene, truth);
-        const struct dense before = corrected_of(&pair.augmented);
+        struct pair pair = manoeuvring_pair(&scene, truth);
+        const struct dense before = estimate_of_augmented(&pair.augmented);
         const struct dense_measurement m = dense_range_rate(&before, from, 3, -760.0, 0.25);
         update_by_row(&pair.augmented, &m);
         assert_int_equal(
             rho_input_update_range_rate(&pair.input, &pair.config, &sensor, -760.0f, 0.25f),
             RHO_OK);
-        assert_same_estimate(&pair);
+        assert_pair_agrees(&pair);
     }
 }
 
-/* What the row leaves out: (var a var c + cov^2) / range^2. */
+/*
+ * A bearing in metres across the line of sight; the linearisation error has the variance (var a var
+ * c + cov^2) / range^2 for errors a along and c across.
+ */
 static struct dense_measurement bearing_row(const struct dense *d, double x, double y,
                                             double bearing, double sigma)
 {
@@ -555,24 +563,24 @@ static void bearings_are_linearised_at_the_corrected_estimate(void **state)
 
     (void)state;
     scene.setting.is_physical = 1;
-    struct pair pair = manoeuvring(&scene, truth);
-    const struct dense before = corrected_of(&pair.augmented);
+    struct pair pair = manoeuvring_pair(&scene, truth);
+    const struct dense before = estimate_of_augmented(&pair.augmented);
     const float bearing = (float)atan2(truth[1] - 30e3, truth[0] - 45e3) + 1e-4f;
     const struct dense_measurement m = bearing_row(&before, 45e3, 30e3, bearing, 1e-4f);
     update_by_row(&pair.augmented, &m);
     assert_int_equal(
         rho_input_update_bearing(&pair.input, &pair.config, 45e3f, 30e3f, bearing, 1e-4f), RHO_OK);
-    assert_same_estimate(&pair);
+    assert_pair_agrees(&pair);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_stages_in_double_precision_are_an_augmented_filter),
-        cmocka_unit_test(the_library_is_the_augmented_filter),
-        cmocka_unit_test(decisions_with_measured_velocities),
-        cmocka_unit_test(decisions_with_positions_alone_and_misses),
-        cmocka_unit_test(decisions_along_the_line_of_sight),
+        cmocka_unit_test(the_papers_two_stage_filter_equals_an_augmented_filter),
+        cmocka_unit_test(the_library_agrees_with_the_augmented_filter),
+        cmocka_unit_test(decisions_agree_with_measured_velocities),
+        cmocka_unit_test(decisions_agree_with_positions_alone_and_misses),
+        cmocka_unit_test(decisions_agree_with_noise_along_the_line_of_sight),
         cmocka_unit_test(range_rates_are_linearised_at_the_corrected_estimate),
         cmocka_unit_test(bearings_are_linearised_at_the_corrected_estimate),
     };

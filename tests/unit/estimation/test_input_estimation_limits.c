@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Input estimation at its limits: what it refuses, when it is a plain filter, and what rounding
- * must not do.
+ * Input estimation at its limits: refused calls, equality with the Kalman filter, and rounding in
+ * extreme cases.
  */
 #include <float.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 
 #define DT_S 0.25f
 
-static struct rho_input_config paper(void)
+static struct rho_input_config paper_config(void)
 {
     struct rho_input_config config;
 
@@ -21,7 +21,7 @@ static struct rho_input_config paper(void)
     return config;
 }
 
-static struct rho_input started(const struct rho_input_config *config, int num_axes)
+static struct rho_input started_filter(const struct rho_input_config *config, int num_axes)
 {
     const struct rho_kalman kalman = opened_filter(num_axes, 500.0f, 500.0f);
     struct rho_input input;
@@ -31,10 +31,10 @@ static struct rho_input started(const struct rho_input_config *config, int num_a
 }
 
 /*
- * A target that sits at (100, 200, 300) until it is pushed by input_mps2 along z for these steps.
+ * Follows a target at rest at (100, 200, 300) m that accelerates along z from step pushed_from on.
  */
-static void follow(struct rho_input *input, const struct rho_input_config *config, int steps,
-                   int pushed_from, float input_mps2)
+static void follow_pushed_target(struct rho_input *input, const struct rho_input_config *config,
+                                 int steps, int pushed_from, float input_mps2)
 {
     float z = 300.0f, speed = 0.0f;
 
@@ -54,14 +54,14 @@ static void follow(struct rho_input *input, const struct rho_input_config *confi
 
 /* ---- sizes, thresholds, configurations ------------------------------------------------------- */
 
-static void a_track_is_small(void **state)
+static void filter_and_input_fit_their_memory_budget(void **state)
 {
     (void)state;
     assert_int_equal(sizeof(struct rho_kalman), 108);
     assert_true(sizeof(struct rho_input) <= 256);
 }
 
-static void thresholds_hold_their_confidence(void **state)
+static void thresholds_follow_from_the_confidence(void **state)
 {
     (void)state;
     assert_float_equal(rho_input_threshold(0.95f), 1.95996, 1e-3);
@@ -69,7 +69,7 @@ static void thresholds_hold_their_confidence(void **state)
         const float confidence = (float)n / 10000.0f, t = rho_input_threshold(confidence);
         double low = 0.0, high = 5.0;
 
-        for (int k = 0; k < 60; ++k) { /* the threshold that has it, by halving */
+        for (int k = 0; k < 60; ++k) { /* expected threshold, by bisection */
             const double middle = 0.5 * (low + high);
 
             if (erf(middle / sqrt(2.0)) < confidence) {
@@ -84,9 +84,9 @@ static void thresholds_hold_their_confidence(void **state)
     assert_true(isnan(rho_input_threshold(NAN)) && isnan(rho_input_threshold(INFINITY)));
 }
 
-static void the_default_is_the_papers(void **state)
+static void the_default_configuration_is_the_papers(void **state)
 {
-    const struct rho_input_config config = paper();
+    const struct rho_input_config config = paper_config();
 
     (void)state;
     assert_true(rho_input_is_usable(&config));
@@ -107,7 +107,7 @@ static void configurations_are_checked(void **state)
     memset(&input, 0x5a, sizeof input);
     const struct rho_input before = input;
     for (size_t n = 0; n < 7 * NUM(bad); ++n) {
-        struct rho_input_config config = paper();
+        struct rho_input_config config = paper_config();
         float *const fields[] = {&config.sigma_mps2,       &config.threshold, &config.gamma,
                                  &config.noise_density,    &config.noise_m,   &config.noise_mps,
                                  &config.velocity_variance};
@@ -116,49 +116,50 @@ static void configurations_are_checked(void **state)
         assert_false(rho_input_is_usable(&config));
         assert_int_equal(rho_input_start(&input, &config, &kalman), RHO_ERROR_CONFIG);
     }
-    struct rho_input_config config = paper();
+    struct rho_input_config config = paper_config();
     config.model = RHO_NUM_INPUT_MODELS;
     assert_false(rho_input_is_usable(&config));
-    config = paper();
+    config = paper_config();
     config.gamma = 1.001f;
     assert_false(rho_input_is_usable(&config));
     config.gamma = 0.0f;
     assert_false(rho_input_is_usable(&config));
     assert_false(rho_input_is_usable(NULL));
-    const float sigmas_mps2[][2] = {{0.0011f, 0.0009f}, {1.0e5f, 1.01e5f}}; /* usable, not */
+    /* the first of each pair is usable, the second is not */
+    const float sigmas_mps2[][2] = {{0.0011f, 0.0009f}, {1.0e5f, 1.01e5f}};
     for (size_t n = 0; n < NUM(sigmas_mps2); ++n) {
-        config = paper();
+        config = paper_config();
         config.sigma_mps2 = sigmas_mps2[n][0];
         assert_true(rho_input_is_usable(&config));
         config.sigma_mps2 = sigmas_mps2[n][1];
         assert_false(rho_input_is_usable(&config));
     }
-    config = paper();
+    config = paper_config();
     config.noise_m = config.noise_mps = 1.0e6f;
     assert_true(rho_input_is_usable(&config));
     config.noise_m = 1.01e6f;
     assert_false(rho_input_is_usable(&config));
-    config = paper();
+    config = paper_config();
     assert_int_equal(rho_input_start(NULL, &config, &kalman), RHO_ERROR_NULL);
     assert_int_equal(rho_input_start(&input, NULL, &kalman), RHO_ERROR_NULL);
     assert_int_equal(rho_input_start(&input, &config, NULL), RHO_ERROR_NULL);
     assert_memory_equal(&input, &before, sizeof input);
 }
 
-/* ---- onset ----------------------------------------------------------------------------------- */
+/* ---- onset of an input ---------------------------------------------------------------------- */
 
-static void an_onset_shows_in_one_scan(void **state)
+static void an_input_is_detected_in_one_scan(void **state)
 {
     (void)state;
     for (int model = 0; model < RHO_NUM_INPUT_MODELS; ++model) {
-        struct rho_input_config config = paper();
+        struct rho_input_config config = paper_config();
 
         config.model = (uint8_t)model;
-        struct rho_input input = started(&config, 3);
-        follow(&input, &config, 20, 21, 98.0f);
+        struct rho_input input = started_filter(&config, 3);
+        follow_pushed_target(&input, &config, 20, 21, 98.0f);
         assert_int_equal(input.present, 0);
-        struct rho_input pushed = started(&config, 3);
-        follow(&pushed, &config, 21, 21, 98.0f);
+        struct rho_input pushed = started_filter(&config, 3);
+        follow_pushed_target(&pushed, &config, 21, 21, 98.0f);
         assert_int_equal(pushed.present, 4);
         assert_in_range(pushed.input_mps2[2], 80, 100);
         assert_true(pushed.input_mps2[0] == 0.0f && pushed.input_mps2[1] == 0.0f);
@@ -168,31 +169,31 @@ static void an_onset_shows_in_one_scan(void **state)
     }
 }
 
-/* A tenth of a g stays within the noise; a threshold above it sees no 10 g either. */
-static void what_is_within_the_threshold_is_no_input(void **state)
+/* 0.1 g is within the noise; with a threshold above its significance not even 10 g is an input. */
+static void an_acceleration_below_the_threshold_is_no_input(void **state)
 {
-    struct rho_input_config config = paper();
-    struct rho_input input = started(&config, 3);
+    struct rho_input_config config = paper_config();
+    struct rho_input input = started_filter(&config, 3);
 
     (void)state;
-    follow(&input, &config, 30, 21, 1.0f);
+    follow_pushed_target(&input, &config, 30, 21, 1.0f);
     assert_int_equal(input.present, 0);
-    config.threshold = 20.0f; /* its significance is 14.6 */
-    input = started(&config, 3);
-    follow(&input, &config, 21, 21, 98.0f);
+    config.threshold = 20.0f; /* the significance of 10 g here is 14.6 */
+    input = started_filter(&config, 3);
+    follow_pushed_target(&input, &config, 21, 21, 98.0f);
     assert_int_equal(input.present, 0);
 }
 
-static void the_literal_model_is_blind_to_positions(void **state)
+static void the_literal_model_sees_no_input_in_positions(void **state)
 {
     (void)state;
     for (int model = 0; model < RHO_NUM_INPUT_MODELS; ++model) {
-        struct rho_input_config config = paper();
+        struct rho_input_config config = paper_config();
         uint32_t seen = 0;
 
         config.model = (uint8_t)model;
         config.threshold = 1e-6f;
-        struct rho_input input = started(&config, 3);
+        struct rho_input input = started_filter(&config, 3);
         for (int k = 1; k <= 20; ++k) {
             assert_int_equal(rho_input_predict(&input, &config, DT_S), RHO_OK);
             for (int axis = 0; axis < 3; ++axis) {
@@ -207,11 +208,11 @@ static void the_literal_model_is_blind_to_positions(void **state)
     }
 }
 
-/* A scan without a plot decides nothing: what has been since the last plot counts at the next. */
-static void over_a_miss_the_input_has_worked_longer(void **state)
+/* A scan without a plot decides nothing, so that the input acts over two intervals. */
+static void sensitivities_grow_over_a_missed_scan(void **state)
 {
-    const struct rho_input_config config = paper();
-    struct rho_input input = started(&config, 3);
+    const struct rho_input_config config = paper_config();
+    struct rho_input input = started_filter(&config, 3);
 
     (void)state;
     assert_int_equal(rho_input_predict(&input, &config, DT_S), RHO_OK);
@@ -222,9 +223,9 @@ static void over_a_miss_the_input_has_worked_longer(void **state)
     }
 }
 
-/* ---- a plain filter -------------------------------------------------------------------------- */
+/* ---- equality with the Kalman filter -------------------------------------------------------- */
 
-static struct rho_plot some_plot(void)
+static struct rho_plot random_plot(void)
 {
     struct rho_plot plot;
 
@@ -235,18 +236,18 @@ static struct rho_plot some_plot(void)
     return plot;
 }
 
-static void without_estimation_it_is_a_plain_filter(void **state)
+static void without_input_estimation_it_equals_the_kalman_filter(void **state)
 {
-    struct rho_input_config config = paper();
+    struct rho_input_config config = paper_config();
     struct rho_kalman estimate;
 
     (void)state;
     config.is_estimated = 0;
     config.noise_density = 3.0f;
-    struct rho_input input = started(&config, 3);
+    struct rho_input input = started_filter(&config, 3);
     struct rho_kalman kalman = input.bare;
     for (int k = 0; k < 50; ++k) {
-        const struct rho_plot plot = some_plot();
+        const struct rho_plot plot = random_plot();
         struct rho_measurement seen;
 
         rho_measurement_from_plot(&plot, k % 2 ? RHO_MEASURES_Z : 0u, NULL, &seen);
@@ -275,14 +276,17 @@ static void close_axis(struct rho_kalman *kalman, int axis)
     kalman->state[axis] = kalman->state[axis + 3] = 0.0f;
 }
 
-/* The filter turns its frame, and this takes rows: the same but for rounding, whatever is open. */
-static void positions_are_used_as_the_filter_does(void **state)
+/*
+ * The Kalman filter rotates its frame while this one uses rows: they agree within rounding,
+ * whichever axes are open.
+ */
+static void position_updates_agree_with_the_kalman_filter(void **state)
 {
-    const struct rho_input_config config = paper();
+    const struct rho_input_config config = paper_config();
 
     (void)state;
     for (int n = 0; n < 2000; ++n) {
-        const struct rho_plot plot = some_plot();
+        const struct rho_plot plot = random_plot();
         struct rho_plot round = plot;
         struct rho_kalman kalman;
         struct rho_measurement seen;
@@ -309,18 +313,19 @@ static void positions_are_used_as_the_filter_does(void **state)
         const struct dense expected = dense_of(kalman.state, kalman.covariance);
         struct dense scale = expected;
         for (int i = 0; i < STATES; ++i) {
-            scale.p[i][i] = scale.p[i][i] > 0.0 ? 3e4 : 0.0; /* all have been that uncertain */
+            /* bound of all variances before the update */
+            scale.p[i][i] = scale.p[i][i] > 0.0 ? 3e4 : 0.0;
         }
         assert_near_dense(input.bare.state, input.bare.covariance, &expected, &scale, 2e-5);
         assert_true(is_positive_definite(&input.bare));
     }
 }
 
-/* A height that comes later has no input from before, and can have one. */
-static void an_axis_that_opens_later_can_have_an_input(void **state)
+/* An axis opened by a first height has no input yet, and may get one later. */
+static void an_axis_opened_later_can_have_an_input(void **state)
 {
-    const struct rho_input_config config = paper();
-    struct rho_input input = started(&config, 2);
+    const struct rho_input_config config = paper_config();
+    struct rho_input input = started_filter(&config, 2);
     const struct rho_measurement seen = {.place_m = {100.0f, 200.0f, 300.0f},
                                          .variance_m2 = {1.0f, 1.0f, 1.0f},
                                          .cos_azimuth = 1.0f,
@@ -338,22 +343,22 @@ static void an_axis_that_opens_later_can_have_an_input(void **state)
     assert_int_equal(rho_input_update_position(&input, &config, &seen), RHO_OK);
     assert_true(rho_kalman_is_axis_open(&input.bare, 2));
     rho_input_test_and_end_inputs(&input, &config);
-    follow(&input, &config, 21, 21, 98.0f);
+    follow_pushed_target(&input, &config, 21, 21, 98.0f);
     assert_int_equal(input.present, 4);
 }
 
-/* ---- back in time ---------------------------------------------------------------------------- */
+/* ---- predictions back in time --------------------------------------------------------------- */
 
-static void forth_and_back_is_where_it_was(void **state)
+static void prediction_forth_and_back_restores_the_filter(void **state)
 {
     (void)state;
     for (int model = 0; model < RHO_NUM_INPUT_MODELS; ++model) {
-        struct rho_input_config config = paper();
+        struct rho_input_config config = paper_config();
 
         config.model = (uint8_t)model;
         config.noise_m = config.noise_mps = 0.0f;
-        struct rho_input input = started(&config, 3);
-        follow(&input, &config, 25, 21, 98.0f);
+        struct rho_input input = started_filter(&config, 3);
+        follow_pushed_target(&input, &config, 25, 21, 98.0f);
         const struct rho_input before = input;
         assert_int_equal(rho_input_predict(&input, &config, 0.0f), RHO_OK);
         assert_memory_equal(&input, &before, sizeof input);
@@ -374,23 +379,23 @@ static void forth_and_back_is_where_it_was(void **state)
     }
 }
 
-/* ---- refusals -------------------------------------------------------------------------------- */
+/* ---- refusals ------------------------------------------------------------------------------- */
 
-static struct rho_input manoeuvring(const struct rho_input_config *config)
+static struct rho_input manoeuvring_filter(const struct rho_input_config *config)
 {
-    struct rho_input input = started(config, 3);
+    struct rho_input input = started_filter(config, 3);
 
-    follow(&input, config, 25, 21, 98.0f);
+    follow_pushed_target(&input, config, 25, 21, 98.0f);
     assert_int_equal(input.present, 4);
     return input;
 }
 
 static void null_is_refused(void **state)
 {
-    const struct rho_input_config config = paper();
+    const struct rho_input_config config = paper_config();
     const struct rho_measurement seen = {.variance_m2 = {1.0f, 1.0f, 1.0f}, .is_isotropic = 1};
     const float row[STATES] = {1.0f};
-    struct rho_input input = manoeuvring(&config);
+    struct rho_input input = manoeuvring_filter(&config);
     const struct rho_input before = input;
 
     (void)state;
@@ -419,8 +424,8 @@ static void null_is_refused(void **state)
 static void bad_numbers_change_nothing(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY};
-    const struct rho_input_config config = paper();
-    struct rho_input input = manoeuvring(&config);
+    const struct rho_input_config config = paper_config();
+    struct rho_input input = manoeuvring_filter(&config);
     const struct rho_input before = input;
 
     (void)state;
@@ -464,25 +469,25 @@ static void bad_numbers_change_nothing(void **state)
     assert_memory_equal(&input, &before, sizeof input);
 }
 
-/* The filter alone would be certain enough still; with its input it is not. */
-static void an_input_may_make_a_prediction_too_uncertain(void **state)
+/* The bare filter could be predicted by 10^4 s; with its input the variance is too large. */
+static void a_prediction_too_uncertain_by_its_input_is_refused(void **state)
 {
-    struct rho_input_config config = paper();
+    struct rho_input_config config = paper_config();
 
     (void)state;
     config.model = RHO_INPUT_PHYSICAL;
-    struct rho_input input = manoeuvring(&config);
+    struct rho_input input = manoeuvring_filter(&config);
     const struct rho_input before = input;
     struct rho_kalman bare = input.bare;
     assert_int_equal(rho_kalman_predict(&bare, 1e4f, 0.0f), RHO_OK);
     assert_int_equal(rho_input_predict(&input, &config, 1e4f), RHO_ERROR_VALUE);
     assert_memory_equal(&input, &before, sizeof input);
-    struct rho_input quiet = started(&config, 3);
-    follow(&quiet, &config, 20, 21, 0.0f);
+    struct rho_input quiet = started_filter(&config, 3);
+    follow_pushed_target(&quiet, &config, 20, 21, 0.0f);
     assert_int_equal(rho_input_predict(&quiet, &config, 1e4f), RHO_OK);
 }
 
-/* ---- hard cases ------------------------------------------------------------------------------ */
+/* ---- extreme cases -------------------------------------------------------------------------- */
 
 static int is_variance_positive_definite(const float v[6])
 {
@@ -492,7 +497,7 @@ static int is_variance_positive_definite(const float v[6])
     return xx > 0.0 && second > 0.0 && zz - zx * zx / xx - mixed * mixed / second > 0.0;
 }
 
-static void assert_sound(const struct rho_input *input)
+static void assert_valid_filter(const struct rho_input *input)
 {
     struct rho_kalman estimate;
 
@@ -515,7 +520,7 @@ static void assert_sound(const struct rho_input *input)
     }
 }
 
-static float hostile(double from, double to)
+static float random_hostile_number(double from, double to)
 {
     static const float nonsense[] = {NAN,      INFINITY,     -INFINITY, FLT_MAX,
                                      -FLT_MAX, FLT_TRUE_MIN, 0.0f,      -1.0f};
@@ -526,23 +531,25 @@ static float hostile(double from, double to)
     return uniform(0.0, 1.0) < 0.05 ? nonsense[which] : (float)usual;
 }
 
-static enum rho_status hostile_position(struct rho_input *input,
-                                        const struct rho_input_config *config)
+static enum rho_status update_with_random_position(struct rho_input *input,
+                                                   const struct rho_input_config *config)
 {
-    struct rho_plot plot = some_plot();
+    struct rho_plot plot = random_plot();
     struct rho_measurement seen;
 
-    plot.sigma_range_m = fabsf(hostile(-1.0, 2.0));
-    plot.sigma_cross_m = fabsf(hostile(-1.0, 3.0));
-    plot.sigma_up_m = fabsf(hostile(-1.0, 3.0));
+    plot.sigma_range_m = fabsf(random_hostile_number(-1.0, 2.0));
+    plot.sigma_cross_m = fabsf(random_hostile_number(-1.0, 3.0));
+    plot.sigma_up_m = fabsf(random_hostile_number(-1.0, 3.0));
     rho_measurement_from_plot(&plot, RHO_MEASURES_Z, NULL, &seen);
     return rho_input_update_position(input, config, &seen);
 }
 
-static enum rho_status hostile_call(struct rho_input *input, const struct rho_input_config *config)
+static enum rho_status make_random_call(struct rho_input *input,
+                                        const struct rho_input_config *config)
 {
     const int what = (int)uniform(0.0, 12.0), element = (int)uniform(-0.2, 6.2);
-    const float first = hostile(-3.0, 5.0), second = hostile(-6.0, 6.0), dt_s = hostile(-3.0, 2.0);
+    const float first = random_hostile_number(-3.0, 5.0), second = random_hostile_number(-6.0, 6.0),
+                dt_s = random_hostile_number(-3.0, 2.0);
     float row[STATES];
 
     for (int i = 0; i < STATES; ++i) {
@@ -555,7 +562,7 @@ static enum rho_status hostile_call(struct rho_input *input, const struct rho_in
         return rho_input_predict(input, config, dt_s);
     case 3:
     case 4:
-        return hostile_position(input, config);
+        return update_with_random_position(input, config);
     case 5:
         return rho_input_update_row(input, config, row, first, second);
     case 6:
@@ -571,23 +578,23 @@ static enum rho_status hostile_call(struct rho_input *input, const struct rho_in
     }
 }
 
-static void hostile_calls_leave_it_sound(void **state)
+static void random_hostile_calls_leave_a_valid_filter(void **state)
 {
     int accepted = 0, present = 0, num = 0;
 
     (void)state;
     dense_seed = 7;
     for (int n = 0; n < 100; ++n) {
-        struct rho_input_config config = paper();
+        struct rho_input_config config = paper_config();
 
         config.model = (uint8_t)(n % 2);
         config.gamma = n % 3 ? 0.5f : 1.0f;
         config.noise_density = n % 5 ? 0.0f : 50.0f;
         config.sigma_mps2 = n % 4 ? 22.0f : 300.0f;
-        struct rho_input input = started(&config, 3);
+        struct rho_input input = started_filter(&config, 3);
         for (int k = 0; k < 2000; ++k) {
             const struct rho_input before = input;
-            const enum rho_status status = hostile_call(&input, &config);
+            const enum rho_status status = make_random_call(&input, &config);
 
             accepted += status == RHO_OK;
             present += input.present != 0;
@@ -595,23 +602,23 @@ static void hostile_calls_leave_it_sound(void **state)
             if (status != RHO_OK) {
                 assert_memory_equal(&input, &before, sizeof input);
             }
-            assert_sound(&input);
+            assert_valid_filter(&input);
         }
     }
     assert_true(accepted > num / 3 && accepted < num);
     assert_true(present > num / 20);
 }
 
-/* Known to 10^-8 of what it was: nothing must cancel. */
-static void a_vague_input_with_a_sharp_sensor(void **state)
+/* The input's variance falls by a factor of 10^8, without cancellation. */
+static void a_vague_input_with_a_sharp_sensor_stays_positive_definite(void **state)
 {
-    struct rho_input_config config = paper();
+    struct rho_input_config config = paper_config();
 
     (void)state;
     config.model = RHO_INPUT_PHYSICAL;
     config.sigma_mps2 = 2000.0f;
     config.noise_m = config.noise_mps = 0.0f;
-    struct rho_input input = started(&config, 3);
+    struct rho_input input = started_filter(&config, 3);
     for (int k = 1; k <= 30; ++k) {
         const float t_s = 10.0f * (float)k;
 
@@ -622,7 +629,7 @@ static void a_vague_input_with_a_sharp_sensor(void **state)
                              RHO_OK);
         }
         rho_input_test_and_end_inputs(&input, &config);
-        assert_sound(&input);
+        assert_valid_filter(&input);
         assert_int_equal(input.present, 7);
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -631,21 +638,21 @@ static void a_vague_input_with_a_sharp_sensor(void **state)
 }
 
 /*
- * Quiet until its place is known to a fraction of what an input would have moved it by: V P / (V
- * s^2 + P).
+ * A target at rest, known far better than an input would move it, is pushed at the last step. The
+ * input's variance must be V P / (V s^2 + P).
  */
-static void an_onset_that_a_sharp_sensor_sees(void **state)
+static void an_onset_seen_by_a_sharp_sensor_is_estimated(void **state)
 {
-    struct rho_input_config config = paper();
+    struct rho_input_config config = paper_config();
 
     (void)state;
     config.model = RHO_INPUT_PHYSICAL;
     config.sigma_mps2 = 2000.0f;
     config.noise_m = config.noise_mps = 0.0f;
-    struct rho_input input = started(&config, 3);
+    struct rho_input input = started_filter(&config, 3);
     for (int k = 1; k <= 25; ++k) {
         assert_int_equal(rho_input_predict(&input, &config, 10.0f), RHO_OK);
-        assert_sound(&input);
+        assert_valid_filter(&input);
         for (int axis = 0; axis < 3; ++axis) {
             const double variance = input.bare.covariance[RHO_AT(axis, axis)] + 1e-4;
             const double s = input.sensitivity[axis][axis], v = 4e6;
@@ -657,24 +664,21 @@ static void an_onset_that_a_sharp_sensor_sees(void **state)
             assert_float_equal(input.variance[RHO_AT(axis, axis)],
                                v * variance / (v * s * s + variance),
                                1e-4 * v * variance / (v * s * s + variance));
-            assert_sound(&input);
+            assert_valid_filter(&input);
         }
         rho_input_test_and_end_inputs(&input, &config);
         assert_int_equal(input.present, k == 25 ? 7 : 0);
-        assert_sound(&input);
+        assert_valid_filter(&input);
     }
     for (int axis = 0; axis < 3; ++axis) {
         assert_float_equal(input.input_mps2[axis], 10.0, 1e-3);
     }
 }
 
-/*
- * What is added is 10^10 times as uncertain as the filter: its rounding alone would be more than
- * that.
- */
-static void a_gate_that_an_input_widens_stays_definite(void **state)
+/* The input adds 10^10 times the bare variance, whose rounding alone would exceed the latter. */
+static void a_gate_widened_by_an_input_stays_positive_definite(void **state)
 {
-    struct rho_input_config config = paper();
+    struct rho_input_config config = paper_config();
 
     (void)state;
     config.model = RHO_INPUT_PHYSICAL;
@@ -692,45 +696,45 @@ static void a_gate_that_an_input_widens_stays_definite(void **state)
     }
 }
 
-static void a_copy_goes_on_the_same_way(void **state)
+static void a_copied_filter_continues_identically(void **state)
 {
-    struct rho_input_config config = paper();
+    struct rho_input_config config = paper_config();
     unsigned char snapshot[sizeof(struct rho_input)];
 
     (void)state;
     config.gamma = 0.5f;
-    struct rho_input one = manoeuvring(&config), other;
+    struct rho_input one = manoeuvring_filter(&config), other;
     memset(&other, 0xa5, sizeof other);
     memcpy(snapshot, &one, sizeof one);
-    follow(&one, &config, 30, 10, -60.0f);
+    follow_pushed_target(&one, &config, 30, 10, -60.0f);
     memcpy(&other, snapshot, sizeof other);
-    follow(&other, &config, 30, 10, -60.0f);
+    follow_pushed_target(&other, &config, 30, 10, -60.0f);
     assert_memory_equal(&one, &other, sizeof one);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_track_is_small),
-        cmocka_unit_test(thresholds_hold_their_confidence),
-        cmocka_unit_test(the_default_is_the_papers),
+        cmocka_unit_test(filter_and_input_fit_their_memory_budget),
+        cmocka_unit_test(thresholds_follow_from_the_confidence),
+        cmocka_unit_test(the_default_configuration_is_the_papers),
         cmocka_unit_test(configurations_are_checked),
-        cmocka_unit_test(an_onset_shows_in_one_scan),
-        cmocka_unit_test(what_is_within_the_threshold_is_no_input),
-        cmocka_unit_test(the_literal_model_is_blind_to_positions),
-        cmocka_unit_test(over_a_miss_the_input_has_worked_longer),
-        cmocka_unit_test(without_estimation_it_is_a_plain_filter),
-        cmocka_unit_test(positions_are_used_as_the_filter_does),
-        cmocka_unit_test(an_axis_that_opens_later_can_have_an_input),
-        cmocka_unit_test(forth_and_back_is_where_it_was),
+        cmocka_unit_test(an_input_is_detected_in_one_scan),
+        cmocka_unit_test(an_acceleration_below_the_threshold_is_no_input),
+        cmocka_unit_test(the_literal_model_sees_no_input_in_positions),
+        cmocka_unit_test(sensitivities_grow_over_a_missed_scan),
+        cmocka_unit_test(without_input_estimation_it_equals_the_kalman_filter),
+        cmocka_unit_test(position_updates_agree_with_the_kalman_filter),
+        cmocka_unit_test(an_axis_opened_later_can_have_an_input),
+        cmocka_unit_test(prediction_forth_and_back_restores_the_filter),
         cmocka_unit_test(null_is_refused),
         cmocka_unit_test(bad_numbers_change_nothing),
-        cmocka_unit_test(an_input_may_make_a_prediction_too_uncertain),
-        cmocka_unit_test(hostile_calls_leave_it_sound),
-        cmocka_unit_test(a_vague_input_with_a_sharp_sensor),
-        cmocka_unit_test(an_onset_that_a_sharp_sensor_sees),
-        cmocka_unit_test(a_gate_that_an_input_widens_stays_definite),
-        cmocka_unit_test(a_copy_goes_on_the_same_way),
+        cmocka_unit_test(a_prediction_too_uncertain_by_its_input_is_refused),
+        cmocka_unit_test(random_hostile_calls_leave_a_valid_filter),
+        cmocka_unit_test(a_vague_input_with_a_sharp_sensor_stays_positive_definite),
+        cmocka_unit_test(an_onset_seen_by_a_sharp_sensor_is_estimated),
+        cmocka_unit_test(a_gate_widened_by_an_input_stays_positive_definite),
+        cmocka_unit_test(a_copied_filter_continues_identically),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

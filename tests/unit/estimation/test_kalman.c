@@ -4,16 +4,18 @@
 #include "kalman_checks.h"
 #include "vectors/kalman_vectors.h"
 
-/* Against 50 steps of the vector filter in double precision. */
-#define STATE_SIGMAS 2e-3   /* of the estimate's standard deviation, and beside it */
-#define STATE_RELATIVE 4e-7 /* of the state itself: its rounding */
+/* Tolerances after up to 50 steps, compared with the vector filter in double precision. */
+/* in standard deviations of the estimate, in addition to STATE_RELATIVE */
+#define STATE_SIGMAS 2e-3
+#define STATE_RELATIVE 4e-7 /* rounding of the state itself */
 #define COVARIANCE_RELATIVE 5e-4
 #define NIS_RELATIVE 5e-3
 #define NIS_ABSOLUTE 2e-3
 
-/* --- against the reference ----------------------------------------------------------------- */
+/* --- comparison with the reference ----------------------------------------------------------- */
 
-static void assert_step(const struct rho_kalman *kalman, const struct kalman_step *step)
+static void assert_near_reference_step(const struct rho_kalman *kalman,
+                                       const struct kalman_step *step)
 {
     for (int i = 0; i < STATES; ++i) {
         const double sigma = sqrt(step->diagonal[i]);
@@ -25,7 +27,7 @@ static void assert_step(const struct rho_kalman *kalman, const struct kalman_ste
     }
 }
 
-static void run_sequence(const struct kalman_sequence *sequence)
+static void compare_sequence(const struct kalman_sequence *sequence)
 {
     struct rho_kalman kalman;
 
@@ -41,9 +43,9 @@ static void run_sequence(const struct kalman_sequence *sequence)
 
             assert_int_equal(
                 rho_kalman_update(&kalman, i, step->values[i], step->variances[i], &nis), RHO_OK);
-            nis_sum += nis; /* the chain rule: the scalar ones add up to the vector's */
+            nis_sum += nis; /* NIS of scalar updates add up to that of the vector update */
         }
-        assert_step(&kalman, step);
+        assert_near_reference_step(&kalman, step);
         assert_float_equal(nis_sum, step->nis, NIS_RELATIVE * step->nis + NIS_ABSOLUTE);
     }
     for (int i = 0; i < PACKED; ++i) {
@@ -67,13 +69,13 @@ static void sequences_agree_with_the_vector_filter(void **state)
     (void)state;
     for (size_t k = 0; k < NUM(kalman_sequences); ++k) {
         print_message("           %s\n", kalman_sequences[k].name);
-        run_sequence(&kalman_sequences[k]);
+        compare_sequence(&kalman_sequences[k]);
     }
 }
 
-/* --- axes ---------------------------------------------------------------------------------- */
+/* --- opening of axes -------------------------------------------------------------------------- */
 
-static void init_measures_nothing(void **state)
+static void init_sets_state_and_covariance_to_zero(void **state)
 {
     struct {
         float before;
@@ -94,7 +96,7 @@ static void init_measures_nothing(void **state)
     rho_kalman_init(NULL);
 }
 
-static void axes_are_open_once_opened(void **state)
+static void an_axis_is_open_after_it_was_opened(void **state)
 {
     struct rho_kalman kalman;
 
@@ -115,7 +117,7 @@ static void axes_are_open_once_opened(void **state)
     assert_int_equal(rho_kalman_is_axis_open(NULL, 0), 0);
 }
 
-static void opening_an_axis_uncouples_it(void **state)
+static void opening_an_axis_again_removes_its_correlations(void **state)
 {
     struct rho_kalman kalman;
 
@@ -163,7 +165,7 @@ static void a_closed_axis_stays_zero(void **state)
 
 /* --- prediction ---------------------------------------------------------------------------- */
 
-static void no_time_changes_nothing(void **state)
+static void a_prediction_of_no_time_changes_nothing(void **state)
 {
     struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
     const struct rho_kalman before = kalman;
@@ -174,7 +176,7 @@ static void no_time_changes_nothing(void **state)
     assert_changed_nothing(&kalman, &before);
 }
 
-static void one_long_step_equals_several_short_ones(void **state)
+static void one_long_prediction_equals_many_short_ones(void **state)
 {
     struct rho_kalman once = opened_filter(3, 25.0f, 400.0f), often = once;
 
@@ -194,7 +196,7 @@ static void one_long_step_equals_several_short_ones(void **state)
     }
 }
 
-static void forth_and_back_is_the_identity(void **state)
+static void prediction_forth_and_back_without_noise_restores_the_filter(void **state)
 {
     struct rho_kalman kalman = opened_filter(3, 25.0f, 400.0f);
 
@@ -205,8 +207,7 @@ static void forth_and_back_is_the_identity(void **state)
     assert_float_equal(kalman.state[0], 1100.0, 1e-3);
     assert_int_equal(rho_kalman_predict(&kalman, -4.0f, 0.0f), RHO_OK);
     assert_float_equal(kalman.state[0], before.state[0], 1e-3);
-    for (int i = 0; i < 3;
-         ++i) { /* rounding is of the size of dt^2 times the velocity's variance */
+    for (int i = 0; i < 3; ++i) { /* rounding errors are about dt^2 times the velocity variance */
         assert_float_equal(kalman.covariance[RHO_AT(i, i)], 25.0, 0.1);
         assert_float_equal(kalman.covariance[RHO_AT(i + 3, i)], 0.0, 1e-3);
         assert_true(kalman.covariance[RHO_AT(i + 3, i + 3)] == 400.0f);
@@ -214,7 +215,7 @@ static void forth_and_back_is_the_identity(void **state)
     assert_true(is_positive_definite(&kalman));
 }
 
-static void going_back_adds_no_noise(void **state)
+static void prediction_back_in_time_adds_no_noise(void **state)
 {
     struct rho_kalman noisy = opened_filter(3, 25.0f, 400.0f), quiet = noisy;
 
@@ -224,9 +225,9 @@ static void going_back_adds_no_noise(void **state)
     assert_changed_nothing(&noisy, &quiet);
 }
 
-/* --- update -------------------------------------------------------------------------------- */
+/* --- updates ---------------------------------------------------------------------------------- */
 
-static void an_update_by_hand(void **state)
+static void an_update_agrees_with_a_result_by_hand(void **state)
 {
     struct rho_kalman kalman = opened_filter(1, 12.0f, 9.0f);
     float nis[2] = {0.0f, GUARD};
@@ -240,8 +241,8 @@ static void an_update_by_hand(void **state)
     assert_true(kalman.state[3] == 0.0f && kalman.covariance[RHO_AT(3, 3)] == 9.0f);
 }
 
-/* Variances on open axes alone, covariances 0; the state stays. */
-static void a_set_covariance_is_diagonal(void **state)
+/* Open axes get the variance given and all covariances become 0; the state stays. */
+static void setting_equal_variances_removes_all_covariances(void **state)
 {
     (void)state;
     struct rho_kalman filter;
@@ -263,17 +264,17 @@ static void a_set_covariance_is_diagonal(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_set_covariance_is_diagonal),
+        cmocka_unit_test(setting_equal_variances_removes_all_covariances),
         cmocka_unit_test(sequences_agree_with_the_vector_filter),
-        cmocka_unit_test(init_measures_nothing),
-        cmocka_unit_test(axes_are_open_once_opened),
-        cmocka_unit_test(opening_an_axis_uncouples_it),
+        cmocka_unit_test(init_sets_state_and_covariance_to_zero),
+        cmocka_unit_test(an_axis_is_open_after_it_was_opened),
+        cmocka_unit_test(opening_an_axis_again_removes_its_correlations),
         cmocka_unit_test(a_closed_axis_stays_zero),
-        cmocka_unit_test(no_time_changes_nothing),
-        cmocka_unit_test(one_long_step_equals_several_short_ones),
-        cmocka_unit_test(forth_and_back_is_the_identity),
-        cmocka_unit_test(going_back_adds_no_noise),
-        cmocka_unit_test(an_update_by_hand),
+        cmocka_unit_test(a_prediction_of_no_time_changes_nothing),
+        cmocka_unit_test(one_long_prediction_equals_many_short_ones),
+        cmocka_unit_test(prediction_forth_and_back_without_noise_restores_the_filter),
+        cmocka_unit_test(prediction_back_in_time_adds_no_noise),
+        cmocka_unit_test(an_update_agrees_with_a_result_by_hand),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

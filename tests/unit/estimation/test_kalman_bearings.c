@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bearings as scalar updates: the row, what it leaves out, and the filter, against double
+ * Bearings in the Kalman filter: linearisation, its error, and updates, compared with double
  * precision.
  */
 #include <float.h>
@@ -10,14 +10,17 @@
 
 #define NUM_CASES 3000
 
-/* Radians, a share, sigmas of the estimate before. Worst of the cases below: 5.5e-7, 4e-7, 2e-6. */
+/*
+ * Tolerances in rad, relative, and in sigmas of the estimate before; largest seen: 5.5e-7, 4e-7,
+ * 2e-6.
+ */
 #define OFF_RAD 1e-6
 #define ROW_ERROR 1e-6
 #define UPDATE_RELATIVE 6e-6
 
-/* --- the row ------------------------------------------------------------------------------- */
+/* --- linearisation ---------------------------------------------------------------------------- */
 
-/* Somewhere, in whole metres: the same as a float. */
+/* Draws a sensor's place in whole metres, which float holds exactly. */
 static void draw_place(double place[2])
 {
     for (int axis = 0; axis < 2; ++axis) {
@@ -25,8 +28,8 @@ static void draw_place(double place[2])
     }
 }
 
-/* A state at this range and direction of the place. */
-static void stand(float state[STATES], const double place[2], double range, double bearing)
+/* Puts the state at this range and bearing from the place, with random velocities. */
+static void place_target(float state[STATES], const double place[2], double range, double bearing)
 {
     for (int i = 0; i < STATES; ++i) {
         state[i] = (float)uniform(-500.0, 500.0);
@@ -35,13 +38,14 @@ static void stand(float state[STATES], const double place[2], double range, doub
     state[1] = (float)(place[1] + range * sin(bearing));
 }
 
-/* Directions all round; of three cases one is within a milliradian of west, where bearings wrap. */
-static double some_direction(int n)
+/* One direction in three is within a milliradian of west, where bearings wrap. */
+static double random_direction(int n)
 {
     return n % 3 == 0 ? DENSE_PI + uniform(-1e-3, 1e-3) : uniform(-DENSE_PI, DENSE_PI);
 }
 
-static void assert_row(const float state[STATES], const double place[2], double bearing)
+static void assert_linearised_bearing(const float state[STATES], const double place[2],
+                                      double bearing)
 {
     struct dense at = {.x = {state[0], state[1]}};
     const struct dense_measurement expected = dense_bearing(&at, place, bearing, 0.0);
@@ -58,26 +62,23 @@ static void assert_row(const float state[STATES], const double place[2], double 
     }
 }
 
-static void the_row_is_the_derivative_of_the_bearing(void **state)
+static void the_linearised_bearing_agrees_with_its_derivative(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
         double place[2];
 
         draw_place(place);
-        const double direction = some_direction(n), range = pow(10.0, uniform(3.0, 5.3));
+        const double direction = random_direction(n), range = pow(10.0, uniform(3.0, 5.3));
         const double bearing = remainder(direction + uniform(-2.0, 2.0), 2.0 * DENSE_PI);
         float at[STATES];
 
-        stand(at, place, range, direction);
-        assert_row(at, place, (float)bearing);
+        place_target(at, place, range, direction);
+        assert_linearised_bearing(at, place, (float)bearing);
     }
 }
 
-/*
- * West of the sensor: bearings of nearly pi and nearly -pi are as near to each other as they are to
- * west.
- */
+/* West of the sensor the shorter way from one bearing to another may cross +-pi. */
 static void bearings_to_the_west_wrap(void **state)
 {
     const float at[STATES] = {-5000.0f, 3.0f};
@@ -99,7 +100,7 @@ static void bearings_to_the_west_wrap(void **state)
     assert_float_equal(row[1], -1.0, 1e-6);
 }
 
-static void assert_no_bearing(const float state[STATES])
+static void assert_bearing_undefined(const float state[STATES])
 {
     float row[STATES] = {GUARD, GUARD, GUARD, GUARD, GUARD, GUARD}, off_m = GUARD, range_m = GUARD;
 
@@ -117,15 +118,15 @@ static void a_state_at_the_sensor_has_no_bearing(void **state)
     float at[STATES] = {100.0f, 200.0f}, row[STATES], off_m, range_m;
 
     (void)state;
-    assert_no_bearing(at);
+    assert_bearing_undefined(at);
     at[0] = 100.7f;
     at[1] = 199.3f;
-    assert_no_bearing(at);
+    assert_bearing_undefined(at);
     for (size_t k = 0; k < NUM(bad); ++k) {
         for (int axis = 0; axis < 2; ++axis) {
             at[axis] = bad[k];
             at[1 - axis] = 250.0f;
-            assert_no_bearing(at);
+            assert_bearing_undefined(at);
         }
     }
     at[0] = 101.0f;
@@ -135,9 +136,9 @@ static void a_state_at_the_sensor_has_no_bearing(void **state)
     assert_float_equal(range_m, 1.0, 1e-6);
 }
 
-static void is_bearing_has_the_limits_of_types(void **state)
+static void bearings_and_sigmas_out_of_range_are_invalid(void **state)
 {
-    const float pi = 3.14159274f; /* the nearest float */
+    const float pi = 3.14159274f; /* the float nearest to pi, which is larger */
     const float good_rad[] = {0.0f, pi, -pi, 1e-30f},
                 bad_rad[] = {3.1415930f, -3.1415930f, NAN, INFINITY, -INFINITY};
     const float good_sigma[] = {RHO_LIMIT_SIGMA_RAD_MIN, 0.002f, RHO_LIMIT_SIGMA_RAD_MAX};
@@ -160,13 +161,10 @@ static void is_bearing_has_the_limits_of_types(void **state)
     }
 }
 
-/* --- what the line leaves out -------------------------------------------------------------- */
+/* --- error of the linearisation -------------------------------------------------------------- */
 
-/*
- * Errors of place drawn from the covariance: the bearing's error less its line has the variance
- * that is added.
- */
-static double sampled_bow(const struct dense *d, double range, int draws)
+/* Variance of the linearisation error in metres across, from places drawn from the covariance. */
+static double sampled_nonlinearity_variance_m2(const struct dense *d, double range, int draws)
 {
     const double l00 = sqrt(d->p[0][0]), l10 = d->p[1][0] / l00;
     const double l11 = sqrt(d->p[1][1] - l10 * l10), here[2] = {0.0, 0.0};
@@ -186,10 +184,10 @@ static double sampled_bow(const struct dense *d, double range, int draws)
 }
 
 /*
- * The noise added to a bearing's own is the variance of what the row leaves out, 3 % of the range
- * off.
+ * The place is uncertain by 3 % of the range; the variance added to the bearing's must be that of
+ * drawn places.
  */
-static void the_noise_added_is_what_the_row_leaves_out(void **state)
+static void the_noise_added_is_the_variance_of_the_linearisation_error(void **state)
 {
     (void)state;
     for (int n = 0; n < 12; ++n) {
@@ -197,37 +195,37 @@ static void the_noise_added_is_what_the_row_leaves_out(void **state)
         struct rho_kalman_bearing seen;
         const double here[2] = {0.0, 0.0};
 
-        stand(kalman.state, here, 1e4, some_direction(n));
+        place_target(kalman.state, here, 1e4, random_direction(n));
         kalman.covariance[RHO_AT(1, 1)] = (float)uniform(1e4, 1.2e5);
         kalman.covariance[RHO_AT(1, 0)] =
             (float)(uniform(-0.9, 0.9) * 300.0 * sqrt((double)kalman.covariance[RHO_AT(1, 1)]));
         const struct dense d = dense_of(kalman.state, kalman.covariance);
-        const double expected = sampled_bow(&d, hypot(d.x[0], d.x[1]), 40000);
+        const double expected = sampled_nonlinearity_variance_m2(&d, hypot(d.x[0], d.x[1]), 40000);
         assert_int_equal(rho_kalman_linearise_bearing(&kalman, 0.0f, 0.0f, 1.0f, 1e-5f, &seen), 1);
         assert_float_equal(seen.variance_m2, expected + 0.01, 0.08 * expected);
     }
 }
 
-/* --- the update ---------------------------------------------------------------------------- */
+/* --- updates ---------------------------------------------------------------------------------- */
 
-/* An estimate of sigmas 1 .. 300 m in each of its elements, and somewhere round the place. */
-static struct rho_kalman some_estimate(const double place[2], int n)
+/* A correlated estimate with sigmas of 1 to 100, 3 to 160 km from the place. */
+static struct rho_kalman random_estimate(const double place[2], int n)
 {
     struct rho_kalman kalman;
 
-    const double range = pow(10.0, uniform(3.5, 5.2)), direction = some_direction(n);
+    const double range = pow(10.0, uniform(3.5, 5.2)), direction = random_direction(n);
 
     random_covariance(kalman.covariance, 2.0);
-    stand(kalman.state, place, range, direction);
+    place_target(kalman.state, place, range, direction);
     return kalman;
 }
 
 /*
- * In sigmas of the estimate before, as assert_near_dense; a state may also be off by what the
- * bearing's own rounding, a little of `innovation`'s sigma, moves it by.
+ * As assert_near_dense, with an additional tolerance of `rounding` sigmas for states, for the
+ * rounding of the bearing itself.
  */
-static void assert_updated(const struct rho_kalman *kalman, const struct dense *expected,
-                           const struct dense *before, double rounding)
+static void assert_near_updated(const struct rho_kalman *kalman, const struct dense *expected,
+                                const struct dense *before, double rounding)
 {
     for (int i = 0; i < STATES; ++i) {
         const double sigma = sqrt(before->p[i][i]);
@@ -242,7 +240,7 @@ static void assert_updated(const struct rho_kalman *kalman, const struct dense *
     }
 }
 
-/* Of h p h^T + r. */
+/* Square root of h p h^T + r. */
 static double innovation_sigma(const struct dense *d, const struct dense_measurement *m)
 {
     double sum = m->r[0][0];
@@ -262,7 +260,7 @@ static void updates_agree_with_the_joseph_form(void **state)
         double place[2];
 
         draw_place(place);
-        struct rho_kalman kalman = some_estimate(place, n);
+        struct rho_kalman kalman = random_estimate(place, n);
         const struct dense before = dense_of(kalman.state, kalman.covariance);
         struct dense expected = before;
         const float sigma = (float)pow(10.0, uniform(-5.0, -1.5));
@@ -276,13 +274,13 @@ static void updates_agree_with_the_joseph_form(void **state)
         assert_int_equal(
             rho_kalman_update_bearing(&kalman, (float)place[0], (float)place[1], bearing, sigma),
             RHO_OK);
-        assert_updated(&kalman, &expected, &before,
-                       OFF_RAD * range / innovation_sigma(&before, &m));
+        assert_near_updated(&kalman, &expected, &before,
+                            OFF_RAD * range / innovation_sigma(&before, &m));
         assert_true(is_positive_definite(&kalman));
     }
 }
 
-/* The covariance across the line of sight, in double precision. */
+/* Variance of the place across a line of this bearing, in double precision. */
 static double across_variance(const struct rho_kalman *kalman, double bearing)
 {
     const struct dense d = dense_of(kalman->state, kalman->covariance);
@@ -293,10 +291,10 @@ static double across_variance(const struct rho_kalman *kalman, double bearing)
 }
 
 /*
- * The smallest sigma there is: what is known across the line of sight is what the sensor says, at
- * any range.
+ * With the smallest sigma allowed, the variance across the line of sight after the update is that
+ * of the sensor, at any range.
  */
-static void the_most_precise_sensor_is_believed(void **state)
+static void a_sensor_of_the_smallest_sigma_sets_the_variance_across(void **state)
 {
     (void)state;
     for (int n = 0; n < 300; ++n) {
@@ -306,7 +304,7 @@ static void the_most_precise_sensor_is_believed(void **state)
         const double range = pow(10.0, uniform(3.0, 5.0));
         struct rho_kalman kalman = opened_filter(2, 1.0f, 4.0f);
 
-        stand(kalman.state, place, range, some_direction(n));
+        place_target(kalman.state, place, range, random_direction(n));
         const struct dense before = dense_of(kalman.state, kalman.covariance);
         const double bearing = dense_bearing_of(before.x, place);
         const double noise = dense_bearing(&before, place, bearing, 1e-6).r[0][0];
@@ -321,19 +319,19 @@ static void the_most_precise_sensor_is_believed(void **state)
 }
 
 /*
- * A place known to a kilometre along and a decimetre across, and again: nothing is refused, nothing
- * vanishes.
+ * The place is known to a kilometre along the line of sight and to a decimetre across; 80 updates
+ * are accepted and leave the covariance positive definite.
  */
-static void one_sharp_sensor_for_long(void **state)
+static void many_sharp_bearings_leave_the_covariance_positive_definite(void **state)
 {
     (void)state;
     for (int n = 0; n < 200; ++n) {
         const double place[2] = {0.0, 0.0};
         const float sigma = n % 2 ? 1e-6f : 1e-4f;
-        const double range = pow(10.0, uniform(4.0, 5.0)), direction = some_direction(n);
+        const double range = pow(10.0, uniform(4.0, 5.0)), direction = random_direction(n);
         struct rho_kalman kalman = opened_filter(2, 1e8f, 1e5f);
 
-        stand(kalman.state, place, range, direction);
+        place_target(kalman.state, place, range, direction);
         for (int k = 0; k < 80; ++k) {
             const struct dense at = dense_of(kalman.state, kalman.covariance);
             const double bearing = dense_bearing_of(at.x, place) + (double)sigma * normal();
@@ -365,20 +363,23 @@ static void bearings_leave_a_closed_axis_zero(void **state)
             assert_true(kalman.covariance[RHO_AT(5, i)] == 0.0f);
         }
     }
-    /* rays from (-20 km, 0) and (0, -20 km): they cross at about (218, 202) m */
+    /* rays from (-20 km, 0) and (0, -20 km) that cross at about (218, 202) m */
     assert_float_equal(kalman.state[0], 218.0, 5.0);
     assert_float_equal(kalman.state[1], 202.0, 5.0);
 }
 
-/* East of the sensor a bearing to the north of it moves the estimate north, and not along. */
-static void a_bearing_by_hand(void **state)
+/*
+ * For a target due east a bearing to the north moves the estimate north, and not along the line of
+ * sight.
+ */
+static void a_bearing_update_agrees_with_a_result_by_hand(void **state)
 {
     struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
 
     (void)state;
     kalman.state[0] = 10000.0f;
     kalman.state[1] = 0.0f;
-    /* 2 m across of sigma 2 m: half of it is believed */
+    /* innovation of 2 m, sigmas of 2 m in track and bearing: the state moves half way */
     assert_int_equal(rho_kalman_update_bearing(&kalman, 0.0f, 0.0f, 2e-4f, 2e-4f), RHO_OK);
     assert_float_equal(kalman.state[0], 10000.0, 1e-3);
     assert_float_equal(kalman.state[1], 1.0, 1e-3);
@@ -386,9 +387,9 @@ static void a_bearing_by_hand(void **state)
     assert_float_equal(kalman.covariance[RHO_AT(1, 1)], 2.0, 1e-4);
 }
 
-/* --- refusals ------------------------------------------------------------------------------ */
+/* --- refusals --------------------------------------------------------------------------------- */
 
-static void an_estimate_at_the_sensor_is_left_alone(void **state)
+static void an_estimate_at_the_sensors_place_is_not_updated(void **state)
 {
     struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
     struct rho_kalman_bearing seen, guard;
@@ -408,8 +409,8 @@ static void an_estimate_at_the_sensor_is_left_alone(void **state)
     assert_true(kalman.state[1] != before.state[1]);
 }
 
-static void assert_refused(struct rho_kalman kalman, float bearing, float sigma,
-                           enum rho_status expected)
+static void assert_bearing_refused(struct rho_kalman kalman, float bearing, float sigma,
+                                   enum rho_status expected)
 {
     const struct rho_kalman before = kalman;
 
@@ -417,9 +418,9 @@ static void assert_refused(struct rho_kalman kalman, float bearing, float sigma,
     assert_changed_nothing(&kalman, &before);
 }
 
-static void updates_refuse_bad_arguments(void **state)
+static void bearing_updates_refuse_bad_arguments(void **state)
 {
-    /* 1e4 rad is finite, and no angle */
+    /* 1e4 rad is beyond the largest angle */
     const float bad_bearings[] = {NAN, INFINITY, -INFINITY, FLT_MAX, 1e4f};
     const float bad_sigmas[] = {0.0f, -0.0f, -0.1f, NAN, INFINITY, -INFINITY, FLT_MAX};
     struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
@@ -427,37 +428,37 @@ static void updates_refuse_bad_arguments(void **state)
     (void)state;
     assert_int_equal(rho_kalman_update_bearing(NULL, 0.0f, 0.0f, 1.0f, 0.1f), RHO_ERROR_NULL);
     for (size_t k = 0; k < NUM(bad_bearings); ++k) {
-        assert_refused(kalman, bad_bearings[k], 0.1f, RHO_ERROR_VALUE);
+        assert_bearing_refused(kalman, bad_bearings[k], 0.1f, RHO_ERROR_VALUE);
     }
     for (size_t k = 0; k < NUM(bad_sigmas); ++k) {
-        assert_refused(kalman, 1.0f, bad_sigmas[k], RHO_ERROR_VALUE);
+        assert_bearing_refused(kalman, 1.0f, bad_sigmas[k], RHO_ERROR_VALUE);
     }
     for (int i = 0; i < 2; ++i) {
         kalman = opened_filter(2, 4.0f, 9.0f);
         kalman.covariance[RHO_AT(i, i)] = NAN;
-        assert_refused(kalman, 1.0f, 0.1f, RHO_ERROR_VALUE);
+        assert_bearing_refused(kalman, 1.0f, 0.1f, RHO_ERROR_VALUE);
     }
     kalman = opened_filter(2, 4.0f, 9.0f);
-    kalman.covariance[RHO_AT(3, 3)] = INFINITY; /* touches nothing that is seen */
+    kalman.covariance[RHO_AT(3, 3)] = INFINITY; /* a velocity, which the bearing does not measure */
     kalman.covariance[RHO_AT(3, 0)] = INFINITY;
-    assert_refused(kalman, 1.0f, 0.1f, RHO_ERROR_SINGULAR);
+    assert_bearing_refused(kalman, 1.0f, 0.1f, RHO_ERROR_SINGULAR);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_row_is_the_derivative_of_the_bearing),
+        cmocka_unit_test(the_linearised_bearing_agrees_with_its_derivative),
         cmocka_unit_test(bearings_to_the_west_wrap),
         cmocka_unit_test(a_state_at_the_sensor_has_no_bearing),
-        cmocka_unit_test(is_bearing_has_the_limits_of_types),
-        cmocka_unit_test(the_noise_added_is_what_the_row_leaves_out),
+        cmocka_unit_test(bearings_and_sigmas_out_of_range_are_invalid),
+        cmocka_unit_test(the_noise_added_is_the_variance_of_the_linearisation_error),
         cmocka_unit_test(updates_agree_with_the_joseph_form),
-        cmocka_unit_test(a_bearing_by_hand),
-        cmocka_unit_test(the_most_precise_sensor_is_believed),
-        cmocka_unit_test(one_sharp_sensor_for_long),
+        cmocka_unit_test(a_bearing_update_agrees_with_a_result_by_hand),
+        cmocka_unit_test(a_sensor_of_the_smallest_sigma_sets_the_variance_across),
+        cmocka_unit_test(many_sharp_bearings_leave_the_covariance_positive_definite),
         cmocka_unit_test(bearings_leave_a_closed_axis_zero),
-        cmocka_unit_test(an_estimate_at_the_sensor_is_left_alone),
-        cmocka_unit_test(updates_refuse_bad_arguments),
+        cmocka_unit_test(an_estimate_at_the_sensors_place_is_not_updated),
+        cmocka_unit_test(bearing_updates_refuse_bad_arguments),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

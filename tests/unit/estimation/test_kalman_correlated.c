@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Elements measured with correlated noise, and noise of a step, against full matrices in double
- * precision.
+ * Updates with correlated measurement noise, and process noise, compared with full matrices in
+ * double precision.
  */
 #include <float.h>
 #include <string.h>
@@ -10,9 +10,8 @@
 #include "kalman_checks.h"
 
 /*
- * In sigmas of the estimate before. Worst of the cases below: 5.8e-3, where both the estimate and
- * the noise are correlated by 0.99; scalar updates of such an estimate by independent ones are off
- * by 5e-4.
+ * Tolerance in sigmas of the estimate before; largest seen: 5.8e-3, where estimate and noise are
+ * both correlated by 0.99. Scalar updates of such an estimate are off by 5e-4.
  */
 #define RELATIVE 2e-2
 
@@ -23,8 +22,11 @@ struct look {
     float values[STATES], covariance[PACKED];
 };
 
-/* Different elements in any order, noise correlated by up to .99 or so, near the estimate. */
-static struct look some_look(const struct rho_kalman *kalman, int num)
+/*
+ * Measurements of different elements in random order, near the estimate, with noise correlated by
+ * up to 0.99.
+ */
+static struct look random_look(const struct rho_kalman *kalman, int num)
 {
     struct look look = {.num = num};
 
@@ -44,7 +46,7 @@ static struct look some_look(const struct rho_kalman *kalman, int num)
     return look;
 }
 
-static struct rho_kalman some_estimate(double decades)
+static struct rho_kalman random_estimate(double decades)
 {
     struct rho_kalman kalman;
 
@@ -55,8 +57,8 @@ static struct rho_kalman some_estimate(double decades)
     return kalman;
 }
 
-/* The update in information form: P := (P^-1 + H^T R^-1 H)^-1, x := x + P H^T R^-1 y. */
-static void invert(int n, double a[DENSE][DENSE])
+/* For the update in information form: P := (P^-1 + H^T R^-1 H)^-1, x := x + P H^T R^-1 y. */
+static void invert_matrix(int n, double a[DENSE][DENSE])
 {
     for (int k = 0; k < n; ++k) {
         const double pivot = a[k][k];
@@ -78,7 +80,7 @@ static void invert(int n, double a[DENSE][DENSE])
     }
 }
 
-static void update_dense(struct dense *d, const struct look *look)
+static void update_in_information_form(struct dense *d, const struct look *look)
 {
     double r[DENSE][DENSE] = {{0.0}};
     const struct dense before = *d;
@@ -88,14 +90,14 @@ static void update_dense(struct dense *d, const struct look *look)
             r[a][b] = look->covariance[RHO_AT(a, b)];
         }
     }
-    invert(look->num, r);
-    invert(DENSE, d->p);
+    invert_matrix(look->num, r);
+    invert_matrix(DENSE, d->p);
     for (int a = 0; a < look->num; ++a) {
         for (int b = 0; b < look->num; ++b) {
             d->p[look->elements[a]][look->elements[b]] += r[a][b];
         }
     }
-    invert(DENSE, d->p);
+    invert_matrix(DENSE, d->p);
     for (int i = 0; i < DENSE; ++i) {
         for (int a = 0; a < look->num; ++a) {
             for (int b = 0; b < look->num; ++b) {
@@ -106,37 +108,37 @@ static void update_dense(struct dense *d, const struct look *look)
     }
 }
 
-static enum rho_status update(struct rho_kalman *kalman, const struct look *look)
+static enum rho_status update_with_look(struct rho_kalman *kalman, const struct look *look)
 {
     return rho_kalman_update_correlated(kalman, look->num, look->elements, look->values,
                                         look->covariance);
 }
 
-/* ---- against the vector update --------------------------------------------------------------- */
+/* ---- comparison with the vector update ------------------------------------------------------ */
 
 static void correlated_elements_agree_with_the_vector_update(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
-        struct rho_kalman kalman = some_estimate(2.0);
-        const struct look look = some_look(&kalman, 1 + n % STATES);
+        struct rho_kalman kalman = random_estimate(2.0);
+        const struct look look = random_look(&kalman, 1 + n % STATES);
         const struct dense before = dense_of(kalman.state, kalman.covariance);
         struct dense expected = before;
 
-        update_dense(&expected, &look);
-        assert_int_equal(update(&kalman, &look), RHO_OK);
+        update_in_information_form(&expected, &look);
+        assert_int_equal(update_with_look(&kalman, &look), RHO_OK);
         assert_near_dense(kalman.state, kalman.covariance, &expected, &before, RELATIVE);
         assert_true(is_positive_definite(&kalman));
     }
 }
 
-/* Without correlation it is the scalar updates, bit by bit but for their rows' rounding. */
-static void independent_elements_are_scalar_updates(void **state)
+/* Without correlation the result is that of scalar updates, within rounding. */
+static void uncorrelated_elements_equal_scalar_updates(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
-        struct rho_kalman kalman = some_estimate(2.0), other = kalman;
-        struct look look = some_look(&kalman, STATES);
+        struct rho_kalman kalman = random_estimate(2.0), other = kalman;
+        struct look look = random_look(&kalman, STATES);
         const struct dense before = dense_of(kalman.state, kalman.covariance);
 
         for (int i = 0; i < STATES; ++i) {
@@ -144,7 +146,7 @@ static void independent_elements_are_scalar_updates(void **state)
                 look.covariance[RHO_AT(i, j)] = 0.0f;
             }
         }
-        assert_int_equal(update(&kalman, &look), RHO_OK);
+        assert_int_equal(update_with_look(&kalman, &look), RHO_OK);
         for (int i = 0; i < STATES; ++i) {
             assert_int_equal(rho_kalman_update(&other, look.elements[i], look.values[i],
                                                look.covariance[RHO_AT(i, i)], NULL),
@@ -155,13 +157,13 @@ static void independent_elements_are_scalar_updates(void **state)
     }
 }
 
-/* z is closed: what was measured of it says nothing, not even of the others' noise. */
-static void a_closed_axis_is_left_out(void **state)
+/* z is closed: its measurements and their correlations have no effect. */
+static void elements_of_a_closed_axis_are_left_out(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
         struct rho_kalman kalman = opened_filter(2, 400.0f, 900.0f), other = kalman;
-        const struct look look = some_look(&kalman, STATES);
+        const struct look look = random_look(&kalman, STATES);
         struct look level = {.num = 0};
         int kept[STATES] = {0};
 
@@ -177,17 +179,17 @@ static void a_closed_axis_is_left_out(void **state)
             }
         }
         assert_int_equal(level.num, 4);
-        assert_int_equal(update(&kalman, &look), RHO_OK);
-        assert_int_equal(update(&other, &level), RHO_OK);
+        assert_int_equal(update_with_look(&kalman, &look), RHO_OK);
+        assert_int_equal(update_with_look(&other, &level), RHO_OK);
         assert_memory_equal(&kalman, &other, sizeof kalman);
         assert_true(kalman.state[2] == 0.0f && kalman.covariance[RHO_AT(2, 2)] == 0.0f);
     }
 }
 
-/* ---- hard cases ------------------------------------------------------------------------------ */
+/* ---- extreme cases -------------------------------------------------------------------------- */
 
-/* Predicted 5e8 times worse than measured, along an ellipse of 1 x 300 m that turns. */
-static void a_vague_start_with_a_sharp_ellipse(void **state)
+/* The prediction's variance is 5e8 times that of plots, whose ellipses of 1 x 300 m turn. */
+static void a_vague_start_with_thin_ellipses_stays_positive_definite(void **state)
 {
     (void)state;
     for (int n = 0; n < 100; ++n) {
@@ -216,30 +218,30 @@ static void a_vague_start_with_a_sharp_ellipse(void **state)
     }
 }
 
-static void sharp_and_vague_at_random(void **state)
+static void random_correlated_updates_stay_positive_definite(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
         struct rho_kalman kalman = opened_filter(3, 5e8f, 5e8f);
 
         for (int k = 0; k < 10; ++k) {
-            const struct look look = some_look(&kalman, 1 + k % STATES);
+            const struct look look = random_look(&kalman, 1 + k % STATES);
 
-            assert_int_equal(update(&kalman, &look), RHO_OK);
+            assert_int_equal(update_with_look(&kalman, &look), RHO_OK);
             assert_sane_covariance(&kalman);
             assert_true(is_positive_definite(&kalman));
         }
     }
 }
 
-/* ---- refusals -------------------------------------------------------------------------------- */
+/* ---- refusals ------------------------------------------------------------------------------- */
 
-static void assert_refuses(struct rho_kalman kalman, const struct look *look,
-                           enum rho_status expected)
+static void assert_look_refused(struct rho_kalman kalman, const struct look *look,
+                                enum rho_status expected)
 {
     const struct rho_kalman before = kalman;
 
-    assert_int_equal(update(&kalman, look), expected);
+    assert_int_equal(update_with_look(&kalman, look), expected);
     assert_changed_nothing(&kalman, &before);
 }
 
@@ -256,39 +258,39 @@ static void bad_measurements_are_refused(void **state)
         for (int i = 0; i < 5; ++i) {
             look = good;
             *(i < 2 ? &look.values[i] : &look.covariance[i - 2]) = bad[k];
-            assert_refuses(kalman, &look, RHO_ERROR_VALUE);
+            assert_look_refused(kalman, &look, RHO_ERROR_VALUE);
         }
     }
     for (int i = 0; i < 2; ++i) {
         look = good;
         look.elements[i] = i ? 6 : -1;
-        assert_refuses(kalman, &look, RHO_ERROR_VALUE);
+        assert_look_refused(kalman, &look, RHO_ERROR_VALUE);
         look.num = i ? 7 : 0;
-        assert_refuses(kalman, &look, RHO_ERROR_VALUE);
+        assert_look_refused(kalman, &look, RHO_ERROR_VALUE);
         look = good;
         look.covariance[i ? 2 : 0] = 0.0f;
-        assert_refuses(kalman, &look, RHO_ERROR_SINGULAR);
+        assert_look_refused(kalman, &look, RHO_ERROR_SINGULAR);
         look.covariance[i ? 2 : 0] = -1.0f;
-        assert_refuses(kalman, &look, RHO_ERROR_SINGULAR);
+        assert_look_refused(kalman, &look, RHO_ERROR_SINGULAR);
         look = good;
         look.values[i] = FLT_MAX;
-        assert_refuses(kalman, &look, RHO_ERROR_VALUE);
+        assert_look_refused(kalman, &look, RHO_ERROR_VALUE);
     }
     look = good;
     look.covariance[1] = 4.0f;
-    assert_refuses(kalman, &look, RHO_ERROR_SINGULAR);
+    assert_look_refused(kalman, &look, RHO_ERROR_SINGULAR);
     look.covariance[1] = -5.0f;
-    assert_refuses(kalman, &look, RHO_ERROR_SINGULAR);
+    assert_look_refused(kalman, &look, RHO_ERROR_SINGULAR);
 }
 
-/* The last row fails, when others have been used. */
-static void a_late_failure_undoes_what_was_done(void **state)
+/* The last element overflows after the first one was used. */
+static void an_update_that_fails_at_its_last_element_changes_nothing(void **state)
 {
     const struct look look = {
         .num = 2, .elements = {1, 3}, .values = {1.0f, 3e38f}, .covariance = {4.0f, 1.0f, 4.0f}};
 
     (void)state;
-    assert_refuses(opened_filter(3, 4.0f, 9.0f), &look, RHO_ERROR_VALUE);
+    assert_look_refused(opened_filter(3, 4.0f, 9.0f), &look, RHO_ERROR_VALUE);
 }
 
 static void null_is_refused(void **state)
@@ -304,7 +306,7 @@ static void null_is_refused(void **state)
     assert_int_equal(rho_kalman_update_correlated(&kalman, 1, elements, one, NULL), RHO_ERROR_NULL);
 }
 
-/* ---- noise of a step ------------------------------------------------------------------------- */
+/* ---- process noise -------------------------------------------------------------------------- */
 
 static void noise_is_added_to_open_axes(void **state)
 {
@@ -343,12 +345,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(correlated_elements_agree_with_the_vector_update),
-        cmocka_unit_test(independent_elements_are_scalar_updates),
-        cmocka_unit_test(a_closed_axis_is_left_out),
-        cmocka_unit_test(a_vague_start_with_a_sharp_ellipse),
-        cmocka_unit_test(sharp_and_vague_at_random),
+        cmocka_unit_test(uncorrelated_elements_equal_scalar_updates),
+        cmocka_unit_test(elements_of_a_closed_axis_are_left_out),
+        cmocka_unit_test(a_vague_start_with_thin_ellipses_stays_positive_definite),
+        cmocka_unit_test(random_correlated_updates_stay_positive_definite),
         cmocka_unit_test(bad_measurements_are_refused),
-        cmocka_unit_test(a_late_failure_undoes_what_was_done),
+        cmocka_unit_test(an_update_that_fails_at_its_last_element_changes_nothing),
         cmocka_unit_test(null_is_refused),
         cmocka_unit_test(noise_is_added_to_open_axes),
         cmocka_unit_test(bad_noise_is_refused),

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The filter at its limits: what it refuses, and what rounding must not do to it. */
+/* The Kalman filter at its limits: refused calls, and rounding in extreme cases. */
 #include <float.h>
 #include <string.h>
 
 #include "kalman_checks.h"
 
-/* --- refusals ------------------------------------------------------------------------------ */
+/* --- refusals --------------------------------------------------------------------------------- */
 
 static void open_axis_refuses_bad_arguments(void **state)
 {
@@ -43,7 +43,7 @@ static void open_axis_refuses_bad_arguments(void **state)
         RHO_OK);
 }
 
-static void assert_predict_refuses(struct rho_kalman kalman, float dt_s, float noise_density)
+static void assert_prediction_refused(struct rho_kalman kalman, float dt_s, float noise_density)
 {
     const struct rho_kalman before = kalman;
 
@@ -51,7 +51,7 @@ static void assert_predict_refuses(struct rho_kalman kalman, float dt_s, float n
     assert_changed_nothing(&kalman, &before);
 }
 
-static void the_longest_step_is_accepted(void **state)
+static void the_longest_prediction_is_accepted(void **state)
 {
     struct rho_kalman kalman = opened_filter(3, 1.0f, 1e-3f);
 
@@ -62,7 +62,7 @@ static void the_longest_step_is_accepted(void **state)
     assert_true(is_positive_definite(&kalman));
 }
 
-static void predict_refuses_bad_arguments(void **state)
+static void a_prediction_refuses_bad_arguments(void **state)
 {
     const struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
     const float bad_times[] = {NAN, INFINITY, -INFINITY, 1.0001e5f, -1.0001e5f, FLT_MAX};
@@ -71,32 +71,34 @@ static void predict_refuses_bad_arguments(void **state)
     (void)state;
     assert_int_equal(rho_kalman_predict(NULL, 1.0f, 1.0f), RHO_ERROR_NULL);
     for (size_t i = 0; i < NUM(bad_times); ++i) {
-        assert_predict_refuses(kalman, bad_times[i], 1.0f);
+        assert_prediction_refused(kalman, bad_times[i], 1.0f);
     }
     for (size_t i = 0; i < NUM(bad_densities); ++i) {
-        assert_predict_refuses(kalman, 1.0f, bad_densities[i]);
-        assert_predict_refuses(kalman, 0.0f, bad_densities[i]);
+        assert_prediction_refused(kalman, 1.0f, bad_densities[i]);
+        assert_prediction_refused(kalman, 0.0f, bad_densities[i]);
     }
 }
 
-static void predict_refuses_results_beyond_the_limit(void **state)
+static void a_prediction_beyond_the_largest_variance_is_refused(void **state)
 {
     (void)state;
-    assert_predict_refuses(opened_filter(3, 1.0f, 1e4f), 1e5f, 0.0f); /* position: 1e14 */
-    assert_predict_refuses(opened_filter(3, 1.0f, 1e4f), -1e5f, 0.0f);
-    assert_predict_refuses(opened_filter(1, 1.0f, 1e12f), 0.001f, 1e9f); /* velocity */
-    assert_predict_refuses(opened_filter(3, 1.0f, 1.0f), 1.0f, FLT_MAX);
-    assert_predict_refuses(opened_filter(3, 1.0f, 1.0f), 1e5f, 1.0f);
+    /* a position variance of 1e14 */
+    assert_prediction_refused(opened_filter(3, 1.0f, 1e4f), 1e5f, 0.0f);
+    assert_prediction_refused(opened_filter(3, 1.0f, 1e4f), -1e5f, 0.0f);
+    /* a velocity variance beyond the limit */
+    assert_prediction_refused(opened_filter(1, 1.0f, 1e12f), 0.001f, 1e9f);
+    assert_prediction_refused(opened_filter(3, 1.0f, 1.0f), 1.0f, FLT_MAX);
+    assert_prediction_refused(opened_filter(3, 1.0f, 1.0f), 1e5f, 1.0f);
     for (int axis = 0; axis < 3; ++axis) {
         struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
 
         kalman.state[axis] = FLT_MAX;
         kalman.state[axis + 3] = FLT_MAX;
-        assert_predict_refuses(kalman, 1.0f, 1.0f);
+        assert_prediction_refused(kalman, 1.0f, 1.0f);
     }
 }
 
-static void predict_refuses_a_bad_estimate(void **state)
+static void a_prediction_refuses_a_bad_estimate(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY};
 
@@ -106,18 +108,18 @@ static void predict_refuses_a_bad_estimate(void **state)
             struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
 
             kalman.state[i] = bad[k];
-            assert_predict_refuses(kalman, 1.0f, 1.0f);
+            assert_prediction_refused(kalman, 1.0f, 1.0f);
             kalman = opened_filter(3, 1.0f, 1.0f);
             kalman.covariance[RHO_AT(i, i)] = i < 3 && bad[k] < 0.0f ? NAN : bad[k];
-            assert_predict_refuses(kalman, 1.0f, 1.0f);
+            assert_prediction_refused(kalman, 1.0f, 1.0f);
         }
         struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
         kalman.covariance[RHO_AT(3, 0)] = bad[k] < 0.0f ? NAN : bad[k];
-        assert_predict_refuses(kalman, 1.0f, 1.0f);
+        assert_prediction_refused(kalman, 1.0f, 1.0f);
     }
 }
 
-static void assert_update_refuses(struct rho_kalman kalman, int element, float value,
+static void assert_update_refused(struct rho_kalman kalman, int element, float value,
                                   float variance, enum rho_status expected)
 {
     const struct rho_kalman before = kalman;
@@ -128,7 +130,7 @@ static void assert_update_refuses(struct rho_kalman kalman, int element, float v
     assert_true(nis == GUARD);
 }
 
-static void update_refuses_bad_arguments(void **state)
+static void an_update_refuses_bad_arguments(void **state)
 {
     const struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
     const float bad_values[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX};
@@ -138,17 +140,17 @@ static void update_refuses_bad_arguments(void **state)
     (void)state;
     assert_int_equal(rho_kalman_update(NULL, 0, 1.0f, 1.0f, NULL), RHO_ERROR_NULL);
     for (size_t i = 0; i < NUM(bad_values); ++i) {
-        assert_update_refuses(kalman, 1, bad_values[i], 1.0f, RHO_ERROR_VALUE);
+        assert_update_refused(kalman, 1, bad_values[i], 1.0f, RHO_ERROR_VALUE);
     }
     for (size_t i = 0; i < NUM(bad_variances); ++i) {
-        assert_update_refuses(kalman, 1, 1.0f, bad_variances[i], RHO_ERROR_VALUE);
+        assert_update_refused(kalman, 1, 1.0f, bad_variances[i], RHO_ERROR_VALUE);
     }
     for (size_t i = 0; i < NUM(bad_elements); ++i) {
-        assert_update_refuses(kalman, bad_elements[i], 1.0f, 1.0f, RHO_ERROR_VALUE);
+        assert_update_refused(kalman, bad_elements[i], 1.0f, 1.0f, RHO_ERROR_VALUE);
     }
 }
 
-static void update_refuses_a_bad_estimate(void **state)
+static void an_update_refuses_a_bad_estimate(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY};
 
@@ -158,19 +160,19 @@ static void update_refuses_a_bad_estimate(void **state)
             struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
 
             kalman.covariance[RHO_AT(i, i)] = bad[k];
-            assert_update_refuses(kalman, i, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
+            assert_update_refused(kalman, i, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
             kalman = opened_filter(3, 1.0f, 1.0f);
             kalman.state[i] = bad[k];
-            assert_update_refuses(kalman, 2, 1.0f, 1.0f, RHO_ERROR_VALUE);
+            assert_update_refused(kalman, 2, 1.0f, 1.0f, RHO_ERROR_VALUE);
         }
     }
     struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
     kalman.covariance[RHO_AT(1, 1)] = -2.0f;
-    assert_update_refuses(kalman, 1, 1.0f, 3.0f, RHO_ERROR_SINGULAR);
+    assert_update_refused(kalman, 1, 1.0f, 3.0f, RHO_ERROR_SINGULAR);
 }
 
-/* The gain is too small for a float, but the estimate must not mistake that for certainty. */
-static void a_worthless_measurement_changes_nothing(void **state)
+/* The gain underflows in float, which must not make the estimate certain. */
+static void a_measurement_of_huge_variance_changes_no_covariance(void **state)
 {
     const float variances[] = {1e30f, 1e38f, 3e38f, FLT_MAX};
 
@@ -188,7 +190,7 @@ static void a_worthless_measurement_changes_nothing(void **state)
     }
 }
 
-static void updates_keep_the_variance_floor(void **state)
+static void variances_do_not_fall_below_their_minimum(void **state)
 {
     (void)state;
     for (int element = 0; element < STATES; ++element) {
@@ -201,10 +203,13 @@ static void updates_keep_the_variance_floor(void **state)
     }
 }
 
-/* --- hard cases ---------------------------------------------------------------------------- */
+/* --- extreme cases ---------------------------------------------------------------------------- */
 
-/* Measured 5e8 times better than predicted: every digit of the velocity's variance cancels. */
-static void a_vague_start_with_a_sharp_sensor(void **state)
+/*
+ * Plots are 5e8 times more certain than the prediction: the velocity variance cancels in every
+ * digit.
+ */
+static void a_vague_start_with_a_sharp_sensor_stays_positive_definite(void **state)
 {
     const float vague = 5e8f;
     struct rho_kalman kalman = opened_filter(3, vague, vague);
@@ -223,7 +228,7 @@ static void a_vague_start_with_a_sharp_sensor(void **state)
         }
         assert_sane_covariance(&kalman);
     }
-    /* A straight line through 60 points of variance 1: 4 / n and 12 / n^3. */
+    /* a line fitted through n = 60 points of variance 1 has variances of 4 / n and 12 / n^3 */
     for (int axis = 0; axis < 3; ++axis) {
         assert_float_equal(kalman.state[axis + 3], 30.0 * (axis + 1), 0.01);
         assert_float_equal(kalman.state[axis], 1000.0 + 30.0 * (axis + 1) * 59, 0.01);
@@ -246,8 +251,8 @@ static int random_below(int n)
     return (int)(((uint64_t)seed * (uint64_t)n) >> 32);
 }
 
-/* One call in ten is nonsense, the others span all that is allowed. */
-static float hostile(float usual)
+/* The given value, or in one call of ten NAN, infinity, 0 or an extreme value. */
+static float usual_or_hostile(float usual)
 {
     static const float nonsense[] = {NAN,      INFINITY,     -INFINITY, FLT_MAX,
                                      -FLT_MAX, FLT_TRUE_MIN, 0.0f,      -1.0f};
@@ -255,31 +260,32 @@ static float hostile(float usual)
     return random_below(10) == 0 ? nonsense[random_below(NUM(nonsense))] : usual;
 }
 
-static enum rho_status hostile_call(struct rho_kalman *kalman)
+static enum rho_status make_random_call(struct rho_kalman *kalman)
 {
     const float sign = random_below(4) == 0 ? -1.0f : 1.0f;
     float nis;
 
     switch (random_below(20)) {
     case 0:
-        return rho_kalman_open_axis(kalman, random_below(4), hostile(random_power(-3.0f, 7.0f)),
-                                    hostile(random_power(-9.0f, 12.0f)),
-                                    hostile(random_power(-9.0f, 12.0f)));
+        return rho_kalman_open_axis(kalman, random_below(4),
+                                    usual_or_hostile(random_power(-3.0f, 7.0f)),
+                                    usual_or_hostile(random_power(-9.0f, 12.0f)),
+                                    usual_or_hostile(random_power(-9.0f, 12.0f)));
     case 1:
     case 2:
     case 3:
     case 4:
     case 5:
-        return rho_kalman_predict(kalman, hostile(sign * random_power(-4.0f, 5.0f)),
-                                  hostile(random_power(-6.0f, 6.0f)));
+        return rho_kalman_predict(kalman, usual_or_hostile(sign * random_power(-4.0f, 5.0f)),
+                                  usual_or_hostile(random_power(-6.0f, 6.0f)));
     default:
         return rho_kalman_update(kalman, random_below(7) - (random_below(50) == 0),
-                                 hostile(sign * random_power(-3.0f, 7.0f)),
-                                 hostile(random_power(-12.0f, 12.0f)), &nis);
+                                 usual_or_hostile(sign * random_power(-3.0f, 7.0f)),
+                                 usual_or_hostile(random_power(-12.0f, 12.0f)), &nis);
     }
 }
 
-static void a_million_hostile_calls(void **state)
+static void a_million_random_calls_leave_a_valid_covariance(void **state)
 {
     struct rho_kalman kalman;
     int accepted = 0;
@@ -289,7 +295,7 @@ static void a_million_hostile_calls(void **state)
     rho_kalman_init(&kalman);
     for (int i = 0; i < 1000000; ++i) {
         const struct rho_kalman before = kalman;
-        const enum rho_status status = hostile_call(&kalman);
+        const enum rho_status status = make_random_call(&kalman);
 
         accepted += status == RHO_OK;
         if (status != RHO_OK) {
@@ -298,7 +304,7 @@ static void a_million_hostile_calls(void **state)
         assert_sane_covariance(&kalman);
         assert_true(is_positive_definite(&kalman));
     }
-    assert_in_range(accepted, 500000, 900000); /* neither all refused nor none */
+    assert_in_range(accepted, 500000, 900000); /* neither all calls are refused nor none */
 }
 
 static void the_same_calls_give_the_same_bits(void **state)
@@ -313,14 +319,14 @@ static void the_same_calls_give_the_same_bits(void **state)
         seed = 4711;
         rho_kalman_init(kalmans[k]);
         for (int i = 0; i < 5000; ++i) {
-            (void)!hostile_call(kalmans[k]);
+            (void)!make_random_call(kalmans[k]);
         }
     }
     assert_memory_equal(&one, &other, sizeof one);
 }
 
-/* Three standard deviations of the difference must lie within half the span: 3 * 15 < 50. */
-static void a_range_rate_is_clear_where_the_estimate_unfolds_it(void **state)
+/* Three standard deviations of the innovation must be within half the span: 3 * 15 < 50. */
+static void an_ambiguous_range_rate_is_unfolded_if_the_estimate_is_sharp(void **state)
 {
     struct rho_sensor sensor = {.range_rate_span_mps = 100.0f};
     struct rho_kalman_row seen;
@@ -339,7 +345,7 @@ static void a_range_rate_is_clear_where_the_estimate_unfolds_it(void **state)
         assert_int_equal(rho_kalman_can_unfold_range_rate(&at, &sensor, &seen) != 0, !is_vague);
         assert_true(rho_kalman_can_unfold_range_rate(&at, NULL, &seen));
     }
-    sensor.range_rate_span_mps = 0.0f; /* not ambiguous */
+    sensor.range_rate_span_mps = 0.0f; /* 0: range rates are not ambiguous */
     assert_true(rho_kalman_can_unfold_range_rate(&at, &sensor, &seen));
 }
 
@@ -347,18 +353,18 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(open_axis_refuses_bad_arguments),
-        cmocka_unit_test(the_longest_step_is_accepted),
-        cmocka_unit_test(predict_refuses_bad_arguments),
-        cmocka_unit_test(predict_refuses_results_beyond_the_limit),
-        cmocka_unit_test(predict_refuses_a_bad_estimate),
-        cmocka_unit_test(update_refuses_bad_arguments),
-        cmocka_unit_test(update_refuses_a_bad_estimate),
-        cmocka_unit_test(a_worthless_measurement_changes_nothing),
-        cmocka_unit_test(updates_keep_the_variance_floor),
-        cmocka_unit_test(a_vague_start_with_a_sharp_sensor),
-        cmocka_unit_test(a_million_hostile_calls),
+        cmocka_unit_test(the_longest_prediction_is_accepted),
+        cmocka_unit_test(a_prediction_refuses_bad_arguments),
+        cmocka_unit_test(a_prediction_beyond_the_largest_variance_is_refused),
+        cmocka_unit_test(a_prediction_refuses_a_bad_estimate),
+        cmocka_unit_test(an_update_refuses_bad_arguments),
+        cmocka_unit_test(an_update_refuses_a_bad_estimate),
+        cmocka_unit_test(a_measurement_of_huge_variance_changes_no_covariance),
+        cmocka_unit_test(variances_do_not_fall_below_their_minimum),
+        cmocka_unit_test(a_vague_start_with_a_sharp_sensor_stays_positive_definite),
+        cmocka_unit_test(a_million_random_calls_leave_a_valid_covariance),
         cmocka_unit_test(the_same_calls_give_the_same_bits),
-        cmocka_unit_test(a_range_rate_is_clear_where_the_estimate_unfolds_it),
+        cmocka_unit_test(an_ambiguous_range_rate_is_unfolded_if_the_estimate_is_sharp),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

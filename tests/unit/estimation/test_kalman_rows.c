@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* The filter's updates by rows and by range rates, against full matrices in double precision. */
+/*
+ * The Kalman filter's updates by rows and by range rates, compared with full matrices in double
+ * precision.
+ */
 #include <float.h>
 
 #include "dense_filter.h"
 #include "kalman_checks.h"
 
-/* In sigmas of the estimate before. Worst of the cases below: 1.4e-6 and 9.4e-6. */
+/* Tolerances in sigmas of the estimate before; largest seen: 1.4e-6 and 9.4e-6. */
 #define ROW_RELATIVE 4e-6
 #define RATE_RELATIVE 4e-5
 
@@ -16,7 +19,7 @@ static const float some_row[STATES] = {0.5f, -0.25f, 0.75f, 1.5f, -2.0f, 0.125f}
 static const struct rho_sensor somewhere = {
     .sensor_id = 3, .x_m = 1200.0f, .y_m = -3400.0f, .z_m = 250.0f};
 
-/* --- rows ---------------------------------------------------------------------------------- */
+/* --- rows ------------------------------------------------------------------------------------- */
 
 static struct rho_kalman random_estimate(double decades)
 {
@@ -50,8 +53,10 @@ static void rows_agree_with_the_joseph_form(void **state)
     }
 }
 
-/* (x + y) / 2 of variance 2 measured 6 above, with variance 2: half of it is believed. */
-static void a_row_by_hand(void **state)
+/*
+ * (x + y) / 2, of variance 2, is measured 6 above its estimate with variance 2: it moves half way.
+ */
+static void a_row_update_agrees_with_a_result_by_hand(void **state)
 {
     const float mean[STATES] = {0.5f, 0.5f};
     struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
@@ -86,8 +91,8 @@ static void rows_leave_a_closed_axis_zero(void **state)
     }
 }
 
-/* What counts as the smallest variance gives the same bits, and leaves no variance below it. */
-static void rows_keep_the_variance_floor(void **state)
+/* A measurement variance below the minimum has the same effect as the minimum. */
+static void row_updates_keep_the_minimum_variance(void **state)
 {
     const float variances[] = {1e-30f, FLT_TRUE_MIN, 0.5f * RHO_KALMAN_VARIANCE_MIN};
 
@@ -114,8 +119,8 @@ static void rows_keep_the_variance_floor(void **state)
     }
 }
 
-/* Rows and time in turn, each measured 10^8 times better than predicted at first. */
-static void a_vague_start_with_sharp_rows(void **state)
+/* At first each row is measured 10^8 times better than predicted; predictions in between. */
+static void a_vague_start_with_sharp_rows_stays_positive_definite(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES / 10; ++n) {
@@ -137,7 +142,7 @@ static void a_vague_start_with_sharp_rows(void **state)
     }
 }
 
-/* --- refusals ------------------------------------------------------------------------------ */
+/* --- refusals --------------------------------------------------------------------------------- */
 
 static void assert_row_refused(struct rho_kalman kalman, const float *row, float innovation,
                                float variance, enum rho_status expected)
@@ -150,7 +155,7 @@ static void assert_row_refused(struct rho_kalman kalman, const float *row, float
     assert_true(nis == GUARD);
 }
 
-static void update_row_refuses_bad_arguments(void **state)
+static void a_row_update_refuses_bad_arguments(void **state)
 {
     const struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
     const float bad_innovations[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX};
@@ -177,7 +182,7 @@ static void update_row_refuses_bad_arguments(void **state)
     }
 }
 
-static void update_row_refuses_a_bad_estimate(void **state)
+static void a_row_update_refuses_a_bad_estimate(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY};
     const float sum[STATES] = {1.0f, 1.0f};
@@ -197,13 +202,13 @@ static void update_row_refuses_a_bad_estimate(void **state)
         }
     }
     kalman = opened_filter(3, 4.0f, 9.0f);
-    kalman.covariance[RHO_AT(1, 0)] = -5.0f; /* x + y would have a variance of -2 */
+    kalman.covariance[RHO_AT(1, 0)] = -5.0f; /* the variance of x + y is -2 */
     assert_row_refused(kalman, sum, 1.0f, 3.0f, RHO_ERROR_SINGULAR);
 }
 
-/* --- range rates --------------------------------------------------------------------------- */
+/* --- range rates ------------------------------------------------------------------------------ */
 
-/* As it is with two axes: nothing is known of heights. */
+/* Closes the z axis, as in a filter of two axes. */
 static void close_heights(struct rho_kalman *kalman)
 {
     for (int i = 0; i < STATES; ++i) {
@@ -238,21 +243,22 @@ static void range_rates_agree_with_the_linearised_filter(void **state)
     }
 }
 
-/* Head on along x: the velocity is measured, and nothing across it. */
-static void a_range_rate_by_hand(void **state)
+/* A target on the x axis: the range rate measures its velocity along x. */
+static void a_range_rate_update_agrees_with_a_result_by_hand(void **state)
 {
     struct rho_kalman kalman = opened_filter(1, 4.0f, 9.0f);
 
     (void)state;
     kalman.state[0] = -500.0f;
     assert_int_equal(rho_kalman_update_range_rate(&kalman, NULL, -30.0f, 9.0f), RHO_OK);
-    assert_float_equal(kalman.state[3], 15.0, 1e-4); /* receding towards -x would be +30 */
+    /* -30 m/s is an approach, +30 m/s along x: half way from 0 */
+    assert_float_equal(kalman.state[3], 15.0, 1e-4);
     assert_float_equal(kalman.covariance[RHO_AT(3, 3)], 4.5, 1e-5);
     assert_float_equal(kalman.covariance[0], 4.0, 1e-4);
     assert_true(kalman.state[0] == -500.0f);
 }
 
-static void an_estimate_at_the_sensor_has_no_range_rate(void **state)
+static void a_range_rate_at_the_sensors_place_changes_nothing(void **state)
 {
     struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
 
@@ -268,8 +274,10 @@ static void an_estimate_at_the_sensor_has_no_range_rate(void **state)
     assert_true(kalman.state[5] > before.state[5]);
 }
 
-/* Where the sensor may be on any side, a range rate says little of the velocity. */
-static void close_to_the_sensor_a_range_rate_weighs_little(void **state)
+/*
+ * Near the sensor the line of sight is uncertain, and a range rate tells little about the velocity.
+ */
+static void a_range_rate_near_the_sensor_has_little_weight(void **state)
 {
     struct rho_kalman near = opened_filter(2, 900.0f, 1e4f), far = near;
 
@@ -322,16 +330,16 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_agree_with_the_joseph_form),
-        cmocka_unit_test(a_row_by_hand),
+        cmocka_unit_test(a_row_update_agrees_with_a_result_by_hand),
         cmocka_unit_test(rows_leave_a_closed_axis_zero),
-        cmocka_unit_test(rows_keep_the_variance_floor),
-        cmocka_unit_test(a_vague_start_with_sharp_rows),
-        cmocka_unit_test(update_row_refuses_bad_arguments),
-        cmocka_unit_test(update_row_refuses_a_bad_estimate),
+        cmocka_unit_test(row_updates_keep_the_minimum_variance),
+        cmocka_unit_test(a_vague_start_with_sharp_rows_stays_positive_definite),
+        cmocka_unit_test(a_row_update_refuses_bad_arguments),
+        cmocka_unit_test(a_row_update_refuses_a_bad_estimate),
         cmocka_unit_test(range_rates_agree_with_the_linearised_filter),
-        cmocka_unit_test(a_range_rate_by_hand),
-        cmocka_unit_test(an_estimate_at_the_sensor_has_no_range_rate),
-        cmocka_unit_test(close_to_the_sensor_a_range_rate_weighs_little),
+        cmocka_unit_test(a_range_rate_update_agrees_with_a_result_by_hand),
+        cmocka_unit_test(a_range_rate_at_the_sensors_place_changes_nothing),
+        cmocka_unit_test(a_range_rate_near_the_sensor_has_little_weight),
         cmocka_unit_test(range_rates_refuse_bad_arguments),
     };
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Fifty scans of a radar, from polar plot to estimate, beside the same in double precision: another
- * conversion, another form of the update, the same formulas on paper.
+ * Fifty scans of a radar from polar plots to estimates, compared with double precision, which uses
+ * another conversion and another form of the update.
  */
 #include "dense_filter.h"
 #include "kalman_checks.h"
 
 #define NUM_SCANS 50
-#define NUM_START 25 /* until then vague velocities are still in the covariances' digits */
+#define NUM_START 25 /* until then vague velocities have left rounding errors in the covariances */
 #define SPEED_VARIANCE 1e5f
 
 static const struct rho_sensor somewhere = {
@@ -17,18 +17,19 @@ static const double there_m[3] = {1200.0, -3400.0, 250.0};
 struct radar {
     const char *name;
     uint32_t measures;
-    double from_m[3], velocity_mps[3]; /* of the target, seen from the radar */
+    double from_m[3], velocity_mps[3]; /* the target's place and velocity, relative to the radar */
     float sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;
     float interval_s, noise_density;
-    double start, settled; /* how far off, in sigmas of the estimate; and its variances, relative */
+    /* tolerances until and after NUM_START, in sigmas, and relative for variances */
+    double start, settled;
 };
 
 #define ALL (RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE)
 
 /*
- * Worst seen, until scan 25 and from then on: 0.011 and 6e-4; 0.013 and 5e-4; 0.17 and 0.0096;
- * 0.20 and 0.0016. The first scans are the worst: a velocity that is vague across is turned with
- * one that is sharp along, and each turn raises both by 2^-20 of the vague one.
+ * Largest seen of each radar, before and after NUM_START: 0.011 and 6e-4; 0.013 and 5e-4; 0.17 and
+ * 0.0096; 0.20 and 0.0016. The first scans are worst: each rotation raises the variance of the
+ * velocity along by 2^-20 of the vague one across.
  */
 static const struct radar radars[] = {
     {.name = "air, with heights",
@@ -80,8 +81,8 @@ static const struct radar radars[] = {
      .settled = 5e-3},
 };
 
-/* What the radar measures at a time, noise included, rounded to float. */
-static struct rho_polar_plot look(const struct radar *radar, double time_s)
+/* A polar plot with noise at a time, rounded to float. */
+static struct rho_polar_plot measure_polar(const struct radar *radar, double time_s)
 {
     double d[3], product = 0.0;
 
@@ -101,8 +102,8 @@ static struct rho_polar_plot look(const struct radar *radar, double time_s)
         .sigma_range_rate_mps = radar->sigma_range_rate_mps};
 }
 
-/* The unbiased conversion of types.h, in double precision. */
-static struct dense_place converted(const struct rho_polar_plot *polar, int axes)
+/* The unbiased conversion described in types.h, in double precision. */
+static struct dense_place convert_in_double_precision(const struct rho_polar_plot *polar, int axes)
 {
     const double e = axes == 3 ? polar->elevation_rad : 0.0, a = polar->azimuth_rad;
     const double azimuth2 = pow(polar->sigma_azimuth_rad, 2);
@@ -118,8 +119,8 @@ static struct dense_place converted(const struct rho_polar_plot *polar, int axes
     return dense_place_of(there_m, at, axes, variance);
 }
 
-static void take(struct rho_kalman *kalman, const struct radar *radar,
-                 const struct rho_polar_plot *polar)
+static void step_filter(struct rho_kalman *kalman, const struct radar *radar,
+                        const struct rho_polar_plot *polar)
 {
     struct rho_measurement seen;
     struct rho_plot plot;
@@ -134,11 +135,11 @@ static void take(struct rho_kalman *kalman, const struct radar *radar,
         RHO_OK);
 }
 
-static void take_dense(struct dense *d, const struct radar *radar,
-                       const struct rho_polar_plot *polar)
+static void step_reference(struct dense *d, const struct radar *radar,
+                           const struct rho_polar_plot *polar)
 {
     const int axes = radar->measures & RHO_MEASURES_Z ? 3 : 2;
-    const struct dense_place place = converted(polar, axes);
+    const struct dense_place place = convert_in_double_precision(polar, axes);
     struct dense_measurement rate;
 
     if (d->p[0][0] > 0.0) {
@@ -152,15 +153,15 @@ static void take_dense(struct dense *d, const struct radar *radar,
     dense_update(d, &rate);
 }
 
-/* Along the line of sight, where the radar is sharp and most digits cancel. */
-static void assert_near_along(const struct rho_kalman *kalman, const struct dense *expected,
-                              double relative)
+/* Compares along the line of sight, where the radar is sharp and cancellation largest. */
+static void assert_near_along_line_of_sight(const struct rho_kalman *kalman,
+                                            const struct dense *expected, double relative)
 {
     const struct dense got = dense_of(kalman->state, kalman->covariance);
     double off = 0.0, variance = 0.0, expected_variance = 0.0;
 
     for (int i = 0; i < 3; ++i) {
-        const double d = expected->x[i] - there_m[i]; /* of a closed axis it multiplies zeros */
+        const double d = expected->x[i] - there_m[i]; /* 0 for a closed axis */
 
         off += d * (got.x[i] - expected->x[i]);
         for (int j = 0; j < 3; ++j) {
@@ -174,38 +175,38 @@ static void assert_near_along(const struct rho_kalman *kalman, const struct dens
     assert_float_equal(off / sqrt(expected_variance), 0.0, relative);
 }
 
-/* Each has its own linearisation, and neither is ever set back to the other. */
-static void run(const struct radar *radar)
+/* Both filters run on their own, each with its own linearisations. */
+static void compare_fifty_scans(const struct radar *radar)
 {
     struct dense expected = {.x = {0.0}};
     struct rho_kalman kalman;
 
     rho_kalman_init(&kalman);
     for (int k = 0; k < NUM_SCANS; ++k) {
-        const struct rho_polar_plot polar = look(radar, radar->interval_s * k);
+        const struct rho_polar_plot polar = measure_polar(radar, radar->interval_s * k);
         const double relative = k < NUM_START ? radar->start : radar->settled;
 
-        take(&kalman, radar, &polar);
-        take_dense(&expected, radar, &polar);
+        step_filter(&kalman, radar, &polar);
+        step_reference(&expected, radar, &polar);
         assert_near_dense(kalman.state, kalman.covariance, &expected, &expected, relative);
-        assert_near_along(&kalman, &expected, relative);
+        assert_near_along_line_of_sight(&kalman, &expected, relative);
         assert_true(is_positive_definite(&kalman));
     }
 }
 
-static void fifty_scans_stay_beside_the_double_filter(void **state)
+static void fifty_scans_agree_with_the_double_precision_filter(void **state)
 {
     (void)state;
     for (size_t i = 0; i < NUM(radars); ++i) {
         print_message("           %s\n", radars[i].name);
-        run(&radars[i]);
+        compare_fifty_scans(&radars[i]);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fifty_scans_stay_beside_the_double_filter),
+        cmocka_unit_test(fifty_scans_agree_with_the_double_precision_filter),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

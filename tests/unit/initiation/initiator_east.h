@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * For tests of single tracks seen by a radar: windows of seven scans over an area east of the
- * origin, and no set too poor.
+ * Configuration for tests of single tracks seen by a radar: windows of seven scans over an area
+ * east of the origin, and no lower limit of the score.
  */
 #ifndef RHOTRACK_TESTS_INITIATOR_EAST_H
 #define RHOTRACK_TESTS_INITIATOR_EAST_H
@@ -12,7 +12,8 @@
 #define SCAN_S 2.0
 #define PD 0.9
 
-static const struct rho_extent east = {1000.0f, 41000.0f, -20000.0f, 20000.0f}; /* not the origin */
+/* the origin is outside */
+static const struct rho_extent east = {1000.0f, 41000.0f, -20000.0f, 20000.0f};
 
 static inline struct rho_initiator_config usual_config(void)
 {

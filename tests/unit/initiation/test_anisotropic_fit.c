@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Plots with a covariance, a height and a range rate of their own: what votes, what is fitted, and
- * what it scores.
+ * Initiation from plots with a covariance, a height and a range rate of their own: votes, fits and
+ * scores.
  */
 #include "initiator_east.h"
 #include "straight_fit.h"
@@ -9,10 +9,10 @@
 #define Z RHO_MEASURES_Z
 #define RATE RHO_MEASURES_RANGE_RATE
 
-/* ---- two axes that are nearly one ------------------------------------------------------------ */
+/* ---- nearly isotropic noise ----------------------------------------------------------------- */
 
-/* Three targets in clutter; odd windows have plots with times of their own. */
-static void random_window(int window, double sigma_cross_m)
+/* Searches three targets in clutter; in odd windows plots have their own times. */
+static void search_random_window(int window, double sigma_cross_m)
 {
     struct rho_initiator_config config = usual_config();
     config.score_min_nat = -3.0f;
@@ -41,16 +41,16 @@ static void random_window(int window, double sigma_cross_m)
     search_window(RHO_SEARCH_BATCH);
 }
 
-static void noise_of_nearly_equal_axes_gives_what_isotropic_noise_gives(void **state)
+static void noise_of_nearly_equal_axes_gives_the_isotropic_result(void **state)
 {
     (void)state;
     static struct rho_candidate isotropic[RHO_MAX_CANDIDATES];
     int found = 0;
     for (int window = 0; window < 60; window++) {
-        random_window(window, 10.0);
+        search_random_window(window, 10.0);
         unsigned n = initiator.num_candidates;
         memcpy(isotropic, initiator.candidates, sizeof isotropic);
-        random_window(window, 10.00390625); /* the next that a window holds */
+        search_random_window(window, 10.00390625); /* the next larger sigma that a window stores */
         assert_int_equal(initiator.num_candidates, n);
         for (unsigned i = 0; i < n; i++, found++) {
             const struct rho_candidate *a = &isotropic[i], *b = &initiator.candidates[i];
@@ -66,17 +66,18 @@ static void noise_of_nearly_equal_axes_gives_what_isotropic_noise_gives(void **s
     assert_true(found > 100);
 }
 
-/* ---- who votes ------------------------------------------------------------------------------- */
+/* ---- votes ----------------------------------------------------------------------------------- */
 
 /*
- * A target that passes (20 km, 0) northwards at 100 m/s; the plot of the scan in the middle is off
- * by that much. All measure heights, of 1000 m, and range rates as the sensor sees them.
+ * Errors of the middle scan's plot. The target passes (20 km, 0) northwards at 100 m/s, at a height
+ * of 1000 m, with the range rates that the sensor measures.
  */
 struct middle {
     double dx_m, dy_m, dz_m, rate_mps;
 };
 
-static void pass_by(struct middle off, uint32_t measures, const struct rho_sensor *sensor)
+static void search_passing_target(struct middle off, uint32_t measures,
+                                  const struct rho_sensor *sensor)
 {
     struct rho_initiator_config config = usual_config();
     start_initiator(&config);
@@ -95,43 +96,45 @@ static void pass_by(struct middle off, uint32_t measures, const struct rho_senso
     assert_int_equal(initiator.num_candidates, 1);
 }
 
-static int middle_votes(struct middle off, uint32_t measures, const struct rho_sensor *sensor)
+static int does_middle_plot_vote(struct middle off, uint32_t measures,
+                                 const struct rho_sensor *sensor)
 {
-    pass_by(off, measures, sensor);
-    assert_int_equal(initiator.candidates[0].mask | 1u << 3, 0x7f); /* the others do */
+    search_passing_target(off, measures, sensor);
+    assert_int_equal(initiator.candidates[0].mask | 1u << 3, 0x7f); /* all other plots vote */
     return initiator.candidates[0].mask >> 3 & 1u;
 }
 
-static void an_ellipse_takes_what_is_off_across_the_line_of_sight_alone(void **state)
+static void plots_off_across_the_line_of_sight_vote_and_off_along_do_not(void **state)
 {
     (void)state;
     const struct rho_sensor origin = sensor_at(0.0, 0.0);
     const struct middle along = {.dx_m = 100.0}, across = {.dy_m = 100.0};
-    assert_false(middle_votes(along, 0, &origin));
-    assert_true(middle_votes(across, 0, &origin));
+    assert_false(does_middle_plot_vote(along, 0, &origin));
+    assert_true(does_middle_plot_vote(across, 0, &origin));
 }
 
-static void a_sensor_elsewhere_turns_the_ellipses(void **state)
+static void error_ellipses_turn_with_the_direction_of_the_sensor(void **state)
 {
     (void)state;
     const struct rho_sensor south = sensor_at(20000.0, -30000.0);
     const struct rho_sensor southwest = sensor_at(-10000.0, -30000.0);
     const struct middle east_m = {.dx_m = 100.0}, north_m = {.dy_m = 100.0};
     const struct middle away = {.dx_m = 70.0, .dy_m = 70.0}, past = {.dx_m = 70.0, .dy_m = -70.0};
-    assert_true(middle_votes(east_m, 0, &south));
-    assert_false(middle_votes(north_m, 0, &south));
-    assert_false(middle_votes(away, 0, &southwest));
-    assert_true(middle_votes(past, 0, &southwest));
+    assert_true(does_middle_plot_vote(east_m, 0, &south));
+    assert_false(does_middle_plot_vote(north_m, 0, &south));
+    assert_false(does_middle_plot_vote(away, 0, &southwest));
+    assert_true(does_middle_plot_vote(past, 0, &southwest));
 }
 
 /*
- * Does the middle plot of a target that passes far from the sensor vote, so many sigmas off along
- * or across?
+ * True if the middle plot of a target far from the sensor votes, this many sigmas off along or
+ * across the line of sight.
  */
-static int votes_off(double sigmas, int is_across, double sigma_range_m, double sigma_cross_m)
+static int does_offset_plot_vote(double sigmas, int is_across, double sigma_range_m,
+                                 double sigma_cross_m)
 {
     struct rho_initiator_config config = usual_config();
-    const struct rho_sensor far = sensor_at(-800000.0, 0.0); /* lines of sight are parallel */
+    const struct rho_sensor far = sensor_at(-800000.0, 0.0); /* all lines of sight are parallel */
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         double dx_m = k == 3 && !is_across ? sigmas * sigma_range_m : 0.0;
@@ -144,36 +147,37 @@ static int votes_off(double sigmas, int is_across, double sigma_range_m, double 
     return initiator.candidates[0].mask >> 3 & 1u;
 }
 
-static double gate_sigmas(int is_across, double sigma_range_m, double sigma_cross_m)
+static double gate_limit_sigmas(int is_across, double sigma_range_m, double sigma_cross_m)
 {
     double low = 0.0, high = 8.0;
     for (int i = 0; i < 16; i++) {
         double middle = 0.5 * (low + high);
-        *(votes_off(middle, is_across, sigma_range_m, sigma_cross_m) ? &low : &high) = middle;
+        *(does_offset_plot_vote(middle, is_across, sigma_range_m, sigma_cross_m) ? &low : &high) =
+            middle;
     }
     assert_true(low > 3.0 && high < 7.0);
     return low;
 }
 
-static void gates_end_at_as_many_sigmas_along_and_across_as_of_isotropic_noise(void **state)
+static void gates_end_at_the_same_number_of_sigmas_for_any_noise(void **state)
 {
     (void)state;
-    double isotropic = gate_sigmas(0, 15.0, 15.0);
-    assert_float_equal(gate_sigmas(1, 15.0, 15.0), isotropic, 0.001);
-    assert_float_equal(gate_sigmas(0, 15.0, 180.0), isotropic, 0.01);
-    assert_float_equal(gate_sigmas(1, 15.0, 180.0), isotropic, 0.01);
-    assert_float_equal(gate_sigmas(0, 180.0, 15.0), isotropic, 0.01);
+    double isotropic = gate_limit_sigmas(0, 15.0, 15.0);
+    assert_float_equal(gate_limit_sigmas(1, 15.0, 15.0), isotropic, 0.001);
+    assert_float_equal(gate_limit_sigmas(0, 15.0, 180.0), isotropic, 0.01);
+    assert_float_equal(gate_limit_sigmas(1, 15.0, 180.0), isotropic, 0.01);
+    assert_float_equal(gate_limit_sigmas(0, 180.0, 15.0), isotropic, 0.01);
 }
 
-static void a_plot_at_another_height_does_not_vote_where_heights_are_measured(void **state)
+static void a_plot_at_another_height_does_not_vote(void **state)
 {
     (void)state;
     const struct rho_sensor origin = sensor_at(0.0, 0.0);
     const struct middle near = {.dz_m = 100.0}, high = {.dz_m = 400.0}, low = {.dz_m = -400.0};
-    assert_true(middle_votes(near, Z, &origin));
-    assert_false(middle_votes(high, Z, &origin));
-    assert_false(middle_votes(low, Z, &origin));
-    assert_true(middle_votes(high, 0, &origin));
+    assert_true(does_middle_plot_vote(near, Z, &origin));
+    assert_false(does_middle_plot_vote(high, Z, &origin));
+    assert_false(does_middle_plot_vote(low, Z, &origin));
+    assert_true(does_middle_plot_vote(high, 0, &origin));
 }
 
 static void a_wrong_range_rate_keeps_a_plot_from_voting(void **state)
@@ -181,33 +185,36 @@ static void a_wrong_range_rate_keeps_a_plot_from_voting(void **state)
     (void)state;
     const struct rho_sensor origin = sensor_at(0.0, 0.0);
     const struct middle good = {.rate_mps = 2.0}, bad = {.rate_mps = 40.0};
-    assert_true(middle_votes(good, RATE, &origin));
-    assert_false(middle_votes(bad, RATE, &origin));
-    assert_false(middle_votes(bad, RATE | Z, &origin));
-    assert_true(middle_votes(bad, 0, &origin));
+    assert_true(does_middle_plot_vote(good, RATE, &origin));
+    assert_false(does_middle_plot_vote(bad, RATE, &origin));
+    assert_false(does_middle_plot_vote(bad, RATE | Z, &origin));
+    assert_true(does_middle_plot_vote(bad, 0, &origin));
 }
 
 /*
- * A range rate that fits is one of 2 v_max m/s of them: worth ln(800 / 2.5) nat a hit, less what
- * the fit takes.
+ * A range rate of 2 v_max m/s possible ones is worth ln(800 / 2.5) nat a hit, less what the fit
+ * absorbs.
  */
-static void right_range_rates_raise_the_score(void **state)
+static void matching_range_rates_raise_the_score(void **state)
 {
     (void)state;
     const struct rho_sensor origin = sensor_at(0.0, 0.0);
     int32_t without, right, wrong;
-    pass_by((struct middle){0}, 0, &origin);
+    search_passing_target((struct middle){0}, 0, &origin);
     without = initiator.candidates[0].score_mnat;
-    pass_by((struct middle){0}, RATE, &origin);
+    search_passing_target((struct middle){0}, RATE, &origin);
     right = initiator.candidates[0].score_mnat;
-    pass_by((struct middle){.rate_mps = 2.0}, RATE, &origin);
+    search_passing_target((struct middle){.rate_mps = 2.0}, RATE, &origin);
     wrong = initiator.candidates[0].score_mnat;
     assert_true(right > without + 30000);
-    assert_in_range(right - wrong, 500, 3000); /* two sigmas: 2 nat, less what the fit gives way */
+    assert_in_range(right - wrong, 500, 3000); /* two sigmas: 2 nat, less what the fit absorbs */
 }
 
-/* Outwards at 200 m/s, 5 km up at 15 km: as if level the range rate would be 10 m/s more. */
-static void a_known_height_tells_the_range_rates_of_scans_that_measure_none(void **state)
+/*
+ * A target at 15 km range and 5 km height that recedes at 200 m/s. Taken as level, it would have a
+ * range rate 10 m/s larger; every other scan measures no height.
+ */
+static void a_fitted_height_is_used_for_range_rates_of_level_scans(void **state)
 {
     (void)state;
     const struct rho_sensor origin = sensor_at(0.0, 0.0);
@@ -227,21 +234,21 @@ static void a_known_height_tells_the_range_rates_of_scans_that_measure_none(void
     assert_int_equal(initiator.candidates[0].mask, 0x7f);
 }
 
-/* ---- fit and score against double precision -------------------------------------------------- */
+/* ---- fits and scores in double precision ---------------------------------------------------- */
 
 static struct straight_plot seen[SCANS];
 
-/* Integers are held exactly. */
-static double random_sigma(double most)
+/* Whole numbers, which a window stores exactly. */
+static double random_whole_sigma(double most)
 {
     return floor(uniform(2.0, most));
 }
 
 /*
- * A random track, level where heights are not measured, and low where only some scans measure them.
- * Scan k measures what measures[k] says, every other scan is another sensor's.
+ * A random track: level without heights, low if only some scans measure them. Scan k measures
+ * measures[k]; two sensors take turns.
  */
-static void random_track(const uint32_t measures[SCANS])
+static void push_random_track(const uint32_t measures[SCANS])
 {
     double rise = (measures[0] & Z) ? 1.0 : (measures[1] & Z) ? 0.1 : 0.0;
     double state[6] = {uniform(15e3, 27e3),    uniform(-8e3, 8e3),     rise * uniform(2e3, 9e3),
@@ -251,15 +258,16 @@ static void random_track(const uint32_t measures[SCANS])
         double t_s = SCAN_S * (k - SCANS + 1) + (double)(float)(offset_us * 1e-6f);
         struct rho_sensor sensor = k % 2 ? sensor_at(-7000.0, 3000.0) : sensor_at(0.0, -500.0);
         struct straight_plot *of = &seen[k];
-        *of = (struct straight_plot){.t_s = t_s,
-                                     .sensor_m = {sensor.x_m, sensor.y_m},
-                                     .sigma_m = {random_sigma(40), random_sigma(300), 25.0},
-                                     .sigma_rate_mps = random_sigma(9),
-                                     .has_z = (measures[k] & Z) != 0,
-                                     .has_rate = (measures[k] & RATE) != 0};
+        *of = (struct straight_plot){
+            .t_s = t_s,
+            .sensor_m = {sensor.x_m, sensor.y_m},
+            .sigma_m = {random_whole_sigma(40), random_whole_sigma(300), 25.0},
+            .sigma_rate_mps = random_whole_sigma(9),
+            .has_z = (measures[k] & Z) != 0,
+            .has_rate = (measures[k] & RATE) != 0};
         double rate = 0.0, range2 = 0.0;
         for (int i = 0; i < 3; i++) {
-            /* within a sigma along, so that all plots are in every gate */
+            /* noise of half a sigma along, so that each plot is in its gate */
             of->at_m[i] = (float)(state[i] + state[i + 3] * t_s + of->sigma_m[0] * normal() * 0.5);
             double d_m = state[i] + state[i + 3] * t_s - of->sensor_m[i];
             rate += d_m * state[i + 3];
@@ -276,14 +284,15 @@ static void random_track(const uint32_t measures[SCANS])
     }
 }
 
-static void expect_straight(void)
+static void expect_reference_fit(void)
 {
     const struct rho_candidate *track = &initiator.candidates[0];
     double area_m2 = 40e3 * 40e3, log_fisher;
     struct straight_world world = {.area_m2 = area_m2,
                                    .v_max_mps = 400.0,
                                    .pd = PD,
-                                   .clutter_per_m2 = 1.0 / area_m2}; /* one plot a scan */
+                                   /* clutter of one plot a scan */
+                                   .clutter_per_m2 = 1.0 / area_m2};
     struct straight_fit fit = straight_fit_through(seen, SCANS, &log_fisher);
     assert_int_equal(initiator.num_candidates, 1);
     assert_int_equal(track->hits, SCANS);
@@ -297,61 +306,61 @@ static void expect_straight(void)
                        fit.rates ? 0.02 : 0.003);
 }
 
-static void expect_straight_tracks(const uint32_t measures[SCANS])
+static void compare_random_tracks(const uint32_t measures[SCANS])
 {
     struct rho_initiator_config config = usual_config();
     random_state = 7;
     for (int i = 0; i < 200; i++) {
         start_initiator(&config);
-        random_track(measures);
+        push_random_track(measures);
         search_window(RHO_SEARCH_BATCH);
-        expect_straight();
+        expect_reference_fit();
     }
 }
 
-static void places_are_fitted_and_scored_as_in_double_precision(void **state)
+static void fits_of_places_agree_with_double_precision(void **state)
 {
     (void)state;
     static const uint32_t none[SCANS] = {0};
-    expect_straight_tracks(none);
+    compare_random_tracks(none);
 }
 
-static void heights_are_fitted_and_scored_as_in_double_precision(void **state)
+static void fits_of_heights_agree_with_double_precision(void **state)
 {
     (void)state;
     static const uint32_t all[SCANS] = {Z, Z, Z, Z, Z, Z, Z};
     static const uint32_t some[SCANS] = {Z, 0, Z, 0, 0, Z, 0}, one[SCANS] = {0, 0, Z, 0, 0, 0, 0};
-    expect_straight_tracks(all);
-    expect_straight_tracks(some);
-    expect_straight_tracks(one); /* a single height says nothing of a climb: it does not count */
+    compare_random_tracks(all);
+    compare_random_tracks(some);
+    compare_random_tracks(one); /* one height alone tells no climb and does not count */
 }
 
-static void range_rates_are_fitted_and_scored_as_in_double_precision(void **state)
+static void fits_of_range_rates_agree_with_double_precision(void **state)
 {
     (void)state;
     static const uint32_t all[SCANS] = {RATE, RATE, RATE, RATE, RATE, RATE, RATE};
     static const uint32_t mixed[SCANS] = {RATE, Z, Z | RATE, 0, Z | RATE, RATE, Z};
     static const uint32_t both[SCANS] = {Z | RATE, Z | RATE, Z | RATE, Z | RATE,
                                          Z | RATE, Z | RATE, Z | RATE};
-    expect_straight_tracks(all);
-    expect_straight_tracks(both);
-    expect_straight_tracks(mixed);
+    compare_random_tracks(all);
+    compare_random_tracks(both);
+    compare_random_tracks(mixed);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(noise_of_nearly_equal_axes_gives_what_isotropic_noise_gives),
-        cmocka_unit_test(an_ellipse_takes_what_is_off_across_the_line_of_sight_alone),
-        cmocka_unit_test(a_sensor_elsewhere_turns_the_ellipses),
-        cmocka_unit_test(gates_end_at_as_many_sigmas_along_and_across_as_of_isotropic_noise),
-        cmocka_unit_test(a_plot_at_another_height_does_not_vote_where_heights_are_measured),
+        cmocka_unit_test(noise_of_nearly_equal_axes_gives_the_isotropic_result),
+        cmocka_unit_test(plots_off_across_the_line_of_sight_vote_and_off_along_do_not),
+        cmocka_unit_test(error_ellipses_turn_with_the_direction_of_the_sensor),
+        cmocka_unit_test(gates_end_at_the_same_number_of_sigmas_for_any_noise),
+        cmocka_unit_test(a_plot_at_another_height_does_not_vote),
         cmocka_unit_test(a_wrong_range_rate_keeps_a_plot_from_voting),
-        cmocka_unit_test(right_range_rates_raise_the_score),
-        cmocka_unit_test(a_known_height_tells_the_range_rates_of_scans_that_measure_none),
-        cmocka_unit_test(places_are_fitted_and_scored_as_in_double_precision),
-        cmocka_unit_test(heights_are_fitted_and_scored_as_in_double_precision),
-        cmocka_unit_test(range_rates_are_fitted_and_scored_as_in_double_precision),
+        cmocka_unit_test(matching_range_rates_raise_the_score),
+        cmocka_unit_test(a_fitted_height_is_used_for_range_rates_of_level_scans),
+        cmocka_unit_test(fits_of_places_agree_with_double_precision),
+        cmocka_unit_test(fits_of_heights_agree_with_double_precision),
+        cmocka_unit_test(fits_of_range_rates_agree_with_double_precision),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The operations on single echoes and their statistics, below the clutter map: an echo against a
- * Kalman filter in double precision, counts against sums by hand.
+ * Operations on single echoes and their statistics, below the clutter map: an echo is compared with
+ * a Kalman filter in double precision, counts with results by hand.
  */
 #include <float.h>
 #include <math.h>
@@ -21,7 +21,7 @@
 
 static struct rho_clutter_map map;
 
-static void begin(void)
+static void init_map(void)
 {
     memset(&map, 0, sizeof map);
     rho_clutter_map_init(&map, V_MIN_MPS);
@@ -33,9 +33,9 @@ static struct rho_plot plot_at(float x_m, float y_m)
         .x_m = x_m, .y_m = y_m, .sigma_range_m = 10.0f, .sigma_cross_m = 40.0f};
 }
 
-/* ---- places ---------------------------------------------------------------------------------- */
+/* ---- places and regions ---------------------------------------------------------------------- */
 
-static void a_place_has_a_direction_and_a_range(void **state)
+static void a_place_is_viewed_by_direction_and_range(void **state)
 {
     const struct rho_sensor sensor = {.x_m = 100.0f, .y_m = -50.0f};
     const struct echo_view view = rho_clutter_map_view_from_sensor(&sensor, 100.0f, 950.0f);
@@ -49,9 +49,8 @@ static void a_place_has_a_direction_and_a_range(void **state)
     assert_true(none.range_m == 0.0f);
 }
 
-/* Regions are as many directions as ranges; each of them has as much of the area as its neighbours
- * in azimuth. */
-static void a_region_is_a_direction_and_a_range(void **state)
+/* There are as many divisions in direction as in range; all regions must be met. */
+static void regions_divide_directions_and_ranges(void **state)
 {
     uint32_t met = 0;
 
@@ -67,14 +66,14 @@ static void a_region_is_a_direction_and_a_range(void **state)
     assert_true(met == (RHO_ECHO_REGIONS * RHO_ECHO_REGIONS >= 32
                             ? UINT32_MAX
                             : (1u << RHO_ECHO_REGIONS * RHO_ECHO_REGIONS) - 1u));
-    assert_int_equal(
-        rho_clutter_map_region_of_place(NULL, 1e4f, 5e4f, 1.0f),
-        rho_clutter_map_region_of_place(NULL, 1e4f, 9.99e3f, 1.0f)); /* beyond the range */
+    assert_int_equal(rho_clutter_map_region_of_place(NULL, 1e4f, 5e4f, 1.0f),
+                     /* beyond the range: as at its end */
+                     rho_clutter_map_region_of_place(NULL, 1e4f, 9.99e3f, 1.0f));
 }
 
-/* ---- counts ---------------------------------------------------------------------------------- */
+/* ---- statistics of returns ------------------------------------------------------------------- */
 
-static void hits_have_four_classes(void **state)
+static void hits_are_grouped_into_four_classes(void **state)
 {
     static const unsigned expected[] = {0, 0, 1, 2, 2, 2, 3, 3};
 
@@ -87,14 +86,14 @@ static void hits_have_four_classes(void **state)
     assert_int_equal(rho_clutter_map_hit_class(RHO_ECHO_KNOWN_HITS - 1), 2);
 }
 
-/* Ten looks at an echo of one hit, four of which saw it again, each with a weight of a half. */
-static void chances_follow_counts_once_a_block_is_over(void **state)
+/* Ten looks at an echo of one hit, each with a weight of a half, of which four saw it again. */
+static void return_probabilities_follow_counts_after_a_block(void **state)
 {
     const struct rho_echo echo = {.hits = 1, .unseen = 1, .weight = 0.5f, .region = 0};
     float before, after;
 
     (void)state;
-    begin();
+    init_map();
     before = rho_clutter_map_return_probability(&map, 0, 1, 1);
     for (int i = 0; i < 10; i++) {
         rho_clutter_map_count_look(&map, &echo);
@@ -103,24 +102,25 @@ static void chances_follow_counts_once_a_block_is_over(void **state)
         }
     }
     assert_true(rho_clutter_map_return_probability(&map, 0, 1, 1) ==
-                before); /* counted, not yet used */
+                before); /* counts are used from the next block on */
     for (int i = 0; i < 4; i++) {
         assert_true(rho_clutter_map_return_probability(&map, 0, 1, 1) == before);
         rho_clutter_map_age_counts(&map, 1.0f);
     }
     after = rho_clutter_map_return_probability(&map, 0, 1, 1);
-    assert_true(after > 2.0f * before && after < 0.2f + before); /* on the way to 2 of 10 */
+    assert_true(after > 2.0f * before && after < 0.2f + before); /* moves towards 2 of 10 */
     assert_true(rho_clutter_map_return_probability(&map, 0, 2, 1) ==
                 rho_clutter_map_return_probability(&map, 1, 2, 1));
 
-    const float returns[RHO_ECHO_HIT_CLASSES] = {100.0f}; /* a target's: all that there is */
+    /* a moving target's returns are removed, down to 0 */
+    const float returns[RHO_ECHO_HIT_CLASSES] = {100.0f};
     rho_clutter_map_remove_returns(&map, 0, returns);
     assert_true(rho_clutter_map_return_probability(&map, 0, 1, 1) < before);
     assert_true(map.tables[0][0].returns[0][0] >= 0.0f);
 }
 
-/* Half of what was counted is forgotten within some 139 revolutions. */
-static void counts_fade_with_revolutions(void **state)
+/* Counts decay to a half within some 139 revolutions. */
+static void counts_halve_in_about_139_revolutions(void **state)
 {
     const struct rho_echo echo = {.hits = 1, .region = 0};
     double kept = 1.0;
@@ -133,7 +133,7 @@ static void counts_fade_with_revolutions(void **state)
         turns++;
     }
     assert_in_range(turns, 130, 145);
-    begin();
+    init_map();
     rho_clutter_map_count_look(&map, &echo);
     for (int i = 0; i < 4 + turns; i++) {
         rho_clutter_map_age_counts(&map, 1.0f);
@@ -143,19 +143,19 @@ static void counts_fade_with_revolutions(void **state)
 
 /* ---- echoes ---------------------------------------------------------------------------------- */
 
-/* A place and a speed in double precision, on one axis. */
+/* A Kalman filter of place and speed on one axis, in double precision. */
 struct axis {
     double place, speed, pp, ps, ss;
 };
 
-static void predict_axis(struct axis *axis, double dt_s)
+static void predict_reference_axis(struct axis *axis, double dt_s)
 {
     axis->place += dt_s * axis->speed;
     axis->pp += dt_s * (2.0 * axis->ps + dt_s * axis->ss);
     axis->ps += dt_s * axis->ss;
 }
 
-static void update_axis(struct axis *axis, double measured, double variance)
+static void update_reference_axis(struct axis *axis, double measured, double variance)
 {
     const double gain_place = axis->pp / (axis->pp + variance);
     const double gain_speed = axis->ps / (axis->pp + variance);
@@ -168,15 +168,15 @@ static void update_axis(struct axis *axis, double measured, double variance)
     axis->pp = (1.0 - gain_place) * axis->pp + 0.02 * variance;
 }
 
-/* Seen due east of the radar: along is x, across is y. */
-static void an_echo_is_a_filter_along_and_across(void **state)
+/* The echo is due east of the radar: along the line of sight is x, across it is y. */
+static void an_echo_agrees_with_a_kalman_filter_along_and_across(void **state)
 {
     struct axis x = {5000.0, 0.0, 100.0, 0.0, 64.0}, y = {0.0, 0.0, 1600.0, 0.0, 64.0};
     struct rho_plot plot = plot_at(5000.0f, 0.0f);
     struct rho_echo echo;
 
     (void)state;
-    begin();
+    init_map();
     rho_clutter_map_start_echo(&map, &echo, 7, 1000000, &plot);
     assert_int_equal(echo.sensor_id, 7);
     assert_int_equal(echo.hits, 1);
@@ -185,10 +185,10 @@ static void an_echo_is_a_filter_along_and_across(void **state)
         rho_clutter_map_predict_echo(&echo, 1000000 + INT64_C(4000000) * k);
         echo.unseen = 3;
         rho_clutter_map_update_echo(&echo, NULL, &plot);
-        predict_axis(&x, 4.0);
-        predict_axis(&y, 4.0);
-        update_axis(&x, (double)plot.x_m, 100.0);
-        update_axis(&y, (double)plot.y_m, 1600.0);
+        predict_reference_axis(&x, 4.0);
+        predict_reference_axis(&y, 4.0);
+        update_reference_axis(&x, (double)plot.x_m, 100.0);
+        update_reference_axis(&y, (double)plot.y_m, 1600.0);
         assert_int_equal(echo.hits, k + 1);
         assert_int_equal(echo.unseen, 0);
         assert_true(fabs(echo.x_m - x.place) < 0.05 && fabs(echo.y_m - y.place) < 0.05);
@@ -199,8 +199,8 @@ static void an_echo_is_a_filter_along_and_across(void **state)
     }
 }
 
-/* Never seen again: the more often it was seen before, the longer it is kept. */
-static void an_echo_is_lost_the_later_the_more_hits_it_had(void **state)
+/* An echo is lost after more misses than `kept`, which grows with its hits. */
+static void echoes_with_more_hits_are_kept_longer(void **state)
 {
     static const struct {
         uint16_t hits;
@@ -217,13 +217,16 @@ static void an_echo_is_lost_the_later_the_more_hits_it_had(void **state)
     }
 }
 
-/* Of a full table the echoes with the most misses for their hits go; those just seen stay. */
-static void room_is_made_of_the_most_missed(void **state)
+/*
+ * In a full table the echoes with the most misses for their hits are dropped, while those just seen
+ * stay.
+ */
+static void echoes_with_most_misses_are_dropped_first(void **state)
 {
     unsigned left = 0;
 
     (void)state;
-    begin();
+    init_map();
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
         map.echoes[i] = (struct rho_echo){.hits = (uint16_t)(i % 2 ? 10 : 2),
                                           .unseen = (uint8_t)(i % 4 < 2 ? 0 : 5),
@@ -239,13 +242,16 @@ static void room_is_made_of_the_most_missed(void **state)
     assert_int_equal(map.echoes_dropped, RHO_ECHO_PLACES - left);
 }
 
-/* What a scan has just seen is worth more than what is only said: no echo gives way. */
-static void an_echo_taught_to_a_full_map_that_was_just_seen_is_dropped(void **state)
+/*
+ * All echoes of a full map were just seen: the taught one is dropped and counted. Once an echo was
+ * missed it is replaced.
+ */
+static void a_taught_echo_does_not_replace_one_just_seen(void **state)
 {
     static struct rho_clutter_map before;
 
     (void)state;
-    begin();
+    init_map();
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
         map.echoes[i] = (struct rho_echo){.hits = 1, .was_looked_at = 1};
     }
@@ -268,7 +274,7 @@ static void a_damaged_map_is_not_sound(void **state)
     static struct rho_clutter_map sound;
 
     (void)state;
-    begin();
+    init_map();
     rho_clutter_map_start_echo(&map, &map.echoes[0], 7, 1000000, &plot);
     assert_true(rho_clutter_map_is_sound(&map));
     sound = map;
@@ -290,13 +296,16 @@ static void a_damaged_map_is_not_sound(void **state)
 
 /* ---- limits ---------------------------------------------------------------------------------- */
 
-/* Where targets may stand: 0.003 in three looks of all regions, and those in two of one region. */
-static void returns_where_targets_may_stand(void **state)
+/*
+ * The prior for targets that may stand is 0.003 with a weight of three looks, for all regions; the
+ * result is the prior of one region with a weight of two.
+ */
+static void return_probabilities_have_priors_for_standing_targets(void **state)
 {
     static const double looks[] = {0.0, 40.0}, returns[] = {0.0, 12.0};
     (void)state;
     for (int i = 0; i < 4; i++) {
-        begin();
+        init_map();
         map.v_min_mps = i < 2 ? 0.0f : V_MIN_MPS;
         struct rho_echo_returns *all = &map.tables[0][ALL_REGIONS], *here = &map.tables[0][0];
         all->looks[3][0] = 2.0f * (float)looks[i % 2];
@@ -312,7 +321,7 @@ static void returns_where_targets_may_stand(void **state)
     }
 }
 
-static void an_echo_moves_from_four_sigmas_on(void **state)
+static void an_echo_counts_as_moving_from_four_sigmas_of_speed(void **state)
 {
     struct rho_echo echo = {.along = {1.0f, 0.0f, 3.0f}, .across = {1.0f, 0.0f, 1.0f}};
     (void)state;
@@ -322,20 +331,20 @@ static void an_echo_moves_from_four_sigmas_on(void **state)
     assert_false(rho_clutter_map_is_echo_standing(&echo));
 }
 
-static void a_milliard_of_looks_may_be_taught(void **state)
+static void at_most_a_billion_looks_can_be_taught(void **state)
 {
     (void)state;
-    begin();
+    init_map();
     assert_int_equal(rho_clutter_map_teach_returns(&map, 0, 1, 1, 1e9f, 0.0f), RHO_OK);
     assert_int_equal(rho_clutter_map_teach_returns(&map, 0, 1, 1, 1.01e9f, 0.0f), RHO_ERROR_VALUE);
 }
 
 #if RHO_MAX_ECHOES > 2
 
-/* Of two echoes in a full map the one that gives way: first 0, or second 1. */
-static int gives_way(struct rho_echo first, struct rho_echo second)
+/* Number of the echo, 0 or 1, that a full map drops. */
+static int dropped_echo_of(struct rho_echo first, struct rho_echo second)
 {
-    begin();
+    init_map();
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
         map.echoes[i] = (struct rho_echo){.hits = 9, .was_looked_at = 1};
     }
@@ -346,8 +355,11 @@ static int gives_way(struct rho_echo first, struct rho_echo second)
     return map.echoes[1].hits == 0;
 }
 
-/* Eighths of misses a hit, of which 16 count; a minute without a look is a miss. */
-static void echoes_that_miss_more_give_way(void **state)
+/*
+ * The order is by eighths of misses a hit, with at most 16 hits; a minute without a look counts as
+ * a miss.
+ */
+static void echoes_with_more_misses_a_hit_are_dropped_first(void **state)
 {
     const struct rho_echo often = {.hits = 40, .unseen = 10, .was_looked_at = 1},
                           less = {.hits = 16, .unseen = 8, .was_looked_at = 1},
@@ -357,17 +369,17 @@ static void echoes_that_miss_more_give_way(void **state)
                           missed_3 = {.hits = 16, .unseen = 3, .was_looked_at = 1},
                           not_looked_at = {.hits = 16, .time_us = 1000000000 - 250000000};
     (void)state;
-    assert_int_equal(gives_way(often, less), 0);
-    assert_int_equal(gives_way(seldom, more), 0);
-    assert_int_equal(gives_way(not_looked_at, missed_6), 1);
-    assert_int_equal(gives_way(not_looked_at, missed_3), 0);
-    /* from 64 on all are alike, and the later one gives way */
+    assert_int_equal(dropped_echo_of(often, less), 0);
+    assert_int_equal(dropped_echo_of(seldom, more), 0);
+    assert_int_equal(dropped_echo_of(not_looked_at, missed_6), 1);
+    assert_int_equal(dropped_echo_of(not_looked_at, missed_3), 0);
+    /* from 64 eighths on echoes are equal, and the later one is dropped */
     const struct rho_echo once_5 = {.hits = 1, .unseen = 5, .was_looked_at = 1},
                           once_7 = {.hits = 1, .unseen = 7, .was_looked_at = 1},
                           once_8 = {.hits = 1, .unseen = 8, .was_looked_at = 1},
                           once_9 = {.hits = 1, .unseen = 9, .was_looked_at = 1};
-    assert_int_equal(gives_way(once_7, once_5), 0);
-    assert_int_equal(gives_way(once_9, once_8), 1);
+    assert_int_equal(dropped_echo_of(once_7, once_5), 0);
+    assert_int_equal(dropped_echo_of(once_9, once_8), 1);
 }
 
 #endif
@@ -375,21 +387,21 @@ static void echoes_that_miss_more_give_way(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_place_has_a_direction_and_a_range),
-        cmocka_unit_test(a_region_is_a_direction_and_a_range),
-        cmocka_unit_test(hits_have_four_classes),
-        cmocka_unit_test(chances_follow_counts_once_a_block_is_over),
-        cmocka_unit_test(counts_fade_with_revolutions),
-        cmocka_unit_test(an_echo_is_a_filter_along_and_across),
-        cmocka_unit_test(an_echo_is_lost_the_later_the_more_hits_it_had),
-        cmocka_unit_test(room_is_made_of_the_most_missed),
-        cmocka_unit_test(an_echo_taught_to_a_full_map_that_was_just_seen_is_dropped),
+        cmocka_unit_test(a_place_is_viewed_by_direction_and_range),
+        cmocka_unit_test(regions_divide_directions_and_ranges),
+        cmocka_unit_test(hits_are_grouped_into_four_classes),
+        cmocka_unit_test(return_probabilities_follow_counts_after_a_block),
+        cmocka_unit_test(counts_halve_in_about_139_revolutions),
+        cmocka_unit_test(an_echo_agrees_with_a_kalman_filter_along_and_across),
+        cmocka_unit_test(echoes_with_more_hits_are_kept_longer),
+        cmocka_unit_test(echoes_with_most_misses_are_dropped_first),
+        cmocka_unit_test(a_taught_echo_does_not_replace_one_just_seen),
         cmocka_unit_test(a_damaged_map_is_not_sound),
-        cmocka_unit_test(returns_where_targets_may_stand),
-        cmocka_unit_test(an_echo_moves_from_four_sigmas_on),
-        cmocka_unit_test(a_milliard_of_looks_may_be_taught),
+        cmocka_unit_test(return_probabilities_have_priors_for_standing_targets),
+        cmocka_unit_test(an_echo_counts_as_moving_from_four_sigmas_of_speed),
+        cmocka_unit_test(at_most_a_billion_looks_can_be_taught),
 #if RHO_MAX_ECHOES > 2
-        cmocka_unit_test(echoes_that_miss_more_give_way),
+        cmocka_unit_test(echoes_with_more_misses_a_hit_are_dropped_first),
 #endif
     };
 

@@ -12,7 +12,7 @@
 #include "rhotrack/initiator.h"
 #include "vectors/initiator_vectors.h"
 
-#define SCORE_TOLERANCE_NAT 0.002 /* float32 logarithms and determinants against double */
+#define SCORE_TOLERANCE_NAT 0.002 /* float logarithms and determinants differ from double ones */
 #define PLACE_TOLERANCE_M 0.02f
 #define MAX_SCAN_PLOTS 100
 
@@ -27,7 +27,7 @@ static float uniform(float from, float to)
     return from + (to - from) * (float)(seed >> 8) / 16777216.0f;
 }
 
-static struct rho_initiator_config usual(void)
+static struct rho_initiator_config test_config(void)
 {
     struct rho_initiator_config config;
     rho_initiator_config_default(&config);
@@ -39,19 +39,19 @@ static struct rho_initiator_config usual(void)
     return config;
 }
 
-static void start(const struct rho_initiator_config *config)
+static void init_initiator(const struct rho_initiator_config *config)
 {
     num_plots = 0;
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, config), RHO_OK);
 }
 
-static void add(float x_m, float y_m)
+static void add_plot(float x_m, float y_m)
 {
     plots[num_plots++] =
         (struct rho_plot){.x_m = x_m, .y_m = y_m, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
 }
 
-static void push(double t_s)
+static void push_scan(double t_s)
 {
     uint32_t unused = 0;
     struct rho_scan scan = {
@@ -61,29 +61,29 @@ static void push(double t_s)
     num_plots = 0;
 }
 
-static void search(enum rho_search kind)
+static void search_window(enum rho_search kind)
 {
     assert_int_equal(rho_initiator_search(&initiator, kind), RHO_OK);
 }
 
-/* A target's path: x, vx, y, vy at the first scan. */
+/* A target's place and velocity at the first scan. */
 struct path {
     float x_m, vx_mps, y_m, vy_mps;
 };
 
-static void push_paths(const struct path *paths, int count, int scans)
+static void push_scans_of_paths(const struct path *paths, int count, int scans)
 {
     for (int k = 0; k < scans; k++) {
         float t_s = 2.0f * (float)k;
         for (int i = 0; i < count; i++) {
-            add(paths[i].x_m + paths[i].vx_mps * t_s + uniform(-8.0f, 8.0f),
-                paths[i].y_m + paths[i].vy_mps * t_s + uniform(-8.0f, 8.0f));
+            add_plot(paths[i].x_m + paths[i].vx_mps * t_s + uniform(-8.0f, 8.0f),
+                     paths[i].y_m + paths[i].vy_mps * t_s + uniform(-8.0f, 8.0f));
         }
-        push(t_s);
+        push_scan(t_s);
     }
 }
 
-static int is_found(const struct path *path, float span_s)
+static int count_found(const struct path *path, float span_s)
 {
     int found = 0;
     for (unsigned i = 0; i < initiator.num_candidates; i++) {
@@ -96,21 +96,23 @@ static int is_found(const struct path *path, float span_s)
     return found;
 }
 
-static void expect_found(const struct path *paths, int count)
+static void expect_all_found(const struct path *paths, int count)
 {
-    struct rho_initiator_config config = usual();
-    start(&config);
-    push_paths(paths, count, 7);
-    search(RHO_SEARCH_BATCH);
+    struct rho_initiator_config config = test_config();
+    init_initiator(&config);
+    push_scans_of_paths(paths, count, 7);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, count);
     for (int i = 0; i < count; i++) {
-        assert_int_equal(is_found(&paths[i], 12.0f), 1);
+        assert_int_equal(count_found(&paths[i], 12.0f), 1);
     }
 }
 
-/* ---- refusals -------------------------------------------------------------------------------- */
+/*
+ * ---- refusals ---------------------------------------------------------------------------------
+ */
 
-static void refuse(const struct rho_initiator_config *config)
+static void expect_config_refused(const struct rho_initiator_config *config)
 {
     other = initiator;
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, config), RHO_ERROR_CONFIG);
@@ -119,15 +121,15 @@ static void refuse(const struct rho_initiator_config *config)
 
 #define REFUSE_WITH(field, value)                                                                  \
     do {                                                                                           \
-        struct rho_initiator_config bad = usual();                                                 \
+        struct rho_initiator_config bad = test_config();                                           \
         bad.field = (value);                                                                       \
-        refuse(&bad);                                                                              \
+        expect_config_refused(&bad);                                                               \
     } while (0)
 
 static void init_refuses_every_bad_parameter(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     memset(&initiator, 0x33, sizeof initiator);
     assert_int_equal(rho_initiator_init(NULL, sizeof initiator, &config), RHO_ERROR_NULL);
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, NULL), RHO_ERROR_NULL);
@@ -143,7 +145,7 @@ static void init_refuses_every_bad_parameter(void **state)
     REFUSE_WITH(v_max_mps, 1e-30f);
     config.v_min_mps = 0.0f;
     config.v_max_mps = 0.0099f;
-    refuse(&config);
+    expect_config_refused(&config);
     config.v_max_mps = 0.0101f;
     assert_int_equal(rho_initiator_init(&other, sizeof other, &config), RHO_OK);
     REFUSE_WITH(false_tracks_per_hour, -5.0f);
@@ -160,7 +162,7 @@ static void init_refuses_every_bad_parameter(void **state)
     REFUSE_WITH(area.y_min_m, NAN);
 }
 
-static void calls_on_nothing_are_refused(void **state)
+static void calls_without_init_or_scans_are_refused(void **state)
 {
     (void)state;
     uint32_t unused = 0;
@@ -171,25 +173,27 @@ static void calls_on_nothing_are_refused(void **state)
     assert_int_equal(rho_initiator_push(NULL, &scan, NULL, NULL, &unused), RHO_ERROR_NULL);
     assert_int_equal(rho_initiator_push(&initiator, &scan, NULL, NULL, &unused), RHO_ERROR_STATE);
     assert_false(rho_initiator_accepts(&initiator, 0));
-    struct rho_initiator_config config = usual();
-    start(&config);
-    search(RHO_SEARCH_BATCH); /* no scan at all */
+    struct rho_initiator_config config = test_config();
+    init_initiator(&config);
+    search_window(RHO_SEARCH_BATCH); /* a search without any scan */
     assert_int_equal(initiator.num_candidates, 0);
     assert_float_equal(rho_initiator_density(&initiator, 0, 0.0f, 0.0f), 0.0f, 0.0f);
 }
 
-/* ---- the reference --------------------------------------------------------------------------- */
+/*
+ * ---- comparison with the reference ------------------------------------------------------------
+ */
 
 static void push_vector(size_t i, int k)
 {
     if (initiator_vectors[i].mask >> k & 1u) {
-        add((float)initiator_vectors[i].x_m[k], (float)initiator_vectors[i].y_m[k]);
+        add_plot((float)initiator_vectors[i].x_m[k], (float)initiator_vectors[i].y_m[k]);
         plots[0].sigma_range_m = plots[0].sigma_cross_m = (float)initiator_vectors[i].sigma_m[k];
     }
-    push(initiator_vectors[i].t_s[k]);
+    push_scan(initiator_vectors[i].t_s[k]);
 }
 
-static void scores_and_fits_are_the_reference_s(void **state)
+static void scores_and_fits_agree_with_the_reference(void **state)
 {
     (void)state;
     struct rho_initiator_config config;
@@ -202,11 +206,11 @@ static void scores_and_fits_are_the_reference_s(void **state)
     for (size_t i = 0; i < sizeof initiator_vectors / sizeof initiator_vectors[0]; i++) {
         config.process_noise_mps2 = (float)initiator_vectors[i].process_noise_mps2;
         config.min_scans = 4;
-        start(&config);
+        init_initiator(&config);
         for (int k = 0; k < initiator_vectors[i].num_scans; k++) {
             push_vector(i, k);
         }
-        search(RHO_SEARCH_BATCH);
+        search_window(RHO_SEARCH_BATCH);
         assert_int_equal(initiator.num_candidates, 1);
         const struct rho_candidate *track = &initiator.candidates[0];
         assert_int_equal(track->mask, initiator_vectors[i].mask);
@@ -219,7 +223,9 @@ static void scores_and_fits_are_the_reference_s(void **state)
     }
 }
 
-/* ---- geometry -------------------------------------------------------------------------------- */
+/*
+ * ---- paths of targets -------------------------------------------------------------------------
+ */
 
 static void one_target_is_found_in_every_direction(void **state)
 {
@@ -228,172 +234,177 @@ static void one_target_is_found_in_every_direction(void **state)
         float heading = (float)i * 0.0872664626f;
         struct path path = {-1200.0f * cosf(heading), 200.0f * cosf(heading),
                             -1200.0f * sinf(heading), 200.0f * sinf(heading)};
-        expect_found(&path, 1);
+        expect_all_found(&path, 1);
     }
 }
 
-static void pairs_of_targets_are_two_tracks(void **state)
+static void two_near_targets_are_found_as_two_tracks(void **state)
 {
     (void)state;
     static const struct path pairs[][2] = {
-        {{-1500, 250, 0, 0}, {-1500, 250, 100, 0}},             /* parallel */
-        {{-1500, 250, 0, 0}, {-1500, 250, 60, 0}},              /* parallel, six sigma */
+        {{-1500, 250, 0, 0}, {-1500, 250, 100, 0}},             /* parallel, 100 m apart */
+        {{-1500, 250, 0, 0}, {-1500, 250, 60, 0}},              /* parallel, six sigmas apart */
         {{-1500, 250, -130, 21.9f}, {-1500, 250, 130, -21.9f}}, /* crossing at 10 degrees */
         {{-1500, 250, 0, 0}, {0, 0, -1500, 250}},               /* crossing at 90 degrees */
-        {{-1500, 250, 300, 0}, {1500, -250, 300, 0}},           /* one line, opposite */
-        {{-1500, 250, 300, 0}, {-1200, 250, 300, 0}},           /* one line, following */
-        {{-1500, 250, 500, 0}, {-1500, 250, -500, 0}},          /* mirror lines */
+        /* on one line, opposite directions */
+        {{-1500, 250, 300, 0}, {1500, -250, 300, 0}},
+        /* on one line, one after the other */
+        {{-1500, 250, 300, 0}, {-1200, 250, 300, 0}},
+        {{-1500, 250, 500, 0}, {-1500, 250, -500, 0}}, /* mirrored in the x axis */
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
-        expect_found(pairs[i], 2);
+        expect_all_found(pairs[i], 2);
     }
 }
 
-static void missing_scans_and_unequal_intervals_are_no_obstacle(void **state)
+static void a_target_is_found_with_misses_and_unequal_intervals(void **state)
 {
     (void)state;
     static const double times_s[7] = {0.0, 1.0, 4.0, 4.5, 9.0, 11.0, 12.0};
-    struct rho_initiator_config config = usual();
-    start(&config);
+    struct rho_initiator_config config = test_config();
+    init_initiator(&config);
     for (int k = 0; k < 7; k++) {
         if (k != 2 && k != 5) {
-            add(-1000.0f + 200.0f * (float)times_s[k], 100.0f);
+            add_plot(-1000.0f + 200.0f * (float)times_s[k], 100.0f);
         }
-        push(times_s[k]);
+        push_scan(times_s[k]);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 1);
     assert_int_equal(initiator.candidates[0].mask, 0x5b);
     assert_int_equal(initiator.candidates[0].hits, 5);
     assert_float_equal(initiator.candidates[0].x_m, 1400.0f, 1.0f);
 }
 
-static void the_longest_window_is_searched_whole(void **state)
+static void the_longest_window_is_searched_completely(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     const struct path path = {-2400, 150, 0, 0};
     config.scans = RHO_MAX_SCANS;
     config.min_scans = RHO_MAX_SCANS;
-    start(&config);
-    push_paths(&path, 1, RHO_MAX_SCANS + 3);
-    search(RHO_SEARCH_BATCH);
+    init_initiator(&config);
+    push_scans_of_paths(&path, 1, RHO_MAX_SCANS + 3);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 1);
     assert_int_equal(initiator.candidates[0].hits, RHO_MAX_SCANS);
-    assert_int_equal(is_found(&path, 2.0f * (RHO_MAX_SCANS + 2)), 1);
+    assert_int_equal(count_found(&path, 2.0f * (RHO_MAX_SCANS + 2)), 1);
 }
 
-static void plots_with_times_of_their_own_are_on_the_line(void **state)
+static void plots_own_times_are_used_in_the_fit(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
-    start(&config);
+    struct rho_initiator_config config = test_config();
+    init_initiator(&config);
     for (int k = 0; k < 7; k++) {
         int32_t offset_us = (int32_t)uniform(0.0f, 1.9e6f);
-        add(-1500.0f + 300.0f * (2.0f * (float)k + (float)offset_us * 1e-6f), 0.0f);
+        add_plot(-1500.0f + 300.0f * (2.0f * (float)k + (float)offset_us * 1e-6f), 0.0f);
         plots[0].offset_us = offset_us;
-        push(2.0 * k);
+        push_scan(2.0 * k);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 1);
     assert_int_equal(initiator.candidates[0].hits, 7);
-    assert_float_equal(initiator.candidates[0].x_m, 2100.0f, 2.0f); /* at the newest scan's time */
+    /* at the time of the newest scan */
+    assert_float_equal(initiator.candidates[0].x_m, 2100.0f, 2.0f);
     assert_float_equal(initiator.candidates[0].vx_mps, 300.0f, 0.5f);
 }
 
-static void too_few_votes_too_slow_or_too_fast_is_no_track(void **state)
+static void targets_too_slow_too_fast_or_with_few_plots_are_not_found(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     const struct path slow = {0, 80, 0, 0}, fast = {-2400, 410, 0, 0}, fine = {-1500, 250, 0, 0};
     config.v_min_mps = 100.0f;
-    start(&config);
-    push_paths(&slow, 1, 7);
-    search(RHO_SEARCH_BATCH);
+    init_initiator(&config);
+    push_scans_of_paths(&slow, 1, 7);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 0);
-    start(&config);
-    push_paths(&fast, 1, 7);
-    search(RHO_SEARCH_BATCH);
+    init_initiator(&config);
+    push_scans_of_paths(&fast, 1, 7);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 0);
-    start(&config);
-    push_paths(&fine, 1, 3);
-    search(RHO_SEARCH_BATCH);
+    init_initiator(&config);
+    push_scans_of_paths(&fine, 1, 3);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 0);
 }
 
 static void process_noise_finds_a_turning_target(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     unsigned found[2];
     config.min_scans = 7;
     for (int mode = 0; mode < 2; mode++) {
         float x_m = -1000.0f, y_m = 0.0f, heading = 0.0f;
         config.process_noise_mps2 = mode ? 5.0f : 0.0f;
-        start(&config);
+        init_initiator(&config);
         for (int k = 0; k < 7; k++) {
-            add(x_m, y_m);
-            push(2.0 * k);
+            add_plot(x_m, y_m);
+            push_scan(2.0 * k);
             heading += 0.06f;
             x_m += 400.0f * cosf(heading);
             y_m += 400.0f * sinf(heading);
         }
-        search(RHO_SEARCH_BATCH);
+        search_window(RHO_SEARCH_BATCH);
         found[mode] = initiator.num_candidates;
     }
     assert_int_equal(found[0], 0);
     assert_int_equal(found[1], 1);
 }
 
-/* ---- streaming, consuming, capacities -------------------------------------------------------- */
+/*
+ * ---- streaming, consumed plots, capacities ----------------------------------------------------
+ */
 
-static void streaming_finds_only_what_the_newest_scan_saw(void **state)
+static void a_streaming_search_needs_a_plot_of_the_newest_scan(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     const struct path path = {-1500, 250, 0, 0};
-    start(&config);
-    push_paths(&path, 1, 5);
-    search(RHO_SEARCH_NEWEST);
+    init_initiator(&config);
+    push_scans_of_paths(&path, 1, 5);
+    search_window(RHO_SEARCH_NEWEST);
     assert_int_equal(initiator.num_candidates, 1);
-    push(10.0); /* nothing seen */
-    search(RHO_SEARCH_NEWEST);
+    push_scan(10.0); /* a scan without plots */
+    search_window(RHO_SEARCH_NEWEST);
     assert_int_equal(initiator.num_candidates, 0);
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 1);
 }
 
 static void consumed_plots_start_no_second_track(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     const struct path path = {-1500, 250, 0, 0};
-    start(&config);
-    push_paths(&path, 1, 6);
-    search(RHO_SEARCH_BATCH);
+    init_initiator(&config);
+    push_scans_of_paths(&path, 1, 6);
+    search_window(RHO_SEARCH_BATCH);
     struct rho_candidate track = initiator.candidates[0];
     assert_int_equal(rho_initiator_consume(&initiator, &track), 6);
     assert_int_equal(rho_initiator_consume(&initiator, &track), 0);
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 0);
     assert_int_equal(rho_window_scan_at(&initiator.window, 0)->num_unused, 0);
 }
 
-static void min_scans_0_takes_what_the_clutter_needs(void **state)
+static void min_scans_0_requires_more_votes_in_denser_clutter(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     unsigned wanted[3];
     config.min_scans = 0;
     for (int density = 0; density < 3; density++) {
-        start(&config);
+        init_initiator(&config);
         for (int k = 0; k < 7; k++) {
             for (int i = 0; i < (density == 0 ? 1 : density == 1 ? 20 : 90); i++) {
-                add(uniform(-2500.0f, 2500.0f), uniform(-2500.0f, 2500.0f));
+                add_plot(uniform(-2500.0f, 2500.0f), uniform(-2500.0f, 2500.0f));
             }
-            push(2.0 * k);
+            push_scan(2.0 * k);
         }
-        search(RHO_SEARCH_BATCH);
+        search_window(RHO_SEARCH_BATCH);
         wanted[density] = initiator.min_scans;
     }
     assert_int_equal(wanted[0], 3);
@@ -401,21 +412,21 @@ static void min_scans_0_takes_what_the_clutter_needs(void **state)
     assert_in_range(wanted[2], wanted[1] + 1, 7);
 }
 
-static void patchy_clutter_is_seen_where_it_is(void **state)
+static void the_density_is_higher_in_a_patch_of_clutter(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     for (int patchy = 0; patchy < 2; patchy++) {
-        start(&config);
+        init_initiator(&config);
         for (int k = 0; k < 7; k++) {
             for (int i = 0; i < 90; i++) {
                 int inside = patchy && i < 45;
-                add(uniform(inside ? 1250.0f : -2500.0f, 2500.0f),
-                    uniform(inside ? 1250.0f : -2500.0f, 2500.0f));
+                add_plot(uniform(inside ? 1250.0f : -2500.0f, 2500.0f),
+                         uniform(inside ? 1250.0f : -2500.0f, 2500.0f));
             }
-            push(2.0 * k);
+            push_scan(2.0 * k);
         }
-        search(RHO_SEARCH_BATCH);
+        search_window(RHO_SEARCH_BATCH);
         float mean = 90.0f / 25e6f;
         float dense = rho_initiator_density(&initiator, 0, 2000.0f, 2000.0f) / mean;
         float thin = rho_initiator_density(&initiator, 0, -2000.0f, -2000.0f) / mean;
@@ -424,27 +435,27 @@ static void patchy_clutter_is_seen_where_it_is(void **state)
     }
 }
 
-static void what_the_list_cannot_hold_is_counted_and_the_best_stay(void **state)
+static void a_full_list_keeps_the_best_candidates_and_counts_the_others(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     const struct path path = {-2400, 390, 2400, 0};
     config.min_scans = 3;
     config.scans = 3;
     config.score_min_nat = -1000.0f;
-    start(&config);
+    init_initiator(&config);
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < 90; i++) {
-            add(uniform(-600.0f, 600.0f), uniform(-600.0f, 600.0f));
+            add_plot(uniform(-600.0f, 600.0f), uniform(-600.0f, 600.0f));
         }
-        add(path.x_m + path.vx_mps * 2.0f * (float)k, path.y_m);
-        push(2.0 * k);
+        add_plot(path.x_m + path.vx_mps * 2.0f * (float)k, path.y_m);
+        push_scan(2.0 * k);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_true(initiator.work.fits > RHO_MAX_CANDIDATES);
     assert_true(initiator.work.candidates_dropped > 0);
     assert_in_range(initiator.num_candidates, 1, RHO_MAX_CANDIDATES);
-    assert_int_equal(is_found(&path, 4.0f), 1); /* alone in thin clutter: a better score than any */
+    assert_int_equal(count_found(&path, 4.0f), 1); /* in thin clutter, with the best score of all */
     for (unsigned i = 0; i < initiator.num_candidates; i++) {
         assert_int_equal(initiator.candidates[i].hits, 3);
     }
@@ -453,16 +464,16 @@ static void what_the_list_cannot_hold_is_counted_and_the_best_stay(void **state)
 static void candidates_share_one_plot_at_most(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     config.score_min_nat = -1000.0f;
-    start(&config);
+    init_initiator(&config);
     for (int k = 0; k < 7; k++) {
         for (int i = 0; i < 80; i++) {
-            add(uniform(-1000.0f, 1000.0f), uniform(-1000.0f, 1000.0f));
+            add_plot(uniform(-1000.0f, 1000.0f), uniform(-1000.0f, 1000.0f));
         }
-        push(2.0 * k);
+        push_scan(2.0 * k);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_true(initiator.num_candidates > 1);
     for (unsigned i = 0; i < initiator.num_candidates; i++) {
         for (unsigned j = 0; j < i; j++) {
@@ -479,13 +490,13 @@ static void candidates_share_one_plot_at_most(void **state)
 static void the_same_scans_give_the_same_bytes(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     const struct path paths[2] = {{-1500, 250, 0, 0}, {0, 0, -1500, 250}};
     for (int run = 0; run < 2; run++) {
         seed = 99;
-        start(&config);
-        push_paths(paths, 2, 7);
-        search(RHO_SEARCH_BATCH);
+        init_initiator(&config);
+        push_scans_of_paths(paths, 2, 7);
+        search_window(RHO_SEARCH_BATCH);
         if (run == 0) {
             other = initiator;
         }
@@ -493,37 +504,40 @@ static void the_same_scans_give_the_same_bytes(void **state)
     assert_memory_equal(&initiator, &other, sizeof initiator);
 }
 
-static void scans_of_one_instant_make_no_kernel(void **state)
+static void scans_of_equal_times_make_no_track(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     config.min_scans = 3;
-    start(&config);
+    init_initiator(&config);
     for (int k = 0; k < 7; k++) {
-        add(100.0f * (float)k, 0.0f);
-        push(5.0);
+        add_plot(100.0f * (float)k, 0.0f);
+        push_scan(5.0);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 0);
     assert_int_equal(initiator.work.seeds, 0);
 }
 
 static const struct path straight = {-500.0f, 100.0f, 0.0f, 0.0f};
 
-/* Other speeds count at once, another window begins anew, and what is refused changes nothing. */
-static void an_initiator_is_configured_anew(void **state)
+/*
+ * Changed speeds apply at once, another window length or area empties the window, and refused
+ * configurations change nothing.
+ */
+static void an_initiator_can_be_reconfigured(void **state)
 {
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     (void)state;
     config.v_max_mps = 50.0f;
-    start(&config);
-    push_paths(&straight, 1, 6);
-    search(RHO_SEARCH_NEWEST);
+    init_initiator(&config);
+    push_scans_of_paths(&straight, 1, 6);
+    search_window(RHO_SEARCH_NEWEST);
     assert_int_equal(initiator.num_candidates, 0);
     config.v_max_mps = 400.0f;
     assert_int_equal(rho_initiator_reconfigure(&initiator, &config), RHO_OK);
     assert_int_equal(initiator.window.num_scans, 6);
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
     assert_int_equal(initiator.num_candidates, 1);
 
     memcpy(&other, &initiator, sizeof other);
@@ -536,19 +550,19 @@ static void an_initiator_is_configured_anew(void **state)
     assert_int_equal(rho_initiator_reconfigure(NULL, &config), RHO_ERROR_NULL);
     assert_memory_equal(&other, &initiator, sizeof other);
 
-    config = usual();
+    config = test_config();
     config.scans = 5;
     assert_int_equal(rho_initiator_reconfigure(&initiator, &config), RHO_OK);
     assert_int_equal(initiator.window.num_scans, 0);
     assert_int_equal(initiator.window.scans_max, 5);
     assert_int_equal(initiator.num_candidates, 0);
     config.area.x_max_m = 3000.0f;
-    push_paths(&straight, 1, 5);
+    push_scans_of_paths(&straight, 1, 5);
     assert_int_equal(rho_initiator_reconfigure(&initiator, &config), RHO_OK);
     assert_int_equal(initiator.window.num_scans, 0);
     assert_true(rho_initiator_is_sound(&initiator));
-    push_paths(&straight, 1, 5);
-    search(RHO_SEARCH_NEWEST);
+    push_scans_of_paths(&straight, 1, 5);
+    search_window(RHO_SEARCH_NEWEST);
     assert_int_equal(initiator.num_candidates, 1);
 
     memset(&initiator, 0, sizeof initiator);
@@ -559,24 +573,24 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(init_refuses_every_bad_parameter),
-        cmocka_unit_test(calls_on_nothing_are_refused),
-        cmocka_unit_test(scores_and_fits_are_the_reference_s),
+        cmocka_unit_test(calls_without_init_or_scans_are_refused),
+        cmocka_unit_test(scores_and_fits_agree_with_the_reference),
         cmocka_unit_test(one_target_is_found_in_every_direction),
-        cmocka_unit_test(pairs_of_targets_are_two_tracks),
-        cmocka_unit_test(missing_scans_and_unequal_intervals_are_no_obstacle),
-        cmocka_unit_test(the_longest_window_is_searched_whole),
-        cmocka_unit_test(plots_with_times_of_their_own_are_on_the_line),
-        cmocka_unit_test(too_few_votes_too_slow_or_too_fast_is_no_track),
+        cmocka_unit_test(two_near_targets_are_found_as_two_tracks),
+        cmocka_unit_test(a_target_is_found_with_misses_and_unequal_intervals),
+        cmocka_unit_test(the_longest_window_is_searched_completely),
+        cmocka_unit_test(plots_own_times_are_used_in_the_fit),
+        cmocka_unit_test(targets_too_slow_too_fast_or_with_few_plots_are_not_found),
         cmocka_unit_test(process_noise_finds_a_turning_target),
-        cmocka_unit_test(streaming_finds_only_what_the_newest_scan_saw),
+        cmocka_unit_test(a_streaming_search_needs_a_plot_of_the_newest_scan),
         cmocka_unit_test(consumed_plots_start_no_second_track),
-        cmocka_unit_test(min_scans_0_takes_what_the_clutter_needs),
-        cmocka_unit_test(patchy_clutter_is_seen_where_it_is),
-        cmocka_unit_test(what_the_list_cannot_hold_is_counted_and_the_best_stay),
+        cmocka_unit_test(min_scans_0_requires_more_votes_in_denser_clutter),
+        cmocka_unit_test(the_density_is_higher_in_a_patch_of_clutter),
+        cmocka_unit_test(a_full_list_keeps_the_best_candidates_and_counts_the_others),
         cmocka_unit_test(candidates_share_one_plot_at_most),
         cmocka_unit_test(the_same_scans_give_the_same_bytes),
-        cmocka_unit_test(scans_of_one_instant_make_no_kernel),
-        cmocka_unit_test(an_initiator_is_configured_anew),
+        cmocka_unit_test(scans_of_equal_times_make_no_track),
+        cmocka_unit_test(an_initiator_can_be_reconfigured),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

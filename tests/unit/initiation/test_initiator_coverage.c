@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * What a sensor's coverage and its detection probability have to do with the score: hits and
- * misses.
- */
+/* Effect of a sensor's coverage and detection probability on the score of hits and misses. */
 #include "initiator_east.h"
 
 /*
- * A target at 20 km range, azimuth 0, that scan 2 misses: its only plot is far off. Each scan has
- * one plot, so that the sensors have the same clutter. Scans of odd age order are `odd`'s.
+ * Score of a target at 20 km range and azimuth 0 that scan 2 misses. Each scan has one plot, so
+ * that both sensors have equal clutter; odd scans are those of `odd`.
  */
-static int32_t score_with_a_miss(struct rho_scan scan, const struct rho_sensor *even,
-                                 const struct rho_sensor *odd)
+static int32_t score_with_one_miss(struct rho_scan scan, const struct rho_sensor *even,
+                                   const struct rho_sensor *odd)
 {
     struct rho_initiator_config config = usual_config();
     start_initiator(&config);
@@ -30,12 +27,12 @@ static int32_t score_with_a_miss(struct rho_scan scan, const struct rho_sensor *
     return initiator.candidates[0].score_mnat;
 }
 
-static void expect_gain(int32_t score_mnat, int32_t than_mnat, double nat)
+static void expect_score_difference(int32_t score_mnat, int32_t than_mnat, double nat)
 {
     assert_float_equal(score_mnat - than_mnat, 1000.0 * nat, 2.0);
 }
 
-static void misses_count_only_where_the_sensor_looked(void **state)
+static void misses_count_only_inside_the_sensors_coverage(void **state)
 {
     (void)state;
     const struct rho_scan whole = {0}, ahead = {.sector_from_rad = -1.0f, .sector_to_rad = 1.0f};
@@ -45,53 +42,54 @@ static void misses_count_only_where_the_sensor_looked(void **state)
     far.range_min_m = 25000.0f, near.range_max_m = 15000.0f;
     turned.sector_from_rad = 1.0f, turned.sector_to_rad = 2.0f;
     facing.sector_from_rad = -1.0f, facing.sector_to_rad = 1.0f;
-    int32_t looked = score_with_a_miss(whole, &all, &all);
-    assert_int_equal(score_with_a_miss(whole, NULL, NULL), looked);
-    assert_int_equal(score_with_a_miss(ahead, &all, &all), looked);
-    assert_int_equal(score_with_a_miss(whole, &facing, &facing), looked);
-    expect_gain(score_with_a_miss(aside, &all, &all), looked, -log(1.0 - PD));
-    expect_gain(score_with_a_miss(aside, NULL, NULL), looked, -log(1.0 - PD));
-    expect_gain(score_with_a_miss(whole, &far, &far), looked, -log(1.0 - PD));
-    expect_gain(score_with_a_miss(whole, &near, &near), looked, -log(1.0 - PD));
-    expect_gain(score_with_a_miss(whole, &turned, &turned), looked, -log(1.0 - PD));
+    int32_t looked = score_with_one_miss(whole, &all, &all);
+    assert_int_equal(score_with_one_miss(whole, NULL, NULL), looked);
+    assert_int_equal(score_with_one_miss(ahead, &all, &all), looked);
+    assert_int_equal(score_with_one_miss(whole, &facing, &facing), looked);
+    expect_score_difference(score_with_one_miss(aside, &all, &all), looked, -log(1.0 - PD));
+    expect_score_difference(score_with_one_miss(aside, NULL, NULL), looked, -log(1.0 - PD));
+    expect_score_difference(score_with_one_miss(whole, &far, &far), looked, -log(1.0 - PD));
+    expect_score_difference(score_with_one_miss(whole, &near, &near), looked, -log(1.0 - PD));
+    expect_score_difference(score_with_one_miss(whole, &turned, &turned), looked, -log(1.0 - PD));
 }
 
-/* The same sector from another place is another part of the sky. */
-static void sectors_and_ranges_are_the_sensor_s_own(void **state)
+/* The same sector, from another sensor's place, may contain the target or not. */
+static void sectors_and_ranges_are_seen_from_the_sensors_place(void **state)
 {
     (void)state;
     const struct rho_scan north = {.sector_from_rad = 1.0f, .sector_to_rad = 2.0f};
     const struct rho_sensor below = sensor_at(20000.0, -20000.0);
     struct rho_sensor beside = sensor_at(-20000.0, 0.0);
-    int32_t looked = score_with_a_miss((struct rho_scan){0}, NULL, NULL);
-    assert_int_equal(score_with_a_miss(north, &below, &below), looked);
+    int32_t looked = score_with_one_miss((struct rho_scan){0}, NULL, NULL);
+    assert_int_equal(score_with_one_miss(north, &below, &below), looked);
     beside.range_max_m = 30000.0f;
-    expect_gain(score_with_a_miss((struct rho_scan){0}, &beside, &beside), looked, -log(1.0 - PD));
+    expect_score_difference(score_with_one_miss((struct rho_scan){0}, &beside, &beside), looked,
+                            -log(1.0 - PD));
 }
 
-static void a_sensor_s_own_pd_replaces_the_config_s(void **state)
+static void a_sensors_own_detection_probability_is_used(void **state)
 {
     (void)state;
     const struct rho_scan scan = {0};
     struct rho_sensor weak = sensor_at(0.0, 0.0), strong = weak;
     weak.sensor_id = 1, weak.pd = 0.6f;
     strong.sensor_id = 2, strong.pd = 0.98f;
-    int32_t usual_mnat = score_with_a_miss(scan, NULL, NULL);
-    expect_gain(score_with_a_miss(scan, &weak, &weak), usual_mnat,
-                6.0 * log(0.6 / PD) + log(0.4 / (1.0 - PD)));
-    /* even scans: three hits and the miss; odd ones: three hits */
-    expect_gain(score_with_a_miss(scan, &weak, &strong), usual_mnat,
-                3.0 * log(0.6 / PD) + 3.0 * log(0.98 / PD) + log(0.4 / (1.0 - PD)));
-    expect_gain(score_with_a_miss(scan, &strong, NULL), usual_mnat,
-                3.0 * log(0.98 / PD) + log(0.02 / (1.0 - PD)));
+    int32_t usual_mnat = score_with_one_miss(scan, NULL, NULL);
+    expect_score_difference(score_with_one_miss(scan, &weak, &weak), usual_mnat,
+                            6.0 * log(0.6 / PD) + log(0.4 / (1.0 - PD)));
+    /* weak: three hits and the miss; strong: three hits */
+    expect_score_difference(score_with_one_miss(scan, &weak, &strong), usual_mnat,
+                            3.0 * log(0.6 / PD) + 3.0 * log(0.98 / PD) + log(0.4 / (1.0 - PD)));
+    expect_score_difference(score_with_one_miss(scan, &strong, NULL), usual_mnat,
+                            3.0 * log(0.98 / PD) + log(0.02 / (1.0 - PD)));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(misses_count_only_where_the_sensor_looked),
-        cmocka_unit_test(sectors_and_ranges_are_the_sensor_s_own),
-        cmocka_unit_test(a_sensor_s_own_pd_replaces_the_config_s),
+        cmocka_unit_test(misses_count_only_inside_the_sensors_coverage),
+        cmocka_unit_test(sectors_and_ranges_are_seen_from_the_sensors_place),
+        cmocka_unit_test(a_sensors_own_detection_probability_is_used),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The budget of a batch window at 100 clutter plots a scan (Table 1's area, 7 scans, 5 votes):
- * look-ups and distance tests are counted, so the bars hold on every machine alike. And the RAM
- * that the embedded profile promises.
+ * Work of a batch search with 100 clutter plots a scan (area of Table 1, 7 scans, 5 votes), counted
+ * in look-ups and distance tests and so equal on every machine; and the RAM of the embedded
+ * profile.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -59,7 +59,7 @@ static void search_clutter(void)
     assert_int_equal(rho_initiator_search(&initiator, RHO_SEARCH_BATCH), RHO_OK);
 }
 
-static void a_window_of_clutter_costs_no_more_than_promised(void **state)
+static void the_work_of_a_clutter_window_is_within_its_budget(void **state)
 {
     (void)state;
     uint64_t seeds = 0, lookups = 0, distances = 0;
@@ -77,7 +77,7 @@ static void a_window_of_clutter_costs_no_more_than_promised(void **state)
     assert_in_range(distances / WINDOWS, 1000, 50000);
 }
 
-static void the_embedded_profile_fits_66_kib(void **state)
+static void an_initiator_of_the_embedded_profile_fits_66_kib(void **state)
 {
     (void)state;
     assert_true(sizeof(struct rho_initiator) <= RHO_RAM_INITIATOR_BYTES);
@@ -91,8 +91,8 @@ static void the_embedded_profile_fits_66_kib(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_window_of_clutter_costs_no_more_than_promised),
-        cmocka_unit_test(the_embedded_profile_fits_66_kib),
+        cmocka_unit_test(the_work_of_a_clutter_window_is_within_its_budget),
+        cmocka_unit_test(an_initiator_of_the_embedded_profile_fits_66_kib),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Long spans need more votes than M where misses cost a set its score: less work and the same
- * candidates in even clutter; M alone where clutter is thinner, or where other radars' scans lie
- * between.
+ * Kernels over long spans need more votes than M, as misses lower the score: in even clutter this
+ * saves work and keeps the candidates. M alone counts in thin clutter and where other radars' scans
+ * lie between.
  */
 #include "initiator_setup.h"
 
@@ -13,7 +13,7 @@
 
 static const struct rho_extent square = {-8000.0f, 8000.0f, -8000.0f, 8000.0f};
 
-static struct rho_initiator_config usual(void)
+static struct rho_initiator_config test_config(void)
 {
     struct rho_initiator_config config;
     rho_initiator_config_default(&config);
@@ -24,17 +24,17 @@ static struct rho_initiator_config usual(void)
     return config;
 }
 
-static void push_from(int k, int32_t sensor_id, const struct rho_sensor *radar)
+static void push_scan_of_radar(int k, int32_t sensor_id, const struct rho_sensor *radar)
 {
     struct rho_sensor sensor = *radar;
     sensor.sensor_id = sensor_id;
     push_scan((struct rho_scan){.sensor_id = sensor_id}, SCAN_S * k, &sensor);
 }
 
-/* Even clutter and targets that a scan misses now and then, of so many radars in turns. */
+/* Even clutter and targets with some misses, seen by this number of radars in turn. */
 static void search_even_clutter(int radars)
 {
-    const struct rho_initiator_config config = usual();
+    const struct rho_initiator_config config = test_config();
     const struct rho_sensor radar = sensor_at(0.0, 0.0);
     random_state = 5;
     start_initiator(&config);
@@ -47,16 +47,16 @@ static void search_even_clutter(int radars)
                 add_plot(x_m, y_m, 10.0, 10.0);
             }
         }
-        push_from(k, 1 + k % radars, &radar);
+        push_scan_of_radar(k, 1 + k % radars, &radar);
     }
     search_window(RHO_SEARCH_NEWEST);
 }
 
-static void long_spans_that_cannot_start_a_track_cost_nothing(void **state)
+static void kernels_that_cannot_start_a_track_are_skipped(void **state)
 {
     (void)state;
     struct rho_candidate found[RHO_MAX_CANDIDATES];
-    search_even_clutter(2); /* with two radars in turns M holds for every span */
+    search_even_clutter(2); /* with two radars in turn M alone counts for every span */
     const unsigned count = initiator.num_candidates;
     const uint32_t work = initiator.budget.work;
     memcpy(found, initiator.candidates, sizeof found);
@@ -72,15 +72,15 @@ static void long_spans_that_cannot_start_a_track_cost_nothing(void **state)
     assert_true(RHO_MAX_PLOTS <= 64 || (double)initiator.budget.work < 0.7 * work);
 }
 
-/* A target without noise that every second scan sees. */
-static void add_every_second(int k, double y_m)
+/* A target without noise that has a plot in even scans only. */
+static void add_plot_in_even_scans(int k, double y_m)
 {
     if (k % 2 == 0) {
         add_plot(-7000.0 + 60.0 * SCAN_S * k, y_m, 10.0, 10.0);
     }
 }
 
-static int has_every_second(double y_m)
+static int is_even_scan_track_found(double y_m)
 {
     for (unsigned i = 0; i < initiator.num_candidates; i++) {
         const struct rho_candidate *candidate = &initiator.candidates[i];
@@ -91,10 +91,10 @@ static int has_every_second(double y_m)
     return 0;
 }
 
-static void misses_of_a_radar_that_does_not_look_there_do_not_count(void **state)
+static void misses_of_a_radar_outside_its_range_do_not_count(void **state)
 {
     (void)state;
-    const struct rho_initiator_config config = usual();
+    const struct rho_initiator_config config = test_config();
     const struct rho_sensor first = sensor_at(0.0, 0.0);
     struct rho_sensor second = sensor_at(0.0, -8000.0);
     second.range_max_m = 11000.0f;
@@ -102,36 +102,36 @@ static void misses_of_a_radar_that_does_not_look_there_do_not_count(void **state
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_clutter(&square, CLUTTER);
-        add_every_second(k, 6500.0);
-        push_from(k, 1 + k % 2, k % 2 ? &second : &first);
+        add_plot_in_even_scans(k, 6500.0);
+        push_scan_of_radar(k, 1 + k % 2, k % 2 ? &second : &first);
     }
     search_window(RHO_SEARCH_NEWEST);
-    assert_true(has_every_second(6500.0));
+    assert_true(is_even_scan_track_found(6500.0));
 }
 
-static void fewer_votes_are_enough_where_clutter_is_thin(void **state)
+static void fewer_votes_start_a_track_in_thin_clutter(void **state)
 {
     (void)state;
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = test_config();
     const struct rho_sensor radar = sensor_at(0.0, 0.0);
     const struct rho_extent south = {-8000.0f, 8000.0f, -8000.0f, 0.0f};
     random_state = 5;
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_clutter(&south, CLUTTER);
-        add_every_second(k, 6000.0);
-        push_from(k, 1, &radar);
+        add_plot_in_even_scans(k, 6000.0);
+        push_scan_of_radar(k, 1, &radar);
     }
     search_window(RHO_SEARCH_NEWEST);
-    assert_true(has_every_second(6000.0));
+    assert_true(is_even_scan_track_found(6000.0));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(long_spans_that_cannot_start_a_track_cost_nothing),
-        cmocka_unit_test(misses_of_a_radar_that_does_not_look_there_do_not_count),
-        cmocka_unit_test(fewer_votes_are_enough_where_clutter_is_thin),
+        cmocka_unit_test(kernels_that_cannot_start_a_track_are_skipped),
+        cmocka_unit_test(misses_of_a_radar_outside_its_range_do_not_count),
+        cmocka_unit_test(fewer_votes_start_a_track_in_thin_clutter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Which meanings of an ambiguous range rate a search tries.
- */
+/* The multiples of the span that a search tries for an ambiguous range rate. */
 #include "initiator_setup.h"
 
 /*
- * Three plots, 100 m uncertain, of a target at 200 m/s, by a radar that tells range rates up to
- * multiples of this span: fits, one for each meaning that has all votes.
+ * Number of fits, one for each multiple with all votes. Three plots with sigmas of 100 m are of a
+ * target at 200 m/s, whose range rates are measured modulo the span.
  */
-static unsigned fits_with_span(double span_mps)
+static unsigned count_fits_with_span(double span_mps)
 {
     struct rho_initiator_config config;
     struct rho_sensor sensor = sensor_at(0.0, 0.0);
@@ -29,8 +27,11 @@ static unsigned fits_with_span(double span_mps)
     return initiator.work.fits;
 }
 
-/* Those in the gate of the places, 2.6 times 35 m/s to either side; and eight at most. */
-static void eight_meanings_to_either_side_are_tried(void **state)
+/*
+ * Multiples within the gate of the places, 2.6 times 35 m/s to either side, and at most eight to
+ * either side.
+ */
+static void at_most_eight_multiples_of_the_span_are_tried_to_either_side(void **state)
 {
     static const struct {
         double span_mps;
@@ -41,7 +42,7 @@ static void eight_meanings_to_either_side_are_tried(void **state)
         skip();
     }
     for (size_t i = 0; i < NUM(cases); i++) {
-        print_message("%.0f m/s: %u\n", cases[i].span_mps, fits_with_span(cases[i].span_mps));
+        print_message("%.0f m/s: %u\n", cases[i].span_mps, count_fits_with_span(cases[i].span_mps));
         assert_int_equal(initiator.work.fits, cases[i].fits);
     }
 }
@@ -49,7 +50,7 @@ static void eight_meanings_to_either_side_are_tried(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eight_meanings_to_either_side_are_tried),
+        cmocka_unit_test(at_most_eight_multiples_of_the_span_are_tried_to_either_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

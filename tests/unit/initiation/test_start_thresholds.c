@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * False tracks an hour: thresholds that follow from clutter, and what they keep. Noise of 10 m,
- * scans of 2 s, targets of 100 to 400 m/s. The prior of a turn is asked of the private header: in
- * scores it stands beside what a turn fits better.
+ * Thresholds of the initiation from clutter and an allowed rate of false tracks, and the rates that
+ * result. Noise of 10 m, scans of 2 s, targets of 100 to 400 m/s. The prior of a turn is tested
+ * through a private header, as scores show it only in sums.
  */
 #include "../../src/initiation/search.h"
 #include "initiator_setup.h"
@@ -16,25 +16,25 @@ static const struct rho_extent square = {-2500.0f, 2500.0f, -2500.0f, 2500.0f};
 static const int counts[] = {0, 1, 5, 25, 100, 250}; /* clutter plots a scan */
 static const float rates[] = {1e-4f, 0.01f, 0.1f, 1.0f, 10.0f, 100.0f, 1e4f};
 
-static struct rho_initiator_config usual(float false_tracks_per_hour)
+static struct rho_initiator_config test_config(float false_tracks_per_hour)
 {
     struct rho_initiator_config config;
     rho_initiator_config_default(&config);
     config.v_min_mps = 100.0f;
     config.v_max_mps = 400.0f;
     config.false_tracks_per_hour = false_tracks_per_hour;
-    config.work_max = 0; /* thresholds, not what there is no time for */
+    config.work_max = 0; /* no limit, so that thresholds alone decide */
     config.area_is_fixed = 1;
     config.area = square;
     return config;
 }
 
 /*
- * A window of clutter, the same at every call; and so many targets in a row, the next seen in a
- * scan less than the last.
+ * Pushes a window of clutter, equal at every call, and targets in line, each seen from one scan
+ * later on than the one before.
  */
-static void push_window(const struct rho_initiator_config *config, int count, int targets,
-                        double scan_s)
+static void push_clutter_and_targets(const struct rho_initiator_config *config, int count,
+                                     int targets, double scan_s)
 {
     random_state = 3;
     start_initiator(config);
@@ -50,17 +50,17 @@ static void push_window(const struct rho_initiator_config *config, int count, in
 
 static void search_clutter(const struct rho_initiator_config *config, int count)
 {
-    push_window(config, count, 0, SCAN_S);
+    push_clutter_and_targets(config, count, 0, SCAN_S);
     search_window(RHO_SEARCH_NEWEST);
 }
 
 static void search_targets(const struct rho_initiator_config *config, int count)
 {
-    push_window(config, count, 5, SCAN_S);
+    push_clutter_and_targets(config, count, 5, SCAN_S);
     search_window(RHO_SEARCH_NEWEST);
 }
 
-static unsigned confirmed(void)
+static unsigned count_confirmed(void)
 {
     unsigned n = 0;
     for (unsigned i = 0; i < initiator.num_candidates; i++) {
@@ -69,13 +69,15 @@ static unsigned confirmed(void)
     return n;
 }
 
-/* ---- thresholds ------------------------------------------------------------------------------ */
+/*
+ * ---- thresholds -------------------------------------------------------------------------------
+ */
 
-static void a_clear_sky_confirms_a_target_at_its_third_plot(void **state)
+static void a_target_without_clutter_is_confirmed_at_its_third_plot(void **state)
 {
     (void)state;
     for (int i = 0; i < 200; i++) {
-        struct rho_initiator_config config = usual(1.0f);
+        struct rho_initiator_config config = test_config(1.0f);
         double heading = uniform(0.0, 2.0 * PI), v_mps = uniform(120.0, 380.0);
         start_initiator(&config);
         for (int empty = 0; empty < i % 5; empty++) {
@@ -89,20 +91,18 @@ static void a_clear_sky_confirms_a_target_at_its_third_plot(void **state)
             search_window(RHO_SEARCH_NEWEST);
             assert_int_equal(initiator.num_candidates, k == 2);
         }
-        assert_int_equal(confirmed(), 1);
+        assert_int_equal(count_confirmed(), 1);
     }
 }
 
-/*
- * 18 nat of rates move the threshold by about as much, where there is clutter enough to keep any.
- */
-static void confirming_falls_as_more_false_tracks_are_allowed_but_not_below_starting(void **state)
+/* Rates that differ by 18 nat move the threshold by about as much, if there is enough clutter. */
+static void the_confirmation_threshold_falls_with_the_allowed_rate(void **state)
 {
     (void)state;
     for (size_t c = 0; c < NUM(counts); c++) {
         int32_t before_mnat = INT32_MAX, highest_mnat = 0;
         for (size_t r = 0; r < NUM(rates); r++) {
-            struct rho_initiator_config config = usual(rates[r]);
+            struct rho_initiator_config config = test_config(rates[r]);
             search_clutter(&config, counts[c]);
             assert_true(initiator.confirm_mnat <= before_mnat);
             assert_true(initiator.start_mnat <= initiator.confirm_mnat);
@@ -111,38 +111,39 @@ static void confirming_falls_as_more_false_tracks_are_allowed_but_not_below_star
         }
         assert_true(counts[c] < 5 || highest_mnat - before_mnat > 8000);
         assert_int_equal(before_mnat,
-                         initiator.start_mnat); /* 10 000 an hour: what starts is believed */
+                         /* at 10 000 an hour every started track is confirmed */
+                         initiator.start_mnat);
     }
 }
 
-static void more_false_tracks_allowed_are_never_fewer_tracks(void **state)
+static void a_higher_allowed_rate_never_gives_fewer_tracks(void **state)
 {
     (void)state;
     unsigned first = 0, last = 0, unsure = 0;
     for (size_t c = 0; c < NUM(counts); c++) {
         unsigned tracks = 0, candidates = 0;
         for (size_t r = 0; r < NUM(rates); r++) {
-            struct rho_initiator_config config = usual(rates[r]);
+            struct rho_initiator_config config = test_config(rates[r]);
             search_targets(&config, counts[c]);
             assert_true(initiator.num_candidates >= candidates);
-            assert_true(confirmed() >= tracks);
+            assert_true(count_confirmed() >= tracks);
             candidates = initiator.num_candidates;
-            tracks = confirmed();
+            tracks = count_confirmed();
             first += r == 0 ? tracks : 0;
             unsure += r == 0 ? candidates - tracks : 0;
         }
         last += tracks;
     }
     assert_true(last > first + 5);
-    assert_true(unsure > 5); /* they start all the same */
+    assert_true(unsure > 5); /* tracks that start unconfirmed */
 }
 
-static void every_candidate_of_a_kept_rate_reaches_the_start_threshold(void **state)
+static void candidates_reach_the_start_threshold(void **state)
 {
     (void)state;
     unsigned found = 0;
     for (size_t c = 0; c < NUM(counts); c++) {
-        struct rho_initiator_config config = usual(1.0f);
+        struct rho_initiator_config config = test_config(1.0f);
         search_targets(&config, counts[c]);
         found += initiator.num_candidates;
         for (unsigned i = 0; i < initiator.num_candidates; i++) {
@@ -153,12 +154,12 @@ static void every_candidate_of_a_kept_rate_reaches_the_start_threshold(void **st
     assert_true(found > 10);
 }
 
-static void denser_clutter_asks_for_more_votes(void **state)
+static void denser_clutter_requires_more_votes(void **state)
 {
     (void)state;
     unsigned before = 3;
     for (size_t c = 1; c < NUM(counts); c++) {
-        struct rho_initiator_config config = usual(1.0f);
+        struct rho_initiator_config config = test_config(1.0f);
         config.area = (struct rho_extent){-1000.0f, 1000.0f, -1000.0f, 1000.0f};
         search_clutter(&config, counts[c]);
         assert_in_range(initiator.min_scans, before, c == 1 ? 3 : SCANS);
@@ -167,12 +168,12 @@ static void denser_clutter_asks_for_more_votes(void **state)
     assert_int_equal(before, SCANS); /* 250 plots in 4 km^2 */
 }
 
-static void without_a_rate_the_least_score_is_the_threshold(void **state)
+static void without_a_rate_the_configured_score_is_the_threshold(void **state)
 {
     (void)state;
     static const float scores[] = {-3.0f, 0.0f, 7.25f};
     for (size_t i = 0; i < NUM(scores); i++) {
-        struct rho_initiator_config config = usual(0.0f);
+        struct rho_initiator_config config = test_config(0.0f);
         config.score_min_nat = scores[i];
         config.min_scans = 3;
         search_targets(&config, 25);
@@ -185,15 +186,15 @@ static void without_a_rate_the_least_score_is_the_threshold(void **state)
     }
 }
 
-static void a_batch_goes_by_the_least_score_whatever_the_rate(void **state)
+static void a_batch_search_uses_the_configured_score_at_any_rate(void **state)
 {
     (void)state;
     static struct rho_candidate without[RHO_MAX_CANDIDATES];
     unsigned n = 0;
     for (size_t r = 0; r <= NUM(rates); r++) {
-        struct rho_initiator_config config = usual(r == 0 ? 0.0f : rates[r - 1]);
+        struct rho_initiator_config config = test_config(r == 0 ? 0.0f : rates[r - 1]);
         config.score_min_nat = -12.0f;
-        push_window(&config, 60, 5, SCAN_S);
+        push_clutter_and_targets(&config, 60, 5, SCAN_S);
         search_window(RHO_SEARCH_BATCH);
         assert_int_equal(initiator.start_mnat, -12000);
         assert_int_equal(initiator.confirm_mnat, -12000);
@@ -212,7 +213,7 @@ static void the_same_scans_give_the_same_thresholds(void **state)
     (void)state;
     for (size_t c = 0; c < NUM(counts); c++) {
         static struct rho_initiator before;
-        struct rho_initiator_config config = usual(0.3f);
+        struct rho_initiator_config config = test_config(0.3f);
         search_targets(&config, counts[c]);
         before = initiator;
         search_window(RHO_SEARCH_NEWEST);
@@ -222,14 +223,14 @@ static void the_same_scans_give_the_same_thresholds(void **state)
     }
 }
 
-/* ---- what they follow from ------------------------------------------------------------------- */
+/* ---- scan interval, area, range rates -------------------------------------------------------- */
 
-/* Everything twice as fast is the same pictures, twice as many an hour. */
-static void a_shorter_scan_interval_confirms_as_half_the_rate_does(void **state)
+/* Twice the speeds and half the interval give the same plots, and twice as many scans an hour. */
+static void half_the_scan_interval_acts_as_half_the_allowed_rate(void **state)
 {
     (void)state;
     for (size_t c = 2; c < NUM(counts); c++) {
-        struct rho_initiator_config config = usual(0.5f), fast = usual(1.0f);
+        struct rho_initiator_config config = test_config(0.5f), fast = test_config(1.0f);
         search_clutter(&config, counts[c]);
         int32_t half_mnat = initiator.confirm_mnat;
         config.false_tracks_per_hour = 1.0f;
@@ -237,23 +238,23 @@ static void a_shorter_scan_interval_confirms_as_half_the_rate_does(void **state)
         assert_true(half_mnat > initiator.confirm_mnat);
         fast.v_min_mps *= 2.0f;
         fast.v_max_mps *= 2.0f;
-        push_window(&fast, counts[c], 0, 0.5 * SCAN_S);
+        push_clutter_and_targets(&fast, counts[c], 0, 0.5 * SCAN_S);
         search_window(RHO_SEARCH_NEWEST);
         assert_float_equal(initiator.confirm_mnat, half_mnat, 5.0);
     }
 }
 
 /*
- * Four times the area in the same clutter has four times the chances: as if a quarter of the false
- * tracks were wanted. But scores fall by ln 4, since the prior is spread thinner. Fewer chance
- * tracks leave a larger area: half a nat.
+ * Four times the area at the same density has four times the chance tracks, as a quarter of the
+ * allowed rate has; scores fall by ln 4, as the prior is spread over more area. The area's edge
+ * makes half a nat of difference.
  */
-static void a_larger_area_confirms_as_a_smaller_rate_does(void **state)
+static void four_times_the_area_acts_as_a_quarter_of_the_allowed_rate(void **state)
 {
     (void)state;
     static const int few[] = {1, 6, 25, 60};
     for (size_t c = 0; c < NUM(few); c++) {
-        struct rho_initiator_config config = usual(1.0f), quarter = usual(0.25f);
+        struct rho_initiator_config config = test_config(1.0f), quarter = test_config(0.25f);
         search_clutter(&config, few[c]);
         double small_nat = MNAT * initiator.confirm_mnat;
         search_clutter(&quarter, few[c]);
@@ -268,7 +269,7 @@ static void a_larger_area_confirms_as_a_smaller_rate_does(void **state)
 
 static void search_with_range_rates(uint32_t measures, int count)
 {
-    struct rho_initiator_config config = usual(1.0f);
+    struct rho_initiator_config config = test_config(1.0f);
     random_state = 3;
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
@@ -282,7 +283,7 @@ static void search_with_range_rates(uint32_t measures, int count)
     search_window(RHO_SEARCH_NEWEST);
 }
 
-static void range_rates_ask_for_fewer_votes_in_the_same_clutter(void **state)
+static void range_rates_lower_votes_and_thresholds(void **state)
 {
     (void)state;
     for (size_t c = 1; c < NUM(counts); c++) {
@@ -292,27 +293,29 @@ static void range_rates_ask_for_fewer_votes_in_the_same_clutter(void **state)
         search_with_range_rates(RHO_MEASURES_RANGE_RATE, counts[c]);
         assert_true(initiator.min_scans <= min_scans);
         assert_true(initiator.start_mnat < start_mnat ||
-                    start_mnat == -10000); /* the least there is */
+                    start_mnat == -10000); /* the lowest threshold there is */
         assert_true(counts[c] > 100 || initiator.confirm_mnat < confirm_mnat - 2000);
     }
-    assert_true(initiator.min_scans <= 4); /* 250 plots: 5 without */
+    assert_true(initiator.min_scans <= 4); /* 250 plots a scan: 5 without range rates */
 }
 
-/* ---- kept ------------------------------------------------------------------------------------ */
+/*
+ * ---- resulting rates --------------------------------------------------------------------------
+ */
 
-/* An hour: a few scans are enough to count, and clutter could start three times as many. */
+/* allowed false tracks an hour: high enough to count, a third of what clutter could start */
 #define WANTED 60.0f
 
 /*
- * Confirmed tracks an hour in 4 x 2.5 km of nothing but clutter, so many plots a scan on average.
- * Measurements besides places have the noise of a radar 8 km away.
+ * Confirmed tracks an hour in 4 x 2.5 km of clutter with this mean number of plots a scan; with
+ * heights or range rates the noise is that of a radar 8 km away.
  */
 static double false_tracks_an_hour(int scans, double mean, uint32_t measures)
 {
     static struct rho_tracker tracker;
     static struct rho_report report;
     const struct rho_sensor away = sensor_at(-8000.0, 0.0);
-    struct rho_initiator_config config = usual(WANTED);
+    struct rho_initiator_config config = test_config(WANTED);
     struct rho_tracker_config maintain;
     config.area = (struct rho_extent){0.0f, 4000.0f, -1000.0f, 1500.0f};
     rho_tracker_config_default(&maintain);
@@ -338,8 +341,8 @@ static double false_tracks_an_hour(int scans, double mean, uint32_t measures)
     return tracker.counters.tracks_confirmed * 3600.0 / (scans * SCAN_S);
 }
 
-/* About 100, 27 and 23 tracks: standard deviations of 6, 12 and 12 an hour. */
-static void clutter_makes_about_as_many_tracks_as_wanted(void **state)
+/* About 100, 27 and 23 tracks are confirmed: standard deviations of 6, 12 and 12 an hour. */
+static void clutter_makes_about_the_allowed_number_of_tracks(void **state)
 {
     (void)state;
     random_state = 11;
@@ -353,15 +356,14 @@ static void clutter_makes_about_as_many_tracks_as_wanted(void **state)
 }
 
 /*
- * Process noise that bends tracks by many sigmas, 100 plots a scan on 95 x 95 km, 10 s: clutter may
- * start 0.1 tracks a search. It starts 0.02, since what bends so much may be made up of the same
- * plots in several ways. The variances of the bends differ by a hundred: with their mean in place
- * of each it would be 0.003.
+ * Process noise bends tracks by many sigmas; 100 plots a scan on 95 x 95 km, 10 s. Clutter may
+ * start 0.1 tracks a search and starts 0.02, as the same plots can be bent in several ways. With
+ * the mean of the bends' variances, which differ by a hundred, it would start 0.003.
  */
-static void clutter_starts_tracks_that_process_noise_bends(void **state)
+static void clutter_starts_no_more_than_allowed_with_process_noise(void **state)
 {
     const int searches = 600;
-    struct rho_initiator_config config = usual(20.0f);
+    struct rho_initiator_config config = test_config(20.0f);
     unsigned starts = 0;
     (void)state;
     random_state = 5;
@@ -386,21 +388,23 @@ static void clutter_starts_tracks_that_process_noise_bends(void **state)
     assert_true(starts > 0.01 * searches && starts < 0.2 * searches);
 }
 
-/* ---- figures --------------------------------------------------------------------------------- */
+/*
+ * ---- figures ----------------------------------------------------------------------------------
+ */
 
 /*
- * By clutter and rate, in mnat, to a millinat: those whose false tracks were counted above. Each
- * bound, step and prior of the model moves them. With more places that are sampled they are other
- * ones, by less than a tenth of a nat.
+ * Thresholds in mnat by clutter and rate; each bound, step and prior of the model changes them. A
+ * profile that samples more places may differ by less than a tenth of a nat.
  */
-static void thresholds_of_known_clutter(void **state)
+static void thresholds_of_given_clutter_are_unchanged(void **state)
 {
     static const struct {
         int count;
         float rate, pd;
         int32_t start_mnat, confirm_mnat;
         int min_scans;
-        uint8_t span_hits[SCANS]; /* by the first scan of a set; more than there are: none */
+        /* votes required by age of the first scan; 8: no track can start there */
+        uint8_t span_hits[SCANS];
         double thin;
     } cases[] = {
         {5, 1e-4f, 0.9f, -4771, 12670, 3, {3, 3, 3, 3, 3, 8, 8}, 1.82571803e-05},
@@ -418,7 +422,7 @@ static void thresholds_of_known_clutter(void **state)
     const float within_mnat = is_sampled_alike ? 0.5f : 100.0f;
     (void)state;
     for (size_t i = 0; i < NUM(cases); i++) {
-        struct rho_initiator_config config = usual(cases[i].rate);
+        struct rho_initiator_config config = test_config(cases[i].rate);
         config.pd = cases[i].pd;
         search_clutter(&config, cases[i].count);
         assert_float_equal(initiator.start_mnat, cases[i].start_mnat, within_mnat);
@@ -433,16 +437,16 @@ static void thresholds_of_known_clutter(void **state)
 }
 
 /*
- * Targets that cross the area between two scans: the share of them that stay in it is no less than
- * a millionth, and false sets are not impossible. Half or twice as many move what starts a track.
+ * Targets cross the area between two scans: the share that stays is bounded below by a millionth,
+ * so that chance tracks remain possible. Half or twice that share would change the threshold.
  */
-static void targets_too_fast_for_the_area_have_thresholds_too(void **state)
+static void thresholds_exist_for_targets_that_cross_the_area_in_a_scan(void **state)
 {
     static const int32_t start_mnat[] = {3044, 6696}, min_scans[] = {7, 4};
     (void)state;
     for (int i = 0; i < 2; i++) {
         const float half_m = 1000.0f * (float)(i + 1);
-        struct rho_initiator_config config = usual(1e-6f);
+        struct rho_initiator_config config = test_config(1e-6f);
         config.v_min_mps = 2000.0f;
         config.v_max_mps = 3000.0f;
         config.area = (struct rho_extent){-half_m, half_m, -half_m, half_m};
@@ -453,13 +457,13 @@ static void targets_too_fast_for_the_area_have_thresholds_too(void **state)
     }
 }
 
-/* Without a rate to keep, a tenth of the targets turn; with one, the rate may ask for fewer. */
-static void a_tenth_of_the_targets_turn(void **state)
+/* The prior is a tenth; with a rate to keep it may be lower. */
+static void the_prior_of_a_turn_is_a_tenth_or_keeps_the_rate(void **state)
 {
     struct search search = {.initiator = &initiator};
     (void)state;
     assert_float_equal(rho_initiator_log_turn_prior(&search), log(0.1), 1e-6);
-    /* half the scans' sets against a tenth of a false start: 3.5 / 0.1 e^-2 of it */
+    /* sets of half the scans over a tenth of the false starts: 3.5 / 0.1 times e^-2 */
     initiator.config.false_tracks_per_hour = 3600.0f;
     initiator.start_mnat = 2000;
     initiator.confirm_mnat = 9000;
@@ -470,12 +474,12 @@ static void a_tenth_of_the_targets_turn(void **state)
 }
 
 /*
- * A pause counts as three usual intervals: of 2 s, five times, it is 6 s long. Each factor of two
- * of the mean interval moves the threshold by about 0.7 nat.
+ * A gap of 30 s counts as three intervals, 6 s. Each factor of two of the mean interval moves the
+ * threshold by about 0.7 nat.
  */
-static void a_pause_is_three_intervals(void **state)
+static void a_pause_counts_as_three_intervals(void **state)
 {
-    const struct rho_initiator_config config = usual(1.0f);
+    const struct rho_initiator_config config = test_config(1.0f);
     (void)state;
     random_state = 3;
     start_initiator(&config);
@@ -491,23 +495,23 @@ static void a_pause_is_three_intervals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thresholds_of_known_clutter),
-        cmocka_unit_test(targets_too_fast_for_the_area_have_thresholds_too),
-        cmocka_unit_test(a_tenth_of_the_targets_turn),
-        cmocka_unit_test(a_pause_is_three_intervals),
-        cmocka_unit_test(a_clear_sky_confirms_a_target_at_its_third_plot),
-        cmocka_unit_test(confirming_falls_as_more_false_tracks_are_allowed_but_not_below_starting),
-        cmocka_unit_test(more_false_tracks_allowed_are_never_fewer_tracks),
-        cmocka_unit_test(every_candidate_of_a_kept_rate_reaches_the_start_threshold),
-        cmocka_unit_test(denser_clutter_asks_for_more_votes),
-        cmocka_unit_test(without_a_rate_the_least_score_is_the_threshold),
-        cmocka_unit_test(a_batch_goes_by_the_least_score_whatever_the_rate),
+        cmocka_unit_test(thresholds_of_given_clutter_are_unchanged),
+        cmocka_unit_test(thresholds_exist_for_targets_that_cross_the_area_in_a_scan),
+        cmocka_unit_test(the_prior_of_a_turn_is_a_tenth_or_keeps_the_rate),
+        cmocka_unit_test(a_pause_counts_as_three_intervals),
+        cmocka_unit_test(a_target_without_clutter_is_confirmed_at_its_third_plot),
+        cmocka_unit_test(the_confirmation_threshold_falls_with_the_allowed_rate),
+        cmocka_unit_test(a_higher_allowed_rate_never_gives_fewer_tracks),
+        cmocka_unit_test(candidates_reach_the_start_threshold),
+        cmocka_unit_test(denser_clutter_requires_more_votes),
+        cmocka_unit_test(without_a_rate_the_configured_score_is_the_threshold),
+        cmocka_unit_test(a_batch_search_uses_the_configured_score_at_any_rate),
         cmocka_unit_test(the_same_scans_give_the_same_thresholds),
-        cmocka_unit_test(a_shorter_scan_interval_confirms_as_half_the_rate_does),
-        cmocka_unit_test(a_larger_area_confirms_as_a_smaller_rate_does),
-        cmocka_unit_test(range_rates_ask_for_fewer_votes_in_the_same_clutter),
-        cmocka_unit_test(clutter_makes_about_as_many_tracks_as_wanted),
-        cmocka_unit_test(clutter_starts_tracks_that_process_noise_bends),
+        cmocka_unit_test(half_the_scan_interval_acts_as_half_the_allowed_rate),
+        cmocka_unit_test(four_times_the_area_acts_as_a_quarter_of_the_allowed_rate),
+        cmocka_unit_test(range_rates_lower_votes_and_thresholds),
+        cmocka_unit_test(clutter_makes_about_the_allowed_number_of_tracks),
+        cmocka_unit_test(clutter_starts_no_more_than_allowed_with_process_noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

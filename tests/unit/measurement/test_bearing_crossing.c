@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Crossings against rays intersected in double precision, and their covariance against many noisy
- * bearings.
+ * Crossings of bearings compared with rays intersected in double precision, and their covariance
+ * with that of many noisy bearings.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -43,20 +43,23 @@ static void set_base(double x_a_m, double y_a_m, double x_b_m, double y_b_m)
         RHO_OK);
 }
 
-/* Two sensors 5 to 20 km apart, anywhere, in any direction. */
-static void set_any_base(void)
+/* Places two sensors 5 to 20 km apart in any direction. */
+static void set_random_base(void)
 {
     double length_m = uniform(5e3, 20e3), direction = uniform(-PI, PI);
     double x_m = uniform(-20e3, 20e3), y_m = uniform(-20e3, 20e3);
     set_base(x_m, y_m, x_m + length_m * cos(direction), y_m + length_m * sin(direction));
 }
 
-/* Ranges of the lines' intersection from a and from b; negative behind a sensor. */
+/*
+ * Ranges of the lines' intersection from sensors a and b, negative behind a sensor; sine of their
+ * angle.
+ */
 struct rays {
     double a_m, b_m, sine;
 };
 
-static struct rays intersect(float bearing_a, float bearing_b)
+static struct rays intersect_rays(float bearing_a, float bearing_b)
 {
     double ca = cos(bearing_a), sa = sin(bearing_a), cb = cos(bearing_b), sb = sin(bearing_b);
     double dx = (double)base.x_b_m - (double)base.x_a_m;
@@ -64,21 +67,21 @@ static struct rays intersect(float bearing_a, float bearing_b)
     return (struct rays){(dx * sb - dy * cb) / sine, (dx * sa - dy * ca) / sine, sine};
 }
 
-/* So near to a limit that float32 may see it on the other side. */
+/* True if float may decide differently than double. */
 static int is_borderline(struct rays rays)
 {
     return fabs(rays.sine) < 1e-4 || fabs(rays.a_m - RANGE_MAX_M) < 100.0 ||
            fabs(rays.b_m - RANGE_MAX_M) < 100.0 || fabs(rays.a_m) < 1.0 || fabs(rays.b_m) < 1.0;
 }
 
-static void crossings_are_those_of_the_rays(void **state)
+static void crossings_agree_with_intersected_rays(void **state)
 {
     (void)state;
     int met = 0;
     for (int run = 0; run < 200000; run++) {
-        set_any_base();
+        set_random_base();
         float a = (float)uniform(-PI, PI), b = (float)uniform(-PI, PI);
-        struct rays rays = intersect(a, b);
+        struct rays rays = intersect_rays(a, b);
         if (is_borderline(rays)) {
             continue;
         }
@@ -94,17 +97,17 @@ static void crossings_are_those_of_the_rays(void **state)
     assert_true(met > 20000);
 }
 
-static void places_are_right_to_a_metre(void **state)
+static void crossing_places_are_exact_to_a_metre(void **state)
 {
     (void)state;
     for (int run = 0; run < 200000; run++) {
-        set_any_base();
+        set_random_base();
         double range_m = uniform(1e3, 80e3), direction = uniform(-PI, PI);
         double x_m = base.x_a_m + range_m * cos(direction);
         double y_m = base.y_a_m + range_m * sin(direction);
         float a = (float)atan2(y_m - base.y_a_m, x_m - base.x_a_m);
         float b = (float)atan2(y_m - base.y_b_m, x_m - base.x_b_m);
-        struct rays rays = intersect(a, b);
+        struct rays rays = intersect_rays(a, b);
         if (rays.b_m > 80e3 || fabs(rays.sine) < 0.02) {
             continue;
         }
@@ -118,8 +121,8 @@ static void places_are_right_to_a_metre(void **state)
     }
 }
 
-/* The paper's figures: sensors at 10 km to either side. */
-static void each_way_of_not_meeting_has_its_name(void **state)
+/* With sensors at (0, +-10 km), as in the paper's figures. */
+static void bearings_that_do_not_meet_tell_why(void **state)
 {
     (void)state;
     set_base(0, -10e3, 0, 10e3);
@@ -139,8 +142,8 @@ static void each_way_of_not_meeting_has_its_name(void **state)
     assert_string_equal(rho_crossing_fate_name(RHO_NUM_CROSSING_FATES), "unknown");
 }
 
-/* Two lines of sight to the east, a kilometre apart: they meet 10^9 m off at a microradian. */
-static void lines_meet_from_a_microradian_on(void **state)
+/* Nearly parallel lines a kilometre apart meet at 10^9 m if they differ by a microradian. */
+static void bearings_less_than_a_microradian_apart_are_parallel(void **state)
 {
     (void)state;
     set_base(0.0, 0.0, 0.0, 1000.0);
@@ -150,7 +153,7 @@ static void lines_meet_from_a_microradian_on(void **state)
                      RHO_CROSSING_RANGE);
 }
 
-static void a_target_behind_the_base_is_seen_as_well(void **state)
+static void a_crossing_behind_the_base_is_found(void **state)
 {
     (void)state;
     set_base(0, -10e3, 0, 10e3);
@@ -160,7 +163,7 @@ static void a_target_behind_the_base_is_seen_as_well(void **state)
     assert_float_equal(crossing.y_m, 5e3, 1.0);
 }
 
-static void delta_is_the_angle_between(void **state)
+static void the_crossing_angle_is_the_difference_of_the_bearings(void **state)
 {
     (void)state;
     set_base(0, -10e3, 0, 10e3);
@@ -171,14 +174,14 @@ static void delta_is_the_angle_between(void **state)
     assert_float_equal(rho_crossing_angle_or_minus_pi_rad(&base, 0.1f, 3.0f), -PI, 1e-6);
 }
 
-/* Which sensor is called a does not matter. */
-static void both_sensors_say_the_same(void **state)
+/* It does not matter which sensor is a and which is b. */
+static void exchanging_the_sensors_gives_the_same_crossing(void **state)
 {
     (void)state;
     for (int run = 0; run < 20000; run++) {
-        set_any_base();
+        set_random_base();
         float a = (float)uniform(-PI, PI), b = (float)uniform(-PI, PI);
-        struct rays rays = intersect(a, b);
+        struct rays rays = intersect_rays(a, b);
         enum rho_crossing_fate fate = rho_crossing_find(&base, a, b, RANGE_MAX_M, &crossing);
         struct rho_crossing first = crossing;
         set_base(base.x_b_m, base.y_b_m, base.x_a_m, base.y_a_m);
@@ -194,7 +197,7 @@ static void both_sensors_say_the_same(void **state)
     }
 }
 
-static void covariance_is_that_of_noisy_bearings(void **state)
+static void the_covariance_agrees_with_noisy_bearings(void **state)
 {
     (void)state;
     const float a = 0.35f, b = -0.12f, sigma_a = 0.002f, sigma_b = 0.001f;
@@ -221,7 +224,7 @@ static void covariance_is_that_of_noisy_bearings(void **state)
     assert_float_equal(covariance[2] / (sum[2] - mean[1] * mean[1]), 1.0, 0.03);
 }
 
-static void bad_bases_are_refused(void **state)
+static void invalid_sensor_places_are_refused(void **state)
 {
     (void)state;
     set_base(0, 0, 100, 0);
@@ -237,15 +240,15 @@ static void bad_bases_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(crossings_are_those_of_the_rays),
-        cmocka_unit_test(places_are_right_to_a_metre),
-        cmocka_unit_test(each_way_of_not_meeting_has_its_name),
-        cmocka_unit_test(lines_meet_from_a_microradian_on),
-        cmocka_unit_test(a_target_behind_the_base_is_seen_as_well),
-        cmocka_unit_test(delta_is_the_angle_between),
-        cmocka_unit_test(both_sensors_say_the_same),
-        cmocka_unit_test(covariance_is_that_of_noisy_bearings),
-        cmocka_unit_test(bad_bases_are_refused),
+        cmocka_unit_test(crossings_agree_with_intersected_rays),
+        cmocka_unit_test(crossing_places_are_exact_to_a_metre),
+        cmocka_unit_test(bearings_that_do_not_meet_tell_why),
+        cmocka_unit_test(bearings_less_than_a_microradian_apart_are_parallel),
+        cmocka_unit_test(a_crossing_behind_the_base_is_found),
+        cmocka_unit_test(the_crossing_angle_is_the_difference_of_the_bearings),
+        cmocka_unit_test(exchanging_the_sensors_gives_the_same_crossing),
+        cmocka_unit_test(the_covariance_agrees_with_noisy_bearings),
+        cmocka_unit_test(invalid_sensor_places_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

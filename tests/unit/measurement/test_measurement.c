@@ -28,7 +28,7 @@ static double normal(void)
     return radius * cos(uniform(0.0, 2.0 * PI));
 }
 
-static struct rho_polar_plot some_polar(void)
+static struct rho_polar_plot random_polar_plot(void)
 {
     return (struct rho_polar_plot){.offset_us = 1500,
                                    .range_m = (float)uniform(500.0, 90000.0),
@@ -52,13 +52,13 @@ static const struct rho_sensor somewhere = {.sensor_id = 3,
                                             .azimuth_bias_rad = 0.002f,
                                             .time_bias_s = 0.25f};
 
-/* ---- places ---------------------------------------------------------------------------------- */
+/* ---- conversion of polar plots -------------------------------------------------------------- */
 
-static void polar_plots_become_places(void **state)
+static void polar_plots_are_converted_to_places(void **state)
 {
     (void)state;
     for (int i = 0; i < 2000; i++) {
-        struct rho_polar_plot polar = some_polar();
+        struct rho_polar_plot polar = random_polar_plot();
         const struct rho_sensor *sensor = i % 2 ? &somewhere : NULL;
         int has_z = i % 3 != 0;
         struct rho_plot plot;
@@ -82,13 +82,16 @@ static void polar_plots_become_places(void **state)
     }
 }
 
-/* What many measurements of one target look like beside the plots made of them. */
+/* Errors of converted plots over many noisy measurements of one target. */
 struct spread {
-    double mean[3], covariance[3][3]; /* of the error along, across, up, about its mean */
-    double plain_along;               /* mean error along without debiasing */
+    /* mean, and covariance, along, across and up the line of sight */
+    double mean[3], covariance[3][3];
+    /* mean error along the line of sight of a conversion without debiasing */
+    double plain_along;
 };
 
-static struct spread spread_of(double range_m, double sigma_rad, double elevation, int count)
+static struct spread errors_of_conversion(double range_m, double sigma_rad, double elevation,
+                                          int count)
 {
     struct spread spread = {{0.0}, {{0.0}}, 0.0};
     double azimuth = 0.7, ce = cos(elevation), se = sin(elevation);
@@ -127,11 +130,12 @@ static struct spread spread_of(double range_m, double sigma_rad, double elevatio
     return spread;
 }
 
-/* Unbiased, and with the noise that is said: along, across and up the line of sight. */
-static void check_spread(double range_m, double sigma_rad, double elevation, double bias_m)
+/* Checks that converted places are unbiased and have the stated sigmas along, across and up. */
+static void check_conversion_errors(double range_m, double sigma_rad, double elevation,
+                                    double bias_m)
 {
     enum { COUNT = 40000 };
-    struct spread spread = spread_of(range_m, sigma_rad, elevation, COUNT);
+    struct spread spread = errors_of_conversion(range_m, sigma_rad, elevation, COUNT);
     struct rho_polar_plot polar = {
         .range_m = (float)range_m,
         .azimuth_rad = 0.7f,
@@ -153,15 +157,16 @@ static void check_spread(double range_m, double sigma_rad, double elevation, dou
     assert_float_equal(spread.plain_along, -bias_m, 4.0 * said[0] / sqrt(COUNT) + 0.05 * bias_m);
 }
 
-static void converted_places_are_unbiased(void **state)
+static void converted_places_are_unbiased_with_the_stated_noise(void **state)
 {
     (void)state;
-    check_spread(60000.0, 0.003, 0.1, 0.54); /* r sigma^2 / 2 for each of two angles */
-    check_spread(100000.0, 0.03, 0.1, 90.0); /* it matters: six times the range's sigma */
-    check_spread(20000.0, 0.03, -0.6, 0.5 * 20000.0 * 0.0009 * (1.0 + pow(cos(0.6), 2)));
+    /* bias r sigma^2 / 2 for each of two angles */
+    check_conversion_errors(60000.0, 0.003, 0.1, 0.54);
+    check_conversion_errors(100000.0, 0.03, 0.1, 90.0); /* a bias of six times the range's sigma */
+    check_conversion_errors(20000.0, 0.03, -0.6, 0.5 * 20000.0 * 0.0009 * (1.0 + pow(cos(0.6), 2)));
 }
 
-/* ---- refusals -------------------------------------------------------------------------------- */
+/* ---- refused and valid plots ---------------------------------------------------------------- */
 
 #define REFUSED(what)                                                                              \
     do {                                                                                           \
@@ -171,10 +176,10 @@ static void converted_places_are_unbiased(void **state)
         assert_memory_equal(&plot, &before, sizeof plot);                                          \
     } while (0)
 
-static void what_no_radar_measures_is_refused(void **state)
+static void polar_plots_out_of_range_are_refused(void **state)
 {
     (void)state;
-    struct rho_polar_plot good = some_polar();
+    struct rho_polar_plot good = random_polar_plot();
     struct rho_plot plot, before;
     memset(&plot, 0x33, sizeof plot);
     before = plot;
@@ -205,13 +210,13 @@ static void what_no_radar_measures_is_refused(void **state)
     assert_memory_equal(&plot, &before, sizeof plot);
 }
 
-static void biases_cannot_make_bad_plots(void **state)
+static void plots_made_invalid_by_biases_are_refused(void **state)
 {
     (void)state;
-    struct rho_polar_plot polar = some_polar();
+    struct rho_polar_plot polar = random_polar_plot();
     struct rho_plot plot;
     struct rho_sensor sensor = somewhere;
-    polar.range_m = 50.0f; /* all of it bias */
+    polar.range_m = 50.0f; /* the range is the bias */
     assert_int_equal(rho_measurement_from_polar(&polar, ALL, &sensor, &plot), RHO_ERROR_VALUE);
     polar.range_m = 51.0f;
     assert_int_equal(rho_measurement_from_polar(&polar, ALL, &sensor, &plot), RHO_OK);
@@ -232,10 +237,10 @@ static void biases_cannot_make_bad_plots(void **state)
         assert_int_equal(rho_measurement_from_polar(&good, ALL, &bad, &plot), RHO_ERROR_VALUE);    \
     } while (0)
 
-static void sensors_without_a_place_or_with_wild_biases_are_refused(void **state)
+static void sensors_with_invalid_places_or_biases_are_refused(void **state)
 {
     (void)state;
-    const struct rho_polar_plot good = some_polar();
+    const struct rho_polar_plot good = random_polar_plot();
     struct rho_plot plot;
     SENSOR_REFUSED(x_m, NAN);
     SENSOR_REFUSED(y_m, INFINITY);
@@ -247,8 +252,8 @@ static void sensors_without_a_place_or_with_wild_biases_are_refused(void **state
     SENSOR_REFUSED(time_bias_s, -11.0f);
 }
 
-/* A hundred thousand times as wide as deep, at any azimuth: still an ellipse. */
-static void the_thinnest_covariances_stay_positive_definite(void **state)
+/* A sigma across 10^5 times that along, at any azimuth. */
+static void very_thin_covariances_stay_positive_definite(void **state)
 {
     (void)state;
     for (int i = 0; i < 360; i++) {
@@ -266,10 +271,10 @@ static void the_thinnest_covariances_stay_positive_definite(void **state)
     }
 }
 
-static void what_is_not_measured_may_be_anything(void **state)
+static void values_of_unmeasured_fields_do_not_make_a_plot_invalid(void **state)
 {
     (void)state;
-    struct rho_polar_plot polar = some_polar();
+    struct rho_polar_plot polar = random_polar_plot();
     struct rho_plot plot;
     polar.elevation_rad = polar.range_rate_mps = polar.sigma_elevation_rad = NAN;
     polar.sigma_range_rate_mps = NAN;
@@ -282,7 +287,7 @@ static void what_is_not_measured_may_be_anything(void **state)
     assert_false(rho_measurement_is_valid_plot(&plot, RHO_MEASURES_RANGE_RATE));
 }
 
-static void a_plot_is_valid_field_by_field(void **state)
+static void one_invalid_field_makes_a_plot_invalid(void **state)
 {
     (void)state;
     const struct rho_plot good = {.x_m = 1.0f,
@@ -318,9 +323,9 @@ static void a_plot_is_valid_field_by_field(void **state)
     assert_false(rho_measurement_is_valid_plot(&late, 0));
 }
 
-/* ---- frames ---------------------------------------------------------------------------------- */
+/* ---- covariances ---------------------------------------------------------------------------- */
 
-static void the_covariance_has_the_axes_of_the_line_of_sight(void **state)
+static void covariances_have_the_axes_of_the_line_of_sight(void **state)
 {
     (void)state;
     for (int n = 0; n < 1000; n++) {
@@ -368,7 +373,7 @@ static void plots_without_a_line_of_sight_are_isotropic(void **state)
     float packed[6];
     rho_measurement_from_plot(&plot, RHO_MEASURES_Z, &somewhere, &seen);
     rho_measurement_covariance(&seen, packed);
-    /* overhead: the range is the height, and the other two axes are level, along any azimuth */
+    /* overhead: the line of sight is vertical, and the horizontal axes have any azimuth */
     const float overhead[6] = {400.0f, 0.0f, 900.0f, 0.0f, 0.0f, 100.0f};
     for (int i = 0; i < 6; i++) {
         assert_float_equal(packed[i], overhead[i], 1e-3f);
@@ -388,16 +393,16 @@ static void plots_without_a_line_of_sight_are_isotropic(void **state)
     assert_false(seen.is_isotropic);
 }
 
-/* ---- range rate and coverage ----------------------------------------------------------------- */
+/* ---- range rates and coverage --------------------------------------------------------------- */
 
-static double rate_of(const double state[6], int use_z)
+static double range_rate_of(const double state[6], int use_z)
 {
     double d[3] = {state[0] - 1200.0, state[1] + 3400.0, use_z ? state[2] - 250.0 : 0.0};
     double range = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     return (d[0] * state[3] + d[1] * state[4] + d[2] * (use_z ? state[5] : 0.0)) / range;
 }
 
-static void range_rates_and_their_derivatives(void **state)
+static void predicted_range_rates_and_their_derivatives_are_right(void **state)
 {
     (void)state;
     for (int n = 0; n < 500; n++) {
@@ -410,15 +415,16 @@ static void range_rates_and_their_derivatives(void **state)
         }
         assert_int_equal(rho_measurement_predict_range_rate(single, &somewhere, use_z, row, &rate),
                          1);
-        assert_float_equal(rate, rate_of(at, use_z), 2e-3);
+        assert_float_equal(rate, range_rate_of(at, use_z), 2e-3);
         for (int i = 0; i < 6; i++) {
             double step = i < 3 ? 1.0 : 0.01, up[6], down[6];
             memcpy(up, at, sizeof at);
             memcpy(down, at, sizeof at);
             up[i] += step;
             down[i] -= step;
-            assert_float_equal(row[i], (rate_of(up, use_z) - rate_of(down, use_z)) / (2.0 * step),
-                               1e-5);
+            assert_float_equal(
+                row[i], (range_rate_of(up, use_z) - range_rate_of(down, use_z)) / (2.0 * step),
+                1e-5);
         }
     }
     const float there[6] = {1200.5f, -3400.0f, 250.0f, 100.0f, 0.0f, 0.0f};
@@ -428,7 +434,7 @@ static void range_rates_and_their_derivatives(void **state)
     assert_int_equal(rho_measurement_predict_range_rate(there, NULL, 1, row, &rate), 1);
 }
 
-static void a_scan_looks_within_its_sector_and_range(void **state)
+static void a_place_is_covered_within_sector_and_range(void **state)
 {
     (void)state;
     struct rho_sensor sensor = {.sensor_id = 1,
@@ -437,22 +443,26 @@ static void a_scan_looks_within_its_sector_and_range(void **state)
                                 .range_min_m = 100.0f,
                                 .range_max_m = 5000.0f,
                                 .sector_from_rad = 2.0f,
-                                .sector_to_rad = -2.0f}; /* over pi */
+                                .sector_to_rad = -2.0f}; /* across +-pi */
     assert_true(rho_measurement_covers(&sensor, 0.0f, 0.0f, -1000.0f, 10.0f));
     assert_true(rho_measurement_covers(&sensor, 0.0f, 0.0f, -1000.0f, -10.0f));
-    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, 3000.0f, 0.0f));  /* its sector */
-    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, 950.0f, 0.0f));   /* too near */
-    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, -4100.0f, 0.0f)); /* too far */
+    /* outside the sensor's sector */
+    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, 3000.0f, 0.0f));
+    /* below range_min_m */
+    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, 950.0f, 0.0f));
+    /* beyond range_max_m */
+    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, -4100.0f, 0.0f));
     assert_true(rho_measurement_covers(&sensor, 3.0f, -3.0f, -1000.0f, 10.0f));
-    assert_false(rho_measurement_covers(&sensor, -3.1f, -2.0f, -1000.0f, 10.0f)); /* the scan's */
+    /* outside the scan's sector */
+    assert_false(rho_measurement_covers(&sensor, -3.1f, -2.0f, -1000.0f, 10.0f));
     assert_true(rho_measurement_covers(NULL, 0.0f, 0.0f, 1e6f, 1e6f));
     assert_false(rho_measurement_covers(NULL, 0.0f, 0.5f, 1e6f, 1e6f));
 }
 
-/* ---- bearings, and the description of a sensor ----------------------------------------------- */
+/* ---- bearings, learned sigmas, time biases --------------------------------------------------- */
 
-/* Against differences of the innovation in double precision. */
-static void a_bearing_is_linear_in_metres_across(void **state)
+/* Compared with the innovation in double precision. */
+static void the_innovation_of_a_bearing_is_in_metres_across(void **state)
 {
     (void)state;
     for (int n = 0; n < 500; n++) {
@@ -473,7 +483,7 @@ static void a_bearing_is_linear_in_metres_across(void **state)
     }
 }
 
-static void a_bearing_needs_a_metre_and_numbers(void **state)
+static void a_bearing_needs_a_metre_of_range_and_finite_states(void **state)
 {
     float row[6] = {7.0f}, off_m = 7.0f, range_m = 7.0f;
     const float near_m[6] = {0.5f, 0.5f}, none_m[6] = {NAN, 0.0f}, far_m[6] = {INFINITY, 0.0f};
@@ -490,7 +500,7 @@ static void a_bearing_needs_a_metre_and_numbers(void **state)
     assert_true(rho_measurement_bearing_innovation(at_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
 }
 
-static void bearings_have_limits(void **state)
+static void bearings_out_of_range_are_invalid(void **state)
 {
     const struct rho_bearing good = {.bearing_rad = RHO_PI, .sigma_rad = 0.002f};
     struct rho_bearing bad = good;
@@ -510,7 +520,7 @@ static void bearings_have_limits(void **state)
     assert_true(rho_measurement_is_valid_bearing(&bad));
 }
 
-static void percentages_are_factors_of_sigmas(void **state)
+static void learned_percentages_scale_the_sigmas(void **state)
 {
     const struct rho_sensor stated = {.sensor_id = 1};
     const struct rho_sensor learned = {.sigma_range_percent = 50, .sigma_cross_percent = 250};
@@ -545,22 +555,22 @@ static void time_biases_are_rounded_to_microseconds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(polar_plots_become_places),
-        cmocka_unit_test(converted_places_are_unbiased),
-        cmocka_unit_test(what_no_radar_measures_is_refused),
-        cmocka_unit_test(sensors_without_a_place_or_with_wild_biases_are_refused),
-        cmocka_unit_test(the_thinnest_covariances_stay_positive_definite),
-        cmocka_unit_test(biases_cannot_make_bad_plots),
-        cmocka_unit_test(what_is_not_measured_may_be_anything),
-        cmocka_unit_test(a_plot_is_valid_field_by_field),
-        cmocka_unit_test(the_covariance_has_the_axes_of_the_line_of_sight),
+        cmocka_unit_test(polar_plots_are_converted_to_places),
+        cmocka_unit_test(converted_places_are_unbiased_with_the_stated_noise),
+        cmocka_unit_test(polar_plots_out_of_range_are_refused),
+        cmocka_unit_test(sensors_with_invalid_places_or_biases_are_refused),
+        cmocka_unit_test(very_thin_covariances_stay_positive_definite),
+        cmocka_unit_test(plots_made_invalid_by_biases_are_refused),
+        cmocka_unit_test(values_of_unmeasured_fields_do_not_make_a_plot_invalid),
+        cmocka_unit_test(one_invalid_field_makes_a_plot_invalid),
+        cmocka_unit_test(covariances_have_the_axes_of_the_line_of_sight),
         cmocka_unit_test(plots_without_a_line_of_sight_are_isotropic),
-        cmocka_unit_test(range_rates_and_their_derivatives),
-        cmocka_unit_test(a_scan_looks_within_its_sector_and_range),
-        cmocka_unit_test(a_bearing_is_linear_in_metres_across),
-        cmocka_unit_test(a_bearing_needs_a_metre_and_numbers),
-        cmocka_unit_test(bearings_have_limits),
-        cmocka_unit_test(percentages_are_factors_of_sigmas),
+        cmocka_unit_test(predicted_range_rates_and_their_derivatives_are_right),
+        cmocka_unit_test(a_place_is_covered_within_sector_and_range),
+        cmocka_unit_test(the_innovation_of_a_bearing_is_in_metres_across),
+        cmocka_unit_test(a_bearing_needs_a_metre_of_range_and_finite_states),
+        cmocka_unit_test(bearings_out_of_range_are_invalid),
+        cmocka_unit_test(learned_percentages_scale_the_sigmas),
         cmocka_unit_test(time_biases_are_rounded_to_microseconds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

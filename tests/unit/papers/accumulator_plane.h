@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * accumulator_plane: points, configurations, and an accumulator that holds the whole plane, written
- * without a thought of speed, for the tests that hold the streamed one against it.
+ * Reference of the accumulator: it holds the whole plane and is written for clarity, not speed;
+ * also points and configurations for the tests that compare the streamed accumulator with it.
  */
 #ifndef TEST_ACCUMULATOR_PLANE_H
 #define TEST_ACCUMULATOR_PLANE_H
@@ -37,7 +37,7 @@ static inline double uniform(double from, double to)
 
 /* ---- the whole plane ------------------------------------------------------------------------- */
 
-static uint16_t *plane; /* masks, or numbers of points */
+static uint16_t *plane; /* each cell's bit mask of scans, or number of points */
 static const struct rho_accumulator_config *of;
 
 static inline int num_theta(void)
@@ -77,7 +77,7 @@ static inline void fill_plane(void)
     }
 }
 
-/* A place of the plane; beyond the ends of theta the same line from the other side. */
+/* A cell of the plane; beyond the ends of theta a line continues with the opposite rho. */
 struct cell {
     int theta, rho;
 };
@@ -101,7 +101,7 @@ static inline int votes_at(struct cell cell)
     return of->votes == RHO_VOTES_SCANS ? count_bits(value) : (int)value;
 }
 
-static inline int beats(struct cell other, struct cell cell)
+static inline int is_cell_better(struct cell other, struct cell cell)
 {
     int is_first = other.theta < cell.theta || (other.theta == cell.theta && other.rho < cell.rho);
     return votes_at(other) > votes_at(cell) || (votes_at(other) == votes_at(cell) && is_first);
@@ -113,7 +113,7 @@ static inline int is_peak(struct cell cell)
         for (int rho = -1; rho <= 1; rho++) {
             int is_corner = theta != 0 && rho != 0, is_self = theta == 0 && rho == 0;
             if (!is_self && !(is_corner && of->neighbours == 4) &&
-                beats(wrapped_cell(cell.theta + theta, cell.rho + rho), cell)) {
+                is_cell_better(wrapped_cell(cell.theta + theta, cell.rho + rho), cell)) {
                 return 0;
             }
         }
@@ -154,7 +154,9 @@ static inline uint32_t expect_peaks(void)
     return count;
 }
 
-/* ---- runs ------------------------------------------------------------------------------------ */
+/*
+ * ---- runs of the library ----------------------------------------------------------------------
+ */
 
 static inline struct rho_accumulator_config paper_cells(void)
 {
@@ -171,7 +173,7 @@ static inline void prepare_accumulator(const struct rho_accumulator_config *conf
     assert_int_equal(rho_accumulator_init(&accumulator, sizeof accumulator, config), RHO_OK);
 }
 
-/* So many points over so many scans in a square. */
+/* Draws points in a square about the origin, divided evenly among the scans. */
 static inline void scatter_points(unsigned num_scans, unsigned count, double half_m)
 {
     points.num_scans = num_scans;

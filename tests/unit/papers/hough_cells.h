@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * The cells, peaks and tracks of hough_reference.h's votes, and the library's beside them.
- */
+/* Cells and peaks from the votes of hough_reference.h, and their comparison with the library's. */
 #ifndef RHOTRACK_TESTS_HOUGH_CELLS_H
 #define RHOTRACK_TESTS_HOUGH_CELLS_H
 
@@ -9,7 +7,9 @@
 
 #define CELLS_MAX 800000
 
-/* ---- the library's --------------------------------------------------------------------------- */
+/*
+ * ---- runs of the library ----------------------------------------------------------------------
+ */
 
 static struct rho_hough hough;
 static struct rho_hough_result result;
@@ -20,7 +20,7 @@ static inline void prepare_hough(void)
     assert_int_equal(rho_hough_init(&hough, sizeof hough, &config), RHO_OK);
 }
 
-static inline void find_some(uint32_t max_peaks)
+static inline void find_limited_peaks(uint32_t max_peaks)
 {
     prepare_hough();
     memset(&result, 0x5a, sizeof result);
@@ -29,20 +29,20 @@ static inline void find_some(uint32_t max_peaks)
 
 static inline void find_peaks(void)
 {
-    find_some(CELLS_MAX);
+    find_limited_peaks(CELLS_MAX);
     assert_int_equal(result.cells_dropped, 0);
     assert_int_equal(result.votes_dropped, 0);
     assert_int_equal(result.kernels_dropped, 0);
 }
 
-/* The paper's values for its first scene, 2000 x 3142 cells. */
+/* Sets the paper's values for its first scene: 2000 x 3142 cells. */
 static inline void use_paper_values(enum rho_hough_method method)
 {
     rho_hough_config_default(&config, method);
     config.rho_max_m = 5000.0f;
 }
 
-/* The same, and every cell that has votes is listed. */
+/* Sets the paper's values, and lists every cell that has votes. */
 static inline void use_paper_values_all_cells(enum rho_hough_method method)
 {
     use_paper_values(method);
@@ -62,9 +62,11 @@ static inline int by_rank(const void *a, const void *b)
     return (p->rho_cell > q->rho_cell) - (p->rho_cell < q->rho_cell);
 }
 
-/* ---- votes ----------------------------------------------------------------------------------- */
+/*
+ * ---- votes ------------------------------------------------------------------------------------
+ */
 
-/* Of one source, a pair, plot or scan, a cell takes the largest vote only. */
+/* A vote for a cell. Of one source, a pair, plot or scan, a cell counts the largest vote only. */
 struct vote {
     uint32_t key, source;
     struct vote_bounds bounds;
@@ -90,47 +92,48 @@ static inline void vote(struct place place, uint32_t source, struct vote_bounds 
         votes_room = votes_room ? 2 * votes_room : 1 << 16;
         votes = realloc(votes, votes_room * sizeof *votes);
     }
-    votes[num_votes++] = (struct vote){key_of(place), source, bounds};
+    votes[num_votes++] = (struct vote){sort_key_of_place(place), source, bounds};
 }
 
-static inline struct vote_bounds scaled(struct vote_bounds bounds, double by)
+static inline struct vote_bounds scaled_bounds(struct vote_bounds bounds, double by)
 {
     return (struct vote_bounds){bounds.value * by, bounds.least * by, bounds.most * by};
 }
 
-/* Reading C's weight of a cell so far from the pair's own. */
-static inline double weight_of(long theta, long rho)
+/* Weight of a cell this many rows and columns from the pair's own, in reading C of the paper. */
+static inline double weight_of_neighbour(long theta, long rho)
 {
     struct line away = {(double)rho * (double)config.rho_cell_m,
                         (double)theta * (double)config.theta_cell_rad};
-    return closeness(away);
+    return gaussian_of_offset(away);
 }
 
-/* Whole cells; what lacks a hundredth counts as one. */
-static inline long reach_theta(void)
+/* Number of whole cells within 2 eps; a hundredth of a cell may be missing. */
+static inline long neighbourhood_rows(void)
 {
     return (long)(2.0 * (double)config.eps_theta_rad / (double)config.theta_cell_rad + 0.01);
 }
 
-static inline long reach_rho(void)
+static inline long neighbourhood_columns(void)
 {
     return (long)(2.0 * (double)config.eps_rho_m / (double)config.rho_cell_m + 0.01);
 }
 
-static inline void vote_around(struct place own, uint32_t source, struct vote_bounds bounds)
+static inline void vote_for_neighbourhood(struct place own, uint32_t source,
+                                          struct vote_bounds bounds)
 {
-    long kt = config.method == RHO_HOUGH_NHT_C ? reach_theta() : 0;
-    long kr = config.method == RHO_HOUGH_NHT_C ? reach_rho() : 0;
+    long kt = config.method == RHO_HOUGH_NHT_C ? neighbourhood_rows() : 0;
+    long kr = config.method == RHO_HOUGH_NHT_C ? neighbourhood_columns() : 0;
     for (long a = -kt; a <= kt && is_in_plane(own); a++) {
         for (long b = -kr; b <= kr; b++) {
-            struct place place = wrapped((struct place){own.theta + a, own.rho + b});
-            vote(place, source, scaled(bounds, weight_of(a, b)));
+            struct place place = wrapped_place((struct place){own.theta + a, own.rho + b});
+            vote(place, source, scaled_bounds(bounds, weight_of_neighbour(a, b)));
         }
     }
 }
 
-/* The cells that a line may be in: its own, and those that are nearer than CELL_SLACK. */
-static inline int places_of(struct line line, struct place places[5])
+/* Cells that a line may be in: its own one, and others nearer than CELL_SLACK. */
+static inline int possible_places_of_line(struct line line, struct place places[5])
 {
     int num = 1;
     places[0] = place_of(line);
@@ -138,7 +141,7 @@ static inline int places_of(struct line line, struct place places[5])
         struct line moved = {
             line.rho + (i & 1 ? CELL_SLACK : -CELL_SLACK) * (double)config.rho_cell_m,
             line.theta + (i & 2 ? CELL_SLACK : -CELL_SLACK) * (double)config.theta_cell_rad};
-        struct place place = place_of(upright(moved));
+        struct place place = place_of(wrapped_line(moved));
         int k = 0;
         while (k < num && (places[k].theta != place.theta || places[k].rho != place.rho)) {
             k++;
@@ -149,16 +152,16 @@ static inline int places_of(struct line line, struct place places[5])
     return num;
 }
 
-/* What the result should count. */
+/* Counts that the result of the library must agree with. */
 static struct {
     uint32_t pairs, lines, candidates, candidates_surely, voters, at_limits, votes, votes_surely;
 } counted;
 
 static inline void vote_pair(const struct pair *pair, const struct pairs *kernels)
 {
-    struct vote_bounds bounds = bounds_of(pair, kernels);
+    struct vote_bounds bounds = vote_bounds_of_pair(pair, kernels);
     struct place places[5];
-    int num = places_of(pair->line, places);
+    int num = possible_places_of_line(pair->line, places);
     uint32_t source = counted.lines++;
     counted.candidates += pair->gated != NO;
     counted.candidates_surely += pair->gated == YES;
@@ -166,7 +169,7 @@ static inline void vote_pair(const struct pair *pair, const struct pairs *kernel
     counted.at_limits += bounds.most > 0.0 && (num > 1 || bounds.least <= 0.0);
     for (int i = 0; i < num; i++) {
         struct vote_bounds vague = {i == 0 ? bounds.value : 0.0, 0.0, bounds.most};
-        vote_around(places[i], source, num == 1 ? bounds : vague);
+        vote_for_neighbourhood(places[i], source, num == 1 ? bounds : vague);
     }
 }
 
@@ -174,7 +177,7 @@ static inline void vote_pairs(void)
 {
     struct pairs before = {NULL, 0};
     for (unsigned scan = 1; scan < points.at.num_scans; scan++) {
-        struct pairs pairs = pairs_of(scan);
+        struct pairs pairs = voting_pairs_of_scan(scan);
         unsigned from = scan_end[scan - 1] - scan_start(scan - 1);
         counted.pairs += from * (scan_end[scan] - scan_end[scan - 1]);
         for (size_t i = 0; i < pairs.num; i++) {
@@ -186,7 +189,10 @@ static inline void vote_pairs(void)
     free(before.list);
 }
 
-/* Float rounds x cos + y sin more often than the pairs' rho: four times the slack. */
+/*
+ * Votes of plots. Float rounds x cos + y sin more often than the rho of a pair: four times the
+ * slack.
+ */
 static inline void vote_plots(void)
 {
     for (unsigned i = 0; i < num_plots(); i++) {
@@ -217,13 +223,13 @@ static inline int by_cell(const void *a, const void *b)
     return (p->source > q->source) - (p->source < q->source);
 }
 
-static inline struct vote_bounds larger(struct vote_bounds a, struct vote_bounds b)
+static inline struct vote_bounds larger_bounds(struct vote_bounds a, struct vote_bounds b)
 {
     return (struct vote_bounds){fmax(a.value, b.value), fmax(a.least, b.least),
                                 fmax(a.most, b.most)};
 }
 
-static inline void add_up_votes(void)
+static inline void sum_votes_by_cell(void)
 {
     qsort(votes, num_votes, sizeof *votes, by_cell);
     num_cells = 0;
@@ -231,7 +237,7 @@ static inline void add_up_votes(void)
         struct vote_bounds bounds = votes[i].bounds;
         uint32_t key = votes[i].key, source = votes[i].source;
         while (++i < num_votes && votes[i].key == key && votes[i].source == source) {
-            bounds = larger(bounds, votes[i].bounds);
+            bounds = larger_bounds(bounds, votes[i].bounds);
         }
         if (num_cells == 0 || cells[num_cells - 1].key != key) {
             assert_true(num_cells < CELLS_MAX);
@@ -256,17 +262,19 @@ static inline void expect_reference(void)
     } else {
         vote_pairs();
     }
-    add_up_votes();
+    sum_votes_by_cell();
 }
 
-/* ---- cells beside cells ---------------------------------------------------------------------- */
+/*
+ * ---- comparison of cells ----------------------------------------------------------------------
+ */
 
 static struct {
-    size_t cells, exact; /* of them those with nothing at a limit */
-    double worst;        /* parts of a vote that they are off, by voter */
+    size_t cells, exact; /* cells compared, and those of them without a value near a limit */
+    double worst;        /* largest error, in parts of a vote for each voter */
 } seen;
 
-static inline struct cell *cell_of(uint32_t key)
+static inline struct cell *find_cell(uint32_t key)
 {
     size_t from = 0, to = num_cells;
     while (from < to) {
@@ -298,12 +306,15 @@ static inline void expect_cell(const struct cell *cell, double slack)
     }
 }
 
-/* Every cell that the library listed, against every cell; slack in parts of a vote, a voter. */
+/*
+ * Compares all cells that the library listed with the reference; slack is in parts of a vote for
+ * each voter.
+ */
 static inline void expect_cells(double slack)
 {
     for (uint32_t i = 0; i < result.num_peaks; i++) {
         uint32_t key = peaks[i].theta_cell * (uint32_t)num_rho() + peaks[i].rho_cell;
-        struct cell *cell = cell_of(key);
+        struct cell *cell = find_cell(key);
         assert_true(i == 0 || by_rank(&peaks[i - 1], &peaks[i]) < 0);
         assert_true(peaks[i].votes > 0);
         if (!cell) {
@@ -329,7 +340,9 @@ static inline void expect_counts(void)
     assert_true(result.votes >= counted.votes_surely && result.votes <= counted.votes);
 }
 
-/* ---- peaks ----------------------------------------------------------------------------------- */
+/*
+ * ---- peaks ------------------------------------------------------------------------------------
+ */
 
 struct peak {
     double votes;
@@ -350,19 +363,23 @@ static inline int peaks_by_rank(const void *a, const void *b)
     return (p->at.rho > q->at.rho) - (p->at.rho < q->at.rho);
 }
 
-static inline int suppresses(const struct peak *a, const struct peak *b)
+static inline int is_peak_within_neighbourhood(const struct peak *a, const struct peak *b)
 {
     for (long turn = -1; turn <= 1; turn++) {
         long theta = b->at.theta + turn * num_theta();
         long rho = turn ? num_rho() - 1 - b->at.rho : b->at.rho;
-        if (labs(a->at.theta - theta) <= reach_theta() && labs(a->at.rho - rho) <= reach_rho()) {
+        if (labs(a->at.theta - theta) <= neighbourhood_rows() &&
+            labs(a->at.rho - rho) <= neighbourhood_columns()) {
             return 1;
         }
     }
     return 0;
 }
 
-/* Of listed, those with enough votes, best first, and of them those that stay. */
+/*
+ * Keeps in `listed` the peaks with enough votes, best first, without suppressed ones; returns their
+ * number.
+ */
 static inline size_t choose_peaks(size_t num)
 {
     double most = 0.0;
@@ -379,7 +396,7 @@ static inline size_t choose_peaks(size_t num)
     qsort(listed, above, sizeof *listed, peaks_by_rank);
     for (size_t i = 0; i < above; i++) {
         size_t k = config.keeps_all_cells ? kept : 0;
-        while (k < kept && !suppresses(&listed[k], &listed[i])) {
+        while (k < kept && !is_peak_within_neighbourhood(&listed[k], &listed[i])) {
             k++;
         }
         if (k == kept) {
@@ -389,7 +406,10 @@ static inline size_t choose_peaks(size_t num)
     return kept;
 }
 
-/* Peaks as exact arithmetic has them, or as they follow from the cells that the library listed. */
+/*
+ * Expected peaks: by the reference's exact votes, or by the votes of the cells that the library
+ * listed.
+ */
 static inline size_t choose_from_cells(void)
 {
     for (size_t i = 0; i < num_cells; i++) {

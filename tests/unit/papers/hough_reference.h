@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The papers' initiation methods in double precision, without a thought of speed: every pair
- * against every pair, all votes in one long list that is sorted by cell. Nothing is shared with the
- * library but its inputs.
- *
- * A line, a length or a kernel so near a limit that float and double may disagree is let fall
- * either way: a cell has the least and the most votes that it can have, and value, what exact
- * arithmetic gives it.
+ * Reference of the papers' initiation methods in double precision, written for clarity, not speed:
+ * every pair is compared with every pair, and all votes are sorted by cell. The library shares its
+ * inputs only. A line, length or kernel near a limit, where float and double may differ, counts
+ * both ways: a cell has the least and the most votes possible, and the value of exact arithmetic.
  */
 #ifndef RHOTRACK_TESTS_HOUGH_REFERENCE_H
 #define RHOTRACK_TESTS_HOUGH_REFERENCE_H
@@ -24,14 +21,16 @@
 #include "rhotrack/hough.h"
 
 #define REFERENCE_PI 3.14159265358979323846
-#define CELL_SLACK 1e-3 /* of a cell */
-#define EPS_SLACK 1e-3  /* of eps */
-#define GATE_SLACK 1e-6 /* of a length */
-#define VOTE_SLACK 2e-4 /* about the threshold F */
+#define CELL_SLACK 1e-3 /* share of a cell */
+#define EPS_SLACK 1e-3  /* share of eps */
+#define GATE_SLACK 1e-6 /* share of a length */
+#define VOTE_SLACK 2e-4 /* distance from the threshold F */
 
 static struct rho_hough_config config;
 
-/* ---- plots ----------------------------------------------------------------------------------- */
+/*
+ * ---- plots ------------------------------------------------------------------------------------
+ */
 
 #define PLOTS_MAX 70000
 
@@ -41,7 +40,7 @@ static struct rho_hough_points points = {.at = {.x_m = x_m, .y_m = y_m, .scan_en
                                          .t_s = t_s};
 static uint64_t random_state = 1;
 
-/* No libm: the same plots everywhere. */
+/* Random numbers without libm, so that plots are equal on every machine. */
 static inline double uniform(double from, double to)
 {
     random_state = random_state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
@@ -88,10 +87,10 @@ static inline void add_plot(double x, double y, double t)
 }
 
 /*
- * Two kernels of two scans and a plot of the third: the pair along y = 1000 is 12 m from one
- * kernel, 30 m from the other, 9 m from the line between.
+ * Adds two kernels in two scans and a plot in the third one: the pair along y = 1000 is 12 m from
+ * one kernel, 30 m from the other, and 9 m from the line between them.
  */
-static inline void lay_two_kernels(void)
+static inline void add_two_kernels(void)
 {
     points.at.num_scans = 0;
     start_scan();
@@ -105,14 +104,15 @@ static inline void lay_two_kernels(void)
     add_plot(1100.0, 1000.0, 4.0);
 }
 
-/* x first: the order in which a call's arguments are computed is the compiler's. */
-static inline void add_noisy(double x, double y, double t, double noise_m)
+/* Noise is drawn for x first, as the order in which arguments are evaluated is the compiler's. */
+static inline void add_noisy_plot(double x, double y, double t, double noise_m)
 {
     double dx = noise_m * normal();
     add_plot(x + dx, y + noise_m * normal(), t);
 }
 
-static inline void add_anywhere(double x_from, double x_to, double y_from, double y_to, double t)
+static inline void add_plot_in_rectangle(double x_from, double x_to, double y_from, double y_to,
+                                         double t)
 {
     double x = uniform(x_from, x_to);
     add_plot(x, uniform(y_from, y_to), t);
@@ -133,9 +133,10 @@ static inline unsigned scan_of(unsigned plot)
 }
 
 /*
- * The three targets of the paper's Table 1, 2 s apart, and clutter plots so many times 10 / km^2.
+ * Adds the three targets of the paper's Table 1, 2 s from scan to scan, with noise; clutter has 10
+ * plots a km^2 on average.
  */
-static inline void lay_table_1(unsigned num_scans, double noise_m, int has_clutter)
+static inline void add_scene_of_table_1(unsigned num_scans, double noise_m, int has_clutter)
 {
     const double targets[3][4] = {{300.0, 280.0, 400.0, 49.0},
                                   {3000.0, -173.2, 300.0, -100.0},
@@ -146,15 +147,17 @@ static inline void lay_table_1(unsigned num_scans, double noise_m, int has_clutt
         start_scan();
         for (int i = 0; i < 3; i++) {
             const double *at = targets[i];
-            add_noisy(at[0] + at[1] * t, at[2] + at[3] * t, t, noise_m);
+            add_noisy_plot(at[0] + at[1] * t, at[2] + at[3] * t, t, noise_m);
         }
         for (unsigned n = has_clutter ? poisson_of_100() : 0; n > 0; n--) {
-            add_anywhere(0.0, 4000.0, -1000.0, 1500.0, t);
+            add_plot_in_rectangle(0.0, 4000.0, -1000.0, 1500.0, t);
         }
     }
 }
 
-/* ---- lines ----------------------------------------------------------------------------------- */
+/*
+ * ---- lines ------------------------------------------------------------------------------------
+ */
 
 struct line {
     double rho, theta;
@@ -175,7 +178,7 @@ static inline long num_rho(void)
 }
 
 /* The same line with theta in [0, pi). */
-static inline struct line upright(struct line line)
+static inline struct line wrapped_line(struct line line)
 {
     while (line.theta < 0.0) {
         line = (struct line){-line.rho, line.theta + REFERENCE_PI};
@@ -186,15 +189,15 @@ static inline struct line upright(struct line line)
     return line;
 }
 
-static inline struct line line_along(double x, double y, double dx, double dy)
+static inline struct line line_through_point(double x, double y, double dx, double dy)
 {
-    return upright((struct line){(dx * y - dy * x) / sqrt(dx * dx + dy * dy), atan2(dx, -dy)});
+    return wrapped_line((struct line){(dx * y - dy * x) / sqrt(dx * dx + dy * dy), atan2(dx, -dy)});
 }
 
 static inline struct line line_of_plots(unsigned a, unsigned b)
 {
     double x = (double)x_m[a], y = (double)y_m[a];
-    return line_along(x, y, (double)x_m[b] - x, (double)y_m[b] - y);
+    return line_through_point(x, y, (double)x_m[b] - x, (double)y_m[b] - y);
 }
 
 static inline struct place place_of(struct line line)
@@ -209,8 +212,8 @@ static inline int is_in_plane(struct place place)
     return place.theta >= 0 && place.theta < num_theta() && place.rho >= 0 && place.rho < num_rho();
 }
 
-/* Beyond the ends of theta the same line from the other side. */
-static inline struct place wrapped(struct place place)
+/* Beyond the ends of theta a cell continues with the opposite rho. */
+static inline struct place wrapped_place(struct place place)
 {
     if (place.theta < 0 || place.theta >= num_theta()) {
         place.theta += place.theta < 0 ? num_theta() : -num_theta();
@@ -219,12 +222,12 @@ static inline struct place wrapped(struct place place)
     return place;
 }
 
-static inline uint32_t key_of(struct place place)
+static inline uint32_t sort_key_of_place(struct place place)
 {
     return (uint32_t)(place.theta * num_rho() + place.rho);
 }
 
-/* How far another line is, by the nearer of its two points. */
+/* Distance of two lines in rho and theta, by the nearer of (rho, theta) and (-rho, theta +- pi). */
 static inline struct line line_offset(struct line from, struct line to)
 {
     double dtheta = to.theta - from.theta, rho = to.rho;
@@ -235,32 +238,35 @@ static inline struct line line_offset(struct line from, struct line to)
     return (struct line){rho - from.rho, dtheta};
 }
 
-static inline double closeness(struct line offset)
+static inline double gaussian_of_offset(struct line offset)
 {
     double rho = offset.rho / (double)config.eps_rho_m;
     double theta = offset.theta / (double)config.eps_theta_rad;
     return exp(-(rho * rho + theta * theta) / 2.0);
 }
 
-/* ---- pairs ----------------------------------------------------------------------------------- */
+/*
+ * ---- pairs ------------------------------------------------------------------------------------
+ */
 
 enum verdict { NO, MAYBE, YES };
 
-static inline enum verdict verdict(double value, double limit, double slack)
+static inline enum verdict verdict_below_limit(double value, double limit, double slack)
 {
     return value <= limit - slack ? YES : value <= limit + slack ? MAYBE : NO;
 }
 
-static inline enum verdict both(enum verdict a, enum verdict b)
+static inline enum verdict lesser_verdict(enum verdict a, enum verdict b)
 {
     return a < b ? a : b;
 }
 
-static inline enum verdict is_near(struct line offset)
+static inline enum verdict is_within_neighbourhood(struct line offset)
 {
     double rho = fabs(offset.rho) / (double)config.eps_rho_m;
     double theta = fabs(offset.theta) / (double)config.eps_theta_rad;
-    return both(verdict(rho, 2.0, EPS_SLACK), verdict(theta, 2.0, EPS_SLACK));
+    return lesser_verdict(verdict_below_limit(rho, 2.0, EPS_SLACK),
+                          verdict_below_limit(theta, 2.0, EPS_SLACK));
 }
 
 struct pair {
@@ -274,23 +280,23 @@ struct pairs {
     size_t num;
 };
 
-static inline double length_of(unsigned a, unsigned b)
+static inline double pair_length_m(unsigned a, unsigned b)
 {
     return hypot((double)x_m[b] - (double)x_m[a], (double)y_m[b] - (double)y_m[a]);
 }
 
-static inline enum verdict is_gated(unsigned a, unsigned b)
+static inline enum verdict is_pair_within_speed_limits(unsigned a, unsigned b)
 {
-    double dt = (double)t_s[b] - (double)t_s[a], d = length_of(a, b);
+    double dt = (double)t_s[b] - (double)t_s[a], d = pair_length_m(a, b);
     if (dt <= 0.0) {
         return NO;
     }
-    return both(verdict((double)config.v_min_mps * dt, d, GATE_SLACK * d),
-                verdict(d, (double)config.v_max_mps * dt, GATE_SLACK * d));
+    return lesser_verdict(verdict_below_limit((double)config.v_min_mps * dt, d, GATE_SLACK * d),
+                          verdict_below_limit(d, (double)config.v_max_mps * dt, GATE_SLACK * d));
 }
 
-/* Of scan - 1 and scan, those that may vote; two plots in one place have no line. */
-static inline struct pairs pairs_of(unsigned scan)
+/* Pairs of scans `scan` - 1 and `scan` that may vote; two plots in one place make no line. */
+static inline struct pairs voting_pairs_of_scan(unsigned scan)
 {
     struct pairs pairs = {NULL, 0};
     if (scan == 0) {
@@ -300,8 +306,8 @@ static inline struct pairs pairs_of(unsigned scan)
     pairs.list = malloc(((middle - from) * (end - middle) + 1) * sizeof *pairs.list);
     for (unsigned a = (unsigned)from; a < middle; a++) {
         for (unsigned b = (unsigned)middle; b < end; b++) {
-            enum verdict gated = is_gated(a, b);
-            if (length_of(a, b) > 0.0 && (gated != NO || config.method == RHO_HOUGH_MHT)) {
+            enum verdict gated = is_pair_within_speed_limits(a, b);
+            if (pair_length_m(a, b) > 0.0 && (gated != NO || config.method == RHO_HOUGH_MHT)) {
                 pairs.list[pairs.num++] = (struct pair){a, b, line_of_plots(a, b), gated};
             }
         }
@@ -309,9 +315,11 @@ static inline struct pairs pairs_of(unsigned scan)
     return pairs;
 }
 
-/* ---- bounds of a pair's vote ------------------------------------------------------------- */
+/*
+ * ---- bounds of a pair's vote ------------------------------------------------------------------
+ */
 
-/* Value, and between what limits it is where something is nearly equal. */
+/* A vote in exact arithmetic, and the least and most that float may make of it. */
 struct vote_bounds {
     double value, least, most;
 };
@@ -323,11 +331,11 @@ struct near {
 
 struct nearest {
     struct near best[3];
-    double surely; /* mu of the best that is not at a limit */
+    double surely; /* mu of the best kernel that is not near a limit */
     int is_vague;
 };
 
-static inline void take_nearest(struct nearest *nearest, struct near near)
+static inline void insert_nearest(struct nearest *nearest, struct near near)
 {
     for (int i = 0; i < 3; i++) {
         if (!nearest->best[i].kernel || near.mu > nearest->best[i].mu) {
@@ -341,29 +349,29 @@ static inline void take_nearest(struct nearest *nearest, struct near near)
     }
 }
 
-static inline struct nearest nearest_of(const struct pair *pair, const struct pairs *kernels)
+static inline struct nearest nearest_kernels(const struct pair *pair, const struct pairs *kernels)
 {
     struct nearest nearest = {.surely = 0.0};
     for (size_t i = 0; i < kernels->num; i++) {
         const struct pair *kernel = &kernels->list[i];
         if (fabs(fabs(pair->line.rho) - fabs(kernel->line.rho)) > 3.0 * (double)config.eps_rho_m) {
-            continue; /* far off, on either side */
+            continue; /* too far for either sign of rho */
         }
         struct line away = line_offset(pair->line, kernel->line);
-        enum verdict counts = both(kernel->gated, is_near(away));
+        enum verdict counts = lesser_verdict(kernel->gated, is_within_neighbourhood(away));
         if (counts != NO) {
-            take_nearest(&nearest, (struct near){kernel, closeness(away)});
+            insert_nearest(&nearest, (struct near){kernel, gaussian_of_offset(away)});
             nearest.is_vague |= counts == MAYBE;
         }
         if (counts == YES) {
-            nearest.surely = fmax(nearest.surely, closeness(away));
+            nearest.surely = fmax(nearest.surely, gaussian_of_offset(away));
         }
     }
     return nearest;
 }
 
-static inline struct vote_bounds indeterminacy(const struct pair *pair,
-                                               const struct nearest *nearest)
+static inline struct vote_bounds indeterminacy_bounds(const struct pair *pair,
+                                                      const struct nearest *nearest)
 {
     const struct pair *p = nearest->best[0].kernel, *q = nearest->best[1].kernel;
     if (!q) {
@@ -377,21 +385,22 @@ static inline struct vote_bounds indeterminacy(const struct pair *pair,
     if (nearest->is_vague || is_tied || hypot(dx, dy) < 200.0) {
         return (struct vote_bounds){0.0, 0.0, 1.0};
     }
-    struct line away = line_offset(pair->line, line_along(x, y, dx, dy));
-    double mu = closeness(away);
-    enum verdict counts = is_near(away);
+    struct line away = line_offset(pair->line, line_through_point(x, y, dx, dy));
+    double mu = gaussian_of_offset(away);
+    enum verdict counts = is_within_neighbourhood(away);
     return (struct vote_bounds){counts == NO ? 0.0 : mu, counts == YES ? mu : 0.0,
                                 counts == NO ? 0.0 : mu};
 }
 
-static inline struct vote_bounds neutrosophic(const struct pair *pair, const struct pairs *kernels)
+static inline struct vote_bounds neutrosophic_vote_bounds(const struct pair *pair,
+                                                          const struct pairs *kernels)
 {
     double f = (double)config.lambda_k * (double)config.p_false * (double)config.p_false;
-    struct nearest nearest = nearest_of(pair, kernels);
+    struct nearest nearest = nearest_kernels(pair, kernels);
     double t = nearest.best[0].mu;
     struct vote_bounds bounds = {t, nearest.surely, t};
     if (nearest.best[0].kernel && config.uses_indeterminacy) {
-        struct vote_bounds i = indeterminacy(pair, &nearest);
+        struct vote_bounds i = indeterminacy_bounds(pair, &nearest);
         bounds =
             (struct vote_bounds){fmax(t, i.value), fmax(bounds.least, i.least), fmax(t, i.most)};
     }
@@ -401,14 +410,15 @@ static inline struct vote_bounds neutrosophic(const struct pair *pair, const str
     return bounds;
 }
 
-static inline struct vote_bounds bounds_of(const struct pair *pair, const struct pairs *kernels)
+static inline struct vote_bounds vote_bounds_of_pair(const struct pair *pair,
+                                                     const struct pairs *kernels)
 {
     struct vote_bounds bounds = {1.0, 1.0, 1.0};
     if (config.method == RHO_HOUGH_MHT) {
         return bounds;
     }
     if (config.method != RHO_HOUGH_IHT) {
-        bounds = neutrosophic(pair, kernels);
+        bounds = neutrosophic_vote_bounds(pair, kernels);
     }
     if (pair->gated != YES) {
         bounds.least = 0.0;

@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's passive method in double precision, on dense planes. Rays are intersected as two
- * linear equations, and every crossing votes in a plane of its pair; the library and this have
- * nothing in common but the input.
- *
- * A crossing so near a limit that float32 may have it on the other side makes a scene doubtful, or
- * is let fall on both sides of a cell's border: then what is sure and what is possible differ, and
- * the scene is not compared.
+ * Reference of the paper's passive method in double precision: rays are intersected by two linear
+ * equations, and every crossing votes in a dense plane of its pair. The library shares its inputs
+ * only. A scene with a crossing near a limit, where float may differ, is doubtful; near a border of
+ * cells a crossing counts on both sides, and the scene is not compared if that matters.
  */
 #ifndef PASSIVE_PAPER_REFERENCE_H
 #define PASSIVE_PAPER_REFERENCE_H
@@ -22,16 +19,18 @@
 
 #include "passive_paper_scene.h"
 
-static struct scene scene; /* that is looked at */
+static struct scene scene; /* the scene that is searched */
 
-/* ---- crossings ------------------------------------------------------------------------------- */
+/*
+ * ---- crossings --------------------------------------------------------------------------------
+ */
 
 #define CROSSINGS_MAX (SCENE_SCANS * LOOK_MAX * LOOK_MAX)
 #define PAIRS_MAX 6
 #define ROWS_MAX 90
 #define COLUMNS 256
 
-/* A place, and how far float32 may have it from there. */
+/* A crossing's place, and by how much float may be off. */
 struct crossing {
     double x_m, y_m, slack_m;
     unsigned scan;
@@ -39,9 +38,12 @@ struct crossing {
 
 static struct crossing crossings[CROSSINGS_MAX];
 static unsigned num_crossings;
-static int is_doubtful; /* something is at its limit, and float32 may see it on the other side */
+static int is_doubtful; /* a crossing is so near a limit that float may decide differently */
 
-/* Ray from a along bearing a meets the ray from b: the two linear equations solved. */
+/*
+ * True if the rays from sensors a and b meet within the range, by two linear equations; the place
+ * is written to `at`.
+ */
 static int intersect_rays(unsigned a, unsigned b, double bearing_a_rad, double bearing_b_rad,
                           double range_max_m, struct crossing *at)
 {
@@ -49,11 +51,12 @@ static int intersect_rays(unsigned a, unsigned b, double bearing_a_rad, double b
     double bx = (float)scene.sensor_x_m[b], by = (float)scene.sensor_y_m[b];
     double ca = cos(bearing_a_rad), sa = sin(bearing_a_rad);
     double cb = cos(bearing_b_rad), sb = sin(bearing_b_rad);
-    double determinant = ca * sb - sa * cb; /* sine of the angle between them */
+    double determinant = ca * sb - sa * cb; /* sine of the angle between the rays */
     double range_a_m = ((bx - ax) * sb - (by - ay) * cb) / determinant;
     double range_b_m = ((bx - ax) * sa - (by - ay) * ca) / determinant;
     double least_m = fmin(range_a_m, range_b_m), most_m = fmax(range_a_m, range_b_m);
-    double unsure = 4e-7 / (determinant * determinant); /* of 1 m: the angle's last digits */
+    /* relative error from the last digits of the angle */
+    double unsure = 4e-7 / (determinant * determinant);
     at->x_m = ax + range_a_m * ca;
     at->y_m = ay + range_a_m * sa;
     at->slack_m = 0.2 + 1000.0 * unsure;
@@ -67,7 +70,7 @@ struct kept {
     int is_left[LOOK_MAX][LOOK_MAX];
 };
 
-static unsigned count_row(const struct kept *kept, unsigned row, unsigned *only)
+static unsigned count_left_in_row(const struct kept *kept, unsigned row, unsigned *only)
 {
     unsigned count = 0;
     for (unsigned j = 0; j < kept->columns; j++) {
@@ -89,15 +92,15 @@ static struct kept transposed(const struct kept *kept)
 }
 
 /*
- * Steps 2 to 2.4 of the paper, and 2.5 with the matrix turned. A row's only crossing stays its only
- * one, so that there is no need to remember which rows are done.
+ * Steps 2 to 2.4 of the paper; step 2.5 is the same on the transposed matrix. A row's single
+ * crossing stays single, so that finished rows need no mark.
  */
 static void prune_rows(struct kept *kept)
 {
     for (int is_changed = 1; is_changed;) {
         is_changed = 0;
         for (unsigned row = 0, only = 0; row < kept->rows; row++) {
-            if (count_row(kept, row, &only) != 1) {
+            if (count_left_in_row(kept, row, &only) != 1) {
                 continue;
             }
             for (unsigned i = 0; i < kept->rows; i++) {
@@ -153,9 +156,13 @@ static void cross_pair(unsigned a, unsigned b, const struct rho_passive_paper_co
     }
 }
 
-/* ---- planes ---------------------------------------------------------------------------------- */
+/*
+ * ---- planes -----------------------------------------------------------------------------------
+ */
 
-/* Votes of a pair, without crossings that are near a cell's border, and with them on both sides. */
+/*
+ * Votes of a pair: `sure` without crossings near a border of cells, `most` with them on both sides.
+ */
 struct votes {
     uint32_t mask;
     unsigned points;
@@ -169,17 +176,17 @@ static unsigned num_pairs;
 static int rows;
 static double middle_x_m, middle_y_m;
 
-static double theta_of(int row)
+static double theta_of_row(int row)
 {
     return (row + 0.5) * PI / rows;
 }
 
-/* Columns of the cells where a crossing may be. */
-static void columns_of(const struct crossing *crossing, int row, double cell_m, int *first,
-                       int *last)
+/* First and last column of the cells where a crossing may be in this row. */
+static void columns_of_crossing_in_row(const struct crossing *crossing, int row, double cell_m,
+                                       int *first, int *last)
 {
-    double rho_m = (crossing->x_m - middle_x_m) * cos(theta_of(row)) +
-                   (crossing->y_m - middle_y_m) * sin(theta_of(row));
+    double rho_m = (crossing->x_m - middle_x_m) * cos(theta_of_row(row)) +
+                   (crossing->y_m - middle_y_m) * sin(theta_of_row(row));
     *first = (int)floor((rho_m - crossing->slack_m) / cell_m) + COLUMNS / 2;
     *last = (int)floor((rho_m + crossing->slack_m) / cell_m) + COLUMNS / 2;
 }
@@ -196,7 +203,7 @@ static void fill_plane(struct plane *plane, double cell_m)
     for (unsigned i = 0; i < num_crossings; i++) {
         for (int row = 0; row < rows; row++) {
             int first, last;
-            columns_of(&crossings[i], row, cell_m, &first, &last);
+            columns_of_crossing_in_row(&crossings[i], row, cell_m, &first, &last);
             for (int column = first; column <= last; column++) {
                 if (column >= 0 && column < COLUMNS) {
                     add_vote(&plane->most[row][column], &crossings[i]);
@@ -227,7 +234,7 @@ static void fill_planes(const struct rho_passive_paper_config *config)
     }
 }
 
-static unsigned count_of(const struct votes *votes, enum rho_accumulator_votes what)
+static unsigned count_votes(const struct votes *votes, enum rho_accumulator_votes what)
 {
     unsigned count = 0;
     for (uint32_t mask = votes->mask; mask; mask &= mask - 1) {
@@ -236,8 +243,9 @@ static unsigned count_of(const struct votes *votes, enum rho_accumulator_votes w
     return what == RHO_VOTES_POINTS ? votes->points : count;
 }
 
-/* (rho, theta) and (-rho, theta +- pi) are one line. */
-static const struct votes *cell_of(const struct plane *plane, int is_sure, int row, int column)
+/* The cell of a row and column; beyond the ends of theta a line is (-rho, theta +- pi). */
+static const struct votes *votes_in_cell(const struct plane *plane, int is_sure, int row,
+                                         int column)
 {
     static const struct votes none;
     int is_turned = row < 0 || row >= rows;
@@ -249,30 +257,30 @@ static const struct votes *cell_of(const struct plane *plane, int is_sure, int r
     return is_sure ? &plane->sure[row][column] : &plane->most[row][column];
 }
 
-static unsigned most_around(const struct plane *plane, int is_sure, int row, int column,
-                            enum rho_accumulator_votes what)
+static unsigned most_votes_around_cell(const struct plane *plane, int is_sure, int row, int column,
+                                       enum rho_accumulator_votes what)
 {
     unsigned most = 0;
     int near = num_pairs > 1;
     for (int i = -near; i <= near; i++) {
         for (int j = -near; j <= near; j++) {
-            unsigned votes = count_of(cell_of(plane, is_sure, row + i, column + j), what);
+            unsigned votes = count_votes(votes_in_cell(plane, is_sure, row + i, column + j), what);
             most = votes > most ? votes : most;
         }
     }
     return most;
 }
 
-/* 0 where not every pair confirms the place, else 1 and the votes of all pairs in it. */
-static int height_of(int is_sure, int row, int column, unsigned votes_min,
-                     enum rho_accumulator_votes what)
+/* 0 if some pair does not confirm the cell, else 1 and the votes of all pairs in it. */
+static int height_of_cell(int is_sure, int row, int column, unsigned votes_min,
+                          enum rho_accumulator_votes what)
 {
     unsigned sum = 1;
     for (unsigned i = 0; i < num_pairs; i++) {
-        if (most_around(&planes[i], is_sure, row, column, what) < votes_min) {
+        if (most_votes_around_cell(&planes[i], is_sure, row, column, what) < votes_min) {
             return 0;
         }
-        sum += count_of(cell_of(&planes[i], is_sure, row, column), what);
+        sum += count_votes(votes_in_cell(&planes[i], is_sure, row, column), what);
     }
     return (int)sum;
 }
@@ -280,16 +288,16 @@ static int height_of(int is_sure, int row, int column, unsigned votes_min,
 static int heights[ROWS_MAX][COLUMNS];
 static unsigned num_confirmed;
 
-/* False where float32 may see other heights. */
+/* Fills the heights of all cells; false if float may get other ones. */
 static inline int fill_heights(const struct rho_passive_paper_config *config, unsigned votes_min)
 {
     int is_sure = 1;
     num_confirmed = 0;
     for (int row = 0; row < rows; row++) {
         for (int column = 0; column < COLUMNS; column++) {
-            int most = height_of(0, row, column, votes_min, config->votes);
+            int most = height_of_cell(0, row, column, votes_min, config->votes);
             heights[row][column] =
-                most > 0 ? height_of(1, row, column, votes_min, config->votes) : 0;
+                most > 0 ? height_of_cell(1, row, column, votes_min, config->votes) : 0;
             is_sure = is_sure && heights[row][column] == most;
             num_confirmed += heights[row][column] > 0;
         }
@@ -297,14 +305,19 @@ static inline int fill_heights(const struct rho_passive_paper_config *config, un
     return is_sure && !is_doubtful;
 }
 
-/* ---- lines ----------------------------------------------------------------------------------- */
+/*
+ * ---- lines ------------------------------------------------------------------------------------
+ */
 
 struct place {
     int row, column;
 };
 
-/* The cell that far from another, also round the ends of theta; NULL beyond the ends of rho. */
-static int *height_near(struct place from, int i, int j, struct place *at)
+/*
+ * Height of the cell i rows and j columns away, also across the ends of theta; NULL beyond the ends
+ * of rho.
+ */
+static int *height_at_offset(struct place from, int i, int j, struct place *at)
 {
     int row = from.row + i, column = from.column + j;
     if (column < 0 || column >= COLUMNS) {
@@ -316,7 +329,7 @@ static int *height_near(struct place from, int i, int j, struct place *at)
     return &heights[at->row][at->column];
 }
 
-static struct place highest(void)
+static struct place highest_cell(void)
 {
     struct place best = {0, 0};
     for (int row = 0; row < rows; row++) {
@@ -336,7 +349,7 @@ static struct place middle_of_plateau(struct place from)
     struct place at, best = from;
     for (int i = -8; i <= 8; i++) {
         for (int j = -6; j <= 6; j++) {
-            const int *near = height_near(from, i, j, &at);
+            const int *near = height_at_offset(from, i, j, &at);
             int is_part = near && *near == height;
             sum_i += is_part * i;
             sum_j += is_part * j;
@@ -345,7 +358,7 @@ static struct place middle_of_plateau(struct place from)
     }
     for (int i = -8; i <= 8; i++) {
         for (int j = -6; j <= 6; j++) {
-            const int *near = height_near(from, i, j, &at);
+            const int *near = height_at_offset(from, i, j, &at);
             double off = pow(i - sum_i / count, 2.0) + pow(j - sum_j / count, 2.0);
             if (near && *near == height && off < least - 1e-9) {
                 least = off;
@@ -356,10 +369,10 @@ static struct place middle_of_plateau(struct place from)
     return best;
 }
 
-/* The next line; its height in *height, 0 where there is none. Its neighbours are gone. */
+/* The next line, with its height, 0 if there is none; its neighbourhood is set to 0. */
 static inline struct place next_line(int *height)
 {
-    struct place at, line = highest();
+    struct place at, line = highest_cell();
     *height = heights[line.row][line.column];
     if (*height == 0) {
         return line;
@@ -367,7 +380,7 @@ static inline struct place next_line(int *height)
     line = middle_of_plateau(line);
     for (int i = -4; i <= 4; i++) {
         for (int j = -3; j <= 3; j++) {
-            int *near = height_near(line, i, j, &at);
+            int *near = height_at_offset(line, i, j, &at);
             if (near) {
                 *near = 0;
             }
@@ -379,12 +392,12 @@ static inline struct place next_line(int *height)
 static inline void expect_line(const struct rho_passive_paper_line *line, struct place at,
                                int height, const struct rho_passive_paper_config *config)
 {
-    double theta_rad = theta_of(at.row);
+    double theta_rad = theta_of_row(at.row);
     double rho_m = (at.column + 0.5 - COLUMNS / 2) * (double)config->rho_cell_m +
                    middle_x_m * cos(theta_rad) + middle_y_m * sin(theta_rad);
     unsigned least = UINT32_MAX;
     for (unsigned i = 0; i < num_pairs; i++) {
-        unsigned votes = most_around(&planes[i], 1, at.row, at.column, config->votes);
+        unsigned votes = most_votes_around_cell(&planes[i], 1, at.row, at.column, config->votes);
         least = votes < least ? votes : least;
     }
     assert_float_equal(line->theta_rad, theta_rad, 1e-5);
@@ -393,30 +406,32 @@ static inline void expect_line(const struct rho_passive_paper_line *line, struct
     assert_int_equal(line->votes, least);
 }
 
-/* ---- states ---------------------------------------------------------------------------------- */
+/*
+ * ---- states -----------------------------------------------------------------------------------
+ */
 
-/* Of the crossings that voted for a line; times from the newest scan. */
+/* Sums over the crossings that voted for a line; times are relative to the newest scan. */
 struct sums {
     uint32_t mask;
     double count, t, tt, x, y, tx, ty;
 };
 
 /*
- * The pair's cell with the most votes there, the line's own before those beside it. False where
- * float32 may see others.
+ * The cell with most votes of a pair at a line, the line's own cell before its neighbours. Returns
+ * 0 if float may find another one.
  */
-static int find_voted(const struct plane *plane, struct place at, enum rho_accumulator_votes what,
-                      struct place *best)
+static int find_most_voted_cell(const struct plane *plane, struct place at,
+                                enum rho_accumulator_votes what, struct place *best)
 {
     int near = num_pairs > 1, is_sure = 1;
-    unsigned most = count_of(cell_of(plane, 1, at.row, at.column), what);
+    unsigned most = count_votes(votes_in_cell(plane, 1, at.row, at.column), what);
     *best = at;
     for (int row = at.row - near; row <= at.row + near; row++) {
         for (int column = at.column - near; column <= at.column + near; column++) {
-            const struct votes *votes = cell_of(plane, 1, row, column);
-            is_sure = is_sure && votes->points == cell_of(plane, 0, row, column)->points;
-            if (count_of(votes, what) > most) {
-                most = count_of(votes, what);
+            const struct votes *votes = votes_in_cell(plane, 1, row, column);
+            is_sure = is_sure && votes->points == votes_in_cell(plane, 0, row, column)->points;
+            if (count_votes(votes, what) > most) {
+                most = count_votes(votes, what);
                 *best = (struct place){row, column};
             }
         }
@@ -429,7 +444,7 @@ static void add_crossings(struct sums *sums, struct place at, double cell_m)
     for (unsigned i = 0; i < num_crossings; i++) {
         int first, last;
         double t_s = scene.time_s[crossings[i].scan] - scene.time_s[scene.scans - 1];
-        columns_of(&crossings[i], at.row, cell_m, &first, &last);
+        columns_of_crossing_in_row(&crossings[i], at.row, cell_m, &first, &last);
         if (first == at.column) {
             sums->mask |= 1u << crossings[i].scan;
             sums->count += 1.0;
@@ -451,7 +466,7 @@ static int gather_state_sums(struct place at, const struct rho_passive_paper_con
     for (unsigned a = 0; a + 1 < scene.sensors; a++) {
         for (unsigned b = a + 1; b < scene.sensors; b++) {
             struct place best;
-            is_sure = find_voted(&planes[pair++], at, config->votes, &best) && is_sure;
+            is_sure = find_most_voted_cell(&planes[pair++], at, config->votes, &best) && is_sure;
             cross_pair(a, b, config);
             add_crossings(sums, best, (double)config->rho_cell_m);
         }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's passive method on the scenes of passive_scene.h, and its lines beside the targets'
- * paths.
+ * Searches scenes of passive_scene.h by the paper's passive method, and compares its lines with the
+ * targets' paths.
  */
 #ifndef PASSIVE_PAPER_SCENE_H
 #define PASSIVE_PAPER_SCENE_H
@@ -35,9 +35,9 @@ static inline enum rho_status search_by_paper(struct rho_passive_paper *paper,
     return status == RHO_OK ? rho_passive_paper_search(paper) : status;
 }
 
-/* How far a line is from another in theta and rho, by the shorter way round. */
-static inline void line_off(double theta_rad, double rho_m, double other_theta_rad,
-                            double other_rho_m, double *off_rad, double *off_m)
+/* Distance of two lines in theta and rho, by the nearer of (rho, theta) and (-rho, theta +- pi). */
+static inline void line_distance(double theta_rad, double rho_m, double other_theta_rad,
+                                 double other_rho_m, double *off_rad, double *off_m)
 {
     double turn_rad = remainder(theta_rad - other_theta_rad, 2.0 * PI);
     double sign = fabs(turn_rad) > 0.5 * PI ? -1.0 : 1.0;
@@ -45,13 +45,13 @@ static inline void line_off(double theta_rad, double rho_m, double other_theta_r
     *off_m = fabs(sign * rho_m - other_rho_m);
 }
 
-/* Within 6 degrees and 3 km of a target's path. */
+/* True if a line is within 6 degrees and 3 km of a target's path. */
 static inline int is_near_path(const struct rho_passive_paper_line *line,
                                const struct target *target)
 {
     double theta_rad = atan2(target->vx_mps, -target->vy_mps), off_rad, off_m;
     double rho_m = target->x_m * cos(theta_rad) + target->y_m * sin(theta_rad);
-    line_off((double)line->theta_rad, (double)line->rho_m, theta_rad, rho_m, &off_rad, &off_m);
+    line_distance((double)line->theta_rad, (double)line->rho_m, theta_rad, rho_m, &off_rad, &off_m);
     return off_rad < 6.0 * DEG_RAD && off_m < 3000.0;
 }
 

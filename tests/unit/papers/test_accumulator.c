@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The streamed accumulator against one that holds the whole plane (accumulator_plane.h): the same
- * peaks, cell by cell.
+ * The streamed accumulator has the same peaks as one that holds the whole plane
+ * (accumulator_plane.h).
  */
 #include <float.h>
 #include <math.h>
@@ -18,29 +18,29 @@
 #include "rhotrack/detail/accumulator.h"
 #include "rhotrack/types.h"
 
-static uint32_t suppress(uint32_t num_peaks, uint32_t *scratch, uint32_t num_scratch)
+static uint32_t suppress_peaks(uint32_t num_peaks, uint32_t *scratch, uint32_t num_scratch)
 {
     struct rho_peak_distance distance = {accumulator.theta_cells, accumulator.rho_cells, 8, 8};
     return rho_peak_list_suppress(peaks, num_peaks, &distance, scratch, num_scratch);
 }
 
-static void peaks_are_those_of_the_whole_plane_at_the_papers_cells(void **state)
+static void peaks_agree_with_the_whole_plane_at_the_papers_cells(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
     scatter_points(7, 60, 2500.0);
     expect_same_peaks(&config);
-    scatter_points(7, 1500, 2900.0); /* more than are remembered one by one */
+    scatter_points(7, 1500, 2900.0); /* more points than are stored one by one */
     config.min_votes = 5;
     expect_same_peaks(&config);
 }
 
-static void peaks_are_those_of_the_whole_plane_at_coarse_cells(void **state)
+static void peaks_agree_with_the_whole_plane_at_coarse_cells(void **state)
 {
     (void)state;
     for (int run = 0; run < 120; run++) {
         struct rho_accumulator_config config = {
-            .rho_max_m = run % 2 ? 60000.0f : 20000.0f, /* some points outside */
+            .rho_max_m = run % 2 ? 60000.0f : 20000.0f, /* some points are outside */
             .rho_cell_m = run % 5 ? 100.0f : 2000.0f,
             .theta_cell_rad = run % 5 ? 0.5f * DEG_RAD : 5.0f * DEG_RAD,
             .votes = run % 4 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS,
@@ -53,10 +53,13 @@ static void peaks_are_those_of_the_whole_plane_at_coarse_cells(void **state)
     }
 }
 
-/* ---- what counts ----------------------------------------------------------------------------- */
+/*
+ * ---- lines and votes --------------------------------------------------------------------------
+ */
 
-/* A target on a line: one point a scan. */
-static void lay_line(unsigned num_scans, double from_x_m, double from_y_m, double dx_m, double dy_m)
+/* A target on a line, with one point a scan. */
+static void add_points_on_line(unsigned num_scans, double from_x_m, double from_y_m, double dx_m,
+                               double dy_m)
 {
     points.num_scans = num_scans;
     for (unsigned scan = 0; scan < num_scans; scan++) {
@@ -66,13 +69,13 @@ static void lay_line(unsigned num_scans, double from_x_m, double from_y_m, doubl
     }
 }
 
-static void a_line_is_found_where_it_is(void **state)
+static void a_line_is_found_at_its_theta_and_rho(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
     for (int heading = 0; heading < 36; heading++) {
         double course = (10.0 * heading + 3.0) * DEG_RAD;
-        lay_line(7, 800.0, 300.0, 400.0 * cos(course), 400.0 * sin(course));
+        add_points_on_line(7, 800.0, 300.0, 400.0 * cos(course), 400.0 * sin(course));
         config.min_votes = 7;
         prepare_accumulator(&config);
         find_peaks(16);
@@ -81,29 +84,29 @@ static void a_line_is_found_where_it_is(void **state)
         double theta = rho_accumulator_theta_rad(&accumulator, peaks[0].theta_cell);
         double rho = rho_accumulator_rho_m(&accumulator, peaks[0].rho_cell);
         double normal = course + 1.5707963267948966;
-        double turned = sin(theta - normal); /* 0 where parallel, either sense */
+        double turned = sin(theta - normal); /* 0 for parallel or opposite directions */
         assert_float_equal(turned, 0.0, 0.004);
         assert_float_equal(800.0 * cos(theta) + 300.0 * sin(theta), rho, 8.0);
     }
 }
 
-/* Along the cut of theta a line is in the first row and the last: one peak. */
+/* A line near theta = 0 is in the first and the last row: after suppression it is one peak. */
 static void a_line_at_the_end_of_theta_is_one_peak(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
     for (int i = 0; i < 21; i++) {
         double tilt_rad = (i - 10) * 2e-4;
-        lay_line(7, 2002.5 - 1200.0 * tilt_rad, -1200.0, 400.0 * tilt_rad, 400.0);
+        add_points_on_line(7, 2002.5 - 1200.0 * tilt_rad, -1200.0, 400.0 * tilt_rad, 400.0);
         config.min_votes = 7;
         prepare_accumulator(&config);
         find_peaks(PEAKS_MAX);
-        uint32_t kept = suppress(result.num_peaks, NULL, 0);
+        uint32_t kept = suppress_peaks(result.num_peaks, NULL, 0);
         assert_int_equal(kept, 1);
     }
 }
 
-static void a_scan_votes_once_in_a_cell(void **state)
+static void a_scan_votes_once_in_a_cell_and_points_vote_each(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
@@ -125,7 +128,7 @@ static void a_scan_votes_once_in_a_cell(void **state)
     assert_int_equal(peaks[0].mask, 0);
 }
 
-static void the_best_are_kept_and_the_others_counted(void **state)
+static void the_best_peaks_are_kept_and_the_others_counted(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
@@ -145,8 +148,8 @@ static void the_best_are_kept_and_the_others_counted(void **state)
     }
 }
 
-/* However many there is room for, and wherever the most votes are met. */
-static void a_share_of_the_most_votes_is_a_threshold(void **state)
+/* The result is the same for any room for peaks, wherever the cell with most votes is found. */
+static void a_threshold_may_be_a_share_of_the_most_votes(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
@@ -180,8 +183,8 @@ static void a_share_of_the_most_votes_is_a_threshold(void **state)
     }
 }
 
-/* Beyond 2^24 a float32 has fewer digits than a number of votes. */
-static void the_most_votes_are_their_own_share(void **state)
+/* Beyond 2^24 float does not hold a number of votes exactly. */
+static void a_share_of_1_keeps_the_peak_with_the_most_votes(void **state)
 {
     (void)state;
     const uint32_t votes[] = {16777219u, 33554435u, 4294967295u, 4000000001u, 1u};
@@ -202,14 +205,14 @@ static void points_beyond_the_largest_rho_do_not_vote(void **state)
     struct rho_accumulator_config config = paper_cells();
     config.min_votes = 1;
     config.rho_max_m = 1000.0f;
-    lay_line(1, 3000.0, 0.0, 0.0, 0.0);
+    add_points_on_line(1, 3000.0, 0.0, 0.0, 0.0);
     expect_same_peaks(&config);
-    /* |3000 cos theta| < 1000: of pi, 2 asin(1 / 3) */
+    /* |3000 cos theta| < 1000 for 2 asin(1 / 3) of pi */
     double share = 2.0 * asin(1.0 / 3.0) / 3.14159265358979;
     assert_float_equal(result.votes, share * accumulator.theta_cells, 3.0);
 }
 
-static void what_was_in_it_before_does_not_matter(void **state)
+static void earlier_contents_of_the_accumulator_do_not_matter(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
@@ -230,7 +233,7 @@ static void what_was_in_it_before_does_not_matter(void **state)
     }
 }
 
-static void nothing_gives_nothing(void **state)
+static void without_points_there_are_no_peaks(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
@@ -243,10 +246,12 @@ static void nothing_gives_nothing(void **state)
     assert_int_equal(result.num_peaks + result.votes + result.votes_max, 0);
 }
 
-/* ---- suppression ----------------------------------------------------------------------------- */
+/*
+ * ---- suppression ------------------------------------------------------------------------------
+ */
 
-static int is_near(const struct rho_accumulator_peak *a, const struct rho_accumulator_peak *b,
-                   int theta_cells, int rho_cells)
+static int are_peaks_near(const struct rho_accumulator_peak *a,
+                          const struct rho_accumulator_peak *b, int theta_cells, int rho_cells)
 {
     for (int turn = -1; turn <= 1; turn++) {
         int theta = b->theta_cell + turn * num_theta();
@@ -264,7 +269,8 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
     struct rho_accumulator_config config = paper_cells();
     static struct rho_accumulator_peak unsuppressed[3000];
     static uint32_t scratch[4096];
-    const uint32_t sizes[] = {0, 1, 16, 512, 4096}; /* none, and from too small to large */
+    /* sizes of the scratch memory: none, too small, large */
+    const uint32_t sizes[] = {0, 1, 16, 512, 4096};
     scatter_points(7, 150, 2500.0);
     config.min_votes = 3;
     config.neighbours = 0;
@@ -273,7 +279,7 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
     uint32_t all = result.num_peaks, kept = 0;
     for (uint32_t i = 0; i < all; i++) {
         uint32_t k = 0;
-        while (k < kept && !is_near(&expected[k], &peaks[i], 8, 8)) {
+        while (k < kept && !are_peaks_near(&expected[k], &peaks[i], 8, 8)) {
             k++;
         }
         if (k == kept) {
@@ -284,13 +290,15 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
     memcpy(unsuppressed, peaks, all * sizeof peaks[0]);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         memcpy(peaks, unsuppressed, all * sizeof peaks[0]);
-        assert_int_equal(suppress(all, sizes[i] ? scratch : NULL, sizes[i]), kept);
+        assert_int_equal(suppress_peaks(all, sizes[i] ? scratch : NULL, sizes[i]), kept);
         assert_memory_equal(peaks, expected, kept * sizeof peaks[0]);
     }
     assert_true(kept < all);
 }
 
-/* ---- refusals -------------------------------------------------------------------------------- */
+/*
+ * ---- refusals ---------------------------------------------------------------------------------
+ */
 
 #define REFUSED(field, value)                                                                      \
     do {                                                                                           \
@@ -316,7 +324,7 @@ static void bad_configs_are_refused(void **state)
     REFUSED(rho_cell_m, INFINITY);
     REFUSED(theta_cell_rad, 9e-5f);
     REFUSED(theta_cell_rad, 3.2f);
-    REFUSED(theta_cell_rad, 3.14159274f); /* with neighbours */
+    REFUSED(theta_cell_rad, 3.14159274f); /* a single row cannot have neighbours */
     REFUSED(theta_cell_rad, NAN);
     REFUSED(votes, (enum rho_accumulator_votes)2);
     REFUSED(min_votes, 0);
@@ -363,7 +371,7 @@ static void bad_points_are_refused(void **state)
                      RHO_ERROR_VALUE);
     assert_int_equal(rho_accumulator_check_points(&points), RHO_ERROR_VALUE);
     points.num_scans = 3;
-    scan_end[1] = 31; /* beyond the last scan's */
+    scan_end[1] = 31; /* beyond the last scan's end */
     assert_int_equal(rho_accumulator_find_peaks(&accumulator, &points, peaks, 4, &result),
                      RHO_ERROR_VALUE);
     accumulator.magic = 0;
@@ -371,8 +379,8 @@ static void bad_points_are_refused(void **state)
                      RHO_ERROR_STATE);
 }
 
-/* 3.14 rad in thousandths, and 8600 m in cells of 5 m; a last row that is not whole counts. */
-static void a_plane_has_the_papers_rows_and_cells(void **state)
+/* 3142 rows of 1 mrad and 1720 cells of 5 m in 8600 m; an incomplete last row counts. */
+static void the_plane_has_the_papers_numbers_of_cells(void **state)
 {
     struct rho_accumulator_config config = paper_cells();
     uint16_t rows = 0, cells = 0;
@@ -389,21 +397,21 @@ static void a_plane_has_the_papers_rows_and_cells(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(peaks_are_those_of_the_whole_plane_at_the_papers_cells),
-        cmocka_unit_test(peaks_are_those_of_the_whole_plane_at_coarse_cells),
-        cmocka_unit_test(a_line_is_found_where_it_is),
+        cmocka_unit_test(peaks_agree_with_the_whole_plane_at_the_papers_cells),
+        cmocka_unit_test(peaks_agree_with_the_whole_plane_at_coarse_cells),
+        cmocka_unit_test(a_line_is_found_at_its_theta_and_rho),
         cmocka_unit_test(a_line_at_the_end_of_theta_is_one_peak),
-        cmocka_unit_test(a_scan_votes_once_in_a_cell),
-        cmocka_unit_test(the_best_are_kept_and_the_others_counted),
-        cmocka_unit_test(a_share_of_the_most_votes_is_a_threshold),
-        cmocka_unit_test(the_most_votes_are_their_own_share),
+        cmocka_unit_test(a_scan_votes_once_in_a_cell_and_points_vote_each),
+        cmocka_unit_test(the_best_peaks_are_kept_and_the_others_counted),
+        cmocka_unit_test(a_threshold_may_be_a_share_of_the_most_votes),
+        cmocka_unit_test(a_share_of_1_keeps_the_peak_with_the_most_votes),
         cmocka_unit_test(points_beyond_the_largest_rho_do_not_vote),
-        cmocka_unit_test(what_was_in_it_before_does_not_matter),
-        cmocka_unit_test(nothing_gives_nothing),
+        cmocka_unit_test(earlier_contents_of_the_accumulator_do_not_matter),
+        cmocka_unit_test(without_points_there_are_no_peaks),
         cmocka_unit_test(suppression_keeps_the_best_of_each_neighbourhood),
         cmocka_unit_test(bad_configs_are_refused),
         cmocka_unit_test(bad_points_are_refused),
-        cmocka_unit_test(a_plane_has_the_papers_rows_and_cells),
+        cmocka_unit_test(the_plane_has_the_papers_numbers_of_cells),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the papers' methods are known to give: the ideal scene of Table 1, the radar plots of Table
- * 3; the Hough transform against the same in double precision; whose votes a cell has, and the fit
+ * Known results of the papers' methods: the ideal scene of Table 1 and the radar plots of Table 3.
+ * The Hough transform compared with double precision, the plots that voted for a cell, and the fit
  * through them.
  */
 #include "hough_cells.h"
@@ -11,14 +11,16 @@
 static const enum rho_hough_method methods[] = {RHO_HOUGH_HT, RHO_HOUGH_MHT, RHO_HOUGH_IHT,
                                                 RHO_HOUGH_NHT_A, RHO_HOUGH_NHT_C};
 
-/* ---- the paper's scenes ---------------------------------------------------------------------- */
+/*
+ * ---- the papers' scenes -----------------------------------------------------------------------
+ */
 
 static struct line line_of_target(int target)
 {
     return line_of_plots((unsigned)target, (unsigned)(target + 3));
 }
 
-/* The best peak near a line; 0 votes where there is none. */
+/* The best peak near a line; 0 votes if there is none. */
 static struct rho_accumulator_peak peak_near(struct line line)
 {
     for (uint32_t i = 0; i < result.num_peaks; i++) {
@@ -32,11 +34,11 @@ static struct rho_accumulator_peak peak_near(struct line line)
     return (struct rho_accumulator_peak){0};
 }
 
-static void the_three_targets_of_table_1_stand_out(void **state)
+static void the_three_targets_of_table_1_have_the_most_votes(void **state)
 {
     (void)state;
     const uint32_t highest[] = {7, 6, 6, 5};
-    lay_table_1(7, 0.0, 0);
+    add_scene_of_table_1(7, 0.0, 0);
     for (size_t i = 0; i < NUM(highest); i++) {
         use_paper_values(methods[i]);
         find_peaks();
@@ -50,11 +52,11 @@ static void the_three_targets_of_table_1_stand_out(void **state)
     }
 }
 
-/* With limits of speed and kernels nothing but the three is left. */
-static void kernels_leave_only_the_targets_of_table_1(void **state)
+/* With speed limits and kernels the three targets are the only peaks. */
+static void neutrosophic_methods_find_only_the_targets_of_table_1(void **state)
 {
     (void)state;
-    lay_table_1(7, 0.0, 0);
+    add_scene_of_table_1(7, 0.0, 0);
     use_paper_values(RHO_HOUGH_NHT_A);
     find_peaks();
     assert_int_equal(result.num_peaks, 3);
@@ -64,9 +66,9 @@ static void kernels_leave_only_the_targets_of_table_1(void **state)
     assert_int_equal(result.votes, 3 * 5 * 289);
 }
 
-#ifdef RHO_PROFILE_WORKSTATION /* 14400 cells of rho */
+#ifdef RHO_PROFILE_WORKSTATION /* needs 14400 cells of rho */
 
-static void lay_table_3(void)
+static void add_plots_of_table_3(void)
 {
     static const float plots[7][3][2] = {{{-23793, 24841}, {-2548, 21411}, {-7021, 14156}},
                                          {{-21011, 25246}, {-5080, 20251}, {-8675, 16448}},
@@ -84,12 +86,12 @@ static void lay_table_3(void)
     }
 }
 
-/* The real plots are not straight enough for 1 mrad: nothing stands out by any of the methods. */
-static void the_plots_of_table_3_do_not_stand_out(void **state)
+/* The radar plots are not straight enough for cells of 1 mrad: no method has a high peak. */
+static void the_plots_of_table_3_make_no_high_peak(void **state)
 {
     (void)state;
     const double highest[] = {3.0, 1.0, 1.0, 0.0533};
-    lay_table_3();
+    add_plots_of_table_3();
     for (size_t i = 0; i < NUM(highest); i++) {
         use_paper_values_all_cells(methods[i]);
         config.rho_max_m = 36000.0f;
@@ -106,8 +108,8 @@ static void the_plots_of_table_3_do_not_stand_out(void **state)
 
 #endif
 
-/* Mirror lines, y = 500 and y = -500, which |rho| would make one; and x = +-500. */
-static void mirror_lines_are_two_peaks(void **state)
+/* The lines y = 500 and y = -500, which |rho| alone would not tell apart, and x = +-500. */
+static void lines_mirrored_in_an_axis_are_two_peaks(void **state)
 {
     (void)state;
     for (int turned = 0; turned < 2; turned++) {
@@ -132,15 +134,17 @@ static void mirror_lines_are_two_peaks(void **state)
     }
 }
 
-/* ---- the Hough transform --------------------------------------------------------------------- */
+/*
+ * ---- the Hough transform ----------------------------------------------------------------------
+ */
 
-static void hough_votes_as_in_double_precision(void **state)
+static void hough_votes_agree_with_double_precision(void **state)
 {
     (void)state;
     random_state = 21;
     for (int run = 0; run < 6; run++) {
-        lay_table_1(7 + (unsigned)run, 20.0, 0);
-        add_plot(run % 2 ? 6000.0 : 4000.0, 100.0, 12.0); /* partly beyond rho_max */
+        add_scene_of_table_1(7 + (unsigned)run, 20.0, 0);
+        add_plot(run % 2 ? 6000.0 : 4000.0, 100.0, 12.0); /* a plot partly beyond rho_max */
         use_paper_values_all_cells(RHO_HOUGH_HT);
         config.votes = run % 3 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
         find_peaks();
@@ -163,8 +167,8 @@ static void hough_votes_as_in_double_precision(void **state)
     }
 }
 
-/* A scan with three plots on a line: points count each. */
-static void points_or_scans_are_counted(void **state)
+/* Each scan has three plots on the line: 12 points, 4 scans. */
+static void votes_count_points_or_scans(void **state)
 {
     (void)state;
     points.at.num_scans = 0;
@@ -185,9 +189,11 @@ static void points_or_scans_are_counted(void **state)
     assert_int_equal(peaks[0].mask, 0xf);
 }
 
-/* ---- whose votes ----------------------------------------------------------------------------- */
+/*
+ * ---- plots that voted -------------------------------------------------------------------------
+ */
 
-/* The plots that voted for a cell; whether none did so by a hair's breadth. */
+/* The plots that voted for a cell; is_sure is 0 if some vote was near a limit. */
 struct voters {
     uint8_t plots[PLOTS_MAX];
     int is_sure;
@@ -201,24 +207,25 @@ static void add_voter(unsigned plot, int is_sure)
     voters.is_sure &= is_sure;
 }
 
-/* Of a vote for a pair's own cell, does this one get some? */
-static int gets_some(struct place cell, struct place own)
+/* True if a vote for the pair's own cell also counts for this cell. */
+static int does_vote_reach_cell(struct place cell, struct place own)
 {
     if (config.method == RHO_HOUGH_NHT_C) {
-        return suppresses(&(struct peak){0.0, own}, &(struct peak){0.0, cell});
+        return is_peak_within_neighbourhood(&(struct peak){0.0, own}, &(struct peak){0.0, cell});
     }
     return own.theta == cell.theta && own.rho == cell.rho;
 }
 
-static void look_up_pair(const struct pair *pair, const struct pairs *kernels, struct place cell)
+static void add_voters_of_pair(const struct pair *pair, const struct pairs *kernels,
+                               struct place cell)
 {
     struct place places[5];
-    int num = places_of(pair->line, places), getting = 0;
+    int num = possible_places_of_line(pair->line, places), getting = 0;
     for (int i = 0; i < num; i++) {
-        getting += gets_some(cell, places[i]);
+        getting += does_vote_reach_cell(cell, places[i]);
     }
     struct vote_bounds bounds =
-        getting ? bounds_of(pair, kernels) : (struct vote_bounds){0.0, 0.0, 0.0};
+        getting ? vote_bounds_of_pair(pair, kernels) : (struct vote_bounds){0.0, 0.0, 0.0};
     if (bounds.most > 0.0) {
         int is_sure = num == 1 && bounds.least > 0.0;
         add_voter(pair->a, is_sure);
@@ -226,13 +233,13 @@ static void look_up_pair(const struct pair *pair, const struct pairs *kernels, s
     }
 }
 
-static void look_up_pairs(struct place cell)
+static void add_voters_of_pairs(struct place cell)
 {
     struct pairs before = {NULL, 0};
     for (unsigned scan = 1; scan < points.at.num_scans; scan++) {
-        struct pairs pairs = pairs_of(scan);
+        struct pairs pairs = voting_pairs_of_scan(scan);
         for (size_t i = 0; i < pairs.num; i++) {
-            look_up_pair(&pairs.list[i], &before, cell);
+            add_voters_of_pair(&pairs.list[i], &before, cell);
         }
         free(before.list);
         before = pairs;
@@ -240,7 +247,7 @@ static void look_up_pairs(struct place cell)
     free(before.list);
 }
 
-static void look_up_plots(struct rho_accumulator_peak peak)
+static void add_voters_of_plots(struct rho_accumulator_peak peak)
 {
     double theta = ((double)peak.theta_cell + 0.5) * (double)config.theta_cell_rad;
     for (unsigned i = 0; i < num_plots(); i++) {
@@ -252,18 +259,18 @@ static void look_up_plots(struct rho_accumulator_peak peak)
     }
 }
 
-static void look_up(struct rho_accumulator_peak peak)
+static void find_voters(struct rho_accumulator_peak peak)
 {
     memset(&voters, 0, sizeof voters);
     voters.is_sure = 1;
     if (config.method == RHO_HOUGH_HT) {
-        look_up_plots(peak);
+        add_voters_of_plots(peak);
     } else {
-        look_up_pairs((struct place){peak.theta_cell, peak.rho_cell});
+        add_voters_of_pairs((struct place){peak.theta_cell, peak.rho_cell});
     }
 }
 
-/* Least squares about the mean time; value at a time, and slope. */
+/* Sums of a least squares line about the mean time. */
 struct fit {
     unsigned num, mask;
     double t, z, zt, tt;
@@ -291,7 +298,7 @@ static struct fit fit_through(const float *z)
     return fit;
 }
 
-static unsigned ones(unsigned mask)
+static unsigned count_set_bits(unsigned mask)
 {
     unsigned n = 0;
     for (; mask; mask &= mask - 1) {
@@ -300,8 +307,8 @@ static unsigned ones(unsigned mask)
     return n;
 }
 
-static void expect_axis(const struct fit *fit, int has_velocity, float at, float velocity,
-                        double at_s)
+static void expect_fit_of_axis(const struct fit *fit, int has_velocity, float at, float velocity,
+                               double at_s)
 {
     double slope = has_velocity ? fit->zt / fit->tt : 0.0;
     assert_float_equal(velocity, slope, 2e-3);
@@ -309,7 +316,7 @@ static void expect_axis(const struct fit *fit, int has_velocity, float at, float
     assert_float_equal(at, place, 1e-2 + 2e-6 * fabs(place));
 }
 
-static void expect_track(struct rho_accumulator_peak peak, float at_s)
+static void expect_track_of_peak(struct rho_accumulator_peak peak, float at_s)
 {
     struct rho_hough_track track;
     memset(&track, 0x5a, sizeof track);
@@ -320,52 +327,52 @@ static void expect_track(struct rho_accumulator_peak peak, float at_s)
     assert_true(track.votes <= peak.votes + slack && peak.votes <= track.votes + slack);
     assert_int_equal(track.num_plots, x.num);
     assert_int_equal(track.mask, x.mask);
-    assert_int_equal(track.scans, ones(x.mask));
+    assert_int_equal(track.scans, count_set_bits(x.mask));
     assert_true(!peak.mask || track.mask == peak.mask);
     assert_int_equal(!!track.has_velocity, track.scans >= 2);
-    expect_axis(&x, track.has_velocity, track.x_m, track.vx_mps, (double)at_s);
-    expect_axis(&y, track.has_velocity, track.y_m, track.vy_mps, (double)at_s);
+    expect_fit_of_axis(&x, track.has_velocity, track.x_m, track.vx_mps, (double)at_s);
+    expect_fit_of_axis(&y, track.has_velocity, track.y_m, track.vy_mps, (double)at_s);
 }
 
-/* The best cells of each method, and some far down. */
-static unsigned expect_tracks(uint32_t step)
+/* Compares tracks of the ten best cells, and of every step-th further one. */
+static unsigned expect_tracks_of_peaks(uint32_t step)
 {
     unsigned sure = 0;
     for (uint32_t i = 0; i < result.num_peaks; i += i < 10 ? 1 : step) {
-        look_up(peaks[i]);
+        find_voters(peaks[i]);
         if (voters.is_sure) {
-            expect_track(peaks[i], (float)(i % 4) * 5.0f - 3.0f);
+            expect_track_of_peak(peaks[i], (float)(i % 4) * 5.0f - 3.0f);
             sure++;
         }
     }
     return sure;
 }
 
-static void tracks_are_those_who_voted_and_the_line_through_them(void **state)
+static void tracks_are_fitted_to_the_plots_that_voted(void **state)
 {
     (void)state;
     unsigned sure = 0;
     random_state = 22;
     for (int run = 0; run < 20; run++) {
-        lay_table_1(run % 3 ? 7 : 4, run % 2 ? 10.0 : 0.5, run < 10);
+        add_scene_of_table_1(run % 3 ? 7 : 4, run % 2 ? 10.0 : 0.5, run < 10);
         use_paper_values(methods[run % 5]);
         config.uses_indeterminacy = run % 2;
         config.votes = run < 10 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
         config.tau = 0.3f;
         config.lambda_k = 10.0f;
         find_peaks();
-        sure += expect_tracks(1 + result.num_peaks / 10);
+        sure += expect_tracks_of_peaks(1 + result.num_peaks / 10);
     }
     assert_true(sure > 150);
 }
 
-static void tracks_hold_with_other_cells(void **state)
+static void tracks_agree_for_other_cell_sizes(void **state)
 {
     (void)state;
     unsigned sure = 0;
     random_state = 24;
     for (int run = 0; run < 20; run++) {
-        lay_table_1(7, 10.0, 0);
+        add_scene_of_table_1(7, 10.0, 0);
         use_paper_values(methods[run % 5]);
         config.keeps_all_cells = 1;
         config.tau = 0.1f;
@@ -374,12 +381,12 @@ static void tracks_hold_with_other_cells(void **state)
         config.eps_rho_m = (float)uniform(5.0, 100.0);
         config.eps_theta_rad = (float)fmin(uniform(0.5, 5.0) * (double)config.theta_cell_rad, 0.5);
         find_peaks();
-        sure += expect_tracks(1 + result.num_peaks / 10);
+        sure += expect_tracks_of_peaks(1 + result.num_peaks / 10);
     }
     assert_true(sure > 150);
 }
 
-static void tracks_hold_round_the_end_of_theta(void **state)
+static void tracks_agree_at_the_ends_of_theta(void **state)
 {
     (void)state;
     random_state = 23;
@@ -394,32 +401,29 @@ static void tracks_hold_round_the_end_of_theta(void **state)
         config.keeps_all_cells = 1;
         config.tau = 0.1f;
         find_peaks();
-        assert_true(expect_tracks(1 + result.num_peaks / 10) > 5);
+        assert_true(expect_tracks_of_peaks(1 + result.num_peaks / 10) > 5);
     }
 }
 
-/*
- * A velocity does not depend on the time that the place is for, nor how far that is from the
- * plots'.
- */
-static void a_velocity_holds_for_any_time(void **state)
+/* The place is extrapolated to any time, and the velocity stays. */
+static void a_tracks_velocity_does_not_depend_on_its_time(void **state)
 {
     (void)state;
     const float at_s[] = {0.0f, 100.0f, -600.0f, 3600.0f, 100000.0f};
-    lay_table_1(7, 0.0, 0);
+    add_scene_of_table_1(7, 0.0, 0);
     use_paper_values(RHO_HOUGH_IHT);
     find_peaks();
     for (size_t i = 0; i < NUM(at_s); i++) {
-        look_up(peaks[0]);
-        expect_track(peaks[0], at_s[i]);
+        find_voters(peaks[0]);
+        expect_track_of_peak(peaks[0], at_s[i]);
     }
 }
 
-/* Any cell may be asked for. */
+/* A cell without votes may be asked for. */
 static void a_cell_without_votes_has_no_track(void **state)
 {
     (void)state;
-    lay_table_1(7, 0.0, 0);
+    add_scene_of_table_1(7, 0.0, 0);
     for (size_t i = 0; i < NUM(methods); i++) {
         struct rho_hough_track track;
         memset(&track, 0x5a, sizeof track);
@@ -433,8 +437,8 @@ static void a_cell_without_votes_has_no_track(void **state)
     }
 }
 
-/* One plot alone has a place. */
-static void a_single_scan_has_a_place_and_no_velocity(void **state)
+/* One plot alone gives a place. */
+static void a_track_of_one_scan_has_a_place_and_no_velocity(void **state)
 {
     (void)state;
     points.at.num_scans = 0;
@@ -442,28 +446,28 @@ static void a_single_scan_has_a_place_and_no_velocity(void **state)
     start_scan();
     add_plot(1000.0, 500.0, 3.0);
     use_paper_values(RHO_HOUGH_HT);
-    find_some(1);
-    look_up(peaks[0]);
-    expect_track(peaks[0], 9.0f);
+    find_limited_peaks(1);
+    find_voters(peaks[0]);
+    expect_track_of_peak(peaks[0], 9.0f);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_three_targets_of_table_1_stand_out),
-        cmocka_unit_test(kernels_leave_only_the_targets_of_table_1),
+        cmocka_unit_test(the_three_targets_of_table_1_have_the_most_votes),
+        cmocka_unit_test(neutrosophic_methods_find_only_the_targets_of_table_1),
 #ifdef RHO_PROFILE_WORKSTATION
-        cmocka_unit_test(the_plots_of_table_3_do_not_stand_out),
+        cmocka_unit_test(the_plots_of_table_3_make_no_high_peak),
 #endif
-        cmocka_unit_test(mirror_lines_are_two_peaks),
-        cmocka_unit_test(hough_votes_as_in_double_precision),
-        cmocka_unit_test(points_or_scans_are_counted),
-        cmocka_unit_test(tracks_are_those_who_voted_and_the_line_through_them),
-        cmocka_unit_test(tracks_hold_with_other_cells),
-        cmocka_unit_test(tracks_hold_round_the_end_of_theta),
-        cmocka_unit_test(a_velocity_holds_for_any_time),
+        cmocka_unit_test(lines_mirrored_in_an_axis_are_two_peaks),
+        cmocka_unit_test(hough_votes_agree_with_double_precision),
+        cmocka_unit_test(votes_count_points_or_scans),
+        cmocka_unit_test(tracks_are_fitted_to_the_plots_that_voted),
+        cmocka_unit_test(tracks_agree_for_other_cell_sizes),
+        cmocka_unit_test(tracks_agree_at_the_ends_of_theta),
+        cmocka_unit_test(a_tracks_velocity_does_not_depend_on_its_time),
         cmocka_unit_test(a_cell_without_votes_has_no_track),
-        cmocka_unit_test(a_single_scan_has_a_place_and_no_velocity),
+        cmocka_unit_test(a_track_of_one_scan_has_a_place_and_no_velocity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the papers' methods refuse, what they have no room for, and inputs at their ends: no plots,
- * one scan, sixteen, plots in one place or at one time. What was in the object before does not
+ * Limits of the papers' methods: refused inputs, full capacities, and extreme inputs: no plots, one
+ * scan, sixteen scans, plots at one place or one time. Earlier contents of the object do not
  * matter.
  */
 #include <float.h>
@@ -16,9 +16,11 @@ static const enum rho_hough_method methods[] = {RHO_HOUGH_HT, RHO_HOUGH_MHT, RHO
 
 static struct rho_hough was;
 
-/* ---- configs --------------------------------------------------------------------------------- */
+/*
+ * ---- configurations ---------------------------------------------------------------------------
+ */
 
-static void refuse_config(void)
+static void expect_config_refused(void)
 {
     memset(&hough, 0x5a, sizeof hough);
     was = hough;
@@ -26,15 +28,15 @@ static void refuse_config(void)
     assert_memory_equal(&hough, &was, sizeof was);
 }
 
-static void accept_config(void)
+static void expect_config_accepted(void)
 {
     assert_int_equal(rho_hough_init(&hough, sizeof hough, &config), RHO_OK);
 }
 
 #define REFUSED(field, value)                                                                      \
-    (use_paper_values(RHO_HOUGH_NHT_C), config.field = (value), refuse_config())
+    (use_paper_values(RHO_HOUGH_NHT_C), config.field = (value), expect_config_refused())
 #define ACCEPTED(field, value)                                                                     \
-    (use_paper_values(RHO_HOUGH_NHT_C), config.field = (value), accept_config())
+    (use_paper_values(RHO_HOUGH_NHT_C), config.field = (value), expect_config_accepted())
 
 static void bad_planes_are_refused(void **state)
 {
@@ -55,16 +57,16 @@ static void bad_planes_are_refused(void **state)
     ACCEPTED(eps_rho_m, 0.0011f);
     REFUSED(eps_theta_rad, 9e-5f);
     ACCEPTED(eps_theta_rad, 1.1e-4f);
-    REFUSED(eps_rho_m, 5.0f * 128.0f); /* 256 cells */
+    REFUSED(eps_rho_m, 5.0f * 128.0f); /* a neighbourhood of 256 cells */
     ACCEPTED(eps_rho_m, 5.0f * 127.0f);
     REFUSED(eps_theta_rad, 0.128f);
     ACCEPTED(eps_theta_rad, 0.127f);
     use_paper_values(RHO_HOUGH_MHT);
     config.theta_cell_rad = 0.1f;
     config.eps_theta_rad = 0.5f;
-    accept_config();
+    expect_config_accepted();
     config.eps_theta_rad = 0.501f;
-    refuse_config();
+    expect_config_refused();
 }
 
 static void bad_thresholds_are_refused(void **state)
@@ -79,7 +81,7 @@ static void bad_thresholds_are_refused(void **state)
         REFUSED(tau, never[i]);
         REFUSED(votes_min, never[i]);
     }
-    REFUSED(v_min_mps, 400.0f); /* v_max */
+    REFUSED(v_min_mps, 400.0f); /* equal to v_max_mps */
     REFUSED(v_min_mps, 401.0f);
     REFUSED(v_min_mps, INFINITY);
     REFUSED(p_false, 1.001f);
@@ -97,7 +99,7 @@ static void bad_thresholds_are_refused(void **state)
     REFUSED(method, (enum rho_hough_method)77);
     use_paper_values(RHO_HOUGH_HT);
     config.votes = (enum rho_accumulator_votes)2;
-    refuse_config();
+    expect_config_refused();
 }
 
 static void other_sizes_and_null_are_refused(void **state)
@@ -113,13 +115,13 @@ static void other_sizes_and_null_are_refused(void **state)
     assert_memory_equal(&hough, &was, sizeof was);
 }
 
-static void defaults_are_the_papers(void **state)
+static void default_configurations_are_the_papers(void **state)
 {
     (void)state;
     for (size_t i = 0; i < NUM(methods); i++) {
         memset(&config, 0x5a, sizeof config);
         rho_hough_config_default(&config, methods[i]);
-        accept_config();
+        expect_config_accepted();
         assert_int_equal(config.method, methods[i]);
         assert_true(config.rho_cell_m == 5.0f && config.theta_cell_rad == 0.001f);
         assert_true(config.eps_rho_m == 20.0f && config.eps_theta_rad == 0.004f);
@@ -131,7 +133,7 @@ static void defaults_are_the_papers(void **state)
     }
 }
 
-static void a_cell_is_where_it_says(void **state)
+static void cells_have_the_theta_and_rho_of_their_centres(void **state)
 {
     (void)state;
     use_paper_values(RHO_HOUGH_MHT);
@@ -143,10 +145,12 @@ static void a_cell_is_where_it_says(void **state)
     assert_true(sizeof hough <= RHO_RAM_HOUGH_BYTES);
 }
 
-/* ---- inputs ---------------------------------------------------------------------------------- */
+/*
+ * ---- refused inputs ---------------------------------------------------------------------------
+ */
 
-/* Neither peaks nor result are touched. */
-static void refuse(enum rho_status expected, const struct rho_hough_points *input)
+/* Expects the input refused; peaks, result and track stay as they were. */
+static void expect_input_refused(enum rho_status expected, const struct rho_hough_points *input)
 {
     static struct rho_accumulator_peak some[4], some_were[4];
     struct rho_hough_result results, results_were;
@@ -168,7 +172,7 @@ static void null_is_refused(void **state)
 {
     (void)state;
     struct rho_hough_track track;
-    lay_table_1(3, 0.0, 0);
+    add_scene_of_table_1(3, 0.0, 0);
     for (size_t i = 0; i < NUM(methods); i++) {
         struct rho_hough_points without[4] = {points, points, points, points};
         without[0].at.x_m = NULL;
@@ -178,9 +182,9 @@ static void null_is_refused(void **state)
         use_paper_values(methods[i]);
         prepare_hough();
         for (size_t k = 0; k < NUM(without); k++) {
-            refuse(RHO_ERROR_NULL, &without[k]);
+            expect_input_refused(RHO_ERROR_NULL, &without[k]);
         }
-        refuse(RHO_ERROR_NULL, NULL);
+        expect_input_refused(RHO_ERROR_NULL, NULL);
         assert_int_equal(rho_hough_find(NULL, &points, peaks, 4, &result), RHO_ERROR_NULL);
         assert_int_equal(rho_hough_find(&hough, &points, NULL, 4, &result), RHO_ERROR_NULL);
         assert_int_equal(rho_hough_find(&hough, &points, peaks, 4, NULL), RHO_ERROR_NULL);
@@ -194,13 +198,13 @@ static void numbers_that_are_not_finite_or_too_large_are_refused(void **state)
     (void)state;
     const float bad[] = {NAN, INFINITY, -INFINITY, 2.001e6f, -FLT_MAX};
     float *const of[] = {x_m, y_m, t_s};
-    lay_table_1(3, 0.0, 0);
+    add_scene_of_table_1(3, 0.0, 0);
     for (size_t i = 0; i < NUM(methods) * NUM(of) * NUM(bad); i++) {
         float *value = &of[i / NUM(bad) % NUM(of)][i % 9], before = *value;
         use_paper_values(methods[i / NUM(bad) / NUM(of)]);
         prepare_hough();
         *value = of[i / NUM(bad) % NUM(of)] == t_s ? bad[i % 3] : bad[i % NUM(bad)];
-        refuse(RHO_ERROR_VALUE, &points);
+        expect_input_refused(RHO_ERROR_VALUE, &points);
         *value = before;
     }
 }
@@ -213,7 +217,7 @@ static void cells_outside_the_plane_and_bad_times_are_refused(void **state)
     struct rho_hough_track track, track_was;
     memset(&track, 0x3c, sizeof track);
     track_was = track;
-    lay_table_1(3, 0.0, 0);
+    add_scene_of_table_1(3, 0.0, 0);
     for (size_t i = 0; i < NUM(methods); i++) {
         use_paper_values(methods[i]);
         prepare_hough();
@@ -233,13 +237,13 @@ static void scans_out_of_order_or_too_many_are_refused(void **state)
     for (size_t i = 0; i < NUM(methods); i++) {
         use_paper_values(methods[i]);
         prepare_hough();
-        lay_table_1(4, 0.0, 0);
-        scan_end[1] = 10; /* beyond the next scan's */
-        refuse(RHO_ERROR_VALUE, &points);
-        lay_table_1(16, 0.0, 0);
+        add_scene_of_table_1(4, 0.0, 0);
+        scan_end[1] = 10; /* beyond the end of the next scan */
+        expect_input_refused(RHO_ERROR_VALUE, &points);
+        add_scene_of_table_1(16, 0.0, 0);
         scan_end[16] = scan_end[15];
         points.at.num_scans = 17;
-        refuse(RHO_ERROR_VALUE, &points);
+        expect_input_refused(RHO_ERROR_VALUE, &points);
     }
 }
 
@@ -259,7 +263,7 @@ static void a_scan_has_65535_plots_at_most(void **state)
             use_paper_values(methods[i]);
             prepare_hough();
             if (extra) {
-                refuse(RHO_ERROR_VALUE, &points);
+                expect_input_refused(RHO_ERROR_VALUE, &points);
             } else if (methods[i] == RHO_HOUGH_NHT_A || methods[i] == RHO_HOUGH_NHT_C) {
                 find_peaks();
                 assert_int_equal(result.pairs, 65535);
@@ -269,35 +273,35 @@ static void a_scan_has_65535_plots_at_most(void **state)
     }
 }
 
-static void an_object_never_initialised_is_refused(void **state)
+static void an_object_without_init_is_refused(void **state)
 {
     (void)state;
-    lay_table_1(3, 0.0, 0);
+    add_scene_of_table_1(3, 0.0, 0);
     memset(&hough, 0, sizeof hough);
-    refuse(RHO_ERROR_STATE, &points);
+    expect_input_refused(RHO_ERROR_STATE, &points);
     memset(&hough, 0x5a, sizeof hough);
-    refuse(RHO_ERROR_STATE, &points);
+    expect_input_refused(RHO_ERROR_STATE, &points);
 }
 
-/* As the header has it: 1 mm is enough for eps, 1e9 s the end of times. */
+/* Limits of the header: 1 mm for eps_rho_m, 1e9 s for times. */
 static void limits_are_those_of_the_header(void **state)
 {
     (void)state;
     ACCEPTED(eps_rho_m, 0.001f);
-    lay_table_1(3, 0.0, 0);
+    add_scene_of_table_1(3, 0.0, 0);
     t_s[4] = 0.999e9f;
     use_paper_values(RHO_HOUGH_MHT);
     find_peaks();
     t_s[4] = 1.001e9f;
     prepare_hough();
-    refuse(RHO_ERROR_VALUE, &points);
+    expect_input_refused(RHO_ERROR_VALUE, &points);
 }
 
-/* A hundredth of 1 / 65536 more than a vote is more than a vote. */
-static void a_threshold_between_two_numbers_is_not_rounded_down(void **state)
+/* One vote is less than a threshold of 1.000001, a hundredth of 1 / 65536 above it. */
+static void thresholds_are_not_rounded_down(void **state)
 {
     (void)state;
-    lay_table_1(2, 0.0, 0);
+    add_scene_of_table_1(2, 0.0, 0);
     use_paper_values_all_cells(RHO_HOUGH_IHT);
     config.votes_min = 1.0f;
     find_peaks();
@@ -307,43 +311,45 @@ static void a_threshold_between_two_numbers_is_not_rounded_down(void **state)
     assert_int_equal(result.num_peaks, 0);
 }
 
-/* ---- room ------------------------------------------------------------------------------------ */
+/*
+ * ---- capacities -------------------------------------------------------------------------------
+ */
 
-static void the_first_peaks_are_right_however_few_there_is_room_for(void **state)
+static void the_best_peaks_are_the_same_for_any_room(void **state)
 {
     (void)state;
     static struct rho_accumulator_peak all[CELLS_MAX];
     random_state = 31;
-    lay_table_1(7, 10.0, 1);
+    add_scene_of_table_1(7, 10.0, 1);
     for (size_t i = 1; i < NUM(methods); i++) {
         use_paper_values_all_cells(methods[i]);
         find_peaks();
         uint32_t num = result.num_peaks, room = 0;
         memcpy(all, peaks, num * sizeof *all);
         for (; room < num; room = 5 * room + 1) {
-            find_some(room);
+            find_limited_peaks(room);
             assert_int_equal(result.num_peaks, room);
             assert_int_equal(result.cells_dropped, num - room);
             assert_memory_equal(peaks, all, room * sizeof *all);
             if (room < 4000) {
                 config.keeps_all_cells = 0;
                 size_t kept = choose_from_listed();
-                find_some(room);
+                find_limited_peaks(room);
                 expect_peaks(kept);
                 config.keeps_all_cells = 1;
             }
         }
-        find_some(num);
+        find_limited_peaks(num);
         assert_int_equal(result.num_peaks, num);
         assert_int_equal(result.cells_dropped, 0);
     }
 }
 
-static void a_share_as_threshold_drops_no_more_than_it_says(void **state)
+static void a_relative_threshold_counts_the_cells_it_drops(void **state)
 {
     (void)state;
     random_state = 32;
-    lay_table_1(7, 10.0, 1);
+    add_scene_of_table_1(7, 10.0, 1);
     for (size_t i = 0; i < NUM(methods); i++) {
         use_paper_values(methods[i]);
         config.keeps_all_cells = 1;
@@ -353,17 +359,17 @@ static void a_share_as_threshold_drops_no_more_than_it_says(void **state)
         assert_true(num > 8);
         struct rho_accumulator_peak first[8];
         memcpy(first, peaks, sizeof first);
-        find_some(8);
+        find_limited_peaks(8);
         assert_int_equal(result.num_peaks, 8);
         assert_true(result.cells_dropped >= num - 8);
         assert_memory_equal(peaks, first, sizeof first);
     }
 }
 
-/* 300 targets abreast: one direction has more kernels than there is room for. */
+/* With targets abreast one direction has more kernels than fit. */
 #ifndef RHO_PROFILE_WORKSTATION
 
-static void lay_abreast(unsigned num)
+static void add_targets_abreast(unsigned num)
 {
     points.at.num_scans = 0;
     for (unsigned scan = 0; scan < 3; scan++) {
@@ -374,25 +380,25 @@ static void lay_abreast(unsigned num)
     }
 }
 
-static void more_pairs_of_one_direction_than_there_is_room_for_are_counted(void **state)
+static void kernels_beyond_the_capacity_are_counted(void **state)
 {
     (void)state;
-    lay_abreast(RHO_MAX_HOUGH_KERNELS);
+    add_targets_abreast(RHO_MAX_HOUGH_KERNELS);
     use_paper_values_all_cells(RHO_HOUGH_NHT_A);
     config.v_min_mps = 150.0f;
     config.v_max_mps = 162.0f;
-    find_peaks(); /* as many as there is room for */
+    find_peaks(); /* the kernels fit exactly */
     expect_reference();
     expect_cells(4.0);
     uint32_t cells_with_room = result.num_peaks;
-    lay_abreast(RHO_MAX_HOUGH_KERNELS + 44);
-    find_some(CELLS_MAX);
+    add_targets_abreast(RHO_MAX_HOUGH_KERNELS + 44);
+    find_limited_peaks(CELLS_MAX);
     assert_true(result.kernels_dropped >= 44);
     assert_true(result.num_peaks >= cells_with_room / 2);
     expect_reference();
     for (uint32_t i = 0; i < result.num_peaks; i++) {
         const struct cell *cell =
-            cell_of(peaks[i].theta_cell * (uint32_t)num_rho() + peaks[i].rho_cell);
+            find_cell(peaks[i].theta_cell * (uint32_t)num_rho() + peaks[i].rho_cell);
         assert_non_null(cell);
         assert_true(peaks[i].votes <= cell->bounds.most * RHO_HOUGH_VOTE + 4.0 * cell->sources);
     }
@@ -400,7 +406,9 @@ static void more_pairs_of_one_direction_than_there_is_room_for_are_counted(void 
 
 #endif
 
-/* ---- the ends -------------------------------------------------------------------------------- */
+/*
+ * ---- extreme inputs ---------------------------------------------------------------------------
+ */
 
 static void expect_nothing(void)
 {
@@ -409,7 +417,7 @@ static void expect_nothing(void)
     assert_int_equal(result.cells + result.votes_max, 0);
 }
 
-static void nothing_gives_nothing(void **state)
+static void without_plots_there_are_no_pairs_and_peaks(void **state)
 {
     (void)state;
     const struct rho_hough_points none = {.at = {.num_scans = 0}};
@@ -424,14 +432,14 @@ static void nothing_gives_nothing(void **state)
         }
         expect_nothing();
         if (methods[i] != RHO_HOUGH_HT) {
-            lay_table_1(1, 0.0, 0);
+            add_scene_of_table_1(1, 0.0, 0);
             expect_nothing();
         }
     }
 }
 
-/* Pairs are of successive scans: a scan without plots parts them. */
-static void a_scan_without_plots_parts_pairs(void **state)
+/* Pairs are made of successive scans only. */
+static void no_pair_spans_a_scan_without_plots(void **state)
 {
     (void)state;
     for (size_t i = 1; i < NUM(methods); i++) {
@@ -450,7 +458,7 @@ static void a_scan_without_plots_parts_pairs(void **state)
     }
 }
 
-static void plots_in_one_place_do_not_vote_as_a_pair(void **state)
+static void two_plots_in_one_place_do_not_vote(void **state)
 {
     (void)state;
     points.at.num_scans = 0;
@@ -472,7 +480,7 @@ static void plots_in_one_place_do_not_vote_as_a_pair(void **state)
     }
 }
 
-static void pairs_of_no_time_are_no_candidates(void **state)
+static void pairs_without_a_time_difference_are_no_candidates(void **state)
 {
     (void)state;
     for (int step = -1; step <= 0; step++) {
@@ -491,7 +499,7 @@ static void pairs_of_no_time_are_no_candidates(void **state)
     }
 }
 
-static void sixteen_scans_vote(void **state)
+static void all_sixteen_scans_vote(void **state)
 {
     (void)state;
     points.at.num_scans = 0;
@@ -520,7 +528,7 @@ static void pairs_are_counted_without_a_search(void **state)
     (void)state;
     uint32_t pairs = 7, candidates = 7;
     random_state = 33;
-    lay_table_1(7, 10.0, 1);
+    add_scene_of_table_1(7, 10.0, 1);
     use_paper_values(RHO_HOUGH_IHT);
     find_peaks();
     rho_hough_count_pairs(&hough, &points, &pairs, &candidates);
@@ -529,21 +537,23 @@ static void pairs_are_counted_without_a_search(void **state)
     assert_true(pairs > 10 * candidates / 2 && candidates > 1000);
 }
 
-/* ---- the same -------------------------------------------------------------------------------- */
+/*
+ * ---- repeated runs ----------------------------------------------------------------------------
+ */
 
-static void what_was_in_it_before_does_not_matter(void **state)
+static void earlier_contents_of_the_object_do_not_matter(void **state)
 {
     (void)state;
     static struct rho_accumulator_peak first[20000];
     struct rho_hough_result first_result;
     random_state = 34;
-    lay_table_1(7, 10.0, 1);
+    add_scene_of_table_1(7, 10.0, 1);
     for (size_t i = 0; i < 4 * NUM(methods); i++) {
         memset(&hough, 0, sizeof hough);
         use_paper_values(methods[i / 4]);
         config.keeps_all_cells = i & 1;
         config.uses_indeterminacy = 1;
-        find_some(20000);
+        find_limited_peaks(20000);
         first_result = result;
         memcpy(first, peaks, sizeof first);
         memset(peaks, 0x77, sizeof first);
@@ -553,7 +563,7 @@ static void what_was_in_it_before_does_not_matter(void **state)
         memset(&result, 0x13, sizeof result);
         for (int again = 0; again < 2; again++) {
             if (methods[i / 4] == RHO_HOUGH_HT && !again) {
-                prepare_hough(); /* its accumulator was set up by init */
+                prepare_hough(); /* init sets up the accumulator */
             }
             assert_int_equal(rho_hough_find(&hough, &points, peaks, 20000, &result), RHO_OK);
             assert_memory_equal(&result, &first_result, sizeof result);
@@ -562,14 +572,14 @@ static void what_was_in_it_before_does_not_matter(void **state)
     }
 }
 
-/* After any other method, and a track. */
-static void methods_take_turns(void **state)
+/* Results do not depend on the method or track computed before. */
+static void methods_can_be_used_in_turn(void **state)
 {
     (void)state;
     uint32_t num[NUM(methods)], most[NUM(methods)];
     struct rho_hough_track track;
     random_state = 35;
-    lay_table_1(7, 10.0, 1);
+    add_scene_of_table_1(7, 10.0, 1);
     for (size_t i = 0; i < 15; i++) {
         size_t k = (i < 5 ? i : 3 * i + i / 5) % 5;
         use_paper_values(methods[k]);
@@ -593,29 +603,29 @@ int main(void)
         cmocka_unit_test(bad_planes_are_refused),
         cmocka_unit_test(bad_thresholds_are_refused),
         cmocka_unit_test(other_sizes_and_null_are_refused),
-        cmocka_unit_test(defaults_are_the_papers),
-        cmocka_unit_test(a_cell_is_where_it_says),
+        cmocka_unit_test(default_configurations_are_the_papers),
+        cmocka_unit_test(cells_have_the_theta_and_rho_of_their_centres),
         cmocka_unit_test(null_is_refused),
         cmocka_unit_test(numbers_that_are_not_finite_or_too_large_are_refused),
         cmocka_unit_test(cells_outside_the_plane_and_bad_times_are_refused),
         cmocka_unit_test(scans_out_of_order_or_too_many_are_refused),
         cmocka_unit_test(a_scan_has_65535_plots_at_most),
-        cmocka_unit_test(an_object_never_initialised_is_refused),
+        cmocka_unit_test(an_object_without_init_is_refused),
         cmocka_unit_test(limits_are_those_of_the_header),
-        cmocka_unit_test(a_threshold_between_two_numbers_is_not_rounded_down),
-        cmocka_unit_test(the_first_peaks_are_right_however_few_there_is_room_for),
-        cmocka_unit_test(a_share_as_threshold_drops_no_more_than_it_says),
+        cmocka_unit_test(thresholds_are_not_rounded_down),
+        cmocka_unit_test(the_best_peaks_are_the_same_for_any_room),
+        cmocka_unit_test(a_relative_threshold_counts_the_cells_it_drops),
 #ifndef RHO_PROFILE_WORKSTATION
-        cmocka_unit_test(more_pairs_of_one_direction_than_there_is_room_for_are_counted),
+        cmocka_unit_test(kernels_beyond_the_capacity_are_counted),
 #endif
-        cmocka_unit_test(nothing_gives_nothing),
-        cmocka_unit_test(a_scan_without_plots_parts_pairs),
-        cmocka_unit_test(plots_in_one_place_do_not_vote_as_a_pair),
-        cmocka_unit_test(pairs_of_no_time_are_no_candidates),
-        cmocka_unit_test(sixteen_scans_vote),
+        cmocka_unit_test(without_plots_there_are_no_pairs_and_peaks),
+        cmocka_unit_test(no_pair_spans_a_scan_without_plots),
+        cmocka_unit_test(two_plots_in_one_place_do_not_vote),
+        cmocka_unit_test(pairs_without_a_time_difference_are_no_candidates),
+        cmocka_unit_test(all_sixteen_scans_vote),
         cmocka_unit_test(pairs_are_counted_without_a_search),
-        cmocka_unit_test(what_was_in_it_before_does_not_matter),
-        cmocka_unit_test(methods_take_turns),
+        cmocka_unit_test(earlier_contents_of_the_object_do_not_matter),
+        cmocka_unit_test(methods_can_be_used_in_turn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

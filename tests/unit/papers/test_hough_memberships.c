@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * T, I and F of the neutrosophic paper as objects: the memberships of a vote against double
- * precision, the matrices C_T, C_I and C_F as sums of these, eq. (19) beside eq. (24), and planes
- * of every method beside the cells that the search compares.
+ * Truth T, indeterminacy I and falsity F of the neutrosophic paper: memberships of a vote compared
+ * with double precision, the matrices C_T, C_I and C_F as their sums, eq. (19) compared with eq.
+ * (24), and planes of votes compared with the cells of a search.
  */
 #include "hough_cells.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 #define ROWS_MAX 400u
 #define COLUMNS_MAX 420u
-#define PARTS 16.0 /* of a vote that float may be off */
+#define PARTS 16.0 /* largest rounding error of a vote, in 1 / 65536 */
 
 static uint32_t pictures[RHO_NUM_HOUGH_COMPONENTS][ROWS_MAX * COLUMNS_MAX];
 
-/* A plane that fits a picture cell by cell: 25 m and 8 mrad. */
-static void coarse(enum rho_hough_method method)
+/* Sets cells of 25 m and 8 mrad, so that a picture holds the whole plane. */
+static void use_coarse_cells(enum rho_hough_method method)
 {
     use_paper_values_all_cells(method);
     config.rho_cell_m = 25.0f;
@@ -23,7 +23,7 @@ static void coarse(enum rho_hough_method method)
     config.eps_theta_rad = 0.02f;
 }
 
-static struct rho_votes_picture whole(enum rho_hough_component component)
+static struct rho_votes_picture whole_plane(enum rho_hough_component component)
 {
     struct rho_votes_picture plane = {
         .height = hough.theta_cells, .width = hough.rho_cells, .votes = pictures[component]};
@@ -33,11 +33,11 @@ static struct rho_votes_picture whole(enum rho_hough_component component)
 
 static void draw_plane(enum rho_hough_component component)
 {
-    struct rho_votes_picture plane = whole(component);
+    struct rho_votes_picture plane = whole_plane(component);
     assert_int_equal(rho_hough_plane(&hough, &points, component, &plane), RHO_OK);
 }
 
-static struct rho_hough_memberships vote_of(unsigned first, unsigned second)
+static struct rho_hough_memberships memberships_of_pair(unsigned first, unsigned second)
 {
     struct rho_hough_memberships of;
     memset(&of, 0x5a, sizeof of);
@@ -45,31 +45,35 @@ static struct rho_hough_memberships vote_of(unsigned first, unsigned second)
     return of;
 }
 
-/* ---- one vote -------------------------------------------------------------------------------- */
+/*
+ * ---- memberships of one vote ------------------------------------------------------------------
+ */
 
 static void a_vote_has_truth_indeterminacy_and_falsity(void **state)
 {
     (void)state;
-    lay_two_kernels();
+    add_two_kernels();
     add_plot(500.0, 3000.0, 4.0); /* too far for a target of 400 m/s */
     use_paper_values_all_cells(RHO_HOUGH_NHT_A);
     prepare_hough();
-    struct rho_hough_memberships of = vote_of(4, 5);
+    struct rho_hough_memberships of = memberships_of_pair(4, 5);
     assert_float_equal(of.truth, 65536.0 * exp(-0.18), 4.0);
     assert_float_equal(of.indeterminacy, 65536.0 * exp(-0.10125), 4.0);
-    assert_int_equal(of.falsity, 7); /* 65536 P_F^2 = 6.55 */
+    assert_int_equal(of.falsity, 7); /* 65536 P_F^2 = 6.55, rounded */
     config.lambda_k = 1e6f;
     prepare_hough();
-    of = vote_of(4, 5);
+    of = memberships_of_pair(4, 5);
     assert_int_equal(of.falsity, RHO_HOUGH_VOTE); /* a membership is 1 at most */
-    of = vote_of(4, 6);
-    assert_int_equal(of.truth + of.indeterminacy + of.falsity, 0); /* no candidate, eq. (20) */
-    of = vote_of(0, 2);
-    assert_int_equal(of.truth + of.indeterminacy + of.falsity, 0); /* no scan before: no kernel */
+    of = memberships_of_pair(4, 6);
+    /* the pair is no candidate, eq. (20) */
+    assert_int_equal(of.truth + of.indeterminacy + of.falsity, 0);
+    of = memberships_of_pair(0, 2);
+    /* without an earlier scan there is no kernel */
+    assert_int_equal(of.truth + of.indeterminacy + of.falsity, 0);
 }
 
-/* The nearest kernel in double precision; -1: so near a limit that float may differ. */
-static double truth_of(unsigned first, unsigned second)
+/* Truth from the nearest kernel in double precision; -1: so near a limit that float may differ. */
+static double expected_truth_of_pair(unsigned first, unsigned second)
 {
     const struct line line = line_of_plots(first, second);
     const unsigned scan = scan_of(second);
@@ -88,7 +92,7 @@ static double truth_of(unsigned first, unsigned second)
                                 d_m > 1.001 * (double)config.v_min_mps * dt_s &&
                                 d_m < 0.999 * (double)config.v_max_mps * dt_s;
             if (is_near && is_speed) {
-                const double mu = closeness(off);
+                const double mu = gaussian_of_offset(off);
                 if (!is_sure && mu > best) {
                     return -1.0;
                 }
@@ -99,7 +103,7 @@ static double truth_of(unsigned first, unsigned second)
     return best;
 }
 
-static int is_candidate(unsigned first, unsigned second)
+static int is_sure_candidate(unsigned first, unsigned second)
 {
     const double d_m =
         hypot((double)(x_m[second] - x_m[first]), (double)(y_m[second] - y_m[first]));
@@ -108,20 +112,21 @@ static int is_candidate(unsigned first, unsigned second)
            d_m < 0.999 * (double)config.v_max_mps * dt_s;
 }
 
-static void truth_is_that_of_the_nearest_kernel(void **state)
+static void the_truth_of_a_vote_is_that_of_the_nearest_kernel(void **state)
 {
     (void)state;
     unsigned compared = 0, true_ones = 0;
     random_state = 31;
-    lay_table_1(4, 0.5, 1);
-    coarse(RHO_HOUGH_NHT_A);
+    add_scene_of_table_1(4, 0.5, 1);
+    use_coarse_cells(RHO_HOUGH_NHT_A);
     prepare_hough();
     for (unsigned i = scan_start(1); i < scan_end[2]; i++) {
         const unsigned scan = scan_of(i) + 1u;
         for (unsigned j = scan_start(scan); j < scan_end[scan]; j++) {
-            const double truth = scan >= 2 && is_candidate(i, j) ? truth_of(i, j) : -1.0;
+            const double truth =
+                scan >= 2 && is_sure_candidate(i, j) ? expected_truth_of_pair(i, j) : -1.0;
             if (truth >= 0.0) {
-                assert_float_equal(vote_of(i, j).truth, 65536.0 * truth, PARTS);
+                assert_float_equal(memberships_of_pair(i, j).truth, 65536.0 * truth, PARTS);
                 compared++;
                 true_ones += truth > 0.0;
             }
@@ -131,9 +136,12 @@ static void truth_is_that_of_the_nearest_kernel(void **state)
     assert_true(compared > 1000 && true_ones > 50 && true_ones < compared);
 }
 
-/* ---- matrices -------------------------------------------------------------------------------- */
+/*
+ * ---- matrices ---------------------------------------------------------------------------------
+ */
 
-static uint32_t part_of(const struct rho_hough_memberships *of, enum rho_hough_component component)
+static uint32_t component_of(const struct rho_hough_memberships *of,
+                             enum rho_hough_component component)
 {
     const uint32_t parts[] = {[RHO_HOUGH_TRUTH] = of->truth,
                               [RHO_HOUGH_INDETERMINACY] = of->indeterminacy,
@@ -146,24 +154,24 @@ static uint32_t part_of(const struct rho_hough_memberships *of, enum rho_hough_c
 }
 
 /*
- * Eqs. (16) to (18), and the sum of (24): cell by cell, but for pairs whose line is at the border
- * of its cell.
+ * Eqs. (16) to (18) and the sum in (24), cell by cell; pairs near a border of cells may be in the
+ * next one.
  */
-static void matrices_are_sums_of_memberships(void **state)
+static void matrices_are_the_sums_of_memberships(void **state)
 {
     (void)state;
     static uint32_t sums[RHO_NUM_HOUGH_COMPONENTS][ROWS_MAX * COLUMNS_MAX];
     static uint8_t is_unsure[ROWS_MAX * COLUMNS_MAX];
     random_state = 32;
-    lay_table_1(5, 2.0, 1);
-    coarse(RHO_HOUGH_NHT_A);
+    add_scene_of_table_1(5, 2.0, 1);
+    use_coarse_cells(RHO_HOUGH_NHT_A);
     prepare_hough();
     memset(sums, 0, sizeof sums);
     memset(is_unsure, 0, sizeof is_unsure);
     for (unsigned i = scan_start(1); i < scan_end[3]; i++) {
         const unsigned scan = scan_of(i) + 1u;
         for (unsigned j = scan_start(scan); j < scan_end[scan]; j++) {
-            const struct rho_hough_memberships of = vote_of(i, j);
+            const struct rho_hough_memberships of = memberships_of_pair(i, j);
             const struct line line = line_of_plots(i, j);
             if (!is_in_plane(place_of(line)) || of.falsity == 0) {
                 continue;
@@ -171,14 +179,14 @@ static void matrices_are_sums_of_memberships(void **state)
             for (int side = 0; side < 9; side++) {
                 const struct line moved = {line.rho + 0.05 * (side % 3 - 1),
                                            line.theta + 2e-5 * (side / 3 - 1)};
-                const struct place place = wrapped(place_of(upright(moved)));
+                const struct place place = wrapped_place(place_of(wrapped_line(moved)));
                 const unsigned at = (unsigned)(place.theta * num_rho() + place.rho);
                 is_unsure[at] |= is_in_plane(place) && (place.theta != place_of(line).theta ||
                                                         place.rho != place_of(line).rho);
             }
-            const unsigned own = (unsigned)key_of(place_of(line));
+            const unsigned own = (unsigned)sort_key_of_place(place_of(line));
             for (int c = RHO_HOUGH_TRUTH; c < RHO_NUM_HOUGH_COMPONENTS; c++) {
-                sums[c][own] += part_of(&of, (enum rho_hough_component)c);
+                sums[c][own] += component_of(&of, (enum rho_hough_component)c);
             }
         }
     }
@@ -192,23 +200,25 @@ static void matrices_are_sums_of_memberships(void **state)
         }
         print_message("component %d: %u cells, %u the same\n", c, filled, same);
         assert_true(filled > 100 && same > filled - filled / 20);
-        assert_in_range(off, 0, filled / 50); /* the other cell of a pair at a border */
+        assert_in_range(off, 0, filled / 50); /* pairs near a border of cells */
     }
 }
 
 /*
- * (19) takes the largest of the sums, (24) sums the largest: no less in any cell, at most all three
- * together, and the same where one membership is the largest in each vote of a cell.
+ * Eq. (19) takes the largest of three sums, eq. (24) sums the largest membership: (24) is no less
+ * in any cell, at most the three sums together, and equal if one membership is largest in each
+ * vote.
  */
-static void the_largest_sum_is_at_most_the_sum_of_the_largest(void **state)
+static void the_largest_of_sums_is_at_most_the_sum_of_the_largest(void **state)
 {
     (void)state;
     for (int reading = 0; reading < 2; reading++) {
         unsigned less = 0, equal = 0;
         random_state = 33;
-        lay_table_1(6, 3.0, 1);
-        coarse(reading ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
-        config.lambda_k = 5000.0f; /* F 0.5: each of the three is the largest somewhere */
+        add_scene_of_table_1(6, 3.0, 1);
+        use_coarse_cells(reading ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
+        /* F is 0.5, so that each membership is the largest one somewhere */
+        config.lambda_k = 5000.0f;
         prepare_hough();
         for (int c = RHO_HOUGH_TRUTH; c < RHO_NUM_HOUGH_COMPONENTS; c++) {
             draw_plane((enum rho_hough_component)c);
@@ -220,7 +230,8 @@ static void the_largest_sum_is_at_most_the_sum_of_the_largest(void **state)
             const uint32_t by_24 = pictures[RHO_HOUGH_LARGEST][i], all = of[0] + of[1] + of[2];
             uint32_t by_19 = of[0] > of[1] ? of[0] : of[1];
             by_19 = of[2] > by_19 ? of[2] : by_19;
-            const uint32_t rounding = reading ? 200 : 0; /* spread sums are rounded each */
+            /* sums of spread votes are rounded one by one */
+            const uint32_t rounding = reading ? 200 : 0;
             assert_true(by_19 <= by_24 + rounding && by_24 <= all + 3 * rounding);
             less += by_19 + rounding < by_24;
             equal += by_24 > 0 && by_19 == by_24;
@@ -230,17 +241,19 @@ static void the_largest_sum_is_at_most_the_sum_of_the_largest(void **state)
     }
 }
 
-/* ---- planes beside searches ------------------------------------------------------------------ */
+/*
+ * ---- planes and searches ----------------------------------------------------------------------
+ */
 
-static void the_plane_of_votes_is_that_of_the_search(void **state)
+static void a_plane_of_votes_agrees_with_the_search(void **state)
 {
     (void)state;
     static const enum rho_hough_method methods[] = {RHO_HOUGH_HT, RHO_HOUGH_MHT, RHO_HOUGH_IHT,
                                                     RHO_HOUGH_NHT_A, RHO_HOUGH_NHT_C};
     random_state = 34;
     for (unsigned run = 0; run < 2 * NUM(methods); run++) {
-        lay_table_1(5, 3.0, 1);
-        coarse(methods[run / 2]);
+        add_scene_of_table_1(5, 3.0, 1);
+        use_coarse_cells(methods[run / 2]);
         config.votes = run % 2 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS;
         config.uses_indeterminacy = run % 2;
         find_peaks();
@@ -257,14 +270,14 @@ static void the_plane_of_votes_is_that_of_the_search(void **state)
     }
 }
 
-/* What the voters of a cell sum up to is what the matrices have there. */
-static void a_line_has_the_matrices_of_its_cell(void **state)
+/* Sums over the voters of a cell are those of the matrices there. */
+static void sums_of_a_track_agree_with_the_matrices_of_its_cell(void **state)
 {
     (void)state;
     for (int reading = 0; reading < 2; reading++) {
         random_state = 35;
-        lay_table_1(6, 0.5, 1);
-        coarse(reading ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
+        add_scene_of_table_1(6, 0.5, 1);
+        use_coarse_cells(reading ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
         find_peaks();
         for (int c = RHO_HOUGH_TRUTH; c <= RHO_HOUGH_FALSITY; c++) {
             draw_plane((enum rho_hough_component)c);
@@ -279,20 +292,20 @@ static void a_line_has_the_matrices_of_its_cell(void **state)
             assert_float_equal(track.sums.truth, pictures[RHO_HOUGH_TRUTH][at], 100.0);
             assert_float_equal(track.sums.indeterminacy, pictures[RHO_HOUGH_INDETERMINACY][at],
                                100.0);
-            if (!reading) { /* spread over many pairs, 7 parts are rounded away */
+            if (!reading) { /* 7 parts spread over a neighbourhood are lost by rounding */
                 assert_int_equal(track.sums.falsity, pictures[RHO_HOUGH_FALSITY][at]);
             }
         }
     }
 }
 
-static void a_window_has_the_most_of_each_block(void **state)
+static void a_windows_picture_has_the_most_votes_of_each_block(void **state)
 {
     (void)state;
     uint32_t small[4 * 5];
     random_state = 36;
-    lay_table_1(5, 3.0, 1);
-    coarse(RHO_HOUGH_NHT_C);
+    add_scene_of_table_1(5, 3.0, 1);
+    use_coarse_cells(RHO_HOUGH_NHT_C);
     prepare_hough();
     draw_plane(RHO_HOUGH_VOTES);
     struct rho_votes_picture plane = {.first_theta = 40,
@@ -317,15 +330,15 @@ static void a_window_has_the_most_of_each_block(void **state)
     }
 }
 
-static void what_is_no_vote_and_no_plane_is_refused(void **state)
+static void invalid_votes_and_planes_are_refused(void **state)
 {
     (void)state;
     struct rho_hough_memberships of;
-    lay_two_kernels();
+    add_two_kernels();
     add_plot(500.0, 3000.0, 4.0);
-    coarse(RHO_HOUGH_IHT);
+    use_coarse_cells(RHO_HOUGH_IHT);
     prepare_hough();
-    struct rho_votes_picture plane = whole(RHO_HOUGH_TRUTH);
+    struct rho_votes_picture plane = whole_plane(RHO_HOUGH_TRUTH);
     assert_int_equal(rho_hough_plane(&hough, &points, RHO_HOUGH_TRUTH, &plane), RHO_ERROR_VALUE);
     assert_int_equal(rho_hough_plane(&hough, &points, RHO_NUM_HOUGH_COMPONENTS, &plane),
                      RHO_ERROR_VALUE);
@@ -335,7 +348,7 @@ static void what_is_no_vote_and_no_plane_is_refused(void **state)
     plane.height = (uint16_t)(hough.theta_cells + 1u);
     assert_int_equal(rho_hough_plane(&hough, &points, RHO_HOUGH_VOTES, &plane), RHO_ERROR_VALUE);
     assert_int_equal(rho_hough_vote(&hough, &points, 4, 5, &of), RHO_OK);
-    assert_int_equal(of.truth + of.indeterminacy + of.falsity, 0); /* IHT has none */
+    assert_int_equal(of.truth + of.indeterminacy + of.falsity, 0); /* IHT has no memberships */
     assert_int_equal(rho_hough_vote(&hough, &points, 4, 5, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_hough_vote(NULL, &points, 4, 5, &of), RHO_ERROR_NULL);
     assert_int_equal(rho_hough_vote(&hough, &points, 0, 5, &of), RHO_ERROR_VALUE);
@@ -350,13 +363,13 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_vote_has_truth_indeterminacy_and_falsity),
-        cmocka_unit_test(truth_is_that_of_the_nearest_kernel),
-        cmocka_unit_test(matrices_are_sums_of_memberships),
-        cmocka_unit_test(the_largest_sum_is_at_most_the_sum_of_the_largest),
-        cmocka_unit_test(the_plane_of_votes_is_that_of_the_search),
-        cmocka_unit_test(a_line_has_the_matrices_of_its_cell),
-        cmocka_unit_test(a_window_has_the_most_of_each_block),
-        cmocka_unit_test(what_is_no_vote_and_no_plane_is_refused),
+        cmocka_unit_test(the_truth_of_a_vote_is_that_of_the_nearest_kernel),
+        cmocka_unit_test(matrices_are_the_sums_of_memberships),
+        cmocka_unit_test(the_largest_of_sums_is_at_most_the_sum_of_the_largest),
+        cmocka_unit_test(a_plane_of_votes_agrees_with_the_search),
+        cmocka_unit_test(sums_of_a_track_agree_with_the_matrices_of_its_cell),
+        cmocka_unit_test(a_windows_picture_has_the_most_votes_of_each_block),
+        cmocka_unit_test(invalid_votes_and_planes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

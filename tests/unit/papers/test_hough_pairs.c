@@ -1,32 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The methods of pairs against the same in double precision, cell by cell: in the paper's clutter,
- * with other parameters, about the end of theta. The embedded build takes theta in parts there, the
- * workstation's all at once.
+ * Methods that vote by pairs, compared with double precision cell by cell: in the paper's clutter,
+ * with other parameters, and near the ends of theta, where the embedded build searches theta in
+ * parts and the workstation's at once.
  */
 #include "hough_cells.h"
 
-#define PARTS 4.0 /* of a vote, 2^-14, that a voter may be off */
+#define PARTS 4.0 /* largest rounding error of a voter, 2^-14 of a vote */
 
 static const enum rho_hough_method methods[] = {RHO_HOUGH_MHT, RHO_HOUGH_IHT, RHO_HOUGH_NHT_A,
                                                 RHO_HOUGH_NHT_C};
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
-/* Midpoints of kernels are rounded once more. */
-static double slack(void)
+/* Allowed error of a vote; midpoints of kernels are rounded once more. */
+static double vote_slack(void)
 {
     return config.method == RHO_HOUGH_MHT || config.method == RHO_HOUGH_IHT ? 0.0
            : config.uses_indeterminacy                                      ? 4.0 * PARTS
                                                                             : PARTS;
 }
 
-/* All cells, then the peaks that follow from them at half the most votes. */
-static void expect_the_same(void)
+/* Compares all cells, then the peaks that follow from them at half of the most votes. */
+static void compare_cells_and_peaks(void)
 {
     find_peaks();
     expect_reference();
-    expect_cells(slack());
+    expect_cells(vote_slack());
     expect_counts();
     config.tau = 0.5f;
     config.keeps_all_cells = 0;
@@ -35,17 +35,17 @@ static void expect_the_same(void)
     expect_peaks(num);
 }
 
-static void clutter_votes_as_in_double_precision(void **state)
+static void votes_in_clutter_agree_with_double_precision(void **state)
 {
     (void)state;
     uint64_t pairs = 0, at_limits = 0;
     random_state = 11;
     memset(&seen, 0, sizeof seen);
     for (int run = 0; run < 2; run++) {
-        lay_table_1(7, 10.0, 1);
+        add_scene_of_table_1(7, 10.0, 1);
         for (size_t i = 0; i < NUM(methods); i++) {
             use_paper_values_all_cells(methods[i]);
-            expect_the_same();
+            compare_cells_and_peaks();
             pairs += counted.voters;
             at_limits += counted.at_limits;
         }
@@ -58,17 +58,17 @@ static void clutter_votes_as_in_double_precision(void **state)
     assert_true((double)seen.exact > 0.97 * (double)seen.cells);
 }
 
-static void the_embedded_build_takes_theta_in_parts(void **state)
+static void the_embedded_build_searches_theta_in_parts(void **state)
 {
     (void)state;
     random_state = 12;
-    lay_table_1(7, 10.0, 1);
+    add_scene_of_table_1(7, 10.0, 1);
     for (size_t i = 0; i < NUM(methods); i++) {
         use_paper_values_all_cells(methods[i]);
         config.lambda_k = 10.0f;
         find_peaks();
         expect_reference();
-        expect_cells(slack());
+        expect_cells(vote_slack());
 #ifdef RHO_PROFILE_WORKSTATION
         assert_true(result.passes >= 1);
 #else
@@ -78,14 +78,14 @@ static void the_embedded_build_takes_theta_in_parts(void **state)
     }
 }
 
-static void other_cells_and_limits_vote_as_in_double_precision(void **state)
+static void votes_agree_for_other_cells_and_limits(void **state)
 {
     (void)state;
     random_state = 13;
     for (int run = 0; run < 12; run++) {
-        lay_table_1(3 + (unsigned)run % 5, run % 2 ? 10.0 : 0.5, run % 4 != 3);
+        add_scene_of_table_1(3 + (unsigned)run % 5, run % 2 ? 10.0 : 0.5, run % 4 != 3);
         use_paper_values_all_cells(methods[run % 4]);
-        config.rho_max_m = run % 3 ? 5000.0f : 2000.0f; /* some lines beyond it */
+        config.rho_max_m = run % 3 ? 5000.0f : 2000.0f; /* some lines are beyond rho_max */
         config.rho_cell_m = run % 3 ? 20.0f : 4.0f;
         config.theta_cell_rad = (float)uniform(0.0008, 0.02);
         config.eps_rho_m = (float)uniform(5.0, 60.0);
@@ -98,73 +98,68 @@ static void other_cells_and_limits_vote_as_in_double_precision(void **state)
             config.rho_max_m = 5000.0f;
             config.rho_cell_m = fmaxf(config.rho_cell_m, 5.0f);
         }
-        expect_the_same();
+        compare_cells_and_peaks();
     }
 }
 
-static void lay_crowd(int num)
+static void add_dense_plots(int num)
 {
     points.at.num_scans = 0;
     for (unsigned scan = 0; scan < 5; scan++) {
         start_scan();
         for (int i = 0; i < num; i++) {
-            add_anywhere(-600.0, 600.0, -600.0, 600.0, 2.0 * scan);
+            add_plot_in_rectangle(-600.0, 600.0, -600.0, 600.0, 2.0 * scan);
         }
     }
 }
 
 /*
- * From 4 rows to hundreds, reach from none to a quarter of them; the last row is a sliver, or
- * nearly whole.
+ * Planes of 4 to hundreds of rows with neighbourhoods of up to a quarter of them; the last row is
+ * almost nothing or almost complete.
  */
-static void few_rows_vote_as_in_double_precision(void **state)
+static void votes_agree_for_planes_of_few_rows(void **state)
 {
     (void)state;
     random_state = 19;
     for (int run = 0; run < 48; run++) {
         int rows = run < 24 ? 3 + run : 20 + 19 * (run - 24);
         double part = run % 3 ? uniform(0.0, 1.0) : run % 2 ? 0.02 : 0.98;
-        lay_crowd(12);
+        add_dense_plots(12);
         use_paper_values_all_cells(methods[run % 4]);
         config.theta_cell_rad = (float)(REFERENCE_PI / (rows + part));
         config.eps_theta_rad =
             (float)fmin(uniform(0.2, run % 7 ? 8.0 : 100.0) * (double)config.theta_cell_rad, 0.5);
         config.eps_rho_m = (float)uniform(1.0, run % 7 ? 100.0 : 20.0);
         config.uses_indeterminacy = run & 4;
-        expect_the_same();
+        compare_cells_and_peaks();
     }
 }
 
-/*
- * The same in the parts that the embedded build has to take: all round, each in sight of the next.
- */
-static void parts_of_theta_vote_as_in_double_precision(void **state)
+/* Planes that the embedded build searches in parts, each with a view of the next one. */
+static void votes_agree_when_theta_is_searched_in_parts(void **state)
 {
     (void)state;
     random_state = 21;
     for (int run = 0; run < 16; run++) {
         double part = run % 8 < 4 ? 0.02 : 0.98;
-        lay_crowd(60);
+        add_dense_plots(60);
         use_paper_values_all_cells(methods[run % 4]);
         config.theta_cell_rad = (float)(REFERENCE_PI / ((run < 8 ? 200.0 : 260.0) + part));
         config.eps_theta_rad = (run < 8 ? 0.6f : 1.1f) * config.theta_cell_rad;
-        expect_the_same();
+        compare_cells_and_peaks();
 #ifndef RHO_PROFILE_WORKSTATION
         assert_true(result.passes > 1);
 #endif
     }
 }
 
-/*
- * Numbers of lists that any build and profile must give: 32-bit FNV-1a of all cells, their places
- * and votes.
- */
-static void all_builds_give_the_same_lists(void **state)
+/* FNV-1a hashes of all cells and their votes, which every build and profile must give. */
+static void all_builds_give_the_same_cells(void **state)
 {
     (void)state;
     const uint32_t known[] = {0xcca5ed50, 0x994fa7e5, 0xd65131f6, 0x4ba4b3d6};
     random_state = 20;
-    lay_table_1(7, 10.0, 1);
+    add_scene_of_table_1(7, 10.0, 1);
     for (size_t i = 0; i < NUM(methods); i++) {
         uint32_t hash = 2166136261u;
         use_paper_values_all_cells(methods[i]);
@@ -179,9 +174,11 @@ static void all_builds_give_the_same_lists(void **state)
     }
 }
 
-/* ---- the end of theta ------------------------------------------------------------------------ */
+/*
+ * ---- the ends of theta ------------------------------------------------------------------------
+ */
 
-static void lay_columns(double noise_m, double lean)
+static void add_vertical_targets(double noise_m, double lean)
 {
     points.at.num_scans = 0;
     for (unsigned scan = 0; scan < 7; scan++) {
@@ -189,26 +186,26 @@ static void lay_columns(double noise_m, double lean)
         for (int i = 0; i < 8; i++) {
             double along = (i % 2 ? -1.0 : 1.0) * (-1400.0 + 450.0 * scan);
             double x = -3502.5 + 1000.0 * i + (i % 3 - 1) * lean * along;
-            add_noisy(x, along, 2.0 * scan, noise_m);
+            add_noisy_plot(x, along, 2.0 * scan, noise_m);
         }
     }
 }
 
-static void lines_about_the_end_of_theta_vote_as_in_double_precision(void **state)
+static void votes_agree_for_lines_near_the_ends_of_theta(void **state)
 {
     (void)state;
     random_state = 16;
     for (int run = 0; run < 24; run++) {
-        lay_columns(run % 3 * 0.8, run / 3 % 2 * 0.001);
+        add_vertical_targets(run % 3 * 0.8, run / 3 % 2 * 0.001);
         use_paper_values_all_cells(methods[run % 4]);
         config.uses_indeterminacy = run & 8;
-        expect_the_same();
+        compare_cells_and_peaks();
     }
 }
 
 /*
- * Columns 1 km apart, plots a little off either way: all pairs of a column support each other, and
- * it is one peak.
+ * Vertical targets 1 km apart with a little noise: the pairs of each support each other and make
+ * one peak.
  */
 static void a_vertical_target_is_one_peak(void **state)
 {
@@ -216,13 +213,13 @@ static void a_vertical_target_is_one_peak(void **state)
     random_state = 17;
     unsigned kernels_beyond = 0;
     for (int run = 0; run < 10; run++) {
-        lay_columns(0.1, 0.0);
+        add_vertical_targets(0.1, 0.0);
         use_paper_values(RHO_HOUGH_NHT_A);
         config.tau = 0.25f;
         config.votes_min = 1.8f;
         find_peaks();
         assert_int_equal(result.num_peaks, 8);
-        assert_int_equal(result.votes, 40); /* 8 columns, 5 links each */
+        assert_int_equal(result.votes, 40); /* 8 targets with 5 linked pairs each */
         assert_int_equal(result.candidates, 48);
         for (uint32_t i = 0; i < result.num_peaks; i++) {
             for (uint32_t k = 0; k < i; k++) {
@@ -236,7 +233,7 @@ static void a_vertical_target_is_one_peak(void **state)
     assert_true(kernels_beyond > 5);
 }
 
-/* Exactly vertical, up or down, on either side: theta is 0, rho is x. */
+/* For exactly vertical lines, in any direction and on either side, theta is 0 and rho is x. */
 static void a_vertical_line_is_in_the_first_row(void **state)
 {
     (void)state;
@@ -258,8 +255,11 @@ static void a_vertical_line_is_in_the_first_row(void **state)
     }
 }
 
-/* Reading C spreads a vote over 17 x 17 cells; beyond the end of theta they lie mirrored. */
-static void a_vote_is_spread_round_the_end_of_theta(void **state)
+/*
+ * Reading C of the paper spreads a vote over 17 x 17 cells; beyond the end of theta these are
+ * mirrored.
+ */
+static void a_vote_is_spread_across_the_end_of_theta(void **state)
 {
     (void)state;
     points.at.num_scans = 0;
@@ -291,28 +291,28 @@ static void a_vote_is_not_spread_beyond_the_largest_rho(void **state)
     points.at.num_scans = 0;
     for (unsigned scan = 0; scan < 3; scan++) {
         start_scan();
-        add_plot(500.0 * scan, 4982.5, 2.0 * scan); /* the fourth cell from the end */
+        add_plot(500.0 * scan, 4982.5, 2.0 * scan); /* in the fourth cell from the end of rho */
     }
     use_paper_values_all_cells(RHO_HOUGH_NHT_C);
     find_peaks();
     assert_int_equal(result.votes, 17 * (9 + 3));
     expect_reference();
-    expect_cells(slack());
+    expect_cells(vote_slack());
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(clutter_votes_as_in_double_precision),
-        cmocka_unit_test(the_embedded_build_takes_theta_in_parts),
-        cmocka_unit_test(other_cells_and_limits_vote_as_in_double_precision),
-        cmocka_unit_test(few_rows_vote_as_in_double_precision),
-        cmocka_unit_test(parts_of_theta_vote_as_in_double_precision),
-        cmocka_unit_test(all_builds_give_the_same_lists),
-        cmocka_unit_test(lines_about_the_end_of_theta_vote_as_in_double_precision),
+        cmocka_unit_test(votes_in_clutter_agree_with_double_precision),
+        cmocka_unit_test(the_embedded_build_searches_theta_in_parts),
+        cmocka_unit_test(votes_agree_for_other_cells_and_limits),
+        cmocka_unit_test(votes_agree_for_planes_of_few_rows),
+        cmocka_unit_test(votes_agree_when_theta_is_searched_in_parts),
+        cmocka_unit_test(all_builds_give_the_same_cells),
+        cmocka_unit_test(votes_agree_for_lines_near_the_ends_of_theta),
         cmocka_unit_test(a_vertical_target_is_one_peak),
         cmocka_unit_test(a_vertical_line_is_in_the_first_row),
-        cmocka_unit_test(a_vote_is_spread_round_the_end_of_theta),
+        cmocka_unit_test(a_vote_is_spread_across_the_end_of_theta),
         cmocka_unit_test(a_vote_is_not_spread_beyond_the_largest_rho),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the neutrosophic vote is worth: T, I and F against the same in double precision; votes in 1
- * / 65536 against exact ones.
+ * Weights of the neutrosophic vote: T, I and F compared with double precision, and votes in 1 /
+ * 65536 with exact ones.
  */
 #include "hough_cells.h"
 
 #define PARTS                                                                                      \
-    16.0 /* of a vote, 2^-12, that a voter may be off; without I it is a quarter of that */
+    16.0 /* largest rounding error of a voter, 2^-12 of a vote; a quarter of that without I */
 
-/* ---- the neutrosophic vote ------------------------------------------------------------------- */
+/*
+ * ---- the neutrosophic vote --------------------------------------------------------------------
+ */
 
-static void indeterminacy_raises_votes_as_in_double_precision(void **state)
+static void votes_with_indeterminacy_agree_with_double_precision(void **state)
 {
     (void)state;
     static struct rho_accumulator_peak without[CELLS_MAX];
     unsigned raised = 0;
     random_state = 14;
     for (int run = 0; run < 4; run++) {
-        lay_table_1(7, 10.0, 1);
+        add_scene_of_table_1(7, 10.0, 1);
         use_paper_values_all_cells(run % 2 ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
         find_peaks();
         uint32_t num = result.num_peaks;
@@ -33,14 +35,14 @@ static void indeterminacy_raises_votes_as_in_double_precision(void **state)
     assert_true(raised > 0);
 }
 
-static void two_kernels_vouch_for_the_line_between(void **state)
+static void two_kernels_support_the_line_between_them(void **state)
 {
     (void)state;
-    lay_two_kernels();
+    add_two_kernels();
     for (int run = 0; run < 4; run++) {
         use_paper_values_all_cells(RHO_HOUGH_NHT_A);
         config.uses_indeterminacy = run & 1;
-        config.lambda_k = run & 2 ? 8800.0f : 1.0f; /* F 0.88: T does not reach it, I does */
+        config.lambda_k = run & 2 ? 8800.0f : 1.0f; /* F is 0.88: T is below it, I above */
         find_peaks();
         assert_int_equal(result.votes, run != 2);
         assert_int_equal(result.num_peaks, run != 2);
@@ -50,12 +52,12 @@ static void two_kernels_vouch_for_the_line_between(void **state)
     }
 }
 
-static void falsehood_above_a_vote_silences_it(void **state)
+static void a_vote_below_its_falsity_does_not_count(void **state)
 {
     (void)state;
     uint32_t before = UINT32_MAX;
     random_state = 15;
-    lay_table_1(7, 10.0, 1);
+    add_scene_of_table_1(7, 10.0, 1);
     for (float lambda = 1.0f; lambda < 2e4f; lambda *= 3.0f) {
         use_paper_values_all_cells(RHO_HOUGH_NHT_A);
         config.lambda_k = lambda;
@@ -68,14 +70,14 @@ static void falsehood_above_a_vote_silences_it(void **state)
         assert_true(result.num_peaks == 0 ||
                     peaks[result.num_peaks - 1].votes + 2.0 >= 65536.0 * 1e-4 * (double)lambda);
     }
-    assert_int_equal(before, 0); /* F above 1 */
+    assert_int_equal(before, 0); /* no votes are left when F exceeds 1 */
 }
 
-/* The chain's second link votes by its first, though that has no kernel and did not vote itself. */
-static void pairs_without_votes_are_kernels(void **state)
+/* A chain's first pair has no kernel and does not vote, but supports the second one. */
+static void pairs_that_did_not_vote_are_kernels_for_later_ones(void **state)
 {
     (void)state;
-    lay_table_1(3, 0.0, 0);
+    add_scene_of_table_1(3, 0.0, 0);
     use_paper_values_all_cells(RHO_HOUGH_NHT_A);
     find_peaks();
     assert_int_equal(result.votes, 3);
@@ -84,10 +86,12 @@ static void pairs_without_votes_are_kernels(void **state)
     assert_int_equal(result.votes, 0);
 }
 
-/* ---- whole numbers --------------------------------------------------------------------------- */
+/*
+ * ---- votes in whole numbers --------------------------------------------------------------------
+ */
 
-/* Of the peaks listed, those that the library does not have. */
-static size_t count_missing(size_t num)
+/* Number of peaks in `listed` that the library does not have. */
+static size_t count_missing_peaks(size_t num)
 {
     size_t missing = 0;
     for (size_t i = 0; i < num; i++) {
@@ -102,23 +106,23 @@ static size_t count_missing(size_t num)
 }
 
 /*
- * Votes in 1 / 65536 choose the same peaks but where a line lies at the border of a cell, or votes
- * are equal or at the threshold to a few parts: of 150 scenes, all peaks of 145 with reading A, of
- * 146 with C, else all but one.
+ * Peaks may differ where a line is at a border of cells, or votes are nearly equal or at the
+ * threshold: of 150 scenes reading A has all peaks in 145, reading C in 146, and the others lack
+ * one.
  */
-static void whole_numbers_choose_the_peaks_of_exact_arithmetic(void **state)
+static void votes_in_whole_numbers_choose_nearly_the_exact_peaks(void **state)
 {
     (void)state;
     random_state = 18;
     size_t same = 0, runs = 0, missing = 0, all = 0;
     for (int seed = 0; seed < 20; seed++) {
-        lay_table_1(7, seed % 2 ? 10.0 : 0.6, 1);
+        add_scene_of_table_1(7, seed % 2 ? 10.0 : 0.6, 1);
         for (int variant = 0; variant < 4; variant += seed % 5 ? 2 : 1) {
             use_paper_values(variant & 1 ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
             config.lambda_k = variant & 2 ? 10.0f : 1.0f;
             find_peaks();
             expect_reference();
-            size_t num = choose_from_cells(), without = count_missing(num);
+            size_t num = choose_from_cells(), without = count_missing_peaks(num);
             same += num == result.num_peaks && without == 0;
             missing += without + (result.num_peaks > num ? result.num_peaks - num : 0);
             all += num;
@@ -133,10 +137,9 @@ static void whole_numbers_choose_the_peaks_of_exact_arithmetic(void **state)
 }
 
 /*
- * On a lattice kernels are often equally near; which of them counts must not depend on how they are
- * looked for.
+ * On a lattice kernels are often equally near; the one that counts must not depend on the search.
  */
-static void of_equally_near_kernels_the_first_counts(void **state)
+static void of_equally_near_kernels_the_first_one_counts(void **state)
 {
     (void)state;
     for (int run = 0; run < 12000; run++) {
@@ -171,12 +174,12 @@ static void of_equally_near_kernels_the_first_counts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(indeterminacy_raises_votes_as_in_double_precision),
-        cmocka_unit_test(two_kernels_vouch_for_the_line_between),
-        cmocka_unit_test(falsehood_above_a_vote_silences_it),
-        cmocka_unit_test(pairs_without_votes_are_kernels),
-        cmocka_unit_test(of_equally_near_kernels_the_first_counts),
-        cmocka_unit_test(whole_numbers_choose_the_peaks_of_exact_arithmetic),
+        cmocka_unit_test(votes_with_indeterminacy_agree_with_double_precision),
+        cmocka_unit_test(two_kernels_support_the_line_between_them),
+        cmocka_unit_test(a_vote_below_its_falsity_does_not_count),
+        cmocka_unit_test(pairs_that_did_not_vote_are_kernels_for_later_ones),
+        cmocka_unit_test(of_equally_near_kernels_the_first_one_counts),
+        cmocka_unit_test(votes_in_whole_numbers_choose_nearly_the_exact_peaks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

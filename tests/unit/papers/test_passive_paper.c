@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Lines of crossings by the paper's method, cell by cell as in dense planes in double precision;
- * its figures.
+ * Lines by the paper's passive method, compared cell by cell with dense planes in double precision,
+ * and its shares of found targets and ghosts.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -17,13 +17,16 @@
 
 static struct rho_passive_paper paper;
 
-/* ---- the same lines -------------------------------------------------------------------------- */
+/*
+ * ---- comparison of lines ----------------------------------------------------------------------
+ */
 
 struct agreement {
     unsigned scenes, sure, lines;
 };
 
-static void expect_lines(const struct rho_passive_paper_config *config, struct agreement *agreement)
+static void compare_lines(const struct rho_passive_paper_config *config,
+                          struct agreement *agreement)
 {
     assert_int_equal(search_by_paper(&paper, config, &scene), RHO_OK);
     assert_true(are_lines_sound(&paper));
@@ -48,9 +51,9 @@ static void expect_lines(const struct rho_passive_paper_config *config, struct a
     agreement->lines += paper.num_lines;
 }
 
-/* Scenes turned and shifted anyhow: lines in every direction, and cells in every row. */
-static struct agreement agreement_of(const struct scene *from,
-                                     const struct rho_passive_paper_config *config, unsigned runs)
+/* Compares random scenes, rotated and shifted, so that lines have every direction. */
+static struct agreement compare_scenes(const struct scene *from,
+                                       const struct rho_passive_paper_config *config, unsigned runs)
 {
     struct agreement agreement = {0};
     for (unsigned run = 0; run < runs; run++) {
@@ -58,7 +61,7 @@ static struct agreement agreement_of(const struct scene *from,
         draw_scene(&scene);
         double turn_rad = uniform(-PI, PI), x_m = uniform(-3e5, 3e5), y_m = uniform(-3e5, 3e5);
         move_scene(&scene, turn_rad, x_m, y_m);
-        expect_lines(config, &agreement);
+        compare_lines(config, &agreement);
     }
     print_message("%u sensors: %u lines in %u scenes of %u\n", from->sensors, agreement.lines,
                   agreement.sure, agreement.scenes);
@@ -67,38 +70,38 @@ static struct agreement agreement_of(const struct scene *from,
     return agreement;
 }
 
-static void two_sensors_lines_are_those_of_a_dense_plane(void **state)
+static void lines_of_two_sensors_agree_with_a_dense_plane(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 2, 0.1, 0.9, 0.5);
     struct rho_passive_paper_config config = paper_config();
     random_state = 1;
     config.votes_min = 5;
-    agreement_of(&from, &config, 40);
+    compare_scenes(&from, &config, 40);
     config.rule = RHO_GHOST_NO_RULE;
-    agreement_of(&from, &config, 40);
+    compare_scenes(&from, &config, 40);
     from.targets = 3;
     from.pd = 1.0;
     config.votes_min = 0;
-    agreement_of(&from, &config, 40);
+    compare_scenes(&from, &config, 40);
 }
 
-static void three_sensors_lines_are_those_of_three_dense_planes(void **state)
+static void lines_of_three_sensors_agree_with_dense_planes(void **state)
 {
     (void)state;
     struct scene from = scene_of(3, 3, 0.1, 0.9, 0.5);
     struct rho_passive_paper_config config = paper_config();
     random_state = 2;
     config.votes_min = 5;
-    agreement_of(&from, &config, 50);
+    compare_scenes(&from, &config, 50);
     config.rule = RHO_GHOST_NO_RULE;
-    agreement_of(&from, &config, 50);
+    compare_scenes(&from, &config, 50);
     from.jitter_s = 7.0;
     config.votes_min = 4;
-    agreement_of(&from, &config, 30);
+    compare_scenes(&from, &config, 30);
 }
 
-static void other_cells_and_ranges_have_their_own_planes(void **state)
+static void lines_agree_for_other_cells_and_ranges(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
@@ -107,12 +110,12 @@ static void other_cells_and_ranges_have_their_own_planes(void **state)
     config.rho_cell_m = 1500.0f;
     config.theta_cell_rad = (float)(PI / 40.0);
     config.range_max_m = 60000.0f;
-    agreement_of(&from, &config, 40);
-    config.theta_cell_rad = 0.3f; /* 10 rows: fewer than a plateau's reach to both sides */
-    agreement_of(&from, &config, 10);
+    compare_scenes(&from, &config, 40);
+    config.theta_cell_rad = 0.3f; /* 10 rows, fewer than a plateau may extend */
+    compare_scenes(&from, &config, 10);
 }
 
-static void crossings_can_count_instead_of_scans(void **state)
+static void votes_may_count_crossings_instead_of_scans(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 3, 0.1, 0.9, 0.5);
@@ -121,13 +124,15 @@ static void crossings_can_count_instead_of_scans(void **state)
     config.votes_min = 6;
     config.votes = RHO_VOTES_POINTS;
     config.rule = RHO_GHOST_NO_RULE;
-    agreement_of(&from, &config, 40);
+    compare_scenes(&from, &config, 40);
 }
 
-/* ---- eq. (3) --------------------------------------------------------------------------------- */
+/*
+ * ---- rho of a crossing, eq. (3) ---------------------------------------------------------------
+ */
 
 /*
- * Two of the sensors of scene_of see a place within 80 km; true where float32 can tell its range to
+ * Draws a place within 80 km seen by two of the four sensors; true if float determines its range to
  * a metre.
  */
 static int draw_crossing(struct rho_crossing_base *base, float bearing_rad[2],
@@ -147,9 +152,9 @@ static int draw_crossing(struct rho_crossing_base *base, float bearing_rad[2],
            crossing->delta_rad >= 0.02f && crossing->delta_rad <= (float)PI - 0.02f;
 }
 
-/* Where the float32 bearings meet, in double precision. */
-static void place_of(const struct rho_crossing_base *base, const float bearing_rad[2], double *x_m,
-                     double *y_m)
+/* Place where the float bearings meet, in double precision. */
+static void exact_crossing_place(const struct rho_crossing_base *base, const float bearing_rad[2],
+                                 double *x_m, double *y_m)
 {
     double ca = cos((double)bearing_rad[0]), sa = sin((double)bearing_rad[0]);
     double cb = cos((double)bearing_rad[1]), sb = sin((double)bearing_rad[1]);
@@ -160,7 +165,7 @@ static void place_of(const struct rho_crossing_base *base, const float bearing_r
     *y_m = (double)base->y_a_m + range_m * sa;
 }
 
-static void rho_is_the_same_from_either_sensor(void **state)
+static void rho_agrees_from_either_sensor(void **state)
 {
     (void)state;
     unsigned count = 0;
@@ -180,7 +185,7 @@ static void rho_is_the_same_from_either_sensor(void **state)
                                                  base.y_a_m, theta_rad);
         float from_b_m = rho_passive_paper_rho_m(crossing.range_b_m, bearing_rad[1], base.x_b_m,
                                                  base.y_b_m, theta_rad);
-        place_of(&base, bearing_rad, &x_m, &y_m);
+        exact_crossing_place(&base, bearing_rad, &x_m, &y_m);
         double rho_m = x_m * cos((double)theta_rad) + y_m * sin((double)theta_rad);
         worst_m = fmax(worst_m, fabs((double)from_a_m - (double)from_b_m));
         worst_true_m = fmax(worst_true_m,
@@ -192,7 +197,7 @@ static void rho_is_the_same_from_either_sensor(void **state)
     assert_true(worst_m < 1.0 && worst_true_m < 1.0);
 }
 
-static void rho_of_known_places(void **state)
+static void rho_of_given_places_is_right(void **state)
 {
     (void)state;
     const float pi = (float)PI;
@@ -204,9 +209,11 @@ static void rho_of_known_places(void **state)
                        35000.0 / sqrt(2.0), 2e-2);
 }
 
-/* ---- scenes by hand -------------------------------------------------------------------------- */
+/*
+ * ---- scenes by hand ---------------------------------------------------------------------------
+ */
 
-/* Seen without noise by all sensors. */
+/* Sets a scene that all sensors see without noise or misses. */
 static void set_scene(unsigned sensors, unsigned targets, const struct target *target)
 {
     scene = scene_of(sensors, targets, 1e-6, 1.0, 0.0);
@@ -216,7 +223,7 @@ static void set_scene(unsigned sensors, unsigned targets, const struct target *t
     see_all_looks(&scene);
 }
 
-static void search_with(enum rho_ghost_rule rule, unsigned votes_min)
+static void search_with_rule(enum rho_ghost_rule rule, unsigned votes_min)
 {
     struct rho_passive_paper_config config = paper_config();
     config.rule = rule;
@@ -225,7 +232,7 @@ static void search_with(enum rho_ghost_rule rule, unsigned votes_min)
     assert_true(are_lines_sound(&paper));
 }
 
-static unsigned count_near(const struct target *target)
+static unsigned count_lines_near_path(const struct target *target)
 {
     unsigned count = 0;
     for (unsigned i = 0; i < paper.num_lines; i++) {
@@ -234,23 +241,23 @@ static unsigned count_near(const struct target *target)
     return count;
 }
 
-/* Seen by so many sensors on its way along the middle of a cell: all its crossings vote there. */
+/* Sets a target that moves along the middle of a cell, so that all its crossings vote there. */
 static struct target set_scene_of_cell(unsigned sensors, double theta_deg, double rho_m)
 {
     double c = cos(theta_deg * DEG_RAD), s = sin(theta_deg * DEG_RAD);
-    double x_m = sensors == 3 ? 10e3 / 3.0 : 0.0; /* the sensors' middle */
+    double x_m = sensors == 3 ? 10e3 / 3.0 : 0.0; /* mean of the sensors' places */
     const struct target target = {x_m + rho_m * c + 40e3 * s, rho_m * s - 40e3 * c, -300.0 * s,
                                   300.0 * c};
     set_scene(sensors, 1, &target);
     return target;
 }
 
-static void a_target_is_one_line_and_its_crossings_give_its_state(void **state)
+static void a_target_gives_one_line_with_its_state(void **state)
 {
     (void)state;
     for (unsigned sensors = 2; sensors <= 3; sensors++) {
         struct target target = set_scene_of_cell(sensors, 67.0, 14.5e3);
-        search_with(RHO_GHOST_LITERAL, 0);
+        search_with_rule(RHO_GHOST_LITERAL, 0);
         const struct rho_passive_paper_line *line = &paper.lines[0];
         assert_int_equal(paper.num_lines, 1);
         assert_float_equal(line->theta_rad, 67.0 * DEG_RAD, 1e-6);
@@ -268,35 +275,35 @@ static void a_target_is_one_line_and_its_crossings_give_its_state(void **state)
     }
 }
 
-/* Flown along y: theta is 0, or pi; the cells at both ends are one line's. */
+/* Targets fly nearly along y: theta is near 0 or pi, whose cells belong to the same lines. */
 static void a_line_at_the_end_of_theta_is_found_once(void **state)
 {
     (void)state;
     for (int i = 0; i < 40; i++) {
         const struct target target = {37.1e3 + 113.0 * i, 9e3, 20.0 - i, 250.0};
         set_scene(2, 1, &target);
-        search_with(RHO_GHOST_LITERAL, 6);
+        search_with_rule(RHO_GHOST_LITERAL, 6);
         assert_int_equal(paper.num_lines, 1);
-        assert_int_equal(count_near(&target), 1);
+        assert_int_equal(count_lines_near_path(&target), 1);
         assert_in_range(paper.lines[0].votes, 7, 8);
     }
 }
 
 /*
- * Targets in each other's mirror image: the sensors at (0, +-10 km), mirrored too, see a ghost on
- * the x axis, straight all the way. A third sensor there, with each of them, sees other ghosts.
+ * Two targets mirrored in the x axis, seen from (0, +-10 km), have a ghost that moves straight
+ * along that axis. With a third sensor on it the pairs have different ghosts.
  */
-static void a_ghost_that_one_pair_confirms_is_not_a_line_of_three_sensors(void **state)
+static void a_ghost_confirmed_by_one_pair_is_no_line_of_three_sensors(void **state)
 {
     (void)state;
     const struct target targets[2] = {{52e3, 6e3, -280.0, -20.0}, {52e3, -6e3, -280.0, 20.0}};
     const struct target ghost = {40e3, 0.0, -1.0, 0.0};
     for (unsigned sensors = 2; sensors <= 3; sensors++) {
         set_scene(sensors, 2, targets);
-        search_with(RHO_GHOST_NO_RULE, 7);
-        assert_true(count_near(&targets[0]) > 0);
-        assert_true(count_near(&targets[1]) > 0);
-        assert_int_equal(count_near(&ghost) > 0, sensors == 2);
+        search_with_rule(RHO_GHOST_NO_RULE, 7);
+        assert_true(count_lines_near_path(&targets[0]) > 0);
+        assert_true(count_lines_near_path(&targets[1]) > 0);
+        assert_int_equal(count_lines_near_path(&ghost) > 0, sensors == 2);
     }
 }
 
@@ -304,40 +311,40 @@ static void a_line_needs_the_votes_of_every_pair(void **state)
 {
     (void)state;
     set_scene_of_cell(3, 67.0, 14.5e3);
-    scene.look[2][1].count = scene.look[5][1].count = 0; /* pairs of sensor 1: 6 scans */
-    search_with(RHO_GHOST_LITERAL, 6);
+    scene.look[2][1].count = scene.look[5][1].count = 0; /* pairs with sensor 1 have 6 scans */
+    search_with_rule(RHO_GHOST_LITERAL, 6);
     assert_int_equal(paper.num_lines, 1);
     assert_int_equal(paper.lines[0].votes, 6);
     assert_int_equal(paper.lines[0].votes_sum, 6 + 6 + 8);
     assert_int_equal(paper.lines[0].crossings, 6 + 6 + 8);
-    search_with(RHO_GHOST_LITERAL, 7);
+    search_with_rule(RHO_GHOST_LITERAL, 7);
     assert_int_equal(paper.num_lines, 0);
     assert_int_equal(paper.work.cells, 0);
 }
 
-static void four_fifths_of_the_scans_are_enough_unless_told_otherwise(void **state)
+static void by_default_four_fifths_of_the_scans_make_a_line(void **state)
 {
     (void)state;
     const unsigned votes_min[5] = {4, 4, 5, 6, 7};
     for (unsigned scans = 4; scans <= 8; scans++) {
         set_scene_of_cell(2, 67.0, 14.5e3);
         scene.scans = scans;
-        search_with(RHO_GHOST_LITERAL, 0);
+        search_with_rule(RHO_GHOST_LITERAL, 0);
         assert_int_equal(paper.votes_min, votes_min[scans - 4]);
         assert_int_equal(paper.num_lines, 1);
         for (unsigned k = 0; k < scans - votes_min[scans - 4]; k++) {
             scene.look[k][0].count = 0;
         }
-        search_with(RHO_GHOST_LITERAL, 0);
+        search_with_rule(RHO_GHOST_LITERAL, 0);
         assert_int_equal(paper.num_lines, 1);
         assert_int_equal(paper.lines[0].votes, votes_min[scans - 4]);
         scene.look[scans - 1][1].count = 0;
-        search_with(RHO_GHOST_LITERAL, 0);
+        search_with_rule(RHO_GHOST_LITERAL, 0);
         assert_int_equal(paper.num_lines, 0);
     }
 }
 
-static void the_rule_decides_which_crossings_vote(void **state)
+static void the_ghost_rule_decides_which_crossings_vote(void **state)
 {
     (void)state;
     struct scene from = scene_of(2, 2, 0.1, 1.0, 0.0);
@@ -346,7 +353,7 @@ static void the_rule_decides_which_crossings_vote(void **state)
     scene = from;
     draw_scene(&scene);
     for (int rule = RHO_GHOST_NO_RULE; rule <= RHO_GHOST_SAFE; rule++) {
-        search_with((enum rho_ghost_rule)rule, 0);
+        search_with_rule((enum rho_ghost_rule)rule, 0);
         ghosts[rule] = paper.work.ghosts;
         assert_int_equal(paper.work.crossings, 32);
         assert_int_equal(paper.work.votes, 90 * (32 - paper.work.ghosts));
@@ -356,9 +363,13 @@ static void the_rule_decides_which_crossings_vote(void **state)
     assert_int_equal(ghosts[RHO_GHOST_SAFE], 16);
 }
 
-/* ---- figures --------------------------------------------------------------------------------- */
+/*
+ * ---- figures ----------------------------------------------------------------------------------
+ */
 
-/* What many runs gave: share of targets with a line near their path, and other lines a run. */
+/*
+ * Scene and expected figures: share of targets with a line near their path, and other lines a run.
+ */
 struct figures {
     unsigned sensors, targets;
     double sigma_deg, pd, false_bearings;
@@ -375,7 +386,7 @@ static void expect_figures(const struct figures *expected, unsigned runs)
     for (unsigned run = 0; run < runs; run++) {
         scene = from;
         draw_scene(&scene);
-        search_with(expected->rule, expected->votes_min);
+        search_with_rule(expected->rule, expected->votes_min);
         unsigned others = paper.num_lines;
         for (unsigned i = 0; i < paper.num_lines; i++) {
             int is_any = 0;
@@ -385,7 +396,7 @@ static void expect_figures(const struct figures *expected, unsigned runs)
             others -= (unsigned)is_any;
         }
         for (unsigned target = 0; target < scene.targets; target++) {
-            found += count_near(&scene.target[target]) > 0;
+            found += count_lines_near_path(&scene.target[target]) > 0;
         }
         ghosts += others;
         ghosts2 += others * (double)others;
@@ -401,8 +412,8 @@ static void expect_figures(const struct figures *expected, unsigned runs)
     assert_true(fabs(mean - expected->ghosts) <= 4.0 * deviation / sqrt(runs));
 }
 
-/* Expected: 4000 runs. */
-static void figures_are_those_of_many_runs(void **state)
+/* Expected figures are from 4000 runs. */
+static void shares_found_and_ghosts_agree_with_known_figures(void **state)
 {
     (void)state;
     static const struct figures figures[] = {
@@ -428,19 +439,19 @@ static void figures_are_those_of_many_runs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_sensors_lines_are_those_of_a_dense_plane),
-        cmocka_unit_test(three_sensors_lines_are_those_of_three_dense_planes),
-        cmocka_unit_test(other_cells_and_ranges_have_their_own_planes),
-        cmocka_unit_test(crossings_can_count_instead_of_scans),
-        cmocka_unit_test(rho_is_the_same_from_either_sensor),
-        cmocka_unit_test(rho_of_known_places),
-        cmocka_unit_test(a_target_is_one_line_and_its_crossings_give_its_state),
+        cmocka_unit_test(lines_of_two_sensors_agree_with_a_dense_plane),
+        cmocka_unit_test(lines_of_three_sensors_agree_with_dense_planes),
+        cmocka_unit_test(lines_agree_for_other_cells_and_ranges),
+        cmocka_unit_test(votes_may_count_crossings_instead_of_scans),
+        cmocka_unit_test(rho_agrees_from_either_sensor),
+        cmocka_unit_test(rho_of_given_places_is_right),
+        cmocka_unit_test(a_target_gives_one_line_with_its_state),
         cmocka_unit_test(a_line_at_the_end_of_theta_is_found_once),
-        cmocka_unit_test(a_ghost_that_one_pair_confirms_is_not_a_line_of_three_sensors),
+        cmocka_unit_test(a_ghost_confirmed_by_one_pair_is_no_line_of_three_sensors),
         cmocka_unit_test(a_line_needs_the_votes_of_every_pair),
-        cmocka_unit_test(four_fifths_of_the_scans_are_enough_unless_told_otherwise),
-        cmocka_unit_test(the_rule_decides_which_crossings_vote),
-        cmocka_unit_test(figures_are_those_of_many_runs),
+        cmocka_unit_test(by_default_four_fifths_of_the_scans_make_a_line),
+        cmocka_unit_test(the_ghost_rule_decides_which_crossings_vote),
+        cmocka_unit_test(shares_found_and_ghosts_agree_with_known_figures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

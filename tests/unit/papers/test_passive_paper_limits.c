@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's passive method: what is refused, full capacities, sensors that come and go, hostile
+ * Limits of the paper's passive method: refused calls, full capacities, silent sensors, hostile
  * input.
  */
 #include <math.h>
@@ -18,39 +18,39 @@ static struct rho_passive_paper paper, before;
 static struct scene scene;
 static struct full_frame full;
 
-static void start(void)
+static void init_default_paper(void)
 {
     struct rho_passive_paper_config config = paper_config();
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &config), RHO_OK);
 }
 
-static void push(unsigned from, unsigned to)
+static void push_scans(unsigned from, unsigned to)
 {
     for (unsigned k = from; k < to; k++) {
         assert_int_equal(push_to_paper(&paper, &scene, k), RHO_OK);
     }
 }
 
-static void search(void)
+static void search_and_check(void)
 {
     assert_int_equal(rho_passive_paper_search(&paper), RHO_OK);
     assert_true(are_lines_sound(&paper));
 }
 
-/* A drawn scene, its first 5 frames pushed and searched, its sixth in `full`. */
-static void start_batch(void)
+/* Draws a scene, pushes and searches its first five frames, and puts the sixth into `full`. */
+static void prepare_batch(void)
 {
     random_state = 3;
     scene = scene_of(2, 2, 0.05, 1.0, 0.0);
     draw_scene(&scene);
-    start();
-    push(0, 5);
-    search();
+    init_default_paper();
+    push_scans(0, 5);
+    search_and_check();
     fill_frame(&scene, 5, &full);
     before = paper;
 }
 
-static void expect_refused(enum rho_status status)
+static void expect_frame_refused(enum rho_status status)
 {
     uint8_t fates[sizeof full.fates];
     memcpy(fates, full.fates, sizeof fates);
@@ -59,9 +59,12 @@ static void expect_refused(enum rho_status status)
     assert_memory_equal(full.fates, fates, sizeof fates);
 }
 
-/* ---- configuration --------------------------------------------------------------------------- */
+/*
+ * ---- configuration ----------------------------------------------------------------------------
+ */
 
-static void expect_config(const struct rho_passive_paper_config *config, enum rho_status status)
+static void expect_config_status(const struct rho_passive_paper_config *config,
+                                 enum rho_status status)
 {
     memset(&paper, 0x5a, sizeof paper);
     before = paper;
@@ -75,10 +78,10 @@ static void expect_config(const struct rho_passive_paper_config *config, enum rh
     do {                                                                                           \
         struct rho_passive_paper_config config = paper_config();                                   \
         config.field = (value);                                                                    \
-        expect_config(&config, (status));                                                          \
+        expect_config_status(&config, (status));                                                   \
     } while (0)
 
-static void scans_votes_and_rules_have_limits(void **state)
+static void scans_votes_and_rules_out_of_range_are_refused(void **state)
 {
     (void)state;
     EXPECT_FIELD(scans, 3, RHO_ERROR_CONFIG);
@@ -96,7 +99,7 @@ static void scans_votes_and_rules_have_limits(void **state)
     EXPECT_FIELD(rule, (enum rho_ghost_rule) - 1, RHO_ERROR_CONFIG);
 }
 
-static void cells_must_hold_what_is_in_range(void **state)
+static void cells_too_small_for_the_range_are_refused(void **state)
 {
     (void)state;
     float least_m = 2.0f * 100000.0f / (float)RHO_PAPER_RHO_CELLS;
@@ -128,7 +131,7 @@ static void parameters_that_are_not_finite_are_refused(void **state)
     }
 }
 
-static void the_default_is_what_the_header_says(void **state)
+static void the_default_configuration_is_that_of_the_header(void **state)
 {
     (void)state;
     struct rho_passive_paper_config config = paper_config();
@@ -139,19 +142,19 @@ static void the_default_is_what_the_header_says(void **state)
     assert_float_equal(config.range_max_m, 100e3, 0.0);
     assert_float_equal(config.rho_cell_m, 1000.0, 0.0);
     assert_float_equal(config.theta_cell_rad, 2.0 * DEG_RAD, 1e-6);
-    expect_config(&config, RHO_OK);
+    expect_config_status(&config, RHO_OK);
 }
 
-static void a_configuration_may_be_the_objects_own(void **state)
+static void an_object_can_be_initialised_with_its_own_configuration(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &paper.config), RHO_OK);
     assert_int_equal(paper.config.scans, 8);
     assert_int_equal(paper.batch.num_scans + paper.batch.num_sensors + paper.num_lines, 0);
 }
 
-/* The object is bounded: what a node sets aside for it. */
+/* The memory that a node must reserve for the object. */
 static void the_object_has_a_bounded_size(void **state)
 {
     (void)state;
@@ -159,12 +162,14 @@ static void the_object_has_a_bounded_size(void **state)
     assert_true(sizeof paper < (RHO_MAX_BEARINGS > 8 ? 90u : 48u) * 1024u);
 }
 
-/* ---- refusals -------------------------------------------------------------------------------- */
+/*
+ * ---- refusals ---------------------------------------------------------------------------------
+ */
 
 static void null_pointers_are_refused(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     assert_int_equal(rho_passive_paper_init(NULL, sizeof paper, &paper.config), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_paper_push(NULL, &full.frame, full.fates), RHO_ERROR_NULL);
@@ -172,94 +177,96 @@ static void null_pointers_are_refused(void **state)
     assert_int_equal(rho_passive_paper_push(&paper, &full.frame, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_paper_search(NULL), RHO_ERROR_NULL);
     full.scans[1].bearings = NULL;
-    expect_refused(RHO_ERROR_NULL);
+    expect_frame_refused(RHO_ERROR_NULL);
     full.frame.scans = NULL;
-    expect_refused(RHO_ERROR_NULL);
+    expect_frame_refused(RHO_ERROR_NULL);
 }
 
-static void another_size_is_refused(void **state)
+static void a_wrong_object_size_is_refused(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper - 1, &before.config),
                      RHO_ERROR_SIZE);
     assert_int_equal(rho_passive_paper_init(&paper, 0, &before.config), RHO_ERROR_SIZE);
     assert_memory_equal(&paper, &before, sizeof paper);
 }
 
-static void what_was_never_initialised_is_refused(void **state)
+static void an_object_without_init_is_refused(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     memset(&paper, 0, sizeof paper);
     before = paper;
-    expect_refused(RHO_ERROR_STATE);
+    expect_frame_refused(RHO_ERROR_STATE);
     assert_int_equal(rho_passive_paper_search(&paper), RHO_ERROR_STATE);
     assert_memory_equal(&paper, &before, sizeof paper);
 }
 
-static void a_refused_frame_leaves_the_lines(void **state)
+static void a_refused_frame_keeps_the_lines_found(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     assert_true(paper.num_lines > 0);
     full.frame.time_us = paper.batch.time_us[4];
-    expect_refused(RHO_ERROR_STATE);
+    expect_frame_refused(RHO_ERROR_STATE);
     full.frame.time_us++;
     full.scans[1].x_m += 0.5f;
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
     full.scans[1].x_m = NAN;
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
     fill_frame(&scene, 5, &full);
     assert_int_equal(rho_passive_paper_push(&paper, &full.frame, full.fates), RHO_OK);
     assert_int_equal(paper.num_lines, 0);
 }
 
-/* 256 cells of 1 km hold 100 km and half of 56 km to either side. */
-static void sensors_must_be_near_enough_for_the_cells(void **state)
+/* 256 cells of 1 km hold 100 km of range and half of a base of 56 km to either side. */
+static void sensors_too_far_apart_for_the_cells_are_refused(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     full.scans[1].sensor_id = 99;
     full.scans[1].x_m = 0.0f;
     full.scans[1].y_m = -10e3f + 56.1e3f;
-    expect_refused(RHO_ERROR_VALUE);
+    expect_frame_refused(RHO_ERROR_VALUE);
     full.scans[1].y_m = -10e3f + 55.9e3f;
     assert_int_equal(rho_passive_paper_push(&paper, &full.frame, full.fates), RHO_OK);
 }
 
-/* ---- too little ------------------------------------------------------------------------------ */
+/*
+ * ---- too few frames or sensors ----------------------------------------------------------------
+ */
 
-static void fewer_than_four_frames_are_no_line(void **state)
+static void fewer_than_four_frames_make_no_line(void **state)
 {
     (void)state;
-    start_batch();
-    start();
-    search();
+    prepare_batch();
+    init_default_paper();
+    search_and_check();
     assert_int_equal(paper.num_lines, 0);
-    push(0, 3);
-    search();
+    push_scans(0, 3);
+    search_and_check();
     assert_int_equal(paper.num_lines, 0);
-    push(3, 4);
-    search();
+    push_scans(3, 4);
+    search_and_check();
     assert_true(paper.num_lines > 0);
 }
 
-static void one_sensor_is_no_line(void **state)
+static void one_sensor_makes_no_line(void **state)
 {
     (void)state;
-    start_batch();
+    prepare_batch();
     for (unsigned k = 0; k < scene.scans; k++) {
         scene.look[k][1].is_absent = 1;
     }
-    start();
-    push(0, 8);
-    search();
+    init_default_paper();
+    push_scans(0, 8);
+    search_and_check();
     assert_int_equal(paper.num_lines, 0);
     assert_int_equal(paper.work.crossings, 0);
 }
 
-/* Its pairs would confirm nothing; once its last scan has left the batch it is asked no more. */
+/* Pairs with the silent sensor confirm nothing, until its last scan has left the batch. */
 static void a_sensor_that_fell_silent_is_left_out(void **state)
 {
     (void)state;
@@ -270,18 +277,18 @@ static void a_sensor_that_fell_silent_is_left_out(void **state)
     for (unsigned k = 2; k < scene.scans; k++) {
         scene.look[k][2].is_absent = 1;
     }
-    start();
-    push(0, 9);
-    search();
+    init_default_paper();
+    push_scans(0, 9);
+    search_and_check();
     assert_int_equal(paper.num_lines, 0);
-    push(9, 10);
-    search();
+    push_scans(9, 10);
+    search_and_check();
     assert_true(paper.num_lines > 0);
     struct rho_passive_paper_line first = paper.lines[0];
     scene.sensors = 2;
-    start();
-    push(2, 10);
-    search();
+    init_default_paper();
+    push_scans(2, 10);
+    search_and_check();
     assert_memory_equal(&paper.lines[0], &first, sizeof first);
 }
 
@@ -289,7 +296,7 @@ static void lines_of_one_scan_have_no_state(void **state)
 {
     (void)state;
     struct rho_passive_paper_config config = paper_config();
-    start_batch();
+    prepare_batch();
     for (unsigned k = 0; k < scene.scans; k++) {
         scene.look[k][0].count = k == 3 ? scene.look[k][0].count : 0;
     }
@@ -305,10 +312,12 @@ static void lines_of_one_scan_have_no_state(void **state)
     }
 }
 
-/* ---- full ------------------------------------------------------------------------------------ */
+/*
+ * ---- full capacities --------------------------------------------------------------------------
+ */
 
-/* Every bearing of one sensor crosses every one of the other, within 100 km. */
-static void fill_looks(void)
+/* Adds bearings that all cross those of the other sensor within 100 km. */
+static void fill_scans_with_bearings(void)
 {
     for (unsigned k = 0; k < scene.scans; k++) {
         for (unsigned i = 0; i < RHO_MAX_BEARINGS; i++) {
@@ -331,7 +340,7 @@ static void crossings_and_lines_beyond_the_capacity_are_counted(void **state)
     scene = scene_of(2, 0, 0.1, 1.0, 0.0);
     scene.scans = RHO_MAX_PASSIVE_SCANS;
     set_scan_times(&scene);
-    fill_looks();
+    fill_scans_with_bearings();
     assert_int_equal(search_by_paper(&paper, &config, &scene), RHO_OK);
     assert_true(are_lines_sound(&paper));
     assert_int_equal(paper.work.crossings, crossings);
@@ -344,8 +353,8 @@ static void crossings_and_lines_beyond_the_capacity_are_counted(void **state)
                                                (RHO_MAX_BEARINGS * RHO_MAX_BEARINGS));
 }
 
-/* All in one cell of a row: more crossings than a byte counts. */
-static void votes_of_crossings_stop_at_255(void **state)
+/* All crossings are in one cell of a row, more than a byte can count. */
+static void votes_of_crossings_saturate_at_255(void **state)
 {
     (void)state;
     struct rho_passive_paper_config config = paper_config();
@@ -356,7 +365,7 @@ static void votes_of_crossings_stop_at_255(void **state)
     config.rho_cell_m = 50000.0f;
     scene = scene_of(2, 0, 0.1, 1.0, 0.0);
     set_scan_times(&scene);
-    fill_looks();
+    fill_scans_with_bearings();
     assert_int_equal(search_by_paper(&paper, &config, &scene), RHO_OK);
     assert_true(are_lines_sound(&paper));
     assert_true(count > 255);
@@ -366,8 +375,8 @@ static void votes_of_crossings_stop_at_255(void **state)
     assert_true(paper.lines[0].crossings > 255);
 }
 
-/* Bearings, places and times of all kinds: whatever is taken yields sound lines. */
-static void hostile_frames_yield_sound_lines(void **state)
+/* Extreme bearings, misses and times: any result has sound lines. */
+static void hostile_frames_give_sound_lines(void **state)
 {
     (void)state;
     static const float odd[] = {0.0f, 3.14159274f, -3.14159274f, 1.57079637f, 1e-7f, NAN, INFINITY};
@@ -393,14 +402,14 @@ static void hostile_frames_yield_sound_lines(void **state)
     }
 }
 
-static void the_same_frames_yield_the_same_bytes(void **state)
+static void a_repeated_search_gives_the_same_bytes(void **state)
 {
     (void)state;
-    start_batch();
-    push(5, 8);
-    search();
+    prepare_batch();
+    push_scans(5, 8);
+    search_and_check();
     before = paper;
-    search();
+    search_and_check();
     assert_memory_equal(paper.lines, before.lines, sizeof paper.lines);
     assert_memory_equal(&paper.work, &before.work, sizeof paper.work);
 }
@@ -408,25 +417,25 @@ static void the_same_frames_yield_the_same_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scans_votes_and_rules_have_limits),
-        cmocka_unit_test(cells_must_hold_what_is_in_range),
+        cmocka_unit_test(scans_votes_and_rules_out_of_range_are_refused),
+        cmocka_unit_test(cells_too_small_for_the_range_are_refused),
         cmocka_unit_test(parameters_that_are_not_finite_are_refused),
-        cmocka_unit_test(the_default_is_what_the_header_says),
-        cmocka_unit_test(a_configuration_may_be_the_objects_own),
+        cmocka_unit_test(the_default_configuration_is_that_of_the_header),
+        cmocka_unit_test(an_object_can_be_initialised_with_its_own_configuration),
         cmocka_unit_test(the_object_has_a_bounded_size),
         cmocka_unit_test(null_pointers_are_refused),
-        cmocka_unit_test(another_size_is_refused),
-        cmocka_unit_test(what_was_never_initialised_is_refused),
-        cmocka_unit_test(a_refused_frame_leaves_the_lines),
-        cmocka_unit_test(sensors_must_be_near_enough_for_the_cells),
-        cmocka_unit_test(fewer_than_four_frames_are_no_line),
-        cmocka_unit_test(one_sensor_is_no_line),
+        cmocka_unit_test(a_wrong_object_size_is_refused),
+        cmocka_unit_test(an_object_without_init_is_refused),
+        cmocka_unit_test(a_refused_frame_keeps_the_lines_found),
+        cmocka_unit_test(sensors_too_far_apart_for_the_cells_are_refused),
+        cmocka_unit_test(fewer_than_four_frames_make_no_line),
+        cmocka_unit_test(one_sensor_makes_no_line),
         cmocka_unit_test(a_sensor_that_fell_silent_is_left_out),
         cmocka_unit_test(lines_of_one_scan_have_no_state),
         cmocka_unit_test(crossings_and_lines_beyond_the_capacity_are_counted),
-        cmocka_unit_test(votes_of_crossings_stop_at_255),
-        cmocka_unit_test(hostile_frames_yield_sound_lines),
-        cmocka_unit_test(the_same_frames_yield_the_same_bytes),
+        cmocka_unit_test(votes_of_crossings_saturate_at_255),
+        cmocka_unit_test(hostile_frames_give_sound_lines),
+        cmocka_unit_test(a_repeated_search_gives_the_same_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a search by the paper's passive method had, made again: ghost matrices, planes and cells
- * beside dense planes in double precision, for as long as no other frame is pushed.
+ * Views of a search by the paper's passive method, computed again from the batch: ghost matrices,
+ * planes and cells, compared with dense planes in double precision.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -20,8 +20,8 @@ static struct rho_ghost_matrix matrix;
 static uint32_t picture[ROWS_MAX * COLUMNS];
 static struct rho_passive_paper_config method;
 
-/* A searched scene whose crossings are all sure to be where they are. */
-static void search_drawn(unsigned sensors, enum rho_ghost_rule rule)
+/* Searches a random scene in which float and double agree on all crossings. */
+static void search_random_scene(unsigned sensors, enum rho_ghost_rule rule)
 {
     method = paper_config();
     method.rule = rule;
@@ -35,12 +35,14 @@ static void search_drawn(unsigned sensors, enum rho_ghost_rule rule)
     } while (is_doubtful);
 }
 
-static struct rho_votes_picture whole(void)
+static struct rho_votes_picture whole_plane(void)
 {
     return (struct rho_votes_picture){.height = (uint16_t)rows, .width = COLUMNS, .votes = picture};
 }
 
-/* ---- pairs and space ------------------------------------------------------------------------- */
+/*
+ * ---- pairs and parameter space ----------------------------------------------------------------
+ */
 
 static void pairs_are_in_the_order_of_the_search(void **state)
 {
@@ -48,7 +50,7 @@ static void pairs_are_in_the_order_of_the_search(void **state)
     static const uint8_t expected[3][2] = {{0, 1}, {0, 2}, {1, 2}};
     struct rho_passive_paper_pair pair = {9, 9};
     random_state = 41;
-    search_drawn(3, RHO_GHOST_LITERAL);
+    search_random_scene(3, RHO_GHOST_LITERAL);
     for (unsigned i = 0; i < 3; i++) {
         assert_int_equal(rho_passive_paper_pair(&paper, i, &pair), 1);
         assert_int_equal(pair.a, expected[i][0]);
@@ -65,7 +67,7 @@ static void rho_is_measured_from_the_middle_of_the_sensors(void **state)
     (void)state;
     struct rho_passive_paper_space space;
     random_state = 42;
-    search_drawn(3, RHO_GHOST_LITERAL);
+    search_random_scene(3, RHO_GHOST_LITERAL);
     assert_int_equal(rho_passive_paper_space(&paper, &space), RHO_OK);
     assert_float_equal(space.origin_x_m, middle_x_m, 0.1);
     assert_float_equal(space.origin_y_m, middle_y_m, 0.1);
@@ -74,10 +76,12 @@ static void rho_is_measured_from_the_middle_of_the_sensors(void **state)
     assert_int_equal(space.rho_cells, COLUMNS);
 }
 
-/* ---- ghosts ---------------------------------------------------------------------------------- */
+/*
+ * ---- ghosts -----------------------------------------------------------------------------------
+ */
 
-/* Crossings that are left, of all scans and pairs: as the reference has them. */
-static void ghosts_are_pruned_as_in_the_search(void **state)
+/* Crossings left in all scans are as many as in the reference. */
+static void ghost_matrices_agree_with_the_search(void **state)
 {
     (void)state;
     unsigned pruned_by_rule = 0;
@@ -85,7 +89,7 @@ static void ghosts_are_pruned_as_in_the_search(void **state)
     for (int run = 0; run < 20; run++) {
         unsigned kept = 0, all = 0;
         struct rho_passive_paper_pair pair;
-        search_drawn(run % 2 ? 3 : 2, run % 4 ? RHO_GHOST_LITERAL : RHO_GHOST_NO_RULE);
+        search_random_scene(run % 2 ? 3 : 2, run % 4 ? RHO_GHOST_LITERAL : RHO_GHOST_NO_RULE);
         for (unsigned i = 0; rho_passive_paper_pair(&paper, i, &pair); i++) {
             unsigned of_pair = 0;
             for (unsigned k = 0; k < scene.scans; k++) {
@@ -112,24 +116,28 @@ static void ghosts_are_pruned_as_in_the_search(void **state)
     assert_true(pruned_by_rule > 100);
 }
 
-/* ---- planes ---------------------------------------------------------------------------------- */
+/*
+ * ---- planes -----------------------------------------------------------------------------------
+ */
 
-/* Between the votes that are sure and those that are possible. */
-static void a_pairs_plane_has_its_votes(void **state)
+/* Votes are between the reference's sure and possible ones. */
+static void the_plane_of_a_pair_has_its_votes(void **state)
 {
     (void)state;
     unsigned sure = 0, all = 0;
     random_state = 44;
     for (int run = 0; run < 6; run++) {
         struct rho_passive_paper_pair pair;
-        search_drawn(3, RHO_GHOST_LITERAL);
+        search_random_scene(3, RHO_GHOST_LITERAL);
         for (unsigned i = 0; rho_passive_paper_pair(&paper, i, &pair); i++) {
-            struct rho_votes_picture plane = whole();
+            struct rho_votes_picture plane = whole_plane();
             assert_int_equal(rho_passive_paper_plane(&paper, &pair, &plane), RHO_OK);
             for (int row = 0; row < rows; row++) {
                 for (int column = 0; column < COLUMNS; column++) {
-                    const unsigned least = count_of(&planes[i].sure[row][column], RHO_VOTES_SCANS);
-                    const unsigned most = count_of(&planes[i].most[row][column], RHO_VOTES_SCANS);
+                    const unsigned least =
+                        count_votes(&planes[i].sure[row][column], RHO_VOTES_SCANS);
+                    const unsigned most =
+                        count_votes(&planes[i].most[row][column], RHO_VOTES_SCANS);
                     const uint32_t votes = picture[row * COLUMNS + column];
                     assert_true(votes >= least && votes <= most);
                     sure += most > 0 && least == most;
@@ -141,16 +149,19 @@ static void a_pairs_plane_has_its_votes(void **state)
     assert_true(all > 10000 && sure > all - all / 10);
 }
 
-/* Cells that every pair confirms; the best of them was the search's first line. */
-static void the_plane_of_all_pairs_has_the_confirmed_cells(void **state)
+/*
+ * The plane has the cells that every pair confirms; the highest one is the first line of the
+ * search.
+ */
+static void the_plane_of_all_pairs_has_the_cells_that_all_confirm(void **state)
 {
     (void)state;
     unsigned lines = 0;
     random_state = 45;
     for (int run = 0; run < 12; run++) {
         uint32_t confirmed = 0, most = 0;
-        struct rho_votes_picture plane = whole();
-        search_drawn(run % 2 ? 3 : 2, RHO_GHOST_LITERAL);
+        struct rho_votes_picture plane = whole_plane();
+        search_random_scene(run % 2 ? 3 : 2, RHO_GHOST_LITERAL);
         memcpy(&paper_then, &paper, sizeof paper);
         plane.height = (uint16_t)rows;
         assert_int_equal(rho_passive_paper_plane(&paper, NULL, &plane), RHO_OK);
@@ -158,14 +169,14 @@ static void the_plane_of_all_pairs_has_the_confirmed_cells(void **state)
             confirmed += picture[i] > 0;
             most = picture[i] > most ? picture[i] : most;
         }
-        /* a cell that its neighbours confirm may have no votes of its own */
+        /* a cell confirmed by its neighbours may have no votes itself */
         assert_in_range(confirmed, scene.sensors > 2 ? 1 : paper.work.cells, paper.work.cells);
         assert_int_equal(most, paper.num_lines > 0 ? paper.lines[0].votes_sum : 0);
         assert_memory_equal(paper.lines, paper_then.lines, sizeof paper.lines);
         assert_memory_equal(&paper.work, &paper_then.work, sizeof paper.work);
         assert_memory_equal(&paper.batch, &paper_then.batch, sizeof paper.batch);
         lines += paper.num_lines;
-        /* another search, after all these views, finds the same */
+        /* views do not change the result of another search */
         assert_int_equal(rho_passive_paper_search(&paper), RHO_OK);
         assert_int_equal(paper.num_lines, paper_then.num_lines);
         assert_memory_equal(paper.lines, paper_then.lines, sizeof paper.lines);
@@ -173,9 +184,11 @@ static void the_plane_of_all_pairs_has_the_confirmed_cells(void **state)
     assert_true(lines > 12);
 }
 
-/* ---- cells of a pair ------------------------------------------------------------------------- */
+/*
+ * ---- cells of a pair --------------------------------------------------------------------------
+ */
 
-static void a_pairs_cells_have_enough_votes_and_their_scans(void **state)
+static void listed_cells_of_a_pair_have_enough_votes_and_their_scans(void **state)
 {
     (void)state;
     struct rho_accumulator_peak peaks[RHO_MAX_PASSIVE_LINES];
@@ -183,10 +196,10 @@ static void a_pairs_cells_have_enough_votes_and_their_scans(void **state)
     random_state = 46;
     for (int run = 0; run < 6; run++) {
         struct rho_passive_paper_pair pair;
-        search_drawn(3, RHO_GHOST_LITERAL);
+        search_random_scene(3, RHO_GHOST_LITERAL);
         for (unsigned i = 0; rho_passive_paper_pair(&paper, i, &pair); i++) {
             uint32_t num = 99;
-            struct rho_votes_picture plane = whole();
+            struct rho_votes_picture plane = whole_plane();
             assert_int_equal(
                 rho_passive_paper_cells(&paper, &pair, peaks, RHO_MAX_PASSIVE_LINES, &num), RHO_OK);
             assert_int_equal(rho_passive_paper_plane(&paper, &pair, &plane), RHO_OK);
@@ -197,9 +210,9 @@ static void a_pairs_cells_have_enough_votes_and_their_scans(void **state)
             assert_int_equal(num > 0, most >= paper.votes_min);
             for (uint32_t k = 0; k < num; k++) {
                 const struct votes *sure =
-                    cell_of(&planes[i], 1, peaks[k].theta_cell, peaks[k].rho_cell);
+                    votes_in_cell(&planes[i], 1, peaks[k].theta_cell, peaks[k].rho_cell);
                 const struct votes *possible =
-                    cell_of(&planes[i], 0, peaks[k].theta_cell, peaks[k].rho_cell);
+                    votes_in_cell(&planes[i], 0, peaks[k].theta_cell, peaks[k].rho_cell);
                 assert_int_equal(peaks[k].votes,
                                  picture[peaks[k].theta_cell * COLUMNS + peaks[k].rho_cell]);
                 assert_true(peaks[k].votes >= paper.votes_min);
@@ -218,9 +231,11 @@ static void a_pairs_cells_have_enough_votes_and_their_scans(void **state)
     assert_true(cells > 18);
 }
 
-/* ---- refusals -------------------------------------------------------------------------------- */
+/*
+ * ---- refusals ---------------------------------------------------------------------------------
+ */
 
-static void views_of_nothing_are_refused(void **state)
+static void views_without_a_search_or_valid_pair_are_refused(void **state)
 {
     (void)state;
     const struct rho_passive_paper_pair good = {0, 1}, turned = {1, 0}, beyond = {0, 3};
@@ -228,8 +243,8 @@ static void views_of_nothing_are_refused(void **state)
     struct rho_passive_paper_space space;
     uint32_t num;
     random_state = 47;
-    search_drawn(3, RHO_GHOST_LITERAL);
-    struct rho_votes_picture plane = whole();
+    search_random_scene(3, RHO_GHOST_LITERAL);
+    struct rho_votes_picture plane = whole_plane();
     assert_int_equal(rho_passive_paper_ghosts(&paper, &good, scene.scans, &matrix),
                      RHO_ERROR_VALUE);
     assert_int_equal(rho_passive_paper_ghosts(&paper, &turned, 0, &matrix), RHO_ERROR_VALUE);
@@ -249,7 +264,7 @@ static void views_of_nothing_are_refused(void **state)
     assert_int_equal(rho_passive_paper_space(NULL, &space), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_paper_space(&paper, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &method), RHO_OK);
-    plane = whole();
+    plane = whole_plane();
     assert_int_equal(rho_passive_paper_plane(&paper, NULL, &plane), RHO_ERROR_STATE);
     assert_int_equal(rho_passive_paper_cells(&paper, &good, &peak, 1, &num), RHO_ERROR_STATE);
     assert_int_equal(rho_passive_paper_space(&paper, &space), RHO_ERROR_STATE);
@@ -266,11 +281,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_are_in_the_order_of_the_search),
         cmocka_unit_test(rho_is_measured_from_the_middle_of_the_sensors),
-        cmocka_unit_test(ghosts_are_pruned_as_in_the_search),
-        cmocka_unit_test(a_pairs_plane_has_its_votes),
-        cmocka_unit_test(the_plane_of_all_pairs_has_the_confirmed_cells),
-        cmocka_unit_test(a_pairs_cells_have_enough_votes_and_their_scans),
-        cmocka_unit_test(views_of_nothing_are_refused),
+        cmocka_unit_test(ghost_matrices_agree_with_the_search),
+        cmocka_unit_test(the_plane_of_a_pair_has_its_votes),
+        cmocka_unit_test(the_plane_of_all_pairs_has_the_cells_that_all_confirm),
+        cmocka_unit_test(listed_cells_of_a_pair_have_enough_votes_and_their_scans),
+        cmocka_unit_test(views_without_a_search_or_valid_pair_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

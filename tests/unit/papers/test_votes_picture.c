@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Windows of a plane and their pictures: each place has the most votes of its block of cells. */
+/* Pictures of windows of a parameter plane: each pixel has the most votes of its block of cells. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,7 @@ static uint32_t votes_at(unsigned theta, unsigned rho)
     return theta * 1000u + rho * 7u % 11u;
 }
 
-static void note_all(struct rho_votes_picture *plane)
+static void note_all_cells(struct rho_votes_picture *plane)
 {
     for (unsigned theta = 0; theta < THETA_CELLS; theta++) {
         for (unsigned rho = 0; rho < RHO_CELLS; rho++) {
@@ -29,7 +29,7 @@ static void note_all(struct rho_votes_picture *plane)
     }
 }
 
-/* By the cells themselves: which place has a cell is the one thing that is computed the same. */
+/* Expected picture from all cells; only the pixel of a cell is computed as in the library. */
 static void expect_picture(const struct rho_votes_picture *plane)
 {
     static uint32_t expected[THETA_CELLS * RHO_CELLS];
@@ -46,7 +46,7 @@ static void expect_picture(const struct rho_votes_picture *plane)
                         (size_t)plane->height * plane->width * sizeof picture[0]);
 }
 
-static void a_window_as_large_as_its_picture_has_every_cell(void **state)
+static void a_picture_as_large_as_its_window_shows_every_cell(void **state)
 {
     (void)state;
     struct rho_votes_picture plane = {.height = THETA_CELLS, .width = RHO_CELLS, .votes = picture};
@@ -57,7 +57,7 @@ static void a_window_as_large_as_its_picture_has_every_cell(void **state)
     for (unsigned i = 0; i < THETA_CELLS * RHO_CELLS; i++) {
         assert_int_equal(picture[i], 0);
     }
-    note_all(&plane);
+    note_all_cells(&plane);
     for (unsigned theta = 0; theta < THETA_CELLS; theta++) {
         for (unsigned rho = 0; rho < RHO_CELLS; rho++) {
             assert_int_equal(picture[theta * RHO_CELLS + rho], votes_at(theta, rho));
@@ -65,21 +65,21 @@ static void a_window_as_large_as_its_picture_has_every_cell(void **state)
     }
 }
 
-static void a_small_picture_has_the_most_of_each_block(void **state)
+static void a_smaller_picture_shows_the_most_votes_of_each_block(void **state)
 {
     (void)state;
     struct rho_votes_picture plane = {.height = 5, .width = 8, .votes = picture};
     assert_int_equal(rho_votes_picture_init(&plane, THETA_CELLS, RHO_CELLS), RHO_OK);
-    note_all(&plane);
+    note_all_cells(&plane);
     expect_picture(&plane);
     plane.first_theta = 3;
     plane.theta_cells = 30;
     plane.first_rho = 90;
     plane.rho_cells = 11;
     assert_int_equal(rho_votes_picture_init(&plane, THETA_CELLS, RHO_CELLS), RHO_OK);
-    note_all(&plane);
+    note_all_cells(&plane);
     expect_picture(&plane);
-    assert_int_equal(picture[5 * 8 - 1] / 1000u, 32); /* cells behind the window are left out */
+    assert_int_equal(picture[5 * 8 - 1] / 1000u, 32); /* cells outside the window do not count */
 }
 
 static void windows_beyond_the_plane_are_refused(void **state)
@@ -110,8 +110,8 @@ static void windows_beyond_the_plane_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_window_as_large_as_its_picture_has_every_cell),
-        cmocka_unit_test(a_small_picture_has_the_most_of_each_block),
+        cmocka_unit_test(a_picture_as_large_as_its_window_shows_every_cell),
+        cmocka_unit_test(a_smaller_picture_shows_the_most_votes_of_each_block),
         cmocka_unit_test(windows_beyond_the_plane_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

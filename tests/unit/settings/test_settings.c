@@ -6,8 +6,8 @@ static struct rho_settings settings;
 static struct rho_passive_config search;
 static struct rho_passive passive;
 
-/* What a program does with settings: configs with the settings in them. */
-static void apply(void)
+/* Applies the settings to default configurations, as a program does. */
+static void apply_settings(void)
 {
     memset(&config, 0, sizeof config);
     memset(&initiation, 0, sizeof initiation);
@@ -17,21 +17,24 @@ static void apply(void)
     rho_settings_apply(&settings, &config, &initiation, &search);
 }
 
-/* Every object takes the settings. */
-static void begin_all(void)
+/*
+ * Initialises a tracker, an initiator and a passive search, and sets a sensor, all with the
+ * settings.
+ */
+static void init_objects_with_settings(void)
 {
     struct rho_sensor sensor = {.sensor_id = 1};
 
-    apply();
+    apply_settings();
     begin_tracker();
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &search), RHO_OK);
     rho_settings_apply_sensor(&settings, &sensor);
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
 }
 
-/* ---- defaults and fields ------------------------------------------------------------------- */
+/* ---- defaults and fields --------------------------------------------------------------------- */
 
-static void test_defaults_leave_the_configs_as_they_are(void **state)
+static void test_default_settings_leave_the_default_configs(void **state)
 {
     struct rho_tracker_config track = {0};
     struct rho_initiator_config start = {0};
@@ -40,7 +43,7 @@ static void test_defaults_leave_the_configs_as_they_are(void **state)
     rho_tracker_config_default(&track);
     rho_initiator_config_default(&start);
     rho_settings_default(&settings);
-    apply();
+    apply_settings();
     assert_memory_equal(&config, &track, sizeof track);
     assert_memory_equal(&initiation, &start, sizeof start);
 }
@@ -69,7 +72,7 @@ static void test_each_field_goes_to_its_configs(void **state)
                                      .min_scans = 4,
                                      .coast_scans_max = 9,
                                      .work_max = 1234};
-    apply();
+    apply_settings();
     assert_true(config.v_min_mps == 2.0f && config.v_max_mps == 70.0f && config.pd == 0.7f);
     assert_true(config.accel_max_mps2 == 4.0f && config.late_max_s == 6.0f);
     assert_true(config.coast_scans_max == 9 && config.work_max == 1234);
@@ -91,22 +94,24 @@ static void test_each_field_goes_to_its_configs(void **state)
     rho_settings_apply(&settings, NULL, NULL, NULL);
 }
 
-static void test_what_depends_on_others_keeps_to_its_limits(void **state)
+static void test_derived_fields_keep_to_their_limits(void **state)
 {
     (void)state;
     rho_settings_default(&settings);
     settings.scan_interval_s = 40.0f;
     settings.range_max_m = 600000.0f;
-    apply();
+    apply_settings();
     assert_true(config.late_max_s == 60.0f);
     assert_true(search.range_max_m == 500000.0f);
     settings.range_max_m = 200.0f;
-    apply();
+    apply_settings();
     assert_true(search.range_max_m == 1000.0f);
     assert_true(fabsf(search.rho_cell_m * RHO_PASSIVE_RHO_CELLS - 2560.0f) < 0.01f);
 }
 
-/* ---- check --------------------------------------------------------------------------------- */
+/*
+ * ---- bounds -----------------------------------------------------------------------------------
+ */
 
 static const struct bounds {
     const char *field;
@@ -133,14 +138,14 @@ static const struct bounds {
     {"false_tracks_per_hour", &settings.false_tracks_per_hour, 1e-6f, 1e6f, 0},
 };
 
-static void begin_with_area(void)
+static void set_defaults_with_area(void)
 {
     rho_settings_default(&settings);
     settings.area_is_fixed = 1;
     settings.area = (struct rho_extent){-1e4f, 1e4f, -1e4f, 1e4f};
 }
 
-static void assert_refused(const char *field, float value, float min, float max)
+static void assert_settings_refused(const char *field, float value, float min, float max)
 {
     struct rho_settings_fault fault = {0};
 
@@ -151,16 +156,16 @@ static void assert_refused(const char *field, float value, float min, float max)
     assert_true(fault.min == min && fault.max == max);
 }
 
-static void assert_accepted(void)
+static void assert_settings_accepted(void)
 {
     struct rho_settings_fault fault = {.value = 42.0f};
 
     assert_int_equal(rho_settings_check(&settings, &fault), RHO_OK);
     assert_true(fault.value == 42.0f);
-    begin_all();
+    init_objects_with_settings();
 }
 
-static void test_each_number_beyond_its_bounds_is_named(void **state)
+static void test_each_number_beyond_its_bounds_is_refused_by_name(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++) {
@@ -170,21 +175,21 @@ static void test_each_number_beyond_its_bounds_is_named(void **state)
         const float refused[] = {below, above, -INFINITY, INFINITY, NAN};
 
         for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
-            begin_with_area();
+            set_defaults_with_area();
             *field->value = refused[k];
-            assert_refused(field->field, refused[k], field->min, field->max);
+            assert_settings_refused(field->field, refused[k], field->min, field->max);
         }
     }
 }
 
-static void test_each_number_at_its_bounds_is_taken_by_all(void **state)
+static void test_each_number_at_its_bounds_is_accepted(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++) {
         const struct bounds *field = &bounds[i];
 
         for (int at_max = 0; at_max < 2; at_max++) {
-            begin_with_area();
+            set_defaults_with_area();
             settings.area.x_min_m = settings.area.y_min_m = -2e6f;
             *field->value = field->is_open ? nextafterf(field->max, -INFINITY) : field->max;
             if (!at_max) {
@@ -192,46 +197,46 @@ static void test_each_number_at_its_bounds_is_taken_by_all(void **state)
                 *field->value = field->min;
             }
             if (settings.area.x_max_m > -2e6f && settings.area.y_max_m > -2e6f) {
-                assert_accepted();
+                assert_settings_accepted();
             }
         }
     }
 }
 
-static void test_counts_keep_to_their_bounds(void **state)
+static void test_counts_beyond_their_bounds_are_refused(void **state)
 {
     (void)state;
     rho_settings_default(&settings);
     settings.scans = settings.min_scans = 3;
     settings.coast_scans_max = 1;
     settings.work_max = 0;
-    assert_accepted();
+    assert_settings_accepted();
     settings.scans = settings.min_scans = RHO_MAX_SCANS;
     settings.coast_scans_max = 255;
     settings.work_max = RHO_LIMIT_WORK;
-    assert_accepted();
+    assert_settings_accepted();
     settings.work_max++;
-    assert_refused("work_max", 1e8f, 0.0f, 1e8f);
+    assert_settings_refused("work_max", 1e8f, 0.0f, 1e8f);
     settings.coast_scans_max = 256;
-    assert_refused("coast_scans_max", 256.0f, 1.0f, 255.0f);
+    assert_settings_refused("coast_scans_max", 256.0f, 1.0f, 255.0f);
     settings.coast_scans_max = 0;
-    assert_refused("coast_scans_max", 0.0f, 1.0f, 255.0f);
+    assert_settings_refused("coast_scans_max", 0.0f, 1.0f, 255.0f);
     settings.min_scans = RHO_MAX_SCANS + 1;
-    assert_refused("min_scans", RHO_MAX_SCANS + 1.0f, 3.0f, RHO_MAX_SCANS);
+    assert_settings_refused("min_scans", RHO_MAX_SCANS + 1.0f, 3.0f, RHO_MAX_SCANS);
     settings.min_scans = 2;
-    assert_refused("min_scans", 2.0f, 3.0f, RHO_MAX_SCANS);
+    assert_settings_refused("min_scans", 2.0f, 3.0f, RHO_MAX_SCANS);
     settings.scans = RHO_MAX_SCANS + 1;
-    assert_refused("scans", RHO_MAX_SCANS + 1.0f, 3.0f, RHO_MAX_SCANS);
+    assert_settings_refused("scans", RHO_MAX_SCANS + 1.0f, 3.0f, RHO_MAX_SCANS);
     settings.scans = 2;
-    assert_refused("scans", 2.0f, 3.0f, RHO_MAX_SCANS);
+    assert_settings_refused("scans", 2.0f, 3.0f, RHO_MAX_SCANS);
 }
 
-static void test_an_area_that_is_not_meant_is_not_looked_at(void **state)
+static void test_an_unused_area_is_not_checked(void **state)
 {
     (void)state;
     rho_settings_default(&settings);
     settings.area.x_min_m = NAN;
-    assert_accepted();
+    assert_settings_accepted();
 }
 
 static void test_no_settings_are_refused(void **state)
@@ -243,13 +248,15 @@ static void test_no_settings_are_refused(void **state)
     assert_true(fault.value == 42.0f);
 }
 
-/* ---- presets ------------------------------------------------------------------------------- */
+/*
+ * ---- presets ----------------------------------------------------------------------------------
+ */
 
 #define SCANS 60
-#define TURN_FROM 30 /* scan in which the target begins to turn, by a right angle */
-#define CLUTTER 20   /* plots a scan, over the whole range */
+#define TURN_FROM 30 /* scan from which on the target makes a right-angled turn */
+#define CLUTTER 20   /* clutter plots a scan, over the whole range */
 
-/* A target that is typical of the kind. */
+/* A typical target of each preset. */
 static const struct target {
     enum rho_preset preset;
     double range_m, speed_mps;
@@ -267,8 +274,8 @@ static struct mover {
     double x_m, y_m, heading_rad, speed_mps;
 } mover;
 
-/* To the next scan, in small steps. */
-static void move(int k)
+/* Moves the target to the next scan in a hundred steps. */
+static void move_target(int k)
 {
     const double dt_s = (double)settings.scan_interval_s / 100.0;
     const double rate_radps = 0.5 * (double)settings.accel_max_mps2 / mover.speed_mps;
@@ -293,7 +300,7 @@ static void add_polar(double range_m, double azimuth_rad, double rate_mps, uint3
                      RHO_OK);
 }
 
-static void see(uint32_t measures)
+static void add_scan_plots(uint32_t measures)
 {
     const double range_m = hypot(mover.x_m, mover.y_m);
     const double azimuth_rad = atan2(mover.y_m, mover.x_m);
@@ -319,8 +326,8 @@ static double distance_m(const struct rho_track_report *track)
     return hypot((double)track->state[0] - mover.x_m, (double)track->state[1] - mover.y_m);
 }
 
-/* The only track that is believed, within four of the plots' standard deviations. */
-static void check_track(uint32_t *track_id)
+/* Checks that at most one track is confirmed, within four of the plots' standard deviations. */
+static void check_only_track(uint32_t *track_id)
 {
     const double across_m = hypot(mover.x_m, mover.y_m) * (double)settings.sigma_azimuth_rad;
     const double sigma_m = fmax(across_m, (double)settings.sigma_range_m);
@@ -345,25 +352,25 @@ static void test_each_preset_tracks_its_target(void **state)
 
         random_state = 1;
         rho_settings_preset(&settings, target->preset);
-        assert_accepted();
+        assert_settings_accepted();
         mover =
             (struct mover){-0.6 * target->range_m, 0.8 * target->range_m, 0.0, target->speed_mps};
         for (int k = 0; k < SCANS; k++) {
-            see(target->measures);
+            add_scan_plots(target->measures);
             step_scan(
                 (struct rho_scan){.time_us = llround(k * (double)settings.scan_interval_s * 1e6),
                                   .sensor_id = 1,
                                   .measures = target->measures});
-            check_track(&track_id);
+            check_only_track(&track_id);
             assert_true(track_id > 0 || k < 7);
-            move(k);
+            move_target(k);
         }
         assert_int_equal(tracker.counters.tracks_confirmed, 1);
         assert_non_null(report_of(track_id));
     }
 }
 
-static void test_an_unknown_preset_is_the_default(void **state)
+static void test_an_unknown_preset_gives_the_default_settings(void **state)
 {
     struct rho_settings expected;
 
@@ -378,16 +385,16 @@ static void test_an_unknown_preset_is_the_default(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults_leave_the_configs_as_they_are),
+        cmocka_unit_test(test_default_settings_leave_the_default_configs),
         cmocka_unit_test(test_each_field_goes_to_its_configs),
-        cmocka_unit_test(test_what_depends_on_others_keeps_to_its_limits),
-        cmocka_unit_test(test_each_number_beyond_its_bounds_is_named),
-        cmocka_unit_test(test_each_number_at_its_bounds_is_taken_by_all),
-        cmocka_unit_test(test_counts_keep_to_their_bounds),
-        cmocka_unit_test(test_an_area_that_is_not_meant_is_not_looked_at),
+        cmocka_unit_test(test_derived_fields_keep_to_their_limits),
+        cmocka_unit_test(test_each_number_beyond_its_bounds_is_refused_by_name),
+        cmocka_unit_test(test_each_number_at_its_bounds_is_accepted),
+        cmocka_unit_test(test_counts_beyond_their_bounds_are_refused),
+        cmocka_unit_test(test_an_unused_area_is_not_checked),
         cmocka_unit_test(test_no_settings_are_refused),
         cmocka_unit_test(test_each_preset_tracks_its_target),
-        cmocka_unit_test(test_an_unknown_preset_is_the_default),
+        cmocka_unit_test(test_an_unknown_preset_gives_the_default_settings),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

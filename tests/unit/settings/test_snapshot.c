@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A snapshot at any step: what follows has the same bytes as without. And what is no image is
- * refused, with nothing changed.
+ * Snapshots: after loading one taken at any step, all further reports have the same bytes; invalid
+ * images are refused and change nothing.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -43,19 +43,22 @@ struct event {
 
 static struct event events[EVENTS_MAX];
 static int num_events;
-static uint64_t hashes[EVENTS_MAX]; /* of the reports, without a snapshot */
+static uint64_t hashes[EVENTS_MAX]; /* hashes of the reports of a run without snapshots */
 static struct pipeline chain, other;
 static struct rho_report report;
 static uint8_t *image;
 static size_t image_bytes;
 
-/* ---- scenes ---------------------------------------------------------------------------------- */
+/*
+ * ---- scenes -----------------------------------------------------------------------------------
+ */
 
 static double target_at(int target, double t_s, int axis)
 {
     const double from_m[TARGETS][2] = {{-12e3, 9e3}, {9e3, 12e3}, {2e3, 14e3}, {-9e3, 16e3}};
     const double speed_mps[TARGETS][2] = {{180, 40}, {-150, 20}, {60, -90}, {30, 160}};
-    const double bent_mps2 = t_s > 40.0 && axis == 1 ? -2.0 : 0.0; /* they turn */
+    /* all targets accelerate from 40 s on */
+    const double bent_mps2 = t_s > 40.0 && axis == 1 ? -2.0 : 0.0;
     return from_m[target][axis] + speed_mps[target][axis] * t_s +
            0.5 * bent_mps2 * (t_s - 40.0) * (t_s - 40.0);
 }
@@ -84,7 +87,7 @@ static int is_in_sector(double x_m, double y_m, double from_rad, double to_rad)
     return azimuth_rad >= from_rad && azimuth_rad < to_rad;
 }
 
-/* What a radar sees from azimuth to azimuth: targets, one of ten missed, and clutter. */
+/* Adds a radar's scan of a sector: targets, of which one in ten is missed, and clutter. */
 static void add_scan(double t_s, int32_t sensor_id, double from_rad, double to_rad, int clutter)
 {
     struct event *event = add_event(t_s);
@@ -154,9 +157,11 @@ static void draw_scene(enum scene scene)
     }
 }
 
-/* ---- chains ---------------------------------------------------------------------------------- */
+/*
+ * ---- pipelines --------------------------------------------------------------------------------
+ */
 
-static void begin(uint8_t gate, int is_input_estimated)
+static void init_pipeline(uint8_t gate, int is_input_estimated)
 {
     struct rho_tracker_config maintain;
     struct rho_initiator_config start;
@@ -182,7 +187,7 @@ static void begin(uint8_t gate, int is_input_estimated)
     assert_int_equal(rho_tracker_set_sensor(&chain.tracker, &radar), RHO_OK);
 }
 
-static void step(struct pipeline *at, const struct event *drawn)
+static void step_pipeline(struct pipeline *at, const struct event *drawn)
 {
     struct event event = *drawn;
     memset(&report, 0xa5, sizeof report);
@@ -198,8 +203,8 @@ static void step(struct pipeline *at, const struct event *drawn)
                      RHO_OK);
 }
 
-/* Of what the report says. */
-static uint64_t hash_of(const void *data, size_t size, uint64_t hash)
+/* FNV-1a hash of bytes, continued from `hash`. */
+static uint64_t hash_bytes(const void *data, size_t size, uint64_t hash)
 {
     const uint8_t *bytes = data;
     for (size_t i = 0; i < size; i++) {
@@ -211,14 +216,14 @@ static uint64_t hash_of(const void *data, size_t size, uint64_t hash)
 static uint64_t hash_report(void)
 {
     uint64_t hash = UINT64_C(14695981039346656037);
-    hash = hash_of(&report.time_us, sizeof report.time_us, hash);
-    hash = hash_of(report.fates_total, sizeof report.fates_total, hash);
-    hash = hash_of(report.fates, report.num_plots, hash);
-    hash = hash_of(report.ended, report.num_ended * sizeof report.ended[0], hash);
-    return hash_of(report.tracks, report.num_tracks * sizeof report.tracks[0], hash);
+    hash = hash_bytes(&report.time_us, sizeof report.time_us, hash);
+    hash = hash_bytes(report.fates_total, sizeof report.fates_total, hash);
+    hash = hash_bytes(report.fates, report.num_plots, hash);
+    hash = hash_bytes(report.ended, report.num_ended * sizeof report.ended[0], hash);
+    return hash_bytes(report.tracks, report.num_tracks * sizeof report.tracks[0], hash);
 }
 
-static unsigned parts_of(struct pipeline *at, struct rho_snapshot_part parts[4])
+static unsigned snapshot_parts_of(struct pipeline *at, struct rho_snapshot_part parts[4])
 {
     parts[0] =
         (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, 0, &at->tracker, sizeof at->tracker};
@@ -231,10 +236,10 @@ static unsigned parts_of(struct pipeline *at, struct rho_snapshot_part parts[4])
     return 4;
 }
 
-static void save(struct pipeline *at)
+static void save_image(struct pipeline *at)
 {
     struct rho_snapshot_part parts[4];
-    const unsigned num_parts = parts_of(at, parts);
+    const unsigned num_parts = snapshot_parts_of(at, parts);
     size_t length = 0;
     image_bytes = rho_snapshot_size(parts, num_parts);
     assert_true(image_bytes > 0);
@@ -245,101 +250,106 @@ static void save(struct pipeline *at)
     assert_int_equal(length, image_bytes);
 }
 
-static enum rho_status load(struct pipeline *at, size_t size)
+static enum rho_status load_image(struct pipeline *at, size_t size)
 {
     struct rho_snapshot_part parts[4];
-    return rho_snapshot_load(parts, parts_of(at, parts), image, size);
+    return rho_snapshot_load(parts, snapshot_parts_of(at, parts), image, size);
 }
 
-/* ---- the same bytes -------------------------------------------------------------------------- */
+/*
+ * ---- further steps after loading --------------------------------------------------------------
+ */
 
-static void run_scene(enum scene scene, uint8_t gate, int is_input_estimated)
+static void compare_run_from_snapshots(enum scene scene, uint8_t gate, int is_input_estimated)
 {
     unsigned confirmed = 0;
     draw_scene(scene);
-    begin(gate, is_input_estimated);
+    init_pipeline(gate, is_input_estimated);
     for (int k = 0; k < num_events; k++) {
-        step(&chain, &events[k]);
+        step_pipeline(&chain, &events[k]);
         hashes[k] = hash_report();
         confirmed += report.num_tracks > 0 && report.tracks[0].status == RHO_TRACK_CONFIRMED;
     }
     assert_true(confirmed > 3);
-    /* the big objects take long to look through: not after each sector of each turn */
+    /* large objects are compared after some steps only, to save time */
     const int stride = RHO_MAX_PLOTS > 1000 ? (num_events > 40 ? 13 : 5) : 1;
-    begin(gate, is_input_estimated);
+    init_pipeline(gate, is_input_estimated);
     for (int k = 0; k <= num_events; k++) {
         if (k % stride == 0 || k == num_events) {
-            save(&chain);
+            save_image(&chain);
             memset(&other, 0xc3, sizeof other);
-            assert_int_equal(load(&other, image_bytes), RHO_OK);
+            assert_int_equal(load_image(&other, image_bytes), RHO_OK);
             assert_memory_equal(&other.tracker, &chain.tracker, sizeof other.tracker);
             assert_memory_equal(&other.initiators, &chain.initiators, sizeof other.initiators);
             assert_memory_equal(&other.passive, &chain.passive, sizeof other.passive);
             for (int after = k; after < num_events; after++) {
-                step(&other, &events[after]);
+                step_pipeline(&other, &events[after]);
                 assert_true(hash_report() == hashes[after]);
             }
         }
         if (k < num_events) {
-            step(&chain, &events[k]);
+            step_pipeline(&chain, &events[k]);
         }
     }
     assert_memory_equal(&other.tracker, &chain.tracker, sizeof other.tracker);
 }
 
-static void test_radar_in_clutter_goes_on(void **state)
+static void test_a_radar_in_clutter_continues_identically(void **state)
 {
     (void)state;
-    run_scene(CLUTTER, RHO_TRACKER_BEST, 0);
+    compare_run_from_snapshots(CLUTTER, RHO_TRACKER_BEST, 0);
 }
 
-static void test_sectors_go_on(void **state)
+static void test_sectors_continue_identically(void **state)
 {
     (void)state;
-    run_scene(SECTORS, RHO_TRACKER_BEST, 0);
+    compare_run_from_snapshots(SECTORS, RHO_TRACKER_BEST, 0);
 }
 
-static void test_bearings_go_on(void **state)
+static void test_bearings_continue_identically(void **state)
 {
     (void)state;
-    run_scene(BEARINGS, RHO_TRACKER_BEST, 0);
+    compare_run_from_snapshots(BEARINGS, RHO_TRACKER_BEST, 0);
 }
 
-static void test_two_radars_with_bearings_go_on(void **state)
+static void test_two_radars_and_bearings_continue_identically(void **state)
 {
     (void)state;
-    run_scene(MIXED, RHO_TRACKER_BEST, 0);
+    compare_run_from_snapshots(MIXED, RHO_TRACKER_BEST, 0);
 }
 
-static void test_gates_with_one_filter_go_on(void **state)
+static void test_single_filter_gates_continue_identically(void **state)
 {
     (void)state;
-    run_scene(MIXED, RHO_TRACKER_NEAREST, 0);
-    run_scene(CLUTTER, RHO_TRACKER_HOUGH, 1);
+    compare_run_from_snapshots(MIXED, RHO_TRACKER_NEAREST, 0);
+    compare_run_from_snapshots(CLUTTER, RHO_TRACKER_HOUGH, 1);
 }
 
-/* ---- pieces ---------------------------------------------------------------------------------- */
+/*
+ * ---- images in pieces -------------------------------------------------------------------------
+ */
 
 static void make_image(void)
 {
     draw_scene(MIXED);
-    begin(RHO_TRACKER_BEST, 0);
+    init_pipeline(RHO_TRACKER_BEST, 0);
     for (int k = 0; k < 20; k++) {
-        step(&chain, &events[k]);
+        step_pipeline(&chain, &events[k]);
     }
-    save(&chain);
+    save_image(&chain);
 }
 
-static void test_pieces_are_the_image(void **state)
+static void test_an_image_saved_in_pieces_is_the_same(void **state)
 {
     const size_t sizes[] = {1, 7, 64, 256, 4096, 65536};
     struct rho_snapshot_part parts[4];
     uint8_t page[65536];
     (void)state;
     make_image();
-    const unsigned num_parts = parts_of(&chain, parts);
+    const unsigned num_parts = snapshot_parts_of(&chain, parts);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        size_t length, at = sizes[i] < 256 ? image_bytes - 500 : 0; /* small pages take long */
+        /* with small pages the last 500 bytes alone, to save time */
+        size_t length, at = sizes[i] < 256 ? image_bytes - 500 : 0;
         do {
             assert_int_equal(rho_snapshot_save(parts, num_parts, at, page, sizes[i], &length),
                              RHO_OK);
@@ -351,8 +361,8 @@ static void test_pieces_are_the_image(void **state)
     }
 }
 
-/* Status of the last piece that was taken, of `size` bytes each. */
-static enum rho_status take_image(struct rho_snapshot_loader *loader, size_t size)
+/* Loads the image in pieces of `size` bytes; returns the status of the last one. */
+static enum rho_status load_in_pieces(struct rho_snapshot_loader *loader, size_t size)
 {
     enum rho_status status = RHO_OK;
     for (unsigned pass = 0; pass < RHO_SNAPSHOT_PASSES; pass++) {
@@ -364,18 +374,18 @@ static enum rho_status take_image(struct rho_snapshot_loader *loader, size_t siz
     return status;
 }
 
-static void test_pieces_are_loaded(void **state)
+static void test_an_image_is_loaded_in_pieces(void **state)
 {
     const size_t sizes[] = {13, 24, 64, 1000, 65536, 100000000};
     struct rho_snapshot_loader loader;
     struct rho_snapshot_part parts[4];
     (void)state;
     make_image();
-    const unsigned num_parts = parts_of(&other, parts);
+    const unsigned num_parts = snapshot_parts_of(&other, parts);
     for (size_t i = RHO_MAX_PLOTS > 1000 ? 4 : 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         memset(&other, 0x3c, sizeof other);
         assert_int_equal(rho_snapshot_begin(&loader, parts, num_parts), RHO_OK);
-        assert_int_equal(take_image(&loader, sizes[i]), RHO_OK);
+        assert_int_equal(load_in_pieces(&loader, sizes[i]), RHO_OK);
         assert_int_equal(loader.passes, RHO_SNAPSHOT_PASSES);
         assert_memory_equal(&other.tracker, &chain.tracker, sizeof other.tracker);
         assert_memory_equal(&other.initiators, &chain.initiators, sizeof other.initiators);
@@ -384,8 +394,8 @@ static void test_pieces_are_loaded(void **state)
     }
 }
 
-/* *other is full of 0x3c. */
-static int is_unchanged(void)
+/* True if `other` still has the bytes 0x3c everywhere. */
+static int is_other_unchanged(void)
 {
     const uint8_t *bytes = (const uint8_t *)&other;
     return bytes[0] == 0x3c && memcmp(bytes, bytes + 1, sizeof other - 1) == 0;
@@ -395,18 +405,18 @@ static void assert_pieces_refused(size_t at, enum rho_status expected)
 {
     struct rho_snapshot_loader loader;
     struct rho_snapshot_part parts[4];
-    const unsigned num_parts = parts_of(&other, parts);
+    const unsigned num_parts = snapshot_parts_of(&other, parts);
     image[at] ^= 4u;
     memset(&other, 0x3c, sizeof other);
     assert_int_equal(rho_snapshot_begin(&loader, parts, num_parts), RHO_OK);
-    assert_int_equal(take_image(&loader, 4096), expected);
+    assert_int_equal(load_in_pieces(&loader, 4096), expected);
     assert_true(loader.passes > RHO_SNAPSHOT_PASSES);
-    assert_true(is_unchanged());
+    assert_true(is_other_unchanged());
     assert_int_equal(rho_snapshot_take(&loader, image, 1), RHO_ERROR_STATE);
     image[at] ^= 4u;
 }
 
-static void test_pieces_of_no_image_are_refused(void **state)
+static void test_damaged_images_in_pieces_are_refused(void **state)
 {
     struct rho_snapshot_loader loader;
     struct rho_snapshot_part parts[4];
@@ -416,17 +426,17 @@ static void test_pieces_of_no_image_are_refused(void **state)
     assert_pieces_refused(8, RHO_ERROR_TYPE);
     assert_pieces_refused(15, RHO_ERROR_SIZE);
     assert_pieces_refused(16, RHO_ERROR_COUNT);
-    assert_pieces_refused(24 + 2 * 16 + 4, RHO_ERROR_COUNT); /* an id */
+    assert_pieces_refused(24 + 2 * 16 + 4, RHO_ERROR_COUNT); /* the id of a part */
     assert_pieces_refused(5000, RHO_ERROR_VALUE);
     assert_pieces_refused(image_bytes - 1, RHO_ERROR_VALUE);
-    /* cut off: never loaded */
-    const unsigned num_parts = parts_of(&other, parts);
+    /* an image without its last byte is never loaded */
+    const unsigned num_parts = snapshot_parts_of(&other, parts);
     assert_int_equal(rho_snapshot_begin(&loader, parts, num_parts), RHO_OK);
     assert_int_equal(rho_snapshot_take(&loader, image, image_bytes - 1), RHO_OK);
     assert_int_equal(loader.passes, 0);
     assert_int_equal(rho_snapshot_take(&loader, NULL, 1), RHO_ERROR_NULL);
     assert_int_equal(rho_snapshot_begin(NULL, parts, num_parts), RHO_ERROR_NULL);
-    /* other bytes at the second reading: nothing is left of them */
+    /* bytes that changed between the two passes leave no valid object */
     assert_int_equal(rho_snapshot_take(&loader, image + image_bytes - 1, 1), RHO_OK);
     assert_int_equal(loader.passes, 1);
     image[5000] ^= 4u;
@@ -435,24 +445,24 @@ static void test_pieces_of_no_image_are_refused(void **state)
     assert_false(rho_initiator_is_sound(&other.initiators[1]));
 }
 
-static void test_a_step_between_pieces_spoils_the_image(void **state)
+static void test_a_step_between_saved_pieces_makes_the_image_invalid(void **state)
 {
     struct rho_snapshot_part parts[4];
     size_t length, rest;
     (void)state;
     make_image();
-    const unsigned num_parts = parts_of(&chain, parts);
+    const unsigned num_parts = snapshot_parts_of(&chain, parts);
     assert_int_equal(rho_snapshot_save(parts, num_parts, 0, image, image_bytes / 2, &length),
                      RHO_OK);
-    step(&chain, &events[20]);
+    step_pipeline(&chain, &events[20]);
     assert_int_equal(
         rho_snapshot_save(parts, num_parts, length, image + length, image_bytes - length, &rest),
         RHO_OK);
     assert_int_equal(length + rest, image_bytes);
-    assert_int_equal(load(&other, image_bytes), RHO_ERROR_VALUE);
+    assert_int_equal(load_image(&other, image_bytes), RHO_ERROR_VALUE);
 }
 
-static void test_an_image_says_what_it_holds(void **state)
+static void test_the_parts_of_an_image_are_listed(void **state)
 {
     struct rho_snapshot_part parts[3], none;
     unsigned num_parts = 0;
@@ -473,18 +483,20 @@ static void test_an_image_says_what_it_holds(void **state)
                      RHO_ERROR_SHORT);
 }
 
-/* ---- refused --------------------------------------------------------------------------------- */
+/*
+ * ---- refused images ---------------------------------------------------------------------------
+ */
 
-/* With other bytes in *other than an image leaves there. */
-static void assert_refused(size_t size, enum rho_status expected)
+/* Expects the image refused and `other`, filled with 0x3c, unchanged. */
+static void assert_image_refused(size_t size, enum rho_status expected)
 {
     memset(&other, 0x3c, sizeof other);
-    assert_int_equal(load(&other, size), expected);
-    assert_true(is_unchanged());
+    assert_int_equal(load_image(&other, size), expected);
+    assert_true(is_other_unchanged());
 }
 
-/* As the standard has it, bit by bit, for each byte once. */
-static uint32_t crc_of(const uint8_t *bytes, size_t size)
+/* CRC-32 by the definition in the standard, bit by bit for each table entry. */
+static uint32_t reference_crc_32(const uint8_t *bytes, size_t size)
 {
     static uint32_t table[256];
     uint32_t crc = UINT32_MAX;
@@ -500,9 +512,9 @@ static uint32_t crc_of(const uint8_t *bytes, size_t size)
     return ~crc;
 }
 
-static void seal(void)
+static void write_checksum(void)
 {
-    const uint32_t crc = crc_of(image, image_bytes - 4);
+    const uint32_t crc = reference_crc_32(image, image_bytes - 4);
     for (int i = 0; i < 4; i++) {
         image[image_bytes - 4 + (size_t)i] = (uint8_t)(crc >> 8 * i);
     }
@@ -513,75 +525,75 @@ static void test_checksum_is_crc_32(void **state)
     static const uint8_t digits[] = "123456789";
     uint8_t last[4];
     (void)state;
-    assert_true(crc_of(digits, 9) == 0xcbf43926u);
+    assert_true(reference_crc_32(digits, 9) == 0xcbf43926u);
     make_image();
     memcpy(last, image + image_bytes - 4, 4);
-    seal();
+    write_checksum();
     assert_memory_equal(last, image + image_bytes - 4, 4);
 }
 
-static void test_a_wrong_byte_is_refused(void **state)
+static void test_one_wrong_bit_is_refused(void **state)
 {
     (void)state;
     make_image();
-    /* the header, the end, and places between; of the big objects fewer */
+    /* the header, the end, and some bytes between; fewer for large objects */
     const int is_big = RHO_MAX_PLOTS > 1000;
     const size_t stride = (image_bytes - 200) / (is_big ? 12 : 1500), fine = is_big ? 9 : 1;
     for (size_t at = 0; at < image_bytes;) {
         const uint8_t was = image[at];
         image[at] = (uint8_t)(was ^ 1u << at % 8);
         memset(&other.tracker, 0x3c, 64);
-        assert_int_not_equal(load(&other, image_bytes), RHO_OK);
+        assert_int_not_equal(load_image(&other, image_bytes), RHO_OK);
         assert_int_equal(((const uint8_t *)&other.tracker)[9], 0x3c);
         image[at] = was;
         const size_t next = at + (at < 100 || at >= image_bytes - 20 ? fine : stride);
         at = at < image_bytes - 20 && next > image_bytes - 20 ? image_bytes - 20 : next;
     }
-    assert_int_equal(load(&other, image_bytes), RHO_OK);
+    assert_int_equal(load_image(&other, image_bytes), RHO_OK);
 }
 
-static void test_what_is_no_image_is_refused(void **state)
+static void test_cut_or_foreign_images_are_refused(void **state)
 {
     (void)state;
     make_image();
-    assert_refused(image_bytes - 1, RHO_ERROR_SHORT);
-    assert_refused(31, RHO_ERROR_SHORT);
-    assert_refused(0, RHO_ERROR_SHORT);
+    assert_image_refused(image_bytes - 1, RHO_ERROR_SHORT);
+    assert_image_refused(31, RHO_ERROR_SHORT);
+    assert_image_refused(0, RHO_ERROR_SHORT);
     image[0] ^= 1u;
-    assert_refused(image_bytes, RHO_ERROR_TYPE);
+    assert_image_refused(image_bytes, RHO_ERROR_TYPE);
     image[0] ^= 1u;
     image[8]++; /* version */
-    seal();
-    assert_refused(image_bytes, RHO_ERROR_TYPE);
+    write_checksum();
+    assert_image_refused(image_bytes, RHO_ERROR_TYPE);
     image[8]--;
     image[12] ^= 0x80u; /* layout */
-    seal();
-    assert_refused(image_bytes, RHO_ERROR_SIZE);
+    write_checksum();
+    assert_image_refused(image_bytes, RHO_ERROR_SIZE);
     image[12] ^= 0x80u;
-    seal();
+    write_checksum();
     image[image_bytes - 1] ^= 1u;
-    assert_refused(image_bytes, RHO_ERROR_VALUE);
+    assert_image_refused(image_bytes, RHO_ERROR_VALUE);
     image[image_bytes - 1] ^= 1u;
-    image[20]++; /* one part more than there are */
-    seal();
-    assert_refused(image_bytes, RHO_ERROR_VALUE);
+    image[20]++; /* a wrong number of parts */
+    write_checksum();
+    assert_image_refused(image_bytes, RHO_ERROR_VALUE);
     image[20]--;
-    seal();
-    assert_int_equal(load(&other, image_bytes), RHO_OK);
-    /* a page that is longer */
+    write_checksum();
+    assert_int_equal(load_image(&other, image_bytes), RHO_OK);
+    /* bytes after the image are ignored */
     image = realloc(image, image_bytes + 100);
     assert_non_null(image);
-    assert_int_equal(load(&other, image_bytes + 100), RHO_OK);
+    assert_int_equal(load_image(&other, image_bytes + 100), RHO_OK);
 }
 
-static void test_other_parts_are_refused(void **state)
+static void test_parts_that_differ_from_the_image_are_refused(void **state)
 {
     struct rho_snapshot_part parts[4];
     uint8_t small[8];
     size_t length;
     (void)state;
     make_image();
-    (void)parts_of(&other, parts);
+    (void)snapshot_parts_of(&other, parts);
     assert_int_equal(rho_snapshot_load(parts, 3, image, image_bytes), RHO_ERROR_COUNT);
     parts[2].id = 2;
     assert_int_equal(rho_snapshot_load(parts, 4, image, image_bytes), RHO_ERROR_COUNT);
@@ -597,8 +609,8 @@ static void test_other_parts_are_refused(void **state)
     parts[3].object = NULL;
     assert_int_equal(rho_snapshot_load(parts, 4, image, image_bytes), RHO_ERROR_NULL);
     assert_int_equal(rho_snapshot_load(NULL, 4, image, image_bytes), RHO_ERROR_NULL);
-    assert_int_equal(load(&other, image_bytes), RHO_OK);
-    (void)parts_of(&other, parts);
+    assert_int_equal(load_image(&other, image_bytes), RHO_OK);
+    (void)snapshot_parts_of(&other, parts);
     assert_int_equal(rho_snapshot_load(parts, 4, NULL, image_bytes), RHO_ERROR_NULL);
     assert_int_equal(rho_snapshot_load(parts, 4, image + 1, image_bytes - 1), RHO_ERROR_VALUE);
     assert_int_equal(rho_snapshot_save(parts, 4, 0, NULL, 9, &length), RHO_ERROR_NULL);
@@ -607,50 +619,51 @@ static void test_other_parts_are_refused(void **state)
     assert_int_equal(rho_snapshot_save(parts, 4, 0, small, sizeof small, &length), RHO_ERROR_STATE);
 }
 
-/* Where a field of the object that is part `part` lies in the image. */
-static uint8_t *in_image(unsigned part, size_t field)
+/* Address in the image of a field of the object that is this part. */
+static uint8_t *field_in_image(unsigned part, size_t field)
 {
     struct rho_snapshot_part parts[4];
     size_t at = 24 + 4 * 16;
-    (void)parts_of(&chain, parts);
+    (void)snapshot_parts_of(&chain, parts);
     for (unsigned i = 0; i < part; i++) {
         at += (parts[i].size + 7) / 8 * 8;
     }
     return image + at + field;
 }
 
-/* One field is another number, and the checksum right. */
-static void assert_nonsense(unsigned part, size_t field, const void *value, size_t size)
+/* Expects an image refused in which one field is invalid and the checksum right. */
+static void assert_invalid_field_refused(unsigned part, size_t field, const void *value,
+                                         size_t size)
 {
     static unsigned count;
     uint8_t was[16];
-    uint8_t *bytes = in_image(part, field);
+    uint8_t *bytes = field_in_image(part, field);
     if (RHO_MAX_PLOTS > 1000 && count++ % 6 != 0) {
-        return; /* big objects take long; all fields are tried in the other profile */
+        return; /* large objects take long: all fields are tested in the other profile */
     }
     memcpy(was, bytes, size);
     memcpy(bytes, value, size);
-    seal();
-    assert_refused(image_bytes, RHO_ERROR_VALUE);
-    if (RHO_MAX_PLOTS < 1000) { /* in pieces it is seen when it is there */
+    write_checksum();
+    assert_image_refused(image_bytes, RHO_ERROR_VALUE);
+    if (RHO_MAX_PLOTS < 1000) { /* in pieces an invalid object is found once it is loaded */
         struct rho_snapshot_loader loader;
         struct rho_snapshot_part parts[4];
-        const unsigned num_parts = parts_of(&other, parts);
+        const unsigned num_parts = snapshot_parts_of(&other, parts);
         assert_int_equal(rho_snapshot_begin(&loader, parts, num_parts), RHO_OK);
-        assert_int_equal(take_image(&loader, 65536), RHO_ERROR_VALUE);
+        assert_int_equal(load_in_pieces(&loader, 65536), RHO_ERROR_VALUE);
         assert_int_equal(other.tracker.magic, 0);
     }
     memcpy(bytes, was, size);
-    seal();
+    write_checksum();
 }
 
 #define NONSENSE(part, type, field, ctype, value)                                                  \
     do {                                                                                           \
         const ctype wrong = (value);                                                               \
-        assert_nonsense(part, offsetof(struct type, field), &wrong, sizeof wrong);                 \
+        assert_invalid_field_refused(part, offsetof(struct type, field), &wrong, sizeof wrong);    \
     } while (0)
 
-static void test_nonsense_with_a_right_checksum_is_refused(void **state)
+static void test_invalid_fields_with_a_right_checksum_are_refused(void **state)
 {
     const float nan = NAN;
     (void)state;
@@ -707,8 +720,9 @@ static void test_nonsense_with_a_right_checksum_is_refused(void **state)
     const struct rho_echo *kept = &chain.tracker.clutter_map.echoes[echo];
     const size_t in_tracker = (size_t)((const uint8_t *)kept - (const uint8_t *)&chain.tracker);
     const uint8_t region = RHO_ECHO_TABLES;
-    assert_nonsense(0, in_tracker + offsetof(struct rho_echo, region), &region, 1);
-    assert_nonsense(0, in_tracker + offsetof(struct rho_echo, along), &nan, sizeof nan);
+    assert_invalid_field_refused(0, in_tracker + offsetof(struct rho_echo, region), &region, 1);
+    assert_invalid_field_refused(0, in_tracker + offsetof(struct rho_echo, along), &nan,
+                                 sizeof nan);
     NONSENSE(0, rho_tracker, clutter_map.tables[0][1].looks[0][0], float, nan);
     NONSENSE(0, rho_tracker, clutter_map.exact_plots, float,
              chain.tracker.clutter_map.rate_plots + 1.0f);
@@ -743,22 +757,22 @@ static void test_nonsense_with_a_right_checksum_is_refused(void **state)
     NONSENSE(3, rho_passive, batch.num_bearings[0][0], uint8_t, RHO_MAX_BEARINGS + 1);
     NONSENSE(3, rho_passive, batch.sensors[1].x_m, float, -8e3f);
     NONSENSE(3, rho_passive, batch.bearings[0][0][0].bearing_rad, float, nan);
-    assert_int_equal(load(&other, image_bytes), RHO_OK);
+    assert_int_equal(load_image(&other, image_bytes), RHO_OK);
 }
 
-static void test_objects_that_saw_nothing(void **state)
+static void test_objects_without_data_are_saved_and_loaded(void **state)
 {
     (void)state;
-    begin(RHO_TRACKER_BEST, 0);
-    save(&chain);
+    init_pipeline(RHO_TRACKER_BEST, 0);
+    save_image(&chain);
     memset(&other, 0xc3, sizeof other);
-    assert_int_equal(load(&other, image_bytes), RHO_OK);
+    assert_int_equal(load_image(&other, image_bytes), RHO_OK);
     assert_memory_equal(&other.tracker, &chain.tracker, sizeof other.tracker);
     memset(&chain, 0, sizeof chain);
     assert_false(rho_tracker_is_sound(&chain.tracker));
     assert_false(rho_initiator_is_sound(&chain.initiators[0]));
     assert_false(rho_passive_is_sound(&chain.passive));
-    /* no parts are an image, too */
+    /* an image may have no parts */
     size_t length;
     assert_int_equal(rho_snapshot_save(NULL, 0, 0, image, image_bytes, &length), RHO_OK);
     assert_int_equal(length, rho_snapshot_size(NULL, 0));
@@ -766,10 +780,9 @@ static void test_objects_that_saw_nothing(void **state)
 }
 
 /*
- * Pushed by itself, an initiator takes plots of any row: it had no image where one was beyond
- * RHO_MAX_PLOTS.
+ * An initiator alone may hold plots of rows from RHO_MAX_PLOTS on; once these could not be saved.
  */
-static void test_a_held_plot_of_a_late_row_goes_on(void **state)
+static void test_a_held_plot_beyond_the_capacity_row_can_be_saved(void **state)
 {
     static struct rho_plot plots[RHO_MAX_PLOTS + 2];
     static uint8_t fates[RHO_MAX_PLOTS + 2];
@@ -777,7 +790,7 @@ static void test_a_held_plot_of_a_late_row_goes_on(void **state)
     struct rho_initiator *initiator = &chain.initiators[0];
     uint32_t left_unused = 0;
     (void)state;
-    begin(RHO_TRACKER_BEST, 0);
+    init_pipeline(RHO_TRACKER_BEST, 0);
     memset(fates, RHO_FATE_INVALID, sizeof fates);
     plots[RHO_MAX_PLOTS + 1] =
         (struct rho_plot){.x_m = 5e3f, .sigma_range_m = 20.0f, .sigma_cross_m = 20.0f};
@@ -785,30 +798,30 @@ static void test_a_held_plot_of_a_late_row_goes_on(void **state)
     assert_int_equal(rho_initiator_push(initiator, &scan, NULL, fates, &left_unused), RHO_OK);
     assert_int_equal(fates[RHO_MAX_PLOTS + 1], RHO_FATE_HELD);
     assert_true(rho_initiator_is_sound(initiator));
-    save(&chain);
-    assert_int_equal(load(&other, image_bytes), RHO_OK);
+    save_image(&chain);
+    assert_int_equal(load_image(&other, image_bytes), RHO_OK);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_radar_in_clutter_goes_on),
-        cmocka_unit_test(test_sectors_go_on),
-        cmocka_unit_test(test_bearings_go_on),
-        cmocka_unit_test(test_two_radars_with_bearings_go_on),
-        cmocka_unit_test(test_gates_with_one_filter_go_on),
-        cmocka_unit_test(test_pieces_are_the_image),
-        cmocka_unit_test(test_pieces_are_loaded),
-        cmocka_unit_test(test_pieces_of_no_image_are_refused),
-        cmocka_unit_test(test_a_step_between_pieces_spoils_the_image),
-        cmocka_unit_test(test_an_image_says_what_it_holds),
+        cmocka_unit_test(test_a_radar_in_clutter_continues_identically),
+        cmocka_unit_test(test_sectors_continue_identically),
+        cmocka_unit_test(test_bearings_continue_identically),
+        cmocka_unit_test(test_two_radars_and_bearings_continue_identically),
+        cmocka_unit_test(test_single_filter_gates_continue_identically),
+        cmocka_unit_test(test_an_image_saved_in_pieces_is_the_same),
+        cmocka_unit_test(test_an_image_is_loaded_in_pieces),
+        cmocka_unit_test(test_damaged_images_in_pieces_are_refused),
+        cmocka_unit_test(test_a_step_between_saved_pieces_makes_the_image_invalid),
+        cmocka_unit_test(test_the_parts_of_an_image_are_listed),
         cmocka_unit_test(test_checksum_is_crc_32),
-        cmocka_unit_test(test_a_wrong_byte_is_refused),
-        cmocka_unit_test(test_what_is_no_image_is_refused),
-        cmocka_unit_test(test_other_parts_are_refused),
-        cmocka_unit_test(test_nonsense_with_a_right_checksum_is_refused),
-        cmocka_unit_test(test_objects_that_saw_nothing),
-        cmocka_unit_test(test_a_held_plot_of_a_late_row_goes_on),
+        cmocka_unit_test(test_one_wrong_bit_is_refused),
+        cmocka_unit_test(test_cut_or_foreign_images_are_refused),
+        cmocka_unit_test(test_parts_that_differ_from_the_image_are_refused),
+        cmocka_unit_test(test_invalid_fields_with_a_right_checksum_are_refused),
+        cmocka_unit_test(test_objects_without_data_are_saved_and_loaded),
+        cmocka_unit_test(test_a_held_plot_beyond_the_capacity_row_can_be_saved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * One block of settings and taught map: a device that was off goes on with both, and with no
- * tracks; a damaged block changes nothing.
+ * A block with settings and a taught clutter map: a device that was off continues with both and
+ * without tracks; a damaged block changes nothing.
  */
 #include "rhotrack/settings.h"
 #include "rhotrack/snapshot.h"
@@ -13,7 +13,7 @@ static struct rho_tracker before;
 static uint64_t block[(sizeof(struct rho_clutter_map) + sizeof(struct rho_settings) + 256) / 8];
 static size_t block_bytes;
 
-static unsigned parts_of(struct rho_settings *told, struct rho_snapshot_part parts[2])
+static unsigned snapshot_parts_of(struct rho_settings *told, struct rho_snapshot_part parts[2])
 {
     parts[0] = (struct rho_snapshot_part){
         .kind = RHO_SNAPSHOT_SETTINGS, .object = told, .size = sizeof *told};
@@ -23,14 +23,14 @@ static unsigned parts_of(struct rho_settings *told, struct rho_snapshot_part par
     return 2;
 }
 
-static enum rho_status load(void)
+static enum rho_status load_block(void)
 {
     struct rho_snapshot_part parts[2];
-    return rho_snapshot_load(parts, parts_of(&loaded, parts), block, block_bytes);
+    return rho_snapshot_load(parts, snapshot_parts_of(&loaded, parts), block, block_bytes);
 }
 
-/* A harbour's settings, and five towers that were taught. */
-static void save(void)
+/* Saves a block with the settings of a harbour and five taught towers. */
+static void save_block(void)
 {
     struct rho_snapshot_part parts[2];
     use_usual_configs(5);
@@ -44,7 +44,7 @@ static void save(void)
                          RHO_OK);
     }
     taught = tracker.clutter_map;
-    const unsigned num_parts = parts_of(&settings, parts);
+    const unsigned num_parts = snapshot_parts_of(&settings, parts);
     assert_in_range(rho_snapshot_size(parts, num_parts), 1, sizeof block);
     assert_int_equal(
         rho_snapshot_save(parts, num_parts, 0, (uint8_t *)block, sizeof block, &block_bytes),
@@ -52,16 +52,16 @@ static void save(void)
     assert_int_equal(block_bytes, rho_snapshot_size(parts, num_parts));
 }
 
-static void a_block_is_read_back(void **state)
+static void a_block_restores_settings_and_taught_map(void **state)
 {
     uint32_t place = 0;
     unsigned echoes = 0;
     (void)state;
-    save();
-    begin_tracker(); /* the device was off */
+    save_block();
+    begin_tracker(); /* as after switching the device off and on */
     memset(&loaded, 0x3c, sizeof loaded);
     assert_null(rho_clutter_map_next_known(&tracker.clutter_map, &place));
-    assert_int_equal(load(), RHO_OK);
+    assert_int_equal(load_block(), RHO_OK);
     assert_memory_equal(&loaded, &settings, sizeof settings);
     assert_memory_equal(&tracker.clutter_map, &taught, sizeof taught);
     for (place = 0; rho_clutter_map_next_known(&tracker.clutter_map, &place);) {
@@ -74,13 +74,13 @@ static void a_block_is_read_back(void **state)
     assert_int_equal(report.num_tracks, 0);
 }
 
-/* Every bit counts; so do settings and maps that are none though the checksum is right. */
+/* One wrong bit anywhere makes loading fail; invalid settings and maps are not saved. */
 static void a_damaged_block_changes_nothing(void **state)
 {
     struct rho_snapshot_part parts[2];
     uint8_t *bytes = (uint8_t *)block;
     (void)state;
-    save();
+    save_block();
     begin_tracker();
     memset(&loaded, 0x3c, sizeof loaded);
     before = tracker;
@@ -88,18 +88,18 @@ static void a_damaged_block_changes_nothing(void **state)
     const size_t stride = block_bytes / 150 + 1;
     for (size_t at = 0; at < block_bytes; at += at < 300 ? 1 : stride) {
         bytes[at] ^= (uint8_t)(1u << at % 8);
-        assert_int_not_equal(load(), RHO_OK);
+        assert_int_not_equal(load_block(), RHO_OK);
         bytes[at] ^= (uint8_t)(1u << at % 8);
     }
     block_bytes--;
-    assert_int_equal(load(), RHO_ERROR_SHORT);
+    assert_int_equal(load_block(), RHO_ERROR_SHORT);
     block_bytes++;
     assert_memory_equal(&loaded, &nothing, sizeof loaded);
     assert_memory_equal(&tracker, &before, sizeof before);
-    assert_int_equal(load(), RHO_OK);
+    assert_int_equal(load_block(), RHO_OK);
 
-    /* what is not sound is not saved */
-    const unsigned num_parts = parts_of(&settings, parts);
+    /* unsound objects are not saved */
+    const unsigned num_parts = snapshot_parts_of(&settings, parts);
     settings.pd = 2.0f;
     assert_int_equal(
         rho_snapshot_save(parts, num_parts, 0, (uint8_t *)block, sizeof block, &block_bytes),
@@ -118,7 +118,7 @@ static void a_damaged_block_changes_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_block_is_read_back),
+        cmocka_unit_test(a_block_restores_settings_and_taught_map),
         cmocka_unit_test(a_damaged_block_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,13 +31,13 @@ static struct rho_scan scan_of(int64_t time_us, uint32_t count)
     return (struct rho_scan){.time_us = time_us, .num_plots = count, .plots = plots};
 }
 
-static void place(uint32_t i, float x_m, float y_m, float sigma_m)
+static void set_plot(uint32_t i, float x_m, float y_m, float sigma_m)
 {
     plots[i] = (struct rho_plot){
         .x_m = x_m, .y_m = y_m, .sigma_range_m = sigma_m, .sigma_cross_m = sigma_m};
 }
 
-static uint32_t push(int64_t time_us, uint32_t count)
+static uint32_t push_scan(int64_t time_us, uint32_t count)
 {
     uint32_t unused = 0;
     struct rho_scan scan = scan_of(time_us, count);
@@ -45,12 +45,12 @@ static uint32_t push(int64_t time_us, uint32_t count)
     return unused;
 }
 
-static void start(unsigned scans)
+static void init_window(unsigned scans)
 {
     assert_int_equal(rho_window_init(&window, sizeof window, scans, NULL, 0.0f), RHO_OK);
 }
 
-static void init_refuses_and_changes_nothing(void **state)
+static void a_refused_init_changes_nothing(void **state)
 {
     (void)state;
     const struct rho_extent empty = {1.0f, 1.0f, 0.0f, 2.0f};
@@ -72,17 +72,17 @@ static void init_refuses_and_changes_nothing(void **state)
     assert_memory_equal(&window, &before, sizeof window);
 }
 
-static void push_refuses_and_changes_nothing(void **state)
+static void a_refused_push_changes_nothing(void **state)
 {
     (void)state;
     uint32_t unused = 7;
     struct rho_scan scan = scan_of(5, 1);
-    place(0, 1.0f, 2.0f, 1.0f);
+    set_plot(0, 1.0f, 2.0f, 1.0f);
     memset(&window, 0, sizeof window);
     assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused), RHO_ERROR_STATE);
     assert_int_equal(rho_window_check_push(&window, &scan, fates, &unused), RHO_ERROR_STATE);
-    start(3);
-    push(10, 1);
+    init_window(3);
+    push_scan(10, 1);
     before = window;
     assert_int_equal(rho_window_push(NULL, &scan, NULL, fates, &unused), RHO_ERROR_NULL);
     assert_int_equal(rho_window_push(&window, NULL, NULL, fates, &unused), RHO_ERROR_NULL);
@@ -93,7 +93,7 @@ static void push_refuses_and_changes_nothing(void **state)
     assert_int_equal(rho_window_check_push(&window, &scan, fates, &unused), RHO_ERROR_NULL);
     scan.plots = plots;
     assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused),
-                     RHO_ERROR_STATE); /* older */
+                     RHO_ERROR_STATE); /* older than the newest scan */
     assert_int_equal(rho_window_check_push(&window, &scan, fates, &unused), RHO_ERROR_STATE);
     scan.time_us = 10;
     assert_int_equal(rho_window_check_push(&window, &scan, fates, &unused), RHO_OK);
@@ -103,31 +103,32 @@ static void push_refuses_and_changes_nothing(void **state)
     assert_int_equal(unused, 7);
 }
 
-static void the_oldest_scan_leaves_and_its_unused_plots_count(void **state)
+static void the_oldest_scan_leaves_and_its_unused_plots_are_counted(void **state)
 {
     (void)state;
-    start(3);
+    init_window(3);
     for (uint32_t i = 0; i < 5; i++) {
-        place(i, (float)i, 0.0f, 1.0f);
+        set_plot(i, (float)i, 0.0f, 1.0f);
     }
     for (int k = 0; k < 3; k++) {
-        assert_int_equal(push(k, (uint32_t)k + 1), 0);
+        assert_int_equal(push_scan(k, (uint32_t)k + 1), 0);
     }
-    rho_window_scan_at(&window, 0)->num_unused = 0; /* its plot started a track */
-    assert_int_equal(push(3, 4), 0);
-    assert_int_equal(push(4, 0), 2);
+    /* the plot of the oldest scan started a track */
+    rho_window_scan_at(&window, 0)->num_unused = 0;
+    assert_int_equal(push_scan(3, 4), 0);
+    assert_int_equal(push_scan(4, 0), 2);
     assert_int_equal(window.num_scans, 3);
     assert_int_equal(rho_window_scan_at(&window, 0)->time_us, 2);
     assert_int_equal(rho_window_scan_at(&window, 1)->num_plots, 4);
     assert_int_equal(rho_window_scan_at(&window, 2)->num_plots, 0);
 }
 
-static void plots_beyond_the_capacity_have_no_room(void **state)
+static void plots_beyond_the_capacity_get_the_fate_no_room(void **state)
 {
     (void)state;
-    start(1);
+    init_window(1);
     for (uint32_t i = 0; i < RHO_MAX_PLOTS + 10; i++) {
-        place(i, uniform(-100.0f, 100.0f), uniform(-100.0f, 100.0f), 1.0f);
+        set_plot(i, uniform(-100.0f, 100.0f), uniform(-100.0f, 100.0f), 1.0f);
     }
     struct rho_scan scan = scan_of(0, RHO_MAX_PLOTS + 10);
     uint32_t unused = 0;
@@ -135,14 +136,15 @@ static void plots_beyond_the_capacity_have_no_room(void **state)
     assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused), RHO_OK);
     assert_int_equal(rho_window_scan_at(&window, 0)->num_plots, RHO_MAX_PLOTS);
     assert_int_equal(fates[3], RHO_FATE_CLAIMED);
-    assert_int_equal(fates[RHO_MAX_PLOTS], RHO_FATE_HELD); /* in the place of the claimed one */
+    assert_int_equal(fates[RHO_MAX_PLOTS], RHO_FATE_HELD); /* in the slot of the claimed plot */
     for (uint32_t i = RHO_MAX_PLOTS + 1; i < RHO_MAX_PLOTS + 10; i++) {
         assert_int_equal(fates[i], RHO_FATE_NO_ROOM);
     }
 }
 
-/* The definition, without bins. */
-static int brute_nearest(const struct rho_window_scan *scan, const struct rho_window_query *query)
+/* The nearest plot by an exhaustive search. */
+static int nearest_without_bins(const struct rho_window_scan *scan,
+                                const struct rho_window_query *query)
 {
     int best = -1;
     float best_d2 = query->gate_chi2, best_variance = 1.0f;
@@ -180,31 +182,32 @@ static struct rho_window_query random_query(const struct rho_window_scan *scan)
     return query;
 }
 
-static void scatter(float spread_m)
+static void scatter_plots(float spread_m)
 {
     for (uint32_t i = 0; i < PLOTS; i++) {
-        place(i, uniform(-spread_m, spread_m), uniform(-spread_m, spread_m), uniform(1.0f, 60.0f));
+        set_plot(i, uniform(-spread_m, spread_m), uniform(-spread_m, spread_m),
+                 uniform(1.0f, 60.0f));
         plots[i].offset_us = (int32_t)uniform(-2e6f, 2e6f);
     }
 }
 
-static void the_nearest_plot_is_the_nearest_of_all(void **state)
+static void the_nearest_plot_agrees_with_an_exhaustive_search(void **state)
 {
     (void)state;
-    const struct rho_extent area = {-500.0f, 700.0f, -100.0f, 100.0f}; /* many plots lie outside */
+    const struct rho_extent area = {-500.0f, 700.0f, -100.0f, 100.0f}; /* many plots are outside */
     int found = 0;
     for (int round = 0; round < 200; round++) {
         const struct rho_extent *fixed = round % 2 ? &area : NULL;
         assert_int_equal(rho_window_init(&window, sizeof window, 3, fixed, 0.0f), RHO_OK);
-        scatter(round % 5 == 0 ? 0.0f : 1200.0f);
-        push(0, PLOTS);
+        scatter_plots(round % 5 == 0 ? 0.0f : 1200.0f);
+        push_scan(0, PLOTS);
         struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
         scan->marks[7] |= RHO_WINDOW_TAKEN;
         for (int i = 0; i < 50; i++) {
             struct rho_window_work work = {0};
             struct rho_window_query query = random_query(scan);
             int nearest = rho_window_nearest_plot_isotropic(scan, &query, &work);
-            assert_int_equal(nearest, brute_nearest(scan, &query));
+            assert_int_equal(nearest, nearest_without_bins(scan, &query));
             assert_int_equal(work.lookups, 1);
             found += nearest >= 0;
         }
@@ -212,15 +215,15 @@ static void the_nearest_plot_is_the_nearest_of_all(void **state)
     assert_in_range(found, 1000, 9900);
 }
 
-static void bins_save_distance_tests(void **state)
+static void bins_reduce_the_number_of_distance_tests(void **state)
 {
     (void)state;
     struct rho_window_work work = {0};
-    start(1);
+    init_window(1);
     for (uint32_t i = 0; i < 200; i++) {
-        place(i, uniform(0.0f, 10000.0f), uniform(0.0f, 10000.0f), 10.0f);
+        set_plot(i, uniform(0.0f, 10000.0f), uniform(0.0f, 10000.0f), 10.0f);
     }
-    push(0, 200);
+    push_scan(0, 200);
     for (int i = 0; i < 100; i++) {
         struct rho_window_query query = {.x_m = uniform(0.0f, 10000.0f),
                                          .y_m = uniform(0.0f, 10000.0f),
@@ -232,13 +235,13 @@ static void bins_save_distance_tests(void **state)
     assert_in_range(work.distances, 1, 200 * 100 / 50);
 }
 
-static void rows_and_sigmas_are_kept(void **state)
+static void plots_keep_their_rows_and_sigmas(void **state)
 {
     (void)state;
-    start(2);
-    scatter(500.0f);
+    init_window(2);
+    scatter_plots(500.0f);
     plots[5].sigma_cross_m = 99.0f;
-    push(0, PLOTS);
+    push_scan(0, PLOTS);
     const struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
     for (int i = 0; i < scan->num_plots; i++) {
         struct rho_plot held = rho_window_unpack_plot(scan, (unsigned)i);
@@ -255,20 +258,20 @@ static void rows_and_sigmas_are_kept(void **state)
     assert_float_equal(scan->sigma_max_m, 99.0f, 0.0f);
 }
 
-static void sigmas_are_kept_to_twelve_bits(void **state)
+static void sigmas_are_stored_with_twelve_bits(void **state)
 {
     (void)state;
     static const float exact[] = {10.0f, 60.0f, 0.5f, 1.0f, 4095.0f, 15.0f, 180.0f, 0.015625f};
-    start(1);
+    init_window(1);
     for (uint32_t i = 0; i < 8; i++) {
-        place(i, 1.0f, 1.0f, exact[i]);
+        set_plot(i, 1.0f, 1.0f, exact[i]);
     }
     for (uint32_t i = 8; i < 200; i++) {
-        place(i, 1.0f, 1.0f, powf(10.0f, uniform(-2.999f, 4.999f)));
+        set_plot(i, 1.0f, 1.0f, powf(10.0f, uniform(-2.999f, 4.999f)));
     }
-    place(200, 1.0f, 1.0f, RHO_LIMIT_SIGMA_MIN);
-    place(201, 1.0f, 1.0f, RHO_LIMIT_SIGMA_MAX);
-    push(0, 202);
+    set_plot(200, 1.0f, 1.0f, RHO_LIMIT_SIGMA_MIN);
+    set_plot(201, 1.0f, 1.0f, RHO_LIMIT_SIGMA_MAX);
+    push_scan(0, 202);
     const struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
     for (int i = 0; i < 202; i++) {
         float given = plots[i].sigma_range_m,
@@ -278,7 +281,7 @@ static void sigmas_are_kept_to_twelve_bits(void **state)
     assert_int_equal(scan->is_isotropic, 1);
 }
 
-/* ---- plots with their own covariance --------------------------------------------------------- */
+/* ---- plots with their own covariance -------------------------------------------------------- */
 
 static const struct rho_sensor radar = {.sensor_id = 4,
                                         .x_m = -2000.0f,
@@ -287,8 +290,8 @@ static const struct rho_sensor radar = {.sensor_id = 4,
                                         .pd = 0.8f,
                                         .range_max_m = 50000.0f};
 
-/* The noise in x, y, z from the axes of the line of sight. */
-static void covariance_of(const struct rho_plot *plot, int has_z, double r[3][3])
+/* Noise covariance in x, y, z from the sigmas along, across and up the line of sight. */
+static void plot_covariance(const struct rho_plot *plot, int has_z, double r[3][3])
 {
     double d[3] = {plot->x_m - radar.x_m, plot->y_m - radar.y_m, has_z ? plot->z_m - radar.z_m : 0};
     double ground = hypot(d[0], d[1]), range = hypot(ground, d[2]);
@@ -307,12 +310,12 @@ static void covariance_of(const struct rho_plot *plot, int has_z, double r[3][3]
     }
 }
 
-static double distance2_of(const struct rho_plot *plot, uint32_t measures,
-                           const struct rho_window_place *place)
+static double nis_in_double_precision(const struct rho_plot *plot, uint32_t measures,
+                                      const struct rho_window_place *place)
 {
     int has_z = (measures & RHO_MEASURES_Z) != 0;
     double t_s = plot->offset_us * 1e-6, r[3][3];
-    covariance_of(plot, has_z, r);
+    plot_covariance(plot, has_z, r);
     double dx = plot->x_m - place->x_m - place->vx_mps * t_s;
     double dy = plot->y_m - place->y_m - place->vy_mps * t_s;
     double xx = place->noise.xx_m2 + place->factor * r[0][0];
@@ -346,7 +349,7 @@ static double distance2_of(const struct rho_plot *plot, uint32_t measures,
     return sum;
 }
 
-static void scatter_radar_plots(uint32_t measures)
+static void push_random_radar_plots(uint32_t measures)
 {
     for (uint32_t i = 0; i < PLOTS; i++) {
         plots[i] = (struct rho_plot){.x_m = uniform(-1000.0f, 1000.0f),
@@ -381,10 +384,8 @@ static struct rho_window_place random_place(uint32_t measures)
                                      .skip_flags = RHO_WINDOW_TAKEN};
 }
 
-/*
- * The plot found is the nearest of all by the definition in double precision, and is in the gate.
- */
-static void own_covariances_heights_and_range_rates_decide(void **state)
+/* The plot found is in the gate and nearest of all, in double precision. */
+static void the_nearest_plot_uses_covariance_height_and_range_rate(void **state)
 {
     (void)state;
     static const double gate[3] = {(double)RHO_GATE_CHI2_2D, (double)RHO_GATE_CHI2_3D,
@@ -394,8 +395,8 @@ static void own_covariances_heights_and_range_rates_decide(void **state)
         uint32_t measures =
             (round & 1 ? RHO_MEASURES_Z : 0u) | (round & 2 ? RHO_MEASURES_RANGE_RATE : 0u);
         double limit = gate[(round & 1) + (round >> 1 & 1)];
-        start(1);
-        scatter_radar_plots(measures);
+        init_window(1);
+        push_random_radar_plots(measures);
         struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
         scan->marks[3] |= RHO_WINDOW_TAKEN;
         for (int i = 0; i < 25; i++) {
@@ -405,7 +406,7 @@ static void own_covariances_heights_and_range_rates_decide(void **state)
             int nearest = rho_window_nearest_plot_anisotropic(scan, &place, &work);
             for (int k = 0; k < scan->num_plots; k++) {
                 struct rho_plot plot = rho_window_unpack_plot(scan, (unsigned)k);
-                double d2 = distance2_of(&plot, measures, &place);
+                double d2 = nis_in_double_precision(&plot, measures, &place);
                 best = k != 3 && d2 < best ? d2 : best;
                 chosen = k == nearest ? d2 : chosen;
             }
@@ -417,19 +418,19 @@ static void own_covariances_heights_and_range_rates_decide(void **state)
     assert_in_range(found, 1500, 9500);
 }
 
-static void covariances_follow_the_line_of_sight(void **state)
+static void stored_covariances_follow_the_line_of_sight(void **state)
 {
     (void)state;
     for (int round = 0; round < 2; round++) {
         uint32_t measures = round ? RHO_MEASURES_Z : 0u;
-        start(1);
-        scatter_radar_plots(measures);
+        init_window(1);
+        push_random_radar_plots(measures);
         const struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
         for (int i = 0; i < scan->num_plots; i++) {
             struct rho_plot plot = rho_window_unpack_plot(scan, (unsigned)i);
             struct rho_window_noise noise = rho_window_noise(scan, &scan->plots[i]);
             double r[3][3];
-            covariance_of(&plot, round, r);
+            plot_covariance(&plot, round, r);
             double scale = r[0][0] + r[1][1];
             assert_float_equal(noise.xx_m2, r[0][0], 1e-4 * scale);
             assert_float_equal(noise.xy_m2, r[0][1], 1e-4 * scale);
@@ -441,13 +442,13 @@ static void covariances_follow_the_line_of_sight(void **state)
         assert_int_equal(scan->is_isotropic, 0);
         assert_int_equal(rho_window_sensor_if_described(scan)->sensor_id, 4);
     }
-    start(1);
-    scatter(500.0f);
-    push(0, PLOTS);
+    init_window(1);
+    scatter_plots(500.0f);
+    push_scan(0, PLOTS);
     assert_null(rho_window_sensor_if_described(rho_window_scan_at(&window, 0)));
 }
 
-static void an_extent_grows_and_has_sides(void **state)
+static void an_extent_grows_with_its_points(void **state)
 {
     (void)state;
     struct rho_extent extent = {1.0f, 0.0f, 1.0f, 0.0f};
@@ -459,15 +460,18 @@ static void an_extent_grows_and_has_sides(void **state)
     assert_float_equal(rho_extent_area_m2(&extent, 5.0f), 40.0f, 0.0f);
 }
 
-/* Plots are held in the order of their bins: each lies where its bin starts and the next begins. */
-static void a_place_has_one_bin(void **state)
+/*
+ * Plots are stored in the order of bins: each one between the start of its bin and that of the
+ * next.
+ */
+static void each_plot_is_stored_in_the_bin_of_its_place(void **state)
 {
     (void)state;
-    start(3);
+    init_window(3);
     for (uint32_t i = 0; i < PLOTS; i++) {
-        place(i, uniform(-1000.0f, 1000.0f), uniform(-500.0f, 500.0f), 5.0f);
+        set_plot(i, uniform(-1000.0f, 1000.0f), uniform(-500.0f, 500.0f), 5.0f);
     }
-    push(0, PLOTS);
+    push_scan(0, PLOTS);
     const struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
     assert_true(scan->bins_x * scan->bins_y > 1);
     for (unsigned i = 0; i < scan->num_plots; i++) {
@@ -491,20 +495,20 @@ static void a_place_has_one_bin(void **state)
 
 #define DEGREE_RAD 0.017453293f
 
-/* A quarter of a turn, whose plots are at its middle. */
-static struct rho_scan quarter(int64_t time_us, float from_degree)
+/* A scan of a quarter turn with one plot in its middle. */
+static struct rho_scan quarter_turn_scan(int64_t time_us, float from_degree)
 {
     struct rho_scan scan = scan_of(time_us, 1);
 
     scan.sensor_id = 5;
     scan.sector_from_rad = from_degree * DEGREE_RAD;
     scan.sector_to_rad = (from_degree + 90.0f) * DEGREE_RAD;
-    place(0, 1000.0f * cosf((from_degree + 45.0f) * DEGREE_RAD),
-          1000.0f * sinf((from_degree + 45.0f) * DEGREE_RAD), 5.0f);
+    set_plot(0, 1000.0f * cosf((from_degree + 45.0f) * DEGREE_RAD),
+             1000.0f * sinf((from_degree + 45.0f) * DEGREE_RAD), 5.0f);
     return scan;
 }
 
-/* Without RHO_SECTORS each sector is a scan of its own. */
+/* Without RHO_SECTORS no scan continues another. */
 static void the_next_sector_of_a_turn_continues_its_scan(void **state)
 {
     const struct rho_sensor turning = {.sensor_id = 5, .pd = 0.9f},
@@ -512,32 +516,32 @@ static void the_next_sector_of_a_turn_continues_its_scan(void **state)
     uint32_t unused = 0;
 
     (void)state;
-    start(3);
-    struct rho_scan scan = quarter(0, 0.0f);
-    assert_false(rho_window_is_continued_by_scan(&window, &scan, &turning)); /* nothing is held */
+    init_window(3);
+    struct rho_scan scan = quarter_turn_scan(0, 0.0f);
+    assert_false(rho_window_is_continued_by_scan(&window, &scan, &turning)); /* the window is empty */
     assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
-    scan = quarter(1000000, 90.0f);
+    scan = quarter_turn_scan(1000000, 90.0f);
     assert_int_equal(rho_window_is_continued_by_scan(&window, &scan, &turning) != 0, RHO_SECTORS);
     assert_false(rho_window_is_continued_by_scan(&window, &scan, &moved));
     scan.sensor_id = 6;
-    assert_false(rho_window_is_continued_by_scan(&window, &scan,
-                                                 &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
-    scan = quarter(1000000, 90.0f + 40.0f); /* an eighth of a turn is missing */
+    assert_false(
+        rho_window_is_continued_by_scan(&window, &scan, &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
+    scan = quarter_turn_scan(1000000, 90.0f + 40.0f); /* a gap of an eighth of a turn */
     assert_int_equal(rho_window_is_continued_by_scan(&window, &scan, &turning) != 0, RHO_SECTORS);
-    scan = quarter(1000000, 90.0f + 50.0f);
+    scan = quarter_turn_scan(1000000, 90.0f + 50.0f);
     assert_false(rho_window_is_continued_by_scan(&window, &scan, &turning));
-    scan = quarter(RHO_LIMIT_OFFSET_US + INT64_C(1), 90.0f);
+    scan = quarter_turn_scan(RHO_LIMIT_OFFSET_US + INT64_C(1), 90.0f);
     assert_false(rho_window_is_continued_by_scan(&window, &scan, &turning));
 }
 
 static void a_damaged_window_is_not_sound(void **state)
 {
     (void)state;
-    start(3);
-    place(0, 1.0f, 2.0f, 1.0f);
-    place(1, 50.0f, 60.0f, 1.0f);
-    push(10, 2);
-    push(20, 1);
+    init_window(3);
+    set_plot(0, 1.0f, 2.0f, 1.0f);
+    set_plot(1, 50.0f, 60.0f, 1.0f);
+    push_scan(10, 2);
+    push_scan(20, 1);
     assert_true(rho_window_is_sound(&window));
     before = window;
     window.num_scans = RHO_MAX_SCANS + 1;
@@ -552,14 +556,14 @@ static void a_damaged_window_is_not_sound(void **state)
     rho_window_scan_at(&window, 0)->bin_start[1] = 9;
     assert_false(rho_window_is_sound(&window));
     window = before;
-    rho_window_scan_at(&window, 1)->time_us = 9; /* before the other one */
+    rho_window_scan_at(&window, 1)->time_us = 9; /* before the first scan's time */
     assert_false(rho_window_is_sound(&window));
     window = before;
     memset(&window, 0, sizeof window);
     assert_false(rho_window_is_sound(&window));
 }
 
-/* A plot due north of the radar, which sees a fifth of the velocity's error times its own 2 m/s. */
+/* The plot is due north of the radar, so that the range rate is the velocity along y. */
 static void range_rates_are_compared_along_the_line_of_sight(void **state)
 {
     const struct rho_sensor turning = {.sensor_id = 5, .x_m = 100.0f, .y_m = -200.0f};
@@ -573,8 +577,8 @@ static void range_rates_are_compared_along_the_line_of_sight(void **state)
     uint32_t unused = 0;
 
     (void)state;
-    start(3);
-    place(0, 100.0f, 9800.0f, 5.0f);
+    init_window(3);
+    set_plot(0, 100.0f, 9800.0f, 5.0f);
     plots[0].range_rate_mps = -25.0f;
     plots[0].sigma_range_rate_mps = 2.0f;
     struct rho_scan scan = scan_of(0, 1);
@@ -585,11 +589,12 @@ static void range_rates_are_compared_along_the_line_of_sight(void **state)
     assert_true(rho_window_compare_range_rate(held, &held->plots[0], &seen_place, &seen));
     assert_true(fabsf(seen.error_mps - 5.0f) < 1e-3f);
     assert_true(fabsf(seen.along[0]) < 1e-6f && fabsf(seen.along[1] - 1.0f) < 1e-6f);
-    assert_true(fabsf(seen.variance - 20.0f) < 0.02f); /* 16 and 2^2; 70 m/s turn by 5 m in 10 km */
+    /* 16 of the velocity and 2^2 of the plot; 70 m/s across with 5 m at 10 km add little */
+    assert_true(fabsf(seen.variance - 20.0f) < 0.02f);
     assert_true(fabsf(rho_window_range_rate_nis(held, &held->plots[0], &seen_place) -
                       25.0f / seen.variance) < 1e-3f);
 
-    place(0, turning.x_m, turning.y_m, 5.0f);
+    set_plot(0, turning.x_m, turning.y_m, 5.0f);
     scan.time_us = 1;
     assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
     held = rho_window_scan_at(&window, 1);
@@ -600,18 +605,18 @@ static void range_rates_are_compared_along_the_line_of_sight(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(init_refuses_and_changes_nothing),
-        cmocka_unit_test(push_refuses_and_changes_nothing),
-        cmocka_unit_test(the_oldest_scan_leaves_and_its_unused_plots_count),
-        cmocka_unit_test(plots_beyond_the_capacity_have_no_room),
-        cmocka_unit_test(the_nearest_plot_is_the_nearest_of_all),
-        cmocka_unit_test(bins_save_distance_tests),
-        cmocka_unit_test(rows_and_sigmas_are_kept),
-        cmocka_unit_test(sigmas_are_kept_to_twelve_bits),
-        cmocka_unit_test(own_covariances_heights_and_range_rates_decide),
-        cmocka_unit_test(covariances_follow_the_line_of_sight),
-        cmocka_unit_test(an_extent_grows_and_has_sides),
-        cmocka_unit_test(a_place_has_one_bin),
+        cmocka_unit_test(a_refused_init_changes_nothing),
+        cmocka_unit_test(a_refused_push_changes_nothing),
+        cmocka_unit_test(the_oldest_scan_leaves_and_its_unused_plots_are_counted),
+        cmocka_unit_test(plots_beyond_the_capacity_get_the_fate_no_room),
+        cmocka_unit_test(the_nearest_plot_agrees_with_an_exhaustive_search),
+        cmocka_unit_test(bins_reduce_the_number_of_distance_tests),
+        cmocka_unit_test(plots_keep_their_rows_and_sigmas),
+        cmocka_unit_test(sigmas_are_stored_with_twelve_bits),
+        cmocka_unit_test(the_nearest_plot_uses_covariance_height_and_range_rate),
+        cmocka_unit_test(stored_covariances_follow_the_line_of_sight),
+        cmocka_unit_test(an_extent_grows_with_its_points),
+        cmocka_unit_test(each_plot_is_stored_in_the_bin_of_its_place),
         cmocka_unit_test(the_next_sector_of_a_turn_continues_its_scan),
         cmocka_unit_test(a_damaged_window_is_not_sound),
         cmocka_unit_test(range_rates_are_compared_along_the_line_of_sight),
