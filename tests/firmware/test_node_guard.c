@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Who the firmware's node listens to: datagrams of allowed addresses, with the right code behind
- * them, where it is told so. The code here is a toy, a keyed sum that anybody forges who has seen
- * two datagrams: a product puts an HMAC there.
+ * Whose datagrams the firmware's node accepts: allowed addresses, and a right code behind the
+ * message where a code is required. The code here is a toy, a keyed sum that anybody can forge who
+ * has seen two datagrams: a product uses an HMAC instead.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@
 #define TOY_BYTES 4u
 
 static const uint32_t toy_key = 0x5eed1234u;
-static struct rho_message_status status; /* the newest one that was sent */
+static struct rho_message_status status; /* the newest status message that the node sent */
 static int64_t now_us;
 static int32_t scans_sent;
 
@@ -35,28 +35,30 @@ static uint32_t toy_keyed_sum(const uint8_t *bytes, size_t size)
     return sum;
 }
 
-static void store(uint8_t *to, uint32_t value)
+static void store_big_endian(uint8_t *to, uint32_t value)
 {
     for (unsigned i = 0; i < TOY_BYTES; i++) {
         to[i] = (uint8_t)(value >> (24 - 8 * i));
     }
 }
 
-/* The hook: the last four bytes are the code of those before. */
-static int is_authentic(void *context, const uint8_t *datagram, size_t *size)
+/*
+ * The hook that checks a code: the last four bytes of a datagram are the code of the bytes before.
+ */
+static int check_and_strip_code(void *context, const uint8_t *datagram, size_t *size)
 {
     uint8_t code[TOY_BYTES];
     (void)context;
     if (*size < TOY_BYTES) {
         return 0;
     }
-    store(code, toy_keyed_sum(datagram, *size - TOY_BYTES));
+    store_big_endian(code, toy_keyed_sum(datagram, *size - TOY_BYTES));
     *size -= TOY_BYTES;
     return memcmp(code, datagram + *size, TOY_BYTES) == 0;
 }
 
-/* One that does not keep to the rules: the datagram would be longer than it is. */
-static int makes_longer(void *context, const uint8_t *datagram, size_t *size)
+/* A faulty hook, which says that the datagram is longer than it was. */
+static int lengthen_datagram(void *context, const uint8_t *datagram, size_t *size)
 {
     (void)context;
     (void)datagram;
@@ -64,7 +66,7 @@ static int makes_longer(void *context, const uint8_t *datagram, size_t *size)
     return 1;
 }
 
-static void take_status(void *context, const uint8_t *bytes, size_t size)
+static void keep_newest_status(void *context, const uint8_t *bytes, size_t size)
 {
     struct rho_udpm_datagram datagram;
     (void)context;
@@ -81,12 +83,12 @@ static int64_t clock_us(void *context)
     return now_us;
 }
 
-static void start(const uint32_t *sources, uint16_t num_sources,
-                  int (*hook)(void *context, const uint8_t *datagram, size_t *size))
+static void start_node(const uint32_t *sources, uint16_t num_sources,
+                       int (*hook)(void *context, const uint8_t *datagram, size_t *size))
 {
     struct node_config config;
     node_config_default(&config);
-    config.send = take_status;
+    config.send = keep_newest_status;
     config.clock_us = clock_us;
     config.sources = sources;
     config.num_sources = num_sources;
@@ -95,8 +97,8 @@ static void start(const uint32_t *sources, uint16_t num_sources,
     assert_int_equal(node_sender_filter()->refused_source, 0);
 }
 
-/* The next scan, an empty one, as a datagram, with or without a code. Returns its bytes. */
-static size_t make_scan(uint8_t *bytes, size_t capacity, int has_code)
+/* The next scan, without plots, as a datagram with or without a code. Returns its size in bytes. */
+static size_t build_empty_scan_datagram(uint8_t *bytes, size_t capacity, int has_code)
 {
     static struct rho_message_plot_scan scan;
     size_t head, size;
@@ -112,17 +114,17 @@ static size_t make_scan(uint8_t *bytes, size_t capacity, int has_code)
                      RHO_OK);
     size += head;
     if (has_code) {
-        store(bytes + size, toy_keyed_sum(bytes, size));
+        store_big_endian(bytes + size, toy_keyed_sum(bytes, size));
         size += TOY_BYTES;
     }
     return size;
 }
 
 /*
- * Scans that the node took of ten from there; each is changed in one byte first, but for flip_at
- * SIZE_MAX.
+ * How many of ten scans from a source the node accepts. In each datagram the byte flip_at is
+ * changed, for SIZE_MAX none.
  */
-static int32_t count_taken(uint32_t source, int has_code, size_t flip_at)
+static int32_t count_scans_accepted_of_ten(uint32_t source, int has_code, size_t flip_at)
 {
     uint8_t bytes[RHO_UDPM_MAX_DATAGRAM];
     int32_t before;
@@ -131,7 +133,7 @@ static int32_t count_taken(uint32_t source, int has_code, size_t flip_at)
     for (int i = 0; i < 10; i++) {
         size_t size;
         now_us += 1000000;
-        size = make_scan(bytes, sizeof bytes, has_code);
+        size = build_empty_scan_datagram(bytes, sizeof bytes, has_code);
         if (flip_at < size) {
             bytes[flip_at] ^= 1;
         }
@@ -141,45 +143,45 @@ static int32_t count_taken(uint32_t source, int has_code, size_t flip_at)
     return status.scans_accepted - before;
 }
 
-static void everybody_is_heard_where_nothing_is_said(void **state)
+static void without_restrictions_all_senders_are_accepted(void **state)
 {
     (void)state;
-    start(NULL, 0, NULL);
-    assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 10);
-    assert_int_equal(count_taken(STRANGER, 0, SIZE_MAX), 10);
+    start_node(NULL, 0, NULL);
+    assert_int_equal(count_scans_accepted_of_ten(RADAR, 0, SIZE_MAX), 10);
+    assert_int_equal(count_scans_accepted_of_ten(STRANGER, 0, SIZE_MAX), 10);
     assert_int_equal(node_sender_filter()->refused_source, 0);
     assert_int_equal(node_sender_filter()->refused_mac, 0);
 }
 
-static void a_stranger_is_not_heard_and_counted(void **state)
+static void datagrams_of_unlisted_addresses_are_refused_and_counted(void **state)
 {
     const uint32_t sources[] = {RADAR, OTHER_RADAR};
     int32_t refused;
     (void)state;
-    start(sources, 2, NULL);
+    start_node(sources, 2, NULL);
     node_flush();
     refused = status.fragments_refused;
-    assert_int_equal(count_taken(STRANGER, 0, SIZE_MAX), 0);
+    assert_int_equal(count_scans_accepted_of_ten(STRANGER, 0, SIZE_MAX), 0);
     assert_int_equal(node_sender_filter()->refused_source, 10);
     assert_int_equal(status.fragments_refused - refused, 10);
-    assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 10);
-    assert_int_equal(count_taken(OTHER_RADAR, 0, SIZE_MAX), 10);
+    assert_int_equal(count_scans_accepted_of_ten(RADAR, 0, SIZE_MAX), 10);
+    assert_int_equal(count_scans_accepted_of_ten(OTHER_RADAR, 0, SIZE_MAX), 10);
     assert_int_equal(node_sender_filter()->refused_source, 10);
 }
 
-/* Each byte of a datagram, its code's too, is protected: none that is changed gets in. */
-static void without_the_code_nothing_is_heard(void **state)
+/* Each byte of a datagram and of its code is protected: with one changed byte it is refused. */
+static void datagrams_without_a_valid_code_are_refused(void **state)
 {
     uint8_t bytes[RHO_UDPM_MAX_DATAGRAM];
-    const size_t size = make_scan(bytes, sizeof bytes, 1);
+    const size_t size = build_empty_scan_datagram(bytes, sizeof bytes, 1);
     uint32_t refused = 0;
     (void)state;
-    start(NULL, 0, is_authentic);
-    assert_int_equal(count_taken(STRANGER, 1, SIZE_MAX), 10);
-    assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 0);
+    start_node(NULL, 0, check_and_strip_code);
+    assert_int_equal(count_scans_accepted_of_ten(STRANGER, 1, SIZE_MAX), 10);
+    assert_int_equal(count_scans_accepted_of_ten(RADAR, 0, SIZE_MAX), 0);
     assert_int_equal(node_sender_filter()->refused_mac, refused += 10);
     for (size_t i = 0; i < size; i++) {
-        assert_int_equal(count_taken(RADAR, 1, i), 0);
+        assert_int_equal(count_scans_accepted_of_ten(RADAR, 1, i), 0);
         assert_int_equal(node_sender_filter()->refused_mac, refused += 10);
     }
     for (size_t i = 0; i < TOY_BYTES; i++) {
@@ -189,32 +191,32 @@ static void without_the_code_nothing_is_heard(void **state)
     assert_int_equal(node_sender_filter()->refused_source, 0);
 }
 
-static void the_address_comes_first(void **state)
+static void the_address_is_checked_before_the_code(void **state)
 {
     const uint32_t source = RADAR;
     (void)state;
-    start(&source, 1, is_authentic);
-    assert_int_equal(count_taken(STRANGER, 1, SIZE_MAX), 0);
+    start_node(&source, 1, check_and_strip_code);
+    assert_int_equal(count_scans_accepted_of_ten(STRANGER, 1, SIZE_MAX), 0);
     assert_int_equal(node_sender_filter()->refused_source, 10);
     assert_int_equal(node_sender_filter()->refused_mac, 0);
-    assert_int_equal(count_taken(RADAR, 1, SIZE_MAX), 10);
+    assert_int_equal(count_scans_accepted_of_ten(RADAR, 1, SIZE_MAX), 10);
 }
 
 static void a_hook_cannot_make_a_datagram_longer(void **state)
 {
     (void)state;
-    start(NULL, 0, makes_longer);
-    assert_int_equal(count_taken(RADAR, 0, SIZE_MAX), 0);
+    start_node(NULL, 0, lengthen_datagram);
+    assert_int_equal(count_scans_accepted_of_ten(RADAR, 0, SIZE_MAX), 0);
     assert_int_equal(node_sender_filter()->refused_mac, 10);
 }
 
-static void no_more_addresses_than_there_is_room_for(void **state)
+static void bad_lists_of_allowed_addresses_are_refused(void **state)
 {
     static const uint32_t sources[RHO_UDPM_MAX_SOURCES + 1];
     struct node_config config;
     (void)state;
     node_config_default(&config);
-    config.send = take_status;
+    config.send = keep_newest_status;
     config.clock_us = clock_us;
     config.sources = sources;
     config.num_sources = RHO_UDPM_MAX_SOURCES + 1;
@@ -227,12 +229,12 @@ static void no_more_addresses_than_there_is_room_for(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(everybody_is_heard_where_nothing_is_said),
-        cmocka_unit_test(a_stranger_is_not_heard_and_counted),
-        cmocka_unit_test(without_the_code_nothing_is_heard),
-        cmocka_unit_test(the_address_comes_first),
+        cmocka_unit_test(without_restrictions_all_senders_are_accepted),
+        cmocka_unit_test(datagrams_of_unlisted_addresses_are_refused_and_counted),
+        cmocka_unit_test(datagrams_without_a_valid_code_are_refused),
+        cmocka_unit_test(the_address_is_checked_before_the_code),
         cmocka_unit_test(a_hook_cannot_make_a_datagram_longer),
-        cmocka_unit_test(no_more_addresses_than_there_is_room_for),
+        cmocka_unit_test(bad_lists_of_allowed_addresses_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Frames of the firmware example: beside one of liblcm's, and whatever else may come over a wire.
+ * Ethernet frames of the firmware example, compared with one of liblcm's, and frames that it has to
+ * refuse.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,8 +19,8 @@ static const struct udp_frame_host host = {.mac = {2, 0x52, 0x48, 0x4f, 0, 1},
                                            .address = {10, 9, 0, 100}};
 
 /*
- * liblcm 1.5.3 sends "hi" on channel A from 10.9.0.1 with TTL 1; its checksum as a network card
- * completes it.
+ * A frame of liblcm 1.5.3 that sends "hi" on channel A from 10.9.0.1 with TTL 1; with the checksum
+ * that a network card fills in.
  */
 static const uint8_t of_liblcm[] = {
     0x01, 0x00, 0x5e, 0x7f, 0x4c, 0x43, 0x16, 0xb6, 0x2b, 0x9c, 0x92, 0x43, 0x08, 0x00,
@@ -41,19 +42,19 @@ static const uint8_t of_liblcm[] = {
 static uint8_t frame[UDP_FRAME_MAX];
 static const uint8_t *payload;
 
-static size_t open_frame(size_t size)
+static size_t parse_frame(size_t size)
 {
     payload = NULL;
     return udp_frame_find_payload(frame, size, &payload);
 }
 
-static void set_liblcm(void)
+static void set_frame_of_liblcm(void)
 {
     memcpy(frame, of_liblcm, sizeof of_liblcm);
 }
 
-/* Changes a byte of the IP head, and its checksum so that it is right again. */
-static void change_head(unsigned at, uint8_t value)
+/* Changes one byte of the IP head and corrects its checksum. */
+static void change_ip_head_byte(unsigned at, uint8_t value)
 {
     uint32_t sum = 0;
     frame[at] = value;
@@ -66,21 +67,21 @@ static void change_head(unsigned at, uint8_t value)
     frame[AT_IP_CHECKSUM + 1] = (uint8_t)sum;
 }
 
-static void a_frame_of_liblcm_opens(void **state)
+static void a_frame_of_liblcm_is_accepted(void **state)
 {
     (void)state;
-    set_liblcm();
-    assert_int_equal(open_frame(sizeof of_liblcm), 12);
+    set_frame_of_liblcm();
+    assert_int_equal(parse_frame(sizeof of_liblcm), 12);
     assert_ptr_equal(payload, frame + UDP_FRAME_HEAD);
     assert_memory_equal(payload, "LC02\0\0\0\0A\0hi", 12);
     assert_int_equal(udp_frame_source_ipv4(frame), 0x0a090001);
-    frame[AT_UDP_CHECKSUM] = frame[AT_UDP_CHECKSUM + 1] = 0; /* none was made */
-    assert_int_equal(open_frame(sizeof of_liblcm), 12);
+    frame[AT_UDP_CHECKSUM] = frame[AT_UDP_CHECKSUM + 1] = 0; /* 0: sent without a checksum */
+    assert_int_equal(parse_frame(sizeof of_liblcm), 12);
     memset(frame + sizeof of_liblcm, 0xee, 6); /* short frames are padded */
-    assert_int_equal(open_frame(sizeof of_liblcm + 6), 12);
+    assert_int_equal(parse_frame(sizeof of_liblcm + 6), 12);
 }
 
-static void what_is_built_is_what_liblcm_sends(void **state)
+static void a_built_frame_equals_that_of_liblcm(void **state)
 {
     const struct udp_frame_host there = {.mac = {0x16, 0xb6, 0x2b, 0x9c, 0x92, 0x43},
                                          .address = {10, 9, 0, 1}};
@@ -88,13 +89,13 @@ static void what_is_built_is_what_liblcm_sends(void **state)
     memset(frame, 0xee, sizeof frame);
     memcpy(frame + UDP_FRAME_HEAD, of_liblcm + UDP_FRAME_HEAD, 12);
     assert_int_equal(udp_frame_build_around_payload(frame, &there, 0x67ba, 12), sizeof of_liblcm);
-    /* all but the port that it is sent from, and the checksum that this goes into */
+    /* compares all but the source port and the checksum over it */
     assert_memory_equal(frame, of_liblcm, 34);
     assert_memory_equal(frame + 36, of_liblcm + 36, 4);
     assert_memory_equal(frame + UDP_FRAME_HEAD, of_liblcm + UDP_FRAME_HEAD, 12);
 }
 
-static void what_is_built_opens_again(void **state)
+static void built_frames_of_every_size_are_accepted(void **state)
 {
     uint32_t random = 1;
     (void)state;
@@ -105,31 +106,28 @@ static void what_is_built_opens_again(void **state)
         }
         size_t built = udp_frame_build_around_payload(frame, &host, (uint16_t)random, size);
         assert_int_equal(built, UDP_FRAME_HEAD + size);
-        assert_int_equal(open_frame(built), size);
+        assert_int_equal(parse_frame(built), size);
         frame[UDP_FRAME_HEAD + random % size] ^= 0x10;
-        assert_int_equal(open_frame(built), 0);
+        assert_int_equal(parse_frame(built), 0);
     }
 }
 
-/*
- * A sum of 0xffff leaves a checksum of 0, which would say that there is none: it goes out as
- * 0xffff.
- */
-static void a_checksum_of_zero_is_not_left_out(void **state)
+/* A computed checksum of 0 is sent as 0xffff, as 0 would mean that there is no checksum. */
+static void a_checksum_of_zero_is_sent_as_0xffff(void **state)
 {
     int seen = 0;
     (void)state;
     for (unsigned value = 0; value < 0x10000; value++) {
         frame[UDP_FRAME_HEAD] = (uint8_t)(value >> 8);
         frame[UDP_FRAME_HEAD + 1] = (uint8_t)value;
-        assert_int_equal(open_frame(udp_frame_build_around_payload(frame, &host, 0, 2)), 2);
+        assert_int_equal(parse_frame(udp_frame_build_around_payload(frame, &host, 0, 2)), 2);
         assert_false(frame[AT_UDP_CHECKSUM] == 0 && frame[AT_UDP_CHECKSUM + 1] == 0);
         seen += frame[AT_UDP_CHECKSUM] == 0xff && frame[AT_UDP_CHECKSUM + 1] == 0xff;
     }
     assert_true(seen > 0);
 }
 
-static void other_frames_do_not_open(void **state)
+static void frames_with_a_wrong_ip_head_are_refused(void **state)
 {
     static const struct {
         unsigned at;
@@ -140,23 +138,23 @@ static void other_frames_do_not_open(void **state)
                  {AT_GROUP, 0x44}};
     (void)state;
     for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) {
-        set_liblcm();
-        change_head(heads[i].at, heads[i].value);
-        assert_int_equal(open_frame(sizeof of_liblcm), 0);
+        set_frame_of_liblcm();
+        change_ip_head_byte(heads[i].at, heads[i].value);
+        assert_int_equal(parse_frame(sizeof of_liblcm), 0);
     }
     for (size_t size = 0; size < sizeof of_liblcm; size++) {
-        set_liblcm();
-        assert_int_equal(open_frame(size), 0);
+        set_frame_of_liblcm();
+        assert_int_equal(parse_frame(size), 0);
     }
-    set_liblcm();
+    set_frame_of_liblcm();
     frame[AT_TYPE + 1] = 0x06;
-    assert_int_equal(open_frame(sizeof of_liblcm), 0);
-    set_liblcm();
+    assert_int_equal(parse_frame(sizeof of_liblcm), 0);
+    set_frame_of_liblcm();
     frame[AT_IP_CHECKSUM] ^= 1;
-    assert_int_equal(open_frame(sizeof of_liblcm), 0);
+    assert_int_equal(parse_frame(sizeof of_liblcm), 0);
 }
 
-static void wrong_datagrams_do_not_open(void **state)
+static void datagrams_with_bad_lengths_or_checksums_are_refused(void **state)
 {
     static const struct {
         unsigned at;
@@ -165,36 +163,36 @@ static void wrong_datagrams_do_not_open(void **state)
         {AT_PORT, 0xf4}, {AT_UDP_LENGTH, 7}, {AT_UDP_LENGTH, 0x15}, {AT_UDP_LENGTH - 1, 0xff}};
     (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        set_liblcm();
+        set_frame_of_liblcm();
         frame[AT_UDP_CHECKSUM] = frame[AT_UDP_CHECKSUM + 1] = 0;
         frame[wrong[i].at] = wrong[i].value;
-        assert_int_equal(open_frame(sizeof of_liblcm), 0);
+        assert_int_equal(parse_frame(sizeof of_liblcm), 0);
     }
 }
 
-static void ip_options_are_passed_over(void **state)
+static void ip_options_are_skipped(void **state)
 {
     (void)state;
-    set_liblcm();
+    set_frame_of_liblcm();
     memmove(frame + 38, frame + 34, sizeof of_liblcm - 34);
-    memset(frame + 34, 1, 4); /* no operation */
+    memset(frame + 34, 1, 4); /* IP options: no operation */
     frame[AT_LENGTH + 1] = 0x2c;
     frame[AT_VERSION] = 0x46;
     frame[AT_UDP_CHECKSUM + 4] = frame[AT_UDP_CHECKSUM + 5] = 0;
-    /* the options' own sum is in the checksum, too */
-    change_head(AT_VERSION, 0x46);
+    /* the IP checksum covers the options, too */
+    change_ip_head_byte(AT_VERSION, 0x46);
     uint32_t sum =
         ((uint32_t)(uint8_t)~frame[AT_IP_CHECKSUM] << 8 | (uint8_t)~frame[AT_IP_CHECKSUM + 1]) +
         0x0202;
     sum = ~((sum & 0xffff) + (sum >> 16));
     frame[AT_IP_CHECKSUM] = (uint8_t)(sum >> 8);
     frame[AT_IP_CHECKSUM + 1] = (uint8_t)sum;
-    assert_int_equal(open_frame(sizeof of_liblcm + 4), 12);
+    assert_int_equal(parse_frame(sizeof of_liblcm + 4), 12);
     assert_memory_equal(payload, "LC02", 4);
 }
 
 /* RFC 2236: to the group, TTL 1, router alert; type 0x16, checksum, group. */
-static void switches_are_told(void **state)
+static void the_igmp_report_is_as_rfc_2236_says(void **state)
 {
     static const uint8_t expected[] = {0x01, 0x00, 0x5e, 0x7f, 0x4c, 0x43, 0x02, 0x52, 0x48, 0x4f,
                                        0x00, 0x01, 0x08, 0x00, 0x46, 0x00, 0x00, 0x20, 0x00, 0x00,
@@ -208,20 +206,20 @@ static void switches_are_told(void **state)
     for (size_t i = sizeof expected; i < UDP_FRAME_JOIN; i++) {
         assert_int_equal(frame[i], 0);
     }
-    assert_int_equal(open_frame(UDP_FRAME_JOIN), 0);
+    assert_int_equal(parse_frame(UDP_FRAME_JOIN), 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_frame_of_liblcm_opens),
-        cmocka_unit_test(what_is_built_is_what_liblcm_sends),
-        cmocka_unit_test(what_is_built_opens_again),
-        cmocka_unit_test(a_checksum_of_zero_is_not_left_out),
-        cmocka_unit_test(other_frames_do_not_open),
-        cmocka_unit_test(wrong_datagrams_do_not_open),
-        cmocka_unit_test(ip_options_are_passed_over),
-        cmocka_unit_test(switches_are_told),
+        cmocka_unit_test(a_frame_of_liblcm_is_accepted),
+        cmocka_unit_test(a_built_frame_equals_that_of_liblcm),
+        cmocka_unit_test(built_frames_of_every_size_are_accepted),
+        cmocka_unit_test(a_checksum_of_zero_is_sent_as_0xffff),
+        cmocka_unit_test(frames_with_a_wrong_ip_head_are_refused),
+        cmocka_unit_test(datagrams_with_bad_lengths_or_checksums_are_refused),
+        cmocka_unit_test(ip_options_are_skipped),
+        cmocka_unit_test(the_igmp_report_is_as_rfc_2236_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

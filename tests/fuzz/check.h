@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What must hold: else the line and the condition are said, and the target aborts. */
+/*
+ * A condition that must hold: otherwise its line and text are printed and the fuzz target aborts.
+ */
 #ifndef RHOTRACK_TESTS_FUZZ_CHECK_H
 #define RHOTRACK_TESTS_FUZZ_CHECK_H
 

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * ASTERIX from the network: any bytes as one datagram, put together to scans. The first byte says
- * the rules: scans by turn, of an interval, whether what radars tell is known before. Recordings
- * are read by fuzz_tables.
- *
- * Every plot has one fate; scans of a radar come in the order of time, after what was said to be
- * settled; their plots are within them, and measure the same; cells of their rows are empty or
- * finite.
+ * ASTERIX from the network: any bytes as one datagram, put together to scans. The first byte
+ * selects the rules: scans by turn or by interval, and whether the radars' messages are known
+ * before. Recordings are read by fuzz_tables. Checked: every plot has one fate; scans of a radar
+ * come in order of time, none before the time that was declared settled; plots lie within their
+ * scan and measure the same; table cells are empty or finite.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +13,7 @@
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_udp_receiver.h"
 
-static void must(bool holds)
+static void abort_unless(bool holds)
 {
     if (!holds) {
         abort();
@@ -29,30 +27,33 @@ static void check_rows(const struct asterix_scan *scan)
     struct table *table = asterix_plot_rows_empty_table("", &columns);
 
     asterix_plot_rows_add_scan(table, scan);
-    must(table->num_columns == 12 && table->num_rows == scan->count + 1);
+    abort_unless(table->num_columns == 12 && table->num_rows == scan->count + 1);
     for (size_t i = 0; i < table->num_rows * table->num_columns; i++) {
-        must(isnan(table->numbers[i]) || isfinite((float)table->numbers[i]));
+        abort_unless(isnan(table->numbers[i]) || isfinite((float)table->numbers[i]));
     }
     table_free(table);
 }
 
 static void check_scan(const struct asterix_scan *scan, int64_t settled_128)
 {
-    must(scan->time_128 >= settled_128 && scan->number > 0);
-    must(scan->look.advance > 0 && scan->look.advance <= ASTERIX_TURN);
-    must(scan->look.end_128 >= scan->look.start_128 && (scan->is_numbered || scan->count == 1));
+    abort_unless(scan->time_128 >= settled_128 && scan->number > 0);
+    abort_unless(scan->look.advance > 0 && scan->look.advance <= ASTERIX_TURN);
+    abort_unless(scan->look.end_128 >= scan->look.start_128 &&
+                 (scan->is_numbered || scan->count == 1));
     check_rows(scan);
     for (size_t i = 0; i < scan->count; i++) {
         const struct asterix_scan_plot *mark = &scan->marks[i];
 
-        must(mark->time_128 >= settled_128 && mark->range > 0);
-        must(i == 0 || mark->time_128 >= mark[-1].time_128);
-        must(mark->has_alt == scan->marks[0].has_alt);
-        must(mark->has_doppler == scan->marks[0].has_doppler);
+        abort_unless(mark->time_128 >= settled_128 && mark->range > 0);
+        abort_unless(i == 0 || mark->time_128 >= mark[-1].time_128);
+        abort_unless(mark->has_alt == scan->marks[0].has_alt);
+        abort_unless(mark->has_doppler == scan->marks[0].has_doppler);
     }
 }
 
-/* The scans that are complete; settled_128: as it was said before they were. */
+/*
+ * Checks the completed scans; none is earlier than settled_128, the time declared settled before.
+ */
 static size_t check_scans(struct asterix_scans *scans, int64_t settled_128)
 {
     struct asterix_scan scan;
@@ -65,7 +66,7 @@ static size_t check_scans(struct asterix_scans *scans, int64_t settled_128)
     return count;
 }
 
-static void look(struct asterix_scans *scans, const uint8_t *data, size_t size)
+static void read_all_records(struct asterix_scans *scans, const uint8_t *data, size_t size)
 {
     struct asterix_block block;
     struct asterix_record record;
@@ -86,7 +87,7 @@ static void look(struct asterix_scans *scans, const uint8_t *data, size_t size)
     }
 }
 
-/* Two at most are told apart. */
+/* Radars in the datagram: 1, or 2 for two and more. */
 static int count_radars(const uint8_t *data, size_t size)
 {
     struct asterix_block block;
@@ -108,11 +109,12 @@ static int count_radars(const uint8_t *data, size_t size)
     return source ? 1 : 0;
 }
 
-/* As datagrams of one block each, as far as they go. */
-static size_t take(struct asterix_scans *scans, const uint8_t *data, size_t size,
-                   struct asterix_datagram_counts *heard)
+/* Feeds the bytes as datagrams of one ASTERIX block each. */
+static size_t take_datagram(struct asterix_scans *scans, const uint8_t *data, size_t size,
+                            struct asterix_datagram_counts *heard)
 {
-    bool has_one_radar = count_radars(data, size) <= 1; /* another one's clock may be behind */
+    /* with several radars, one's clock may be behind the other's */
+    bool has_one_radar = count_radars(data, size) <= 1;
     struct asterix_block block;
     struct asterix_error error;
     size_t count = 0, bytes;
@@ -121,7 +123,7 @@ static size_t take(struct asterix_scans *scans, const uint8_t *data, size_t size
         int64_t settled_128 = has_one_radar ? asterix_scans_settled_time_128(scans) : INT64_MIN;
 
         settled_128 =
-            settled_128 == INT64_MAX ? INT64_MIN : settled_128; /* nothing was heard yet */
+            settled_128 == INT64_MAX ? INT64_MIN : settled_128; /* INT64_MAX: no message so far */
         bytes = asterix_block_read(data + at, size - at, &block, &error)
                     ? ASTERIX_HEADER_BYTES + block.size
                     : size - at;
@@ -147,17 +149,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     rules.interval_s = (data[0] & 2) != 0 ? 4 : 0;
     scans = asterix_scans_open(&rules);
     if (data[0] & 4) {
-        look(scans, data + 1, size - 1);
+        read_all_records(scans, data + 1, size - 1);
     }
-    placed = take(scans, data + 1, size - 1, &heard);
+    placed = take_datagram(scans, data + 1, size - 1, &heard);
     asterix_scans_finish(scans);
     placed += check_scans(scans, INT64_MIN);
     counts = asterix_scans_counts(scans);
-    must(placed == counts->placed);
-    must(counts->plots == counts->placed + counts->not_real + counts->no_detection +
-                              counts->incomplete + counts->bad_times + counts->late +
-                              counts->unplaced + counts->no_room);
-    must(asterix_scans_settled_time_128(scans) == INT64_MAX);
+    abort_unless(placed == counts->placed);
+    abort_unless(counts->plots == counts->placed + counts->not_real + counts->no_detection +
+                                      counts->incomplete + counts->bad_times + counts->late +
+                                      counts->unplaced + counts->no_room);
+    abort_unless(asterix_scans_settled_time_128(scans) == INT64_MAX);
     asterix_scans_close(scans);
     return 0;
 }

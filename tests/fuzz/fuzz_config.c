@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The reader of INI files (--config), and --set, on any text: it is refused with one line, or every
- * parameter is within its limits, and the library takes the configurations made of them. The first
- * byte: 1 the library is asked, too; behind the file, each after a byte 1, are assignments of
- * --set.
+ * The reader of INI files (--config) and of --set, on any text: it is refused with one line, or
+ * every parameter is within its limits and the library accepts the configurations made from it. The
+ * first byte: 1 runs the library, too; behind the file follow assignments of --set, each after a
+ * byte 1.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@
 #include "settings/parameters.h"
 
 #define SETS_MAX 8
-#define BETWEEN 1 /* the byte before an assignment */
+#define BETWEEN 1 /* byte that separates the assignments */
 
 static struct parameters parameters;
 static struct rho_tracker tracker;
@@ -32,27 +32,28 @@ struct reading {
     bool asks_library;
 };
 
-static void check_value(struct parameter_text text, double value, enum parameter_source source)
+static void check_parameter_limits(struct parameter_text text, double value,
+                                   enum parameter_source source)
 {
     if (source != SOURCE_UNSET) {
-        CHECK(value >= text.min && value <= text.max); /* false for NaN */
+        CHECK(value >= text.min && value <= text.max); /* false for NaN, too */
         CHECK(!text.is_integer || !(floor(value) < value));
     }
 }
 
-static void check_values(void)
+static void check_all_parameter_limits(void)
 {
     for (int id = 0; id < NUM_PARAMETERS; id++) {
-        check_value(parameters_text((enum parameter_id)id), parameters.value[id],
-                    parameters.source[id]);
+        check_parameter_limits(parameters_text((enum parameter_id)id), parameters.value[id],
+                               parameters.source[id]);
     }
     CHECK(parameters.num_sensors <= RHO_MAX_SENSORS && parameters.num_allowed <= RHO_MAX_SENSORS);
     for (size_t i = 0; i < parameters.num_sensors; i++) {
         const struct sensor_parameters *sensor = &parameters.sensors[i];
 
         for (int id = 0; id < NUM_SENSOR_PARAMETERS; id++) {
-            check_value(parameters_sensor_text((enum sensor_parameter_id)id), sensor->value[id],
-                        sensor->source[id]);
+            check_parameter_limits(parameters_sensor_text((enum sensor_parameter_id)id),
+                                   sensor->value[id], sensor->source[id]);
         }
         for (size_t k = 0; k < i; k++) {
             CHECK(parameters.sensors[k].sensor_id != sensor->sensor_id);
@@ -60,8 +61,8 @@ static void check_values(void)
     }
 }
 
-/* What is said and checked, the library takes. */
-static void ask_library(void)
+/* The library accepts the configurations of parameters that passed their checks. */
+static void check_library_takes_configs(void)
 {
     struct rho_tracker_config maintain;
     struct rho_initiator_config start;
@@ -69,7 +70,8 @@ static void ask_library(void)
 
     parameters_to_tracker(&parameters, &maintain);
     parameters_to_initiator(&parameters, &start);
-    if (parameters.value[PARAMETER_GATE] < RHO_NUM_TRACKER_GATES) { /* none: of maintain alone */
+    /* the gate none exists in the command maintain alone */
+    if (parameters.value[PARAMETER_GATE] < RHO_NUM_TRACKER_GATES) {
         CHECK(rho_tracker_init(&tracker, sizeof tracker, &maintain) == RHO_OK);
         for (size_t i = 0; i < parameters.num_sensors; i++) {
             CHECK(parameters_to_sensor(&parameters, parameters.sensors[i].sensor_id, &sensor));
@@ -91,25 +93,25 @@ static void read_config(void *context)
     }
     parameters_locate_sensors(&parameters);
     parameters_check_together(&parameters);
-    check_values();
+    check_all_parameter_limits();
     parameters_print(&parameters, nowhere);
     if (reading->asks_library) {
-        ask_library();
+        check_library_takes_configs();
     }
 }
 
 /*
- * What PROJ keeps for the whole program is there before a run's memory is looked at. It does
- * without its database.
+ * Creates what PROJ keeps for the whole process before the first run's memory is counted; PROJ
+ * works without its database.
  */
-static void warm_up(void)
+static void open_what_the_process_keeps(void)
 {
     CHECK(setenv("PROJ_DATA", "/nonexistent", 1) == 0);
     parameters_set_defaults(&parameters);
     local_frame_close(parameters_open_local_frame(&parameters));
     nowhere = fopen("/dev/null", "w");
     CHECK(nowhere);
-    refusal_begin();
+    refusal_install_hooks();
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -119,7 +121,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char *text, *at;
 
     if (!nowhere) {
-        warm_up();
+        open_what_the_process_keeps();
     }
     if (size == 0) {
         return 0;
@@ -133,11 +135,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         *at++ = '\0';
         reading.sets[reading.num_sets++] = at;
     }
-    /* a file may have zeros, but what comes before an assignment */
+    /* the file may contain zero bytes, the assignments before this one end at a byte 1 */
     reading.path = refusal_write_file(
         data + 1, reading.num_sets > 0 ? (size_t)(reading.sets[0] - text) - 1 : size - 1);
     reading.asks_library = data[0] & 1;
-    refusal_ends(read_config, &reading);
+    refusal_is_refused(read_config, &reading);
     free(text);
     return 0;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Any bytes as an Ethernet frame of the firmware example: what is accepted lies within them, and is
- * built again.
+ * Any bytes as an Ethernet frame of the firmware example: an accepted payload lies within the
+ * frame, and the frame built from it is accepted, too.
  */
 #include <stdint.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A assembler that takes what a script says: good messages, damaged ones, any bytes, steps of the
- * reception clock, and calls for what is due. After each step its promises are checked: fates add
- * up, scans are within their capacities and in the order of time, and there is always room after
- * two calls.
+ * The scan assembler, driven by a script: good messages, damaged ones, any bytes, steps of the
+ * reception clock, and calls for due scans. After each step its guarantees are checked: counts of
+ * fates add up, scans are within their capacities and in order of time, and two calls of next
+ * always make room.
  */
 #include <stdint.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@
 #include "rhotrack/types.h"
 
 #define SENSORS 5
-#define SLOT_FREE 0 /* of a slot's private state */
+#define SLOT_FREE 0 /* values of a slot's private state */
 #define SLOT_GIVEN 3
 
 static struct rho_scan_assembler assembler;
@@ -30,8 +30,8 @@ struct script {
     size_t size;
 };
 
-/* The next bytes as a number; 0s behind the end. */
-static uint64_t number(struct script *script, unsigned bytes)
+/* The next bytes of the script as a number; 0s behind its end. */
+static uint64_t read_number(struct script *script, unsigned bytes)
 {
     uint64_t value = 0;
 
@@ -43,16 +43,16 @@ static uint64_t number(struct script *script, unsigned bytes)
     return value;
 }
 
-static int64_t signed_number(struct script *script, unsigned bytes)
+static int64_t read_signed_number(struct script *script, unsigned bytes)
 {
-    uint64_t value = number(script, bytes), half = UINT64_C(1) << (8 * bytes - 1);
+    uint64_t value = read_number(script, bytes), half = UINT64_C(1) << (8 * bytes - 1);
 
     return value < half ? (int64_t)value : -(int64_t)(2 * (half - 1) + 1 - value) - 1;
 }
 
 /* ---- checks ---------------------------------------------------------------------------------- */
 
-static unsigned in_slots(void)
+static unsigned count_waiting_scans(void)
 {
     unsigned count = 0;
 
@@ -62,7 +62,7 @@ static unsigned in_slots(void)
     return count;
 }
 
-static uint64_t parts_in_slots(void)
+static uint64_t count_parts_in_slots(void)
 {
     uint64_t count = 0;
 
@@ -73,7 +73,7 @@ static uint64_t parts_in_slots(void)
     return count;
 }
 
-static uint64_t refusals(void)
+static uint64_t count_refused_messages(void)
 {
     const struct rho_scan_assembler_counters *counters = &assembler.counters;
 
@@ -84,12 +84,12 @@ static uint64_t refusals(void)
 }
 
 /*
- * Each scan that was accepted waits, was given, or was dropped for a new clock or, a newcomer's,
- * for want of room.
+ * Each accepted scan waits, was given, or was dropped: for a new clock or, if it was a newcomer's,
+ * for lack of room.
  */
-static void check_scans(void)
+static void check_fates_of_scans(void)
 {
-    uint64_t there = given + in_slots();
+    uint64_t there = given + count_waiting_scans();
 
     CHECK(assembler.counters.scans_accepted >= there);
     CHECK(assembler.counters.scans_accepted - there <=
@@ -97,7 +97,7 @@ static void check_scans(void)
     CHECK(assembler.counters.scans_incomplete <= assembler.counters.scans_accepted);
 }
 
-static void check_item(void)
+static void check_given_item(void)
 {
     int is_bearings = item.kind == RHO_SCAN_ASSEMBLER_BEARINGS;
     int64_t time_us = is_bearings ? item.bearings.time_us : item.scan.time_us;
@@ -113,27 +113,27 @@ static void check_item(void)
     } else {
         CHECK(item.scan.num_plots <= RHO_MAX_PLOTS);
         for (unsigned i = 0; i < item.scan.num_plots; i++) {
-            CHECK(item.scan.plots[i].x_m >= -4.5e6f); /* no number it is not */
+            CHECK(item.scan.plots[i].x_m >= -4.5e6f); /* false for NaN, too */
         }
     }
 }
 
-static int next(int64_t now_us)
+static int take_next_item(int64_t now_us)
 {
     int is_there = rho_scan_assembler_next(&assembler, now_us, &item);
 
     if (is_there) {
         given++;
-        check_item();
+        check_given_item();
     }
     return is_there;
 }
 
-static void drain(int64_t now_us)
+static void take_all_due_items(int64_t now_us)
 {
     int64_t last_us = INT64_MIN;
 
-    while (next(now_us)) {
+    while (take_next_item(now_us)) {
         int64_t time_us =
             item.kind == RHO_SCAN_ASSEMBLER_BEARINGS ? item.bearings.time_us : item.scan.time_us;
 
@@ -142,10 +142,10 @@ static void drain(int64_t now_us)
     }
 }
 
-static void take(const char *channel, const uint8_t *data, size_t size, int64_t now_us)
+static void offer_message(const char *channel, const uint8_t *data, size_t size, int64_t now_us)
 {
     struct rho_scan_assembler_counters before = assembler.counters;
-    uint64_t refused = refusals(), parts = parts_in_slots();
+    uint64_t refused = count_refused_messages(), parts = count_parts_in_slots();
     uint8_t *exact = malloc(size > 0 ? size : 1);
     enum rho_status status;
     unsigned tries = 0;
@@ -156,21 +156,21 @@ static void take(const char *channel, const uint8_t *data, size_t size, int64_t 
     while (status == RHO_ERROR_CAPACITY) {
         CHECK(memcmp(&before, &assembler.counters, sizeof before) == 0);
         CHECK(++tries <= 2);
-        (void)next(now_us);
+        (void)take_next_item(now_us);
         before = assembler.counters;
-        refused = refusals();
-        parts = parts_in_slots();
+        refused = count_refused_messages();
+        parts = count_parts_in_slots();
         status = rho_scan_assembler_take(&assembler, channel, exact, size, now_us);
     }
     if (status == RHO_OK) {
-        CHECK(refusals() > refused || parts_in_slots() > parts);
+        CHECK(count_refused_messages() > refused || count_parts_in_slots() > parts);
     } else {
         CHECK(status == RHO_ERROR_TYPE && memcmp(&before, &assembler.counters, sizeof before) == 0);
     }
     free(exact);
 }
 
-/* ---- what the script can say ----------------------------------------------------------------- */
+/* ---- messages that the script sends ---------------------------------------------------------- */
 
 struct sender {
     int64_t time_us;
@@ -183,8 +183,9 @@ static size_t write_message(struct script *script, unsigned kind, int16_t sensor
     static struct rho_message_plot_scan plots;
     static struct rho_message_polar_scan polar;
     static struct rho_message_bearing_scan bearings;
-    int16_t parts = (int16_t)(1 + number(script, 1) % 4), part = (int16_t)(number(script, 1) % 5);
-    int16_t count = (int16_t)(number(script, 1) % 35);
+    int16_t parts = (int16_t)(1 + read_number(script, 1) % 4),
+            part = (int16_t)(read_number(script, 1) % 5);
+    int16_t count = (int16_t)(read_number(script, 1) % 35);
     size_t size = 0;
 
     if (kind == RHO_SCAN_ASSEMBLER_PLOTS) {
@@ -192,7 +193,7 @@ static size_t write_message(struct script *script, unsigned kind, int16_t sensor
                                                .scan = sender->scan,
                                                .epoch = sender->epoch,
                                                .sensor_id = sensor_id,
-                                               .kind = (int8_t)(2 + number(script, 1) % 5),
+                                               .kind = (int8_t)(2 + read_number(script, 1) % 5),
                                                .part = part,
                                                .num_parts = parts,
                                                .num_plots = count};
@@ -204,10 +205,10 @@ static size_t write_message(struct script *script, unsigned kind, int16_t sensor
                                                 .sensor_id = sensor_id,
                                                 .part = part,
                                                 .num_parts = parts,
-                                                .sensor_x_m = (float)(number(script, 1) % 2),
+                                                .sensor_x_m = (float)(read_number(script, 1) % 2),
                                                 .num_polar_plots = count};
         for (int16_t i = 0; i < count; i++) {
-            polar.polar_plots[i].range_m = (float)number(script, 1) * 100.0f;
+            polar.polar_plots[i].range_m = (float)read_number(script, 1) * 100.0f;
         }
         (void)!rho_message_polar_scan_encode(&polar, buffer, capacity, &size);
     } else {
@@ -221,65 +222,67 @@ static size_t write_message(struct script *script, unsigned kind, int16_t sensor
     return size;
 }
 
-static void say(struct script *script, struct sender senders[SENSORS], int64_t now_us)
+static void send_scripted_message(struct script *script, struct sender senders[SENSORS],
+                                  int64_t now_us)
 {
     static const char *const prefixes[] = {"RHO_PLOTS_", "RHO_POLAR_", "RHO_BEARINGS_"};
-    uint8_t what = (uint8_t)number(script, 1), buffer[1500];
+    uint8_t what = (uint8_t)read_number(script, 1), buffer[1500];
     unsigned kind = what % 3, sensor = what / 3 % SENSORS;
     struct sender message;
     char channel[32];
     size_t size;
 
-    if (what & 0x80) { /* goes on as sensors do */
+    if (what & 0x80) { /* bit 7: the sensor goes on regularly */
         senders[sensor].scan = senders[sensor].scan < INT32_MAX ? senders[sensor].scan + 1 : 0;
         senders[sensor].time_us = now_us;
     }
     message = senders[sensor];
-    if (what & 0x40) { /* or says what is not so */
-        message.scan = (int32_t)((int64_t)message.scan % 1000000 + signed_number(script, 1));
-        message.time_us = message.time_us / 2 + signed_number(script, 4);
-        message.epoch = (int32_t)(number(script, 1) % 3);
+    if (what & 0x40) { /* bit 6: a false time, number or epoch */
+        message.scan = (int32_t)((int64_t)message.scan % 1000000 + read_signed_number(script, 1));
+        message.time_us = message.time_us / 2 + read_signed_number(script, 4);
+        message.epoch = (int32_t)(read_number(script, 1) % 3);
     }
     size = write_message(script, kind, (int16_t)sensor, &message, buffer, sizeof buffer);
-    for (uint64_t flips = number(script, 1) % 16; flips > 8 && size > 0; flips--) {
-        buffer[number(script, 2) % size] ^= (uint8_t)number(script, 1);
+    for (uint64_t flips = read_number(script, 1) % 16; flips > 8 && size > 0; flips--) {
+        buffer[read_number(script, 2) % size] ^= (uint8_t)read_number(script, 1);
     }
     snprintf(channel, sizeof channel, "%s%u", prefixes[kind], sensor);
-    take(channel, buffer, size, now_us);
+    offer_message(channel, buffer, size, now_us);
 }
 
-static void say_anything(struct script *script, int64_t now_us)
+static void send_any_bytes(struct script *script, int64_t now_us)
 {
     char channel[24] = "RHO_PLOTS_1";
-    size_t size = number(script, 1) % 100;
+    size_t size = read_number(script, 1) % 100;
 
-    if (number(script, 1) % 4 == 0) {
-        snprintf(channel, sizeof channel, "RHO_POLAR_%d", (int)signed_number(script, 2));
+    if (read_number(script, 1) % 4 == 0) {
+        snprintf(channel, sizeof channel, "RHO_POLAR_%d", (int)read_signed_number(script, 2));
     }
     size = size < script->size ? size : script->size;
-    take(channel, script->data, size, now_us);
+    offer_message(channel, script->data, size, now_us);
     script->data += size;
     script->size -= size;
 }
 
 static int64_t move_clock(struct script *script, int64_t now_us)
 {
-    int64_t step_us = signed_number(script, 3) * (number(script, 1) % 8 == 0 ? 1000 : 1);
+    int64_t step_us = read_signed_number(script, 3) * (read_number(script, 1) % 8 == 0 ? 1000 : 1);
 
     return now_us / 2 * 2 + (now_us < INT64_MAX / 2 && now_us > INT64_MIN / 2 ? step_us : 0);
 }
 
-static int begin(struct script *script)
+static int start_assembler(struct script *script)
 {
     struct rho_scan_assembler_config config;
 
     rho_scan_assembler_config_default(&config);
-    config.hold_us = (int64_t)(number(script, 1) * 1000);
-    config.follow_scans = (uint16_t)(2 + number(script, 1) % 6);
-    config.flood_per_s = (uint32_t)(1 + number(script, 1) * 10);
-    config.jump_max_us = (int64_t)(1000000 + number(script, 1) * 200000);
+    config.hold_us = (int64_t)(read_number(script, 1) * 1000);
+    config.follow_scans = (uint16_t)(2 + read_number(script, 1) % 6);
+    config.flood_per_s = (uint32_t)(1 + read_number(script, 1) * 10);
+    config.jump_max_us = (int64_t)(1000000 + read_number(script, 1) * 200000);
     config.late_max_us =
-        (int64_t)(config.follow_scans % 3) * 20000000; /* no byte of its own: old inputs stay */
+        /* takes no byte of its own, so that older inputs keep their meaning */
+        (int64_t)(config.follow_scans % 3) * 20000000;
     given = 0;
     return rho_scan_assembler_init(&assembler, sizeof assembler, &config) == RHO_OK;
 }
@@ -292,28 +295,28 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct sender senders[SENSORS] = {{0}};
     int64_t now_us = 0;
 
-    CHECK(begin(&script));
+    CHECK(start_assembler(&script));
     while (script.size > 0) {
-        uint8_t action = (uint8_t)number(&script, 1);
+        uint8_t action = (uint8_t)read_number(&script, 1);
 
         if (action < 140) {
-            say(&script, senders, now_us);
+            send_scripted_message(&script, senders, now_us);
         } else if (action < 160) {
-            say_anything(&script, now_us);
+            send_any_bytes(&script, now_us);
         } else if (action < 220) {
             now_us = move_clock(&script, now_us);
         } else if (action < 222) {
-            now_us = signed_number(&script, 8);
+            now_us = read_signed_number(&script, 8);
         } else if (action < 240) {
-            (void)next(now_us);
+            (void)take_next_item(now_us);
         } else {
-            drain(now_us);
+            take_all_due_items(now_us);
         }
         (void)rho_scan_assembler_due_us(&assembler);
-        check_scans();
+        check_fates_of_scans();
     }
-    drain(INT64_MAX);
-    CHECK(in_slots() == 0);
-    check_scans();
+    take_all_due_items(INT64_MAX);
+    CHECK(count_waiting_scans() == 0);
+    check_fates_of_scans();
     return 0;
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The reader of scenes in JSON (`simulate FILE.json`), and --set, on any text: it is refused with
- * one line, or the scene's numbers are finite and within what its list of sensors and its
- * capacities allow, and paths of its targets can be drawn. Behind the file, each after a byte 1,
- * are assignments of --set.
+ * The reader of scenes in JSON (`simulate FILE.json`) and of --set, on any text: it is refused with
+ * one line, or the scene's numbers are finite and within the lists and capacities of the scene, and
+ * the paths of its targets can be drawn. Behind the file follow assignments of --set, each after a
+ * byte 1.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@
 
 #define SETS_MAX 8
 #define PATHS_MAX 16
-#define BETWEEN 1 /* the byte before an assignment */
+#define BETWEEN 1 /* byte that separates the assignments */
 
 struct reading {
     char *path;
@@ -44,8 +44,8 @@ static void check_sensor(const struct scene *scene, size_t i)
     }
 }
 
-/* Of a source or an event: sensors that are listed, or all. */
-static bool is_known(const struct scene *scene, uint32_t sensors)
+/* Whether a source or an event names only sensors in the list (UINT32_MAX: all sensors). */
+static bool are_known_sensors(const struct scene *scene, uint32_t sensors)
 {
     return sensors == UINT32_MAX || (uint64_t)sensors >> scene->num_sensors == 0;
 }
@@ -60,12 +60,14 @@ static void check_scene(const struct scene *scene)
         check_sensor(scene, i);
     }
     for (size_t i = 0; i < scene->num_clutter; i++) {
-        CHECK(scene->clutter[i].kind < CLUTTER_KINDS && is_known(scene, scene->clutter[i].sensors));
+        CHECK(scene->clutter[i].kind < CLUTTER_KINDS &&
+              are_known_sensors(scene, scene->clutter[i].sensors));
         CHECK(isfinite(scene->clutter[i].plots) && isfinite(scene->clutter[i].plots_per_km2));
         check_span(scene->clutter[i].life_s);
     }
     for (size_t i = 0; i < scene->num_events; i++) {
-        CHECK(scene->events[i].kind < EVENT_KINDS && is_known(scene, scene->events[i].sensors));
+        CHECK(scene->events[i].kind < EVENT_KINDS &&
+              are_known_sensors(scene, scene->events[i].sensors));
         check_span(scene->events[i].for_s);
     }
     for (size_t i = 0; i < scene->targets.count; i++) {
@@ -77,8 +79,8 @@ static void check_scene(const struct scene *scene)
     }
 }
 
-/* The paths of a minute, where there are few. */
-static void draw_paths(const struct scene *scene)
+/* Draws the paths of the first minute if there are few targets. */
+static void draw_target_paths(const struct scene *scene)
 {
     const double duration_s = scene->duration_s < 60.0 ? scene->duration_s : 60.0;
     struct scene_path *paths;
@@ -105,7 +107,7 @@ static void read_scene(void *context)
 
     CHECK(scene);
     check_scene(scene);
-    draw_paths(scene);
+    draw_target_paths(scene);
     scene_free(scene);
 }
 
@@ -118,7 +120,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char *text, *at;
 
     if (!has_begun) {
-        refusal_begin();
+        refusal_install_hooks();
         has_begun = true;
     }
     text = malloc(size + 1);
@@ -132,7 +134,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         reading.sets[reading.num_sets++] = at;
     }
     reading.path = refusal_write_file(data, file_size);
-    refusal_ends(read_scene, &reading);
+    refusal_is_refused(read_scene, &reading);
     free(text);
     return 0;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * An image of a running tracker, changed in places and with a right checksum: it is refused, with
- * nothing changed, or what is loaded can be stepped on, whatever its numbers are. In the embedded
+ * An image of a running tracker with changed bytes and a right checksum: it is refused with nothing
+ * changed, or the loaded objects can be stepped on, whatever numbers they hold. In the embedded
  * profile.
  */
 #include <math.h>
@@ -14,7 +14,7 @@
 
 #define PI 3.14159265358979323846
 #define SCENES 4
-#define STEPS 20 /* before the image is taken */
+#define STEPS 20 /* scans before the image is saved */
 #define MORE_STEPS 6
 #define PLOTS 40
 #define IMAGE_MAX 400000
@@ -39,14 +39,17 @@ static double uniform(double from, double to)
     return from + (to - from) * (double)(random_state >> 11) / 9007199254740992.0;
 }
 
-/* ---- what is stepped ------------------------------------------------------------------------- */
+/* ---- scans that are stepped ------------------------------------------------------------------ */
 
 static double target_m(int target, double t_s, int axis)
 {
     return axis ? 6e3 + 2e3 * target + 90.0 * t_s : -8e3 + 4e3 * target + (target - 1.5) * 70 * t_s;
 }
 
-/* Scenes: 0 turns with heights and range rates, 1 sectors, 2 bearings, 3 one Kalman filter. */
+/*
+ * Steps a scan of a scene: 0 turns with heights and range rates, 1 sectors, 2 bearings, 3 the gate
+ * of one Kalman filter.
+ */
 static void step_plots(int scene, int k)
 {
     struct rho_plot plots[PLOTS];
@@ -106,7 +109,7 @@ static void step_bearings(int k)
     (void)!rho_tracker_step_frame(&chain.tracker, &chain.passive, &frame, &report);
 }
 
-static void step(int scene, int k)
+static void step_scene(int scene, int k)
 {
     if (scene == 2) {
         step_bearings(k);
@@ -115,7 +118,7 @@ static void step(int scene, int k)
     }
 }
 
-static void begin(int scene)
+static void start_objects(int scene)
 {
     struct rho_tracker_config maintain;
     struct rho_initiator_config start;
@@ -136,7 +139,7 @@ static void begin(int scene)
 
 /* ---- images ---------------------------------------------------------------------------------- */
 
-static void list_parts(struct rho_snapshot_part parts[3])
+static void list_snapshot_parts(struct rho_snapshot_part parts[3])
 {
     parts[0] =
         (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, 0, &chain.tracker, sizeof chain.tracker};
@@ -149,12 +152,12 @@ static void list_parts(struct rho_snapshot_part parts[3])
 static void make_images(void)
 {
     struct rho_snapshot_part parts[3];
-    list_parts(parts);
+    list_snapshot_parts(parts);
     for (int scene = 0; scene < SCENES; scene++) {
         random_state = 5;
-        begin(scene);
+        start_objects(scene);
         for (int k = 0; k < STEPS; k++) {
-            step(scene, k);
+            step_scene(scene, k);
         }
         CHECK(report.num_tracks > 0);
         CHECK(rho_snapshot_save(parts, 3, 0, images[scene], IMAGE_MAX, &image_bytes) == RHO_OK);
@@ -162,7 +165,7 @@ static void make_images(void)
     }
 }
 
-static void seal(void)
+static void set_image_checksum(void)
 {
     static uint32_t table[256];
     uint32_t crc = UINT32_MAX;
@@ -181,7 +184,7 @@ static void seal(void)
     }
 }
 
-/* Parts of the image that few bytes of it are, but most of what leads somewhere. */
+/* Regions of the image that are few bytes but hold most counts, indices and links. */
 struct region {
     size_t first, bytes;
 };
@@ -213,8 +216,8 @@ static const struct region regions[] = {
     {IN_PASSIVE(batch), offsetof(struct rho_batch, bearings) + 400},
 };
 
-/* Eight bytes of the input change one place. */
-static void change(int scene, const uint8_t *edit)
+/* Changes one place of the image as eight bytes of the input say. */
+static void change_image(int scene, const uint8_t *edit)
 {
     static const float numbers[] = {NAN,     INFINITY, -INFINITY, 1e30f,  -1e30f, 1e-30f,
                                     0.0f,    -0.0f,    1e15f,     -1e15f, 2e6f,   -2e6f,
@@ -250,7 +253,7 @@ static void change(int scene, const uint8_t *edit)
     case 6:
         image[at]--;
         break;
-    default: /* another place's */
+    default: /* copies the bytes of another place */
         memmove(image + at / 4 * 4,
                 image + region.first +
                     ((size_t)edit[4] | (size_t)edit[5] << 8) % region.bytes / 4 * 4,
@@ -271,21 +274,21 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const int scene = data[0] % SCENES;
     memcpy(image, images[scene], image_bytes);
     for (size_t at = 1; at + 8 <= size && at < 8 * 40; at += 8) {
-        change(scene, data + at);
+        change_image(scene, data + at);
     }
-    seal();
+    set_image_checksum();
     memset(&chain, 0x3c, sizeof chain);
     before = chain;
-    list_parts(parts);
+    list_snapshot_parts(parts);
     if (rho_snapshot_load(parts, 3, image, image_bytes) != RHO_OK) {
         CHECK(memcmp(&before, &chain, sizeof chain) == 0);
         return 0;
     }
     random_state = 77;
     for (int k = 0; k < MORE_STEPS; k++) {
-        step(scene, STEPS + k);
+        step_scene(scene, STEPS + k);
         if (k == 3) {
-            step(scene == 2 ? 0 : 2, STEPS + k);
+            step_scene(scene == 2 ? 0 : 2, STEPS + k);
         }
     }
     return 0;

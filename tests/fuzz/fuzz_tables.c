@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The CSV readers on any file: the table itself, plots to scans, bearings to frames, and what the
- * plot command reads (truth and tracks, too). The first byte says which, whether bad rows are
- * skipped, and whether rows of half a second are one scan; the rest is the file.
+ * plot command reads (truth and tracks, too). The first byte selects the reader, whether bad rows
+ * are skipped, and whether rows within half a second are one scan; the rest is the file.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 
-static void must(bool holds)
+static void abort_unless(bool holds)
 {
     if (!holds) {
         abort();
@@ -28,7 +28,7 @@ static void must(bool holds)
 
 static bool is_within(float v, float limit)
 {
-    return v >= -limit && v <= limit; /* false for NaN */
+    return v >= -limit && v <= limit; /* false for NaN, too */
 }
 
 static void read_table(const char *path, bool keep_going)
@@ -39,11 +39,12 @@ static void read_table(const char *path, bool keep_going)
     double number;
 
     for (size_t row = 0; row < table->num_rows; row++) {
-        must(row == 0 || table->lines[row] > table->lines[row - 1]);
+        abort_unless(row == 0 || table->lines[row] > table->lines[row - 1]);
         for (size_t column = 0; column < table->num_columns; column++) {
-            must(table_read_number(table, row, (int)column, &number) || isfinite((float)number));
-            must(table_read_time_us(table, row, (int)column, &time_us) ||
-                 (time_us >= -RHO_LIMIT_TIME_US && time_us <= RHO_LIMIT_TIME_US));
+            abort_unless(table_read_number(table, row, (int)column, &number) ||
+                         isfinite((float)number));
+            abort_unless(table_read_time_us(table, row, (int)column, &time_us) ||
+                         (time_us >= -RHO_LIMIT_TIME_US && time_us <= RHO_LIMIT_TIME_US));
             (void)table_read_int32(table, row, (int)column, &integer);
         }
     }
@@ -55,13 +56,15 @@ static void check_scan(const struct rho_scan *scan)
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
 
-        must(is_within(plot->x_m, RHO_LIMIT_POSITION_M) &&
-             is_within(plot->y_m, RHO_LIMIT_POSITION_M));
-        must(is_within(plot->z_m, RHO_LIMIT_POSITION_M) && is_within(plot->snr_db, INFINITY));
-        must(is_within(plot->vx_mps, RHO_LIMIT_SPEED_MPS) &&
-             is_within(plot->vy_mps, RHO_LIMIT_SPEED_MPS));
-        must(is_within(plot->vz_mps, RHO_LIMIT_SPEED_MPS));
-        must(plot->offset_us >= -RHO_LIMIT_OFFSET_US && plot->offset_us <= RHO_LIMIT_OFFSET_US);
+        abort_unless(is_within(plot->x_m, RHO_LIMIT_POSITION_M) &&
+                     is_within(plot->y_m, RHO_LIMIT_POSITION_M));
+        abort_unless(is_within(plot->z_m, RHO_LIMIT_POSITION_M) &&
+                     is_within(plot->snr_db, INFINITY));
+        abort_unless(is_within(plot->vx_mps, RHO_LIMIT_SPEED_MPS) &&
+                     is_within(plot->vy_mps, RHO_LIMIT_SPEED_MPS));
+        abort_unless(is_within(plot->vz_mps, RHO_LIMIT_SPEED_MPS));
+        abort_unless(plot->offset_us >= -RHO_LIMIT_OFFSET_US &&
+                     plot->offset_us <= RHO_LIMIT_OFFSET_US);
     }
 }
 
@@ -73,13 +76,13 @@ static void read_scans(char *path, const struct parameters *parameters, bool kee
     uint64_t num_scans = 0;
 
     while ((scan = plot_scan_reader_next(reader))) {
-        must(scan->time_us >= before_us);
+        abort_unless(scan->time_us >= before_us);
         before_us = scan->time_us;
         num_scans++;
         check_scan(scan);
         (void)plot_scan_reader_sensor(reader);
     }
-    must(num_scans == plot_scan_reader_counts(reader).scans);
+    abort_unless(num_scans == plot_scan_reader_counts(reader).scans);
     plot_scan_reader_close(reader);
 }
 
@@ -88,12 +91,12 @@ static void check_frame(const struct rho_frame *frame)
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &frame->scans[i];
 
-        must(i == 0 || scan->sensor_id > scan[-1].sensor_id);
-        must(is_within(scan->x_m, RHO_LIMIT_POSITION_M) &&
-             is_within(scan->y_m, RHO_LIMIT_POSITION_M));
+        abort_unless(i == 0 || scan->sensor_id > scan[-1].sensor_id);
+        abort_unless(is_within(scan->x_m, RHO_LIMIT_POSITION_M) &&
+                     is_within(scan->y_m, RHO_LIMIT_POSITION_M));
         for (uint32_t k = 0; k < scan->num_bearings; k++) {
-            must(is_within(scan->bearings[k].bearing_rad, 3.1415928f));
-            must(is_within(scan->bearings[k].sigma_rad, RHO_LIMIT_SIGMA_RAD_MAX));
+            abort_unless(is_within(scan->bearings[k].bearing_rad, 3.1415928f));
+            abort_unless(is_within(scan->bearings[k].sigma_rad, RHO_LIMIT_SIGMA_RAD_MAX));
         }
     }
 }
@@ -107,16 +110,16 @@ static void read_frames(char *path, const struct parameters *parameters, bool ke
     uint64_t num_frames = 0;
 
     while ((frame = bearing_frame_reader_next(reader))) {
-        must(frame->time_us >= before_us && frame->num_scans <= RHO_MAX_SENSORS);
+        abort_unless(frame->time_us >= before_us && frame->num_scans <= RHO_MAX_SENSORS);
         before_us = frame->time_us;
         num_frames++;
         check_frame(frame);
     }
-    must(num_frames == bearing_frame_reader_num_frames(reader));
+    abort_unless(num_frames == bearing_frame_reader_num_frames(reader));
     bearing_frame_reader_close(reader);
 }
 
-static void read_drawing(char *path, const struct parameters *parameters)
+static void read_plot_command_data(char *path, const struct parameters *parameters)
 {
     struct picture_data data = picture_data_read(&path, 1, parameters);
 
@@ -147,11 +150,11 @@ static void read_file(void *context)
         read_frames(reading->path, &reading->parameters, keep_going);
         break;
     default:
-        read_drawing(reading->path, &reading->parameters);
+        read_plot_command_data(reading->path, &reading->parameters);
     }
 }
 
-/* Where there is an origin latitudes and longitudes are read, and sensor 3 stands on the earth. */
+/* With an origin set, latitudes and longitudes are read, and sensor 3 has a geodetic place. */
 static void set_origin(struct parameters *parameters, bool is_set)
 {
     const enum parameter_source source = is_set ? SOURCE_SET : SOURCE_UNSET;
@@ -169,12 +172,12 @@ static void set_origin(struct parameters *parameters, bool is_set)
 }
 
 /*
- * What PROJ keeps for the whole program is there before a run's memory is looked at. It does
- * without its database.
+ * Creates what PROJ keeps for the whole process before the first run's memory is counted; PROJ
+ * works without its database.
  */
-static void warm_up(struct parameters *parameters)
+static void open_what_the_process_keeps(struct parameters *parameters)
 {
-    must(setenv("PROJ_DATA", "/nonexistent", 1) == 0);
+    abort_unless(setenv("PROJ_DATA", "/nonexistent", 1) == 0);
     set_origin(parameters, true);
     local_frame_close(parameters_open_local_frame(parameters));
 }
@@ -187,8 +190,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!reading.path) {
         reading.path = refusal_write_file(data, 0);
         parameters_set_defaults(&reading.parameters);
-        warm_up(&reading.parameters);
-        refusal_begin();
+        open_what_the_process_keeps(&reading.parameters);
+        refusal_install_hooks();
     }
     if (size == 0) {
         return 0;
@@ -197,6 +200,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     set_origin(&reading.parameters, (data[0] & 16) != 0);
     reading.parameters.value[PARAMETER_SCAN_INTERVAL_S] = (data[0] & 8) != 0 ? 0.5 : 0.0;
     reading.which = data[0];
-    refusal_ends(read_file, &reading);
+    refusal_is_refused(read_file, &reading);
     return 0;
 }

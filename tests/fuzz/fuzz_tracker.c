@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tracker, initiators and passive initiators over a script: the bytes are decoded into
- * configurations, descriptions of sensors and a sequence of calls, good and bad ones: scans and
- * frames of a few moving targets among clutter, with any number in any field, time that stands
- * still, jumps and goes back, sectors, full capacities, piles of plots, images saved and loaded.
- * Through the public headers alone. After each call the promises of these headers are checked; the
- * first that is broken is named.
- *
- * Built twice: with the embedded profile (fuzz_tracker), and with capacities that a short script
- * exhausts (fuzz_tracker_small).
+ * Tracker, initiators and passive initiators driven by a script: its bytes are decoded into
+ * configurations, descriptions of sensors and a sequence of good and bad calls: scans and frames of
+ * a few moving targets among clutter, with any number in any field, time that stands still, jumps
+ * and goes back, sectors, full capacities, many plots at one place, images saved and loaded. It
+ * uses the public headers alone. After each call the guarantees of these headers are checked; the
+ * first one broken is named. Built twice: with the embedded profile (fuzz_tracker), and with
+ * capacities that a short script exhausts (fuzz_tracker_small).
  */
 #include <float.h>
 #include <math.h>
@@ -25,14 +23,13 @@
 #define PI 3.14159265358979323846
 
 #define STEPS_MAX (RHO_MAX_PLOTS > 100 ? 60u : 160u)
-#define FULL_SCANS_MAX 6u /* of a script: scans with many plots are slow */
-#define IMAGES_MAX 3u     /* saved by a script */
+#define FULL_SCANS_MAX 6u /* scans with very many plots per script: they are slow */
+#define IMAGES_MAX 3u     /* images saved per script */
 #define PLOTS_MAX (4u * RHO_MAX_PLOTS + 64u)
 #define RADARS 6u
 #define LOOKS_MAX 6u /* passive sensors */
 #define BEARINGS_MAX (2u * RHO_MAX_BEARINGS + 8u)
-#define LONE                                                                                       \
-    2u /* initiators 0 and 1 are the tracker's; this one is pushed and searched by itself */
+#define LONE 2u /* the tracker uses initiators 0 and 1; the third one is called directly */
 #define INITIATORS 3u
 #define PASSIVES 2u
 #define PARTS (1u + INITIATORS + PASSIVES)
@@ -40,12 +37,12 @@
     (1024u + sizeof(struct rho_tracker) + INITIATORS * sizeof(struct rho_initiator) +              \
      PASSIVES * sizeof(struct rho_passive) + 8u * PARTS)
 
-/* Least eigenvalue of a correlation matrix that rounding may leave: the filters work in float. */
+/* Smallest eigenvalue of a correlation matrix that float rounding may leave in the filters. */
 #define CORRELATION_ROUNDING 1e-3
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* ---- what must hold -------------------------------------------------------------------------- */
+/* ---- a condition that is checked ------------------------------------------------------------- */
 
 static unsigned step_number;
 
@@ -66,7 +63,7 @@ struct script {
 };
 
 /* The next byte; 0 behind the end. */
-static unsigned byte(struct script *script)
+static unsigned read_byte(struct script *script)
 {
     if (script->size == 0) {
         return 0;
@@ -75,27 +72,27 @@ static unsigned byte(struct script *script)
     return *script->data++;
 }
 
-static uint32_t word(struct script *script)
+static uint32_t read_word(struct script *script)
 {
     uint32_t value = 0;
 
     for (unsigned i = 0; i < 4; i++) {
-        value = value << 8 | byte(script);
+        value = value << 8 | read_byte(script);
     }
     return value;
 }
 
-static int64_t long_word(struct script *script)
+static int64_t read_long_word(struct script *script)
 {
-    const uint64_t high = word(script), bits = high << 32 | word(script);
+    const uint64_t high = read_word(script), bits = high << 32 | read_word(script);
     int64_t value;
 
     memcpy(&value, &bits, sizeof value);
     return value;
 }
 
-/* Any number at all: those at which arithmetic and limits change first. */
-static float odd_number(struct script *script)
+/* An extreme float: values near which arithmetic and limits change first. */
+static float read_extreme_float(struct script *script)
 {
     static const float numbers[] = {NAN,
                                     INFINITY,
@@ -111,7 +108,7 @@ static float odd_number(struct script *script)
                                     -0.0f,
                                     RHO_LIMIT_POSITION_M,
                                     -RHO_LIMIT_POSITION_M,
-                                    2000000.25f, /* just beyond it */
+                                    2000000.25f, /* just beyond the limit of positions */
                                     RHO_LIMIT_SPEED_MPS,
                                     -RHO_LIMIT_SPEED_MPS,
                                     RHO_LIMIT_SIGMA_MIN,
@@ -129,7 +126,7 @@ static float odd_number(struct script *script)
                                     1e4f,
                                     1e5f,
                                     1e6f};
-    const unsigned which = byte(script);
+    const unsigned which = read_byte(script);
     uint32_t bits;
     float number;
 
@@ -142,25 +139,26 @@ static float odd_number(struct script *script)
     if (which < 240) {
         return 1000.0f * ((float)which - 200.0f);
     }
-    bits = word(script);
+    bits = read_word(script);
     memcpy(&number, &bits, sizeof number);
     return number;
 }
 
-/* ---- the world that is seen ------------------------------------------------------------------ */
+/* ---- the simulated world --------------------------------------------------------------------- */
 
 struct look_from {
     int32_t sensor_id;
     float x_m, y_m;
     uint32_t measures;
-    unsigned sectors; /* of a turn; 1: the whole circle */
-    unsigned next;    /* sector */
+    unsigned sectors; /* sectors in a turn; 1: whole circle */
+    unsigned next;    /* next sector */
 };
 
 static struct world {
     uint64_t random;
     int64_t time_us;
-    double clock_s; /* of the targets: what no one believes of the time does not move them */
+    /* time of the targets' motion, which does not follow time jumps that the tracker refuses */
+    double clock_s;
     unsigned num_targets, full_scans, images;
     struct look_from radars[RADARS], posts[LOOKS_MAX];
 } world;
@@ -185,10 +183,10 @@ static void begin_world(struct script *script)
     static const uint32_t measures[4] = {0, RHO_MEASURES_RANGE_RATE, RHO_MEASURES_Z,
                                          RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE |
                                              RHO_MEASURES_VELOCITY};
-    const unsigned how = byte(script), turns = byte(script);
+    const unsigned how = read_byte(script), turns = read_byte(script);
 
     memset(&world, 0, sizeof world);
-    world.random = 1 + byte(script);
+    world.random = 1 + read_byte(script);
     world.num_targets = 1 + how % 6;
     for (unsigned i = 0; i < RADARS; i++) {
         world.radars[i] = (struct look_from){.sensor_id = ids[i],
@@ -204,8 +202,8 @@ static void begin_world(struct script *script)
     }
 }
 
-/* The time of the next scan, from one byte: an interval, mostly. */
-static int64_t next_time(struct script *script)
+/* The time of the next scan from one byte of the script: usually one interval later. */
+static int64_t read_next_time_us(struct script *script)
 {
     static const int64_t odd_us[] = {0,
                                      0,
@@ -222,7 +220,7 @@ static int64_t next_time(struct script *script)
                                      100000000000,
                                      INT64_C(1000000000000000),
                                      INT64_C(-1000000000000000)};
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
     int64_t step_us = 250000 * (int64_t)(1 + how % 16), time_us;
 
     if (how >= 208) {
@@ -231,7 +229,7 @@ static int64_t next_time(struct script *script)
         if (which >= sizeof odd_us / sizeof odd_us[0]) {
             return which < 20   ? RHO_LIMIT_TIME_US
                    : which < 24 ? -RHO_LIMIT_TIME_US
-                                : long_word(script);
+                                : read_long_word(script);
         }
         step_us = odd_us[which];
     }
@@ -246,7 +244,7 @@ static int64_t next_time(struct script *script)
     return time_us;
 }
 
-/* ---- the objects, and what is known of them -------------------------------------------------- */
+/* ---- the objects and what is known of them --------------------------------------------------- */
 
 static struct pipeline {
     struct rho_tracker tracker;
@@ -255,14 +253,17 @@ static struct pipeline {
     struct rho_report report;
 } chain, before, first_run;
 
-/* Objects that a call may change, bits; `before` has all objects as they were before it. */
-#define TRACKER 1u /* and its report */
+/*
+ * Bits for the objects that a call may change; `before` holds all objects as they were before the
+ * call.
+ */
+#define TRACKER 1u /* and the report */
 #define INITIATOR(i) (2u << (i))
 #define PASSIVE(i) (2u << INITIATORS << (i))
 #define ALL (PASSIVE(PASSIVES) - 1u)
 static unsigned touched;
 
-static void remember(void)
+static void copy_objects_before(void)
 {
     if (touched & TRACKER) {
         before.tracker = chain.tracker;
@@ -281,13 +282,13 @@ static void remember(void)
     touched = 0;
 }
 
-/* Tracks that live, by the reports. */
+/* Live tracks, as the reports list them. */
 static struct known {
     unsigned num;
     uint32_t track_id[RHO_MAX_TRACKS];
     uint8_t was_confirmed[RHO_MAX_TRACKS];
-    uint32_t highest; /* identity ever */
-    int was_batch;    /* the lone initiator's worst search may have been one */
+    uint32_t highest; /* highest identity ever reported */
+    int was_batch;    /* the largest search of initiator 2 may have been a batch */
 } known, known_first;
 
 static _Alignas(RHO_SNAPSHOT_ALIGNMENT) uint8_t image[IMAGE_MAX];
@@ -295,7 +296,7 @@ static size_t image_bytes;
 static struct known known_of_image;
 static struct world world_of_image;
 
-static int finite_all(const float *numbers, size_t count)
+static int are_all_finite(const float *numbers, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(numbers[i])) {
@@ -306,8 +307,8 @@ static int finite_all(const float *numbers, size_t count)
 }
 
 /*
- * Positive semidefinite: the correlations and a little of the identity have a Cholesky factor.
- * Closed axes are all 0.
+ * Whether a covariance is positive semidefinite: its correlations plus a small multiple of the
+ * identity have a Cholesky factor. Closed axes are all 0.
  */
 static int is_covariance(const float *lower, int n)
 {
@@ -388,16 +389,16 @@ static void check_track(const struct rho_track_report *track, uint32_t num_plots
 {
     HOLDS("a reported track is alive",
           track->status > RHO_TRACK_FREE && track->status < RHO_NUM_TRACK_STATUS);
-    HOLDS("a reported state is finite", finite_all(track->state, RHO_KALMAN_STATES));
+    HOLDS("a reported state is finite", are_all_finite(track->state, RHO_KALMAN_STATES));
     HOLDS("a reported covariance is finite",
-          finite_all(track->covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)));
+          are_all_finite(track->covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)));
     HOLDS("a reported covariance is positive semidefinite",
           is_covariance(track->covariance, RHO_KALMAN_STATES));
     HOLDS("reported sigmas are finite and not negative",
           isfinite(track->sigma_m) && isfinite(track->sigma_mps) && track->sigma_m >= 0.0f &&
               track->sigma_mps >= 0.0f);
     HOLDS("a reported score is finite", isfinite(track->score_nat));
-    HOLDS("a reported acceleration is finite", finite_all(track->accel_mps2, 3));
+    HOLDS("a reported acceleration is finite", are_all_finite(track->accel_mps2, 3));
     HOLDS("a reported probability is one", rho_is_within(track->maneuver_probability, 0.0f, 1.0f));
     HOLDS("a reported track has a hypothesis", track->num_hypotheses >= 1);
     HOLDS("a reported age is not negative", track->update_age_us >= 0);
@@ -405,7 +406,7 @@ static void check_track(const struct rho_track_report *track, uint32_t num_plots
           track->plot >= -1 && (track->plot < 0 || (uint32_t)track->plot < num_plots));
 }
 
-static unsigned place_in(const struct known *all, uint32_t track_id)
+static unsigned find_known_track(const struct known *all, uint32_t track_id)
 {
     unsigned place = 0;
 
@@ -424,7 +425,7 @@ static void check_identities(void)
           report->num_tracks <= RHO_MAX_TRACKS && report->num_ended <= RHO_MAX_TRACKS);
     for (unsigned i = 0; i < report->num_tracks; i++) {
         const uint32_t track_id = report->tracks[i].track_id;
-        const unsigned place = place_in(&known, track_id);
+        const unsigned place = find_known_track(&known, track_id);
 
         HOLDS("identities are unique and in their order",
               track_id > 0 && (i == 0 || track_id > report->tracks[i - 1].track_id));
@@ -436,14 +437,15 @@ static void check_identities(void)
     }
     now.highest = chain.tracker.next_track_id - 1;
     for (unsigned i = 0; i < report->num_ended; i++) {
-        HOLDS("an ended track is not alive", place_in(&now, report->ended[i]) == now.num);
-        HOLDS("an ended track was there", place_in(&known, report->ended[i]) < known.num);
+        HOLDS("an ended track is not alive", find_known_track(&now, report->ended[i]) == now.num);
+        HOLDS("an ended track was there", find_known_track(&known, report->ended[i]) < known.num);
         for (unsigned j = 0; j < i; j++) {
             HOLDS("a track ends once", report->ended[j] != report->ended[i]);
         }
     }
     for (unsigned i = 0; i < known.num; i++) {
-        int is_told = place_in(&now, known.track_id[i]) < now.num || !known.was_confirmed[i];
+        int is_told =
+            find_known_track(&now, known.track_id[i]) < now.num || !known.was_confirmed[i];
 
         for (unsigned j = 0; j < report->num_ended && !is_told; j++) {
             is_told = report->ended[j] == known.track_id[i];
@@ -454,14 +456,14 @@ static void check_identities(void)
 }
 
 /*
- * Plots that tracks claimed have that fate, two tracks may share one; a new track has one of those
- * that it was found in.
+ * Plots claimed by tracks have the fate CLAIMED, and at most two tracks share one; a new track
+ * names a plot that it was found in.
  */
 static void check_claims(const struct rho_scan *scan)
 {
     for (unsigned i = 0; i < chain.report.num_tracks; i++) {
         const int32_t plot = chain.report.tracks[i].plot;
-        const int is_new = place_in(&known, chain.report.tracks[i].track_id) == known.num;
+        const int is_new = find_known_track(&known, chain.report.tracks[i].track_id) == known.num;
 
         HOLDS("a plot that a track claimed is claimed, one that it was found in is held",
               plot < 0 || plot >= RHO_MAX_PLOTS ||
@@ -490,15 +492,15 @@ static void check_candidates(struct rho_initiator *initiator)
         const float numbers[] = {candidate->x_m,    candidate->y_m, candidate->vx_mps,
                                  candidate->vy_mps, candidate->z_m, candidate->vz_mps};
 
-        HOLDS("a candidate is finite", finite_all(numbers, 6));
+        HOLDS("a candidate is finite", are_all_finite(numbers, 6));
         HOLDS("a candidate's hits are its scans", count_bits(candidate->mask) == candidate->hits);
         HOLDS("candidates are the best first",
               i == 0 || initiator->candidates[i - 1].score_mnat >= candidate->score_mnat);
     }
 }
 
-/* A batch has its work for each scan that kernels end in. */
-static void check_work(const struct rho_initiator *initiator, int is_batch)
+/* Bounds the work of a search; a batch has work_max for each scan in which kernels end. */
+static void check_search_work(const struct rho_initiator *initiator, int is_batch)
 {
     const struct rho_initiator_budget *budget = &initiator->budget;
     uint64_t most = initiator->config.work_max;
@@ -539,14 +541,14 @@ static void check_passive(struct rho_passive *passive)
                 hits += track->claim[k][s] > 0;
             }
         }
-        HOLDS("a track of bearings is finite", finite_all(numbers, 5));
-        HOLDS("its covariance is finite", finite_all(track->covariance, 10));
+        HOLDS("a track of bearings is finite", are_all_finite(numbers, 5));
+        HOLDS("its covariance is finite", are_all_finite(track->covariance, 10));
         HOLDS("its covariance is positive semidefinite", is_covariance(track->covariance, 4));
         HOLDS("its hits are its claims", hits == track->hits);
     }
 }
 
-/* Those that the call may have changed. */
+/* Checks the objects that the call may have changed. */
 static void check_objects(void)
 {
     HOLDS("the tracker is sound", !(touched & TRACKER) || rho_tracker_is_sound(&chain.tracker));
@@ -557,7 +559,7 @@ static void check_objects(void)
         }
         HOLDS("the initiator is sound", rho_initiator_is_sound(&chain.initiators[i]));
         check_candidates(&chain.initiators[i]);
-        check_work(&chain.initiators[i], i == LONE && known.was_batch);
+        check_search_work(&chain.initiators[i], i == LONE && known.was_batch);
     }
     for (unsigned i = 0; i < PASSIVES; i++) {
         if (touched & PASSIVE(i)) {
@@ -574,8 +576,8 @@ static void check_unchanged(enum rho_status status)
           memcmp(&before, &chain, sizeof chain) == 0);
 }
 
-/* Older than late_max: but for counters nothing changes. */
-static void check_too_late(void)
+/* A scan older than late_max_s changes only counters. */
+static void check_only_counters_changed(void)
 {
     HOLDS("a scan that is too late counts",
           chain.tracker.counters.scans_late > before.tracker.counters.scans_late);
@@ -586,7 +588,7 @@ static void check_too_late(void)
               memcmp(before.passives, chain.passives, sizeof chain.passives) == 0);
 }
 
-/* After a step that was taken; of a frame there is no scan. */
+/* Checks after an accepted step; scan is NULL for a frame of bearings. */
 static void check_step(uint32_t num_plots, int64_t time_us, const struct rho_scan *scan)
 {
     const int is_late = before.tracker.has_time && time_us < before.tracker.time_us;
@@ -607,7 +609,7 @@ static void check_step(uint32_t num_plots, int64_t time_us, const struct rho_sca
         HOLDS("only a late scan is refused as late", is_late);
         HOLDS("all plots of a scan that is too late are stale",
               chain.report.fates_total[RHO_FATE_STALE] == num_plots);
-        check_too_late();
+        check_only_counters_changed();
     }
     check_objects();
 }
@@ -619,7 +621,7 @@ static const uint32_t works[8] = {RHO_WORK_MAX, 0, 1, 1000, 20000, RHO_LIMIT_WOR
 static int configure_tracker(struct script *script)
 {
     struct rho_tracker_config config;
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
     enum rho_status status;
 
     rho_tracker_config_default(&config);
@@ -646,16 +648,16 @@ static int configure_tracker(struct script *script)
             &config.input.noise_mps,
             &config.input.velocity_variance
         };
-        const unsigned field = byte(script), num = sizeof floats / sizeof floats[0];
+        const unsigned field = read_byte(script), num = sizeof floats / sizeof floats[0];
 
         if (field % 16 < num) {
-            *floats[field % 16] = odd_number(script);
+            *floats[field % 16] = read_extreme_float(script);
         } else if (field < 128) {
-            config.coast_scans_max = (uint16_t)byte(script);
+            config.coast_scans_max = (uint16_t)read_byte(script);
         } else if (field < 192) {
-            config.planes = (uint8_t)byte(script);
+            config.planes = (uint8_t)read_byte(script);
         } else {
-            config.work_max = works[byte(script) % 8];
+            config.work_max = works[read_byte(script) % 8];
         }
     }
     status = rho_tracker_init(&chain.tracker, sizeof chain.tracker, &config);
@@ -670,12 +672,13 @@ static int configure_tracker(struct script *script)
 static int configure_initiator(struct script *script, struct rho_initiator *initiator)
 {
     struct rho_initiator_config config;
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
     enum rho_status status;
 
     rho_initiator_config_default(&config);
     config.work_max = works[how % 8];
-    config.false_tracks_per_hour = how >> 3 & 1 ? 0.0f : 1.0f; /* thresholds cost most of a step */
+    /* 0 saves the thresholds, the costliest part of a step */
+    config.false_tracks_per_hour = how >> 3 & 1 ? 0.0f : 1.0f;
     config.scans = (uint16_t)(how >> 4 & 1 ? 3 : config.scans);
     for (unsigned edits = how >> 5; edits > 0; edits--) {
         float *const floats[] = {&config.v_min_mps,
@@ -689,16 +692,16 @@ static int configure_initiator(struct script *script, struct rho_initiator *init
                                  &config.area.x_max_m,
                                  &config.area.y_min_m,
                                  &config.area.y_max_m};
-        const unsigned field = byte(script) % 17;
+        const unsigned field = read_byte(script) % 17;
 
         if (field < 11) {
-            *floats[field] = odd_number(script);
+            *floats[field] = read_extreme_float(script);
         } else if (field < 13) {
-            config.scans = (uint16_t)(byte(script) % (RHO_MAX_SCANS + 2));
+            config.scans = (uint16_t)(read_byte(script) % (RHO_MAX_SCANS + 2));
         } else if (field < 15) {
-            config.min_scans = (uint16_t)(byte(script) % (RHO_MAX_SCANS + 2));
+            config.min_scans = (uint16_t)(read_byte(script) % (RHO_MAX_SCANS + 2));
         } else {
-            const float half_m = 1e3f * (float)(1 + byte(script));
+            const float half_m = 1e3f * (float)(1 + read_byte(script));
 
             config.area_is_fixed = 1;
             config.area = (struct rho_extent){-half_m, half_m, -half_m, half_m};
@@ -716,7 +719,7 @@ static int configure_initiator(struct script *script, struct rho_initiator *init
 static int configure_passive(struct script *script, struct rho_passive *passive)
 {
     struct rho_passive_config config;
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
     enum rho_status status;
 
     rho_passive_config_default(&config);
@@ -734,7 +737,7 @@ static int configure_passive(struct script *script, struct rho_passive *passive)
                                  &config.theta_cell_rad,
                                  &config.false_tracks_per_hour};
 
-        *floats[byte(script) % 8] = odd_number(script);
+        *floats[read_byte(script) % 8] = read_extreme_float(script);
     }
     status = rho_passive_init(passive, sizeof *passive, &config);
     if (status != RHO_OK) {
@@ -746,36 +749,36 @@ static int configure_passive(struct script *script, struct rho_passive *passive)
     return status == RHO_OK;
 }
 
-/* Of fresh memory, whatever it held. */
-static void begin(struct script *script, int fill)
+/* Initialises the objects in memory filled with any byte. */
+static void start_objects(struct script *script, int fill)
 {
     int is_ready = 1;
 
     memset(&chain, fill, sizeof chain);
     memset(&chain.report, 0, sizeof chain.report);
     touched = ALL;
-    remember();
+    copy_objects_before();
     memset(&known, 0, sizeof known);
     image_bytes = 0;
     step_number = 0;
     begin_world(script);
     is_ready = configure_tracker(script);
     touched = TRACKER;
-    remember();
+    copy_objects_before();
     for (unsigned i = 0; i < INITIATORS; i++) {
         is_ready = configure_initiator(script, &chain.initiators[i]) && is_ready;
         touched = INITIATOR(i);
-        remember();
+        copy_objects_before();
     }
     for (unsigned i = 0; i < PASSIVES; i++) {
         is_ready = configure_passive(script, &chain.passives[i]) && is_ready;
         touched = PASSIVE(i);
-        remember();
+        copy_objects_before();
     }
     HOLDS("default configurations are taken", is_ready);
     touched = ALL;
     check_objects();
-    remember();
+    copy_objects_before();
 }
 
 /* ---- scans of plots -------------------------------------------------------------------------- */
@@ -806,7 +809,7 @@ static int is_in_sector(const struct rho_scan *scan, const struct look_from *fro
            fmod(azimuth_rad - (double)scan->sector_from_rad + 4 * PI, 2 * PI) < width_rad;
 }
 
-/* The sector that comes next, in float as a radar's program would have it. */
+/* Sets the next sector, computed in float as a radar's program would. */
 static void set_sector(struct look_from *from, float *sector_from_rad, float *sector_to_rad)
 {
     const float width_rad = (float)(2 * PI / from->sectors);
@@ -819,15 +822,16 @@ static void set_sector(struct look_from *from, float *sector_from_rad, float *se
 }
 
 /*
- * Clutter: spread out, in one place, on a target, or on a line that moves; few, or more than there
- * is room for.
+ * Adds clutter: spread out, in one place, on a target, or on a moving line; few plots, or more than
+ * the capacity.
  */
 static uint32_t add_clutter(struct script *script, struct rho_plot *plots, uint32_t num)
 {
-    const unsigned how = byte(script);
-    uint32_t more = how % 8 < 6 || world.full_scans >= FULL_SCANS_MAX
-                        ? byte(script) % 16
-                        : (how % 8 == 6 ? RHO_MAX_PLOTS / 2 : 2 * RHO_MAX_PLOTS) + byte(script);
+    const unsigned how = read_byte(script);
+    uint32_t more =
+        how % 8 < 6 || world.full_scans >= FULL_SCANS_MAX
+            ? read_byte(script) % 16
+            : (how % 8 == 6 ? RHO_MAX_PLOTS / 2 : 2 * RHO_MAX_PLOTS) + read_byte(script);
 
     world.full_scans += more > RHO_MAX_PLOTS / 2;
     for (; more > 0 && num < PLOTS_MAX; more--) {
@@ -866,31 +870,31 @@ static void edit_plot(struct script *script, struct rho_plot *plot)
                              &plot->sigma_mps,
                              &plot->sigma_range_rate_mps,
                              &plot->snr_db};
-    const unsigned field = byte(script) % 16;
+    const unsigned field = read_byte(script) % 16;
 
     if (field < 13) {
-        *floats[field] = odd_number(script);
+        *floats[field] = read_extreme_float(script);
     } else if (field < 15) {
-        plot->offset_us = 1000000 * ((int32_t)byte(script) % 128 - 64);
+        plot->offset_us = 1000000 * ((int32_t)read_byte(script) % 128 - 64);
     } else {
-        const uint32_t bits = word(script);
+        const uint32_t bits = read_word(script);
 
         memcpy(&plot->offset_us, &bits, sizeof bits);
     }
 }
 
-/* The scan as a whole. */
+/* Changes a field of the whole scan. */
 static void edit_scan(struct script *script, struct rho_scan *scan)
 {
-    switch (byte(script) % 8) {
+    switch (read_byte(script) % 8) {
     case 0:
-        scan->sector_from_rad = odd_number(script);
+        scan->sector_from_rad = read_extreme_float(script);
         break;
     case 1:
-        scan->sector_to_rad = odd_number(script);
+        scan->sector_to_rad = read_extreme_float(script);
         break;
     case 2:
-        scan->measures = word(script);
+        scan->measures = read_word(script);
         break;
     case 3:
         scan->plots = NULL;
@@ -899,9 +903,9 @@ static void edit_scan(struct script *script, struct rho_scan *scan)
         scan->num_plots = 0;
         break;
     case 5:
-        scan->sensor_id = (int32_t)byte(script) - 100;
+        scan->sensor_id = (int32_t)read_byte(script) - 100;
         break;
-    default: /* all plots alike */
+    default: /* makes all plots equal */
         for (uint32_t i = 1; i < scan->num_plots; i++) {
             ((struct rho_plot *)(uintptr_t)scan->plots)[i] = scan->plots[0];
         }
@@ -909,13 +913,13 @@ static void edit_scan(struct script *script, struct rho_scan *scan)
 }
 
 /*
- * Bits of a scan's first byte: 0 .. 2 radar, 3 and 4 initiator, 5 clutter, 6 changes of plots, 7
- * changes of the scan.
+ * Bits of a scan's first byte: 0 .. 2 radar, 3 and 4 initiator, 5 clutter, 6 changed plots, 7
+ * changed scan.
  */
 static struct rho_scan make_scan(struct script *script, unsigned how, struct rho_plot *plots)
 {
     struct look_from *from = &world.radars[how % 8 % RADARS];
-    struct rho_scan scan = {.time_us = next_time(script),
+    struct rho_scan scan = {.time_us = read_next_time_us(script),
                             .sensor_id = from->sensor_id,
                             .measures = from->measures,
                             .plots = plots};
@@ -933,8 +937,8 @@ static struct rho_scan make_scan(struct script *script, unsigned how, struct rho
         scan.num_plots = add_clutter(script, plots, scan.num_plots);
     }
     if (how & 64) {
-        for (unsigned edits = 1 + byte(script) % 4; edits > 0 && scan.num_plots > 0; edits--) {
-            edit_plot(script, &plots[byte(script) % scan.num_plots]);
+        for (unsigned edits = 1 + read_byte(script) % 4; edits > 0 && scan.num_plots > 0; edits--) {
+            edit_plot(script, &plots[read_byte(script) % scan.num_plots]);
         }
     }
     if (how & 128) {
@@ -943,8 +947,8 @@ static struct rho_scan make_scan(struct script *script, unsigned how, struct rho
     return scan;
 }
 
-/* The plots in memory of exactly their size. */
-static struct rho_plot *exact_plots(const struct rho_scan *scan)
+/* Copies the plots into memory of exactly their size. */
+static struct rho_plot *copy_plots_to_exact_memory(const struct rho_scan *scan)
 {
     const size_t bytes = scan->num_plots * sizeof *scan->plots;
     struct rho_plot *plots = malloc(bytes > 0 ? bytes : 1);
@@ -959,9 +963,9 @@ static struct rho_plot *exact_plots(const struct rho_scan *scan)
 static void step_scan(struct script *script)
 {
     static struct rho_plot plots[PLOTS_MAX];
-    const unsigned how = byte(script), which = how >> 3 & 3;
+    const unsigned how = read_byte(script), which = how >> 3 & 3;
     struct rho_scan scan = make_scan(script, how, plots);
-    struct rho_plot *exact = exact_plots(&scan);
+    struct rho_plot *exact = copy_plots_to_exact_memory(&scan);
     enum rho_status status;
 
     scan.plots = scan.plots ? exact : NULL;
@@ -977,12 +981,12 @@ static void step_scan(struct script *script)
     free(exact);
 }
 
-/* ---- an initiator by itself ------------------------------------------------------------------ */
+/* ---- an initiator without a tracker ---------------------------------------------------------- */
 
-static void search_lone(struct script *script)
+static void search_own_initiator(struct script *script)
 {
     struct rho_initiator *lone = &chain.initiators[LONE];
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
     enum rho_status status;
 
     touched = INITIATOR(LONE);
@@ -999,20 +1003,20 @@ static void search_lone(struct script *script)
     check_objects();
 }
 
-static void push_lone(struct script *script)
+static void push_to_own_initiator(struct script *script)
 {
     static struct rho_plot plots[PLOTS_MAX];
     static uint8_t fates[PLOTS_MAX], fates_before[PLOTS_MAX];
     struct rho_initiator *lone = &chain.initiators[LONE];
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
     struct rho_scan scan = make_scan(script, how & ~128u, plots);
-    struct rho_plot *exact = exact_plots(&scan);
+    struct rho_plot *exact = copy_plots_to_exact_memory(&scan);
     uint32_t left_unused = 0;
     enum rho_status status;
 
     scan.plots = exact;
     if (scan.time_us > RHO_LIMIT_TIME_US || scan.time_us < -RHO_LIMIT_TIME_US) {
-        scan.time_us = world.time_us; /* pushes take valid scans */
+        scan.time_us = world.time_us; /* pushes need valid scans */
     }
     for (uint32_t i = 0; i < scan.num_plots; i++) {
         const int is_held = rho_measurement_is_valid_plot(&scan.plots[i], scan.measures);
@@ -1045,8 +1049,8 @@ struct bearings {
     struct rho_bearing bearings[LOOKS_MAX][BEARINGS_MAX];
 };
 
-static void see_targets(struct rho_bearing_scan *look, const struct look_from *from,
-                        struct rho_bearing *bearings)
+static void add_bearings_of_targets(struct rho_bearing_scan *look, const struct look_from *from,
+                                    struct rho_bearing *bearings)
 {
     const struct rho_scan sector = {.sector_from_rad = look->sector_from_rad,
                                     .sector_to_rad = look->sector_to_rad};
@@ -1066,28 +1070,28 @@ static void see_targets(struct rho_bearing_scan *look, const struct look_from *f
 
 static void edit_frame(struct script *script, struct rho_frame *frame, struct bearings *seen)
 {
-    const unsigned which = byte(script), s = byte(script) % LOOKS_MAX;
+    const unsigned which = read_byte(script), s = read_byte(script) % LOOKS_MAX;
     struct rho_bearing_scan *look = &seen->looks[s];
-    struct rho_bearing *bearing = &seen->bearings[s][byte(script) % BEARINGS_MAX];
+    struct rho_bearing *bearing = &seen->bearings[s][read_byte(script) % BEARINGS_MAX];
 
     switch (which % 12) {
     case 0:
-        look->x_m = odd_number(script);
+        look->x_m = read_extreme_float(script);
         break;
     case 1:
-        look->y_m = odd_number(script);
+        look->y_m = read_extreme_float(script);
         break;
     case 2:
-        look->sector_from_rad = odd_number(script);
+        look->sector_from_rad = read_extreme_float(script);
         break;
     case 3:
-        look->sector_to_rad = odd_number(script);
+        look->sector_to_rad = read_extreme_float(script);
         break;
     case 4:
-        look->time_us += (int64_t)byte(script) * 500000 - 64000000;
+        look->time_us += (int64_t)read_byte(script) * 500000 - 64000000;
         break;
     case 5:
-        look->sensor_id = (int32_t)byte(script) % 32;
+        look->sensor_id = (int32_t)read_byte(script) % 32;
         break;
     case 6:
         look->bearings = NULL;
@@ -1096,16 +1100,16 @@ static void edit_frame(struct script *script, struct rho_frame *frame, struct be
         frame->scans = NULL;
         break;
     case 8:
-        look->time_us = long_word(script);
+        look->time_us = read_long_word(script);
         break;
     case 9:
-        bearing->offset_us = (int32_t)(word(script) >> 1);
+        bearing->offset_us = (int32_t)(read_word(script) >> 1);
         break;
     case 10:
-        bearing->sigma_rad = odd_number(script);
+        bearing->sigma_rad = read_extreme_float(script);
         break;
     default:
-        bearing->bearing_rad = odd_number(script);
+        bearing->bearing_rad = read_extreme_float(script);
     }
 }
 
@@ -1115,7 +1119,7 @@ static void edit_frame(struct script *script, struct rho_frame *frame, struct be
  */
 static struct rho_frame make_frame(struct script *script, unsigned how, struct bearings *seen)
 {
-    struct rho_frame frame = {.time_us = next_time(script),
+    struct rho_frame frame = {.time_us = read_next_time_us(script),
                               .num_scans = how % 8 < LOOKS_MAX ? how % 8 : 3,
                               .scans = seen->looks};
 
@@ -1130,12 +1134,12 @@ static struct rho_frame make_frame(struct script *script, unsigned how, struct b
                                           .y_m = from->y_m,
                                           .bearings = seen->bearings[s]};
         set_sector(from, &look->sector_from_rad, &look->sector_to_rad);
-        see_targets(look, from, seen->bearings[s]);
+        add_bearings_of_targets(look, from, seen->bearings[s]);
     }
     if (how & 16) {
-        struct rho_bearing_scan *look = &seen->looks[byte(script) % LOOKS_MAX];
+        struct rho_bearing_scan *look = &seen->looks[read_byte(script) % LOOKS_MAX];
 
-        for (unsigned more = byte(script) % BEARINGS_MAX;
+        for (unsigned more = read_byte(script) % BEARINGS_MAX;
              more > 0 && look->num_bearings < BEARINGS_MAX; more--) {
             ((struct rho_bearing *)(uintptr_t)look->bearings)[look->num_bearings++] =
                 (struct rho_bearing){.bearing_rad = (float)uniform(-3.14, 3.14),
@@ -1151,7 +1155,7 @@ static struct rho_frame make_frame(struct script *script, unsigned how, struct b
 static void step_frame(struct script *script)
 {
     static struct bearings seen;
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
     struct rho_frame frame = make_frame(script, how, &seen);
     uint32_t num_bearings = 0;
     enum rho_status status;
@@ -1170,12 +1174,12 @@ static void step_frame(struct script *script)
     }
 }
 
-static void use_lone_passive(struct script *script)
+static void use_own_passive_initiator(struct script *script)
 {
     static struct bearings seen;
     static uint8_t fates[LOOKS_MAX * BEARINGS_MAX], fates_before[LOOKS_MAX * BEARINGS_MAX];
     struct rho_passive *lone = &chain.passives[1];
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
     struct rho_frame frame;
     enum rho_status status, accepts;
 
@@ -1184,7 +1188,7 @@ static void use_lone_passive(struct script *script)
         if (how & 1 && lone->num_tracks > 0) {
             HOLDS("a track of the last search has bearings to take",
                   rho_passive_consume(lone, &lone->tracks[0]) <= lone->tracks[0].hits);
-            lone->num_tracks = 0; /* each may be taken once */
+            lone->num_tracks = 0; /* each found track may be taken once */
         } else {
             status = rho_passive_search(lone);
             HOLDS("a search is taken", status == RHO_OK);
@@ -1202,7 +1206,8 @@ static void use_lone_passive(struct script *script)
         check_unchanged(status);
         HOLDS("a refused frame leaves the fates", memcmp(fates, fates_before, sizeof fates) == 0);
     } else if (frame.time_us > world.time_us && frame.time_us <= RHO_LIMIT_TIME_US) {
-        world.time_us = frame.time_us; /* batches take any time, pushes of scans do not */
+        /* batches accept any time, so the world's clock need not follow */
+        world.time_us = frame.time_us;
     }
     check_objects();
 }
@@ -1211,7 +1216,7 @@ static void use_lone_passive(struct script *script)
 
 static void describe_sensor(struct script *script)
 {
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
     const struct look_from *from =
         how & 8 ? &world.posts[how % 8 % LOOKS_MAX] : &world.radars[how % 8 % RADARS];
     struct rho_sensor sensor = {.sensor_id = from->sensor_id,
@@ -1238,15 +1243,17 @@ static void describe_sensor(struct script *script)
             &sensor.range_rate_span_mps,
 #endif
         };
-        *floats[byte(script) % (sizeof floats / sizeof floats[0])] = odd_number(script);
+        *floats[read_byte(script) % (sizeof floats / sizeof floats[0])] =
+            read_extreme_float(script);
     }
 #if RHO_AMBIGUOUS_RANGE_RATES
     if (how & 64) {
-        sensor.range_rate_span_mps = 1.0f + (float)byte(script);
+        sensor.range_rate_span_mps = 1.0f + (float)read_byte(script);
     }
 #endif
     if (how & 128) {
-        sensor.sensor_id = (int32_t)byte(script) + 100; /* one more */
+        sensor.sensor_id =
+            (int32_t)read_byte(script) + 100; /* one more sensor, of an unused number */
     }
     touched = TRACKER;
     status = rho_tracker_set_sensor(&chain.tracker, &sensor);
@@ -1260,7 +1267,7 @@ static void describe_sensor(struct script *script)
 
 static void forget_sensor(struct script *script)
 {
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
     const int32_t sensor_id = how & 8    ? world.posts[how % 8 % LOOKS_MAX].sensor_id
                               : how & 16 ? (int32_t)how
                                          : world.radars[how % 8 % RADARS].sensor_id;
@@ -1274,7 +1281,7 @@ static void forget_sensor(struct script *script)
     check_objects();
 }
 
-static void list_parts(struct rho_snapshot_part parts[PARTS])
+static void list_snapshot_parts(struct rho_snapshot_part parts[PARTS])
 {
     unsigned num = 0;
 
@@ -1290,7 +1297,7 @@ static void list_parts(struct rho_snapshot_part parts[PARTS])
     }
 }
 
-static void save(const struct rho_snapshot_part parts[PARTS])
+static void save_image(const struct rho_snapshot_part parts[PARTS])
 {
     const enum rho_status status =
         rho_snapshot_save(parts, PARTS, 0, image, sizeof image, &image_bytes);
@@ -1303,34 +1310,31 @@ static void save(const struct rho_snapshot_part parts[PARTS])
     world_of_image = world;
 }
 
-/* Into objects that hold anything. */
-static void load(const struct rho_snapshot_part parts[PARTS])
+/* Loads the image into objects whose memory holds other bytes. */
+static void load_image(const struct rho_snapshot_part parts[PARTS])
 {
     memset(&chain, 0x77, offsetof(struct pipeline, report));
     HOLDS("what was saved can be loaded",
           rho_snapshot_load(parts, PARTS, image, image_bytes) == RHO_OK);
 }
 
-/*
- * An image is saved, and mostly loaded at once; or the last one is loaded, whatever has been
- * stepped since.
- */
+/* Saves an image and mostly loads it at once; or loads the last one, whatever was stepped since. */
 static void save_or_load(struct script *script)
 {
     struct rho_snapshot_part parts[PARTS];
-    const unsigned how = byte(script);
+    const unsigned how = read_byte(script);
 
-    list_parts(parts);
+    list_snapshot_parts(parts);
     touched = ALL;
     if (image_bytes == 0 || (how & 1 && world.images < IMAGES_MAX)) {
-        save(parts);
+        save_image(parts);
         if (!(how & 2)) {
-            load(parts);
+            load_image(parts);
             HOLDS("what is loaded is what was saved, byte for byte",
                   memcmp(&before, &chain, sizeof chain) == 0);
         }
     } else {
-        load(parts);
+        load_image(parts);
         known = known_of_image;
         world_of_image.images = world.images;
         world_of_image.full_scans = world.full_scans;
@@ -1339,8 +1343,8 @@ static void save_or_load(struct script *script)
     check_objects();
 }
 
-/* Calls that no program should make: refused, with nothing changed. */
-static void call_wrongly(struct script *script)
+/* Makes calls with wrong arguments, which are refused and change nothing. */
+static void make_refused_calls(struct script *script)
 {
     static struct rho_plot plot;
     const struct rho_scan scan = {.time_us = world.time_us, .num_plots = 1, .plots = &plot};
@@ -1357,7 +1361,7 @@ static void call_wrongly(struct script *script)
     uint8_t fate;
     enum rho_status status;
 
-    switch (byte(script) % 16) {
+    switch (read_byte(script) % 16) {
     case 0:
         status = rho_tracker_step(NULL, initiator, &scan, report);
         break;
@@ -1410,9 +1414,9 @@ static void call_wrongly(struct script *script)
     check_unchanged(status);
 }
 
-static void ask(struct script *script)
+static void call_queries(struct script *script)
 {
-    const float x_m = odd_number(script), y_m = odd_number(script);
+    const float x_m = read_extreme_float(script), y_m = read_extreme_float(script);
 
     for (unsigned i = 0; i < RADARS; i++) {
 #if RHO_SECTORS
@@ -1435,17 +1439,27 @@ static void ask(struct script *script)
 
 /* ---- one run --------------------------------------------------------------------------------- */
 
-static void run(const uint8_t *data, size_t size, int fill)
+static void run_script(const uint8_t *data, size_t size, int fill)
 {
-    static void (*const rare[])(struct script *) = {
-        describe_sensor,  describe_sensor,  forget_sensor, save_or_load, push_lone,
-        push_lone,        push_lone,        search_lone,   search_lone,  use_lone_passive,
-        use_lone_passive, use_lone_passive, call_wrongly,  ask};
+    static void (*const rare[])(struct script *) = {describe_sensor,
+                                                    describe_sensor,
+                                                    forget_sensor,
+                                                    save_or_load,
+                                                    push_to_own_initiator,
+                                                    push_to_own_initiator,
+                                                    push_to_own_initiator,
+                                                    search_own_initiator,
+                                                    search_own_initiator,
+                                                    use_own_passive_initiator,
+                                                    use_own_passive_initiator,
+                                                    use_own_passive_initiator,
+                                                    make_refused_calls,
+                                                    call_queries};
     struct script script = {data, size};
 
-    begin(&script, fill);
+    start_objects(&script, fill);
     for (step_number = 1; step_number <= STEPS_MAX && script.size > 0; step_number++) {
-        const unsigned what = byte(&script);
+        const unsigned what = read_byte(&script);
 
         if (what < 128) {
             step_scan(&script);
@@ -1454,17 +1468,17 @@ static void run(const uint8_t *data, size_t size, int fill)
         } else {
             rare[what % (sizeof rare / sizeof rare[0])](&script);
         }
-        remember();
+        copy_objects_before();
     }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    run(data, size, 0x3c);
+    run_script(data, size, 0x3c);
     if (size > 0 && data[size - 1] % 8 == 0) {
         first_run = chain;
         known_first = known;
-        run(data, size, 0xc3);
+        run_script(data, size, 0xc3);
         HOLDS("the same script gives the same bytes",
               memcmp(&first_run, &chain, sizeof chain) == 0 &&
                   memcmp(&known_first, &known, sizeof known) == 0);

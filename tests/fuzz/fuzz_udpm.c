@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* Any bytes as a datagram: what is accepted lies within them, and is built again from its parts. */
+/*
+ * Any bytes as a datagram: what is accepted lies within the datagram, and building it from its
+ * parts gives the same bytes.
+ */
 #include <stdint.h>
 #include <string.h>
 
 #include "check.h"
 #include "rhotrack/udpm.h"
 
-static void check_begin(const uint8_t *data, size_t size)
+static void check_header_writer(const uint8_t *data, size_t size)
 {
     char channel[80];
     uint8_t buffer[80];
@@ -30,7 +33,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t buffer[RHO_UDPM_MAX_HEAD];
     size_t head = 0;
 
-    check_begin(data, size);
+    check_header_writer(data, size);
     if (rho_udpm_parse(data, size, &datagram) != RHO_OK) {
         CHECK(!datagram.channel && !datagram.payload && datagram.payload_size == 0);
         return 0;

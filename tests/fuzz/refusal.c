@@ -13,7 +13,7 @@
 #include "base/common.h"
 #include "check.h"
 
-/* ---- What a run allocates ---- */
+/* ---- memory that a run allocates ------------------------------------------------------------- */
 
 #define KEPT_MAX 65536
 
@@ -35,13 +35,14 @@ static void on_free(const volatile void *memory)
     for (size_t i = num_kept; is_keeping && i > 0; i--) {
         if (kept[i - 1] == memory) {
             kept[i - 1] = kept[--num_kept];
-            kept[num_kept] = NULL; /* for the search for leaks it is no pointer to the memory */
+            /* cleared, so that the leak search does not count it as a pointer to the memory */
+            kept[num_kept] = NULL;
             return;
         }
     }
 }
 
-static void free_kept(void)
+static void free_allocations_of_run(void)
 {
     is_keeping = false;
     while (num_kept > 0) {
@@ -49,8 +50,10 @@ static void free_kept(void)
     }
 }
 
-/* Files that a run opened and did not close: those behind the first one that was free. */
-static int first_free_file(void)
+/*
+ * The lowest free file descriptor: files that a run leaves open have this number or a higher one.
+ */
+static int first_free_descriptor(void)
 {
     int file = dup(STDERR_FILENO);
 
@@ -58,18 +61,18 @@ static int first_free_file(void)
     return file;
 }
 
-/* ---- Streams that a run has open ---- */
+/* ---- streams that a run holds open ----------------------------------------------------------- */
 
 /*
- * The C library lists its open streams: one whose memory is given back while it is open breaks that
- * list, and the program may then run in a circle when it ends.
+ * Lists the open streams. The C library lists them, too: if the memory of an open stream is freed,
+ * its list is broken, and the program may loop forever at exit.
  */
 #define STREAMS_MAX 16
 
 static FILE *streams[STREAMS_MAX];
 static size_t num_streams;
 
-static FILE *keep_stream(FILE *stream)
+static FILE *list_open_stream(FILE *stream)
 {
     if (stream && is_keeping) {
         CHECK(num_streams < STREAMS_MAX);
@@ -82,14 +85,14 @@ FILE *__real_fopen(const char *path, const char *mode);
 FILE *__wrap_fopen(const char *path, const char *mode);
 FILE *__wrap_fopen(const char *path, const char *mode)
 {
-    return keep_stream(__real_fopen(path, mode));
+    return list_open_stream(__real_fopen(path, mode));
 }
 
 FILE *__real_open_memstream(char **text, size_t *size);
 FILE *__wrap_open_memstream(char **text, size_t *size);
 FILE *__wrap_open_memstream(char **text, size_t *size)
 {
-    return keep_stream(__real_open_memstream(text, size));
+    return list_open_stream(__real_open_memstream(text, size));
 }
 
 int __real_fclose(FILE *stream);
@@ -112,9 +115,9 @@ static void close_streams(void)
     }
 }
 
-/* ---- Network recordings, which have streams of their own ---- */
+/* ---- network recordings, which open streams of their own ------------------------------------- */
 
-static pcap_t *capture; /* that a run has open: one at a time */
+static pcap_t *capture; /* the recording that a run has open, one at a time */
 
 pcap_t *__real_pcap_open_offline(const char *path, char *reason);
 pcap_t *__wrap_pcap_open_offline(const char *path, char *reason);
@@ -140,14 +143,14 @@ static void close_capture(void)
     }
 }
 
-/* ---- fail() ---- */
+/* ---- the replaced fail() --------------------------------------------------------------------- */
 
 static jmp_buf refused;
 
 _Noreturn void __wrap_fail(int exit_code, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* One line that names the file or says what is wrong; exit 2. */
+/* Replaces fail(): checks for exit code 2 and one line that names the file or the fault. */
 _Noreturn void __wrap_fail(int exit_code, const char *format, ...)
 {
     char message[8192];
@@ -157,7 +160,7 @@ _Noreturn void __wrap_fail(int exit_code, const char *format, ...)
     CHECK(vsnprintf(message, sizeof message, format, arguments) > 0);
     va_end(arguments);
     CHECK(exit_code == EXIT_USAGE);
-    /* before the jump: a stream into memory writes where its opener's variables are */
+    /* closed before the jump, as the stream writes to variables of the function that opened it */
     close_streams();
     close_capture();
     longjmp(refused, 1);
@@ -165,12 +168,12 @@ _Noreturn void __wrap_fail(int exit_code, const char *format, ...)
 
 /* ---- One run ---- */
 
-void refusal_begin(void)
+void refusal_install_hooks(void)
 {
     CHECK(__sanitizer_install_malloc_and_free_hooks(on_malloc, on_free) != 0);
 }
 
-static void forget_kept(void)
+static void forget_allocations_of_run(void)
 {
     is_keeping = false;
     while (num_kept > 0) {
@@ -178,18 +181,18 @@ static void forget_kept(void)
     }
 }
 
-bool refusal_ends(void (*read)(void *context), void *context)
+bool refusal_is_refused(void (*read)(void *context), void *context)
 {
-    const int first_free = first_free_file();
+    const int first_free = first_free_descriptor();
 
     is_keeping = true;
     if (setjmp(refused) == 0) {
         read(context);
-        forget_kept();
+        forget_allocations_of_run();
         CHECK(num_streams == 0 && !capture);
         return false;
     }
-    free_kept();
+    free_allocations_of_run();
     CHECK(close_range((unsigned)first_free, (unsigned)first_free + 8, 0) == 0);
     return true;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Capacities that a short script exhausts: of fuzz_tracker_small (RHO_CONFIG_FILE). */
+/* Capacities that a short script exhausts, for fuzz_tracker_small (RHO_CONFIG_FILE). */
 #ifndef RHOTRACK_TESTS_FUZZ_SMALL_CAPACITIES_H
 #define RHOTRACK_TESTS_FUZZ_SMALL_CAPACITIES_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The same messages by the C that lcm-gen makes of lcm_types/: shapes and functions that take any
- * struct.
+ * The library's messages by the C that lcm-gen makes from lcm_types/: shapes and functions that
+ * take any struct.
  */
 #ifndef RHOTRACK_TESTS_LCM_GEN_CODECS_H
 #define RHOTRACK_TESTS_LCM_GEN_CODECS_H
@@ -9,7 +9,7 @@
 #include <float.h>
 #include <stdlib.h>
 
-#include "lcm_gen.h" /* all its headers; build.sh writes it */
+#include "lcm_gen.h" /* includes all generated headers; written by build.sh */
 #include "unit/wire/message_shape.h"
 
 #define MESSAGE_STRUCT(s) rhotrack_##s##_t
@@ -24,7 +24,7 @@
 
 struct lcm_gen_codec {
     int (*encode)(void *buffer, int capacity, const void *message);
-    int (*decode)(const void *data, int size, void *message); /* the list is its own memory */
+    int (*decode)(const void *data, int size, void *message); /* allocates the list's memory */
     void (*cleanup)(void *message);
 };
 
@@ -52,8 +52,8 @@ MESSAGES_WITH_LIST(LCM_GEN_WITH_LIST)
 static const struct lcm_gen_codec their_codecs[] = {MESSAGES_WITHOUT_LIST(ROW_OF_WITHOUT_LIST)
                                                         MESSAGES_WITH_LIST(ROW_OF_WITH_LIST)};
 
-/* Gives a struct memory for its longest list. */
-static inline void their_list(const struct message_shape *shape, void *message, void *memory)
+/* Points the list of a struct to memory for its longest list. */
+static inline void set_list_memory(const struct message_shape *shape, void *message, void *memory)
 {
     if (shape->most > 0) {
         memcpy((char *)message + shape->list_offset, &memory, sizeof memory);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The experiments' passive sensors, bearing by bearing: is their chance what is asked for? Seeds
- * are fixed; bounds are four standard deviations of a sample's mean or variance.
+ * The experiments' simulated passive sensors: do bearings have the distribution that was asked for?
+ * Seeds are fixed; bounds are four standard deviations of a sample's mean or variance.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@ struct sample {
     double count, sum, squares;
 };
 
-static void add(struct sample *sample, double value)
+static void add_value(struct sample *sample, double value)
 {
     sample->count += 1.0;
     sample->sum += value;
@@ -47,8 +47,11 @@ static void assert_within(const char *what, double value, double expected, doubl
     assert_true(fabs(value - expected) <= most);
 }
 
-/* Uniform in lo .. hi: its mean, and its variance, which spreads by 2 / sqrt(5 n) of itself. */
-static void assert_uniform(const char *what, const struct sample *sample, double lo, double hi)
+/*
+ * Uniform in lo .. hi: checks its mean and its variance, whose relative deviation is 2 / sqrt(5 n).
+ */
+static void assert_mean_and_variance_uniform(const char *what, const struct sample *sample,
+                                             double lo, double hi)
 {
     double variance = (hi - lo) * (hi - lo) / 12.0;
 
@@ -60,7 +63,7 @@ static void assert_uniform(const char *what, const struct sample *sample, double
 
 /* ---- simulations ----------------------------------------------------------------------------- */
 
-static struct parameters suggested(double pd)
+static struct parameters passive_parameters(double pd)
 {
     struct parameters parameters;
 
@@ -79,10 +82,10 @@ static struct simulation *simulate(size_t num_sensors, size_t num_targets, doubl
     return simulate_passive(&of, parameters, SEED, run);
 }
 
-/* A thousand targets over the customary 8 scans. */
-static struct simulation *simulate_many(double pd, double false_mean)
+/* A thousand targets over the default of 8 scans. */
+static struct simulation *simulate_thousand_targets(double pd, double false_mean)
 {
-    struct parameters parameters = suggested(pd);
+    struct parameters parameters = passive_parameters(pd);
 
     return simulate(2, 1000, false_mean, &parameters, 0);
 }
@@ -102,12 +105,12 @@ static double true_bearing(const struct simulation *simulation, const struct sim
                  truth->x_m - simulation->passive.sensors[look->sensor].x_m);
 }
 
-/* ---- what a run holds ------------------------------------------------------------------------ */
+/* ---- numbers and places in a simulation ------------------------------------------------------ */
 
-static void check_sizes(size_t num_sensors, size_t num_targets)
+static void check_numbers_and_places(size_t num_sensors, size_t num_targets)
 {
     static const double places_m[][2] = {{0, -10000}, {0, 10000}, {10000, 0}, {-10000, 0}};
-    struct parameters parameters = suggested(1.0);
+    struct parameters parameters = passive_parameters(1.0);
     struct simulation *simulation = simulate(num_sensors, num_targets, 0.0, &parameters, 0);
 
     assert_true(simulation->passive.is_used && !simulation->radar.is_used);
@@ -130,19 +133,19 @@ static void check_sizes(size_t num_sensors, size_t num_targets)
     simulation_free(simulation);
 }
 
-static void there_are_as_many_as_asked_for(void **state)
+static void sensors_targets_and_scans_are_as_many_as_asked_for(void **state)
 {
     (void)state;
-    check_sizes(2, 2);
-    check_sizes(3, 2);
-    check_sizes(4, 4);
+    check_numbers_and_places(2, 2);
+    check_numbers_and_places(3, 2);
+    check_numbers_and_places(4, 4);
 }
 
 /* ---- targets --------------------------------------------------------------------------------- */
 
 static void targets_come_towards_the_origin_from_the_east(void **state)
 {
-    struct simulation *simulation = simulate_many(1.0, 0.0);
+    struct simulation *simulation = simulate_thousand_targets(1.0, 0.0);
     struct sample headings_rad = {0}, speeds_mps = {0};
     (void)state;
 
@@ -159,10 +162,10 @@ static void targets_come_towards_the_origin_from_the_east(void **state)
         assert_true(fabs(last->x_m - start->x_m - 70.0 * start->vx_mps) < 1e-6);
         assert_true(fabs(last->y_m - start->y_m - 70.0 * start->vy_mps) < 1e-6);
         assert_true(fabs(off_rad) <= PI / 4.0 + 1e-9);
-        /* far out none is drawn again: what is drawn is uniform */
+        /* targets far from the sensors are never redrawn, so their places are uniform */
         if (start->x_m > 27000.0) {
-            add(&headings_rad, off_rad);
-            add(&speeds_mps, hypot(start->vx_mps, start->vy_mps));
+            add_value(&headings_rad, off_rad);
+            add_value(&speeds_mps, hypot(start->vx_mps, start->vy_mps));
         }
     }
     assert_true(headings_rad.count >= 500.0);
@@ -176,9 +179,9 @@ static void targets_come_towards_the_origin_from_the_east(void **state)
 
 /* ---- bearings -------------------------------------------------------------------------------- */
 
-static void check_noise(double sigma_rad)
+static void check_bearing_noise(double sigma_rad)
 {
-    struct parameters parameters = suggested(1.0);
+    struct parameters parameters = passive_parameters(1.0);
     struct sample errors = {0};
     struct simulation *simulation;
 
@@ -193,7 +196,7 @@ static void check_noise(double sigma_rad)
             double truth_rad = true_bearing(simulation, look, i / 3, bearing->target_id);
 
             assert_true(fabs(bearing->bearing_rad) <= PI);
-            add(&errors, remainder(bearing->bearing_rad - truth_rad, 2.0 * PI) / sigma_rad);
+            add_value(&errors, remainder(bearing->bearing_rad - truth_rad, 2.0 * PI) / sigma_rad);
         }
     }
     assert_int_equal((int)errors.count, 12000);
@@ -202,16 +205,16 @@ static void check_noise(double sigma_rad)
     simulation_free(simulation);
 }
 
-static void bearings_have_the_noise_that_was_set(void **state)
+static void bearing_errors_have_the_configured_sigma(void **state)
 {
     (void)state;
-    check_noise(0.1 * PI / 180.0);
-    check_noise(0.01);
+    check_bearing_noise(0.1 * PI / 180.0);
+    check_bearing_noise(0.01);
 }
 
-static void targets_are_seen_once_a_look_as_often_as_true_pd_says(void **state)
+static void targets_are_detected_with_probability_true_pd(void **state)
 {
-    struct simulation *simulation = simulate_many(0.9, 1.0);
+    struct simulation *simulation = simulate_thousand_targets(0.9, 1.0);
     double seen = 0.0, n = (double)simulation->num_looks * 1000.0;
     (void)state;
 
@@ -234,7 +237,7 @@ static void targets_are_seen_once_a_look_as_often_as_true_pd_says(void **state)
 
 static void false_bearings_are_poisson_and_uniform_ahead(void **state)
 {
-    struct parameters parameters = suggested(0.9);
+    struct parameters parameters = passive_parameters(0.9);
     struct sample counts = {0}, bearings_rad = {0};
     struct simulation *simulation;
     (void)state;
@@ -242,26 +245,26 @@ static void false_bearings_are_poisson_and_uniform_ahead(void **state)
     parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 3000);
     simulation = simulate(2, 0, 1.0, &parameters, 0);
     for (size_t i = 0; i < simulation->num_looks; i++) {
-        add(&counts, (double)simulation->looks[i].num_bearings);
+        add_value(&counts, (double)simulation->looks[i].num_bearings);
         for (size_t j = 0; j < simulation->looks[i].num_bearings; j++) {
             double bearing_rad = simulation->looks[i].bearings[j].bearing_rad;
 
             assert_int_equal(simulation->looks[i].bearings[j].target_id, -1);
             assert_true(fabs(bearing_rad) <= PI / 2.0);
-            add(&bearings_rad, bearing_rad);
+            add_value(&bearings_rad, bearing_rad);
         }
     }
     assert_within("false bearings a look", mean_of(&counts), 1.0, 4.0 / sqrt(counts.count));
-    /* a Poisson sample's variance spreads by sqrt((m + 2 m^2) / n) */
+    /* the variance of a Poisson sample deviates by sqrt((m + 2 m^2) / n) */
     assert_within("their variance", variance_of(&counts), 1.0, 4.0 * sqrt(3.0 / counts.count));
-    assert_uniform("false bearings", &bearings_rad, -PI / 2.0, PI / 2.0);
+    assert_mean_and_variance_uniform("false bearings", &bearings_rad, -PI / 2.0, PI / 2.0);
     simulation_free(simulation);
 }
 
-/* Where of ten places target 0 stands: each equally often. */
+/* Target 0 is equally often at each of the ten positions of a look. */
 static void bearings_of_a_look_come_in_random_order(void **state)
 {
-    struct parameters parameters = suggested(1.0);
+    struct parameters parameters = passive_parameters(1.0);
     struct sample places = {0};
     struct simulation *simulation;
     (void)state;
@@ -273,7 +276,7 @@ static void bearings_of_a_look_come_in_random_order(void **state)
             while (simulation->looks[i].bearings[j].target_id != 0) {
                 j++;
             }
-            add(&places, (double)j);
+            add_value(&places, (double)j);
         }
         simulation_free(simulation);
     }
@@ -281,9 +284,9 @@ static void bearings_of_a_look_come_in_random_order(void **state)
     assert_within("its variance", variance_of(&places), 8.25, 4.0 * 8.25 / sqrt(places.count));
 }
 
-static void a_seed_gives_the_same_bearings_again(void **state)
+static void the_same_seed_gives_the_same_bearings(void **state)
 {
-    struct parameters parameters = suggested(0.9);
+    struct parameters parameters = passive_parameters(0.9);
     struct simulation *one = simulate(2, 4, 1.0, &parameters, 0);
     struct simulation *again = simulate(2, 4, 1.0, &parameters, 0);
     struct simulation *other = simulate(2, 4, 1.0, &parameters, 1);
@@ -308,13 +311,13 @@ static void a_seed_gives_the_same_bearings_again(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(there_are_as_many_as_asked_for),
+        cmocka_unit_test(sensors_targets_and_scans_are_as_many_as_asked_for),
         cmocka_unit_test(targets_come_towards_the_origin_from_the_east),
-        cmocka_unit_test(bearings_have_the_noise_that_was_set),
-        cmocka_unit_test(targets_are_seen_once_a_look_as_often_as_true_pd_says),
+        cmocka_unit_test(bearing_errors_have_the_configured_sigma),
+        cmocka_unit_test(targets_are_detected_with_probability_true_pd),
         cmocka_unit_test(false_bearings_are_poisson_and_uniform_ahead),
         cmocka_unit_test(bearings_of_a_look_come_in_random_order),
-        cmocka_unit_test(a_seed_gives_the_same_bearings_again),
+        cmocka_unit_test(the_same_seed_gives_the_same_bearings),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bars of the experiments: which side of a bar a figure is on, what counts as no figure, and how
- * both are written.
+ * Pass bars of the experiments: on which side of its bar a figure is, which figures are no numbers,
+ * and how both are written as JSON and as a table.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@
 
 typedef void add_figure(struct verdicts *verdicts, double value, double bar, const char *what, ...);
 
-static int is_held(add_figure *add, double value, double bar)
+static int is_bar_held(add_figure *add, double value, double bar)
 {
     struct verdicts verdicts = verdicts_start();
     add(&verdicts, value, bar, "figure");
@@ -28,21 +28,21 @@ static int is_held(add_figure *add, double value, double bar)
     return held;
 }
 
-static void a_bar_is_held_up_to_itself(void **state)
+static void a_value_equal_to_its_bar_holds_it(void **state)
 {
     (void)state;
-    assert_true(is_held(verdicts_add_at_most, 1.5, 2.0));
-    assert_true(is_held(verdicts_add_at_most, 2.0, 2.0));
-    assert_false(is_held(verdicts_add_at_most, 2.000001, 2.0));
-    assert_true(is_held(verdicts_add_at_most, -3.0, -2.0));
-    assert_true(is_held(verdicts_add_at_least, 2.5, 2.0));
-    assert_true(is_held(verdicts_add_at_least, 2.0, 2.0));
-    assert_false(is_held(verdicts_add_at_least, 1.999999, 2.0));
-    assert_false(is_held(verdicts_add_at_least, -3.0, -2.0));
+    assert_true(is_bar_held(verdicts_add_at_most, 1.5, 2.0));
+    assert_true(is_bar_held(verdicts_add_at_most, 2.0, 2.0));
+    assert_false(is_bar_held(verdicts_add_at_most, 2.000001, 2.0));
+    assert_true(is_bar_held(verdicts_add_at_most, -3.0, -2.0));
+    assert_true(is_bar_held(verdicts_add_at_least, 2.5, 2.0));
+    assert_true(is_bar_held(verdicts_add_at_least, 2.0, 2.0));
+    assert_false(is_bar_held(verdicts_add_at_least, 1.999999, 2.0));
+    assert_false(is_bar_held(verdicts_add_at_least, -3.0, -2.0));
 }
 
-/* Ten tenths, added one by one, are a little less than one. */
-static void rounding_of_sums_is_no_miss(void **state)
+/* Ten tenths, added one by one, give a little less than one. */
+static void rounding_errors_of_sums_do_not_miss_a_bar(void **state)
 {
     double sum = 0.0;
     (void)state;
@@ -50,22 +50,22 @@ static void rounding_of_sums_is_no_miss(void **state)
         sum += 0.1;
     }
     assert_true(sum < 1.0);
-    assert_true(is_held(verdicts_add_at_least, sum, 1.0));
-    assert_true(is_held(verdicts_add_at_most, 2.0 - sum, 1.0));
+    assert_true(is_bar_held(verdicts_add_at_least, sum, 1.0));
+    assert_true(is_bar_held(verdicts_add_at_most, 2.0 - sum, 1.0));
 }
 
-/* A mean over nothing is NaN, a ratio to nothing is infinite. */
-static void what_is_no_number_is_missed(void **state)
+/* A mean over nothing is NaN, a ratio to nothing is infinite: both miss their bar. */
+static void nan_and_infinity_miss_every_bar(void **state)
 {
     (void)state;
-    assert_false(is_held(verdicts_add_at_most, NAN, 2.0));
-    assert_false(is_held(verdicts_add_at_least, NAN, 2.0));
-    assert_false(is_held(verdicts_add_at_most, INFINITY, 2.0));
-    assert_false(is_held(verdicts_add_at_least, -INFINITY, 2.0));
+    assert_false(is_bar_held(verdicts_add_at_most, NAN, 2.0));
+    assert_false(is_bar_held(verdicts_add_at_least, NAN, 2.0));
+    assert_false(is_bar_held(verdicts_add_at_most, INFINITY, 2.0));
+    assert_false(is_bar_held(verdicts_add_at_least, -INFINITY, 2.0));
 }
 
-/* Five figures: two held, three missed, two of which are no numbers. */
-static struct verdicts some_verdicts(void)
+/* Five figures: two hold their bar, three miss it, two of them NaN or infinite. */
+static struct verdicts five_example_verdicts(void)
 {
     struct verdicts verdicts = verdicts_start();
     verdicts_add_at_most(&verdicts, 1.25, 2.0, "%s at %g", "ratio", 10.0);
@@ -76,7 +76,7 @@ static struct verdicts some_verdicts(void)
     return verdicts;
 }
 
-static const cJSON *read_back(struct verdicts *verdicts)
+static const cJSON *verdicts_read_back_from_json(struct verdicts *verdicts)
 {
     cJSON *object = cJSON_CreateObject();
     verdicts_move_to_json(verdicts, object);
@@ -93,48 +93,48 @@ static const cJSON *bar_at(const cJSON *root, int i)
     return cJSON_GetArrayItem(cJSON_GetObjectItem(root, "bars"), i);
 }
 
-static double number(const cJSON *object, const char *name)
+static double number_of_member(const cJSON *object, const char *name)
 {
     const cJSON *item = cJSON_GetObjectItem(object, name);
     assert_true(cJSON_IsNumber(item));
     return item->valuedouble;
 }
 
-static int same_number(double a, double b)
+static int are_equal_numbers(double a, double b)
 {
     return fabs(a - b) < 1e-12;
 }
 
-static void json_says_what_was_measured_and_which_bar_it_had(void **state)
+static void json_holds_each_value_and_its_bar(void **state)
 {
     static const char *const whats[] = {"ratio at 10", "share of 7", "\"quoted\"",
                                         "mean of nothing", "ratio to nothing"};
     static const int held[] = {1, 1, 0, 0, 0};
-    struct verdicts verdicts = some_verdicts();
+    struct verdicts verdicts = five_example_verdicts();
     (void)state;
-    const cJSON *root = read_back(&verdicts);
-    assert_true(same_number(number(root, "bars_held"), 2.0));
-    assert_true(same_number(number(root, "bars_missed"), 3.0));
+    const cJSON *root = verdicts_read_back_from_json(&verdicts);
+    assert_true(are_equal_numbers(number_of_member(root, "bars_held"), 2.0));
+    assert_true(are_equal_numbers(number_of_member(root, "bars_missed"), 3.0));
     assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(root, "bars")), 5);
     for (int i = 0; i < 5; i++) {
         assert_string_equal(cJSON_GetObjectItem(bar_at(root, i), "what")->valuestring, whats[i]);
         assert_int_equal(cJSON_IsTrue(cJSON_GetObjectItem(bar_at(root, i), "held")), held[i]);
     }
-    assert_true(same_number(number(bar_at(root, 0), "value"), 1.25));
-    assert_true(same_number(number(bar_at(root, 0), "at_most"), 2.0));
+    assert_true(are_equal_numbers(number_of_member(bar_at(root, 0), "value"), 1.25));
+    assert_true(are_equal_numbers(number_of_member(bar_at(root, 0), "at_most"), 2.0));
     assert_null(cJSON_GetObjectItem(bar_at(root, 0), "at_least"));
-    assert_true(same_number(number(bar_at(root, 1), "at_least"), 0.95));
+    assert_true(are_equal_numbers(number_of_member(bar_at(root, 1), "at_least"), 0.95));
     assert_null(cJSON_GetObjectItem(bar_at(root, 1), "at_most"));
-    /* JSON knows neither NaN nor infinity */
+    /* JSON has neither NaN nor infinity */
     assert_true(cJSON_IsNull(cJSON_GetObjectItem(bar_at(root, 3), "value")));
     assert_true(cJSON_IsNull(cJSON_GetObjectItem(bar_at(root, 4), "value")));
     cJSON_Delete((cJSON *)root);
     verdicts_free(&verdicts);
 }
 
-static void the_table_ends_with_the_score(void **state)
+static void the_table_ends_with_counts_of_held_and_missed_bars(void **state)
 {
-    struct verdicts verdicts = some_verdicts();
+    struct verdicts verdicts = five_example_verdicts();
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
@@ -158,11 +158,11 @@ static void the_table_ends_with_the_score(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_bar_is_held_up_to_itself),
-        cmocka_unit_test(rounding_of_sums_is_no_miss),
-        cmocka_unit_test(what_is_no_number_is_missed),
-        cmocka_unit_test(json_says_what_was_measured_and_which_bar_it_had),
-        cmocka_unit_test(the_table_ends_with_the_score),
+        cmocka_unit_test(a_value_equal_to_its_bar_holds_it),
+        cmocka_unit_test(rounding_errors_of_sums_do_not_miss_a_bar),
+        cmocka_unit_test(nan_and_infinity_miss_every_bar),
+        cmocka_unit_test(json_holds_each_value_and_its_bar),
+        cmocka_unit_test(the_table_ends_with_counts_of_held_and_missed_bars),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

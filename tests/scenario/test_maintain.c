@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * `maintain` from inside: which plot each gate takes and what the estimate is then, beside the same
- * in double precision and by brute force; and the density of clutter that it makes of its scans,
- * beside the one they were drawn from.
+ * The command `maintain` from inside: which plot each gate takes and which estimate follows,
+ * compared with double precision and brute force; and its estimate of the clutter density, compared
+ * with the density that scans were drawn from.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -44,7 +44,7 @@ static struct rho_plot plot_at(const double place_m[3], const double velocity_mp
                              .sigma_mps = 3.0f};
 }
 
-/* ---- A Kalman filter in double precision: axes apart, as isotropic noise leaves them --------- */
+/* ---- a Kalman filter in double precision, its axes independent as the noise is isotropic ----- */
 
 struct axis {
     double x, v, xx, xv, vv;
@@ -63,7 +63,7 @@ static void axis_predict(struct axis *a, double dt_s, double q_m, double q_mps)
     a->vv += q_mps * q_mps;
 }
 
-/* Place and velocity at once, by the inverse of the 2 x 2 innovation covariance. */
+/* Updates place and velocity at once, by the inverse of the 2 x 2 innovation covariance. */
 static void axis_update(struct axis *a, double x, double v, double r_m, double r_mps)
 {
     double sxx = a->xx + r_m * r_m, svv = a->vv + r_mps * r_mps, det = sxx * svv - a->xv * a->xv;
@@ -80,7 +80,7 @@ static void axis_update(struct axis *a, double x, double v, double r_m, double r
     a->vv = b.vv - kvx * b.xv - kvv * b.vv;
 }
 
-static double axis_distance2(const struct axis *a, double x, double v, double r_m, double r_mps)
+static double axis_nis(const struct axis *a, double x, double v, double r_m, double r_mps)
 {
     double sxx = a->xx + r_m * r_m, svv = a->vv + r_mps * r_mps, det = sxx * svv - a->xv * a->xv;
     double dx = x - a->x, dv = v - a->v;
@@ -88,27 +88,27 @@ static double axis_distance2(const struct axis *a, double x, double v, double r_
     return (svv * dx * dx - 2.0 * a->xv * dx * dv + sxx * dv * dv) / det;
 }
 
-static double distance2(const struct axis axes[3], const struct rho_plot *plot)
+static double nis_of_plot(const struct axis axes[3], const struct rho_plot *plot)
 {
-    return axis_distance2(&axes[0], plot->x_m, plot->vx_mps, 10.0, 3.0) +
-           axis_distance2(&axes[1], plot->y_m, plot->vy_mps, 10.0, 3.0) +
-           axis_distance2(&axes[2], plot->z_m, plot->vz_mps, 10.0, 3.0);
+    return axis_nis(&axes[0], plot->x_m, plot->vx_mps, 10.0, 3.0) +
+           axis_nis(&axes[1], plot->y_m, plot->vy_mps, 10.0, 3.0) +
+           axis_nis(&axes[2], plot->z_m, plot->vz_mps, 10.0, 3.0);
 }
 
-static void update(struct axis axes[3], const struct rho_plot *plot)
+static void update_axes(struct axis axes[3], const struct rho_plot *plot)
 {
     axis_update(&axes[0], plot->x_m, plot->vx_mps, 10.0, 3.0);
     axis_update(&axes[1], plot->y_m, plot->vy_mps, 10.0, 3.0);
     axis_update(&axes[2], plot->z_m, plot->vz_mps, 10.0, 3.0);
 }
 
-/* ---- Scans by chance about a target ---------------------------------------------------------- */
+/* ---- random scans about a target ------------------------------------------------------------- */
 
 #define PLOTS 5
 
-/* Plots so near to each other that the choice is not plain. */
-static void fill_scan(struct rho_plot plots[PLOTS], const double place_m[3],
-                      const double velocity_mps[3], struct random *random)
+/* Fills a scan with plots so near to each other that which one to take is not obvious. */
+static void draw_plots_about(struct rho_plot plots[PLOTS], const double place_m[3],
+                             const double velocity_mps[3], struct random *random)
 {
     for (int i = 0; i < PLOTS; i++) {
         double p[3], v[3];
@@ -124,7 +124,7 @@ static void fill_scan(struct rho_plot plots[PLOTS], const double place_m[3],
 static const double start_m[3] = {5000.0, -3000.0, 400.0};
 static const double start_mps[3] = {-100.0, 60.0, 5.0};
 
-static void move(double place_m[3])
+static void move_place_by_one_scan(double place_m[3])
 {
     for (int k = 0; k < 3; k++) {
         place_m[k] += DT_S * start_mps[k];
@@ -138,8 +138,8 @@ static struct rho_scan scan_of(int step, const struct rho_plot *plots, uint32_t 
         .time_us = (int64_t)step * DT_US, .measures = measures, .num_plots = count, .plots = plots};
 }
 
-static struct maintainer *start(enum maintainer_gate gate, bool has_input_estimation,
-                                const struct parameters *parameters)
+static struct maintainer *start_maintainer(enum maintainer_gate gate, bool has_input_estimation,
+                                           const struct parameters *parameters)
 {
     struct maintainer *maintainer = maintainer_new(gate, has_input_estimation, parameters);
     struct rho_plot plot = plot_at(start_m, start_mps);
@@ -156,9 +156,9 @@ static void assert_near(double value, double expected, double most)
     assert_true(fabs(value - expected) <= most);
 }
 
-/* ---- nearest --------------------------------------------------------------------------------- */
+/* ---- gate nearest ---------------------------------------------------------------------------- */
 
-static void nearest_takes_the_least_distance_and_follows_the_double_filter(void **state)
+static void gate_nearest_takes_the_least_nis_as_in_double_precision(void **state)
 {
     struct parameters parameters = parameters_at_default();
     struct random random = random_start(1, 0, 0);
@@ -171,7 +171,7 @@ static void nearest_takes_the_least_distance_and_follows_the_double_filter(void 
 
     parameters_set_assignment(&parameters, "filter_noise_m=2");
     parameters_set_assignment(&parameters, "filter_noise_mps=4");
-    maintainer = start(MAINTAIN_NEAREST, false, &parameters);
+    maintainer = start_maintainer(MAINTAIN_NEAREST, false, &parameters);
     for (int k = 0; k < 3; k++) {
         place_m[k] = start_m[k];
         axes[k] = axis_start(start_m[k], start_mps[k], 10.0, 3.0);
@@ -181,23 +181,23 @@ static void nearest_takes_the_least_distance_and_follows_the_double_filter(void 
         struct rho_scan scan = scan_of(step, plots, PLOTS, ALL);
         int nearest = 0, row;
 
-        move(place_m);
-        fill_scan(plots, place_m, start_mps, &random);
+        move_place_by_one_scan(place_m);
+        draw_plots_about(plots, place_m, start_mps, &random);
         maintainer_predict(maintainer, scan.time_us);
         for (int k = 0; k < 3; k++) {
             axis_predict(&axes[k], DT_S, 2.0, 4.0);
         }
         for (int i = 0; i < PLOTS; i++) {
-            double expected = distance2(axes, &plots[i]);
+            double expected = nis_of_plot(axes, &plots[i]);
 
             assert_near(maintainer_nis_per_dimension(maintainer, &plots[i], ALL), expected / 6.0,
                         2e-3 * (1.0 + expected / 6.0));
-            nearest = expected < distance2(axes, &plots[nearest]) ? i : nearest;
+            nearest = expected < nis_of_plot(axes, &plots[nearest]) ? i : nearest;
         }
         row = maintainer_update(maintainer, &scan, NULL, NAN, 0.9, &random);
         assert_int_equal(row, nearest);
         not_first += row > 0;
-        update(axes, &plots[row]);
+        update_axes(axes, &plots[row]);
     }
     assert_true(not_first > 200);
     maintainer_estimate(maintainer, &estimate);
@@ -211,8 +211,11 @@ static void nearest_takes_the_least_distance_and_follows_the_double_filter(void 
     maintainer_free(maintainer);
 }
 
-/* A radar's plot at 30 degrees: 15 m along the line of sight, 180 m across, with a range rate. */
-static void distances_know_the_ellipse_of_the_noise(void **state)
+/*
+ * A radar's plot at 30 degrees: sigmas 15 m along the line of sight and 180 m across, with a range
+ * rate.
+ */
+static void nis_uses_the_noise_ellipse_and_range_rate_of_a_plot(void **state)
 {
     const double c = cos(PI / 6.0), s = sin(PI / 6.0), range_m = 60000.0;
     struct parameters parameters = parameters_at_default();
@@ -222,7 +225,9 @@ static void distances_know_the_ellipse_of_the_noise(void **state)
                             .sigma_range_m = 15.0f,
                             .sigma_cross_m = 180.0f,
                             .sigma_range_rate_mps = 2.0f};
-    /* two plots, the filter's noise, and a velocity that is not known, 100 m/s, for a second */
+    /*
+     * variances: two plots, the process noise, and an unknown velocity of 100 m/s over one second
+     */
     double along2 = 2.0 * 15.0 * 15.0 + 1.0 + 1e4, across2 = 2.0 * 180.0 * 180.0 + 1.0 + 1e4;
     double both = 1e4, rate2 = 1e4 + 1.0 + 4.0, det = along2 * rate2 - both * both;
     double expected;
@@ -235,7 +240,7 @@ static void distances_know_the_ellipse_of_the_noise(void **state)
     plot.x_m = (float)(range_m * c + 100.0 * c - 300.0 * s);
     plot.y_m = (float)(range_m * s + 100.0 * s + 300.0 * c);
     expected = 100.0 * 100.0 / along2 + 300.0 * 300.0 / across2;
-    /* the line of sight has turned by 5 mrad */
+    /* between the plots the line of sight turned by 5 mrad */
     assert_near(maintainer_nis_per_dimension(maintainer, &plot, 0), expected / 2.0,
                 0.01 * expected);
     plot.range_rate_mps = -30.0f;
@@ -245,8 +250,11 @@ static void distances_know_the_ellipse_of_the_noise(void **state)
     maintainer_free(maintainer);
 }
 
-/* The first scan after the start: nothing is estimated yet, so the gate is wider by D V(0) D^T. */
-static void check_first_gate(const char *model, double d_m)
+/*
+ * In the first scan after the start no input was estimated yet, so its prior D V(0) D^T widens the
+ * gate.
+ */
+static void check_nis_in_first_scan(const char *model, double d_m)
 {
     struct parameters parameters = parameters_at_default();
     struct maintainer *maintainer;
@@ -255,7 +263,7 @@ static void check_first_gate(const char *model, double d_m)
     double d_mps = DT_S, v0 = 22.36 * 22.36;
 
     parameters_set_assignment(&parameters, model);
-    maintainer = start(MAINTAIN_NEAREST, true, &parameters);
+    maintainer = start_maintainer(MAINTAIN_NEAREST, true, &parameters);
     for (int k = 0; k < 3; k++) {
         axes[k] = axis_start(start_m[k], start_mps[k], 10.0, 3.0);
         axis_predict(&axes[k], DT_S, 1.0, 1.0);
@@ -264,19 +272,19 @@ static void check_first_gate(const char *model, double d_m)
         axes[k].vv += d_mps * d_mps * v0;
     }
     maintainer_predict(maintainer, DT_US);
-    assert_near(maintainer_nis_per_dimension(maintainer, &plot, ALL), distance2(axes, &plot) / 6.0,
-                1e-4 * distance2(axes, &plot));
+    assert_near(maintainer_nis_per_dimension(maintainer, &plot, ALL),
+                nis_of_plot(axes, &plot) / 6.0, 1e-4 * nis_of_plot(axes, &plot));
     maintainer_free(maintainer);
 }
 
-static void the_gate_allows_for_an_input_that_may_have_begun(void **state)
+static void the_first_gate_is_widened_by_the_prior_of_the_input(void **state)
 {
     (void)state;
-    check_first_gate("input_model=literal", 0.0);
-    check_first_gate("input_model=physical", DT_S * DT_S / 2.0);
+    check_nis_in_first_scan("input_model=literal", 0.0);
+    check_nis_in_first_scan("input_model=physical", DT_S * DT_S / 2.0);
 }
 
-static void an_input_is_found_and_reported(void **state)
+static void an_acceleration_is_detected_and_reported(void **state)
 {
     struct parameters parameters = parameters_at_default();
     struct maintainer *maintainer;
@@ -285,7 +293,7 @@ static void an_input_is_found_and_reported(void **state)
     (void)state;
 
     parameters_set_assignment(&parameters, "gamma=0.5");
-    maintainer = start(MAINTAIN_NEAREST, true, &parameters);
+    maintainer = start_maintainer(MAINTAIN_NEAREST, true, &parameters);
     for (int k = 0; k < 3; k++) {
         place_m[k] = start_m[k];
         velocity_mps[k] = start_mps[k];
@@ -313,17 +321,21 @@ static void an_input_is_found_and_reported(void **state)
     maintainer_free(maintainer);
 }
 
-/* ---- hough ----------------------------------------------------------------------------------- */
+/* ---- gate hough ------------------------------------------------------------------------------ */
 
-static double change_at(const double from[3], const double to[3], const int plane[2], double theta)
+static double velocity_change_along(const double from[3], const double to[3], const int plane[2],
+                                    double theta)
 {
     return (to[plane[0]] - from[plane[0]]) * cos(theta) +
            (to[plane[1]] - from[plane[1]]) * sin(theta);
 }
 
-/* The paper's (27) to (31) for all cells; *margin: how far the cell found is from the next best. */
-static double score_of(const double before[3], const double newest[3], const struct rho_plot *plot,
-                       double *margin)
+/*
+ * Change of rho by the paper's (27) to (31), over all cells; *margin: distance of the best cell
+ * from the next best.
+ */
+static double rho_change_of_plot(const double before[3], const double newest[3],
+                                 const struct rho_plot *plot, double *margin)
 {
     static const int planes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
     const double velocity[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
@@ -334,7 +346,7 @@ static double score_of(const double before[3], const double newest[3], const str
 
         for (int j = 1; j <= 36; j++) {
             double at = (j - 0.5) * 5.0 * PI / 180.0;
-            double change = fabs(change_at(before, newest, planes[p], at));
+            double change = fabs(velocity_change_along(before, newest, planes[p], at));
 
             if (change < best) {
                 second = best;
@@ -345,12 +357,12 @@ static double score_of(const double before[3], const double newest[3], const str
             }
         }
         *margin = fmin(*margin, (second - best) / second);
-        score += fabs(change_at(newest, velocity, planes[p], theta));
+        score += fabs(velocity_change_along(newest, velocity, planes[p], theta));
     }
     return score;
 }
 
-static void velocity_of(const struct maintainer *maintainer, double velocity_mps[3])
+static void estimated_velocity(const struct maintainer *maintainer, double velocity_mps[3])
 {
     struct maintainer_estimate estimate;
 
@@ -360,34 +372,34 @@ static void velocity_of(const struct maintainer *maintainer, double velocity_mps
     }
 }
 
-/* How often it was compared, and took another than the nearest. */
+/* How often a choice was compared, and how often it was not the nearest plot. */
 struct tally {
     int early, early_differs, compared, other_than_nearest;
 };
 
 /*
- * From the fourth measurement on the plot whose velocity changes rho least, before that the
- * nearest.
+ * From the fourth measurement on the plot whose velocity changes rho least is taken, before that
+ * the nearest one.
  */
-static void check_hough(uint64_t seed, int steps, struct tally *tally)
+static void check_hough_choices(uint64_t seed, int steps, struct tally *tally)
 {
     struct parameters parameters = parameters_at_default();
     struct random random = random_start(seed, 2, 0);
-    struct maintainer *maintainer = start(MAINTAIN_HOUGH, true, &parameters);
-    struct maintainer *nearest = start(MAINTAIN_NEAREST, true, &parameters);
+    struct maintainer *maintainer = start_maintainer(MAINTAIN_HOUGH, true, &parameters);
+    struct maintainer *nearest = start_maintainer(MAINTAIN_NEAREST, true, &parameters);
     double place_m[3] = {start_m[0], start_m[1], start_m[2]}, before[3] = {0}, newest[3];
 
-    velocity_of(maintainer, newest);
+    estimated_velocity(maintainer, newest);
     for (int step = 1; step <= steps; step++) {
         struct rho_plot plots[PLOTS];
         struct rho_scan scan = scan_of(step, plots, PLOTS, ALL);
         double least = INFINITY, margin = INFINITY;
         int expected = -1, row, its;
 
-        move(place_m);
-        fill_scan(plots, place_m, start_mps, &random);
+        move_place_by_one_scan(place_m);
+        draw_plots_about(plots, place_m, start_mps, &random);
         for (int i = 0; i < PLOTS; i++) {
-            double score = score_of(before, newest, &plots[i], &margin);
+            double score = rho_change_of_plot(before, newest, &plots[i], &margin);
 
             expected = score < least ? i : expected;
             least = fmin(score, least);
@@ -400,7 +412,7 @@ static void check_hough(uint64_t seed, int steps, struct tally *tally)
             assert_int_equal(row, its);
             tally->early++;
             tally->early_differs += row != expected;
-        } else if (margin > 1e-3) { /* else the cell is decided by a rounding */
+        } else if (margin > 1e-3) { /* below this margin rounding decides the cell */
             assert_int_equal(row, expected);
             tally->compared++;
             tally->other_than_nearest += row != its;
@@ -408,32 +420,32 @@ static void check_hough(uint64_t seed, int steps, struct tally *tally)
         for (int k = 0; k < 3; k++) {
             before[k] = newest[k];
         }
-        velocity_of(maintainer, newest);
+        estimated_velocity(maintainer, newest);
     }
     maintainer_free(maintainer);
     maintainer_free(nearest);
 }
 
-static void hough_takes_the_plot_that_the_paper_does(void **state)
+static void gate_hough_takes_the_plot_of_the_papers_equations(void **state)
 {
     struct tally tally = {0, 0, 0, 0};
     (void)state;
 
     for (uint64_t seed = 0; seed < 30; seed++) {
-        check_hough(seed, 20, &tally);
+        check_hough_choices(seed, 20, &tally);
     }
     assert_true(tally.early == 60 && tally.early_differs > 20);
     assert_true(tally.compared > 500 && tally.other_than_nearest > 100);
 }
 
-/* ---- none ------------------------------------------------------------------------------------ */
+/* ---- gate none ------------------------------------------------------------------------------- */
 
-static void none_takes_every_valid_plot_equally_often(void **state)
+static void gate_none_takes_a_random_valid_plot(void **state)
 {
     enum { STEPS = 4000 };
     struct parameters parameters = parameters_at_default();
     struct random random = random_start(3, 0, 0), noise = random_start(4, 0, 0);
-    struct maintainer *maintainer = start(MAINTAIN_NONE, true, &parameters);
+    struct maintainer *maintainer = start_maintainer(MAINTAIN_NONE, true, &parameters);
     int counts[PLOTS] = {0};
     (void)state;
 
@@ -442,27 +454,27 @@ static void none_takes_every_valid_plot_equally_often(void **state)
         struct rho_scan scan = scan_of(step, plots, PLOTS, ALL);
         int row;
 
-        fill_scan(plots, start_m, start_mps, &noise);
+        draw_plots_about(plots, start_m, start_mps, &noise);
         plots[1].y_m = NAN;
         maintainer_predict(maintainer, scan.time_us);
         row = maintainer_update(maintainer, &scan, NULL, NAN, 0.9, &random);
         assert_in_range(row, 0, PLOTS - 1);
         counts[row]++;
     }
-    for (int i = 0; i < PLOTS; i++) { /* four standard deviations */
+    for (int i = 0; i < PLOTS; i++) { /* within four standard deviations */
         assert_near(counts[i], i == 1 ? 0.0 : STEPS / 4.0,
                     i == 1 ? 0.0 : 4.0 * sqrt(STEPS * 0.25 * 0.75));
     }
     maintainer_free(maintainer);
 }
 
-/* ---- scans without a plot that will do, own times -------------------------------------------- */
+/* ---- scans without a valid plot; plots' own times -------------------------------------------- */
 
-static void check_coasting(enum maintainer_gate gate)
+static void check_coasting_is_straight(enum maintainer_gate gate)
 {
     struct parameters parameters = parameters_at_default();
     struct random random = random_start(5, 0, 0);
-    struct maintainer *maintainer = start(gate, true, &parameters);
+    struct maintainer *maintainer = start_maintainer(gate, true, &parameters);
     struct maintainer_estimate estimate;
     struct rho_plot bad = plot_at(start_m, start_mps);
     double where_m[3];
@@ -484,16 +496,16 @@ static void check_coasting(enum maintainer_gate gate)
     maintainer_free(maintainer);
 }
 
-static void without_a_plot_the_track_goes_straight_on(void **state)
+static void scans_without_a_valid_plot_are_coasted_in_a_straight_line(void **state)
 {
     (void)state;
-    check_coasting(MAINTAIN_NEAREST);
-    check_coasting(MAINTAIN_HOUGH);
-    check_coasting(MAINTAIN_NONE);
+    check_coasting_is_straight(MAINTAIN_NEAREST);
+    check_coasting_is_straight(MAINTAIN_HOUGH);
+    check_coasting_is_straight(MAINTAIN_NONE);
 }
 
-/* Each plot up to a second after its scan's time; the estimate is at the scan's. */
-static void plots_count_at_their_own_times(void **state)
+/* Plots come up to a second after their scan's time; the estimate is at the scan's time. */
+static void plots_update_the_track_at_their_own_times(void **state)
 {
     struct parameters parameters = parameters_at_default();
     struct random random = random_start(6, 0, 0);
@@ -501,7 +513,7 @@ static void plots_count_at_their_own_times(void **state)
     struct maintainer_estimate estimate;
     (void)state;
 
-    maintainer = start(MAINTAIN_NEAREST, true, &parameters);
+    maintainer = start_maintainer(MAINTAIN_NEAREST, true, &parameters);
     for (int step = 1; step <= 30; step++) {
         int32_t offset_us = (int32_t)random_below(&random, 1000000);
         double place_m[3];
@@ -524,8 +536,8 @@ static void plots_count_at_their_own_times(void **state)
     maintainer_free(maintainer);
 }
 
-/* Places alone: the velocity is not known, and comes. */
-static void places_alone_are_enough_to_start(void **state)
+/* A start without velocity: the velocity is unknown at first and is learned from places. */
+static void a_track_starts_from_plots_without_velocity(void **state)
 {
     struct parameters parameters = parameters_at_default();
     struct maintainer *maintainer = maintainer_new(MAINTAIN_NEAREST, true, &parameters);
@@ -542,7 +554,7 @@ static void places_alone_are_enough_to_start(void **state)
     for (int step = 1; step <= 60; step++) {
         struct rho_scan scan = scan_of(step, &plot, 1, 0);
 
-        move(place_m);
+        move_place_by_one_scan(place_m);
         plot = plot_at(place_m, start_mps);
         maintainer_predict(maintainer, scan.time_us);
         assert_int_equal(maintainer_update(maintainer, &scan, NULL, NAN, 0.9, NULL), 0);
@@ -553,20 +565,22 @@ static void places_alone_are_enough_to_start(void **state)
     maintainer_free(maintainer);
 }
 
-/* ---- The density of clutter ------------------------------------------------------------------ */
+/* ---- the density of clutter ------------------------------------------------------------------ */
 
 #define CLUTTER_MAX 400
 
-/* Clutter in a region about a place that moves, where the target is. */
+/* A region of clutter about a moving place, where the target is. */
 struct region {
     int num_clutter, axes;
     bool is_ball;
-    double half_m, half_mps; /* of velocities, if any; half a side where it is no ball */
-    double flat;             /* share of the size along z */
+    /* half extent in place and in velocity (0: none); half a side unless it is a ball */
+    double half_m, half_mps;
+    double flat; /* extent along z as a share of half_m */
     double pd;
 };
 
-static double draw(const struct region *region, double offset[3], struct random *random)
+static double draw_offset_in_region(const struct region *region, double offset[3],
+                                    struct random *random)
 {
     double length2;
 
@@ -589,7 +603,7 @@ static double log_volume(const struct region *region, double half)
     return log(unit) + d * log(half) + (region->axes == 3 ? log(region->flat) : 0.0);
 }
 
-/* ln estimated less ln true density, mean of the last half of the scans. */
+/* ln of estimated over true density, averaged over the last half of the scans. */
 static double density_error(const struct region *region, int scans)
 {
     static struct rho_plot plots[CLUTTER_MAX + 1];
@@ -609,10 +623,10 @@ static double density_error(const struct region *region, int scans)
         for (int i = 0; i < region->num_clutter; i++) {
             double p[3], v[3], offset[3];
 
-            draw(region, offset, &random);
+            draw_offset_in_region(region, offset, &random);
             for (int k = 0; k < 3; k++) {
                 p[k] = place_m[k] + region->half_m * offset[k];
-                v[k] = region->half_mps * offset[k]; /* follow from the places */
+                v[k] = region->half_mps * offset[k]; /* velocities in proportion to places */
             }
             plots[count++] = plot_at(p, v);
         }
@@ -627,8 +641,10 @@ static double density_error(const struct region *region, int scans)
     return sum / (scans - scans / 2);
 }
 
-/* Errors of 200 scans were 0.12 at most, of the second and third scan 0.9, with velocities 1.7. */
-static void the_density_is_that_of_the_clutter(void **state)
+/*
+ * Over 200 scans errors were at most 0.12; in the second and third scan 0.9, with velocities 1.7.
+ */
+static void the_estimated_clutter_density_is_the_true_one(void **state)
 {
     static const struct region regions[] = {
         {3, 3, true, .half_m = 500, .flat = 1, .pd = 0.9},
@@ -650,8 +666,8 @@ static void the_density_is_that_of_the_clutter(void **state)
     }
 }
 
-/* The plots of a strip of 10 km by 400 m, turned by 45 degrees. */
-static void a_strip_is_no_square(void **state)
+/* Plots in a strip of 10 km by 400 m, turned by 45 degrees. */
+static void the_density_of_a_narrow_strip_is_estimated(void **state)
 {
     struct scan_clutter_density *density = scan_clutter_density_new();
     struct random random = random_start(10, 0, 0);
@@ -677,8 +693,8 @@ static void a_strip_is_no_square(void **state)
     scan_clutter_density_free(density);
 }
 
-/* Ten plots a scan in a square kilometre, then forty in sixteen. */
-static void a_change_of_density_is_seen(void **state)
+/* Ten plots a scan in a square kilometre, later forty in sixteen. */
+static void the_density_estimate_follows_a_change(void **state)
 {
     struct scan_clutter_density *density = scan_clutter_density_new();
     struct random random = random_start(11, 0, 0);
@@ -708,10 +724,10 @@ static void a_change_of_density_is_seen(void **state)
 }
 
 /*
- * As many plots as there must be for a missed target alone, in a ball of 1 km standard deviation an
- * axis.
+ * Without clutter the estimate is its lower bound: the missed target's share in a ball of 1 km
+ * standard deviation an axis.
  */
-static void without_clutter_the_density_is_low(void **state)
+static void without_clutter_the_density_has_its_lower_bound(void **state)
 {
     struct scan_clutter_density *density = scan_clutter_density_new();
     struct rho_plot plot = plot_at(start_m, start_mps);
@@ -727,8 +743,8 @@ static void without_clutter_the_density_is_low(void **state)
     scan_clutter_density_free(density);
 }
 
-/* Plots in one place, or in one plane, fill as much as their noise does. */
-static void plots_in_one_place_fill_a_volume(void **state)
+/* Plots at one place, or in one plane, fill the volume of their measurement noise. */
+static void plots_at_one_place_fill_the_volume_of_their_noise(void **state)
 {
     struct scan_clutter_density *density = scan_clutter_density_new();
     struct rho_plot plots[4];
@@ -744,8 +760,8 @@ static void plots_in_one_place_fill_a_volume(void **state)
     scan_clutter_density_free(density);
 }
 
-/* A sensor far from the other, with more clutter, and one that adds range rates. */
-static void each_sensor_has_a_density_of_its_own(void **state)
+/* A second sensor, far away and with more clutter, and one that also measures range rates. */
+static void each_sensor_has_its_own_clutter_density(void **state)
 {
     struct scan_clutter_density *both = scan_clutter_density_new(),
                                 *alone = scan_clutter_density_new();
@@ -758,11 +774,11 @@ static void each_sensor_has_a_density_of_its_own(void **state)
         struct rho_scan scan = scan_of(step, plots, PLOTS, 0);
         double expected;
 
-        fill_scan(plots, start_m, start_mps, &random);
+        draw_plots_about(plots, start_m, start_mps, &random);
         expected = scan_clutter_density_add_and_estimate(alone, &scan, start_m, 0.9);
         assert_near(scan_clutter_density_add_and_estimate(both, &scan, start_m, 0.9), expected,
                     0.0);
-        fill_scan(plots, far_m, start_mps, &random);
+        draw_plots_about(plots, far_m, start_mps, &random);
         scan.sensor_id = 1;
         scan.num_plots = 3;
         (void)scan_clutter_density_add_and_estimate(both, &scan, far_m, 0.9);
@@ -771,8 +787,8 @@ static void each_sensor_has_a_density_of_its_own(void **state)
     scan_clutter_density_free(alone);
 }
 
-/* Range rates, uniform over 400 m/s, are one dimension more. */
-static void range_rates_count(void **state)
+/* Range rates, uniform over 400 m/s, add one dimension to the density. */
+static void range_rates_add_a_dimension_to_the_density(void **state)
 {
     struct scan_clutter_density *with = scan_clutter_density_new(),
                                 *without = scan_clutter_density_new();
@@ -802,22 +818,22 @@ static void range_rates_count(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nearest_takes_the_least_distance_and_follows_the_double_filter),
-        cmocka_unit_test(distances_know_the_ellipse_of_the_noise),
-        cmocka_unit_test(the_gate_allows_for_an_input_that_may_have_begun),
-        cmocka_unit_test(an_input_is_found_and_reported),
-        cmocka_unit_test(hough_takes_the_plot_that_the_paper_does),
-        cmocka_unit_test(none_takes_every_valid_plot_equally_often),
-        cmocka_unit_test(without_a_plot_the_track_goes_straight_on),
-        cmocka_unit_test(plots_count_at_their_own_times),
-        cmocka_unit_test(places_alone_are_enough_to_start),
-        cmocka_unit_test(the_density_is_that_of_the_clutter),
-        cmocka_unit_test(a_strip_is_no_square),
-        cmocka_unit_test(a_change_of_density_is_seen),
-        cmocka_unit_test(without_clutter_the_density_is_low),
-        cmocka_unit_test(plots_in_one_place_fill_a_volume),
-        cmocka_unit_test(each_sensor_has_a_density_of_its_own),
-        cmocka_unit_test(range_rates_count),
+        cmocka_unit_test(gate_nearest_takes_the_least_nis_as_in_double_precision),
+        cmocka_unit_test(nis_uses_the_noise_ellipse_and_range_rate_of_a_plot),
+        cmocka_unit_test(the_first_gate_is_widened_by_the_prior_of_the_input),
+        cmocka_unit_test(an_acceleration_is_detected_and_reported),
+        cmocka_unit_test(gate_hough_takes_the_plot_of_the_papers_equations),
+        cmocka_unit_test(gate_none_takes_a_random_valid_plot),
+        cmocka_unit_test(scans_without_a_valid_plot_are_coasted_in_a_straight_line),
+        cmocka_unit_test(plots_update_the_track_at_their_own_times),
+        cmocka_unit_test(a_track_starts_from_plots_without_velocity),
+        cmocka_unit_test(the_estimated_clutter_density_is_the_true_one),
+        cmocka_unit_test(the_density_of_a_narrow_strip_is_estimated),
+        cmocka_unit_test(the_density_estimate_follows_a_change),
+        cmocka_unit_test(without_clutter_the_density_has_its_lower_bound),
+        cmocka_unit_test(plots_at_one_place_fill_the_volume_of_their_noise),
+        cmocka_unit_test(each_sensor_has_its_own_clutter_density),
+        cmocka_unit_test(range_rates_add_a_dimension_to_the_density),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

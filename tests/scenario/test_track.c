@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Simulated scenarios through rho_tracker_step, scan by scan: are the targets tracked, each by one
- * track, and nothing else? Tracks and targets are paired by gospa_compare. Seeds are fixed; the
- * comment at each case holds what many other seeds give.
+ * Simulated scenarios through rho_tracker_step, scan by scan: is each target followed by one track,
+ * without false tracks? gospa_compare pairs tracks with targets. Seeds are fixed; the comment at
+ * each case gives the result over many other seeds.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,22 +26,22 @@ static struct rho_initiator initiator;
 static struct rho_report report;
 static struct rho_plot plots[RHO_MAX_PLOTS];
 
-/* Counts from scan `from` on, when every target has had the time to be found. */
+/* Counts from scan `from` on, when every target has had time to be found. */
 struct outcome {
-    size_t targets, targets_found; /* found: at the last scan */
-    size_t points, points_tracked; /* targets times scans */
+    size_t targets, targets_found; /* targets_found: at the last scan */
+    size_t points, points_tracked; /* targets times scans; those paired with a track */
     size_t false_rows, switches;
-    unsigned confirmed; /* tracks, ever */
+    unsigned confirmed; /* tracks confirmed in the whole run */
     double rmse_m;
 };
 
 struct following {
     struct outcome outcome;
-    uint32_t track_of[TARGETS_MAX]; /* the last one; 0: none yet */
+    uint32_t track_of[TARGETS_MAX]; /* identity of the last paired track; 0: none yet */
     double squared_m2;
 };
 
-static void start(const struct parameters *parameters)
+static void start_tracker(const struct parameters *parameters)
 {
     struct rho_tracker_config tracker_config;
     struct rho_initiator_config initiator_config;
@@ -52,7 +52,7 @@ static void start(const struct parameters *parameters)
     assert_int_equal(RHO_OK, rho_initiator_init(&initiator, sizeof initiator, &initiator_config));
 }
 
-static void step(const struct simulated_scan *simulated, double sigma_m)
+static void step_scan(const struct simulated_scan *simulated, double sigma_m)
 {
     struct rho_scan scan = {.time_us = llround(simulated->t_s * 1e6),
                             .num_plots = (uint32_t)simulated->num_plots,
@@ -68,9 +68,9 @@ static void step(const struct simulated_scan *simulated, double sigma_m)
     assert_int_equal(RHO_OK, rho_tracker_step(&tracker, &initiator, &scan, &report));
 }
 
-/* Confirmed and coasting tracks of the report. */
-static size_t tracks_of_report(struct gospa_place places[RHO_MAX_TRACKS],
-                               uint32_t ids[RHO_MAX_TRACKS])
+/* Places of the confirmed and coasting tracks of the report. */
+static size_t confirmed_places_of_report(struct gospa_place places[RHO_MAX_TRACKS],
+                                         uint32_t ids[RHO_MAX_TRACKS])
 {
     size_t count = 0;
 
@@ -95,13 +95,14 @@ static void count_pair(struct following *following, size_t target, uint32_t trac
     *last = track_id;
 }
 
-static void judge(struct following *following, const struct truth_point *truth, size_t num_targets)
+static void pair_tracks_with_targets(struct following *following, const struct truth_point *truth,
+                                     size_t num_targets)
 {
     static struct gospa_place places[RHO_MAX_TRACKS];
     static uint32_t ids[RHO_MAX_TRACKS];
     struct gospa_place targets[TARGETS_MAX] = {{0}};
     int track_of[TARGETS_MAX];
-    size_t num_tracks = tracks_of_report(places, ids);
+    size_t num_tracks = confirmed_places_of_report(places, ids);
     struct gospa gospa;
 
     for (size_t i = 0; i < num_targets; i++) {
@@ -119,20 +120,20 @@ static void judge(struct following *following, const struct truth_point *truth, 
     }
 }
 
-static struct outcome follow(const char *name, const struct parameters *parameters, uint64_t seed,
-                             size_t from)
+static struct outcome follow_scenario(const char *name, const struct parameters *parameters,
+                                      uint64_t seed, size_t from)
 {
     struct simulation *simulation = scenario_simulate(name, parameters, seed, 0);
     struct following following = {.outcome.targets = simulation->num_targets};
     struct outcome *outcome = &following.outcome;
 
     assert_true(simulation->num_targets <= TARGETS_MAX);
-    start(parameters);
+    start_tracker(parameters);
     for (size_t scan = 0; scan < simulation->num_scans; scan++) {
-        step(&simulation->scans[scan], simulation->sigma_m);
+        step_scan(&simulation->scans[scan], simulation->sigma_m);
         if (scan >= from) {
-            judge(&following, simulation->truth + scan * simulation->num_targets,
-                  simulation->num_targets);
+            pair_tracks_with_targets(&following, simulation->truth + scan * simulation->num_targets,
+                                     simulation->num_targets);
         }
     }
     outcome->confirmed = tracker.counters.tracks_confirmed;
@@ -142,13 +143,13 @@ static struct outcome follow(const char *name, const struct parameters *paramete
 }
 
 /* Sum over seeds 1 .. num_seeds. */
-static struct outcome follow_seeds(const char *name, const struct parameters *parameters,
-                                   uint64_t num_seeds, size_t from)
+static struct outcome sum_over_seeds(const char *name, const struct parameters *parameters,
+                                     uint64_t num_seeds, size_t from)
 {
     struct outcome sum = {0};
 
     for (uint64_t seed = 1; seed <= num_seeds; seed++) {
-        struct outcome one = follow(name, parameters, seed, from);
+        struct outcome one = follow_scenario(name, parameters, seed, from);
         sum.targets += one.targets;
         sum.targets_found += one.targets_found;
         sum.points += one.points;
@@ -166,7 +167,7 @@ static struct outcome follow_seeds(const char *name, const struct parameters *pa
     return sum;
 }
 
-/* The same of a scene with one radar that measures x and y. */
+/* The outcome for a scene with one radar that measures x and y. */
 static struct outcome follow_scene(const char *name, const char *duration,
                                    const struct parameters *parameters, uint64_t seed, size_t from)
 {
@@ -175,7 +176,7 @@ static struct outcome follow_scene(const char *name, const char *duration,
     struct following following = {.outcome.targets = run->num_paths};
 
     assert_true(run->num_paths <= 1);
-    start(parameters);
+    start_tracker(parameters);
     for (size_t i = 0; i < run->num_scans; i++) {
         const struct scene_scan *seen = &run->scans[i];
         struct simulated_plot list[RHO_MAX_PLOTS];
@@ -191,9 +192,9 @@ static struct outcome follow_scene(const char *name, const char *duration,
         for (size_t k = 0; k < seen->num_plots; k++) {
             list[k] = (struct simulated_plot){.x_m = seen->plots[k].x_m, .y_m = seen->plots[k].y_m};
         }
-        step(&scan, scene->sensors[0].sigma_m);
+        step_scan(&scan, scene->sensors[0].sigma_m);
         if (i >= from) {
-            judge(&following, &truth, run->num_paths);
+            pair_tracks_with_targets(&following, &truth, run->num_paths);
         }
     }
     following.outcome.confirmed = tracker.counters.tracks_confirmed;
@@ -211,7 +212,7 @@ static struct parameters parameters_of(const char *scenario)
     return parameters;
 }
 
-static void traffic_is_tracked_without_false_tracks_or_switches(void **state)
+static void traffic_is_tracked_without_false_tracks_or_identity_switches(void **state)
 {
     struct parameters parameters = parameters_of("traffic");
     struct outcome outcome;
@@ -219,43 +220,43 @@ static void traffic_is_tracked_without_false_tracks_or_switches(void **state)
 
     parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 40);
     parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, 250);
-    outcome = follow_seeds("traffic", &parameters, 4, 10);
+    outcome = sum_over_seeds("traffic", &parameters, 4, 10);
     assert_int_equal(outcome.targets, 200);
     assert_true(outcome.targets_found >= 198);
     assert_true((double)outcome.points_tracked >= 0.99 * (double)outcome.points);
     assert_true(outcome.false_rows <= 10);
     assert_true(outcome.switches <= 2);
     assert_true(outcome.confirmed <= 203);
-    assert_true(outcome.rmse_m < 67.0); /* the plots' own error is 71 m */
+    assert_true(outcome.rmse_m < 67.0); /* the plots' own RMS error is 71 m */
 }
 
-static void crossing_targets_keep_their_tracks(void **state)
+static void crossing_targets_keep_their_track_identities(void **state)
 {
     struct parameters parameters = parameters_of("crossing");
     struct outcome outcome;
     (void)state;
 
     parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 20);
-    outcome = follow_seeds("crossing", &parameters, 40, 8);
+    outcome = sum_over_seeds("crossing", &parameters, 40, 8);
     assert_true(outcome.targets_found >= 117);
     assert_true((double)outcome.points_tracked >= 0.98 * (double)outcome.points);
     assert_true(outcome.switches <= 4);
-    assert_true(outcome.rmse_m < 14.0); /* the plots' own error is 14.1 m */
+    assert_true(outcome.rmse_m < 14.0); /* the plots' own RMS error is 14.1 m */
 }
 
-static void neighbours_at_a_small_angle_keep_their_tracks(void **state)
+static void targets_crossing_at_a_small_angle_keep_their_identities(void **state)
 {
     struct parameters parameters = parameters_of("crossing-angle");
     struct outcome outcome;
     (void)state;
 
     parameters_suggest(&parameters, PARAMETER_NUM_SCANS, 20);
-    outcome = follow_seeds("crossing-angle", &parameters, 40, 8);
+    outcome = sum_over_seeds("crossing-angle", &parameters, 40, 8);
     assert_true(outcome.targets_found >= 77);
     assert_true(outcome.switches <= 8);
 }
 
-static void a_slow_turn_is_followed(void **state)
+static void a_slowly_turning_target_is_followed(void **state)
 {
     struct parameters parameters;
     struct outcome outcome = {0};
@@ -277,9 +278,10 @@ static void a_slow_turn_is_followed(void **state)
     assert_true(outcome.switches <= 2);
 }
 
-static void clutter_alone_confirms_next_to_nothing(void **state)
+static void clutter_alone_confirms_hardly_any_track(void **state)
 {
-    struct parameters parameters = parameters_of("crossing"); /* as fast, in the same area */
+    /* targets of the same speed in the same area as the scenario crossing */
+    struct parameters parameters = parameters_of("crossing");
     unsigned confirmed = 0;
     (void)state;
 
@@ -295,11 +297,11 @@ static void clutter_alone_confirms_next_to_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(traffic_is_tracked_without_false_tracks_or_switches),
-        cmocka_unit_test(crossing_targets_keep_their_tracks),
-        cmocka_unit_test(neighbours_at_a_small_angle_keep_their_tracks),
-        cmocka_unit_test(a_slow_turn_is_followed),
-        cmocka_unit_test(clutter_alone_confirms_next_to_nothing),
+        cmocka_unit_test(traffic_is_tracked_without_false_tracks_or_identity_switches),
+        cmocka_unit_test(crossing_targets_keep_their_track_identities),
+        cmocka_unit_test(targets_crossing_at_a_small_angle_keep_their_identities),
+        cmocka_unit_test(a_slowly_turning_target_is_followed),
+        cmocka_unit_test(clutter_alone_confirms_hardly_any_track),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The figures of tracks against truth, on scenes whose answers are known by hand. */
+/* Figures of tracks against truth, on scenes whose results are worked out by hand. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 
 #include "evaluation/evaluation.h"
 
-#define S 1000000 /* us */
+#define S 1000000 /* microseconds in a second */
 #define CUTOFF_M 100.0
 
 static bool is_near(double value, double expected)
@@ -20,8 +20,8 @@ static bool is_near(double value, double expected)
     return fabs(value - expected) <= 1e-9 * fmax(1.0, fabs(expected));
 }
 
-/* Without velocity and covariance. */
-static struct evaluation_point at(int32_t id, double x_m, double y_m)
+/* A point without velocity and covariance. */
+static struct evaluation_point point_at(int32_t id, double x_m, double y_m)
 {
     return (struct evaluation_point){.id = id,
                                      .x_m = x_m,
@@ -33,14 +33,16 @@ static struct evaluation_point at(int32_t id, double x_m, double y_m)
                                      .cov_yy_m2 = NAN};
 }
 
-/* A target in the origin and, where track is above 0, that track error_m beside it. */
-static void step(struct evaluation *e, int64_t time_s, int32_t track, double error_m)
+/*
+ * Adds a time with a target at the origin and, if track is above 0, that track error_m beside it.
+ */
+static void add_scan_with_error(struct evaluation *e, int64_t time_s, int32_t track, double error_m)
 {
-    struct evaluation_point target = at(7, 0.0, 0.0), there = at(track, error_m, 0.0);
+    struct evaluation_point target = point_at(7, 0.0, 0.0), there = point_at(track, error_m, 0.0);
     evaluation_add_time(e, time_s * S, &target, 1, &there, track > 0);
 }
 
-static void nothing_is_known_of_nothing(void **state)
+static void an_empty_evaluation_has_no_figures(void **state)
 {
     (void)state;
     struct evaluation *e = evaluation_start(CUTOFF_M);
@@ -60,11 +62,8 @@ static void nothing_is_known_of_nothing(void **state)
     evaluation_free(e);
 }
 
-/*
- * Track 1, a gap, track 1 again, track 2 at once, a gap, track 2 again, a gap with track 3 at its
- * end, a gap.
- */
-static void switches_and_fragments_are_told_apart(void **state)
+/* Track 1, a gap, track 1 again, at once track 2, a gap, track 2 again, a gap, track 3, a gap. */
+static void identity_switches_and_fragments_are_counted_separately(void **state)
 {
     (void)state;
     static const int32_t track[] = {0, 0, 1, 1, 0, 1, 2, 0, 0, 2, 0, 3, 3, 0};
@@ -72,7 +71,7 @@ static void switches_and_fragments_are_told_apart(void **state)
     static const size_t fragments[] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0};
     struct evaluation *e = evaluation_start(CUTOFF_M);
     for (int i = 0; i < 14; i++) {
-        step(e, 10 + 2 * i, track[i], 5.0);
+        add_scan_with_error(e, 10 + 2 * i, track[i], 5.0);
     }
     struct evaluation_result r = evaluation_result(e);
     assert_int_equal(r.switches, 2);
@@ -96,49 +95,51 @@ static void switches_and_fragments_are_told_apart(void **state)
     evaluation_free(e);
 }
 
-/* A target that is not there has no gap; one that is found only later has no fragment. */
-static void absence_is_no_fragment(void **state)
+/* An absent target has no gap; a target found only later has no fragment. */
+static void an_absent_target_adds_no_fragment(void **state)
 {
     (void)state;
     struct evaluation *e = evaluation_start(CUTOFF_M);
-    struct evaluation_point other = at(8, 5000.0, 0.0);
-    step(e, 0, 1, 5.0);
+    struct evaluation_point other = point_at(8, 5000.0, 0.0);
+    add_scan_with_error(e, 0, 1, 5.0);
     evaluation_add_time(e, 1 * S, &other, 1, NULL, 0);
-    step(e, 2, 1, 5.0);
+    add_scan_with_error(e, 2, 1, 5.0);
     struct evaluation_result r = evaluation_result(e);
     assert_int_equal(r.fragments, 0);
     assert_true(r.targets == 2 && r.targets_found == 1 && is_near(r.completeness, 2.0 / 3.0));
     evaluation_free(e);
 }
 
-static void quantiles_interpolate(void **state)
+static void quantiles_of_errors_are_interpolated(void **state)
 {
     (void)state;
     static const double errors_m[] = {9.0, 1.0, 4.0, 2.0};
     struct evaluation *e = evaluation_start(CUTOFF_M);
-    step(e, 0, 1, 3.0);
+    add_scan_with_error(e, 0, 1, 3.0);
     struct evaluation_result r = evaluation_result(e);
     assert_true(r.errors.median_m == 3.0 && r.errors.p95_m == 3.0 && r.errors.rmse_m == 3.0);
     assert_true(isnan(r.errors.rmse_mps) && isnan(r.errors.median_mps) && isnan(r.errors.p95_mps));
     for (int i = 0; i < 4; i++) {
-        step(e, 1 + i, 1, errors_m[i]);
+        add_scan_with_error(e, 1 + i, 1, errors_m[i]);
     }
-    r = evaluation_result(e); /* 1 2 3 4 9 */
+    r = evaluation_result(e); /* median of the errors 1 2 3 4 9 */
     assert_true(is_near(r.errors.median_m, 3.0) && is_near(r.errors.p95_m, 4.0 + 0.8 * 5.0));
     assert_true(is_near(r.errors.rmse_m, sqrt(111.0 / 5.0)));
-    step(e, 5, 1, 5.0); /* 1 2 3 4 5 9 */
+    add_scan_with_error(e, 5, 1, 5.0); /* of 1 2 3 4 5 9 */
     r = evaluation_result(e);
     assert_true(is_near(r.errors.median_m, 3.5) && is_near(r.errors.p95_m, 5.0 + 0.75 * 4.0));
     evaluation_free(e);
 }
 
-/* Errors of velocity are those of the pairs that have both; a height's count. */
-static void velocities_count_where_both_are_known(void **state)
+/* Velocity errors count pairs in which both velocities are known; heights count, too. */
+static void velocity_errors_need_the_velocity_of_track_and_target(void **state)
 {
     (void)state;
     struct evaluation *e = evaluation_start(CUTOFF_M);
-    struct evaluation_point targets[3] = {at(1, 0, 0), at(2, 1000, 0), at(3, 2000, 0)};
-    struct evaluation_point tracks[3] = {at(11, 2, 3), at(12, 1000, 0), at(13, 2000, 0)};
+    struct evaluation_point targets[3] = {point_at(1, 0, 0), point_at(2, 1000, 0),
+                                          point_at(3, 2000, 0)};
+    struct evaluation_point tracks[3] = {point_at(11, 2, 3), point_at(12, 1000, 0),
+                                         point_at(13, 2000, 0)};
     tracks[0].z_m = 6.0;
     targets[0].vx_mps = 10.0, targets[0].vy_mps = 0.0, targets[0].vz_mps = 1.0;
     tracks[0].vx_mps = 12.0, tracks[0].vy_mps = 3.0, tracks[0].vz_mps = -5.0;
@@ -164,20 +165,21 @@ static struct evaluation_point with_covariance(struct evaluation_point point, do
     return point;
 }
 
-/* P = [4 2; 2 3], det 8, inverse [3 -2; -2 4] / 8. */
-static void nees_is_that_of_the_covariance(void **state)
+/* Covariance P = [4 2; 2 3], determinant 8, inverse [3 -2; -2 4] / 8. */
+static void nees_uses_the_full_covariance(void **state)
 {
     (void)state;
     struct evaluation *e = evaluation_start(CUTOFF_M);
     struct evaluation_point targets[5], tracks[5];
     for (int i = 0; i < 5; i++) {
-        targets[i] = at(i, 1000.0 * i, 0.0);
-        tracks[i] = with_covariance(at(20 + i, 1000.0 * i, 0.0), 4.0, 2.0, 3.0);
+        targets[i] = point_at(i, 1000.0 * i, 0.0);
+        tracks[i] = with_covariance(point_at(20 + i, 1000.0 * i, 0.0), 4.0, 2.0, 3.0);
     }
-    tracks[0].x_m += 2.0, tracks[0].y_m += 1.0;              /* (12 - 8 + 4) / 8 = 1 */
-    tracks[1].x_m += 4.0, tracks[1].y_m -= 1.0;              /* (48 + 16 + 4) / 8 = 8.5, outside */
-    tracks[2] = at(22, 2000.0, 50.0);                        /* none is given */
-    tracks[3] = with_covariance(tracks[3], 4.0, 4.0, 4.0);   /* singular */
+    tracks[0].x_m += 2.0, tracks[0].y_m += 1.0; /* NEES (12 - 8 + 4) / 8 = 1 */
+    /* NEES (48 + 16 + 4) / 8 = 8.5, outside the ellipse */
+    tracks[1].x_m += 4.0, tracks[1].y_m -= 1.0;
+    tracks[2] = point_at(22, 2000.0, 50.0);                  /* no covariance */
+    tracks[3] = with_covariance(tracks[3], 4.0, 4.0, 4.0);   /* singular covariance */
     tracks[4] = with_covariance(tracks[4], -4.0, 0.0, -4.0); /* not positive definite */
     evaluation_add_time(e, 0, targets, 5, tracks, 5);
     struct evaluation_result r = evaluation_result(e);
@@ -210,39 +212,40 @@ static struct evaluation_point with_velocity_covariance(struct evaluation_point 
 }
 
 /*
- * The same matrix for velocities, over the 2 of its mean: 1 / 2, 8.5 / 2. Without a velocity, a
- * covariance or a positive definite one there is none, whatever is known of the place.
+ * The same covariance for velocities: NEES over its two dimensions is 1 / 2 and 8.5 / 2. Without a
+ * velocity or a positive definite covariance there is none.
  */
-static void velocities_have_a_ratio_of_their_own(void **state)
+static void velocity_nees_uses_the_velocity_covariance(void **state)
 {
     (void)state;
     struct evaluation *e = evaluation_start(CUTOFF_M);
     struct evaluation_point targets[5], tracks[5];
     for (int i = 0; i < 5; i++) {
-        targets[i] = with_velocity(at(i, 1000.0 * i, 0.0), 100.0, -50.0);
+        targets[i] = with_velocity(point_at(i, 1000.0 * i, 0.0), 100.0, -50.0);
         tracks[i] = with_velocity_covariance(
-            with_velocity(at(20 + i, 1000.0 * i, 0.0), 100.0, -50.0), 4.0, 2.0, 3.0);
+            with_velocity(point_at(20 + i, 1000.0 * i, 0.0), 100.0, -50.0), 4.0, 2.0, 3.0);
     }
     tracks[0].vx_mps += 2.0, tracks[0].vy_mps += 1.0;
     tracks[1].vx_mps += 4.0, tracks[1].vy_mps -= 1.0;
-    tracks[2] = with_velocity_covariance(at(22, 2000.0, 0.0), 4.0, 2.0, 3.0);
-    tracks[3] = with_covariance(with_velocity(at(23, 3000.0, 0.0), 90.0, 0.0), 1.0, 0.0, 1.0);
+    tracks[2] = with_velocity_covariance(point_at(22, 2000.0, 0.0), 4.0, 2.0, 3.0);
+    tracks[3] = with_covariance(with_velocity(point_at(23, 3000.0, 0.0), 90.0, 0.0), 1.0, 0.0, 1.0);
     tracks[4] = with_velocity_covariance(tracks[4], 4.0, 4.0, 4.0);
     evaluation_add_time(e, 0, targets, 5, tracks, 5);
     struct evaluation_result r = evaluation_result(e);
     assert_true(is_near(r.errors.velocity_ratio, 4.75 / 2.0) && r.errors.velocity_inside == 0.5);
-    assert_true(r.errors.nees == 0.0 && r.errors.nees_inside == 1.0); /* of the fourth */
+    /* share of the only track with a place NEES */
+    assert_true(r.errors.nees == 0.0 && r.errors.nees_inside == 1.0);
     size_t count;
     assert_true(is_near(evaluation_results_over_time(e, &count)->velocity_ratio, 4.75 / 2.0));
     evaluation_free(e);
 }
 
 /*
- * What one target does and its track: two seconds of 10 m/s, a turn of 0.1 m/s^2, a missed scan in
- * it, straight again, a velocity that is not given. Errors tell the times apart: the root mean
- * square of a motion's.
+ * One target and its track: two seconds at 10 m/s, a turn of 0.1 m/s^2 with a missed scan, straight
+ * again, an unknown velocity. Errors differ at each time, so that the RMS of each motion shows its
+ * times.
  */
-static void motions_are_told_apart(void **state)
+static void errors_are_split_by_straight_turning_and_coasting(void **state)
 {
     (void)state;
     static const double vx_mps[] = {10.0, 10.0, 10.2, 10.4, 10.4, NAN, 10.4, 10.43};
@@ -254,8 +257,8 @@ static void motions_are_told_apart(void **state)
     size_t pairs[EVALUATION_MOTIONS + 1] = {0};
     for (int i = 0; i < 8; i++) {
         double error_m = 1.0 + 3.0 * i;
-        struct evaluation_point target = with_velocity(at(1, 0.0, 0.0), vx_mps[i], 0.0);
-        struct evaluation_point track = at(2, error_m, 0.0);
+        struct evaluation_point target = with_velocity(point_at(1, 0.0, 0.0), vx_mps[i], 0.0);
+        struct evaluation_point track = point_at(2, error_m, 0.0);
         track.is_coasting = i == 3;
         evaluation_add_time(e, 2 * i * S, &target, 1, &track, 1);
         squares_m2[expected[i]] += error_m * error_m;
@@ -267,9 +270,9 @@ static void motions_are_told_apart(void **state)
         assert_true(is_near(r.by_motion[i].rmse_m, sqrt(squares_m2[i] / (double)pairs[i])));
     }
     assert_int_equal(r.errors.pairs, 8);
-    /* 0.04 m/s in a second is a turn, and below another limit none */
-    struct evaluation_point track = at(2, 0.0, 0.0);
-    struct evaluation_point target = with_velocity(at(1, 0.0, 0.0), 10.47, 0.0);
+    /* 0.04 m/s in a second is a turn if the limit is lower */
+    struct evaluation_point track = point_at(2, 0.0, 0.0);
+    struct evaluation_point target = with_velocity(point_at(1, 0.0, 0.0), 10.47, 0.0);
     evaluation_add_time(e, 15 * S, &target, 1, &track, 1);
     assert_int_equal(evaluation_result(e).by_motion[EVALUATION_TURNING].pairs, 2);
     evaluation_set_turning_limit(e, 0.05);
@@ -281,13 +284,13 @@ static void motions_are_told_apart(void **state)
     evaluation_free(e);
 }
 
-/* The ellipse ends at chi-square 5.9915. */
-static void the_ellipse_is_that_of_95_percent(void **state)
+/* The ellipse of 95 % ends at a chi-square of 5.9915. */
+static void the_nees_ellipse_holds_95_percent(void **state)
 {
     (void)state;
     struct evaluation *e = evaluation_start(CUTOFF_M);
-    struct evaluation_point target = at(1, 0.0, 0.0), track;
-    track = with_covariance(at(1, sqrt(5.991), 0.0), 1.0, 0.0, 1.0);
+    struct evaluation_point target = point_at(1, 0.0, 0.0), track;
+    track = with_covariance(point_at(1, sqrt(5.991), 0.0), 1.0, 0.0, 1.0);
     evaluation_add_time(e, 0, &target, 1, &track, 1);
     assert_true(evaluation_result(e).errors.nees_inside == 1.0);
     track.x_m = sqrt(5.992);
@@ -297,17 +300,18 @@ static void the_ellipse_is_that_of_95_percent(void **state)
 }
 
 /*
- * Track 2 is alone in two of three rows, track 3 in one of two, track 4 in its only one; over half
- * an hour.
+ * Track 2 is unpaired in two of three rows, track 3 in one of two, track 4 in its only one; over
+ * half an hour.
  */
-static void false_tracks_are_alone_most_of_the_time(void **state)
+static void tracks_unpaired_in_most_rows_are_false(void **state)
 {
     (void)state;
     struct evaluation *e = evaluation_start(CUTOFF_M);
-    struct evaluation_point target = at(1, 0.0, 0.0);
-    struct evaluation_point first[2] = {at(2, 10.0, 0.0), at(3, 900.0, 0.0)};
-    struct evaluation_point then[3] = {at(3, 10.0, 0.0), at(2, 900.0, 0.0), at(4, 0.0, 900.0)};
-    struct evaluation_point last[1] = {at(2, 900.0, 0.0)};
+    struct evaluation_point target = point_at(1, 0.0, 0.0);
+    struct evaluation_point first[2] = {point_at(2, 10.0, 0.0), point_at(3, 900.0, 0.0)};
+    struct evaluation_point then[3] = {point_at(3, 10.0, 0.0), point_at(2, 900.0, 0.0),
+                                       point_at(4, 0.0, 900.0)};
+    struct evaluation_point last[1] = {point_at(2, 900.0, 0.0)};
     evaluation_add_time(e, 0, &target, 1, first, 2);
     evaluation_add_time(e, 900 * (int64_t)S, &target, 1, then, 3);
     evaluation_add_time(e, 1800 * (int64_t)S, &target, 1, last, 1);
@@ -315,7 +319,7 @@ static void false_tracks_are_alone_most_of_the_time(void **state)
     assert_true(r.tracks == 3 && r.false_tracks == 2 && is_near(r.false_per_hour, 4.0));
     assert_true(is_near(r.gospa_false, 4.0 / 3.0) && is_near(r.false_per_scan, 4.0 / 3.0));
     assert_true(is_near(r.gospa_missed, 1.0 / 3.0));
-    /* squares: 100 + 5000; 100 + 2 x 5000; 2 x 5000 */
+    /* squared GOSPA in m^2: 100 + 5000; 100 + 2 x 5000; 2 x 5000 */
     assert_true(is_near(r.gospa_m, sqrt((5100.0 + 10100.0 + 10000.0) / 3.0)));
     assert_true(is_near(r.gospa_localisation_m, sqrt(200.0 / 3.0)));
     assert_true(is_near(r.ospa_m,
@@ -328,15 +332,16 @@ static void false_tracks_are_alone_most_of_the_time(void **state)
     evaluation_free(e);
 }
 
-/* Targets that appear, in an order that is not that of their identities, which may be any. */
-static void targets_are_listed_by_identity(void **state)
+/* Targets that appear in another order than that of their identities, which may be any number. */
+static void results_by_target_are_sorted_by_identity(void **state)
 {
     (void)state;
     struct evaluation *e = evaluation_start(CUTOFF_M);
-    struct evaluation_point first[2] = {at(INT32_MAX, 0.0, 0.0), at(-5, 1000.0, 0.0)};
-    struct evaluation_point then[3] = {at(-5, 1000.0, 0.0), at(INT32_MIN, 2000.0, 0.0),
-                                       at(INT32_MAX, 0.0, 0.0)};
-    struct evaluation_point tracks[2] = {at(INT32_MIN, 1003.0, 0.0), at(0, 2004.0, 0.0)};
+    struct evaluation_point first[2] = {point_at(INT32_MAX, 0.0, 0.0), point_at(-5, 1000.0, 0.0)};
+    struct evaluation_point then[3] = {point_at(-5, 1000.0, 0.0), point_at(INT32_MIN, 2000.0, 0.0),
+                                       point_at(INT32_MAX, 0.0, 0.0)};
+    struct evaluation_point tracks[2] = {point_at(INT32_MIN, 1003.0, 0.0),
+                                         point_at(0, 2004.0, 0.0)};
     evaluation_add_time(e, 0, first, 2, NULL, 0);
     evaluation_add_time(e, S, then, 3, tracks, 2);
     evaluation_add_time(e, 2 * S, then, 3, tracks, 1);
@@ -358,10 +363,10 @@ static void targets_are_listed_by_identity(void **state)
 }
 
 /*
- * 3000 targets and as many tracks over 20 times: each is found under a number of its own, and the
- * parts are the whole.
+ * 3000 targets and as many tracks over 20 times: each keeps its own result, and their sum is the
+ * total.
  */
-static void many_identities_add_up(void **state)
+static void results_of_3000_targets_sum_to_the_total(void **state)
 {
     (void)state;
     enum { MANY = 3000, TIMES = 20 };
@@ -371,9 +376,9 @@ static void many_identities_add_up(void **state)
     for (int t = 0; t < TIMES; t++) {
         size_t num_tracks = 0;
         for (int i = 0; i < MANY; i++) {
-            targets[i] = at(i * 70000, 300.0 * (i % 60), 300.0 * (i / 60));
-            if ((i + t) % 7 != 0) { /* each is without a track every seventh time */
-                tracks[num_tracks] = at(1000000007 - 64 * i, targets[i].x_m, targets[i].y_m);
+            targets[i] = point_at(i * 70000, 300.0 * (i % 60), 300.0 * (i / 60));
+            if ((i + t) % 7 != 0) { /* every target is without a track at every seventh time */
+                tracks[num_tracks] = point_at(1000000007 - 64 * i, targets[i].x_m, targets[i].y_m);
                 tracks[num_tracks++].y_m += i % 50;
             }
         }
@@ -402,18 +407,18 @@ static void many_identities_add_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_is_known_of_nothing),
-        cmocka_unit_test(switches_and_fragments_are_told_apart),
-        cmocka_unit_test(absence_is_no_fragment),
-        cmocka_unit_test(quantiles_interpolate),
-        cmocka_unit_test(velocities_count_where_both_are_known),
-        cmocka_unit_test(nees_is_that_of_the_covariance),
-        cmocka_unit_test(velocities_have_a_ratio_of_their_own),
-        cmocka_unit_test(motions_are_told_apart),
-        cmocka_unit_test(the_ellipse_is_that_of_95_percent),
-        cmocka_unit_test(false_tracks_are_alone_most_of_the_time),
-        cmocka_unit_test(targets_are_listed_by_identity),
-        cmocka_unit_test(many_identities_add_up),
+        cmocka_unit_test(an_empty_evaluation_has_no_figures),
+        cmocka_unit_test(identity_switches_and_fragments_are_counted_separately),
+        cmocka_unit_test(an_absent_target_adds_no_fragment),
+        cmocka_unit_test(quantiles_of_errors_are_interpolated),
+        cmocka_unit_test(velocity_errors_need_the_velocity_of_track_and_target),
+        cmocka_unit_test(nees_uses_the_full_covariance),
+        cmocka_unit_test(velocity_nees_uses_the_velocity_covariance),
+        cmocka_unit_test(errors_are_split_by_straight_turning_and_coasting),
+        cmocka_unit_test(the_nees_ellipse_holds_95_percent),
+        cmocka_unit_test(tracks_unpaired_in_most_rows_are_false),
+        cmocka_unit_test(results_by_target_are_sorted_by_identity),
+        cmocka_unit_test(results_of_3000_targets_sum_to_the_total),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

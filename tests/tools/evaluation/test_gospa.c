@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * GOSPA and OSPA against hand-made cases, against every possible pairing of small random sets, and
- * against a dense assignment over whole sets (gospa_vectors.h).
+ * GOSPA and OSPA compared with hand-made cases, with every possible pairing of small random sets,
+ * and with a dense assignment over whole sets (gospa_vectors.h).
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,32 +27,33 @@ static double uniform(double from, double to)
     return from + (to - from) * (double)(seed >> 8) / 16777216.0;
 }
 
-static double squared(const struct gospa_place *a, const struct gospa_place *b)
+static double distance_squared(const struct gospa_place *a, const struct gospa_place *b)
 {
     return pow(a->x_m - b->x_m, 2) + pow(a->y_m - b->y_m, 2) + pow(a->z_m - b->z_m, 2);
 }
 
-/* Least GOSPA^2 over all pairings: target i takes a free track or none. */
-static double brute(const struct gospa_place *targets, int num_targets,
-                    const struct gospa_place *tracks, int num_tracks, double cutoff_m, int i,
-                    unsigned used)
+/* Least squared GOSPA over all pairings: each target takes a free track or none. */
+static double least_gospa2_of_all_pairings(const struct gospa_place *targets, int num_targets,
+                                           const struct gospa_place *tracks, int num_tracks,
+                                           double cutoff_m, int i, unsigned used)
 {
     double half = cutoff_m * cutoff_m / 2.0;
     if (i == num_targets) {
         return half * (num_tracks - __builtin_popcount(used));
     }
-    double best = half + brute(targets, num_targets, tracks, num_tracks, cutoff_m, i + 1, used);
+    double best = half + least_gospa2_of_all_pairings(targets, num_targets, tracks, num_tracks,
+                                                      cutoff_m, i + 1, used);
     for (int j = 0; j < num_tracks; j++) {
         if (!(used >> j & 1u)) {
-            double rest =
-                brute(targets, num_targets, tracks, num_tracks, cutoff_m, i + 1, used | 1u << j);
-            best = fmin(best, fmin(squared(&targets[i], &tracks[j]), 2.0 * half) + rest);
+            double rest = least_gospa2_of_all_pairings(targets, num_targets, tracks, num_tracks,
+                                                       cutoff_m, i + 1, used | 1u << j);
+            best = fmin(best, fmin(distance_squared(&targets[i], &tracks[j]), 2.0 * half) + rest);
         }
     }
     return best;
 }
 
-static void random_sets_are_paired_best(void **state)
+static void small_random_sets_get_the_optimal_pairing(void **state)
 {
     (void)state;
     for (int round = 0; round < 600; round++) {
@@ -64,7 +65,8 @@ static void random_sets_are_paired_best(void **state)
         }
         struct gospa result =
             gospa_compare(targets, (size_t)num_targets, tracks, (size_t)num_tracks, 10.0, track_of);
-        double expected = brute(targets, num_targets, tracks, num_tracks, 10.0, 0, 0);
+        double expected =
+            least_gospa2_of_all_pairings(targets, num_targets, tracks, num_tracks, 10.0, 0, 0);
         assert_true(fabs(result.squared_m2 - expected) < TOLERANCE);
         for (int i = 0; i < num_targets; i++) {
             pairs += track_of[i] >= 0;
@@ -76,8 +78,8 @@ static void random_sets_are_paired_best(void **state)
 }
 
 /*
- * The pairs are what the result says: each track once, each nearer than the cutoff, and their
- * squares' sum.
+ * The returned pairs fit the result: each track once, each pair nearer than the cutoff, squares
+ * that sum to the localisation error.
  */
 static void check_pairs(const struct gospa *result, const struct gospa_place *targets,
                         size_t num_targets, const struct gospa_place *tracks, size_t num_tracks,
@@ -89,9 +91,9 @@ static void check_pairs(const struct gospa *result, const struct gospa_place *ta
     for (size_t i = 0; i < num_targets; i++) {
         if (track_of[i] >= 0) {
             assert_true((size_t)track_of[i] < num_tracks && !is_taken[track_of[i]]);
-            assert_true(squared(&targets[i], &tracks[track_of[i]]) < cutoff_m * cutoff_m);
+            assert_true(distance_squared(&targets[i], &tracks[track_of[i]]) < cutoff_m * cutoff_m);
             is_taken[track_of[i]] = true;
-            localisation_m2 += squared(&targets[i], &tracks[track_of[i]]);
+            localisation_m2 += distance_squared(&targets[i], &tracks[track_of[i]]);
             pairs++;
         }
     }
@@ -104,8 +106,8 @@ static void check_pairs(const struct gospa *result, const struct gospa_place *ta
     free(is_taken);
 }
 
-/* Islands of their own, in any order, on whole metres so that several pairings may be best. */
-static void islands_are_paired_best(void **state)
+/* Separate groups in any order, on whole metres so that several pairings may be equally good. */
+static void separate_groups_get_the_optimal_pairing(void **state)
 {
     (void)state;
     for (int round = 0; round < 400; round++) {
@@ -122,14 +124,15 @@ static void islands_are_paired_best(void **state)
         }
         struct gospa result =
             gospa_compare(targets, (size_t)num_targets, tracks, (size_t)num_tracks, 5.0, track_of);
-        double expected = brute(targets, num_targets, tracks, num_tracks, 5.0, 0, 0);
+        double expected =
+            least_gospa2_of_all_pairings(targets, num_targets, tracks, num_tracks, 5.0, 0, 0);
         assert_true(fabs(result.squared_m2 - expected) < TOLERANCE);
         check_pairs(&result, targets, (size_t)num_targets, tracks, (size_t)num_tracks, 5.0,
                     track_of);
     }
 }
 
-static void a_dense_assignment_over_all_agrees(void **state)
+static void results_equal_a_dense_assignment(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof gospa_cases / sizeof *gospa_cases; i++) {
@@ -154,10 +157,10 @@ static void a_dense_assignment_over_all_agrees(void **state)
 }
 
 /*
- * 30 000 against 20 000, each track 3 m from its target, targets 20 m apart: all at once would take
- * hours, and 5 GB.
+ * 30 000 targets and 20 000 tracks, each 3 m from its target, targets 20 m apart: one dense
+ * assignment would take hours and 5 GB.
  */
-static void spread_sets_may_be_large(void **state)
+static void large_spread_out_sets_are_paired_quickly(void **state)
 {
     (void)state;
     enum { SIDE = 200, TARGETS = 30000, TRACKS = 20000 };
@@ -182,7 +185,7 @@ static void spread_sets_may_be_large(void **state)
     free(track_of);
 }
 
-static void known_sets_have_known_values(void **state)
+static void hand_made_sets_have_known_gospa_and_ospa(void **state)
 {
     (void)state;
     const struct gospa_place targets[2] = {{0, 0, 0}, {100, 0, 0}};
@@ -202,8 +205,8 @@ static void known_sets_have_known_values(void **state)
     assert_true(fabs(result.squared_m2) < TOLERANCE && fabs(result.ospa_m) < TOLERANCE);
 }
 
-/* The best pairing leaves over two that are exactly the cutoff apart: they are no pair. */
-static void the_cutoff_itself_is_too_far(void **state)
+/* A target and a track exactly the cutoff apart are left unpaired by the best pairing. */
+static void points_exactly_the_cutoff_apart_are_no_pair(void **state)
 {
     (void)state;
     const struct gospa_place targets[2] = {{0, 0, 0}, {2.5, 4, 0}};
@@ -218,12 +221,12 @@ static void the_cutoff_itself_is_too_far(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_sets_are_paired_best),
-        cmocka_unit_test(islands_are_paired_best),
-        cmocka_unit_test(a_dense_assignment_over_all_agrees),
-        cmocka_unit_test(spread_sets_may_be_large),
-        cmocka_unit_test(known_sets_have_known_values),
-        cmocka_unit_test(the_cutoff_itself_is_too_far),
+        cmocka_unit_test(small_random_sets_get_the_optimal_pairing),
+        cmocka_unit_test(separate_groups_get_the_optimal_pairing),
+        cmocka_unit_test(results_equal_a_dense_assignment),
+        cmocka_unit_test(large_spread_out_sets_are_paired_quickly),
+        cmocka_unit_test(hand_made_sets_have_known_gospa_and_ospa),
+        cmocka_unit_test(points_exactly_the_cutoff_apart_are_no_pair),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

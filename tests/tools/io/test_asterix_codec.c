@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * ASTERIX: records as libasterix reads and writes them, records cut short, blocks, and bytes that
- * are none.
+ * ASTERIX records compared with what libasterix reads and writes; records cut short, data blocks,
+ * and invalid bytes.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@
 
 /* ---- Bytes ---- */
 
-static size_t from_hex(const char *hex, uint8_t *bytes)
+static size_t bytes_of_hex(const char *hex, uint8_t *bytes)
 {
     size_t size = strlen(hex) / 2;
 
@@ -35,8 +35,8 @@ static size_t from_hex(const char *hex, uint8_t *bytes)
     return size;
 }
 
-/* A value as libasterix has it; NAN: there is none. */
-static void check_value(bool is_there, double value, double expected)
+/* Checks an optional value as libasterix decodes it; NAN: absent. */
+static void check_optional_value(bool is_there, double value, double expected)
 {
     assert_int_equal(is_there, !isnan(expected));
     if (is_there) {
@@ -45,14 +45,14 @@ static void check_value(bool is_there, double value, double expected)
 }
 
 /*
- * The record of a vector; its items stand in `bytes`. Every item has the length that it should
- * have; no shorter record is one.
+ * Reads the record of a test vector into `bytes` and checks the length of every item; every shorter
+ * record is refused.
  */
 static struct asterix_record check_record(uint8_t category, const char *hex,
                                           uint8_t bytes[RECORD_MAX], const uint16_t *sizes,
                                           size_t places)
 {
-    size_t size = from_hex(hex, bytes);
+    size_t size = bytes_of_hex(hex, bytes);
     struct asterix_record record, cut;
     struct asterix_error error = {.reason = ""};
 
@@ -63,7 +63,7 @@ static struct asterix_record check_record(uint8_t category, const char *hex,
         assert_int_equal(record.sizes[i], sizes[i]);
     }
     for (size_t shorter = 0; shorter < size; shorter++) {
-        uint8_t *exact = malloc(shorter + 1); /* beyond it nothing may be read */
+        uint8_t *exact = malloc(shorter + 1); /* nothing behind the record may be read */
 
         memcpy(exact, bytes, shorter);
         error.reason[0] = '\0';
@@ -74,9 +74,9 @@ static struct asterix_record check_record(uint8_t category, const char *hex,
     return record;
 }
 
-/* ---- Records of libasterix ---- */
+/* ---- records that libasterix decodes --------------------------------------------------------- */
 
-static void test_plots(void **state)
+static void test_cat048_plots(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(vectors_48); i++) {
@@ -88,53 +88,53 @@ static void test_plots(void **state)
         bool has_second = !isnan(v[6]);
 
         asterix_plot_read(&record, &plot);
-        check_value(plot.source.is_given, plot.source.sac, v[0]);
-        check_value(plot.source.is_given, plot.source.sic, v[1]);
-        check_value(plot.has_time, plot.time_128 / 128.0, v[2]);
-        check_value(plot.has_type, plot.type, v[3]);
-        check_value(plot.has_type, plot.is_simulated, v[4]);
-        check_value(plot.has_type, plot.is_fixed, v[5]);
-        check_value(has_second, plot.is_test, v[6]);
-        check_value(has_second, plot.is_beyond, v[7]);
-        check_value(plot.has_position, plot.range * ASTERIX_RANGE_M / 1852, v[8]);
-        check_value(plot.has_position, plot.azimuth * 360.0 / ASTERIX_TURN, v[9]);
-        check_value(plot.has_mode_a, plot.mode_a, v[10]);
-        check_value(plot.has_level, plot.is_level_bad, fmax(v[11], v[12]));
-        check_value(plot.has_level, plot.level / 4.0, v[13]);
-        check_value(plot.has_height, plot.height * 25.0, v[14]);
-        check_value(plot.has_doppler, plot.is_doppler_bad, v[15]);
-        check_value(plot.has_doppler, plot.doppler_mps, v[16]);
-        check_value(plot.has_track, plot.track, v[17]);
-        check_value(plot.has_address, plot.address, v[18]);
+        check_optional_value(plot.source.is_given, plot.source.sac, v[0]);
+        check_optional_value(plot.source.is_given, plot.source.sic, v[1]);
+        check_optional_value(plot.has_time, plot.time_128 / 128.0, v[2]);
+        check_optional_value(plot.has_type, plot.type, v[3]);
+        check_optional_value(plot.has_type, plot.is_simulated, v[4]);
+        check_optional_value(plot.has_type, plot.is_fixed, v[5]);
+        check_optional_value(has_second, plot.is_test, v[6]);
+        check_optional_value(has_second, plot.is_beyond, v[7]);
+        check_optional_value(plot.has_position, plot.range * ASTERIX_RANGE_M / 1852, v[8]);
+        check_optional_value(plot.has_position, plot.azimuth * 360.0 / ASTERIX_TURN, v[9]);
+        check_optional_value(plot.has_mode_a, plot.mode_a, v[10]);
+        check_optional_value(plot.has_level, plot.is_level_bad, fmax(v[11], v[12]));
+        check_optional_value(plot.has_level, plot.level / 4.0, v[13]);
+        check_optional_value(plot.has_height, plot.height * 25.0, v[14]);
+        check_optional_value(plot.has_doppler, plot.is_doppler_bad, v[15]);
+        check_optional_value(plot.has_doppler, plot.doppler_mps, v[16]);
+        check_optional_value(plot.has_track, plot.track, v[17]);
+        check_optional_value(plot.has_address, plot.address, v[18]);
     }
 }
 
-/* Values of CAT001, by either profile. */
-static void check_old_plot(const struct asterix_record *record, bool is_track, const double *v)
+/* Checks the values of a CAT001 plot or track record. */
+static void check_cat001_plot(const struct asterix_record *record, bool is_track, const double *v)
 {
     struct asterix_plot plot;
 
     assert_int_equal(record->is_track, is_track);
     asterix_plot_read(record, &plot);
-    check_value(plot.source.is_given, plot.source.sac, v[0]);
-    check_value(plot.source.is_given, plot.source.sic, v[1]);
-    check_value(plot.has_time, plot.time_128 / 128.0, v[2]);
+    check_optional_value(plot.source.is_given, plot.source.sac, v[0]);
+    check_optional_value(plot.source.is_given, plot.source.sic, v[1]);
+    check_optional_value(plot.has_time, plot.time_128 / 128.0, v[2]);
     assert_int_equal(plot.is_time_truncated, plot.has_time);
-    check_value(plot.has_type, is_track, v[3]);
-    check_value(plot.has_type, plot.is_simulated, v[4]);
-    check_value(plot.has_type, plot.type, v[5]);
-    check_value(plot.has_type, plot.is_fixed, v[6]);
-    check_value(!isnan(v[7]), plot.is_test, v[7]);
-    check_value(plot.has_position, plot.range * ASTERIX_RANGE_M / 1852, v[8]);
-    check_value(plot.has_position, plot.azimuth * 360.0 / ASTERIX_TURN, v[9]);
-    check_value(plot.has_mode_a, plot.mode_a, v[10]);
-    check_value(plot.has_level, plot.is_level_bad, fmax(v[11], v[12]));
-    check_value(plot.has_level, plot.level / 4.0, v[13]);
-    check_value(plot.has_track, plot.track, v[14]);
+    check_optional_value(plot.has_type, is_track, v[3]);
+    check_optional_value(plot.has_type, plot.is_simulated, v[4]);
+    check_optional_value(plot.has_type, plot.type, v[5]);
+    check_optional_value(plot.has_type, plot.is_fixed, v[6]);
+    check_optional_value(!isnan(v[7]), plot.is_test, v[7]);
+    check_optional_value(plot.has_position, plot.range * ASTERIX_RANGE_M / 1852, v[8]);
+    check_optional_value(plot.has_position, plot.azimuth * 360.0 / ASTERIX_TURN, v[9]);
+    check_optional_value(plot.has_mode_a, plot.mode_a, v[10]);
+    check_optional_value(plot.has_level, plot.is_level_bad, fmax(v[11], v[12]));
+    check_optional_value(plot.has_level, plot.level / 4.0, v[13]);
+    check_optional_value(plot.has_track, plot.track, v[14]);
     assert_false(plot.has_height || plot.has_doppler || plot.is_beyond);
 }
 
-static void test_old_plots(void **state)
+static void test_cat001_plots(void **state)
 {
     uint8_t bytes[RECORD_MAX];
 
@@ -143,18 +143,18 @@ static void test_old_plots(void **state)
         struct asterix_record record = check_record(ASTERIX_OLD_PLOTS, vectors_1_plot[i].hex, bytes,
                                                     vectors_1_plot[i].sizes, VECTORS_1_PLOT_PLACES);
 
-        check_old_plot(&record, false, vectors_1_plot[i].values);
+        check_cat001_plot(&record, false, vectors_1_plot[i].values);
     }
     for (size_t i = 0; i < COUNT(vectors_1_track); i++) {
         struct asterix_record record =
             check_record(ASTERIX_OLD_PLOTS, vectors_1_track[i].hex, bytes, vectors_1_track[i].sizes,
                          VECTORS_1_TRACK_PLACES);
 
-        check_old_plot(&record, true, vectors_1_track[i].values);
+        check_cat001_plot(&record, true, vectors_1_track[i].values);
     }
 }
 
-static void test_old_services(void **state)
+static void test_cat002_service_messages(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(vectors_2); i++) {
@@ -165,20 +165,23 @@ static void test_old_services(void **state)
         struct asterix_service service;
 
         asterix_service_read(&record, &service);
-        check_value(service.source.is_given, service.source.sac, v[0]);
-        check_value(service.source.is_given, service.source.sic, v[1]);
-        check_value(service.has_type, service.type, v[2]);
-        check_value(service.has_sector, service.sector * 360.0 / 256, v[3]);
-        check_value(service.has_time, service.time_128 / 128.0, v[4]);
-        check_value(service.has_period, service.period_128 / 128.0, v[5]);
+        check_optional_value(service.source.is_given, service.source.sac, v[0]);
+        check_optional_value(service.source.is_given, service.source.sic, v[1]);
+        check_optional_value(service.has_type, service.type, v[2]);
+        check_optional_value(service.has_sector, service.sector * 360.0 / 256, v[3]);
+        check_optional_value(service.has_time, service.time_128 / 128.0, v[4]);
+        check_optional_value(service.has_period, service.period_128 / 128.0, v[5]);
         assert_false(service.place.is_given);
     }
 }
 
-/* Items in random order (RFS), which libasterix does not make: by hand from the specification. */
-static void test_random_fields(void **state)
+/*
+ * Items in random field sequence (RFS), which libasterix does not encode: by hand from the
+ * specification.
+ */
+static void test_items_in_random_field_sequence(void **state)
 {
-    /* 010, then RFS of 040 (FRN 3) and 141 (FRN 7), of a plot */
+    /* a plot: item 010, then RFS of item 040 (FRN 3) and item 141 (FRN 7) */
     static const uint8_t plot[] = {0x81, 0x01, 0x02, 10, 20, 2, 3, 1, 2, 3, 4, 7, 5, 6};
     struct asterix_record record;
     struct asterix_error error = {.reason = ""};
@@ -189,7 +192,7 @@ static void test_random_fields(void **state)
     assert_int_equal(record.sizes[20], 9);
 }
 
-static void test_services(void **state)
+static void test_cat034_service_messages(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(vectors_34); i++) {
@@ -200,21 +203,21 @@ static void test_services(void **state)
         struct asterix_service service;
 
         asterix_service_read(&record, &service);
-        check_value(service.has_type, service.type, v[0]);
-        check_value(service.has_sector, service.sector * 360.0 / 256, v[1]);
-        check_value(service.has_time, service.time_128 / 128.0, v[2]);
-        check_value(service.has_period, service.period_128 / 128.0, v[3]);
+        check_optional_value(service.has_type, service.type, v[0]);
+        check_optional_value(service.has_sector, service.sector * 360.0 / 256, v[1]);
+        check_optional_value(service.has_time, service.time_128 / 128.0, v[2]);
+        check_optional_value(service.has_period, service.period_128 / 128.0, v[3]);
         if (fabs(v[5]) > 90) {
-            assert_false(service.place.is_given); /* beyond a pole */
+            assert_false(service.place.is_given); /* latitude beyond a pole */
         } else {
-            check_value(service.place.is_given, service.place.alt_m, v[4]);
-            check_value(service.place.is_given, service.place.lat_deg, v[5]);
-            check_value(service.place.is_given, service.place.lon_deg, v[6]);
+            check_optional_value(service.place.is_given, service.place.alt_m, v[4]);
+            check_optional_value(service.place.is_given, service.place.lat_deg, v[5]);
+            check_optional_value(service.place.is_given, service.place.lon_deg, v[6]);
         }
     }
 }
 
-static void test_tracks(void **state)
+static void test_cat062_tracks_are_read(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(vectors_62); i++) {
@@ -225,34 +228,34 @@ static void test_tracks(void **state)
         struct asterix_track track;
 
         asterix_track_read(&record, &track);
-        check_value(track.has_number, track.number, v[0]);
-        check_value(track.has_time, track.time_128 / 128.0, v[1]);
-        check_value(track.has_status, track.is_tentative, v[2]);
-        check_value(!isnan(v[3]), track.is_last, v[3]);
-        check_value(!isnan(v[4]), track.is_first, v[4]);
-        check_value(!isnan(v[5]), track.is_coasting, v[5]);
-        check_value(track.has_place, track.x_m, v[6]);
-        check_value(track.has_place, track.y_m, v[7]);
-        check_value(track.has_geodetic, track.lat_deg, v[8]);
-        check_value(track.has_geodetic, track.lon_deg, v[9]);
-        check_value(track.has_velocity, track.vx_mps, v[10]);
-        check_value(track.has_velocity, track.vy_mps, v[11]);
-        check_value(track.has_accel, track.ax_mps2, v[12]);
-        check_value(track.has_accel, track.ay_mps2, v[13]);
-        check_value(track.has_altitude, track.alt_m / 0.3048, v[14]);
-        check_value(track.has_climb, track.climb_mps / 0.3048 * 60, v[15]);
+        check_optional_value(track.has_number, track.number, v[0]);
+        check_optional_value(track.has_time, track.time_128 / 128.0, v[1]);
+        check_optional_value(track.has_status, track.is_tentative, v[2]);
+        check_optional_value(!isnan(v[3]), track.is_last, v[3]);
+        check_optional_value(!isnan(v[4]), track.is_first, v[4]);
+        check_optional_value(!isnan(v[5]), track.is_coasting, v[5]);
+        check_optional_value(track.has_place, track.x_m, v[6]);
+        check_optional_value(track.has_place, track.y_m, v[7]);
+        check_optional_value(track.has_geodetic, track.lat_deg, v[8]);
+        check_optional_value(track.has_geodetic, track.lon_deg, v[9]);
+        check_optional_value(track.has_velocity, track.vx_mps, v[10]);
+        check_optional_value(track.has_velocity, track.vy_mps, v[11]);
+        check_optional_value(track.has_accel, track.ax_mps2, v[12]);
+        check_optional_value(track.has_accel, track.ay_mps2, v[13]);
+        check_optional_value(track.has_altitude, track.alt_m / 0.3048, v[14]);
+        check_optional_value(track.has_climb, track.climb_mps / 0.3048 * 60, v[15]);
         if (!isnan(v[16]) && !isnan(v[18])) {
-            check_value(track.has_sigma, track.sigma_x_m, v[16]);
-            check_value(track.has_sigma, track.sigma_y_m, v[17]);
-            check_value(track.has_sigma, track.sigma_vx_mps, v[18]);
-            check_value(track.has_sigma, track.sigma_vy_mps, v[19]);
+            check_optional_value(track.has_sigma, track.sigma_x_m, v[16]);
+            check_optional_value(track.has_sigma, track.sigma_y_m, v[17]);
+            check_optional_value(track.has_sigma, track.sigma_vx_mps, v[18]);
+            check_optional_value(track.has_sigma, track.sigma_vy_mps, v[19]);
         }
     }
 }
 
-/* ---- Tracks of ours, as libasterix writes them ---- */
+/* ---- tracks that we encode as libasterix does ------------------------------------------------ */
 
-static struct asterix_track track_of(const double *v)
+static struct asterix_track track_of_values(const double *v)
 {
     const double foot_m = 0.3048;
 
@@ -289,21 +292,21 @@ static struct asterix_track track_of(const double *v)
     };
 }
 
-static void test_tracks_written(void **state)
+static void test_cat062_tracks_are_written(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(vectors_tracks); i++) {
-        struct asterix_track track = track_of(vectors_tracks[i].values);
+        struct asterix_track track = track_of_values(vectors_tracks[i].values);
         uint8_t expected[RECORD_MAX], bytes[ASTERIX_TRACK_BYTES];
-        size_t size = from_hex(vectors_tracks[i].hex, expected);
+        size_t size = bytes_of_hex(vectors_tracks[i].hex, expected);
 
         assert_int_equal(asterix_track_encode(&track, bytes), size);
         assert_memory_equal(bytes, expected, size);
     }
 }
 
-/* What an item cannot hold becomes its largest. */
-static void test_limits(void **state)
+/* Values too large for their item become its largest value. */
+static void test_values_beyond_an_item_become_its_largest(void **state)
 {
     struct asterix_track track = {.has_place = true,
                                   .x_m = 1e7,
@@ -327,12 +330,12 @@ static void test_limits(void **state)
     assert_true(track.sigma_x_m == 32767.5 && track.sigma_vx_mps == 63.75);
 }
 
-/* ---- What is none ---- */
+/* ---- invalid records, blocks and sensor numbers ---------------------------------------------- */
 
 static void check_bad_record(uint8_t category, const char *hex, size_t at, const char *reason)
 {
     uint8_t bytes[RECORD_MAX];
-    size_t size = from_hex(hex, bytes);
+    size_t size = bytes_of_hex(hex, bytes);
     struct asterix_record record;
     struct asterix_error error = {.reason = ""};
 
@@ -341,7 +344,7 @@ static void check_bad_record(uint8_t category, const char *hex, size_t at, const
     assert_int_equal(error.at, at);
 }
 
-static void test_bad_records(void **state)
+static void test_bad_records_are_refused_with_reason(void **state)
 {
     (void)state;
     check_bad_record(48, "", 0,
@@ -373,7 +376,7 @@ static void test_bad_records(void **state)
     check_bad_record(2, "0108", 1, "a record of CAT002 has an item at the undefined place 12");
 }
 
-static void test_blocks(void **state)
+static void test_data_blocks_are_read(void **state)
 {
     const uint8_t block[] = {48, 0, 6, 1, 2, 3, 99};
     struct asterix_block read;
@@ -395,7 +398,7 @@ static void test_blocks(void **state)
     assert_int_equal(error.at, 1);
 }
 
-static void test_sensor_ids(void **state)
+static void test_sensor_id_of_sac_and_sic(void **state)
 {
     (void)state;
     assert_int_equal(asterix_sensor_id(&(struct asterix_source){true, 0, 1}), 1);
@@ -408,12 +411,17 @@ static void test_sensor_ids(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plots),          cmocka_unit_test(test_services),
-        cmocka_unit_test(test_old_plots),      cmocka_unit_test(test_old_services),
-        cmocka_unit_test(test_random_fields),  cmocka_unit_test(test_tracks),
-        cmocka_unit_test(test_tracks_written), cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_bad_records),    cmocka_unit_test(test_blocks),
-        cmocka_unit_test(test_sensor_ids),
+        cmocka_unit_test(test_cat048_plots),
+        cmocka_unit_test(test_cat034_service_messages),
+        cmocka_unit_test(test_cat001_plots),
+        cmocka_unit_test(test_cat002_service_messages),
+        cmocka_unit_test(test_items_in_random_field_sequence),
+        cmocka_unit_test(test_cat062_tracks_are_read),
+        cmocka_unit_test(test_cat062_tracks_are_written),
+        cmocka_unit_test(test_values_beyond_an_item_become_its_largest),
+        cmocka_unit_test(test_bad_records_are_refused_with_reason),
+        cmocka_unit_test(test_data_blocks_are_read),
+        cmocka_unit_test(test_sensor_id_of_sac_and_sic),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

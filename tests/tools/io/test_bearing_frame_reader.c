@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bearing files to frames: which scans stand together, whom they miss, several files, rows that are
- * skipped.
+ * Bearing files to frames: which scans form a frame, which sensors it lacks, several files, rows
+ * that are skipped.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@
 #define HEADER "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n"
 #define MAX_FILES 2
 
-/* Files of the test that runs, and a reader over them. */
+/* Files written by the running test and a reader over them. */
 struct given {
     struct parameters parameters;
     char paths[MAX_FILES][40];
@@ -30,7 +30,7 @@ struct given {
     struct bearing_frame_reader *reader;
 };
 
-static void write_file(struct given *given, const char *text)
+static void add_file_with(struct given *given, const char *text)
 {
     char *path = given->paths[given->num_paths++];
     int file;
@@ -42,7 +42,7 @@ static void write_file(struct given *given, const char *text)
     close(file);
 }
 
-static void open_files(struct given *given, bool keep_going)
+static void open_reader(struct given *given, bool keep_going)
 {
     char *paths[MAX_FILES];
 
@@ -53,24 +53,24 @@ static void open_files(struct given *given, bool keep_going)
         bearing_frame_reader_open(paths, given->num_paths, &given->parameters, keep_going);
 }
 
-static struct given given_text(const char *text)
+static struct given given_file_with(const char *text)
 {
     struct given given = {.num_paths = 0};
 
     parameters_set_defaults(&given.parameters);
-    write_file(&given, text);
+    add_file_with(&given, text);
     return given;
 }
 
-static struct given read_text(const char *text)
+static struct given open_reader_of_text(const char *text)
 {
-    struct given given = given_text(text);
+    struct given given = given_file_with(text);
 
-    open_files(&given, false);
+    open_reader(&given, false);
     return given;
 }
 
-static void end(struct given *given)
+static void close_and_delete_files(struct given *given)
 {
     bearing_frame_reader_close(given->reader);
     for (int i = 0; i < given->num_paths; i++) {
@@ -79,10 +79,10 @@ static void end(struct given *given)
 }
 
 /*
- * The next frame as text: its time in ms, then each scan's sensor and number of bearings. "end"
+ * The next frame as text: its time in ms, then sensor and number of bearings of each scan; "end"
  * past the last.
  */
-static const char *next_text(struct given *given)
+static const char *next_frame_as_text(struct given *given)
 {
     static char text[200];
     const struct rho_frame *frame = bearing_frame_reader_next(given->reader);
@@ -102,27 +102,27 @@ static const char *next_text(struct given *given)
 static void assert_frames(struct given *given, const char *const *expected)
 {
     for (size_t i = 0; strcmp(expected[i], "end") != 0; i++) {
-        assert_string_equal(next_text(given), expected[i]);
+        assert_string_equal(next_frame_as_text(given), expected[i]);
     }
-    assert_string_equal(next_text(given), "end");
-    assert_string_equal(next_text(given), "end");
+    assert_string_equal(next_frame_as_text(given), "end");
+    assert_string_equal(next_frame_as_text(given), "end");
 }
 
 /* ---- scans and frames ------------------------------------------------------------------------ */
 
-static void scans_of_one_time_are_a_frame_in_the_order_of_sensors(void **state)
+static void scans_of_one_time_form_a_frame_sorted_by_sensor(void **state)
 {
-    struct given given = read_text(HEADER "0,7,0,0,1\n0,7,0,0,1.5\n0,3,90,0,2\n"
-                                          "10,3,90,0,2\n10,7,0,0,\n10,7,0,0,0.5\n");
+    struct given given = open_reader_of_text(HEADER "0,7,0,0,1\n0,7,0,0,1.5\n0,3,90,0,2\n"
+                                                    "10,3,90,0,2\n10,7,0,0,\n10,7,0,0,0.5\n");
     (void)state;
 
     assert_frames(&given, (const char *[]){"0: 3(1) 7(2)", "10000: 3(1) 7(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void a_frame_has_what_the_rows_say(void **state)
+static void a_frame_holds_the_values_of_its_rows(void **state)
 {
-    struct given given = read_text(
+    struct given given = open_reader_of_text(
         "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad,sector_from_rad,sector_to_rad,"
         "snr_db\n5,1,-10,20,0.25,0.01,-1,2,12\n5,1,-10,20,-3,,-1,2,\n5,2,90,0,1,,,,\n");
     const struct rho_frame *frame = bearing_frame_reader_next(given.reader);
@@ -139,39 +139,40 @@ static void a_frame_has_what_the_rows_say(void **state)
     assert_true(bearings[0].snr_db == 12.0f && bearings[0].offset_us == 0);
     assert_true(bearings[1].bearing_rad == -3.0f && bearings[1].snr_db == 0.0f);
     assert_true(frame->scans[1].sector_from_rad == 0.0f && frame->scans[1].sector_to_rad == 0.0f);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void a_sigma_is_the_rows_or_the_sensors_or_that_for_all(void **state)
+static void sigma_comes_from_row_else_sensor_else_default(void **state)
 {
-    struct given given = given_text("t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n"
-                                    "0,1,0,0,1,0.01\n0,1,0,0,1,\n0,2,9,0,1,\n");
+    struct given given =
+        given_file_with("t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n"
+                        "0,1,0,0,1,0.01\n0,1,0,0,1,\n0,2,9,0,1,\n");
     const struct rho_frame *frame;
     (void)state;
 
     parameters_set_assignment(&given.parameters, "sensor.1.sigma_rad=0.02");
-    open_files(&given, false);
+    open_reader(&given, false);
     frame = bearing_frame_reader_next(given.reader);
     assert_true(frame->scans[0].bearings[0].sigma_rad == 0.01f);
     assert_true(frame->scans[0].bearings[1].sigma_rad == 0.02f);
     assert_true(frame->scans[1].bearings[0].sigma_rad == 0.00175f);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void rows_within_the_scan_interval_are_one_scan(void **state)
+static void rows_within_scan_interval_form_one_scan(void **state)
 {
     struct given given =
-        given_text(HEADER "0,1,0,0,1\n0,2,9,0,1\n0.9,1,0,0,1\n1.0,1,0,0,1\n1.0,2,9,0,1\n");
+        given_file_with(HEADER "0,1,0,0,1\n0,2,9,0,1\n0.9,1,0,0,1\n1.0,1,0,0,1\n1.0,2,9,0,1\n");
     const struct rho_frame *frame;
     (void)state;
 
     parameters_set_assignment(&given.parameters, "scan_interval_s=1");
-    open_files(&given, false);
+    open_reader(&given, false);
     frame = bearing_frame_reader_next(given.reader);
     assert_int_equal(frame->scans[0].num_bearings, 2);
     assert_int_equal(frame->scans[0].bearings[1].offset_us, 900000);
     assert_frames(&given, (const char *[]){"1000: 1(1) 2(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
 /* ---- tolerance, missing sensors -------------------------------------------------------------- */
@@ -179,76 +180,77 @@ static void rows_within_the_scan_interval_are_one_scan(void **state)
 static const char late_text[] = HEADER "0,1,0,0,1\n0.05,2,9,0,1\n1,1,0,0,1\n1.050001,2,9,0,1\n";
 
 /*
- * Rows of one number are one scan, whatever comes between them; its time is that of the row that
- * saw nothing.
+ * Rows of one scan number are one scan, whatever rows come between; its time is that of the row
+ * without a bearing.
  */
-static void numbered_scans_may_come_mixed(void **state)
+static void rows_of_numbered_scans_may_be_interleaved(void **state)
 {
-    struct given given = read_text("t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,scan\n"
-                                   "1,1,0,0,1,7\n1,2,90,0,2,7\n1.3,1,0,0,1,8\n1.5,1,0,0,1.25,7\n"
-                                   "1.5,2,90,0,2,8\n1.75,1,0,0,,8\n");
+    struct given given =
+        open_reader_of_text("t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,scan\n"
+                            "1,1,0,0,1,7\n1,2,90,0,2,7\n1.3,1,0,0,1,8\n1.5,1,0,0,1.25,7\n"
+                            "1.5,2,90,0,2,8\n1.75,1,0,0,,8\n");
     const struct rho_frame *frame = bearing_frame_reader_next(given.reader);
     (void)state;
 
     assert_int_equal(bearing_frame_reader_counts(given.reader).scans, 4);
     assert_int_equal(frame->scans[0].num_bearings, 2);
     assert_int_equal(frame->scans[0].bearings[1].offset_us, 500000);
-    assert_string_equal(next_text(&given), "1500: 2(1)");
+    assert_string_equal(next_frame_as_text(&given), "1500: 2(1)");
     frame = bearing_frame_reader_next(given.reader);
     assert_int_equal(frame->time_us, 1750000);
     assert_int_equal(frame->scans[0].bearings[0].offset_us, -450000);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void scans_within_the_tolerance_are_one_frame(void **state)
+static void scans_within_the_tolerance_form_one_frame(void **state)
 {
-    struct given given = read_text(late_text);
+    struct given given = open_reader_of_text(late_text);
     (void)state;
 
     assert_frames(&given, (const char *[]){"0: 1(1) 2(1)", "1000: 1(1)", "1050: 2(1)", "end"});
     assert_int_equal(bearing_frame_reader_counts(given.reader).frames_incomplete, 2);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void the_tolerance_is_a_parameter(void **state)
+static void the_frame_tolerance_is_configurable(void **state)
 {
-    struct given wide = given_text(late_text), none = given_text(late_text);
+    struct given wide = given_file_with(late_text), none = given_file_with(late_text);
     (void)state;
 
     parameters_set_assignment(&wide.parameters, "frame_tolerance_s=0.1");
-    open_files(&wide, false);
+    open_reader(&wide, false);
     assert_frames(&wide, (const char *[]){"0: 1(1) 2(1)", "1000: 1(1) 2(1)", "end"});
     parameters_set_assignment(&none.parameters, "frame_tolerance_s=0");
-    open_files(&none, false);
+    open_reader(&none, false);
     assert_frames(&none,
                   (const char *[]){"0: 1(1)", "50: 2(1)", "1000: 1(1)", "1050: 2(1)", "end"});
-    end(&wide);
-    end(&none);
+    close_and_delete_files(&wide);
+    close_and_delete_files(&none);
 }
 
-/* The tolerance counts from the first scan: a chain of scans does not draw out a frame. */
-static void a_frame_is_as_long_as_the_tolerance(void **state)
+/* The tolerance counts from the frame's first scan: a chain of scans does not prolong the frame. */
+static void a_frame_lasts_no_longer_than_the_tolerance(void **state)
 {
-    struct given given = read_text(HEADER "0,1,0,0,1\n0.04,2,9,0,1\n0.08,3,20,0,1\n");
+    struct given given = open_reader_of_text(HEADER "0,1,0,0,1\n0.04,2,9,0,1\n0.08,3,20,0,1\n");
     (void)state;
 
     assert_frames(&given, (const char *[]){"0: 1(1) 2(1)", "80: 3(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
 static void a_sensor_that_reports_again_opens_a_frame(void **state)
 {
-    struct given given = read_text(HEADER "0,1,0,0,1\n0.02,1,0,0,1\n0.03,2,9,0,1\n");
+    struct given given = open_reader_of_text(HEADER "0,1,0,0,1\n0.02,1,0,0,1\n0.03,2,9,0,1\n");
     (void)state;
 
     assert_frames(&given, (const char *[]){"0: 1(1)", "20: 1(1) 2(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void sensors_that_are_missing_are_counted_by_frame(void **state)
+static void frames_that_lack_sensors_are_counted(void **state)
 {
-    struct given given = read_text(HEADER "0,1,0,0,1\n0,2,9,0,\n0,3,20,0,1\n"
-                                          "10,1,0,0,1\n10,3,20,0,1\n20,2,9,0,1\n");
+    struct given given = open_reader_of_text(HEADER "0,1,0,0,1\n0,2,9,0,\n0,3,20,0,1\n"
+                                                    "10,1,0,0,1\n10,3,20,0,1\n20,2,9,0,1\n");
     struct bearing_frame_reader_counts counts = bearing_frame_reader_counts(given.reader);
     (void)state;
 
@@ -259,74 +261,76 @@ static void sensors_that_are_missing_are_counted_by_frame(void **state)
     assert_int_equal(counts.rows_skipped, 0);
     assert_frames(&given,
                   (const char *[]){"0: 1(1) 2(0) 3(1)", "10000: 1(1) 3(1)", "20000: 2(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
-static void files_are_merged_by_time(void **state)
+static void several_files_are_merged_by_time(void **state)
 {
-    struct given given = given_text(HEADER "0,1,0,0,1\n10,1,0,0,1\n20,1,0,0,1\n");
+    struct given given = given_file_with(HEADER "0,1,0,0,1\n10,1,0,0,1\n20,1,0,0,1\n");
     (void)state;
 
-    write_file(&given, HEADER "0.01,2,9,0,1\n9.99,2,9,0,1\n9.99,2,9,0,2\n");
-    open_files(&given, false);
+    add_file_with(&given, HEADER "0.01,2,9,0,1\n9.99,2,9,0,1\n9.99,2,9,0,2\n");
+    open_reader(&given, false);
     assert_frames(&given,
                   (const char *[]){"0: 1(1) 2(1)", "9990: 1(1) 2(2)", "20000: 1(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void sensors_are_listed_by_number(void **state)
+static void sensors_are_listed_by_ascending_id(void **state)
 {
-    struct given given = given_text(HEADER "0,5,-7,8,1\n");
+    struct given given = given_file_with(HEADER "0,5,-7,8,1\n");
     const struct frame_sensor *sensors;
     size_t count;
     (void)state;
 
-    write_file(&given, HEADER "0,-2,9,0,1\n");
-    open_files(&given, false);
+    add_file_with(&given, HEADER "0,-2,9,0,1\n");
+    open_reader(&given, false);
     sensors = bearing_frame_reader_sensors(given.reader, &count);
     assert_int_equal(count, 2);
     assert_int_equal(sensors[0].sensor_id, -2);
     assert_int_equal(sensors[1].sensor_id, 5);
     assert_true(sensors[1].x_m == -7.0f && sensors[1].y_m == 8.0f);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void the_last_frames_may_be_taken_alone(void **state)
+static void keep_last_skips_all_but_the_last_frames(void **state)
 {
     struct given given =
-        read_text(HEADER "0,1,0,0,1\n0,2,9,0,1\n10,1,0,0,1\n20,1,0,0,1\n30,2,9,0,1\n");
+        open_reader_of_text(HEADER "0,1,0,0,1\n0,2,9,0,1\n10,1,0,0,1\n20,1,0,0,1\n30,2,9,0,1\n");
     (void)state;
 
     bearing_frame_reader_keep_last(given.reader, 4);
     assert_int_equal(bearing_frame_reader_num_frames(given.reader), 4);
     bearing_frame_reader_keep_last(given.reader, 2);
     assert_frames(&given, (const char *[]){"20000: 1(1)", "30000: 2(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
 static void bad_rows_are_skipped_and_counted(void **state)
 {
-    struct given given = given_text(HEADER "0,1,0,0,1\n0,1,0,0,4e6\n" /* no angle */
-                                           "0,2,0,0,1\n"              /* where sensor 1 is */
-                                           "0,2,9,0,1\n"
-                                           "10,2,10,0,1\n" /* has moved */
-                                           "-1,2,9,0,1\n"  /* time goes back */
-                                           "10,2\n"        /* short */
-                                           "10,1,0,0,1\n");
+    struct given given =
+        given_file_with(HEADER "0,1,0,0,1\n0,1,0,0,4e6\n" /* row without an angle */
+                               "0,2,0,0,1\n"              /* the place of sensor 1 */
+                               "0,2,9,0,1\n"
+                               "10,2,10,0,1\n" /* the sensor has moved */
+                               "-1,2,9,0,1\n"  /* the time goes back */
+                               "10,2\n"        /* too few cells */
+                               "10,1,0,0,1\n");
     (void)state;
 
-    open_files(&given, true);
+    open_reader(&given, true);
     assert_int_equal(bearing_frame_reader_counts(given.reader).rows_skipped, 5);
     assert_frames(&given, (const char *[]){"0: 1(1) 2(1)", "10000: 1(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void a_header_tells_bearings_from_other_files(void **state)
+static void files_of_bearings_are_recognised_by_their_header(void **state)
 {
-    struct given bearings = given_text(HEADER), empty = given_text("t_s,sensor_id,x_m,y_m\n"),
-                 both = given_text("t_s,sensor_id,x_m,y_m,bearing_rad\n0,1,2,3,1\n");
+    struct given bearings = given_file_with(HEADER),
+                 empty = given_file_with("t_s,sensor_id,x_m,y_m\n"),
+                 both = given_file_with("t_s,sensor_id,x_m,y_m,bearing_rad\n0,1,2,3,1\n");
     (void)state;
 
     assert_true(bearing_frame_reader_file_has_bearings(bearings.paths[0]));
@@ -334,19 +338,17 @@ static void a_header_tells_bearings_from_other_files(void **state)
     assert_false(bearing_frame_reader_file_has_bearings(both.paths[0]));
     assert_false(bearing_frame_reader_file_has_bearings("/tmp"));
     assert_false(bearing_frame_reader_file_has_bearings("/tmp/there/is/no/such/file"));
-    end(&bearings);
-    end(&empty);
-    end(&both);
+    close_and_delete_files(&bearings);
+    close_and_delete_files(&empty);
+    close_and_delete_files(&both);
 }
 
-/* ---- the library's frames -------------------------------------------------------------------- */
+/* ---- compared with the library's live frames ------------------------------------------------- */
 
 #define LOOKS 300
 
-/*
- * Looks of three sensors every 0.1 s, up to 90 ms late and no two at one time; a few are missing.
- */
-static struct given random_looks(void)
+/* Scans of three sensors every 0.1 s, up to 90 ms late, no two at one time; a few are missing. */
+static struct given given_file_of_random_scans(void)
 {
     static char text[LOOKS * 40];
     struct random random = random_start(1, 5, 0);
@@ -368,7 +370,7 @@ static struct given random_looks(void)
             }
         }
     }
-    return read_text(text);
+    return open_reader_of_text(text);
 }
 
 static int compare_times(const void *a, const void *b)
@@ -378,8 +380,9 @@ static int compare_times(const void *a, const void *b)
     return (first->time_us > second->time_us) - (first->time_us < second->time_us);
 }
 
-/* The frame that was closed is the reader's next one. */
-static void assert_next(const struct rho_frames *frames, const struct rho_frame *expected)
+/* The frame that was just closed equals the reader's next one. */
+static void assert_closed_frame_equals(const struct rho_frames *frames,
+                                       const struct rho_frame *expected)
 {
     struct rho_frame_view view;
 
@@ -392,14 +395,14 @@ static void assert_next(const struct rho_frames *frames, const struct rho_frame 
     }
 }
 
-static void scans_as_they_come_make_the_same_frames(void **state)
+static void live_frames_equal_those_of_the_reader(void **state)
 {
     static const struct rho_bearing bearing = {.bearing_rad = 0.5f, .sigma_rad = 0.001f};
     static struct rho_bearing_scan in_frames[LOOKS],
-        scans[LOOKS]; /* theirs end with the reader's frame */
+        scans[LOOKS]; /* the reader's scans are freed with its frame */
     static struct rho_frame expected[LOOKS];
     static struct rho_frames frames;
-    struct given given = random_looks();
+    struct given given = given_file_of_random_scans();
     struct rho_frames_config config;
     struct rho_frame_view view;
     const struct rho_frame *frame;
@@ -425,37 +428,37 @@ static void scans_as_they_come_make_the_same_frames(void **state)
     for (size_t i = 0; i < num_scans; i++) {
         assert_int_equal(rho_frames_push(&frames, &scans[i]), RHO_OK);
         if (rho_frames_closed(&frames, &view)) {
-            assert_next(&frames, &expected[closed++]);
+            assert_closed_frame_equals(&frames, &expected[closed++]);
         }
     }
     assert_int_equal(rho_frames_close(&frames), RHO_OK);
     if (rho_frames_closed(&frames, &view)) {
-        assert_next(&frames, &expected[closed++]);
+        assert_closed_frame_equals(&frames, &expected[closed++]);
     }
     assert_int_equal(closed, num_frames);
     assert_true(num_frames > 110 && frames.counters.frames_incomplete > 20);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scans_of_one_time_are_a_frame_in_the_order_of_sensors),
-        cmocka_unit_test(a_frame_has_what_the_rows_say),
-        cmocka_unit_test(a_sigma_is_the_rows_or_the_sensors_or_that_for_all),
-        cmocka_unit_test(rows_within_the_scan_interval_are_one_scan),
-        cmocka_unit_test(numbered_scans_may_come_mixed),
-        cmocka_unit_test(scans_within_the_tolerance_are_one_frame),
-        cmocka_unit_test(the_tolerance_is_a_parameter),
-        cmocka_unit_test(a_frame_is_as_long_as_the_tolerance),
+        cmocka_unit_test(scans_of_one_time_form_a_frame_sorted_by_sensor),
+        cmocka_unit_test(a_frame_holds_the_values_of_its_rows),
+        cmocka_unit_test(sigma_comes_from_row_else_sensor_else_default),
+        cmocka_unit_test(rows_within_scan_interval_form_one_scan),
+        cmocka_unit_test(rows_of_numbered_scans_may_be_interleaved),
+        cmocka_unit_test(scans_within_the_tolerance_form_one_frame),
+        cmocka_unit_test(the_frame_tolerance_is_configurable),
+        cmocka_unit_test(a_frame_lasts_no_longer_than_the_tolerance),
         cmocka_unit_test(a_sensor_that_reports_again_opens_a_frame),
-        cmocka_unit_test(sensors_that_are_missing_are_counted_by_frame),
-        cmocka_unit_test(files_are_merged_by_time),
-        cmocka_unit_test(sensors_are_listed_by_number),
-        cmocka_unit_test(the_last_frames_may_be_taken_alone),
+        cmocka_unit_test(frames_that_lack_sensors_are_counted),
+        cmocka_unit_test(several_files_are_merged_by_time),
+        cmocka_unit_test(sensors_are_listed_by_ascending_id),
+        cmocka_unit_test(keep_last_skips_all_but_the_last_frames),
         cmocka_unit_test(bad_rows_are_skipped_and_counted),
-        cmocka_unit_test(a_header_tells_bearings_from_other_files),
-        cmocka_unit_test(scans_as_they_come_make_the_same_frames),
+        cmocka_unit_test(files_of_bearings_are_recognised_by_their_header),
+        cmocka_unit_test(live_frames_equal_those_of_the_reader),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

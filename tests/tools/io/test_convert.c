@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Messages to rows and back: random ones of every kind come back byte by byte through a CSV file;
- * what rows become scans; several files in one order of time.
+ * Messages to CSV rows and back: random messages of every kind come back byte by byte; which rows
+ * form a scan; several files merged by time.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,7 +23,7 @@
 
 #define MAX_MESSAGES 400
 
-/* Messages that were made, in the order of time. */
+/* Messages that were made, in order of time. */
 struct sent {
     int64_t utime;
     char channel[64];
@@ -35,41 +35,41 @@ static struct sent sent[MAX_MESSAGES];
 static size_t num_sent;
 static struct random dice;
 
-/* ---- what messages are made of ---- */
+/* ---- random contents of messages ------------------------------------------------------------- */
 
-static uint64_t below(uint64_t n)
+static uint64_t random_number_below(uint64_t n)
 {
     return random_below(&dice, n);
 }
 
-/* Any float within +-limit: round ones, tiny ones, the limit itself, both zeros. */
-static float any_float(float limit)
+/* A random float within +-limit: round, tiny, the limit itself, both zeros. */
+static float draw_float(float limit)
 {
-    switch (below(8)) {
+    switch (random_number_below(8)) {
     case 0:
         return 0.0f;
     case 1:
         return -0.0f;
     case 2:
-        return below(2) ? limit : -limit;
+        return random_number_below(2) ? limit : -limit;
     case 3:
         return (float)(random_uniform(&dice) * 1e-30);
     case 4:
-        return (float)((double)below(2000) - 1000.0) * (limit / 1000.0f);
+        return (float)((double)random_number_below(2000) - 1000.0) * (limit / 1000.0f);
     default:
         return (float)((random_uniform(&dice) - 0.5) * 2.0 * (double)limit);
     }
 }
 
-/* The same, not below 0. */
-static float any_sigma(float limit)
+/* A random float of 0 or above. */
+static float draw_sigma(float limit)
 {
-    float value = any_float(limit);
+    float value = draw_float(limit);
 
-    return value > 0.0f ? value : below(2) ? 0.0f : limit / 3.0f;
+    return value > 0.0f ? value : random_number_below(2) ? 0.0f : limit / 3.0f;
 }
 
-static struct sent *next_sent(const char *prefix, int sensor_id, int64_t utime)
+static struct sent *add_sent_message(const char *prefix, int sensor_id, int64_t utime)
 {
     struct sent *message = &sent[num_sent++];
 
@@ -92,177 +92,187 @@ static struct sent *next_sent(const char *prefix, int sensor_id, int64_t utime)
             RHO_OK);                                                                               \
     } while (0)
 
-static int parts_of(int count, int most)
+static int number_of_parts(int count, int most)
 {
     return count > most ? (count + most - 1) / most : 1;
 }
 
-static int num_of_part(int count, int most, int part)
+static int number_in_part(int count, int most, int part)
 {
     int rest = count - part * most;
 
     return rest < most ? rest : most;
 }
 
-/* Times of a scan's plots after it, which go up. Half of the scans have all at its own. */
-static void draw_times(int32_t *dt_us, int count)
+/*
+ * Random times of plots after their scan, ascending. In half of the scans all are at the scan's
+ * time.
+ */
+static void draw_plot_times(int32_t *dt_us, int count)
 {
-    bool has_own = below(2);
-    int32_t at_us = has_own && below(2) ? -(int32_t)below(1000000) : 0;
+    bool has_own = random_number_below(2);
+    int32_t at_us = has_own && random_number_below(2) ? -(int32_t)random_number_below(1000000) : 0;
 
     for (int i = 0; i < count; i++) {
         dt_us[i] = at_us;
-        at_us += has_own ? (int32_t)below(20000) : 0;
+        at_us += has_own ? (int32_t)random_number_below(20000) : 0;
     }
 }
 
-static void send_plots(int sensor_id, int32_t scan, int64_t utime)
+static void add_sent_plot_scan(int sensor_id, int32_t scan, int64_t utime)
 {
     static const int8_t kinds[] = {2, 3, 4, 6};
     int32_t dt_us[100];
-    int count = below(3) ? (int)below(100) : 0,
-        parts = parts_of(count, RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS);
-    struct rho_message_plot_scan message = {.utime = utime,
-                                            .scan = scan,
-                                            .epoch = 7 + sensor_id,
-                                            .sensor_id = (int16_t)sensor_id,
-                                            .kind = count ? kinds[below(4)] : 2,
-                                            .num_parts = (int16_t)parts,
-                                            .sector_from_rad = below(2) ? 0.0f : any_float(6.2f),
-                                            .sector_to_rad = below(2) ? 0.0f : any_float(6.2f)};
+    int count = random_number_below(3) ? (int)random_number_below(100) : 0,
+        parts = number_of_parts(count, RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS);
+    struct rho_message_plot_scan message = {
+        .utime = utime,
+        .scan = scan,
+        .epoch = 7 + sensor_id,
+        .sensor_id = (int16_t)sensor_id,
+        .kind = count ? kinds[random_number_below(4)] : 2,
+        .num_parts = (int16_t)parts,
+        .sector_from_rad = random_number_below(2) ? 0.0f : draw_float(6.2f),
+        .sector_to_rad = random_number_below(2) ? 0.0f : draw_float(6.2f)};
 
-    draw_times(dt_us, count);
+    draw_plot_times(dt_us, count);
     for (int part = 0; part < parts; part++) {
         message.part = (int16_t)part;
-        message.num_plots = (int16_t)num_of_part(count, RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS, part);
+        message.num_plots = (int16_t)number_in_part(count, RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS, part);
         for (int i = 0; i < message.num_plots; i++) {
             bool has_velocity = message.kind >= 4, has_height = message.kind % 3 == 0;
 
             message.plots[i] = (struct rho_message_plot){
                 .dt_us = dt_us[part * RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS + i],
-                .x_m = any_float(2e6f),
-                .y_m = any_float(2e6f),
-                .z_m = has_height ? any_float(2e6f) : 0.0f,
-                .vx_mps = has_velocity ? any_float(2e4f) : 0.0f,
-                .vy_mps = has_velocity ? any_float(2e4f) : 0.0f,
-                .vz_mps = has_velocity ? any_float(2e4f) : 0.0f,
-                .sigma_m = any_sigma(1e5f),
-                .sigma_mps = any_sigma(1e5f),
-                .snr_db = any_float(1000.0f)};
+                .x_m = draw_float(2e6f),
+                .y_m = draw_float(2e6f),
+                .z_m = has_height ? draw_float(2e6f) : 0.0f,
+                .vx_mps = has_velocity ? draw_float(2e4f) : 0.0f,
+                .vy_mps = has_velocity ? draw_float(2e4f) : 0.0f,
+                .vz_mps = has_velocity ? draw_float(2e4f) : 0.0f,
+                .sigma_m = draw_sigma(1e5f),
+                .sigma_mps = draw_sigma(1e5f),
+                .snr_db = draw_float(1000.0f)};
         }
-        ENCODE(plot_scan, &message, next_sent("RHO_PLOTS_", sensor_id, utime));
+        ENCODE(plot_scan, &message, add_sent_message("RHO_PLOTS_", sensor_id, utime));
     }
 }
 
-/* Sigmas of each part are its own; only then a part may end before it is full. */
-static void send_polar(int sensor_id, int32_t scan, int64_t utime)
+/* each part has its own sigmas; only then may a part end before it is full */
+static void add_sent_polar_scan(int sensor_id, int32_t scan, int64_t utime)
 {
-    int parts = 1 + (int)below(4);
+    int parts = 1 + (int)random_number_below(4);
     int32_t dt_us[4 * RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS], *own_us = dt_us;
-    struct rho_message_polar_scan message = {.utime = utime,
-                                             .scan = scan,
-                                             .epoch = -1,
-                                             .sensor_id = (int16_t)sensor_id,
-                                             .has_elevation = (int8_t)below(2),
-                                             .has_range_rate = (int8_t)below(2),
-                                             .num_parts = (int16_t)parts,
-                                             .sensor_x_m = any_float(2e6f),
-                                             .sensor_y_m = below(2) ? 0.0f : any_float(2e6f),
-                                             .sensor_z_m = below(2) ? 0.0f : any_float(2e6f)};
+    struct rho_message_polar_scan message = {
+        .utime = utime,
+        .scan = scan,
+        .epoch = -1,
+        .sensor_id = (int16_t)sensor_id,
+        .has_elevation = (int8_t)random_number_below(2),
+        .has_range_rate = (int8_t)random_number_below(2),
+        .num_parts = (int16_t)parts,
+        .sensor_x_m = draw_float(2e6f),
+        .sensor_y_m = random_number_below(2) ? 0.0f : draw_float(2e6f),
+        .sensor_z_m = random_number_below(2) ? 0.0f : draw_float(2e6f)};
 
-    draw_times(dt_us, 4 * RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS);
+    draw_plot_times(dt_us, 4 * RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS);
     for (int part = 0; part < parts; part++) {
         message.part = (int16_t)part;
-        message.num_polar_plots = 1 + (int16_t)below(RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS);
+        message.num_polar_plots =
+            1 + (int16_t)random_number_below(RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS);
         message.sigma_range_m = 10.0f + (float)part;
-        message.sigma_azimuth_rad = any_sigma(0.5f);
-        message.sigma_elevation_rad = any_sigma(0.5f);
-        message.sigma_range_rate_mps = any_sigma(1e5f);
+        message.sigma_azimuth_rad = draw_sigma(0.5f);
+        message.sigma_elevation_rad = draw_sigma(0.5f);
+        message.sigma_range_rate_mps = draw_sigma(1e5f);
         for (int i = 0; i < message.num_polar_plots; i++) {
             message.polar_plots[i] = (struct rho_message_polar_plot){
                 .dt_us = *own_us++,
-                .range_m = any_sigma(2e6f),
-                .azimuth_rad = any_float(3.1415927f),
-                .elevation_rad = message.has_elevation ? any_float(1.5707964f) : 0.0f,
-                .range_rate_mps = message.has_range_rate ? any_float(2e4f) : 0.0f,
-                .snr_db = any_float(1000.0f)};
+                .range_m = draw_sigma(2e6f),
+                .azimuth_rad = draw_float(3.1415927f),
+                .elevation_rad = message.has_elevation ? draw_float(1.5707964f) : 0.0f,
+                .range_rate_mps = message.has_range_rate ? draw_float(2e4f) : 0.0f,
+                .snr_db = draw_float(1000.0f)};
         }
-        ENCODE(polar_scan, &message, next_sent("RHO_POLAR_", sensor_id, utime));
+        ENCODE(polar_scan, &message, add_sent_message("RHO_POLAR_", sensor_id, utime));
     }
 }
 
-static void send_bearings(int sensor_id, int32_t scan, int64_t utime)
+static void add_sent_bearing_scan(int sensor_id, int32_t scan, int64_t utime)
 {
     struct rho_message_bearing_scan message = {
         .utime = utime,
         .scan = scan,
         .epoch = 5,
         .sensor_id = (int16_t)sensor_id,
-        .sensor_x_m = any_float(2e6f),
-        .sensor_y_m = any_float(2e6f),
-        .sigma_rad = any_sigma(0.5f),
-        .num_bearings = (int16_t)below(RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD + 1)};
+        .sensor_x_m = draw_float(2e6f),
+        .sensor_y_m = draw_float(2e6f),
+        .sigma_rad = draw_sigma(0.5f),
+        .num_bearings = (int16_t)random_number_below(RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD + 1)};
 
     for (int i = 0; i < message.num_bearings; i++) {
-        message.bearing_rad[i] = any_float(3.1415927f);
+        message.bearing_rad[i] = draw_float(3.1415927f);
     }
-    ENCODE(bearing_scan, &message, next_sent("RHO_BEARINGS_", sensor_id, utime));
+    ENCODE(bearing_scan, &message, add_sent_message("RHO_BEARINGS_", sensor_id, utime));
 }
 
-static void send_truth(int sensor_id, int32_t scan, int64_t utime)
+static void add_sent_truth_list(int sensor_id, int32_t scan, int64_t utime)
 {
-    int count = 1 + (int)below(120), parts = parts_of(count, RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS);
+    int count = 1 + (int)random_number_below(120),
+        parts = number_of_parts(count, RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS);
     struct rho_message_truth_list message = {
         .utime = utime, .scan = scan, .num_parts = (int16_t)parts};
 
     (void)sensor_id;
     for (int part = 0; part < parts; part++) {
         message.part = (int16_t)part;
-        message.num_targets = (int16_t)num_of_part(count, RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS, part);
+        message.num_targets =
+            (int16_t)number_in_part(count, RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS, part);
         for (int i = 0; i < message.num_targets; i++) {
             message.targets[i] =
                 (struct rho_message_truth){.target_id = (int32_t)random_bits(&dice),
-                                           .x_m = any_float(2e6f),
-                                           .y_m = any_float(2e6f),
-                                           .z_m = any_float(2e6f),
-                                           .vx_mps = any_float(2e4f),
-                                           .vy_mps = any_float(2e4f),
-                                           .vz_mps = any_float(2e4f)};
+                                           .x_m = draw_float(2e6f),
+                                           .y_m = draw_float(2e6f),
+                                           .z_m = draw_float(2e6f),
+                                           .vx_mps = draw_float(2e4f),
+                                           .vy_mps = draw_float(2e4f),
+                                           .vz_mps = draw_float(2e4f)};
         }
-        ENCODE(truth_list, &message, next_sent("RHO_TRUTH", INT32_MAX, utime));
+        ENCODE(truth_list, &message, add_sent_message("RHO_TRUTH", INT32_MAX, utime));
     }
 }
 
-static struct rho_message_track any_track(void)
+static struct rho_message_track draw_track(void)
 {
     struct rho_message_track track = {.track_id = (int32_t)random_bits(&dice),
-                                      .status = (int8_t)(1 + below(4)),
-                                      .hits = (int16_t)below(32768),
-                                      .misses = (int16_t)below(32768),
-                                      .sensor_id = (int16_t)((int)below(65536) - 32768),
-                                      .plot = (int16_t)((int)below(32769) - 1),
-                                      .update_age_us = (int32_t)below(2147483648u),
-                                      .x_m = any_float(3e38f),
-                                      .y_m = any_float(3e38f),
-                                      .z_m = any_float(3e38f),
-                                      .vx_mps = any_float(3e38f),
-                                      .vy_mps = any_float(3e38f),
-                                      .vz_mps = any_float(3e38f),
-                                      .ax_mps2 = any_float(3e38f),
-                                      .ay_mps2 = any_float(3e38f),
-                                      .az_mps2 = any_float(3e38f),
-                                      .score_nat = any_float(3e38f),
-                                      .maneuver_probability = any_sigma(1.0f)};
+                                      .status = (int8_t)(1 + random_number_below(4)),
+                                      .hits = (int16_t)random_number_below(32768),
+                                      .misses = (int16_t)random_number_below(32768),
+                                      .sensor_id =
+                                          (int16_t)((int)random_number_below(65536) - 32768),
+                                      .plot = (int16_t)((int)random_number_below(32769) - 1),
+                                      .update_age_us = (int32_t)random_number_below(2147483648u),
+                                      .x_m = draw_float(3e38f),
+                                      .y_m = draw_float(3e38f),
+                                      .z_m = draw_float(3e38f),
+                                      .vx_mps = draw_float(3e38f),
+                                      .vy_mps = draw_float(3e38f),
+                                      .vz_mps = draw_float(3e38f),
+                                      .ax_mps2 = draw_float(3e38f),
+                                      .ay_mps2 = draw_float(3e38f),
+                                      .az_mps2 = draw_float(3e38f),
+                                      .score_nat = draw_float(3e38f),
+                                      .maneuver_probability = draw_sigma(1.0f)};
 
     for (int i = 0; i < 21; i++) {
-        track.covariance[i] = any_float(1e6f);
+        track.covariance[i] = draw_float(1e6f);
     }
     return track;
 }
 
-static void send_tracks(int sensor_id, int32_t scan, int64_t utime)
+static void add_sent_track_list(int sensor_id, int32_t scan, int64_t utime)
 {
-    int count = 1 + (int)below(30), parts = parts_of(count, RHO_MESSAGE_TRACK_LIST_MAX_TRACKS);
+    int count = 1 + (int)random_number_below(30),
+        parts = number_of_parts(count, RHO_MESSAGE_TRACK_LIST_MAX_TRACKS);
     struct rho_message_track_list message = {.utime = utime,
                                              .scan = scan,
                                              .epoch = 3,
@@ -272,18 +282,20 @@ static void send_tracks(int sensor_id, int32_t scan, int64_t utime)
     (void)sensor_id;
     for (int part = 0; part < parts; part++) {
         message.part = (int16_t)part;
-        message.num_tracks = (int16_t)num_of_part(count, RHO_MESSAGE_TRACK_LIST_MAX_TRACKS, part);
+        message.num_tracks =
+            (int16_t)number_in_part(count, RHO_MESSAGE_TRACK_LIST_MAX_TRACKS, part);
         for (int i = 0; i < message.num_tracks; i++) {
-            message.tracks[i] = any_track();
+            message.tracks[i] = draw_track();
         }
-        ENCODE(track_list, &message, next_sent("RHO_TRACKS", INT32_MAX, utime));
+        ENCODE(track_list, &message, add_sent_message("RHO_TRACKS", INT32_MAX, utime));
     }
 }
 
-/* ---- there and back ---- */
+/* ---- messages to a CSV file and back --------------------------------------------------------- */
 
-/* In an order that a network may make of them, as a CSV file. */
-static void write_csv(const char *path, const struct rows_kind *kind, bool is_shuffled)
+/* Writes the messages as a CSV file, in an order that a network may deliver them in. */
+static void write_sent_messages_as_csv(const char *path, const struct rows_kind *kind,
+                                       bool is_shuffled)
 {
     struct rows_collection collection;
     size_t order[MAX_MESSAGES];
@@ -293,7 +305,7 @@ static void write_csv(const char *path, const struct rows_kind *kind, bool is_sh
     assert_non_null(file);
     rows_from_messages_start(&collection, kind);
     for (size_t i = 0; i < num_sent; i++) {
-        size_t other = is_shuffled ? below(i + 1) : i;
+        size_t other = is_shuffled ? random_number_below(i + 1) : i;
 
         order[i] = order[other];
         order[other] = i;
@@ -312,7 +324,7 @@ static void write_csv(const char *path, const struct rows_kind *kind, bool is_sh
     rows_from_messages_free(&collection);
 }
 
-static void assert_comes_back(char *path)
+static void assert_csv_gives_sent_messages(char *path)
 {
     struct message_source *source;
     struct message_event event;
@@ -331,66 +343,66 @@ static void assert_comes_back(char *path)
     message_source_close(source);
 }
 
-static void check_kind(int kind, void (*send)(int sensor_id, int32_t scan, int64_t utime),
-                       bool is_shuffled)
+static void check_round_trip(int kind, void (*send)(int sensor_id, int32_t scan, int64_t utime),
+                             bool is_shuffled)
 {
     char path[] = "/tmp/rhotrack-convert-XXXXXX";
 
     close(mkstemp(path));
     for (int round = 0; round < 40; round++) {
-        int64_t utime = (int64_t)below(7999999000000000000u) - 3999999500000000000;
+        int64_t utime = (int64_t)random_number_below(7999999000000000000u) - 3999999500000000000;
 
         dice = random_start(3, (uint64_t)kind, (uint64_t)round);
         num_sent = 0;
         for (int i = 0; i < 30; i++) {
             send(i % 3 - 1, (int32_t)(INT32_MAX - 2 + (uint32_t)i / 3), utime);
-            utime += 1 + (int64_t)below(1000000);
+            utime += 1 + (int64_t)random_number_below(1000000);
         }
-        write_csv(path, rows_kinds[kind], is_shuffled);
-        assert_comes_back(path);
+        write_sent_messages_as_csv(path, rows_kinds[kind], is_shuffled);
+        assert_csv_gives_sent_messages(path);
     }
     unlink(path);
 }
 
-static void plots_come_back(void **state)
+static void plots_survive_the_round_trip_through_csv(void **state)
 {
     (void)state;
-    check_kind(ROWS_PLOTS, send_plots, false);
+    check_round_trip(ROWS_PLOTS, add_sent_plot_scan, false);
 }
 
-static void polar_plots_come_back(void **state)
+static void polar_plots_survive_the_round_trip_through_csv(void **state)
 {
     (void)state;
-    check_kind(ROWS_POLAR, send_polar, false);
+    check_round_trip(ROWS_POLAR, add_sent_polar_scan, false);
 }
 
-static void bearings_come_back(void **state)
+static void bearings_survive_the_round_trip_through_csv(void **state)
 {
     (void)state;
-    check_kind(ROWS_BEARINGS, send_bearings, false);
+    check_round_trip(ROWS_BEARINGS, add_sent_bearing_scan, false);
 }
 
-static void truth_comes_back(void **state)
+static void truth_survives_the_round_trip_through_csv(void **state)
 {
     (void)state;
-    check_kind(ROWS_TRUTH, send_truth, false);
+    check_round_trip(ROWS_TRUTH, add_sent_truth_list, false);
 }
 
-static void tracks_come_back(void **state)
+static void tracks_survive_the_round_trip_through_csv(void **state)
 {
     (void)state;
-    check_kind(ROWS_TRACKS, send_tracks, false);
+    check_round_trip(ROWS_TRACKS, add_sent_track_list, false);
 }
 
-static void parts_in_any_order_come_back_in_theirs(void **state)
+static void parts_in_any_order_are_written_in_the_right_order(void **state)
 {
     (void)state;
-    check_kind(ROWS_PLOTS, send_plots, true);
-    check_kind(ROWS_POLAR, send_polar, true);
-    check_kind(ROWS_TRACKS, send_tracks, true);
+    check_round_trip(ROWS_PLOTS, add_sent_plot_scan, true);
+    check_round_trip(ROWS_POLAR, add_sent_polar_scan, true);
+    check_round_trip(ROWS_TRACKS, add_sent_track_list, true);
 }
 
-/* ---- rows to scans --------------------------------------------------------------------------- */
+/* ---- rows that form a scan ------------------------------------------------------------------- */
 
 static void write_text(char *path, const char *text)
 {
@@ -403,8 +415,11 @@ static void write_text(char *path, const char *text)
     close(file);
 }
 
-/* Each message of plots as "time in ms:sensor#scan/epoch(plots)"; of others the channel's name. */
-static const char *describe(const struct message_event *event, char *text)
+/*
+ * A message of plots as "time in ms:sensor#scan/epoch(plots)"; any other message as its channel's
+ * name.
+ */
+static const char *describe_message(const struct message_event *event, char *text)
 {
     struct rho_message_plot_scan plots;
 
@@ -418,7 +433,8 @@ static const char *describe(const struct message_event *event, char *text)
     return text;
 }
 
-static const char *all_of(char *const *paths, int num_paths, double interval_s, bool keep_going)
+static const char *describe_all_messages(char *const *paths, int num_paths, double interval_s,
+                                         bool keep_going)
 {
     static char text[2000];
     char one[100];
@@ -431,68 +447,68 @@ static const char *all_of(char *const *paths, int num_paths, double interval_s, 
     source = message_source_open(paths, num_paths, &parameters, keep_going);
     text[0] = '\0';
     while (message_source_next(source, &event)) {
-        strcat(text, describe(&event, one));
+        strcat(text, describe_message(&event, one));
     }
     message_source_close(source);
     return text;
 }
 
-static void assert_scans(const char *csv, double interval_s, const char *expected)
+static void assert_csv_gives(const char *csv, double interval_s, const char *expected)
 {
     char path[40], *paths[] = {path};
 
     write_text(path, csv);
-    assert_string_equal(all_of(paths, 1, interval_s, false), expected);
+    assert_string_equal(describe_all_messages(paths, 1, interval_s, false), expected);
     unlink(path);
 }
 
 #define HEADER "t_s,sensor_id,x_m,y_m\n"
 #define NUMBERED "t_s,sensor_id,x_m,y_m,scan,epoch\n"
 
-static void rows_of_one_time_are_a_scan(void **state)
+static void rows_of_one_time_form_a_scan(void **state)
 {
     (void)state;
-    assert_scans(HEADER "1,4,1,1\n1,5,1,1\n1,4,1,1\n2,5,,\n2,4,1,1\n", 0.0,
-                 "1000:4#1/1(2) 1000:5#1/1(1) 2000:5#2/1(0) 2000:4#2/1(1) ");
+    assert_csv_gives(HEADER "1,4,1,1\n1,5,1,1\n1,4,1,1\n2,5,,\n2,4,1,1\n", 0.0,
+                     "1000:4#1/1(2) 1000:5#1/1(1) 2000:5#2/1(0) 2000:4#2/1(1) ");
 }
 
-static void rows_of_one_interval_are_a_scan(void **state)
+static void rows_within_scan_interval_form_a_scan(void **state)
 {
     (void)state;
-    assert_scans(HEADER "1,4,,\n1.5,4,1,1\n2,5,1,1\n4.9,4,1,1\n5,4,1,1\n6,5,1,1\n", 4.0,
-                 "1000:4#1/1(2) 2000:5#1/1(1) 5000:4#2/1(1) 6000:5#2/1(1) ");
+    assert_csv_gives(HEADER "1,4,,\n1.5,4,1,1\n2,5,1,1\n4.9,4,1,1\n5,4,1,1\n6,5,1,1\n", 4.0,
+                     "1000:4#1/1(2) 2000:5#1/1(1) 5000:4#2/1(1) 6000:5#2/1(1) ");
 }
 
-static void rows_of_one_number_are_a_scan(void **state)
+static void rows_of_one_scan_number_form_a_scan(void **state)
 {
     (void)state;
-    assert_scans(NUMBERED "1,4,1,1,7,1\n2,4,1,1,8,1\n3,4,1,1,7,1\n4,5,1,1,7,1\n5,4,1,1,8,2\n", 0.0,
-                 "1000:4#7/1(2) 2000:4#8/1(1) 4000:5#7/1(1) 5000:4#8/2(1) ");
+    assert_csv_gives(NUMBERED "1,4,1,1,7,1\n2,4,1,1,8,1\n3,4,1,1,7,1\n4,5,1,1,7,1\n5,4,1,1,8,2\n",
+                     0.0, "1000:4#7/1(2) 2000:4#8/1(1) 4000:5#7/1(1) 5000:4#8/2(1) ");
 }
 
-/* A number that comes again after a minute is another scan: the counter began anew. */
-static void numbers_that_come_again_later_are_other_scans(void **state)
+/* A scan number that appears again after a minute is another scan: the counter was restarted. */
+static void a_scan_number_used_again_later_is_another_scan(void **state)
 {
     (void)state;
-    assert_scans(NUMBERED "0,4,1,1,7,1\n60,4,1,1,7,1\n60.000001,4,1,1,7,1\n", 0.0,
-                 "0:4#7/1(2) 60000:4#7/1(1) ");
+    assert_csv_gives(NUMBERED "0,4,1,1,7,1\n60,4,1,1,7,1\n60.000001,4,1,1,7,1\n", 0.0,
+                     "0:4#7/1(2) 60000:4#7/1(1) ");
 }
 
-static void a_row_that_saw_nothing_gives_a_numbered_scan_its_time(void **state)
+static void a_row_without_a_plot_sets_the_time_of_its_scan(void **state)
 {
     (void)state;
-    assert_scans(NUMBERED "1,4,1,1,7,1\n2,4,,,7,1\n3,4,1,1,7,1\n", 0.0, "2000:4#7/1(2) ");
+    assert_csv_gives(NUMBERED "1,4,1,1,7,1\n2,4,,,7,1\n3,4,1,1,7,1\n", 0.0, "2000:4#7/1(2) ");
 }
 
-static void an_epoch_alone_counts_anew(void **state)
+static void a_new_epoch_restarts_the_scan_counter(void **state)
 {
     (void)state;
-    assert_scans("t_s,sensor_id,x_m,y_m,epoch\n1,4,1,1,6\n2,4,1,1,6\n3,4,1,1,9\n", 0.0,
-                 "1000:4#1/6(1) 2000:4#2/6(1) 3000:4#1/9(1) ");
+    assert_csv_gives("t_s,sensor_id,x_m,y_m,epoch\n1,4,1,1,6\n2,4,1,1,6\n3,4,1,1,9\n", 0.0,
+                     "1000:4#1/6(1) 2000:4#2/6(1) 3000:4#1/9(1) ");
 }
 
-/* Two sensors' steps at one time: the tracks are reported twice. */
-static void a_track_that_is_named_again_begins_the_next_list(void **state)
+/* Steps of two sensors at one time report the tracks twice. */
+static void a_track_id_repeated_at_one_time_begins_a_new_list(void **state)
 {
     char path[40], *name = path;
     static const int expected[][2] = {{1, 2}, {2, 3}, {3, 1}};
@@ -520,7 +536,7 @@ static void a_track_that_is_named_again_begins_the_next_list(void **state)
     unlink(path);
 }
 
-/* ---- several files --------------------------------------------------------------------------- */
+/* ---- several files, bad rows, parts ---------------------------------------------------------- */
 
 static void files_are_merged_by_time(void **state)
 {
@@ -536,7 +552,7 @@ static void files_are_merged_by_time(void **state)
     assert_true(lcm_log_write(&writer, 500000, "LATE", (const uint8_t *)"x", 1));
     assert_true(lcm_log_write(&writer, 3000000, "END", (const uint8_t *)"x", 1));
     fclose(writer.file);
-    assert_string_equal(all_of(paths, 3, 0.0, false),
+    assert_string_equal(describe_all_messages(paths, 3, 0.0, false),
                         "0:5#1/1(1) 1000:4#1/1(1) 2000:ANY 500:LATE 3000:4#2/1(1) 3000:5#2/1(1) "
                         "3000:END 4000:4#3/1(1) ");
     for (int i = 0; i < 3; i++) {
@@ -544,21 +560,21 @@ static void files_are_merged_by_time(void **state)
     }
 }
 
-static void bad_rows_are_left_out_where_wanted(void **state)
+static void keep_going_skips_bad_rows(void **state)
 {
     char path[40], *paths[] = {path};
     (void)state;
 
     write_text(path, HEADER "1,4,1,1\n1,4,x,1\n1,40000,1,1\n0,4,1,1\n1,4,3e6,1\n1,4,1\n2,4,1,1\n");
-    assert_string_equal(all_of(paths, 1, 0.0, true), "1000:4#1/1(1) 2000:4#2/1(1) ");
+    assert_string_equal(describe_all_messages(paths, 1, 0.0, true), "1000:4#1/1(1) 2000:4#2/1(1) ");
     unlink(path);
 }
 
 /*
- * 100 plots of a scan, each other one with another sigma: as many parts as there are changes, and
- * the order stays.
+ * 100 plots of a scan, every other one with another sigma: each change begins a part, and the order
+ * is kept.
  */
-static void parts_keep_the_order_of_rows(void **state)
+static void messages_of_parts_keep_the_order_of_rows(void **state)
 {
     char text[8000] = "t_s,sensor_id,range_m,azimuth_rad,sigma_range_m\n", path[40], *name = path;
     struct rho_message_polar_scan scan;
@@ -577,7 +593,8 @@ static void parts_keep_the_order_of_rows(void **state)
     for (int part = 0; message_source_next(source, &event); part++) {
         assert_int_equal(rho_message_polar_scan_decode(event.data, event.size, &scan), RHO_OK);
         assert_int_equal(scan.part, part);
-        assert_int_equal(scan.num_parts, 83); /* 54, 54, 12, and 80 of one each */
+        /* parts of 54, 54, 12 plots, and 80 parts of one plot */
+        assert_int_equal(scan.num_parts, 83);
         for (int i = 0; i < scan.num_polar_plots; i++) {
             assert_true(scan.polar_plots[i].range_m == (float)++plot);
         }
@@ -587,9 +604,9 @@ static void parts_keep_the_order_of_rows(void **state)
     unlink(path);
 }
 
-/* ---- messages to rows ------------------------------------------------------------------------ */
+/* ---- messages that are counted or refused ---------------------------------------------------- */
 
-static void what_a_collection_counts(void **state)
+static void rows_from_messages_counts_doubles_and_refuses_bad_messages(void **state)
 {
     struct rows_collection collection;
     char reason[ROWS_FROM_MESSAGES_REASON_BYTES];
@@ -597,9 +614,9 @@ static void what_a_collection_counts(void **state)
 
     dice = random_start(1, 0, 0);
     num_sent = 0;
-    while (num_sent < 3) { /* one scan of several parts */
+    while (num_sent < 3) { /* draws until one scan has several parts */
         num_sent = 0;
-        send_plots(4, 1, 1000);
+        add_sent_plot_scan(4, 1, 1000);
     }
     rows_from_messages_start(&collection, &rows_kind_plots);
     for (size_t i = 0; i < 2; i++) {
@@ -620,7 +637,7 @@ static void what_a_collection_counts(void **state)
         rows_from_messages_add(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size, reason),
         "not a plot_scan_t, or of another version");
     sent[1].data[0] ^= 1;
-    sent[1].data[26] = 1; /* kind */
+    sent[1].data[26] = 1; /* changes the kind */
     assert_string_equal(
         rows_from_messages_add(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size, reason),
         "kind is outside the range of a plot_scan_t");
@@ -631,7 +648,7 @@ static void what_a_collection_counts(void **state)
     rows_from_messages_free(&collection);
 }
 
-static void channels_and_their_kinds(void **state)
+static void channel_names_tell_the_kind_of_rows(void **state)
 {
     (void)state;
     assert_ptr_equal(rows_kind_of_channel("RHO_PLOTS_0"), &rows_kind_plots);
@@ -653,24 +670,24 @@ static void channels_and_their_kinds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plots_come_back),
-        cmocka_unit_test(polar_plots_come_back),
-        cmocka_unit_test(bearings_come_back),
-        cmocka_unit_test(truth_comes_back),
-        cmocka_unit_test(tracks_come_back),
-        cmocka_unit_test(parts_in_any_order_come_back_in_theirs),
-        cmocka_unit_test(rows_of_one_time_are_a_scan),
-        cmocka_unit_test(rows_of_one_interval_are_a_scan),
-        cmocka_unit_test(rows_of_one_number_are_a_scan),
-        cmocka_unit_test(numbers_that_come_again_later_are_other_scans),
-        cmocka_unit_test(a_row_that_saw_nothing_gives_a_numbered_scan_its_time),
-        cmocka_unit_test(an_epoch_alone_counts_anew),
-        cmocka_unit_test(a_track_that_is_named_again_begins_the_next_list),
+        cmocka_unit_test(plots_survive_the_round_trip_through_csv),
+        cmocka_unit_test(polar_plots_survive_the_round_trip_through_csv),
+        cmocka_unit_test(bearings_survive_the_round_trip_through_csv),
+        cmocka_unit_test(truth_survives_the_round_trip_through_csv),
+        cmocka_unit_test(tracks_survive_the_round_trip_through_csv),
+        cmocka_unit_test(parts_in_any_order_are_written_in_the_right_order),
+        cmocka_unit_test(rows_of_one_time_form_a_scan),
+        cmocka_unit_test(rows_within_scan_interval_form_a_scan),
+        cmocka_unit_test(rows_of_one_scan_number_form_a_scan),
+        cmocka_unit_test(a_scan_number_used_again_later_is_another_scan),
+        cmocka_unit_test(a_row_without_a_plot_sets_the_time_of_its_scan),
+        cmocka_unit_test(a_new_epoch_restarts_the_scan_counter),
+        cmocka_unit_test(a_track_id_repeated_at_one_time_begins_a_new_list),
         cmocka_unit_test(files_are_merged_by_time),
-        cmocka_unit_test(bad_rows_are_left_out_where_wanted),
-        cmocka_unit_test(parts_keep_the_order_of_rows),
-        cmocka_unit_test(what_a_collection_counts),
-        cmocka_unit_test(channels_and_their_kinds),
+        cmocka_unit_test(keep_going_skips_bad_rows),
+        cmocka_unit_test(messages_of_parts_keep_the_order_of_rows),
+        cmocka_unit_test(rows_from_messages_counts_doubles_and_refuses_bad_messages),
+        cmocka_unit_test(channel_names_tell_the_kind_of_rows),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

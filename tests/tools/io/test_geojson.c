@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Maps of tracks: which features there are, when they are written, what is cut at longitude 180. */
+/*
+ * GeoJSON maps of tracks: which features there are, when they are written, and lines cut at
+ * longitude 180.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,9 +17,9 @@
 
 #include "io/output/geojson.h"
 
-#define S 1000000 /* us */
+#define S 1000000 /* microseconds in a second */
 
-/* A map in memory. */
+/* A map written to memory. */
 struct map {
     struct parameters parameters;
     char *text;
@@ -25,7 +28,7 @@ struct map {
     struct geojson *geojson;
 };
 
-static void start(struct map *map, const char *lat_deg, const char *lon_deg)
+static void open_map(struct map *map, const char *lat_deg, const char *lon_deg)
 {
     char reason[PARAMETER_REASON_BYTES];
 
@@ -37,8 +40,8 @@ static void start(struct map *map, const char *lat_deg, const char *lon_deg)
     map->geojson = geojson_open(map->file, &map->parameters);
 }
 
-static void add(struct map *map, int32_t track_id, int second, const char *status, float x_m,
-                float z_m)
+static void add_row(struct map *map, int32_t track_id, int second, const char *status, float x_m,
+                    float z_m)
 {
     const struct geojson_row row = {.time_us = (int64_t)second * S,
                                     .track_id = track_id,
@@ -50,7 +53,7 @@ static void add(struct map *map, int32_t track_id, int second, const char *statu
     geojson_add_row(map->geojson, &row);
 }
 
-static cJSON *end(struct map *map)
+static cJSON *close_and_parse_map(struct map *map)
 {
     cJSON *root;
 
@@ -63,7 +66,7 @@ static cJSON *end(struct map *map)
     return root;
 }
 
-static const cJSON *feature(const cJSON *root, int index)
+static const cJSON *feature_at(const cJSON *root, int index)
 {
     return cJSON_GetArrayItem(cJSON_GetObjectItem(root, "features"), index);
 }
@@ -73,98 +76,99 @@ static int num_features(const cJSON *root)
     return cJSON_GetArraySize(cJSON_GetObjectItem(root, "features"));
 }
 
-static const cJSON *property(const cJSON *root, int index, const char *name)
+static const cJSON *property_of_feature(const cJSON *root, int index, const char *name)
 {
-    const cJSON *properties = cJSON_GetObjectItem(feature(root, index), "properties");
+    const cJSON *properties = cJSON_GetObjectItem(feature_at(root, index), "properties");
     const cJSON *item = cJSON_GetObjectItem(properties, name);
 
     assert_non_null(item);
     return item;
 }
 
-static const cJSON *coordinates(const cJSON *root, int index, const char *type)
+static const cJSON *coordinates_of_feature(const cJSON *root, int index, const char *type)
 {
-    const cJSON *geometry = cJSON_GetObjectItem(feature(root, index), "geometry");
+    const cJSON *geometry = cJSON_GetObjectItem(feature_at(root, index), "geometry");
 
     assert_string_equal(cJSON_GetObjectItem(geometry, "type")->valuestring, type);
     return cJSON_GetObjectItem(geometry, "coordinates");
 }
 
-static double number(const cJSON *array, int index)
+static double number_at(const cJSON *array, int index)
 {
     return cJSON_GetArrayItem(array, index)->valuedouble;
 }
 
-static void a_track_is_a_line_and_a_place(void **state)
+static void a_track_becomes_a_line_and_a_point(void **state)
 {
     struct map map;
     cJSON *root;
     const cJSON *place;
 
     (void)state;
-    start(&map, "50", "10");
-    add(&map, 7, 1, "tentative", 0, 500);
-    add(&map, 7, 2, "confirmed", 100, 500);
-    add(&map, 7, 3, "coasting", 200, 500);
-    root = end(&map);
+    open_map(&map, "50", "10");
+    add_row(&map, 7, 1, "tentative", 0, 500);
+    add_row(&map, 7, 2, "confirmed", 100, 500);
+    add_row(&map, 7, 3, "coasting", 200, 500);
+    root = close_and_parse_map(&map);
     assert_int_equal(num_features(root), 2);
-    assert_int_equal(cJSON_GetArraySize(coordinates(root, 0, "LineString")), 3);
-    assert_int_equal(cJSON_GetArraySize(property(root, 0, "t_s")), 3);
-    place = coordinates(root, 1, "Point");
+    assert_int_equal(cJSON_GetArraySize(coordinates_of_feature(root, 0, "LineString")), 3);
+    assert_int_equal(cJSON_GetArraySize(property_of_feature(root, 0, "t_s")), 3);
+    place = coordinates_of_feature(root, 1, "Point");
     /* longitude first; 200 m east at 50 degrees north */
-    assert_true(fabs(number(place, 0) - 10 - 200 / 71695.0) < 1e-6);
-    assert_true(fabs(number(place, 1) - 50) < 1e-6);
-    assert_true(fabs(number(place, 2) - 500) < 0.02);
-    assert_true(property(root, 1, "t_s")->valuedouble == 3);
-    assert_string_equal(property(root, 1, "status")->valuestring, "coasting");
-    assert_true(fabs(property(root, 1, "heading_deg")->valuedouble - 90) < 0.01);
-    assert_true(property(root, 1, "speed_mps")->valuedouble == 100);
-    assert_true(cJSON_IsFalse(property(root, 1, "is_over")));
+    assert_true(fabs(number_at(place, 0) - 10 - 200 / 71695.0) < 1e-6);
+    assert_true(fabs(number_at(place, 1) - 50) < 1e-6);
+    assert_true(fabs(number_at(place, 2) - 500) < 0.02);
+    assert_true(property_of_feature(root, 1, "t_s")->valuedouble == 3);
+    assert_string_equal(property_of_feature(root, 1, "status")->valuestring, "coasting");
+    assert_true(fabs(property_of_feature(root, 1, "heading_deg")->valuedouble - 90) < 0.01);
+    assert_true(property_of_feature(root, 1, "speed_mps")->valuedouble == 100);
+    assert_true(cJSON_IsFalse(property_of_feature(root, 1, "is_over")));
     cJSON_Delete(root);
 }
 
-static void what_was_never_confirmed_is_left_out(void **state)
+static void tracks_never_confirmed_are_left_out(void **state)
 {
     struct map map;
     cJSON *root;
 
     (void)state;
-    start(&map, "50", "10");
+    open_map(&map, "50", "10");
     for (int second = 0; second < 9; second++) {
-        add(&map, 1, second, "tentative", 0, 0);
+        add_row(&map, 1, second, "tentative", 0, 0);
     }
-    root = end(&map);
+    root = close_and_parse_map(&map);
     assert_int_equal(num_features(root), 0);
     cJSON_Delete(root);
 }
 
-static void one_row_is_a_place_alone(void **state)
+static void a_track_of_one_row_becomes_a_point_alone(void **state)
 {
     struct map map;
     cJSON *root;
 
     (void)state;
-    start(&map, "50", "10");
-    add(&map, 1, 0, "confirmed", 0, 0);
-    root = end(&map);
+    open_map(&map, "50", "10");
+    add_row(&map, 1, 0, "confirmed", 0, 0);
+    root = close_and_parse_map(&map);
     assert_int_equal(num_features(root), 1);
-    assert_int_equal(cJSON_GetArraySize(coordinates(root, 0, "Point")), 2); /* no height */
+    assert_int_equal(cJSON_GetArraySize(coordinates_of_feature(root, 0, "Point")),
+                     2); /* without a height */
     cJSON_Delete(root);
 }
 
-/* Those that a time does not name are over, and written then and there. */
-static void tracks_are_written_when_they_are_over(void **state)
+/* Tracks that a time does not list have ended and are written at once. */
+static void a_track_is_written_once_it_has_ended(void **state)
 {
     struct map map;
     cJSON *root;
     size_t before;
 
     (void)state;
-    start(&map, "50", "10");
+    open_map(&map, "50", "10");
     for (int second = 0; second < 4; second++) {
-        add(&map, 1, second, "confirmed", 0, 0);
+        add_row(&map, 1, second, "confirmed", 0, 0);
         if (second < 2) {
-            add(&map, 2, second, "confirmed", 500, 0);
+            add_row(&map, 2, second, "confirmed", 500, 0);
         }
         if (second == 2) {
             fflush(map.file);
@@ -175,53 +179,54 @@ static void tracks_are_written_when_they_are_over(void **state)
     fflush(map.file);
     assert_int_equal(before, 0);
     assert_true(map.bytes > 100);
-    root = end(&map);
+    root = close_and_parse_map(&map);
     assert_int_equal(num_features(root), 4);
-    assert_true(property(root, 0, "track_id")->valuedouble == 2);
-    assert_true(cJSON_IsTrue(property(root, 0, "is_over")));
-    assert_true(property(root, 2, "track_id")->valuedouble == 1);
-    assert_true(cJSON_IsFalse(property(root, 2, "is_over")));
+    assert_true(property_of_feature(root, 0, "track_id")->valuedouble == 2);
+    assert_true(cJSON_IsTrue(property_of_feature(root, 0, "is_over")));
+    assert_true(property_of_feature(root, 2, "track_id")->valuedouble == 1);
+    assert_true(cJSON_IsFalse(property_of_feature(root, 2, "is_over")));
     cJSON_Delete(root);
 }
 
-static void a_row_that_says_deleted_is_no_place(void **state)
+static void rows_of_status_deleted_add_no_point(void **state)
 {
     struct map map;
     cJSON *root;
 
     (void)state;
-    start(&map, "50", "10");
-    add(&map, 1, 0, "confirmed", 0, 0);
-    add(&map, 1, 1, "confirmed", 100, 0);
-    add(&map, 1, 2, "deleted", 0, 0);
-    root = end(&map);
-    assert_int_equal(cJSON_GetArraySize(coordinates(root, 0, "LineString")), 2);
-    assert_string_equal(property(root, 0, "status")->valuestring, "confirmed");
-    assert_true(cJSON_IsTrue(property(root, 0, "is_over")));
+    open_map(&map, "50", "10");
+    add_row(&map, 1, 0, "confirmed", 0, 0);
+    add_row(&map, 1, 1, "confirmed", 100, 0);
+    add_row(&map, 1, 2, "deleted", 0, 0);
+    root = close_and_parse_map(&map);
+    assert_int_equal(cJSON_GetArraySize(coordinates_of_feature(root, 0, "LineString")), 2);
+    assert_string_equal(property_of_feature(root, 0, "status")->valuestring, "confirmed");
+    assert_true(cJSON_IsTrue(property_of_feature(root, 0, "is_over")));
     cJSON_Delete(root);
 }
 
-/* From 300 m west of it to 100 m east, in 4 s: it is crossed after 3 s. */
-static void check_cut(const char *lon_deg, float from_x_m, float to_x_m, double side_deg)
+/* From 300 m west of the longitude to 100 m east in 4 s: the crossing is after 3 s. */
+static void check_line_cut_at_180(const char *lon_deg, float from_x_m, float to_x_m,
+                                  double side_deg)
 {
     struct map map;
     cJSON *root;
     const cJSON *pieces, *times;
 
-    start(&map, "0", lon_deg);
-    add(&map, 1, 10, "confirmed", from_x_m, 0);
-    add(&map, 1, 14, "confirmed", to_x_m, 0);
-    root = end(&map);
-    pieces = coordinates(root, 0, "MultiLineString");
-    times = property(root, 0, "t_s");
+    open_map(&map, "0", lon_deg);
+    add_row(&map, 1, 10, "confirmed", from_x_m, 0);
+    add_row(&map, 1, 14, "confirmed", to_x_m, 0);
+    root = close_and_parse_map(&map);
+    pieces = coordinates_of_feature(root, 0, "MultiLineString");
+    times = property_of_feature(root, 0, "t_s");
     assert_int_equal(cJSON_GetArraySize(pieces), 2);
     assert_int_equal(cJSON_GetArraySize(times), 4);
     for (int i = 0; i < 2; i++) {
         const cJSON *piece = cJSON_GetArrayItem(pieces, i);
 
         assert_int_equal(cJSON_GetArraySize(piece), 2);
-        assert_true(number(cJSON_GetArrayItem(piece, 1 - i), 0) == (i ? -side_deg : side_deg));
-        assert_true(fabs(number(times, 1 + i) - 13) < 0.001);
+        assert_true(number_at(cJSON_GetArrayItem(piece, 1 - i), 0) == (i ? -side_deg : side_deg));
+        assert_true(fabs(number_at(times, 1 + i) - 13) < 0.001);
     }
     cJSON_Delete(root);
 }
@@ -229,18 +234,18 @@ static void check_cut(const char *lon_deg, float from_x_m, float to_x_m, double 
 static void lines_are_cut_at_longitude_180(void **state)
 {
     (void)state;
-    check_cut("180", -300, 100, 180);
-    check_cut("-180", 300, -100, -180);
+    check_line_cut_at_180("180", -300, 100, 180);
+    check_line_cut_at_180("-180", 300, -100, -180);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_track_is_a_line_and_a_place),
-        cmocka_unit_test(what_was_never_confirmed_is_left_out),
-        cmocka_unit_test(one_row_is_a_place_alone),
-        cmocka_unit_test(tracks_are_written_when_they_are_over),
-        cmocka_unit_test(a_row_that_says_deleted_is_no_place),
+        cmocka_unit_test(a_track_becomes_a_line_and_a_point),
+        cmocka_unit_test(tracks_never_confirmed_are_left_out),
+        cmocka_unit_test(a_track_of_one_row_becomes_a_point_alone),
+        cmocka_unit_test(a_track_is_written_once_it_has_ended),
+        cmocka_unit_test(rows_of_status_deleted_add_no_point),
         cmocka_unit_test(lines_are_cut_at_longitude_180),
     };
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* LCM logs: bytes by hand, round trips, and what is left of a log after every kind of damage. */
+/* LCM logs: hand-written bytes, round trips, and the events found after every kind of damage. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,58 +16,59 @@
 
 #define MAX_BYTES (1u << 20)
 
-/* A log that is put together, and what is found in it. */
+/* The log that a test puts together. */
 struct bytes {
     uint8_t data[MAX_BYTES];
     size_t size;
 };
 static struct bytes the_log;
 
-static void add(struct bytes *bytes, const void *data, size_t size)
+static void append_bytes(struct bytes *bytes, const void *data, size_t size)
 {
     assert_true(bytes->size + size <= MAX_BYTES);
     memcpy(bytes->data + bytes->size, data, size);
     bytes->size += size;
 }
 
-static void add_number(struct bytes *bytes, uint64_t value, int size)
+static void append_number(struct bytes *bytes, uint64_t value, int size)
 {
     for (int i = size - 1; i >= 0; i--) {
         uint8_t byte = (uint8_t)(value >> (8 * i));
 
-        add(bytes, &byte, 1);
+        append_bytes(bytes, &byte, 1);
     }
 }
 
-/* An event as the format says it, with lengths that may be wrong. */
-static void add_event_saying(struct bytes *bytes, int64_t number, const char *channel,
-                             const char *data, uint32_t channel_length, uint32_t data_length)
+/* Appends an event in the format of the specification, with lengths that may be wrong. */
+static void append_event_with_lengths(struct bytes *bytes, int64_t number, const char *channel,
+                                      const char *data, uint32_t channel_length,
+                                      uint32_t data_length)
 {
-    add_number(bytes, 0xEDA1DA01u, 4);
-    add_number(bytes, (uint64_t)number, 8);
-    add_number(bytes, (uint64_t)(1000 + number), 8);
-    add_number(bytes, channel_length, 4);
-    add_number(bytes, data_length, 4);
-    add(bytes, channel, strlen(channel));
-    add(bytes, data, strlen(data));
+    append_number(bytes, 0xEDA1DA01u, 4);
+    append_number(bytes, (uint64_t)number, 8);
+    append_number(bytes, (uint64_t)(1000 + number), 8);
+    append_number(bytes, channel_length, 4);
+    append_number(bytes, data_length, 4);
+    append_bytes(bytes, channel, strlen(channel));
+    append_bytes(bytes, data, strlen(data));
 }
 
-static void add_event(struct bytes *bytes, int64_t number, const char *channel, const char *data)
+static void append_event(struct bytes *bytes, int64_t number, const char *channel, const char *data)
 {
-    add_event_saying(bytes, number, channel, data, (uint32_t)strlen(channel),
-                     (uint32_t)strlen(data));
+    append_event_with_lengths(bytes, number, channel, data, (uint32_t)strlen(channel),
+                              (uint32_t)strlen(data));
 }
 
-/* ---- what is found: "number:channel:data ..."; " -n": n bytes skipped in one place ---- */
+/* ---- events found, as text: "number:channel:data ", and "-n " for n skipped bytes ------------ */
 
-static void add_skipped(char *text, size_t skipped)
+static void append_skip_text(char *text, size_t skipped)
 {
     if (skipped > 0) {
         sprintf(text + strlen(text), "-%zu ", skipped);
     }
 }
 
-static const char *found_in(const uint8_t *data, size_t size)
+static const char *events_found_as_text(const uint8_t *data, size_t size)
 {
     static char text[4000];
     size_t at = 0, skipped = 0, count;
@@ -75,7 +76,8 @@ static const char *found_in(const uint8_t *data, size_t size)
 
     text[0] = '\0';
     while (at < size) {
-        uint8_t *exact = malloc(size - at); /* so that a sanitizer sees each byte too many */
+        /* memory of exactly this size, so that a sanitizer sees every byte read behind it */
+        uint8_t *exact = malloc(size - at);
         enum lcm_log_found found;
 
         memcpy(exact, data + at, size - at);
@@ -83,7 +85,7 @@ static const char *found_in(const uint8_t *data, size_t size)
         assert_int_not_equal(found, LCM_LOG_MORE);
         assert_true(count > 0 && count <= size - at);
         if (found == LCM_LOG_EVENT) {
-            add_skipped(text, skipped);
+            append_skip_text(text, skipped);
             skipped = 0;
             sprintf(text + strlen(text), "%ld:%s:%.*s ", (long)event.number, event.channel,
                     (int)event.size, (const char *)event.data);
@@ -93,16 +95,16 @@ static const char *found_in(const uint8_t *data, size_t size)
         free(exact);
         at += count;
     }
-    add_skipped(text, skipped);
+    append_skip_text(text, skipped);
     return text;
 }
 
-static void assert_found(const char *expected)
+static void assert_events_found(const char *expected)
 {
-    assert_string_equal(found_in(the_log.data, the_log.size), expected);
+    assert_string_equal(events_found_as_text(the_log.data, the_log.size), expected);
 }
 
-static int start(void **state)
+static int clear_the_log(void **state)
 {
     (void)state;
     the_log.size = 0;
@@ -111,7 +113,7 @@ static int start(void **state)
 
 /* ---- files ---- */
 
-static void write_file(char *path)
+static void write_the_log(char *path)
 {
     int file;
 
@@ -122,18 +124,18 @@ static void write_file(char *path)
     close(file);
 }
 
-/* ---- the format ------------------------------------------------------------------------------ */
+/* ---- the format of an event ------------------------------------------------------------------ */
 
 static const uint8_t reference[] = {
     0xED, 0xA1, 0xDA, 0x01,                         /* sync word */
     0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x07, /* number */
     0x00, 0x06, 0x0A, 0x24, 0x18, 0x1E, 0x40, 0x03, /* utime */
-    0x00, 0x00, 0x00, 0x02,                         /* length of the channel */
+    0x00, 0x00, 0x00, 0x02,                         /* length of the channel's name */
     0x00, 0x00, 0x00, 0x03,                         /* length of the data */
     'A',  'B',  0xFF, 0x00, 0x7F,
 };
 
-static void bytes_by_hand_are_an_event(void **state)
+static void hand_written_bytes_are_parsed_as_an_event(void **state)
 {
     struct lcm_log_event event;
     size_t count = 0;
@@ -149,7 +151,7 @@ static void bytes_by_hand_are_an_event(void **state)
     assert_memory_equal(event.data, "\xFF\0\x7F", 3);
 }
 
-static void the_writer_writes_these_bytes(void **state)
+static void the_writer_writes_the_hand_written_bytes(void **state)
 {
     char *text = NULL;
     size_t size = 0;
@@ -165,7 +167,7 @@ static void the_writer_writes_these_bytes(void **state)
     free(text);
 }
 
-static void the_writer_refuses_what_is_no_event(void **state)
+static void the_writer_refuses_bad_channels_and_sizes(void **state)
 {
     char *text = NULL, channel[LCM_LOG_MAX_CHANNEL + 2];
     size_t size = 0;
@@ -184,7 +186,7 @@ static void the_writer_refuses_what_is_no_event(void **state)
     free(text);
 }
 
-static void a_full_disk_is_seen(void **state)
+static void the_writer_reports_a_full_disk(void **state)
 {
     struct lcm_log_writer writer = {.file = fopen("/dev/full", "w")};
     static uint8_t data[1 << 16];
@@ -195,7 +197,7 @@ static void a_full_disk_is_seen(void **state)
     fclose(writer.file);
 }
 
-static void negative_numbers_and_times_come_back(void **state)
+static void negative_numbers_and_times_are_read_back(void **state)
 {
     static const int64_t values[] = {0, -1, INT64_MIN, INT64_MAX, -4000000000000000000};
     struct lcm_log_event event;
@@ -215,68 +217,68 @@ static void negative_numbers_and_times_come_back(void **state)
     }
 }
 
-/* ---- damage ---------------------------------------------------------------------------------- */
+/* ---- damaged logs ---------------------------------------------------------------------------- */
 
-static void a_whole_log_has_all_its_events(void **state)
+static void all_events_of_an_intact_log_are_found(void **state)
 {
     (void)state;
-    add_event(&the_log, 0, "A", "one");
-    add_event(&the_log, 1, "LONGER", "");
-    add_event(&the_log, 2, "A", "three");
-    assert_found("0:A:one 1:LONGER: 2:A:three ");
+    append_event(&the_log, 0, "A", "one");
+    append_event(&the_log, 1, "LONGER", "");
+    append_event(&the_log, 2, "A", "three");
+    assert_events_found("0:A:one 1:LONGER: 2:A:three ");
 }
 
-static void garbage_before_between_and_behind_is_skipped(void **state)
+static void garbage_around_events_is_skipped(void **state)
 {
     (void)state;
-    add(&the_log, "garbage", 7);
-    add_event(&the_log, 0, "A", "one");
-    add(&the_log, "x", 1);
-    add_event(&the_log, 1, "A", "two");
-    add(&the_log, "\xED\xA1\xDA", 3); /* nearly a sync word */
-    add_event(&the_log, 2, "A", "three");
-    add(&the_log, "\0\0", 2);
-    assert_found("-7 0:A:one -1 1:A:two -3 2:A:three -2 ");
+    append_bytes(&the_log, "garbage", 7);
+    append_event(&the_log, 0, "A", "one");
+    append_bytes(&the_log, "x", 1);
+    append_event(&the_log, 1, "A", "two");
+    append_bytes(&the_log, "\xED\xA1\xDA", 3); /* three bytes of a sync word */
+    append_event(&the_log, 2, "A", "three");
+    append_bytes(&the_log, "\0\0", 2);
+    assert_events_found("-7 0:A:one -1 1:A:two -3 2:A:three -2 ");
 }
 
-static void a_cut_log_keeps_what_is_whole(void **state)
+static void a_truncated_log_keeps_its_whole_events(void **state)
 {
     size_t whole;
     (void)state;
 
-    add_event(&the_log, 0, "A", "one");
+    append_event(&the_log, 0, "A", "one");
     whole = the_log.size;
-    add_event(&the_log, 1, "A", "two");
+    append_event(&the_log, 1, "A", "two");
     for (size_t size = whole; size < the_log.size; size++) {
         char expected[40] = "0:A:one ";
 
-        add_skipped(expected, size - whole);
-        assert_string_equal(found_in(the_log.data, size), expected);
+        append_skip_text(expected, size - whole);
+        assert_string_equal(events_found_as_text(the_log.data, size), expected);
     }
 }
 
-/* Whatever is cut out of the middle: the events around it are there. */
-static void a_hole_anywhere_costs_what_it_touches(void **state)
+/* Whatever bytes are cut out of the middle, the events around them are found. */
+static void bytes_cut_out_lose_only_the_event_they_belong_to(void **state)
 {
     static const char *const whole = "0:A:zero 1:B:one 2:C:two 3:D:three ";
     size_t ends[5] = {0};
     (void)state;
 
     for (int i = 0; i < 4; i++) {
-        add_event(&the_log, i, (const char *[]){"A", "B", "C", "D"}[i],
-                  (const char *[]){"zero", "one", "two", "three"}[i]);
+        append_event(&the_log, i, (const char *[]){"A", "B", "C", "D"}[i],
+                     (const char *[]){"zero", "one", "two", "three"}[i]);
         ends[i + 1] = the_log.size;
     }
-    assert_found(whole);
+    assert_events_found(whole);
     for (size_t from = ends[1]; from < ends[2]; from++) {
         for (size_t to = from + 1; to <= ends[2]; to++) {
             struct bytes *holed = malloc(sizeof *holed);
             const char *found;
 
             holed->size = 0;
-            add(holed, the_log.data, from);
-            add(holed, the_log.data + to, the_log.size - to);
-            found = found_in(holed->data, holed->size);
+            append_bytes(holed, the_log.data, from);
+            append_bytes(holed, the_log.data + to, the_log.size - to);
+            found = events_found_as_text(holed->data, holed->size);
             assert_ptr_equal(strstr(found, "0:A:zero "), found);
             assert_non_null(strstr(found, "2:C:two 3:D:three "));
             free(holed);
@@ -285,21 +287,21 @@ static void a_hole_anywhere_costs_what_it_touches(void **state)
 }
 
 /*
- * Every value of every byte of a header, but for lengths that end just where another event does:
- * that could be a log inside an event.
+ * Every value of every header byte, but for lengths that end exactly at another event: that could
+ * be a log inside an event.
  */
-static void a_wrong_byte_in_a_header_costs_that_event_alone(void **state)
+static void a_corrupt_header_byte_loses_that_event_alone(void **state)
 {
     size_t start_of_second, end_of_second, start_of_last;
     (void)state;
 
-    add_event(&the_log, 0, "A", "zero");
+    append_event(&the_log, 0, "A", "zero");
     start_of_second = the_log.size;
-    add_event(&the_log, 1, "BCD", "one");
+    append_event(&the_log, 1, "BCD", "one");
     end_of_second = the_log.size;
-    add_event(&the_log, 2, "C", "two");
+    append_event(&the_log, 2, "C", "two");
     start_of_last = the_log.size;
-    add_event(&the_log, 3, "D", "three");
+    append_event(&the_log, 3, "D", "three");
     for (size_t at = 0; at < LCM_LOG_HEADER_BYTES; at++) {
         uint8_t *byte = the_log.data + start_of_second + at, right = *byte;
 
@@ -311,7 +313,7 @@ static void a_wrong_byte_in_a_header_costs_that_event_alone(void **state)
                 continue;
             }
             *byte = (uint8_t)value;
-            found = found_in(the_log.data, the_log.size);
+            found = events_found_as_text(the_log.data, the_log.size);
             assert_ptr_equal(strstr(found, "0:A:zero "), found);
             assert_non_null(strstr(found, "2:C:two 3:D:three "));
         }
@@ -319,7 +321,7 @@ static void a_wrong_byte_in_a_header_costs_that_event_alone(void **state)
     }
 }
 
-static void hostile_lengths_are_skipped(void **state)
+static void events_of_impossible_lengths_are_skipped(void **state)
 {
     static const uint32_t lengths[][2] = {
         {0, 3},          {64, 3},          {0x7FFFFFFF, 3},          {0xFFFFFFFF, 3},
@@ -329,63 +331,66 @@ static void hostile_lengths_are_skipped(void **state)
 
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
         the_log.size = 0;
-        add_event(&the_log, 0, "A", "one");
-        add_event_saying(&the_log, 1, "A", "two", lengths[i][0], lengths[i][1]);
-        add_event(&the_log, 2, "A", "three");
-        assert_found("0:A:one -32 2:A:three ");
+        append_event(&the_log, 0, "A", "one");
+        append_event_with_lengths(&the_log, 1, "A", "two", lengths[i][0], lengths[i][1]);
+        append_event(&the_log, 2, "A", "three");
+        assert_events_found("0:A:one -32 2:A:three ");
     }
 }
 
-static void a_length_a_little_wrong_is_noticed(void **state)
+static void slightly_wrong_lengths_are_noticed(void **state)
 {
     (void)state;
-    add_event_saying(&the_log, 0, "A", "one", 1, 10); /* into the next one */
-    add_event(&the_log, 1, "A", "two");
-    add_event_saying(&the_log, 2, "A", "three", 1, 2); /* the rest is garbage */
-    add_event(&the_log, 3, "A", "four");
-    add_event_saying(&the_log, 4, "A",
-                     "\xED\xA1\xDA\x01"
-                     "five",
-                     1, 20); /* a sync word that is none before it */
-    add_event(&the_log, 5, "A", "six");
-    assert_found("-32 1:A:two 2:A:th -3 3:A:four -37 5:A:six ");
+    append_event_with_lengths(&the_log, 0, "A", "one", 1,
+                              10); /* data_length reaches into the next event */
+    append_event(&the_log, 1, "A", "two");
+    append_event_with_lengths(&the_log, 2, "A", "three", 1,
+                              2); /* the rest of the data is garbage */
+    append_event(&the_log, 3, "A", "four");
+    append_event_with_lengths(&the_log, 4, "A",
+                              "\xED\xA1\xDA\x01"
+                              "five",
+                              1, 20); /* a false sync word before the event */
+    append_event(&the_log, 5, "A", "six");
+    assert_events_found("-32 1:A:two 2:A:th -3 3:A:four -37 5:A:six ");
 }
 
-static void a_channel_too_long_is_none(void **state)
+static void an_event_with_too_long_a_channel_is_skipped(void **state)
 {
     char channel[LCM_LOG_MAX_CHANNEL + 2];
     (void)state;
 
     memset(channel, 'c', sizeof channel);
     channel[sizeof channel - 1] = '\0';
-    add_event(&the_log, 0, channel, "one");
-    add_event(&the_log, 1, channel + 1, "two");
-    assert_string_equal(strchr(found_in(the_log.data, the_log.size), '1'),
+    append_event(&the_log, 0, channel, "one");
+    append_event(&the_log, 1, channel + 1, "two");
+    assert_string_equal(strchr(events_found_as_text(the_log.data, the_log.size), '1'),
                         "1:ccccccccccccccccccccc"
                         "cccccccccccccccccccccccccccccccccccccccccc:two ");
 }
 
-static void a_channel_with_a_nul_is_none(void **state)
+static void an_event_with_a_nul_in_its_channel_is_skipped(void **state)
 {
     (void)state;
-    add_event_saying(&the_log, 0, "AB", "one", 2, 3);
+    append_event_with_lengths(&the_log, 0, "AB", "one", 2, 3);
     the_log.data[LCM_LOG_HEADER_BYTES + 1] = '\0';
-    add_event(&the_log, 1, "A", "two");
-    assert_found("-33 1:A:two ");
+    append_event(&the_log, 1, "A", "two");
+    assert_events_found("-33 1:A:two ");
 }
 
-static void sync_words_in_data_are_data(void **state)
+static void sync_words_inside_data_begin_no_event(void **state)
 {
     (void)state;
-    add_event(&the_log, 0, "A", "\xED\xA1\xDA\x01");
-    add_event(&the_log, 1, "A", "\xED\xA1\xDA\x01 and more, longer than a header is");
-    add_event(&the_log, 2, "A", "end");
-    assert_found("0:A:\xED\xA1\xDA\x01 1:A:\xED\xA1\xDA\x01 and more, longer than a header is "
-                 "2:A:end ");
+    append_event(&the_log, 0, "A", "\xED\xA1\xDA\x01");
+    append_event(&the_log, 1, "A", "\xED\xA1\xDA\x01 and more, longer than a header is");
+    append_event(&the_log, 2, "A", "end");
+    assert_events_found(
+        "0:A:\xED\xA1\xDA\x01 1:A:\xED\xA1\xDA\x01 and more, longer than a header is "
+        "2:A:end ");
 }
 
-/* A log inside an event of another one stays data, as long as the outer one is whole. */
-static void a_log_in_an_event_is_data(void **state)
+/* A log inside an event of another log stays data if the outer event is whole. */
+static void a_log_inside_an_event_stays_data(void **state)
 {
     static struct bytes inner;
     char *text = NULL;
@@ -395,7 +400,7 @@ static void a_log_in_an_event_is_data(void **state)
     (void)state;
 
     inner.size = 0;
-    add_event(&inner, 5, "IN", "side");
+    append_event(&inner, 5, "IN", "side");
     assert_true(lcm_log_write(&writer, 0, "OUT", inner.data, inner.size));
     assert_true(lcm_log_write(&writer, 0, "OUT", inner.data, inner.size));
     fclose(writer.file);
@@ -405,30 +410,31 @@ static void a_log_in_an_event_is_data(void **state)
     free(text);
 }
 
-static void sync_words_in_garbage_are_garbage(void **state)
+static void sync_words_inside_garbage_begin_no_event(void **state)
 {
     (void)state;
-    add(&the_log, "\xED\xA1\xDA\x01\xED\xA1\xDA\x01\xED\xA1\xDA\x01", 12);
-    add_event(&the_log, 0, "A", "one");
-    add(&the_log, "\xED\xED\xA1\xED\xA1\xDA\xED\xA1\xDA\x01 thirty bytes that say nothing", 40);
-    add_event(&the_log, 1, "A", "two");
-    add(&the_log, "x\xED", 2);
-    add_event(&the_log, 2, "A", "three");
-    add(&the_log, "\xED\xA1\xDA\x01", 4);
-    assert_found("-12 0:A:one -40 1:A:two -2 2:A:three -4 ");
+    append_bytes(&the_log, "\xED\xA1\xDA\x01\xED\xA1\xDA\x01\xED\xA1\xDA\x01", 12);
+    append_event(&the_log, 0, "A", "one");
+    append_bytes(&the_log, "\xED\xED\xA1\xED\xA1\xDA\xED\xA1\xDA\x01 thirty bytes that say nothing",
+                 40);
+    append_event(&the_log, 1, "A", "two");
+    append_bytes(&the_log, "x\xED", 2);
+    append_event(&the_log, 2, "A", "three");
+    append_bytes(&the_log, "\xED\xA1\xDA\x01", 4);
+    assert_events_found("-12 0:A:one -40 1:A:two -2 2:A:three -4 ");
 }
 
-/* ---- bytes that are not there yet ------------------------------------------------------------ */
+/* ---- a stream whose next bytes are still missing --------------------------------------------- */
 
-static void more_is_asked_for_until_it_can_be_told(void **state)
+static void the_parser_asks_for_more_bytes_until_an_event_is_certain(void **state)
 {
     struct lcm_log_event event;
     size_t count = 0, whole;
     (void)state;
 
-    add_event(&the_log, 0, "AB", "one");
+    append_event(&the_log, 0, "AB", "one");
     whole = the_log.size;
-    add_event(&the_log, 1, "AB", "two");
+    append_event(&the_log, 1, "AB", "two");
     for (size_t size = 0; size < whole + 4; size++) {
         enum lcm_log_found found = lcm_log_parse(the_log.data, size, false, &event, &count);
 
@@ -441,7 +447,7 @@ static void more_is_asked_for_until_it_can_be_told(void **state)
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
-static void a_file_gives_its_events_and_counts_the_rest(void **state)
+static void the_reader_gives_events_and_counts_skipped_bytes(void **state)
 {
     struct lcm_log_counts counts;
     struct lcm_log_reader *reader;
@@ -449,12 +455,12 @@ static void a_file_gives_its_events_and_counts_the_rest(void **state)
     char path[40];
     (void)state;
 
-    add(&the_log, "abc", 3);
-    add_event(&the_log, 0, "A", "one");
-    add(&the_log, "d\xED\xA1\xDA\x01", 5);
-    add_event(&the_log, 1, "B", "two");
-    add(&the_log, reference, sizeof reference - 1);
-    write_file(path);
+    append_bytes(&the_log, "abc", 3);
+    append_event(&the_log, 0, "A", "one");
+    append_bytes(&the_log, "d\xED\xA1\xDA\x01", 5);
+    append_event(&the_log, 1, "B", "two");
+    append_bytes(&the_log, reference, sizeof reference - 1);
+    write_the_log(path);
     reader = lcm_log_open(path);
     assert_true(lcm_log_next(reader, &event));
     assert_int_equal(event.offset, 3);
@@ -472,26 +478,26 @@ static void a_file_gives_its_events_and_counts_the_rest(void **state)
     unlink(path);
 }
 
-static void which_files_are_logs(void **state)
+static void log_files_are_recognised_by_name_or_sync_word(void **state)
 {
     char path[40];
     (void)state;
 
-    add(&the_log, reference, sizeof reference);
-    write_file(path);
+    append_bytes(&the_log, reference, sizeof reference);
+    write_the_log(path);
     assert_true(lcm_log_is_log(path));
     unlink(path);
     assert_true(lcm_log_is_log("anything.lcm"));
     assert_false(lcm_log_is_log("none.csv"));
     assert_false(lcm_log_is_log("/tmp"));
     the_log.data[3] = 2;
-    write_file(path);
+    write_the_log(path);
     assert_false(lcm_log_is_log(path));
     unlink(path);
 }
 
-/* Events of all sizes, across the edges of any buffer, with garbage in between. */
-static void long_logs_come_back_whole(void **state)
+/* Events of all sizes across the edges of any read buffer, with garbage in between. */
+static void events_across_buffer_edges_are_read_whole(void **state)
 {
     static uint8_t data[1 << 18];
     struct random random = random_start(5, 0, 0);
@@ -529,8 +535,11 @@ static void long_logs_come_back_whole(void **state)
     unlink(path);
 }
 
-/* Headers that all claim 60 MB: what is there is looked at once or twice, not once a header. */
-static void a_log_that_lies_about_lengths_costs_little(void **state)
+/*
+ * Headers that all claim 60 MB of data: the bytes are scanned once or twice, not once for each
+ * header.
+ */
+static void false_lengths_do_not_make_the_parser_slow(void **state)
 {
     struct lcm_log_reader *reader;
     struct lcm_log_event event;
@@ -538,10 +547,10 @@ static void a_log_that_lies_about_lengths_costs_little(void **state)
     (void)state;
 
     for (int i = 0; i < 30000; i++) {
-        add_event_saying(&the_log, i, "A", "one", 1, 60u << 20);
+        append_event_with_lengths(&the_log, i, "A", "one", 1, 60u << 20);
     }
-    add_event(&the_log, 30000, "A", "end");
-    write_file(path);
+    append_event(&the_log, 30000, "A", "end");
+    write_the_log(path);
     reader = lcm_log_open(path);
     assert_true(lcm_log_next(reader, &event));
     assert_int_equal(event.number, 30000);
@@ -551,13 +560,13 @@ static void a_log_that_lies_about_lengths_costs_little(void **state)
     unlink(path);
 }
 
-/* ---- any bytes ------------------------------------------------------------------------------- */
+/* ---- random pieces --------------------------------------------------------------------------- */
 
 /*
- * Pieces of logs in any order: no byte is lost count of, and a reader of a file finds what the
+ * Pieces of logs in random order: every byte is accounted for, and the file reader finds what the
  * parser finds.
  */
-static void pieces_of_logs_in_any_order(void **state)
+static void in_random_pieces_of_logs_every_byte_is_accounted_for(void **state)
 {
     struct random random = random_start(11, 0, 0);
     (void)state;
@@ -569,46 +578,48 @@ static void pieces_of_logs_in_any_order(void **state)
             uint64_t which = random_below(&random, 7);
 
             if (which < 4) {
-                add(&the_log, words[which], strlen(words[which]));
+                append_bytes(&the_log, words[which], strlen(words[which]));
             } else if (which == 4) {
-                add_number(&the_log, random_below(&random, 1000), 8);
+                append_number(&the_log, random_below(&random, 1000), 8);
             } else if (which == 5) {
-                add_event_saying(&the_log, piece, "C", "data", (uint32_t)random_below(&random, 4),
-                                 (uint32_t)random_below(&random, 60));
+                append_event_with_lengths(&the_log, piece, "C", "data",
+                                          (uint32_t)random_below(&random, 4),
+                                          (uint32_t)random_below(&random, 60));
             } else {
-                add_event(&the_log, piece, "CH", "data");
+                append_event(&the_log, piece, "CH", "data");
             }
         }
-        (void)found_in(the_log.data, the_log.size);
+        (void)events_found_as_text(the_log.data, the_log.size);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(bytes_by_hand_are_an_event, start),
-        cmocka_unit_test_setup(the_writer_writes_these_bytes, start),
-        cmocka_unit_test_setup(the_writer_refuses_what_is_no_event, start),
-        cmocka_unit_test_setup(a_full_disk_is_seen, start),
-        cmocka_unit_test_setup(negative_numbers_and_times_come_back, start),
-        cmocka_unit_test_setup(a_whole_log_has_all_its_events, start),
-        cmocka_unit_test_setup(garbage_before_between_and_behind_is_skipped, start),
-        cmocka_unit_test_setup(a_cut_log_keeps_what_is_whole, start),
-        cmocka_unit_test_setup(a_hole_anywhere_costs_what_it_touches, start),
-        cmocka_unit_test_setup(a_wrong_byte_in_a_header_costs_that_event_alone, start),
-        cmocka_unit_test_setup(hostile_lengths_are_skipped, start),
-        cmocka_unit_test_setup(a_length_a_little_wrong_is_noticed, start),
-        cmocka_unit_test_setup(a_channel_too_long_is_none, start),
-        cmocka_unit_test_setup(a_channel_with_a_nul_is_none, start),
-        cmocka_unit_test_setup(sync_words_in_data_are_data, start),
-        cmocka_unit_test_setup(a_log_in_an_event_is_data, start),
-        cmocka_unit_test_setup(sync_words_in_garbage_are_garbage, start),
-        cmocka_unit_test_setup(more_is_asked_for_until_it_can_be_told, start),
-        cmocka_unit_test_setup(a_file_gives_its_events_and_counts_the_rest, start),
-        cmocka_unit_test_setup(which_files_are_logs, start),
-        cmocka_unit_test_setup(long_logs_come_back_whole, start),
-        cmocka_unit_test_setup(a_log_that_lies_about_lengths_costs_little, start),
-        cmocka_unit_test_setup(pieces_of_logs_in_any_order, start),
+        cmocka_unit_test_setup(hand_written_bytes_are_parsed_as_an_event, clear_the_log),
+        cmocka_unit_test_setup(the_writer_writes_the_hand_written_bytes, clear_the_log),
+        cmocka_unit_test_setup(the_writer_refuses_bad_channels_and_sizes, clear_the_log),
+        cmocka_unit_test_setup(the_writer_reports_a_full_disk, clear_the_log),
+        cmocka_unit_test_setup(negative_numbers_and_times_are_read_back, clear_the_log),
+        cmocka_unit_test_setup(all_events_of_an_intact_log_are_found, clear_the_log),
+        cmocka_unit_test_setup(garbage_around_events_is_skipped, clear_the_log),
+        cmocka_unit_test_setup(a_truncated_log_keeps_its_whole_events, clear_the_log),
+        cmocka_unit_test_setup(bytes_cut_out_lose_only_the_event_they_belong_to, clear_the_log),
+        cmocka_unit_test_setup(a_corrupt_header_byte_loses_that_event_alone, clear_the_log),
+        cmocka_unit_test_setup(events_of_impossible_lengths_are_skipped, clear_the_log),
+        cmocka_unit_test_setup(slightly_wrong_lengths_are_noticed, clear_the_log),
+        cmocka_unit_test_setup(an_event_with_too_long_a_channel_is_skipped, clear_the_log),
+        cmocka_unit_test_setup(an_event_with_a_nul_in_its_channel_is_skipped, clear_the_log),
+        cmocka_unit_test_setup(sync_words_inside_data_begin_no_event, clear_the_log),
+        cmocka_unit_test_setup(a_log_inside_an_event_stays_data, clear_the_log),
+        cmocka_unit_test_setup(sync_words_inside_garbage_begin_no_event, clear_the_log),
+        cmocka_unit_test_setup(the_parser_asks_for_more_bytes_until_an_event_is_certain,
+                               clear_the_log),
+        cmocka_unit_test_setup(the_reader_gives_events_and_counts_skipped_bytes, clear_the_log),
+        cmocka_unit_test_setup(log_files_are_recognised_by_name_or_sync_word, clear_the_log),
+        cmocka_unit_test_setup(events_across_buffer_edges_are_read_whole, clear_the_log),
+        cmocka_unit_test_setup(false_lengths_do_not_make_the_parser_slow, clear_the_log),
+        cmocka_unit_test_setup(in_random_pieces_of_logs_every_byte_is_accounted_for, clear_the_log),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

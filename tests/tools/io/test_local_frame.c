@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Latitude, longitude and height to metres: a published example, formulas written a second way, and
- * back again.
+ * Latitude, longitude and height to local metres: a published example, textbook formulas for
+ * comparison, and back again.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,9 +18,9 @@
 #define DEG_RAD (3.14159265358979323846264338328L / 180)
 #define PI 3.14159265358979323846
 
-/* ---- The same a second way: ECEF, then a turn, from the textbook and without PROJ ---- */
+/* ---- comparison without PROJ: ECEF and a rotation, from the textbook ------------------------- */
 
-static void to_ecef(const double geodetic[3], long double ecef_m[3])
+static void ecef_of_geodetic(const double geodetic[3], long double ecef_m[3])
 {
     const long double a = 6378137.0L, f = 1 / 298.257223563L, e2 = f * (2 - f);
     long double lat = geodetic[0] * DEG_RAD, lon = geodetic[1] * DEG_RAD;
@@ -31,12 +31,12 @@ static void to_ecef(const double geodetic[3], long double ecef_m[3])
     ecef_m[2] = (normal * (1 - e2) + geodetic[2]) * sinl(lat);
 }
 
-static void to_local(const double origin[3], const double geodetic[3], double place_m[3])
+static void local_of_geodetic(const double origin[3], const double geodetic[3], double place_m[3])
 {
     long double lat = origin[0] * DEG_RAD, lon = origin[1] * DEG_RAD, from[3], to[3];
 
-    to_ecef(origin, from);
-    to_ecef(geodetic, to);
+    ecef_of_geodetic(origin, from);
+    ecef_of_geodetic(geodetic, to);
     for (int i = 0; i < 3; i++) {
         to[i] -= from[i];
     }
@@ -46,7 +46,7 @@ static void to_local(const double origin[3], const double geodetic[3], double pl
     place_m[2] = (double)(cosl(lat) * outward + sinl(lat) * to[2]);
 }
 
-/* cmocka compares as float32. */
+/* In double precision; cmocka compares as float32. */
 static void assert_close(double a, double b, double tolerance)
 {
     if (!(fabs(a - b) <= tolerance)) {
@@ -61,7 +61,7 @@ static void assert_near(const double a[3], const double b[3], double tolerance_m
     }
 }
 
-static double distance_m(const double a[3])
+static double length_m(const double a[3])
 {
     return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
@@ -71,15 +71,15 @@ static const double origins[][3] = {{0, 0, 0},           {52.5, 13.4, 34},  {-33
                                     {-90, 0, 2800},      {23.4, -180, 9000}};
 #define NUM_ORIGINS (sizeof origins / sizeof *origins)
 
-static struct local_frame *open_at(const double origin[3])
+static struct local_frame *open_frame_at(const double origin[3])
 {
     return local_frame_open(origin[0], origin[1], origin[2]);
 }
 
-/* ---- The frame ---- */
+/* ---- one local frame ------------------------------------------------------------------------- */
 
-/* IOGP Guidance Note 7-2, EPSG method 9837, printed to a millimetre. */
-static void agrees_with_the_published_example(void **state)
+/* Example of IOGP Guidance Note 7-2, EPSG method 9837, printed to a millimetre. */
+static void the_example_of_epsg_9837_is_reproduced(void **state)
 {
     const double geodetic[3] = {53 + 48 / 60.0 + 33.820 / 3600, 2 + 7 / 60.0 + 46.380 / 3600, 73};
     const double published_m[3] = {-189013.869, -128642.040, -4220.171};
@@ -92,14 +92,14 @@ static void agrees_with_the_published_example(void **state)
     local_frame_close(frame);
 }
 
-static void agrees_with_formulas_and_comes_back(void **state)
+static void conversions_equal_textbook_formulas_both_ways(void **state)
 {
     struct random random;
 
     (void)state;
     random = random_start(1, 0, 0);
     for (size_t i = 0; i < NUM_ORIGINS; i++) {
-        struct local_frame *frame = open_at(origins[i]);
+        struct local_frame *frame = open_frame_at(origins[i]);
         double worst_m = 0;
 
         for (int run = 0; run < 500; run++) {
@@ -114,7 +114,7 @@ static void agrees_with_formulas_and_comes_back(void **state)
             assert_true(fabs(geodetic[0]) <= 90 && fabs(geodetic[1]) <= 180);
             local_frame_to_local(frame, geodetic, again_m);
             assert_near(again_m, place_m, 1e-3);
-            to_local(origins[i], geodetic, again_m);
+            local_of_geodetic(origins[i], geodetic, again_m);
             assert_near(again_m, place_m, 1e-3);
             worst_m = fmax(worst_m, fabs(again_m[2] - place_m[2]));
         }
@@ -123,7 +123,7 @@ static void agrees_with_formulas_and_comes_back(void **state)
     }
 }
 
-static void axes_point_east_north_and_up(void **state)
+static void local_axes_point_east_north_and_up(void **state)
 {
     struct local_frame *frame = local_frame_open(50, 10, 100);
     const double east[3] = {50, 10.001, 100}, north[3] = {50.001, 10, 100}, up[3] = {50, 10, 200};
@@ -139,7 +139,7 @@ static void axes_point_east_north_and_up(void **state)
     local_frame_close(frame);
 }
 
-static void the_date_line_is_no_line(void **state)
+static void places_across_the_date_line_are_near(void **state)
 {
     struct local_frame *frame = local_frame_open(10, 179.99, 0);
     const double here[3] = {10, -179.99, 0}, same[3] = {10, 180.01, 0};
@@ -153,7 +153,7 @@ static void the_date_line_is_no_line(void **state)
     local_frame_close(frame);
 }
 
-static void a_place_is_found_at_its_height(void **state)
+static void at_height_finds_the_geodetic_place(void **state)
 {
     struct local_frame *frame = local_frame_open(50, 10, 100);
 
@@ -170,13 +170,13 @@ static void a_place_is_found_at_its_height(void **state)
     local_frame_close(frame);
 }
 
-/* ---- Another frame ---- */
+/* ---- from one local frame to another --------------------------------------------------------- */
 
 /*
- * sin(latitude) times the difference in longitude, for small ones: north converges to the east of a
- * western sensor.
+ * For small differences in longitude the convergence is sin(latitude) times the difference: seen
+ * from a western sensor, true north at an eastern one is turned.
  */
-static void frames_are_turned_by_the_convergence(void **state)
+static void frames_differ_by_the_meridian_convergence(void **state)
 {
     struct local_frame *common = local_frame_open(50, 10, 0);
     struct local_frame *east = local_frame_open(50, 12, 0), *south = local_frame_open(48, 10, 300);
@@ -191,7 +191,7 @@ static void frames_are_turned_by_the_convergence(void **state)
     local_frame_close(south);
 }
 
-static void between_frames_distances_stay(void **state)
+static void conversion_between_frames_keeps_distances(void **state)
 {
     struct local_frame *one = local_frame_open(50, 10, 0), *other = local_frame_open(51, 13, 500);
     const double a_m[3] = {10000, -20000, 3000}, b_m[3] = {-70000, 5000, 12000};
@@ -204,28 +204,29 @@ static void between_frames_distances_stay(void **state)
         before[i] = a_m[i] - b_m[i];
         after[i] = a[i] - b[i];
     }
-    assert_close(distance_m(before), distance_m(after), 1e-6);
+    assert_close(length_m(before), length_m(after), 1e-6);
     local_frame_convert_place(other, one, a, a);
     assert_near(a, a_m, 1e-6);
     local_frame_close(one);
     local_frame_close(other);
 }
 
-/* ---- A radar's slant range and a height ---- */
+/* ---- slant range and height of a radar ------------------------------------------------------- */
 
-/* A place that is known, seen by a radar: range and azimuth by the second way's formulas. */
-static void check_radar(const double radar[3], const double target[3])
+/* A known place as a radar sees it: range and azimuth by the textbook formulas. */
+static void check_place_from_range_and_height(const double radar[3], const double target[3])
 {
-    struct local_frame *frame = open_at(radar);
+    struct local_frame *frame = open_frame_at(radar);
     double seen_m[3], found_m[3];
 
-    to_local(radar, target, seen_m);
-    const struct local_frame_plot plot = {.range_m = distance_m(seen_m),
+    local_of_geodetic(radar, target, seen_m);
+    const struct local_frame_plot plot = {.range_m = length_m(seen_m),
                                           .azimuth_rad = atan2(seen_m[1], seen_m[0]),
                                           .alt_m = target[2]};
     assert_true(local_frame_from_range_and_height(frame, &plot, found_m));
     /*
-     * near the zenith the range hardly depends on the place: what 0.1 mm of height is on the ground
+     * near the zenith the range hardly depends on the place: tolerance of 0.1 mm of height,
+     * converted to ground distance
      */
     double ground_m = hypot(seen_m[0], seen_m[1]);
     double slope = fmax(1.0, fabs(seen_m[2]) / fmax(ground_m, 1.0));
@@ -233,7 +234,7 @@ static void check_radar(const double radar[3], const double target[3])
     local_frame_close(frame);
 }
 
-static void range_and_height_are_a_place(void **state)
+static void range_azimuth_and_height_give_the_place(void **state)
 {
     struct random random;
 
@@ -247,12 +248,13 @@ static void range_and_height_are_a_place(void **state)
             double lon = origins[i][1] + away_deg * cos(azimuth) / cos(lat * PI / 180);
             const double target[3] = {lat, lon, 14000 * random_uniform(&random)};
 
-            check_radar((double[3]){origins[i][0] * 0.94, origins[i][1], origins[i][2]}, target);
+            check_place_from_range_and_height(
+                (double[3]){origins[i][0] * 0.94, origins[i][1], origins[i][2]}, target);
         }
     }
 }
 
-static void a_height_beyond_the_range_is_no_place(void **state)
+static void a_height_that_the_range_cannot_reach_is_refused(void **state)
 {
     struct local_frame *radar = local_frame_open(50, 10, 400);
     double place_m[3] = {1, 2, 3};
@@ -268,7 +270,7 @@ static void a_height_beyond_the_range_is_no_place(void **state)
     assert_near(place_m, (double[3]){0, 0, 5000}, 1.5);
     assert_true(local_frame_from_range_and_height(
         radar, &(struct local_frame_plot){5000, 0.3, 5399}, place_m));
-    assert_close(distance_m(place_m), 5000, 1e-6);
+    assert_close(length_m(place_m), 5000, 1e-6);
     assert_close(atan2(place_m[1], place_m[0]), 0.3, 1e-9);
     local_frame_close(radar);
 }
@@ -276,15 +278,15 @@ static void a_height_beyond_the_range_is_no_place(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(agrees_with_the_published_example),
-        cmocka_unit_test(agrees_with_formulas_and_comes_back),
-        cmocka_unit_test(axes_point_east_north_and_up),
-        cmocka_unit_test(the_date_line_is_no_line),
-        cmocka_unit_test(a_place_is_found_at_its_height),
-        cmocka_unit_test(frames_are_turned_by_the_convergence),
-        cmocka_unit_test(between_frames_distances_stay),
-        cmocka_unit_test(range_and_height_are_a_place),
-        cmocka_unit_test(a_height_beyond_the_range_is_no_place),
+        cmocka_unit_test(the_example_of_epsg_9837_is_reproduced),
+        cmocka_unit_test(conversions_equal_textbook_formulas_both_ways),
+        cmocka_unit_test(local_axes_point_east_north_and_up),
+        cmocka_unit_test(places_across_the_date_line_are_near),
+        cmocka_unit_test(at_height_finds_the_geodetic_place),
+        cmocka_unit_test(frames_differ_by_the_meridian_convergence),
+        cmocka_unit_test(conversion_between_frames_keeps_distances),
+        cmocka_unit_test(range_azimuth_and_height_give_the_place),
+        cmocka_unit_test(a_height_that_the_range_cannot_reach_is_refused),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Files of plots and of bearings, merged by time: the order of scans and frames, ties, counts, who
- * may be alone.
+ * Files of plots and of bearings, merged by time: the order of scans and frames, equal times,
+ * counts, files of one kind alone.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@
 #define BEARINGS "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n"
 #define MAX_FILES 4
 
-/* Files of the test that runs, and the inputs over them. */
+/* Files written by the running test and the inputs over them. */
 struct given {
     struct parameters parameters;
     char paths[MAX_FILES][40];
@@ -30,7 +30,7 @@ struct given {
     struct inputs *inputs;
 };
 
-static struct given given_nothing(void)
+static struct given given_no_files(void)
 {
     struct given given = {.num_paths = 0};
 
@@ -38,7 +38,7 @@ static struct given given_nothing(void)
     return given;
 }
 
-static void write_file(struct given *given, const char *text)
+static void add_file_with(struct given *given, const char *text)
 {
     char *path = given->paths[given->num_paths++];
     int file;
@@ -60,19 +60,19 @@ static void open_inputs(struct given *given, bool keep_going)
     given->inputs = merged_inputs_open(paths, given->num_paths, &given->parameters, keep_going);
 }
 
-static struct given open_texts(const char *first, const char *second)
+static struct given open_inputs_of_texts(const char *first, const char *second)
 {
-    struct given given = given_nothing();
+    struct given given = given_no_files();
 
-    write_file(&given, first);
+    add_file_with(&given, first);
     if (second) {
-        write_file(&given, second);
+        add_file_with(&given, second);
     }
     open_inputs(&given, false);
     return given;
 }
 
-static void end(struct given *given)
+static void close_and_delete_files(struct given *given)
 {
     merged_inputs_close(given->inputs);
     for (int i = 0; i < given->num_paths; i++) {
@@ -81,10 +81,10 @@ static void end(struct given *given)
 }
 
 /*
- * The next input as text: its time in ms; `s` and sensor, `f` and sensors, each with what it has.
- * "end" past the last.
+ * The next input as text: its time in ms; `s` and sensor, or `f` and sensors, each with its number
+ * of plots or bearings. "end" past the last.
  */
-static const char *next_text(struct given *given)
+static const char *next_input_as_text(struct given *given)
 {
     static char text[200];
     const struct input input = merged_inputs_next(given->inputs);
@@ -113,66 +113,67 @@ static const char *next_text(struct given *given)
 static void assert_inputs(struct given *given, const char *const *expected)
 {
     for (size_t i = 0; strcmp(expected[i], "end") != 0; i++) {
-        assert_string_equal(next_text(given), expected[i]);
+        assert_string_equal(next_input_as_text(given), expected[i]);
     }
-    assert_string_equal(next_text(given), "end");
-    assert_string_equal(next_text(given), "end");
+    assert_string_equal(next_input_as_text(given), "end");
+    assert_string_equal(next_input_as_text(given), "end");
 }
 
-/* ---- the order ------------------------------------------------------------------------------- */
+/* ---- the order of scans and frames ----------------------------------------------------------- */
 
 static const char *const plots_text = PLOTS "0,1,5,5\n0,1,6,6\n4,1,5,5\n8,1,5,5\n20,1,5,5\n";
 static const char *const bearings_text = BEARINGS "-1,8,0,0,1\n-1,9,9,0,1\n4,8,0,0,1\n4,9,9,0,1\n"
                                                   "4,9,9,0,2\n12,9,9,0,1\n";
 static const char *const merged[] = {
-    "-1000: f 8(1) 9(1)", "0: s1(2)",    "4000: s1(1)", /* of one time the plots first */
-    "4000: f 8(1) 9(2)",  "8000: s1(1)", "12000: f 9(1)", "20000: s1(1)", "end"};
+    /* at equal times scans of plots come first */
+    "-1000: f 8(1) 9(1)", "0: s1(2)",      "4000: s1(1)",  "4000: f 8(1) 9(2)",
+    "8000: s1(1)",        "12000: f 9(1)", "20000: s1(1)", "end"};
 
-static void scans_and_frames_come_in_one_order_of_time(void **state)
+static void scans_and_frames_are_merged_by_time(void **state)
 {
-    struct given given = open_texts(plots_text, bearings_text);
+    struct given given = open_inputs_of_texts(plots_text, bearings_text);
     (void)state;
 
     assert_true(merged_inputs_have_plots(given.inputs));
     assert_true(merged_inputs_have_bearings(given.inputs));
     assert_inputs(&given, merged);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
 static void the_order_of_the_files_does_not_matter(void **state)
 {
-    struct given given = open_texts(bearings_text, plots_text);
+    struct given given = open_inputs_of_texts(bearings_text, plots_text);
     (void)state;
 
     assert_inputs(&given, merged);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-/* Two of each kind, in turn. */
-static void any_number_of_files_are_merged(void **state)
+/* Two files of each kind, given alternately. */
+static void two_files_of_each_kind_are_merged(void **state)
 {
-    struct given given = given_nothing();
+    struct given given = given_no_files();
     (void)state;
 
-    write_file(&given, BEARINGS "0,8,0,0,1\n10,8,0,0,1\n");
-    write_file(&given, PLOTS "5,1,5,5\n10,1,5,5\n");
-    write_file(&given, BEARINGS "0.01,9,9,0,1\n20,9,9,0,1\n");
-    write_file(&given, PLOTS "3,2,5,5\n10,2,5,5\n");
+    add_file_with(&given, BEARINGS "0,8,0,0,1\n10,8,0,0,1\n");
+    add_file_with(&given, PLOTS "5,1,5,5\n10,1,5,5\n");
+    add_file_with(&given, BEARINGS "0.01,9,9,0,1\n20,9,9,0,1\n");
+    add_file_with(&given, PLOTS "3,2,5,5\n10,2,5,5\n");
     open_inputs(&given, false);
     assert_inputs(&given,
                   (const char *[]){"0: f 8(1) 9(1)", "3000: s2(1)", "5000: s1(1)", "10000: s1(1)",
                                    "10000: s2(1)", "10000: f 8(1)", "20000: f 9(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
 /*
- * The scan that was given is the caller's until it asks again, though the next one was read to
- * compare.
+ * A given scan stays valid until the caller asks again, though the next one was read ahead to
+ * compare times.
  */
-static void what_is_given_stays_until_the_next_is_asked_for(void **state)
+static void a_scan_stays_valid_until_the_next_call(void **state)
 {
-    struct given given =
-        open_texts(PLOTS "0,1,5,6\n1,1,7,8\n", BEARINGS "0,8,0,0,1\n0,9,9,0,2\n2,8,0,0,3\n");
+    struct given given = open_inputs_of_texts(PLOTS "0,1,5,6\n1,1,7,8\n",
+                                              BEARINGS "0,8,0,0,1\n0,9,9,0,2\n2,8,0,0,3\n");
     struct input scan, frame;
     (void)state;
 
@@ -184,28 +185,28 @@ static void what_is_given_stays_until_the_next_is_asked_for(void **state)
     assert_true(scan.scan->plots[0].x_m == 7.0f && scan.scan->plots[0].y_m == 8.0f);
     frame = merged_inputs_next(given.inputs);
     assert_true(frame.frame->scans[0].bearings[0].bearing_rad == 3.0f);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void a_sensor_that_is_known_comes_with_its_scan(void **state)
+static void scans_of_configured_sensors_come_with_their_description(void **state)
 {
-    struct given given = given_nothing();
+    struct given given = given_no_files();
     (void)state;
 
-    write_file(&given, "t_s,sensor_id,range_m,azimuth_rad\n0,3,5000,1\n2,4,5000,1\n");
-    write_file(&given, BEARINGS "1,8,0,0,1\n");
+    add_file_with(&given, "t_s,sensor_id,range_m,azimuth_rad\n0,3,5000,1\n2,4,5000,1\n");
+    add_file_with(&given, BEARINGS "1,8,0,0,1\n");
     parameters_set_assignment(&given.parameters, "sensor.3.x_m=700");
     parameters_set_assignment(&given.parameters, "sensor.3.y_m=0");
     open_inputs(&given, false);
     assert_inputs(&given, (const char *[]){"0: s3(1) known", "1000: f 8(1)", "2000: s4(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
 /* ---- one kind alone -------------------------------------------------------------------------- */
 
-static void plots_alone_have_no_passive_sensors(void **state)
+static void files_of_plots_alone_give_no_passive_sensors(void **state)
 {
-    struct given given = open_texts(PLOTS "0,1,5,5\n", PLOTS "0,2,5,5\n");
+    struct given given = open_inputs_of_texts(PLOTS "0,1,5,5\n", PLOTS "0,2,5,5\n");
     size_t count = 7;
     (void)state;
 
@@ -214,12 +215,12 @@ static void plots_alone_have_no_passive_sensors(void **state)
     merged_inputs_passive_sensors(given.inputs, &count);
     assert_int_equal(count, 0);
     assert_inputs(&given, (const char *[]){"0: s1(1)", "0: s2(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-static void bearings_alone_are_frames(void **state)
+static void files_of_bearings_alone_give_frames(void **state)
 {
-    struct given given = open_texts(bearings_text, NULL);
+    struct given given = open_inputs_of_texts(bearings_text, NULL);
     const struct frame_sensor *sensors;
     size_t count;
     (void)state;
@@ -231,11 +232,11 @@ static void bearings_alone_are_frames(void **state)
     assert_true(sensors[1].x_m == 9.0f);
     assert_inputs(&given, (const char *[]){"-1000: f 8(1) 9(1)", "4000: f 8(1) 9(2)",
                                            "12000: f 9(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-/* The exit code of a process that opens the files. */
-static int exit_of_open(struct given *given)
+/* The exit code of a child process that opens the files. */
+static int exit_code_of_opening(struct given *given)
 {
     int status;
     pid_t child = fork();
@@ -250,25 +251,25 @@ static int exit_of_open(struct given *given)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-static void a_passive_sensor_may_be_alone_beside_a_radar(void **state)
+static void a_single_passive_sensor_needs_a_radar_beside_it(void **state)
 {
-    struct given given = given_nothing();
+    struct given given = given_no_files();
     (void)state;
 
-    write_file(&given, BEARINGS "0,8,0,0,1\n10,8,0,0,1\n");
-    assert_int_equal(exit_of_open(&given), 2);
-    write_file(&given, PLOTS "5,1,5,5\n");
-    assert_int_equal(exit_of_open(&given), 0);
+    add_file_with(&given, BEARINGS "0,8,0,0,1\n10,8,0,0,1\n");
+    assert_int_equal(exit_code_of_opening(&given), 2);
+    add_file_with(&given, PLOTS "5,1,5,5\n");
+    assert_int_equal(exit_code_of_opening(&given), 0);
     open_inputs(&given, false);
     assert_inputs(&given, (const char *[]){"0: f 8(1)", "5000: s1(1)", "10000: f 8(1)", "end"});
-    end(&given);
+    close_and_delete_files(&given);
 }
 
-/* ---- counts ---------------------------------------------------------------------------------- */
+/* ---- counts, bad rows ------------------------------------------------------------------------ */
 
-static void counts_are_of_both_kinds(void **state)
+static void counts_cover_scans_and_frames(void **state)
 {
-    struct given given = open_texts(plots_text, bearings_text);
+    struct given given = open_inputs_of_texts(plots_text, bearings_text);
     struct merged_inputs_counts counts;
     (void)state;
 
@@ -280,36 +281,36 @@ static void counts_are_of_both_kinds(void **state)
     assert_int_equal(counts.plots, 5 + 6);
     assert_int_equal(counts.frames_incomplete, 1);
     assert_int_equal(counts.rows_skipped, 0);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
 static void bad_rows_of_both_kinds_are_skipped_and_counted(void **state)
 {
-    struct given given = given_nothing();
+    struct given given = given_no_files();
     struct merged_inputs_counts counts;
     (void)state;
 
-    write_file(&given, PLOTS "0,1,5,5\n0,1,nan,5\n1,1,5,5\n");
-    write_file(&given, BEARINGS "0,8,0,0,4e6\n0,8,0,0,1\n0,9,9,0,1\n1,9,8,0,1\n");
+    add_file_with(&given, PLOTS "0,1,5,5\n0,1,nan,5\n1,1,5,5\n");
+    add_file_with(&given, BEARINGS "0,8,0,0,4e6\n0,8,0,0,1\n0,9,9,0,1\n1,9,8,0,1\n");
     open_inputs(&given, true);
     assert_inputs(&given, (const char *[]){"0: s1(1)", "0: f 8(1) 9(1)", "1000: s1(1)", "end"});
     counts = merged_inputs_counts(given.inputs);
     assert_int_equal(counts.rows_skipped, 3);
-    end(&given);
+    close_and_delete_files(&given);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scans_and_frames_come_in_one_order_of_time),
+        cmocka_unit_test(scans_and_frames_are_merged_by_time),
         cmocka_unit_test(the_order_of_the_files_does_not_matter),
-        cmocka_unit_test(any_number_of_files_are_merged),
-        cmocka_unit_test(what_is_given_stays_until_the_next_is_asked_for),
-        cmocka_unit_test(a_sensor_that_is_known_comes_with_its_scan),
-        cmocka_unit_test(plots_alone_have_no_passive_sensors),
-        cmocka_unit_test(bearings_alone_are_frames),
-        cmocka_unit_test(a_passive_sensor_may_be_alone_beside_a_radar),
-        cmocka_unit_test(counts_are_of_both_kinds),
+        cmocka_unit_test(two_files_of_each_kind_are_merged),
+        cmocka_unit_test(a_scan_stays_valid_until_the_next_call),
+        cmocka_unit_test(scans_of_configured_sensors_come_with_their_description),
+        cmocka_unit_test(files_of_plots_alone_give_no_passive_sensors),
+        cmocka_unit_test(files_of_bearings_alone_give_frames),
+        cmocka_unit_test(a_single_passive_sensor_needs_a_radar_beside_it),
+        cmocka_unit_test(counts_cover_scans_and_frames),
         cmocka_unit_test(bad_rows_of_both_kinds_are_skipped_and_counted),
     };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The last turns of a file: sectors that are one, of one radar and of two at a time; whole circles;
- * what comes late.
+ * The last turns of a file: sectors joined to turns, of one radar and of two interleaved; scans of
+ * whole circles; late scans.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,10 +23,10 @@
 #define SECTORS 4
 
 /*
- * Rows of a radar's sector number n, counter-clockwise from 0 on: its opening, and a plot in its
- * middle 0.5 s before.
+ * Prints rows of a radar's sector n, counter-clockwise from 0: its opening, and a plot in its
+ * middle 0.5 s earlier.
  */
-static size_t put_sector(char *text, int sensor, double x_m, int n, double t_s)
+static size_t print_sector_rows(char *text, int sensor, double x_m, int n, double t_s)
 {
     double from = 2 * PI * (n % SECTORS) / SECTORS, to = from + 2 * PI / SECTORS;
     double middle = from + PI / SECTORS;
@@ -37,7 +37,7 @@ static size_t put_sector(char *text, int sensor, double x_m, int n, double t_s)
         x_m, from, to, n + 1);
 }
 
-static struct revolutions read_text(const char *text, size_t max)
+static struct revolutions read_last_turns(const char *text, size_t max)
 {
     char path[] = "/tmp/rhotrack-turns-XXXXXX", *paths[] = {path};
     struct parameters parameters;
@@ -56,7 +56,8 @@ static struct revolutions read_text(const char *text, size_t max)
     return revolutions;
 }
 
-static void assert_turn(const struct revolution *turn, int sensor, double t_s, unsigned num_plots)
+static void assert_turn_has(const struct revolution *turn, int sensor, double t_s,
+                            unsigned num_plots)
 {
     assert_int_equal(turn->scan.sensor_id, sensor);
     assert_int_equal(turn->scan.time_us, (int64_t)(t_s * 1e6 + 0.5));
@@ -64,70 +65,71 @@ static void assert_turn(const struct revolution *turn, int sensor, double t_s, u
     assert_true(turn->has_sensor);
 }
 
-static void test_sectors_of_one_radar(void **state)
+static void test_sectors_of_one_radar_form_turns(void **state)
 {
     char text[8192] = HEADER;
     size_t length = strlen(text);
     struct revolutions revolutions;
 
     (void)state;
-    for (int n = 0; n < 3 * SECTORS + 2; n++) { /* the last turn is only begun */
-        length += put_sector(text + length, 1, 500, n, n + 1);
+    for (int n = 0; n < 3 * SECTORS + 2; n++) { /* + 2: the last turn has only begun */
+        length += print_sector_rows(text + length, 1, 500, n, n + 1);
     }
-    revolutions = read_text(text, 3);
+    revolutions = read_last_turns(text, 3);
     assert_int_equal(revolutions.total, 4);
     assert_int_equal(revolutions.count, 3);
     assert_int_equal(revolutions.late, 0);
-    assert_turn(&revolutions.list[0], 1, 5, 4);
-    assert_turn(&revolutions.list[1], 1, 9, 4);
-    assert_turn(&revolutions.list[2], 1, 13, 2);
+    assert_turn_has(&revolutions.list[0], 1, 5, 4);
+    assert_turn_has(&revolutions.list[1], 1, 9, 4);
+    assert_turn_has(&revolutions.list[2], 1, 13, 2);
     for (int i = 0; i < 4;
-         i++) { /* plots keep their own times: half a second before each sector's */
+         i++) { /* plots keep their own times, half a second before their sector's */
         assert_int_equal(revolutions.list[0].scan.plots[i].offset_us, i * 1000000 - 500000);
     }
     assert_float_equal(revolutions.list[0].scan.plots[0].x_m, 500 + 10000 * 0.70710678, 0.1);
     assert_true(revolutions.list[0].scan.sector_from_rad >=
-                revolutions.list[0].scan.sector_to_rad); /* whole */
+                revolutions.list[0].scan.sector_to_rad); /* the turn covers the whole circle */
     assert_float_equal(revolutions.list[2].scan.sector_from_rad, 0, 1e-6);
     assert_float_equal(revolutions.list[2].scan.sector_to_rad, PI, 1e-6);
     revolutions_free(&revolutions);
 }
 
-static void test_radars_between_one_another(void **state)
+static void test_interleaved_radars_form_turns_of_their_own(void **state)
 {
     char text[16384] = HEADER;
     size_t length = strlen(text);
     struct revolutions revolutions;
 
     (void)state;
-    for (int n = 0; n < 3 * SECTORS; n++) { /* the second one's turns begin half a turn later */
-        length += put_sector(text + length, 1, 0, n, n + 1);
-        length += put_sector(text + length, 2, 800, n + SECTORS / 2, n + 1.2);
+    for (int n = 0; n < 3 * SECTORS; n++) { /* the second radar's turns begin half a turn later */
+        length += print_sector_rows(text + length, 1, 0, n, n + 1);
+        length += print_sector_rows(text + length, 2, 800, n + SECTORS / 2, n + 1.2);
     }
-    revolutions = read_text(text, 5);
+    revolutions = read_last_turns(text, 5);
     assert_int_equal(revolutions.total, 6);
     assert_int_equal(revolutions.count, 5);
-    assert_turn(&revolutions.list[0], 2, 1.2, 4);
-    assert_turn(&revolutions.list[1], 1, 5, 4);
-    assert_turn(&revolutions.list[2], 2, 5.2, 4);
-    assert_turn(&revolutions.list[3], 1, 9, 4);
-    assert_turn(&revolutions.list[4], 2, 9.2, 4);
+    assert_turn_has(&revolutions.list[0], 2, 1.2, 4);
+    assert_turn_has(&revolutions.list[1], 1, 5, 4);
+    assert_turn_has(&revolutions.list[2], 2, 5.2, 4);
+    assert_turn_has(&revolutions.list[3], 1, 9, 4);
+    assert_turn_has(&revolutions.list[4], 2, 9.2, 4);
     assert_float_equal(revolutions.list[4].sensor.x_m, 800, 1e-3);
     revolutions_free(&revolutions);
     revolutions =
-        read_text(text, 1); /* a turn that is dropped while it goes on does not come back */
+        /* with room for one turn, a dropped turn that still goes on does not come back */
+        read_last_turns(text, 1);
     assert_int_equal(revolutions.total, 6);
     assert_int_equal(revolutions.count, 1);
-    assert_turn(&revolutions.list[0], 2, 9.2, 4);
+    assert_turn_has(&revolutions.list[0], 2, 9.2, 4);
     revolutions_free(&revolutions);
 }
 
-static void test_whole_circles(void **state)
+static void test_scans_of_a_whole_circle_are_turns(void **state)
 {
     struct revolutions revolutions =
-        read_text("t_s,sensor_id,x_m,y_m\n0,1,5,5\n0,1,6,5\n0.5,2,1,1\n2,1,7,5\n"
-                  "2,2,,\n4,1,8,5\n",
-                  4);
+        read_last_turns("t_s,sensor_id,x_m,y_m\n0,1,5,5\n0,1,6,5\n0.5,2,1,1\n2,1,7,5\n"
+                        "2,2,,\n4,1,8,5\n",
+                        4);
 
     (void)state;
     assert_int_equal(revolutions.total, 5);
@@ -141,13 +143,16 @@ static void test_whole_circles(void **state)
     revolutions_free(&revolutions);
 }
 
-/* In the order of reception: of another sensor in its place, of the same one left out. */
-static void test_late_scans(void **state)
+/*
+ * Scans in order of reception: a late scan of another sensor is kept in its place, one of the same
+ * sensor is left out.
+ */
+static void test_late_scans_of_the_same_sensor_are_left_out(void **state)
 {
     struct revolutions revolutions =
-        read_text("t_s,sensor_id,x_m,y_m,received_s\n0,1,1,1,0\n4,1,2,1,4\n"
-                  "8,1,3,1,8\n5,2,9,9,8.5\n6,1,4,1,9\n12,1,5,1,12\n",
-                  4);
+        read_last_turns("t_s,sensor_id,x_m,y_m,received_s\n0,1,1,1,0\n4,1,2,1,4\n"
+                        "8,1,3,1,8\n5,2,9,9,8.5\n6,1,4,1,9\n12,1,5,1,12\n",
+                        4);
 
     (void)state;
     assert_int_equal(revolutions.late, 1);
@@ -160,9 +165,9 @@ static void test_late_scans(void **state)
     revolutions_free(&revolutions);
 }
 
-static void test_scan_that_saw_nothing(void **state)
+static void test_a_scan_without_plots_is_a_turn(void **state)
 {
-    struct revolutions revolutions = read_text("t_s,sensor_id,x_m,y_m\n0,1,,\n", 7);
+    struct revolutions revolutions = read_last_turns("t_s,sensor_id,x_m,y_m\n0,1,,\n", 7);
 
     (void)state;
     assert_int_equal(revolutions.count, 1);
@@ -173,11 +178,11 @@ static void test_scan_that_saw_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sectors_of_one_radar),
-        cmocka_unit_test(test_radars_between_one_another),
-        cmocka_unit_test(test_whole_circles),
-        cmocka_unit_test(test_late_scans),
-        cmocka_unit_test(test_scan_that_saw_nothing),
+        cmocka_unit_test(test_sectors_of_one_radar_form_turns),
+        cmocka_unit_test(test_interleaved_radars_form_turns_of_their_own),
+        cmocka_unit_test(test_scans_of_a_whole_circle_are_turns),
+        cmocka_unit_test(test_late_scans_of_the_same_sensor_are_left_out),
+        cmocka_unit_test(test_a_scan_without_plots_is_a_turn),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

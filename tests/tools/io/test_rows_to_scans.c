@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Rows to scans as they come: the same as with all rows in memory, in order, and with few scans in
- * memory at a time.
+ * Rows grouped to scans while they are read: the same scans as with all rows in memory, in order,
+ * and with few scans in memory at a time.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,7 +26,7 @@ struct test_row {
     bool has_element;
 };
 
-/* A scan of the reference: rows by their numbers. */
+/* A scan of the reference: indices of its rows. */
 struct whole {
     struct test_row first;
     int64_t time_us;
@@ -35,8 +35,8 @@ struct whole {
     int32_t sum;
 };
 
-/* Takes a row and checks that it may come. */
-static void take_row(struct rows_to_scans *gather, const struct test_row *row, int32_t element)
+/* Takes a row, whose time must be allowed for its scan. */
+static void take_row(struct scan_gather *gather, const struct test_row *row, int32_t element)
 {
     char reason[ROW_REASON_BYTES];
     const struct row_check check = {.reason = reason};
@@ -56,12 +56,12 @@ static void take_row(struct rows_to_scans *gather, const struct test_row *row, i
     }
 }
 
-/* ---- the reference --------------------------------------------------------------------------- */
+/* ---- the reference with all rows in memory --------------------------------------------------- */
 
 static struct whole whole[ROWS];
 static size_t num_whole;
 
-static struct whole *find_whole(const struct test_row *row, int64_t interval_us)
+static struct whole *find_reference_scan(const struct test_row *row, int64_t interval_us)
 {
     struct whole *newest = NULL;
 
@@ -83,9 +83,9 @@ static struct whole *find_whole(const struct test_row *row, int64_t interval_us)
                : NULL;
 }
 
-static void take_whole(const struct test_row *row, int64_t interval_us, int32_t element)
+static void add_row_to_reference(const struct test_row *row, int64_t interval_us, int32_t element)
 {
-    struct whole *scan = find_whole(row, interval_us);
+    struct whole *scan = find_reference_scan(row, interval_us);
 
     if (!scan) {
         scan = &whole[num_whole++];
@@ -100,8 +100,8 @@ static void take_whole(const struct test_row *row, int64_t interval_us, int32_t 
     }
 }
 
-/* Insertion keeps the order of equal ones. */
-static void sort_whole(void)
+/* Insertion sort, which keeps the order of equal times. */
+static void sort_reference_by_time(void)
 {
     for (size_t i = 1; i < num_whole; i++) {
         struct whole scan = whole[i];
@@ -114,10 +114,10 @@ static void sort_whole(void)
     }
 }
 
-/* ---- both ------------------------------------------------------------------------------------ */
+/* ---- the tested grouping compared with the reference ----------------------------------------- */
 
-/* Scans that are complete are the reference's next ones. */
-static void take_scans(struct rows_to_scans *gather, bool all, size_t *next)
+/* Completed scans equal the next scans of the reference. */
+static void check_completed_scans(struct scan_gather *gather, bool all, size_t *next)
 {
     struct gathered_scan scan;
 
@@ -137,30 +137,30 @@ static void take_scans(struct rows_to_scans *gather, bool all, size_t *next)
     }
 }
 
-/* The rows through both. Returns the most scans that were in memory. */
-static size_t compare(const struct test_row *rows, int64_t interval_us)
+/* Groups the rows in both ways. Returns the largest number of scans that were in memory. */
+static size_t most_open_scans_equal_to_reference(const struct test_row *rows, int64_t interval_us)
 {
     struct rows_to_scans gather;
     size_t next = 0, most = 0;
 
     num_whole = 0;
     for (int i = 0; i < ROWS; i++) {
-        take_whole(&rows[i], interval_us, i);
+        add_row_to_reference(&rows[i], interval_us, i);
     }
-    sort_whole();
+    sort_reference_by_time();
     rows_to_scans_start(&gather, sizeof(int32_t), interval_us);
     for (int i = 0; i < ROWS; i++) {
         take_row(&gather, &rows[i], i);
         most = gather.count > most ? gather.count : most;
-        take_scans(&gather, false, &next);
+        check_completed_scans(&gather, false, &next);
     }
-    take_scans(&gather, true, &next);
+    check_completed_scans(&gather, true, &next);
     assert_int_equal(next, num_whole);
     rows_to_scans_free(&gather);
     return most;
 }
 
-static void rows_by_time(void **state)
+static void rows_are_grouped_by_time(void **state)
 {
     static struct test_row rows[ROWS];
     (void)state;
@@ -177,16 +177,16 @@ static void rows_by_time(void **state)
                                         .time_us = now_us,
                                         .has_element = random_below(&random, 5) > 0};
         }
-        assert_true(compare(rows, interval_us) <= (interval_us ? 9 : 5));
+        assert_true(most_open_scans_equal_to_reference(rows, interval_us) <= (interval_us ? 9 : 5));
         assert_true(num_whole > 300);
     }
 }
 
 /*
- * Two radars that turn in some 4 s; rows of a scan come up to 3 s after the next one has begun, and
- * their times go back.
+ * Two radars that turn in about 4 s; rows of a scan come up to 3 s after the next one has begun,
+ * and times go back.
  */
-static void rows_by_number(void **state)
+static void rows_are_grouped_by_scan_number(void **state)
 {
     static struct test_row rows[ROWS];
     (void)state;
@@ -207,12 +207,12 @@ static void rows_by_number(void **state)
                 .time_us = now_us,
                 .has_element = random_below(&random, 8) > 0};
         }
-        assert_true(compare(rows, 0) < 2 * 60 / 4 + 6);
+        assert_true(most_open_scans_equal_to_reference(rows, 0) < 2 * 60 / 4 + 6);
         assert_true(num_whole > 100);
     }
 }
 
-static void numbered_rows_may_go_back_within_their_scan_alone(void **state)
+static void times_may_go_back_within_a_numbered_scan_alone(void **state)
 {
     char reason[ROW_REASON_BYTES] = "";
     const struct row_check check = {.reason = reason};
@@ -234,8 +234,11 @@ static void numbered_rows_may_go_back_within_their_scan_alone(void **state)
     rows_to_scans_free(&gather);
 }
 
-/* Numbered scans wait for a minute; with begun_max until their sensor has begun so many more. */
-static void numbered_scans_are_complete_by_time_or_by_those_after(void **state)
+/*
+ * A numbered scan is complete after a minute, or with begun_max once its sensor has begun so many
+ * newer scans.
+ */
+static void numbered_scans_end_after_a_minute_or_begun_max_newer_ones(void **state)
 {
     struct rows_to_scans gather;
     struct gathered_scan scan;
@@ -260,10 +263,10 @@ static void numbered_scans_are_complete_by_time_or_by_those_after(void **state)
 }
 
 /*
- * Rows by clocks that are off, scans by the common one: sensor 1 is two seconds ahead, sensor 2
- * three behind.
+ * Row times are by biased clocks, scan times by the common one: sensor 1 is two seconds ahead,
+ * sensor 2 three behind.
  */
-static void scans_are_in_order_without_their_time_biases(void **state)
+static void scans_are_sorted_by_time_without_clock_bias(void **state)
 {
     const int64_t biases_us[] = {0, 2 * SECOND, -3 * SECOND};
     struct rows_to_scans gather;
@@ -302,11 +305,11 @@ static void scans_are_in_order_without_their_time_biases(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_by_time),
-        cmocka_unit_test(rows_by_number),
-        cmocka_unit_test(numbered_rows_may_go_back_within_their_scan_alone),
-        cmocka_unit_test(numbered_scans_are_complete_by_time_or_by_those_after),
-        cmocka_unit_test(scans_are_in_order_without_their_time_biases),
+        cmocka_unit_test(rows_are_grouped_by_time),
+        cmocka_unit_test(rows_are_grouped_by_scan_number),
+        cmocka_unit_test(times_may_go_back_within_a_numbered_scan_alone),
+        cmocka_unit_test(numbered_scans_end_after_a_minute_or_begun_max_newer_ones),
+        cmocka_unit_test(scans_are_sorted_by_time_without_clock_bias),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The live tracker without its network: passive sensors that were there first do not keep others
- * out for ever.
+ * The live tracker without its network: sensors that have fallen silent or moved do not keep others
+ * out forever.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -17,15 +17,15 @@
 #include "rhotrack/message.h"
 
 #define SECOND_US INT64_C(1000000)
-#define START_US INT64_C(1790000000000000) /* since 1970: 2026 */
+#define START_US INT64_C(1790000000000000) /* microseconds since 1970, in 2026 */
 
 struct heard {
-    unsigned lists, tracks; /* tracks: in the last list */
+    unsigned lists, tracks; /* tracks in the last list */
     struct rho_message_status status;
     struct rho_message_work work;
 };
 
-static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
+static void keep_sent_message(void *context, const char *channel, const uint8_t *data, size_t size)
 {
     static struct rho_message_track_list list;
     struct heard *heard = context;
@@ -50,17 +50,19 @@ struct live {
     struct node_core *core;
 };
 
-static void start(struct live *live)
+static void open_node_core(struct live *live)
 {
-    const struct node_core_events events = {.context = &live->heard, .send = on_send};
+    const struct node_core_events events = {.context = &live->heard, .send = keep_sent_message};
 
     *live = (struct live){.core = NULL};
     parameters_set_defaults(&live->parameters);
     live->core = node_core_open(&live->parameters, 1, &events);
 }
 
-/* The k-th look of a sensor at a target that flies north at 200 m/s, 30 km east. */
-static void look(struct live *live, int16_t sensor_id, float x_m, float y_m, int32_t k)
+/*
+ * Takes the k-th bearing scan of a sensor that sees a target flying north at 200 m/s, 30 km east.
+ */
+static void take_bearing_scan(struct live *live, int16_t sensor_id, float x_m, float y_m, int32_t k)
 {
     static struct rho_message_bearing_scan scan;
     uint8_t buffer[RHO_MESSAGE_BEARING_SCAN_MAX_SIZE];
@@ -79,20 +81,20 @@ static void look(struct live *live, int16_t sensor_id, float x_m, float y_m, int
     node_core_take_message(live->core, channel, buffer, size, START_US + k * SECOND_US);
 }
 
-static void sensors_that_are_gone_make_room(void **state)
+static void passive_sensors_that_fell_silent_make_room(void **state)
 {
     struct live live;
 
     (void)state;
-    start(&live);
+    open_node_core(&live);
     for (int16_t i = 0; i < RHO_MAX_PASSIVE_SENSORS; i++) {
-        look(&live, (int16_t)(100 + i), 1000.0f * (float)i, 5000.0f, 0);
+        take_bearing_scan(&live, (int16_t)(100 + i), 1000.0f * (float)i, 5000.0f, 0);
     }
     for (int32_t k = 1; k < 90; k++) {
-        look(&live, 1, 0.0f, -10000.0f, k);
-        look(&live, 2, 0.0f, 10000.0f, k);
+        take_bearing_scan(&live, 1, 0.0f, -10000.0f, k);
+        take_bearing_scan(&live, 2, 0.0f, 10000.0f, k);
     }
-    /* heard for 30 s, they are in the way for as long */
+    /* silent sensors heard for 30 s keep their place for another 30 s */
     assert_in_range(node_core_node_counters(live.core)->bearings_refused, 30, 70);
     assert_int_equal(node_core_node_counters(live.core)->restarts, 0);
     assert_int_equal(node_core_frame_counters(live.core)->scans_off_clock, 0);
@@ -100,18 +102,18 @@ static void sensors_that_are_gone_make_room(void **state)
     node_core_close(live.core);
 }
 
-static void sensors_that_are_heard_stay(void **state)
+static void passive_sensors_that_are_heard_keep_their_room(void **state)
 {
     struct live live;
 
     (void)state;
-    start(&live);
+    open_node_core(&live);
     for (int32_t k = 0; k < 90; k++) {
         for (int16_t i = 0; i < RHO_MAX_PASSIVE_SENSORS; i++) {
-            look(&live, i, 0.0f, -15000.0f + 10000.0f * (float)i, k);
+            take_bearing_scan(&live, i, 0.0f, -15000.0f + 10000.0f * (float)i, k);
         }
-        if (k > 20 && k % 4 == 0) { /* one too many; the others are heard in between */
-            look(&live, 50, 3000.0f, 3000.0f, k);
+        if (k > 20 && k % 4 == 0) { /* one sensor too many, heard at every fourth scan only */
+            take_bearing_scan(&live, 50, 3000.0f, 3000.0f, k);
         }
     }
     assert_true(node_core_node_counters(live.core)->bearings_refused > 10);
@@ -120,16 +122,17 @@ static void sensors_that_are_heard_stay(void **state)
     node_core_close(live.core);
 }
 
-static void a_sensor_that_has_moved_is_believed_in_the_end(void **state)
+static void a_moved_passive_sensor_is_accepted_after_a_while(void **state)
 {
     struct live live;
 
     (void)state;
-    start(&live);
-    look(&live, 1, 7000.0f, 0.0f, 0); /* a wrong place, or not the sensor's own word */
+    open_node_core(&live);
+    take_bearing_scan(&live, 1, 7000.0f, 0.0f,
+                      0); /* a wrong place of the sensor, or a forged message */
     for (int32_t k = 1; k < 60; k++) {
-        look(&live, 1, 0.0f, -10000.0f, k);
-        look(&live, 2, 0.0f, 10000.0f, k);
+        take_bearing_scan(&live, 1, 0.0f, -10000.0f, k);
+        take_bearing_scan(&live, 2, 0.0f, 10000.0f, k);
     }
     assert_in_range(node_core_node_counters(live.core)->bearings_refused, 10, 17);
     assert_int_equal(node_core_node_counters(live.core)->restarts, 0);
@@ -138,16 +141,19 @@ static void a_sensor_that_has_moved_is_believed_in_the_end(void **state)
     node_core_close(live.core);
 }
 
-/* Each is refused after the other, and both are heard: neither is in the way of the other one. */
-static void sensors_that_have_moved_together_are_believed(void **state)
+/*
+ * Two sensors report new places in turn: both are accepted after some time, without waiting for
+ * each other.
+ */
+static void passive_sensors_that_moved_together_are_accepted(void **state)
 {
     struct live live;
 
     (void)state;
-    start(&live);
+    open_node_core(&live);
     for (int32_t k = 0; k < 80; k++) {
-        look(&live, 1, k < 20 ? 7000.0f : 0.0f, -10000.0f, k);
-        look(&live, 2, k < 20 ? 7000.0f : 0.0f, 10000.0f, k);
+        take_bearing_scan(&live, 1, k < 20 ? 7000.0f : 0.0f, -10000.0f, k);
+        take_bearing_scan(&live, 2, k < 20 ? 7000.0f : 0.0f, 10000.0f, k);
     }
     assert_in_range(node_core_node_counters(live.core)->bearings_refused, 20, 33);
     assert_int_equal(node_core_node_counters(live.core)->restarts, 0);
@@ -156,10 +162,10 @@ static void sensors_that_have_moved_together_are_believed(void **state)
 }
 
 /*
- * A radar's plot of a target that flies north from 5 km north of it: what stands for ever is
- * clutter.
+ * Takes a radar's plot of a target that flies north from 5 km north of it, as plots that stand
+ * still would be clutter.
  */
-static void plot(struct live *live, int16_t sensor_id, float x_m, int32_t k)
+static void take_polar_plot(struct live *live, int16_t sensor_id, float x_m, int32_t k)
 {
     static struct rho_message_polar_scan scan;
     uint8_t buffer[RHO_MESSAGE_POLAR_SCAN_MAX_SIZE];
@@ -179,18 +185,18 @@ static void plot(struct live *live, int16_t sensor_id, float x_m, int32_t k)
     node_core_take_message(live->core, channel, buffer, size, START_US + k * SECOND_US);
 }
 
-static void radars_that_are_gone_make_room(void **state)
+static void radars_that_fell_silent_make_room(void **state)
 {
     struct live live;
     const struct rho_report *report;
 
     (void)state;
-    start(&live);
+    open_node_core(&live);
     for (int16_t i = 0; i < RHO_MAX_SENSORS; i++) {
-        plot(&live, (int16_t)(1000 + i), 50000.0f + 1000.0f * (float)i, 0);
+        take_polar_plot(&live, (int16_t)(1000 + i), 50000.0f + 1000.0f * (float)i, 0);
     }
     for (int32_t k = 1; k < 60; k++) {
-        plot(&live, 1, -20000.0f, k);
+        take_polar_plot(&live, 1, -20000.0f, k);
     }
     assert_true(node_core_node_counters(live.core)->sensors_forgotten > 0);
     assert_int_equal(node_core_node_counters(live.core)->scans_refused, 0);
@@ -200,16 +206,16 @@ static void radars_that_are_gone_make_room(void **state)
     node_core_close(live.core);
 }
 
-static void a_status_says_the_origin(void **state)
+static void the_status_message_tells_the_origin(void **state)
 {
     struct live live;
     char reason[PARAMETER_REASON_BYTES];
     const struct rho_message_status *status = &live.heard.status;
     const struct node_core_losses losses = {.datagrams_refused = 0};
-    const struct node_core_events events = {.context = &live.heard, .send = on_send};
+    const struct node_core_events events = {.context = &live.heard, .send = keep_sent_message};
 
     (void)state;
-    start(&live);
+    open_node_core(&live);
     node_core_send_status(live.core, &losses);
     assert_true(status->origin_lat_1e7deg == 0 && status->origin_lon_1e7deg == 0);
     node_core_close(live.core);
@@ -227,7 +233,7 @@ static void a_status_says_the_origin(void **state)
     node_core_close(live.core);
 }
 
-static void the_limits_have_a_message_of_their_own(void **state)
+static void the_limits_are_sent_in_their_own_message(void **state)
 {
     struct live live;
     const struct node_core_losses losses = {
@@ -235,10 +241,10 @@ static void the_limits_have_a_message_of_their_own(void **state)
     const struct rho_message_work *work = &live.heard.work;
 
     (void)state;
-    start(&live);
+    open_node_core(&live);
     for (int32_t k = 0; k < 4; k++) {
-        look(&live, 1, 0.0f, 0.0f, k);
-        look(&live, 2, 0.0f, 20000.0f, k);
+        take_bearing_scan(&live, 1, 0.0f, 0.0f, k);
+        take_bearing_scan(&live, 2, 0.0f, 20000.0f, k);
     }
     node_core_flush(live.core);
     node_core_send_status(live.core, &losses);
@@ -256,13 +262,13 @@ static void the_limits_have_a_message_of_their_own(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sensors_that_are_gone_make_room),
-        cmocka_unit_test(sensors_that_are_heard_stay),
-        cmocka_unit_test(radars_that_are_gone_make_room),
-        cmocka_unit_test(a_sensor_that_has_moved_is_believed_in_the_end),
-        cmocka_unit_test(sensors_that_have_moved_together_are_believed),
-        cmocka_unit_test(a_status_says_the_origin),
-        cmocka_unit_test(the_limits_have_a_message_of_their_own),
+        cmocka_unit_test(passive_sensors_that_fell_silent_make_room),
+        cmocka_unit_test(passive_sensors_that_are_heard_keep_their_room),
+        cmocka_unit_test(radars_that_fell_silent_make_room),
+        cmocka_unit_test(a_moved_passive_sensor_is_accepted_after_a_while),
+        cmocka_unit_test(passive_sensors_that_moved_together_are_accepted),
+        cmocka_unit_test(the_status_message_tells_the_origin),
+        cmocka_unit_test(the_limits_are_sent_in_their_own_message),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

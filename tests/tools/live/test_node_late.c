@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A fifth of the scans of one or two radars come out of order, live: each such scan behind the next
- * one of its radar. Held, they change nothing; later, they update the tracks; and where neither is
- * done, what the same tracks lose by it is seen.
+ * A fifth of the scans of one or two radars is received out of order, behind the radar's next scan.
+ * In the reorder buffer they change nothing; later they update the tracks; if they are dropped, the
+ * tracks' loss is measured.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -19,15 +19,15 @@
 #include "live/node_core.h"
 #include "rhotrack/message.h"
 
-#define START_US INT64_C(1790000000000000) /* since 1970: 2026 */
+#define START_US INT64_C(1790000000000000) /* microseconds since 1970, in 2026 */
 #define ROUND_US INT64_C(4000000)
 #define ROUNDS 150
-#define FIRST_ROUND 15 /* judged from here on */
+#define FIRST_ROUND 15 /* errors count from this round on */
 #define TARGETS 10
 #define SENSORS_MAX 2
 #define CLUTTER 20
 #define SIGMA_M 30.0
-#define DELAY_US INT64_C(50000) /* of messages that are in order */
+#define DELAY_US INT64_C(50000) /* delay of messages that are in order */
 #define SHARE 0.2
 #define SEEDS 10
 
@@ -42,32 +42,29 @@ struct live {
     struct node_core *core;
     struct event events[SENSORS_MAX * ROUNDS];
     unsigned num_events;
-    /* by the round of its time: what the last report says; NAN: there was none */
+    /* by round, from the last report of its time; NAN: no report */
     double sum_m2[ROUNDS];
     unsigned found[ROUNDS];
-    uint32_t tracks[TARGETS]; /* the last one near each target; 0: none so far */
-    /* times that it was another one than before, and targets without one at the end */
+    uint32_t tracks[TARGETS]; /* identity of the last track near each target; 0: none so far */
+    /* changes of identity, and targets without a track at the end */
     unsigned lost;
     uint64_t seed;
 };
 
-/*
- * What it came to: over the rounds that have a report in this run and in the one it is compared
- * with.
- */
+/* Figures over the rounds that have a report in this run and in the one it is compared with. */
 struct figures {
     double sum_m2, rmse_m;
     unsigned found, rounds, lost, scans;
     uint32_t late, retrodicted, stale;
-    struct scan_losses losses; /* of the last run */
+    struct scan_losses losses; /* losses of the last run */
 };
 
 /*
  * ---- truth and scans --------------------------------------------------------------------------
  */
 
-/* Lanes 20 km apart; every second target turns by 1 degree a second between 200 and 290 s. */
-static void truth_of(int target, double t_s, double place_m[2])
+/* Lanes 20 km apart; every second target turns by 1 degree a second from 200 to 290 s. */
+static void true_place_of(int target, double t_s, double place_m[2])
 {
     const double speed = 120.0 + 12.0 * target, turn = target % 2 ? M_PI / 180.0 : 0.0;
     const double from_s = 200.0, to_s = 290.0;
@@ -84,7 +81,7 @@ static void truth_of(int target, double t_s, double place_m[2])
     }
 }
 
-static int64_t time_of(int16_t sensor_id, int32_t scan)
+static int64_t time_of_scan(int16_t sensor_id, int32_t scan)
 {
     return START_US + scan * ROUND_US + (sensor_id - 1) * ROUND_US / 2;
 }
@@ -95,8 +92,8 @@ static void add_plot(struct rho_message_plot_scan *scan, double x_m, double y_m)
         (struct rho_message_plot){.x_m = (float)x_m, .y_m = (float)y_m, .sigma_m = (float)SIGMA_M};
 }
 
-/* The same plots whenever they are sent. */
-static void send(struct live *live, const struct event *event)
+/* Sends a scan, with the same plots whenever it is sent. */
+static void send_scan(struct live *live, const struct event *event)
 {
     static struct rho_message_plot_scan scan;
     struct random random =
@@ -105,7 +102,7 @@ static void send(struct live *live, const struct event *event)
     char channel[32];
     size_t size;
 
-    scan = (struct rho_message_plot_scan){.utime = time_of(event->sensor_id, event->scan),
+    scan = (struct rho_message_plot_scan){.utime = time_of_scan(event->sensor_id, event->scan),
                                           .scan = event->scan,
                                           .sensor_id = event->sensor_id,
                                           .kind = RHO_MESSAGE_PLOT_SCAN_POSITION_2D,
@@ -114,7 +111,7 @@ static void send(struct live *live, const struct event *event)
         double place_m[2], dx_m = SIGMA_M * random_normal(&random),
                            dy_m = SIGMA_M * random_normal(&random);
 
-        truth_of(i, (double)(scan.utime - START_US) / 1e6, place_m);
+        true_place_of(i, (double)(scan.utime - START_US) / 1e6, place_m);
         if (random_uniform(&random) < 0.9) {
             add_plot(&scan, place_m[0] + dx_m, place_m[1] + dy_m);
         }
@@ -129,11 +126,9 @@ static void send(struct live *live, const struct event *event)
     node_core_take_message(live->core, channel, buffer, size, event->received_us);
 }
 
-/*
- * ---- arrival ----------------------------------------------------------------------------------
- */
+/* ---- order of reception ---------------------------------------------------------------------- */
 
-static int by_reception(const void *a, const void *b)
+static int compare_reception_times(const void *a, const void *b)
 {
     const struct event *first = a, *second = b;
 
@@ -141,10 +136,9 @@ static int by_reception(const void *a, const void *b)
 }
 
 /*
- * lag_us: how long after the next scan of its radar a scan comes that is out of order; below 0: all
- * are in order.
+ * lag_us: delay of an out-of-order scan after its radar's next scan; below 0: all scans in order.
  */
-static void plan(struct live *live, int16_t sensors, int64_t lag_us)
+static void plan_scans(struct live *live, int16_t sensors, int64_t lag_us)
 {
     for (int16_t sensor_id = 1; sensor_id <= sensors; sensor_id++) {
         struct random random = random_start(1000 + live->seed, (uint64_t)sensor_id, 0);
@@ -153,22 +147,20 @@ static void plan(struct live *live, int16_t sensors, int64_t lag_us)
         for (int32_t scan = 0; scan < ROUNDS; scan++) {
             const bool is_drawn = random_uniform(&random) < SHARE / (1.0 - SHARE);
             const bool is_late = lag_us >= 0 && is_drawn && !was_late && scan > 5;
-            const int64_t time_us = time_of(sensor_id, scan + is_late);
+            const int64_t time_us = time_of_scan(sensor_id, scan + is_late);
 
             live->events[live->num_events++] =
                 (struct event){time_us + DELAY_US + (is_late ? lag_us : 0), sensor_id, scan};
             was_late = is_late;
         }
     }
-    qsort(live->events, live->num_events, sizeof live->events[0], by_reception);
+    qsort(live->events, live->num_events, sizeof live->events[0], compare_reception_times);
 }
 
-/*
- * ---- what came of it --------------------------------------------------------------------------
- */
+/* ---- errors and losses ----------------------------------------------------------------------- */
 
-/* After each step; the last one of a round counts. */
-static void judge(void *context, const struct rho_report *report)
+/* Called after each step; the last step of a round counts. */
+static void note_errors(void *context, const struct rho_report *report)
 {
     struct live *live = context;
     const int32_t round = (int32_t)((report->time_us - START_US) / ROUND_US);
@@ -183,7 +175,7 @@ static void judge(void *context, const struct rho_report *report)
         double place_m[2], best_m = 1000.0;
         uint32_t best = 0;
 
-        truth_of(i, t_s, place_m);
+        true_place_of(i, t_s, place_m);
         for (uint32_t k = 0; k < report->num_tracks; k++) {
             const double error_m = hypot((double)report->tracks[k].state[0] - place_m[0],
                                          (double)report->tracks[k].state[1] - place_m[1]);
@@ -200,7 +192,7 @@ static void judge(void *context, const struct rho_report *report)
     }
 }
 
-static void ignore(void *context, const char *channel, const uint8_t *data, size_t size)
+static void ignore_message(void *context, const char *channel, const uint8_t *data, size_t size)
 {
     (void)context;
     (void)channel;
@@ -208,10 +200,11 @@ static void ignore(void *context, const char *channel, const uint8_t *data, size
     (void)size;
 }
 
-static void run(struct live *live, uint64_t seed, int16_t sensors, int64_t lag_us,
-                const char *hold_ms, const char *late_max_s)
+static void run_node(struct live *live, uint64_t seed, int16_t sensors, int64_t lag_us,
+                     const char *hold_ms, const char *late_max_s)
 {
-    const struct node_core_events events = {.context = live, .send = ignore, .stepped = judge};
+    const struct node_core_events events = {
+        .context = live, .send = ignore_message, .stepped = note_errors};
     char reason[PARAMETER_REASON_BYTES];
 
     *live = (struct live){.seed = seed};
@@ -226,18 +219,18 @@ static void run(struct live *live, uint64_t seed, int16_t sensors, int64_t lag_u
     for (int i = 0; i < ROUNDS; i++) {
         live->sum_m2[i] = (double)NAN;
     }
-    plan(live, sensors, lag_us);
+    plan_scans(live, sensors, lag_us);
     for (unsigned i = 0; i < live->num_events; i++) {
         while (node_core_due_us(live->core) < live->events[i].received_us) {
             node_core_tick(live->core, node_core_due_us(live->core));
         }
-        send(live, &live->events[i]);
+        send_scan(live, &live->events[i]);
     }
     node_core_flush(live->core);
     live->lost += TARGETS - live->found[ROUNDS - 1];
 }
 
-static void add(struct figures *figures, const struct live *live, const struct live *with)
+static void add_run(struct figures *figures, const struct live *live, const struct live *with)
 {
     const struct rho_tracker_counters *tracker = node_core_tracker_counters(live->core);
 
@@ -258,7 +251,7 @@ static void add(struct figures *figures, const struct live *live, const struct l
     figures->stale += tracker->fates[RHO_FATE_STALE];
 }
 
-static void print(const char *what, const struct figures *figures)
+static void print_figures(const char *what, const struct figures *figures)
 {
     print_message("  %-28s rmse %.2f m, found %u of %u, tracks lost %u; of %u scans %u late, %u "
                   "moved back\n",
@@ -266,74 +259,76 @@ static void print(const char *what, const struct figures *figures)
                   figures->scans, figures->late, figures->retrodicted);
 }
 
-/* Out of order by lag_us, beside the same in order. */
-static void try(int16_t sensors, int64_t lag_us, const char *hold_ms, const char *late_max_s,
-                struct figures *in_order, struct figures *out_of_order)
+/* Runs scans out of order by lag_us, and the same scans in order. */
+static void compare_in_and_out_of_order(int16_t sensors, int64_t lag_us, const char *hold_ms,
+                                        const char *late_max_s, struct figures *in_order,
+                                        struct figures *out_of_order)
 {
     static struct live straight, mixed;
 
     *in_order = *out_of_order = (struct figures){.rounds = 0};
     for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-        run(&straight, seed, sensors, -1, hold_ms, late_max_s);
-        run(&mixed, seed, sensors, lag_us, hold_ms, late_max_s);
-        add(in_order, &straight, &mixed);
-        add(out_of_order, &mixed, &straight);
+        run_node(&straight, seed, sensors, -1, hold_ms, late_max_s);
+        run_node(&mixed, seed, sensors, lag_us, hold_ms, late_max_s);
+        add_run(in_order, &straight, &mixed);
+        add_run(out_of_order, &mixed, &straight);
         node_core_close(straight.core);
         node_core_close(mixed.core);
     }
 }
 
-/* A fifth of the scans is late. */
-static void a_fifth_is_late(const struct figures *figures)
+/* About a fifth of the scans is late. */
+static void expect_a_fifth_late(const struct figures *figures)
 {
     assert_in_range(100 * figures->late / figures->scans, 17, 23);
 }
 
-/* As people read it: late ones that are used are neither lost nor dropped. Of the last run. */
-static void all_came_after_all(const struct figures *figures)
+/* The printed losses of the last run: late scans that were used are neither lost nor dropped. */
+static void expect_no_scan_dropped(const struct figures *figures)
 {
     assert_true(figures->losses.out_of_order > 0);
     assert_int_equal(figures->losses.dropped, 0);
     assert_int_equal(figures->losses.lost, 0);
 }
 
-static void held_they_change_nothing(int16_t sensors, int64_t lag_us, const char *hold_ms)
+static void check_reorder_buffer_restores_order(int16_t sensors, int64_t lag_us,
+                                                const char *hold_ms)
 {
     struct figures in_order, out_of_order;
 
-    try(sensors, lag_us, hold_ms, "20", &in_order, &out_of_order);
+    compare_in_and_out_of_order(sensors, lag_us, hold_ms, "20", &in_order, &out_of_order);
     print_message("%d radars, out of order by a scan and %.0f ms, held %s ms\n", sensors,
                   (double)lag_us / 1e3, hold_ms);
-    print("in order", &in_order);
-    print("out of order", &out_of_order);
-    a_fifth_is_late(&out_of_order);
-    all_came_after_all(&out_of_order);
+    print_figures("in order", &in_order);
+    print_figures("out of order", &out_of_order);
+    expect_a_fifth_late(&out_of_order);
+    expect_no_scan_dropped(&out_of_order);
     assert_int_equal(out_of_order.retrodicted, 0);
     assert_int_equal(out_of_order.found, in_order.found);
     assert_int_equal(out_of_order.lost, in_order.lost);
     assert_float_equal(out_of_order.rmse_m, in_order.rmse_m, 0.0);
 }
 
-/* Of two radars the other one's scans are in between: they wait, too. */
-static void what_is_held_changes_nothing(void **state)
+/* With two radars the scans of the other one are in between and wait, too. */
+static void out_of_order_scans_in_the_reorder_buffer_change_nothing(void **state)
 {
     (void)state;
-    held_they_change_nothing(1, 5000, "20");
-    held_they_change_nothing(2, 5000, "4500");
+    check_reorder_buffer_restores_order(1, 5000, "20");
+    check_reorder_buffer_restores_order(2, 5000, "4500");
 }
 
-static void later_they_update_tracks(int16_t sensors)
+static void check_out_of_sequence_updates(int16_t sensors)
 {
     struct figures in_order, out_of_order, dropped;
 
-    try(sensors, 1000000, "20", "0", &in_order, &dropped);
-    try(sensors, 1000000, "20", "20", &in_order, &out_of_order);
+    compare_in_and_out_of_order(sensors, 1000000, "20", "0", &in_order, &dropped);
+    compare_in_and_out_of_order(sensors, 1000000, "20", "20", &in_order, &out_of_order);
     print_message("%d radars, out of order by a scan and 1 s\n", sensors);
-    print("in order", &in_order);
-    print("out of order", &out_of_order);
-    print("out of order, late_max_s 0", &dropped);
-    a_fifth_is_late(&out_of_order);
-    all_came_after_all(&out_of_order);
+    print_figures("in order", &in_order);
+    print_figures("out of order", &out_of_order);
+    print_figures("out of order, late_max_s 0", &dropped);
+    expect_a_fifth_late(&out_of_order);
+    expect_no_scan_dropped(&out_of_order);
     assert_int_equal(dropped.losses.out_of_order, 0);
     assert_true(dropped.losses.dropped > 0);
     assert_true(dropped.losses.lost >= dropped.losses.dropped);
@@ -344,24 +339,24 @@ static void later_they_update_tracks(int16_t sensors)
     assert_true(dropped.rmse_m > out_of_order.rmse_m);
 }
 
-static void of_one_radar(void **state)
+static void late_scans_of_one_radar_update_tracks(void **state)
 {
     (void)state;
-    later_they_update_tracks(1);
+    check_out_of_sequence_updates(1);
 }
 
-static void of_two_radars(void **state)
+static void late_scans_of_two_radars_update_tracks(void **state)
 {
     (void)state;
-    later_they_update_tracks(2);
+    check_out_of_sequence_updates(2);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_held_changes_nothing),
-        cmocka_unit_test(of_one_radar),
-        cmocka_unit_test(of_two_radars),
+        cmocka_unit_test(out_of_order_scans_in_the_reorder_buffer_change_nothing),
+        cmocka_unit_test(late_scans_of_one_radar_update_tracks),
+        cmocka_unit_test(late_scans_of_two_radars_update_tracks),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Three radars over the same targets, live. One begins to lie, or stops: RHO_SENSORS and one line
- * on standard error say so, and say when it is over; of those that are well nothing is said.
+ * Three radars over the same targets, live. One becomes biased, blind or silent: RHO_SENSORS and
+ * one line on standard error report it, and report when it is over; nothing is reported of healthy
+ * sensors.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -19,7 +20,7 @@
 #include "live/node_sensor_warnings.h"
 #include "rhotrack/message.h"
 
-#define START_US INT64_C(1790000000000000) /* since 1970: 2026 */
+#define START_US INT64_C(1790000000000000) /* microseconds since 1970, in 2026 */
 #define ROUND_US INT64_C(4000000)
 #define SENSORS 3
 #define TARGETS 8
@@ -32,15 +33,15 @@ struct live {
     struct node_core *core;
     struct node_sensors said;
     FILE *lines;
-    char *text; /* what was written to lines */
+    char *text; /* text written to the stream lines */
     size_t text_size;
     struct random random;
-    struct rho_message_sensor_list list; /* the last one */
+    struct rho_message_sensor_list list; /* the last list of sensors */
     unsigned lists;
-    struct rho_message_learned learned; /* the last one */
+    struct rho_message_learned learned; /* the last message of learned values */
 };
 
-static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
+static void keep_sent_message(void *context, const char *channel, const uint8_t *data, size_t size)
 {
     struct live *live = context;
 
@@ -54,7 +55,7 @@ static void on_send(void *context, const char *channel, const uint8_t *data, siz
     }
 }
 
-static void on_step(void *context, const struct rho_report *report)
+static void print_sensor_changes(void *context, const struct rho_report *report)
 {
     struct live *live = context;
 
@@ -62,26 +63,28 @@ static void on_step(void *context, const struct rho_report *report)
     node_sensors_print_changes(&live->said, live->core, live->lines);
 }
 
-/* As the radars' operator has it in a file for --config. */
-static void describe(struct live *live, const char *name, const char *value)
+/* Sets a parameter as a file for --config would. */
+static void set_parameter(struct live *live, const char *name, const char *value)
 {
     char reason[PARAMETER_REASON_BYTES];
 
     assert_true(parameters_assign(&live->parameters, name, value, SOURCE_CONFIG, reason));
 }
 
-static struct live *start(void)
+static struct live *open_node_core(void)
 {
     struct live *live = calloc(1, sizeof *live);
-    const struct node_core_events events = {.context = live, .send = on_send, .stepped = on_step};
+    const struct node_core_events events = {
+        .context = live, .send = keep_sent_message, .stepped = print_sensor_changes};
 
     assert_non_null(live);
     parameters_set_defaults(&live->parameters);
-    describe(live, "v_max_mps", "400");
-    describe(live, "accel_max_mps2", "10"); /* 30, the default, follows such a bias */
-    describe(live, "sensor.1.pd", "0.9");
-    describe(live, "sensor.2.pd", "0.9");
-    describe(live, "sensor.3.pd", "0.9");
+    set_parameter(live, "v_max_mps", "400");
+    /* the default of 30 would follow such a bias as a manoeuvre */
+    set_parameter(live, "accel_max_mps2", "10");
+    set_parameter(live, "sensor.1.pd", "0.9");
+    set_parameter(live, "sensor.2.pd", "0.9");
+    set_parameter(live, "sensor.3.pd", "0.9");
     live->random = random_start(5, 0, 0);
     live->lines = open_memstream(&live->text, &live->text_size);
     assert_non_null(live->lines);
@@ -89,7 +92,7 @@ static struct live *start(void)
     return live;
 }
 
-static void end(struct live *live)
+static void close_node_core(struct live *live)
 {
     node_core_close(live->core);
     fclose(live->lines);
@@ -97,9 +100,9 @@ static void end(struct live *live)
     free(live);
 }
 
-/* Straight, 90 km apart. */
-static void fill(struct live *live, struct rho_message_plot_scan *scan, double t_s,
-                 enum fault fault)
+/* Targets on straight lines, 90 km apart. */
+static void add_plots_of_targets(struct live *live, struct rho_message_plot_scan *scan, double t_s,
+                                 enum fault fault)
 {
     const double shift_m = fault == BIASED ? 4.0 * SIGMA_M : 0.0;
 
@@ -118,7 +121,7 @@ static void fill(struct live *live, struct rho_message_plot_scan *scan, double t
     }
 }
 
-static void look(struct live *live, int16_t sensor_id, int32_t round, enum fault fault)
+static void take_radar_scan(struct live *live, int16_t sensor_id, int32_t round, enum fault fault)
 {
     static struct rho_message_plot_scan scan;
     const int64_t time_us = START_US + round * ROUND_US + sensor_id * INT64_C(1000000);
@@ -131,19 +134,19 @@ static void look(struct live *live, int16_t sensor_id, int32_t round, enum fault
                                           .sensor_id = sensor_id,
                                           .kind = RHO_MESSAGE_PLOT_SCAN_POSITION_2D,
                                           .num_parts = 1};
-    fill(live, &scan, (double)(time_us - START_US) / 1e6, fault);
+    add_plots_of_targets(live, &scan, (double)(time_us - START_US) / 1e6, fault);
     assert_int_equal(rho_message_plot_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
     snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_PLOT_SCAN_CHANNEL, sensor_id);
     node_core_take_message(live->core, channel, buffer, size, time_us);
 }
 
-/* Sensor 1 has the fault. */
-static void fly(struct live *live, int32_t from, int32_t to, enum fault fault)
+/* Steps rounds of all radars; sensor 1 has the fault. */
+static void run_rounds(struct live *live, int32_t from, int32_t to, enum fault fault)
 {
     for (int32_t round = from; round < to; round++) {
         for (int16_t sensor_id = 1; sensor_id <= SENSORS; sensor_id++) {
             if (sensor_id > 1 || fault != STOPPED) {
-                look(live, sensor_id, round, sensor_id == 1 ? fault : WELL);
+                take_radar_scan(live, sensor_id, round, sensor_id == 1 ? fault : WELL);
             }
         }
         node_core_tick(live->core, START_US + (round + 1) * ROUND_US);
@@ -154,7 +157,7 @@ static void fly(struct live *live, int32_t from, int32_t to, enum fault fault)
     fflush(live->lines);
 }
 
-static const struct rho_message_sensor *find(const struct live *live, int16_t sensor_id)
+static const struct rho_message_sensor *sensor_in_list(const struct live *live, int16_t sensor_id)
 {
     for (int i = 0; i < live->list.num_sensors; i++) {
         if (live->list.sensors[i].sensor_id == sensor_id) {
@@ -165,11 +168,11 @@ static const struct rho_message_sensor *find(const struct live *live, int16_t se
     return NULL;
 }
 
-static void the_others_are_well(const struct live *live)
+static void expect_other_sensors_well(const struct live *live)
 {
     assert_int_equal(live->list.num_sensors, SENSORS);
     for (int16_t sensor_id = 2; sensor_id <= SENSORS; sensor_id++) {
-        const struct rho_message_sensor *sensor = find(live, sensor_id);
+        const struct rho_message_sensor *sensor = sensor_in_list(live, sensor_id);
 
         assert_int_equal(sensor->is_doubted + sensor->is_silent + sensor->is_off_clock, 0);
         assert_int_equal(sensor->watched, 16);
@@ -179,23 +182,23 @@ static void the_others_are_well(const struct live *live)
     }
 }
 
-static void sensors_that_are_well_are_not_named(void **state)
+static void no_warning_names_a_healthy_sensor(void **state)
 {
-    struct live *live = start();
+    struct live *live = open_node_core();
 
     (void)state;
-    fly(live, 0, 60, WELL);
-    the_others_are_well(live);
-    assert_int_equal(find(live, 1)->is_doubted, 0);
-    assert_int_equal(find(live, 1)->scans, 60);
+    run_rounds(live, 0, 60, WELL);
+    expect_other_sensors_well(live);
+    assert_int_equal(sensor_in_list(live, 1)->is_doubted, 0);
+    assert_int_equal(sensor_in_list(live, 1)->scans, 60);
     node_sensors_print_bad(live->core, live->lines);
     fflush(live->lines);
     assert_string_equal(live->text, "");
-    end(live);
+    close_node_core(live);
 }
 
 /* The text is FROM, a number, TO, and nothing more. Returns the number. */
-static double number_in(const char *text, const char *from, const char *to)
+static double number_between(const char *text, const char *from, const char *to)
 {
     char *behind;
     double number;
@@ -206,104 +209,107 @@ static double number_in(const char *text, const char *from, const char *to)
     return number;
 }
 
-static void one_that_lies_is_named_once(void **state)
+static void a_biased_sensor_is_warned_of_once(void **state)
 {
-    struct live *live = start();
+    struct live *live = open_node_core();
     double times;
 
     (void)state;
-    fly(live, 0, 30, WELL);
+    run_rounds(live, 0, 30, WELL);
     assert_string_equal(live->text, "");
-    fly(live, 30, 60, BIASED);
+    run_rounds(live, 30, 60, BIASED);
     print_message("%s", live->text);
-    the_others_are_well(live);
-    assert_int_equal(find(live, 1)->is_doubted, 1);
-    assert_true(find(live, 1)->innovation_factor > 4.0f);
-    times = number_in(live->text, "rhotrack: sensor 1 is suspect: its innovations are ",
-                      " times what its sigmas say\n");
+    expect_other_sensors_well(live);
+    assert_int_equal(sensor_in_list(live, 1)->is_doubted, 1);
+    assert_true(sensor_in_list(live, 1)->innovation_factor > 4.0f);
+    times = number_between(live->text, "rhotrack: sensor 1 is suspect: its innovations are ",
+                           " times what its sigmas say\n");
     assert_true(times >= 2.0 && times < 4.0);
     node_sensors_print_bad(live->core, live->lines);
     fflush(live->lines);
     assert_non_null(strstr(live->text, "say\nrhotrack: sensor 1 contradicts the others\n"));
-    end(live);
+    close_node_core(live);
 }
 
-static void one_that_lies_no_more_is_trusted_again(void **state)
+static void a_sensor_no_longer_biased_is_trusted_again(void **state)
 {
-    struct live *live = start();
+    struct live *live = open_node_core();
     const char *second;
 
     (void)state;
-    fly(live, 0, 30, WELL);
-    fly(live, 30, 60, BIASED);
-    fly(live, 60, 90, WELL);
+    run_rounds(live, 0, 30, WELL);
+    run_rounds(live, 30, 60, BIASED);
+    run_rounds(live, 60, 90, WELL);
     second = strchr(live->text, '\n');
     assert_non_null(second);
     assert_string_equal(second + 1, "rhotrack: sensor 1 is trusted again\n");
-    assert_int_equal(find(live, 1)->is_doubted, 0);
-    the_others_are_well(live);
-    end(live);
+    assert_int_equal(sensor_in_list(live, 1)->is_doubted, 0);
+    expect_other_sensors_well(live);
+    close_node_core(live);
 }
 
-static void one_that_sees_nothing_is_named(void **state)
+static void a_sensor_that_sees_nothing_is_warned_of(void **state)
 {
-    struct live *live = start();
+    struct live *live = open_node_core();
 
     (void)state;
-    fly(live, 0, 30, WELL);
-    fly(live, 30, 60, BLIND);
-    assert_int_equal(find(live, 1)->is_doubted, 1);
-    assert_true(find(live, 1)->seen_share < 0.3f);
-    the_others_are_well(live);
-    number_in(live->text, "rhotrack: sensor 1 is suspect: it sees ",
-              " % of the tracks that others see\n");
-    end(live);
+    run_rounds(live, 0, 30, WELL);
+    run_rounds(live, 30, 60, BLIND);
+    assert_int_equal(sensor_in_list(live, 1)->is_doubted, 1);
+    assert_true(sensor_in_list(live, 1)->seen_share < 0.3f);
+    expect_other_sensors_well(live);
+    number_between(live->text, "rhotrack: sensor 1 is suspect: it sees ",
+                   " % of the tracks that others see\n");
+    close_node_core(live);
 }
 
-static void one_that_stops_is_silent_after_a_while(void **state)
+static void a_stopped_sensor_is_reported_silent(void **state)
 {
-    struct live *live = start();
+    struct live *live = open_node_core();
 
     (void)state;
-    fly(live, 0, 30, WELL);
-    fly(live, 30, 36, STOPPED); /* its last scan came at 117 s; now it is 144 s */
+    run_rounds(live, 0, 30, WELL);
+    run_rounds(live, 30, 36,
+               STOPPED); /* the stopped sensor's last scan was at 117 s; now it is 144 s */
     assert_string_equal(live->text, "");
-    assert_int_equal(find(live, 1)->is_silent, 0);
-    fly(live, 36, 60, STOPPED);
-    assert_int_equal(find(live, 1)->is_silent, 1);
-    the_others_are_well(live);
-    number_in(live->text, "rhotrack: sensor 1 is silent: nothing on RHO_PLOTS_1 for ", " s\n");
-    fly(live, 60, 75, WELL);
-    assert_int_equal(find(live, 1)->is_silent, 0);
+    assert_int_equal(sensor_in_list(live, 1)->is_silent, 0);
+    run_rounds(live, 36, 60, STOPPED);
+    assert_int_equal(sensor_in_list(live, 1)->is_silent, 1);
+    expect_other_sensors_well(live);
+    number_between(live->text, "rhotrack: sensor 1 is silent: nothing on RHO_PLOTS_1 for ", " s\n");
+    run_rounds(live, 60, 75, WELL);
+    assert_int_equal(sensor_in_list(live, 1)->is_silent, 0);
     assert_non_null(strstr(live->text, " s\nrhotrack: sensor 1 is heard again\n"));
-    end(live);
+    close_node_core(live);
 }
 
-/* Anybody may send one message in any sensor's name. */
-static void a_single_scan_is_not_spoken_of(void **state)
+/*
+ * A sensor of a single scan, which anybody may have forged, causes no warning when it falls silent.
+ */
+static void a_sensor_of_a_single_scan_is_not_warned_of(void **state)
 {
-    struct live *live = start();
+    struct live *live = open_node_core();
 
     (void)state;
-    fly(live, 0, 10, WELL);
-    look(live, 9, 10, WELL);
-    fly(live, 10, 40, WELL);
-    assert_int_equal(find(live, 9)->scans, 1);
-    assert_int_equal(find(live, 9)->is_silent, 1);
+    run_rounds(live, 0, 10, WELL);
+    take_radar_scan(live, 9, 10, WELL);
+    run_rounds(live, 10, 40, WELL);
+    assert_int_equal(sensor_in_list(live, 9)->scans, 1);
+    assert_int_equal(sensor_in_list(live, 9)->is_silent, 1);
     fflush(live->lines);
     assert_null(strstr(live->text, "sensor 9"));
-    end(live);
+    close_node_core(live);
 }
 
-/* Tracks that two radars have seen teach nothing of noise; of P_D they do. */
-static void what_is_learned_is_told_of_each_in_turn(void **state)
+/* Tracks seen by two radars teach the P_D of each, but not its noise. */
+static void learned_values_are_sent_of_one_sensor_at_a_time(void **state)
 {
-    struct live *live = start();
+    struct live *live = open_node_core();
     const struct node_core_losses none = {.reports_not_printed = 0};
     const struct rho_message_learned *learned = &live->learned;
 
     (void)state;
-    fly(live, 0, 40, WELL);
+    run_rounds(live, 0, 40, WELL);
     for (int call = 1; call < 7; call++) {
         node_core_send_status(live->core, &none);
         assert_int_equal(learned->sensor_id, 1 + call % SENSORS);
@@ -314,19 +320,19 @@ static void what_is_learned_is_told_of_each_in_turn(void **state)
         assert_float_equal(learned->pd[0], 0.9f, 0.0f);
         assert_float_equal(learned->sigma_range_factor, 1.0f, 0.0f);
     }
-    end(live);
+    close_node_core(live);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sensors_that_are_well_are_not_named),
-        cmocka_unit_test(one_that_lies_is_named_once),
-        cmocka_unit_test(one_that_lies_no_more_is_trusted_again),
-        cmocka_unit_test(one_that_sees_nothing_is_named),
-        cmocka_unit_test(one_that_stops_is_silent_after_a_while),
-        cmocka_unit_test(a_single_scan_is_not_spoken_of),
-        cmocka_unit_test(what_is_learned_is_told_of_each_in_turn),
+        cmocka_unit_test(no_warning_names_a_healthy_sensor),
+        cmocka_unit_test(a_biased_sensor_is_warned_of_once),
+        cmocka_unit_test(a_sensor_no_longer_biased_is_trusted_again),
+        cmocka_unit_test(a_sensor_that_sees_nothing_is_warned_of),
+        cmocka_unit_test(a_stopped_sensor_is_reported_silent),
+        cmocka_unit_test(a_sensor_of_a_single_scan_is_not_warned_of),
+        cmocka_unit_test(learned_values_are_sent_of_one_sensor_at_a_time),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

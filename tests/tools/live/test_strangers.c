@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A radar that is heard for minutes, and datagrams of somebody else, live: its track goes on, and a
- * new target is found when it would have been. The time that a step takes is taken from the
- * node.
+ * A radar that is heard for minutes, and an attacker's datagrams, live: the radar's track goes on,
+ * and a new target is found as early as without the attack. Each step's run time is added to the
+ * node's clock.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -22,7 +22,7 @@
 #include "live/node_sensor_warnings.h"
 #include "rhotrack/message.h"
 
-#define START_US INT64_C(1790000000000000) /* since 1970: 2026 */
+#define START_US INT64_C(1790000000000000) /* microseconds since 1970, in 2026 */
 #define SECOND_US INT64_C(1000000)
 #define DELAY_US INT64_C(5000)
 #define CLUTTER 10
@@ -31,18 +31,17 @@
 #define SIGMA_M 20.0
 #define NEAR_M 1000.0
 
-/*
- * ---- the scene --------------------------------------------------------------------------------
- */
+/* ---- the scene ------------------------------------------------------------------------------- */
 
-static int64_t attack_s, end_s; /* of the attack and of the new target */
+static int64_t attack_s, end_s; /* start of the attack and of the new target, end of the run */
 
 struct datagram {
     int64_t received_us, time_us;
     int32_t scan;
-    int16_t sensor_id, part, num_parts, num_plots; /* num_plots 0: the radar's scan of this time */
+    /* num_plots 0: the radar's own scan at this time */
+    int16_t sensor_id, part, num_parts, num_plots;
     float sigma_m, half_m;
-    int is_polar; /* without plots */
+    int is_polar; /* a polar scan without plots */
 };
 
 struct live {
@@ -50,18 +49,18 @@ struct live {
     struct node_core *core;
     struct datagram datagrams[DATAGRAMS];
     unsigned count;
-    int64_t now_us; /* reception clock, as the node's work lets it see it */
-    uint32_t hits;  /* of the old target's track */
+    int64_t now_us; /* reception clock, delayed by the time that steps take */
+    uint32_t hits;  /* hits of the old target's track */
     int64_t updated_us, gap_us;
-    int64_t found_us; /* the new target's track was confirmed; 0: not so far */
+    int64_t found_us; /* when the new target's track was confirmed; 0: not so far */
 };
 
-static double x_of(int target, double t_s)
+static double target_x_m(int target, double t_s)
 {
     return target == 0 ? -20000.0 + 100.0 * t_s : 30000.0 - 120.0 * (t_s - attack_s);
 }
 
-static double y_of(int target, double t_s)
+static double target_y_m(int target, double t_s)
 {
     return target == 0 ? 10000.0 - 50.0 * t_s : -20000.0 + 60.0 * (t_s - attack_s);
 }
@@ -72,14 +71,14 @@ static void put_plot(struct rho_message_plot_scan *scan, double x_m, double y_m,
         (struct rho_message_plot){.x_m = (float)x_m, .y_m = (float)y_m, .sigma_m = (float)sigma_m};
 }
 
-static void put_radar(struct rho_message_plot_scan *scan, struct random *random)
+static void put_plots_of_targets(struct rho_message_plot_scan *scan, struct random *random)
 {
     const double t_s = (double)(scan->utime - START_US) / 1e6;
 
     for (int i = 0; i < (t_s < attack_s ? 1 : 2); i++) {
         const double dx_m = SIGMA_M * random_normal(random), dy_m = SIGMA_M * random_normal(random);
 
-        put_plot(scan, x_of(i, t_s) + dx_m, y_of(i, t_s) + dy_m, SIGMA_M);
+        put_plot(scan, target_x_m(i, t_s) + dx_m, target_y_m(i, t_s) + dy_m, SIGMA_M);
     }
     for (int i = 0; i < CLUTTER; i++) {
         const double x_m = random_between(random, -50000.0, 50000.0);
@@ -88,8 +87,8 @@ static void put_radar(struct rho_message_plot_scan *scan, struct random *random)
     }
 }
 
-static void take(struct live *live, const char *channel, int16_t sensor_id, const uint8_t *message,
-                 size_t size)
+static void take_message_timed(struct live *live, const char *channel, int16_t sensor_id,
+                               const uint8_t *message, size_t size)
 {
     char name[32];
     int64_t start_us;
@@ -100,7 +99,7 @@ static void take(struct live *live, const char *channel, int16_t sensor_id, cons
     live->now_us += clock_us() - start_us;
 }
 
-static void send_polar(struct live *live, const struct datagram *datagram)
+static void send_empty_polar_scan(struct live *live, const struct datagram *datagram)
 {
     const struct rho_message_polar_scan nothing = {.utime = datagram->time_us,
                                                    .scan = datagram->scan,
@@ -110,11 +109,11 @@ static void send_polar(struct live *live, const struct datagram *datagram)
     size_t size;
 
     assert_int_equal(rho_message_polar_scan_encode(&nothing, buffer, sizeof buffer, &size), RHO_OK);
-    take(live, RHO_MESSAGE_POLAR_SCAN_CHANNEL, datagram->sensor_id, buffer, size);
+    take_message_timed(live, RHO_MESSAGE_POLAR_SCAN_CHANNEL, datagram->sensor_id, buffer, size);
 }
 
-/* The same plots whenever they are sent. */
-static void send(struct live *live, const struct datagram *datagram)
+/* Sends a datagram, with the same plots whenever it is sent. */
+static void send_datagram(struct live *live, const struct datagram *datagram)
 {
     static struct rho_message_plot_scan scan;
     struct random random = random_start(1, (uint64_t)datagram->sensor_id,
@@ -123,7 +122,7 @@ static void send(struct live *live, const struct datagram *datagram)
     size_t size;
 
     if (datagram->is_polar) {
-        send_polar(live, datagram);
+        send_empty_polar_scan(live, datagram);
         return;
     }
     scan = (struct rho_message_plot_scan){.utime = datagram->time_us,
@@ -133,7 +132,7 @@ static void send(struct live *live, const struct datagram *datagram)
                                           .part = datagram->part,
                                           .num_parts = datagram->num_parts};
     if (datagram->num_plots == 0) {
-        put_radar(&scan, &random);
+        put_plots_of_targets(&scan, &random);
     }
     for (int i = 0; i < datagram->num_plots; i++) {
         const double half_m = datagram->half_m > 0.0f ? (double)datagram->half_m : 50000.0;
@@ -142,32 +141,31 @@ static void send(struct live *live, const struct datagram *datagram)
         put_plot(&scan, x_m, random_between(&random, -half_m, half_m), datagram->sigma_m);
     }
     assert_int_equal(rho_message_plot_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
-    take(live, RHO_MESSAGE_PLOT_SCAN_CHANNEL, datagram->sensor_id, buffer, size);
+    take_message_timed(live, RHO_MESSAGE_PLOT_SCAN_CHANNEL, datagram->sensor_id, buffer, size);
 }
 
-static void add(struct live *live, struct datagram datagram)
+static void add_datagram(struct live *live, struct datagram datagram)
 {
     assert_true(live->count < DATAGRAMS);
     datagram.num_parts = (int16_t)(datagram.num_parts > 0 ? datagram.num_parts : 1);
     live->datagrams[live->count++] = datagram;
 }
 
-static void add_radar(struct live *live, int64_t interval_us)
+static void add_radar_scans(struct live *live, int64_t interval_us)
 {
     for (int32_t i = 0; i * interval_us < end_s * SECOND_US; i++) {
         const int64_t time_us = START_US + i * interval_us;
 
-        add(live,
-            (struct datagram){
-                .received_us = time_us + DELAY_US, .time_us = time_us, .scan = i, .sensor_id = 1});
+        add_datagram(live, (struct datagram){.received_us = time_us + DELAY_US,
+                                             .time_us = time_us,
+                                             .scan = i,
+                                             .sensor_id = 1});
     }
 }
 
-/*
- * ---- what came of it --------------------------------------------------------------------------
- */
+/* ---- gaps of the track, and the new target --------------------------------------------------- */
 
-static const struct rho_track_report *nearest(const struct rho_report *report, int target)
+static const struct rho_track_report *track_nearest_to(const struct rho_report *report, int target)
 {
     const double t_s = (double)(report->time_us - START_US) / 1e6;
     const struct rho_track_report *best = NULL;
@@ -175,8 +173,8 @@ static const struct rho_track_report *nearest(const struct rho_report *report, i
 
     for (uint32_t i = 0; i < report->num_tracks; i++) {
         const struct rho_track_report *track = &report->tracks[i];
-        const double away_m = hypot((double)track->state[0] - x_of(target, t_s),
-                                    (double)track->state[1] - y_of(target, t_s));
+        const double away_m = hypot((double)track->state[0] - target_x_m(target, t_s),
+                                    (double)track->state[1] - target_y_m(target, t_s));
 
         if (track->status != RHO_TRACK_TENTATIVE && away_m < best_m) {
             best_m = away_m;
@@ -186,11 +184,11 @@ static const struct rho_track_report *nearest(const struct rho_report *report, i
     return best;
 }
 
-/* After each step. A track that is not hit, and one that is not there, is a gap. */
-static void judge(void *context, const struct rho_report *report)
+/* Called after each step: time without a hit, or without a track, is a gap. */
+static void note_gaps(void *context, const struct rho_report *report)
 {
     struct live *live = context;
-    const struct rho_track_report *track = nearest(report, 0);
+    const struct rho_track_report *track = track_nearest_to(report, 0);
     const int64_t gap_us = live->now_us - live->updated_us;
 
     if (live->now_us >= START_US + attack_s * SECOND_US && gap_us > live->gap_us) {
@@ -200,12 +198,12 @@ static void judge(void *context, const struct rho_report *report)
         live->hits = track->hits;
         live->updated_us = live->now_us;
     }
-    if (live->found_us == 0 && nearest(report, 1)) {
+    if (live->found_us == 0 && track_nearest_to(report, 1)) {
         live->found_us = live->now_us;
     }
 }
 
-static void ignore(void *context, const char *channel, const uint8_t *data, size_t size)
+static void ignore_message(void *context, const char *channel, const uint8_t *data, size_t size)
 {
     (void)context;
     (void)channel;
@@ -213,29 +211,30 @@ static void ignore(void *context, const char *channel, const uint8_t *data, size
     (void)size;
 }
 
-static int by_reception(const void *a, const void *b)
+static int compare_reception_times(const void *a, const void *b)
 {
     const struct datagram *first = a, *second = b;
 
     return (first->received_us > second->received_us) - (first->received_us < second->received_us);
 }
 
-static void start(struct live *live, int64_t interval_us)
+static void prepare_radar_run(struct live *live, int64_t interval_us)
 {
     char reason[PARAMETER_REASON_BYTES];
 
     *live = (struct live){.now_us = 0};
     parameters_set_defaults(&live->parameters);
     assert_true(parameters_assign(&live->parameters, "v_max_mps", "400", SOURCE_CONFIG, reason));
-    add_radar(live, interval_us);
+    add_radar_scans(live, interval_us);
 }
 
-static void run(struct live *live)
+static void run_node(struct live *live)
 {
-    const struct node_core_events events = {.context = live, .send = ignore, .stepped = judge};
+    const struct node_core_events events = {
+        .context = live, .send = ignore_message, .stepped = note_gaps};
 
     live->core = node_core_open(&live->parameters, 1, &events);
-    qsort(live->datagrams, live->count, sizeof live->datagrams[0], by_reception);
+    qsort(live->datagrams, live->count, sizeof live->datagrams[0], compare_reception_times);
     live->updated_us = START_US + attack_s * SECOND_US;
     for (unsigned i = 0; i < live->count; i++) {
         const int64_t received_us = live->datagrams[i].received_us;
@@ -246,7 +245,7 @@ static void run(struct live *live)
             node_core_tick(live->core, live->now_us);
         }
         live->now_us = received_us > live->now_us ? received_us : live->now_us;
-        send(live, &live->datagrams[i]);
+        send_datagram(live, &live->datagrams[i]);
     }
     node_core_flush(live->core);
     if (live->now_us - live->updated_us > live->gap_us) {
@@ -254,118 +253,116 @@ static void run(struct live *live)
     }
 }
 
-/*
- * ---- attacks ----------------------------------------------------------------------------------
- */
+/* ---- attacks --------------------------------------------------------------------------------- */
 
 typedef void attacker(struct live *live, int64_t from_us);
 
-static void nobody(struct live *live, int64_t from_us)
+static void attack_with_nothing(struct live *live, int64_t from_us)
 {
     (void)live;
     (void)from_us;
 }
 
 /*
- * Each scan has as many plots as the messages hold, in one spot: every pair of them may be a
+ * Scans with as many plots as the messages hold, all near one place: every pair of plots may be a
  * target.
  */
-static void crowds_in_120_datagrams(struct live *live, int64_t from_us)
+static void attack_with_120_crowded_scans(struct live *live, int64_t from_us)
 {
     for (int16_t i = 0; i < 120; i++) {
-        add(live, (struct datagram){.received_us = from_us + i * 500,
-                                    .time_us = from_us + i / 12 * 300000,
-                                    .scan = i / 12,
-                                    .sensor_id = 9,
-                                    .part = i % 12,
-                                    .num_parts = 12,
-                                    .num_plots = 34,
-                                    .sigma_m = 20.0f,
-                                    .half_m = 100.0f});
+        add_datagram(live, (struct datagram){.received_us = from_us + i * 500,
+                                             .time_us = from_us + i / 12 * 300000,
+                                             .scan = i / 12,
+                                             .sensor_id = 9,
+                                             .part = i % 12,
+                                             .num_parts = 12,
+                                             .num_plots = 34,
+                                             .sigma_m = 20.0f,
+                                             .half_m = 100.0f});
     }
 }
 
-/* Nothing where the targets are: what misses them six times in a row ends their tracks. */
-static void scans_in_120_datagrams(struct live *live, int64_t from_us)
+/* Six scans in a row without plots of the targets would end their tracks by misses. */
+static void attack_with_120_empty_scans(struct live *live, int64_t from_us)
 {
     for (int16_t i = 0; i < 120; i++) {
-        add(live, (struct datagram){.received_us = from_us + i * 5000,
-                                    .time_us = from_us + i * 5000,
-                                    .scan = i,
-                                    .sensor_id = 9,
-                                    .num_plots = 1,
-                                    .sigma_m = 20.0f,
-                                    .half_m = 100.0f});
+        add_datagram(live, (struct datagram){.received_us = from_us + i * 5000,
+                                             .time_us = from_us + i * 5000,
+                                             .scan = i,
+                                             .sensor_id = 9,
+                                             .num_plots = 1,
+                                             .sigma_m = 20.0f,
+                                             .half_m = 100.0f});
     }
 }
 
-static void one_ahead_each_3_s(struct live *live, int64_t from_us)
+static void attack_with_a_scan_ahead_each_3_s(struct live *live, int64_t from_us)
 {
     for (int32_t i = 0; i < 20; i++) {
         const int64_t now_us = from_us + i * 3 * SECOND_US;
 
-        add(live, (struct datagram){.received_us = now_us,
-                                    .time_us = now_us + 3700000,
-                                    .scan = i,
-                                    .sensor_id = 9,
-                                    .num_plots = 1,
-                                    .sigma_m = 20.0f});
+        add_datagram(live, (struct datagram){.received_us = now_us,
+                                             .time_us = now_us + 3700000,
+                                             .scan = i,
+                                             .sensor_id = 9,
+                                             .num_plots = 1,
+                                             .sigma_m = 20.0f});
     }
 }
 
-static void eight_an_hour_ahead(struct live *live, int64_t from_us)
+static void attack_with_eight_scans_an_hour_ahead(struct live *live, int64_t from_us)
 {
     for (int32_t i = 0; i < 8; i++) {
         const int64_t now_us = from_us + i * 100000;
 
-        add(live, (struct datagram){.received_us = now_us,
-                                    .time_us = now_us + 3600 * SECOND_US,
-                                    .scan = i / 2,
-                                    .sensor_id = (int16_t)(8 + i % 2),
-                                    .num_plots = 1,
-                                    .sigma_m = 20.0f});
+        add_datagram(live, (struct datagram){.received_us = now_us,
+                                             .time_us = now_us + 3600 * SECOND_US,
+                                             .scan = i / 2,
+                                             .sensor_id = (int16_t)(8 + i % 2),
+                                             .num_plots = 1,
+                                             .sigma_m = 20.0f});
     }
 }
 
-/* As a sensor of another kind, in the number of the radar, which the config names. */
-static void polar_scans_in_its_number(struct live *live, int64_t from_us)
+/* Polar scans, another kind of sensor, under the radar's number, which the config names. */
+static void attack_with_polar_scans_of_its_number(struct live *live, int64_t from_us)
 {
     char reason[PARAMETER_REASON_BYTES];
 
     assert_true(parameters_assign(&live->parameters, "sensor.1.range_max_m", "100000",
                                   SOURCE_CONFIG, reason));
     for (int16_t i = 0; i < 120; i++) {
-        add(live, (struct datagram){.received_us = from_us + i * 5000,
-                                    .time_us = from_us + i * 5000,
-                                    .scan = i,
-                                    .sensor_id = 1,
-                                    .is_polar = 1});
+        add_datagram(live, (struct datagram){.received_us = from_us + i * 5000,
+                                             .time_us = from_us + i * 5000,
+                                             .scan = i,
+                                             .sensor_id = 1,
+                                             .is_polar = 1});
     }
 }
 
-/* Until the end. */
-static void an_empty_one_after_each_of_its(struct live *live, int64_t from_us)
+/* An empty scan after each of the radar's scans, until the end. */
+static void attack_with_an_empty_scan_after_each(struct live *live, int64_t from_us)
 {
     const int64_t interval_us = live->datagrams[1].time_us - live->datagrams[0].time_us;
 
     for (int32_t i = 0; i * interval_us < (end_s - attack_s) * SECOND_US; i++) {
         const int64_t time_us = from_us + i * interval_us + DELAY_US;
 
-        add(live, (struct datagram){.received_us = time_us + DELAY_US,
-                                    .time_us = time_us,
-                                    .scan = i,
-                                    .sensor_id = 9,
-                                    .num_plots = 1,
-                                    .sigma_m = 20.0f,
-                                    .half_m = 100.0f});
+        add_datagram(live, (struct datagram){.received_us = time_us + DELAY_US,
+                                             .time_us = time_us,
+                                             .scan = i,
+                                             .sensor_id = 9,
+                                             .num_plots = 1,
+                                             .sigma_m = 20.0f,
+                                             .half_m = 100.0f});
     }
 }
 
-static void try(struct live *live, int64_t interval_us, attacker *attack, const char *what)
+static void run_attack(struct live *live, int64_t interval_us, attacker *attack, const char *what)
 {
-    start(live, interval_us);
+    prepare_radar_run(live, interval_us);
     attack(live, START_US + attack_s * SECOND_US);
-    run(live);
+    run_node(live);
     print_message("  %-24s gap %.2f s, found after %.2f s, longest step %.3f s\n", what,
                   (double)live->gap_us / 1e6,
                   live->found_us ? (double)(live->found_us - START_US) / 1e6 - attack_s
@@ -374,57 +371,57 @@ static void try(struct live *live, int64_t interval_us, attacker *attack, const 
     node_core_close(live->core);
 }
 
-/* Beside what the radar alone does. */
-static void nobody_is_harmed(int64_t interval_us)
+/* Each attack compared with the radar alone: gaps and delays are hardly longer. */
+static void check_attacks_are_harmless(int64_t interval_us)
 {
     static const struct {
         attacker *attack;
         const char *what;
-    } attacks[] = {{crowds_in_120_datagrams, "120 datagrams, crowds"},
-                   {scans_in_120_datagrams, "120 datagrams, empty"},
-                   {one_ahead_each_3_s, "1 datagram each 3 s"},
-                   {eight_an_hour_ahead, "8 datagrams"},
-                   {polar_scans_in_its_number, "120 polar, in its number"},
-                   {an_empty_one_after_each_of_its, "1 after each, empty"}};
+    } attacks[] = {{attack_with_120_crowded_scans, "120 datagrams, crowds"},
+                   {attack_with_120_empty_scans, "120 datagrams, empty"},
+                   {attack_with_a_scan_ahead_each_3_s, "1 datagram each 3 s"},
+                   {attack_with_eight_scans_an_hour_ahead, "8 datagrams"},
+                   {attack_with_polar_scans_of_its_number, "120 polar, in its number"},
+                   {attack_with_an_empty_scan_after_each, "1 after each, empty"}};
     static struct live alone, live;
 
     print_message("a scan each %.2f s\n", (double)interval_us / 1e6);
-    try(&alone, interval_us, nobody, "nobody");
+    run_attack(&alone, interval_us, attack_with_nothing, "nobody");
     assert_true(alone.found_us > 0);
     for (unsigned i = 0; i < sizeof attacks / sizeof attacks[0]; i++) {
-        try(&live, interval_us, attacks[i].attack, attacks[i].what);
+        run_attack(&live, interval_us, attacks[i].attack, attacks[i].what);
         assert_true(live.gap_us <= alone.gap_us + 1500000);
         assert_true(live.found_us > 0 && live.found_us <= alone.found_us + SECOND_US);
     }
 }
 
-static void a_fast_radar_tracks_on(void **state)
+static void attacks_do_not_disturb_a_fast_radar(void **state)
 {
     (void)state;
     attack_s = 120;
     end_s = 180;
-    nobody_is_harmed(50000);
+    check_attacks_are_harmless(50000);
 }
 
-static void a_slow_radar_tracks_on(void **state)
+static void attacks_do_not_disturb_a_slow_radar(void **state)
 {
     (void)state;
     attack_s = 120;
     end_s = 180;
-    nobody_is_harmed(2500000);
+    check_attacks_are_harmless(2500000);
 }
 
-/* Between two of its scans it was not heard for more than half of jump_max_s. */
-static void a_radar_of_20_s_tracks_on(void **state)
+/* A radar of 20 s is silent between its scans for more than half of jump_max_s. */
+static void attacks_do_not_disturb_a_radar_of_20_s(void **state)
 {
     (void)state;
     attack_s = 600;
     end_s = 900;
-    nobody_is_harmed(20000000);
+    check_attacks_are_harmless(20000000);
 }
 
-/* Said once, however often it happens. */
-static void two_senders_of_one_number_are_told(void **state)
+/* Two senders are counted once, however often they alternate. */
+static void two_senders_of_one_sensor_number_are_counted(void **state)
 {
     static struct live live;
     struct node_sensors sensors = {.count = 0};
@@ -435,18 +432,18 @@ static void two_senders_of_one_number_are_told(void **state)
     (void)state;
     attack_s = 120;
     end_s = 180;
-    start(&live, SECOND_US);
+    prepare_radar_run(&live, SECOND_US);
     for (int32_t scan = 1; scan < 120; scan += 40) {
         const int64_t time_us = START_US + scan * SECOND_US;
 
-        add(&live, (struct datagram){.received_us = time_us + 2 * DELAY_US,
-                                     .time_us = time_us,
-                                     .scan = scan,
-                                     .sensor_id = 1,
-                                     .num_plots = 1,
-                                     .sigma_m = 20.0f});
+        add_datagram(&live, (struct datagram){.received_us = time_us + 2 * DELAY_US,
+                                              .time_us = time_us,
+                                              .scan = scan,
+                                              .sensor_id = 1,
+                                              .num_plots = 1,
+                                              .sigma_m = 20.0f});
     }
-    run(&live);
+    run_node(&live);
     for (int i = 0; i < 2; i++) {
         node_sensors_print_changes(&sensors, live.core, to);
     }
@@ -461,10 +458,10 @@ static void two_senders_of_one_number_are_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_fast_radar_tracks_on),
-        cmocka_unit_test(a_slow_radar_tracks_on),
-        cmocka_unit_test(a_radar_of_20_s_tracks_on),
-        cmocka_unit_test(two_senders_of_one_number_are_told),
+        cmocka_unit_test(attacks_do_not_disturb_a_fast_radar),
+        cmocka_unit_test(attacks_do_not_disturb_a_slow_radar),
+        cmocka_unit_test(attacks_do_not_disturb_a_radar_of_20_s),
+        cmocka_unit_test(two_senders_of_one_sensor_number_are_counted),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

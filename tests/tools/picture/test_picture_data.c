@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Walking through points by identity; an empty list has no memory (a null pointer was once moved by
- * 0).
+ * Iterating over points by identity; the empty list is a null pointer, which an earlier version
+ * advanced by 0.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@ static void an_empty_list_has_no_identities(void **state)
     assert_int_equal(at, 0);
 }
 
-static void identities_come_one_by_one(void **state)
+static void points_are_grouped_by_identity(void **state)
 {
     (void)state;
     struct plot_point list[3] = {{.id = 4}, {.id = 4}, {.id = 9}};
@@ -41,7 +41,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_empty_list_has_no_identities),
-        cmocka_unit_test(identities_come_one_by_one),
+        cmocka_unit_test(points_are_grouped_by_identity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_text: scenes out of texts, for the tests of scenes. A number off by more than four standard
- * deviations fails.
+ * scene_text: scenes from JSON text, for the tests of scenes. A figure off by more than four
+ * standard deviations fails.
  */
 #ifndef TESTS_SCENE_TEXT_H
 #define TESTS_SCENE_TEXT_H
@@ -24,7 +24,7 @@
 #include "scene/scene_observe.h"
 
 /*
- * A radar of 80 km in the origin, 30 m, 3 mrad, 4 s a turn from north on, clockwise; and these
+ * JSON of a radar: 80 km range at the origin, 30 m, 3 mrad, 4 s a turn clockwise from north; and
  * further keys.
  */
 #define RADAR(more)                                                                                \
@@ -70,10 +70,10 @@ static inline double sigma_of_moments(const struct moments *moments)
         }                                                                                          \
     } while (0)
 
-/* A count of independent things that is `expected` in the mean. */
+/* Asserts a count of independent events whose mean is `expected`. */
 #define assert_poisson(count, expected) assert_near(count, expected, 4.0 * sqrt(expected) + 1.0)
 
-/* A share of so many. */
+/* Asserts the share of `count` in `all`. */
 #define assert_share(count, total, share)                                                          \
     assert_near((double)(count) / (double)(total), share,                                          \
                 4.0 * sqrt((share) * (1.0 - (share)) / (double)(total)) + 1e-9)

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Bodies of scenes: where their scatterers are, how often each is seen, and what is refused. */
+/*
+ * Extended targets (bodies) of scenes: where their scatterers are, how often each is seen, and
+ * which descriptions are refused.
+ */
 #include "scene_text.h"
 
 #include "scene/scene_body.h"
@@ -11,7 +14,7 @@
     "{\"interval_s\": 1, \"range_m\": [0, 80000], \"sigma_range_m\": 0.001, "                      \
     "\"sigma_azimuth_rad\": 0.000001, \"sigma_range_rate_mps\": 0.001, \"pd\": 0.9}"
 
-static void places_fill_length_and_width(void **state)
+static void scatterers_fill_length_and_width(void **state)
 {
     const struct scene_body body = {.length_m = 10, .width_m = 4, .scatterers = 5};
     (void)state;
@@ -37,8 +40,8 @@ static void places_fill_length_and_width(void **state)
     }
 }
 
-/* The plots of a run, as places on the body: how many, and at how many different places. */
-static size_t watch(const char *more, double x_m, double *plots_a_scan)
+/* Counts plots of a run and the different places on the body that they come from. */
+static size_t count_places_seen_on_body(const char *more, double x_m, double *plots_a_scan)
 {
     char target[512], text[1024];
     double first_m[64] = {0};
@@ -75,18 +78,18 @@ static size_t watch(const char *more, double x_m, double *plots_a_scan)
     return places;
 }
 
-static void scatterers_stay_or_are_elsewhere(void **state)
+static void scatterers_are_fixed_or_drawn_anew_each_scan(void **state)
 {
     double plots;
     (void)state;
-    assert_int_equal(watch("", 1000, &plots), 5);
-    assert_true(fabs(plots - 3.0) < 0.3); /* 4 sigmas: 0.31 */
-    assert_int_equal(watch(", \"is_anew\": true", 1000, &plots), 64);
+    assert_int_equal(count_places_seen_on_body("", 1000, &plots), 5);
+    assert_true(fabs(plots - 3.0) < 0.3); /* 4 sigmas are 0.31 */
+    assert_int_equal(count_places_seen_on_body(", \"is_anew\": true", 1000, &plots), 64);
     assert_true(fabs(plots - 3.0) < 0.3);
 }
 
-/* A body that turns moves its ends: their range rates differ. */
-static void a_turning_body_turns_its_scatterers(void **state)
+/* The ends of a turning body move at different speeds: their range rates differ. */
+static void a_turning_body_has_range_rates_of_its_ends(void **state)
 {
     const char *text =
         SCENE("20", SHARP,
@@ -100,8 +103,10 @@ static void a_turning_body_turns_its_scatterers(void **state)
     assert_int_equal(first->num_plots, 2);
     const double apart_m = (first->plots[1].azimuth_rad - first->plots[0].azimuth_rad) * 20000.0;
     const double rates_mps = first->plots[1].range_rate_mps - first->plots[0].range_rate_mps;
-    /* a place d ahead on a body that turns to the left by w moves towards the sensor by w d; and
-     * lies d / r elsewhere, where the speed of 10 m/s has a part along the line of sight */
+    /*
+     * A point d ahead on a body that turns left at w moves towards the sensor at w d; seen d / r to
+     * the side, the speed of 10 m/s has a component along its line of sight.
+     */
     const double expected_mps = apart_m * (10.0 / 20000.0 - 3.0 * PORTABLE_PI / 180.0);
     assert_true(fabs(rates_mps - expected_mps) < 0.05);
     scene_run_free(run);
@@ -111,9 +116,9 @@ static void a_turning_body_turns_its_scatterers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(places_fill_length_and_width),
-        cmocka_unit_test(scatterers_stay_or_are_elsewhere),
-        cmocka_unit_test(a_turning_body_turns_its_scatterers),
+        cmocka_unit_test(scatterers_fill_length_and_width),
+        cmocka_unit_test(scatterers_are_fixed_or_drawn_anew_each_scan),
+        cmocka_unit_test(a_turning_body_has_range_rates_of_its_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

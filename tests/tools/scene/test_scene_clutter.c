@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Each source of a scene's clutter: how many plots, where, when, how often; and that none changes
- * what is seen of targets.
+ * Each source of a scene's clutter: number, place, time and rate of its plots; and that no source
+ * changes the plots of targets.
  */
 #include "scene_text.h"
 
@@ -14,8 +14,8 @@ struct seen {
     struct moments scan, range, azimuth, x, y, rate;
 };
 
-/* All clutter of a scene, in time order; its moments. */
-static struct seen look_at(const char *text)
+/* All clutter of a scene in order of time, and its moments. */
+static struct seen collect_clutter(const char *text)
 {
     struct seen seen = {.scene = scene_of_text(text)};
 
@@ -37,7 +37,7 @@ static struct seen look_at(const char *text)
                 add_moment(&seen.y, plot->range_m * sin(plot->azimuth_rad));
                 add_moment(&seen.rate, plot->range_rate_mps);
                 assert_true(plot->t_s <= scan->end_s && plot->t_s >= scan->end_s - 4.0000001);
-                /* when the antenna looked there, but for the noise of things that are measured */
+                /* the plot's time is when the antenna pointed at it, but for azimuth noise */
                 assert_near(remainder(looked_rad - plot->azimuth_rad, PORTABLE_TURN), 0, 0.02);
             }
         }
@@ -46,16 +46,16 @@ static struct seen look_at(const char *text)
     return seen;
 }
 
-static void end_look(struct seen *seen)
+static void free_clutter(struct seen *seen)
 {
     scene_run_free(seen->run);
     scene_free(seen->scene);
 }
 
-static void uniform_clutter(void **state)
+static void uniform_clutter_fills_the_area_evenly(void **state)
 {
     (void)state;
-    struct seen seen = look_at(
+    struct seen seen = collect_clutter(
         SCENE("4000", RADAR(", \"sigma_range_rate_mps\": 1"),
               CLUTTER("{\"kind\": \"uniform\", \"plots\": 50, \"range_rate_max_mps\": 90}")));
 
@@ -66,28 +66,30 @@ static void uniform_clutter(void **state)
     assert_near(mean_of_moments(&seen.azimuth), 0, 4 * 1.81 / sqrt(seen.range.count));
     assert_near(sigma_of_moments(&seen.azimuth), PORTABLE_TURN / sqrt(12), 0.02);
     assert_near(sigma_of_moments(&seen.rate), 180 / sqrt(12), 0.6);
-    end_look(&seen);
-    seen = look_at(SCENE("4000", RADAR(""),
-                         CLUTTER("{\"kind\": \"uniform\", \"plots\": 20, \"range_m\": [5000, 9000],"
-                                 "\"sector_rad\": [3, -3], \"from_s\": 1000, \"until_s\": 3000}")));
+    free_clutter(&seen);
+    seen = collect_clutter(
+        SCENE("4000", RADAR(""),
+              CLUTTER("{\"kind\": \"uniform\", \"plots\": 20, \"range_m\": [5000, 9000],"
+                      "\"sector_rad\": [3, -3], \"from_s\": 1000, \"until_s\": 3000}")));
     assert_near(mean_of_moments(&seen.scan), 10, 4 * sqrt(20. / 500) / 2);
     assert_near(mean_of_moments(&seen.range), 7000, 4 * 1155 / sqrt(seen.range.count));
     assert_near(mean_of_moments(&seen.x), -7000 * sin(0.1416) / 0.1416, 60);
-    end_look(&seen);
+    free_clutter(&seen);
 }
 
-static void a_cell_drifts(void **state)
+static void a_weather_cell_drifts_with_the_wind(void **state)
 {
     (void)state;
-    struct seen seen =
-        look_at(SCENE("4000", RADAR(", \"sigma_range_rate_mps\": 1"),
-                      CLUTTER("{\"kind\": \"cell\", \"plots\": 30, \"at_m\": [-30000, 20000],"
-                              "\"velocity_mps\": [10, 0], \"radius_m\": 2000}")));
+    struct seen seen = collect_clutter(
+        SCENE("4000", RADAR(", \"sigma_range_rate_mps\": 1"),
+              CLUTTER("{\"kind\": \"cell\", \"plots\": 30, \"at_m\": [-30000, 20000],"
+                      "\"velocity_mps\": [10, 0], \"radius_m\": 2000}")));
     size_t last = seen.run->num_scans - 1;
     struct moments x = {0};
 
     assert_near(mean_of_moments(&seen.scan), 30, 4 * sqrt(30. / TURNS));
-    assert_near(mean_of_moments(&seen.x), -10000, 4 * 11700 / sqrt(seen.x.count)); /* half way */
+    /* half of the way */
+    assert_near(mean_of_moments(&seen.x), -10000, 4 * 11700 / sqrt(seen.x.count));
     assert_near(mean_of_moments(&seen.y), 20000, 4 * 2000 / sqrt(seen.y.count));
     assert_near(sigma_of_moments(&seen.y), 2000, 4 * 2000 / sqrt(2 * seen.y.count));
     for (size_t i = last - 50; i < last; i++) {
@@ -98,8 +100,8 @@ static void a_cell_drifts(void **state)
         }
     }
     assert_near(mean_of_moments(&x), -30000, 4 * 2000 / sqrt(x.count));
-    end_look(&seen);
-    seen = look_at(SCENE(
+    free_clutter(&seen);
+    seen = collect_clutter(SCENE(
         "4000", RADAR(""),
         CLUTTER(
             "{\"kind\": \"cell\", \"shape\": \"disc\", \"plots\": 30, \"at_m\": [-30000, 20000],"
@@ -113,16 +115,16 @@ static void a_cell_drifts(void **state)
                               plot->range_m * sin(plot->azimuth_rad) - 20000) < 2000.1);
         }
     }
-    end_look(&seen);
+    free_clutter(&seen);
 }
 
-static void towers_stand(void **state)
+static void clutter_of_towers_stands_still(void **state)
 {
     (void)state;
-    struct seen seen =
-        look_at(SCENE("4000", RADAR(", \"sigma_range_rate_mps\": 1"),
-                      CLUTTER("{\"kind\": \"standing\", \"places_m\": [[20000, 0], [0, -50000]],"
-                              "\"pd\": 0.5}")));
+    struct seen seen = collect_clutter(
+        SCENE("4000", RADAR(", \"sigma_range_rate_mps\": 1"),
+              CLUTTER("{\"kind\": \"standing\", \"places_m\": [[20000, 0], [0, -50000]],"
+                      "\"pd\": 0.5}")));
     struct moments far = {0}, azimuth = {0};
 
     assert_share(seen.range.count, 2 * TURNS, 0.5);
@@ -141,40 +143,40 @@ static void towers_stand(void **state)
     assert_near(mean_of_moments(&far), 50000, 4 * 30 / sqrt(far.count));
     assert_near(sigma_of_moments(&far), 30, 4 * 30 / sqrt(2 * far.count));
     assert_near(sigma_of_moments(&azimuth), 0.003, 4 * 0.003 / sqrt(2 * far.count));
-    end_look(&seen);
-    seen = look_at(SCENE(
+    free_clutter(&seen);
+    seen = collect_clutter(SCENE(
         "400", RADAR(""),
         CLUTTER(
             "{\"kind\": \"standing\", \"count\": 2000, \"pd\": 1, \"range_m\": [20000, 60000]}")));
     assert_true(seen.range.count == 2000 * 100);
-    /* even over the area: the mean of the square */
+    /* uniform over the area: mean of the square */
     assert_near(seen.range.squares / seen.range.count, 2e9, 4 * 0.92e9 / sqrt(2000));
-    end_look(&seen);
+    free_clutter(&seen);
 }
 
-static void spikes_last_some_scans(void **state)
+static void sea_spikes_last_some_scans(void **state)
 {
     (void)state;
-    struct seen seen = look_at(SCENE(
+    struct seen seen = collect_clutter(SCENE(
         "40000", RADAR(""),
         CLUTTER("{\"kind\": \"spikes\", \"born_per_s\": 0.05, \"life_s\": [8, 32], \"pd\": 0.7,"
                 "\"range_m\": [3000, 9000], \"speed_mps\": 2}")));
 
-    /* 20 s of life, five turns, of each; some are alive at the start */
+    /* each lives for 20 s, five turns; some are alive at the start */
     assert_near(seen.range.count, 40000 * 0.05 * 5 * 0.7, 4 * 0.7 * sqrt(40000 * 0.05 * (25 + 3)));
     assert_near(mean_of_moments(&seen.x), 0, 400);
     assert_true(seen.range.count > 0 && sigma_of_moments(&seen.x) > 3000 &&
                 sigma_of_moments(&seen.x) < 6000);
-    end_look(&seen);
+    free_clutter(&seen);
 }
 
-static void a_strobe_is_a_wedge(void **state)
+static void a_jamming_strobe_fills_a_wedge(void **state)
 {
     (void)state;
     struct seen seen =
-        look_at(SCENE("400", RADAR(""),
-                      CLUTTER("{\"kind\": \"strobe\", \"plots\": 60, \"azimuth_rad\": 0.5,"
-                              "\"width_rad\": 0.04, \"azimuth_radps\": 0.001}")));
+        collect_clutter(SCENE("400", RADAR(""),
+                              CLUTTER("{\"kind\": \"strobe\", \"plots\": 60, \"azimuth_rad\": 0.5,"
+                                      "\"width_rad\": 0.04, \"azimuth_radps\": 0.001}")));
     struct moments off = {0};
 
     assert_near(mean_of_moments(&seen.scan), 60, 4 * sqrt(60. / 100));
@@ -187,13 +189,13 @@ static void a_strobe_is_a_wedge(void **state)
     assert_near(mean_of_moments(&off), 0, 4 * 0.0116 / sqrt(off.count));
     assert_near(sigma_of_moments(&off), 0.04 / sqrt(12), 0.0004);
     assert_near(mean_of_moments(&seen.range), 40500, 4 * 22800 / sqrt(seen.range.count));
-    end_look(&seen);
+    free_clutter(&seen);
 }
 
-static void birds_flock(void **state)
+static void birds_fly_together_as_a_flock(void **state)
 {
     (void)state;
-    struct seen seen = look_at(SCENE(
+    struct seen seen = collect_clutter(SCENE(
         "2000", RADAR(""),
         CLUTTER("{\"kind\": \"flock\", \"count\": 100, \"at_m\": [30000, 0], \"radius_m\": 3000,"
                 "\"velocity_mps\": [-10, 5], \"speed_mps\": 4, \"pd\": 0.5}")));
@@ -201,7 +203,7 @@ static void birds_flock(void **state)
     assert_share(seen.range.count, 100 * 500, 0.5);
     assert_near(mean_of_moments(&seen.x), 20000, 4 * 3000 / sqrt(100));
     assert_near(mean_of_moments(&seen.y), 5000, 4 * 3000 / sqrt(100));
-    for (size_t i = 0; i < 100; i++) { /* slower than the flock and 1.5 times 4 m/s */
+    for (size_t i = 0; i < 100; i++) { /* speed: that of the flock and 1.5 times 4 m/s at most */
         size_t count, num_paths;
         struct scene_path *paths;
         struct scene_mover *birds =
@@ -212,21 +214,21 @@ static void birds_flock(void **state)
         assert_true(hypot(at.vx_mps + 10, at.vy_mps - 5) < 6.001);
         free(birds);
     }
-    end_look(&seen);
+    free_clutter(&seen);
 }
 
-static void echoes_of_the_second_time(void **state)
+static void second_time_echoes_are_folded_in_range(void **state)
 {
     (void)state;
-    struct seen seen =
-        look_at(SCENE("400", RADAR(", \"sigma_range_rate_mps\": 1"),
-                      CLUTTER("{\"kind\": \"second-time-around\", \"unambiguous_range_m\": 80000, "
-                              "\"pd\": 1, \"targets\":"
-                              "[{\"at_m\": [100000, 0], \"velocity_mps\": [50, 0]},"
-                              "{\"at_m\": [0, 70000], \"speed_mps\": 0, \"heading_rad\": 0}]}")));
+    struct seen seen = collect_clutter(
+        SCENE("400", RADAR(", \"sigma_range_rate_mps\": 1"),
+              CLUTTER("{\"kind\": \"second-time-around\", \"unambiguous_range_m\": 80000, "
+                      "\"pd\": 1, \"targets\":"
+                      "[{\"at_m\": [100000, 0], \"velocity_mps\": [50, 0]},"
+                      "{\"at_m\": [0, 70000], \"speed_mps\": 0, \"heading_rad\": 0}]}")));
     struct moments off = {0};
 
-    assert_int_equal(seen.run->num_paths, 0); /* they are no targets */
+    assert_int_equal(seen.run->num_paths, 0); /* birds are no targets */
     assert_true(seen.range.count == 100);
     for (size_t i = 0; i < seen.run->num_scans; i++) {
         const struct scene_plot *plot = &seen.run->scans[i].plots[0];
@@ -236,14 +238,14 @@ static void echoes_of_the_second_time(void **state)
         assert_near(plot->range_rate_mps, 50, 5);
     }
     assert_near(mean_of_moments(&off), 0, 4 * 30 / sqrt(off.count));
-    end_look(&seen);
+    free_clutter(&seen);
 }
 
 /*
- * Of a target that climbs: always so many, even in the ball, with the ways from its last place; and
- * its own plot's noise.
+ * Clutter about a climbing target: its number is constant and it fills the ball, spread also by the
+ * target's motion and noise.
  */
-static void clutter_stays_about_a_target(void **state)
+static void clutter_about_a_target_moves_with_it(void **state)
 {
     (void)state;
     struct scene *scene = scene_of_text(SCENE(
@@ -291,7 +293,7 @@ static void clutter_stays_about_a_target(void **state)
     scene_free(scene);
 }
 
-static void clutter_changes_no_target(void **state)
+static void adding_clutter_changes_no_plot_of_a_target(void **state)
 {
     (void)state;
     const char *targets =
@@ -308,8 +310,8 @@ static void clutter_changes_no_target(void **state)
                   "{\"kind\": \"uniform\", \"plots\": 50}, {\"kind\": \"standing\", \"count\": 9},"
                   "{\"kind\": \"spikes\", \"born_per_s\": 1, \"life_s\": 9}")),
         targets);
-    one = look_at(plain);
-    other = look_at(full);
+    one = collect_clutter(plain);
+    other = collect_clutter(full);
     assert_int_equal(one.run->num_scans, other.run->num_scans);
     for (size_t i = 0; i < one.run->num_scans; i++) {
         const struct scene_scan *few = &one.run->scans[i], *many = &other.run->scans[i];
@@ -328,22 +330,22 @@ static void clutter_changes_no_target(void **state)
     }
     assert_int_equal(found, same);
     assert_true(found > 1000);
-    end_look(&one);
-    end_look(&other);
+    free_clutter(&one);
+    free_clutter(&other);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uniform_clutter),
-        cmocka_unit_test(a_cell_drifts),
-        cmocka_unit_test(towers_stand),
-        cmocka_unit_test(spikes_last_some_scans),
-        cmocka_unit_test(a_strobe_is_a_wedge),
-        cmocka_unit_test(birds_flock),
-        cmocka_unit_test(echoes_of_the_second_time),
-        cmocka_unit_test(clutter_stays_about_a_target),
-        cmocka_unit_test(clutter_changes_no_target),
+        cmocka_unit_test(uniform_clutter_fills_the_area_evenly),
+        cmocka_unit_test(a_weather_cell_drifts_with_the_wind),
+        cmocka_unit_test(clutter_of_towers_stands_still),
+        cmocka_unit_test(sea_spikes_last_some_scans),
+        cmocka_unit_test(a_jamming_strobe_fills_a_wedge),
+        cmocka_unit_test(birds_fly_together_as_a_flock),
+        cmocka_unit_test(second_time_echoes_are_folded_in_range),
+        cmocka_unit_test(clutter_about_a_target_moves_with_it),
+        cmocka_unit_test(adding_clutter_changes_no_plot_of_a_target),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

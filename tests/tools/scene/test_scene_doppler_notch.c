@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Radars of scenes that are blind at some range rates, whether they measure them or not; and what
- * a tracker is told of that.
+ * Radars of scenes that are blind at some range rates, whether they measure range rates or not; and
+ * what a tracker is told of it.
  */
 #include "scene_text.h"
 
@@ -11,12 +11,12 @@
     ", \"targets\": [{\"count\": 40, \"range_m\": [5000, 60000], \"speed_mps\": [50, 200], "       \
     "\"keep_range_m\": [2000, 79000]}]"
 
-/* Plots over the looks that there were, of range rates within the zones, and beyond them. */
+/* Plots and looks at range rates within the blind zones, and outside them. */
 struct seen {
     double blind, blind_looks, open, open_looks;
 };
 
-static struct seen watch(const char *radar, double notch_mps, double blind_mps)
+static struct seen count_seen_by_range_rate(const char *radar, double notch_mps, double blind_mps)
 {
     char text[1024];
     struct seen seen = {0, 0, 0, 0};
@@ -35,7 +35,8 @@ static struct seen watch(const char *radar, double notch_mps, double blind_mps)
             for (size_t n = 0; n < run->scans[i].num_plots; n++) {
                 is_plot = is_plot || run->scans[i].plots[n].target_id == (int)k;
             }
-            if (off < notch_mps - 6) { /* between the look and the end of the scan it changes */
+            /* + 6: the range rate changes between the look and the end of the scan */
+            if (off < notch_mps - 6) {
                 seen.blind += is_plot;
                 seen.blind_looks += 1;
             } else if (off > notch_mps + 6) {
@@ -49,7 +50,7 @@ static struct seen watch(const char *radar, double notch_mps, double blind_mps)
     return seen;
 }
 
-static void a_notch_takes_plots(void **state)
+static void no_plots_have_range_rates_within_the_notch(void **state)
 {
     static const char *const more[] = {"", ", \"sigma_range_rate_mps\": 1"};
     (void)state;
@@ -58,31 +59,31 @@ static void a_notch_takes_plots(void **state)
 
         snprintf(radar, sizeof radar,
                  RADAR(", \"pd\": 0.8, \"notch_mps\": 20, \"notch_pd\": 0.1%s"), more[i]);
-        const struct seen seen = watch(radar, 20, 0);
+        const struct seen seen = count_seen_by_range_rate(radar, 20, 0);
         assert_true(seen.blind_looks > 100);
         assert_share(seen.blind, seen.blind_looks, 0.1);
         assert_share(seen.open, seen.open_looks, 0.8);
     }
 }
 
-static void so_do_blind_speeds(void **state)
+static void no_plots_have_range_rates_near_blind_speeds(void **state)
 {
     (void)state;
-    const struct seen seen =
-        watch(RADAR(", \"pd\": 0.8, \"notch_mps\": 12, \"blind_speed_mps\": 70"), 12, 70);
+    const struct seen seen = count_seen_by_range_rate(
+        RADAR(", \"pd\": 0.8, \"notch_mps\": 12, \"blind_speed_mps\": 70"), 12, 70);
     assert_true(seen.blind_looks > 300);
     assert_share(seen.blind, seen.blind_looks, 0.0);
     assert_share(seen.open, seen.open_looks, 0.8);
 }
 
-static void without_one_all_is_seen(void **state)
+static void without_a_notch_every_range_rate_is_seen(void **state)
 {
     (void)state;
-    const struct seen seen = watch(RADAR(", \"pd\": 0.8"), 20, 0);
+    const struct seen seen = count_seen_by_range_rate(RADAR(", \"pd\": 0.8"), 20, 0);
     assert_share(seen.blind, seen.blind_looks, 0.8);
 }
 
-static void probabilities_are_the_lower_ones(void **state)
+static void pd_in_the_notch_is_the_lower_one(void **state)
 {
     const struct scene_notch notch = {.mps = 5, .pd = 0.5, .blind_mps = 30};
     (void)state;
@@ -93,7 +94,7 @@ static void probabilities_are_the_lower_ones(void **state)
     assert_near(scene_notch_pd(&notch, 54.9, 0.9), 0.9, 0);
 }
 
-static void a_tracker_is_told_the_truth_or_not(void **state)
+static void the_tracker_may_be_told_another_notch(void **state)
 {
     char text[128] = "";
     struct scene *scene = scene_of_text(SCENE(
@@ -111,11 +112,11 @@ static void a_tracker_is_told_the_truth_or_not(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_notch_takes_plots),
-        cmocka_unit_test(so_do_blind_speeds),
-        cmocka_unit_test(without_one_all_is_seen),
-        cmocka_unit_test(probabilities_are_the_lower_ones),
-        cmocka_unit_test(a_tracker_is_told_the_truth_or_not),
+        cmocka_unit_test(no_plots_have_range_rates_within_the_notch),
+        cmocka_unit_test(no_plots_have_range_rates_near_blind_speeds),
+        cmocka_unit_test(without_a_notch_every_range_rate_is_seen),
+        cmocka_unit_test(pd_in_the_notch_is_the_lower_one),
+        cmocka_unit_test(the_tracker_may_be_told_another_notch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

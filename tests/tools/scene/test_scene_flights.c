@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Flights of scenes: always as many in the air, within their box and speeds; how they begin and
- * end; meetings.
+ * Random flights of scenes: constant number in the air, within box and speed limits; how they begin
+ * and end; meetings.
  */
 #include "scene_text.h"
 
@@ -39,7 +39,7 @@ static double speed_of(const struct motion *at)
     return hypot(at->vx_mps, at->vy_mps);
 }
 
-static void as_many_are_always_in_the_air(void **state)
+static void the_number_of_flights_in_the_air_is_constant(void **state)
 {
     (void)state;
     size_t count;
@@ -56,8 +56,8 @@ static void as_many_are_always_in_the_air(void **state)
     free_flights(paths, count);
 }
 
-/* Renewals of 400 flights: as many begin in both halves. */
-static void flights_last_and_come_and_go_all_the_time(void **state)
+/* Of 400 flights, as many begin in the first half as in the second. */
+static void flights_begin_and_end_evenly_over_time(void **state)
 {
     (void)state;
     size_t count, early = 0, late = 0;
@@ -74,7 +74,7 @@ static void flights_last_and_come_and_go_all_the_time(void **state)
     free_flights(paths, count);
 }
 
-/* Shares of the steps. */
+/* Shares of the steps, in straight flight, turns and speed changes. */
 struct tally {
     double steps, turning, slow, changing;
 };
@@ -90,9 +90,10 @@ static void check_step(const struct motion *from, const struct motion *to, struc
     assert_true(fabs(to->x_m) <= HALF_M && fabs(to->y_m) <= HALF_M);
     assert_true(speed_mps >= 80.0 - 1e-6 && speed_mps <= 260.0 + 1e-6);
     assert_true(turned_rad <= STEP_S * 3.0 * PORTABLE_PI / 180.0 + 1e-9);
-    assert_true(turned_rad * speed_mps <= STEP_S * 8.0 + 12.0); /* a speed change besides */
+    /* 8 m/s^2 across, and up to 12 m/s for a speed change */
+    assert_true(turned_rad * speed_mps <= STEP_S * 8.0 + 12.0);
     assert_true(change_mps <= STEP_S * 1.2 + 1e-6);
-    /* a way is no longer than its speed allows, and an arc of 30 degrees 1.2 % shorter */
+    /* the step's length is at most its speed's, and an arc of 30 degrees is 1.2 % shorter */
     assert_true(way_m <= STEP_S * (mean_mps + 6.0) && way_m >= 0.985 * STEP_S * (mean_mps - 6.0));
     tally->steps += 1.0;
     tally->turning += turned_rad > 1e-6;
@@ -100,7 +101,7 @@ static void check_step(const struct motion *from, const struct motion *to, struc
     tally->changing += change_mps > 1e-6;
 }
 
-static void flights_keep_to_their_box_speeds_and_turn_rates(void **state)
+static void flights_stay_within_box_speed_and_turn_limits(void **state)
 {
     (void)state;
     size_t count;
@@ -123,13 +124,13 @@ static void flights_keep_to_their_box_speeds_and_turn_rates(void **state)
     free_flights(paths, count);
 }
 
-/* A second's way, at the border. */
+/* Whether a flight is within one second of flight from the border. */
 static bool is_at_border(const struct motion *at)
 {
     return fmax(fabs(at->x_m), fabs(at->y_m)) > HALF_M - 261.0;
 }
 
-static void flights_come_over_the_border_and_from_the_ground(void **state)
+static void flights_begin_at_the_border_or_on_the_ground(void **state)
 {
     (void)state;
     size_t count;
@@ -152,8 +153,8 @@ static void flights_come_over_the_border_and_from_the_ground(void **state)
     free_flights(paths, count);
 }
 
-/* Pairs that are within 1 km at some scan. */
-static size_t count_meetings(double crossing_share)
+/* Counts pairs of flights that are within 1 km of each other at some scan. */
+static size_t count_pairs_within_1_km(double crossing_share)
 {
     size_t count, meetings = 0;
     struct scene_path *paths = flights_of(50, crossing_share, 3600, 1, &count);
@@ -174,16 +175,16 @@ static size_t count_meetings(double crossing_share)
     return meetings;
 }
 
-static void a_share_of_flights_meets_another(void **state)
+static void crossing_share_sets_how_many_flights_meet(void **state)
 {
     (void)state;
-    size_t some = count_meetings(0.5), none = count_meetings(0.0);
+    size_t some = count_pairs_within_1_km(0.5), none = count_pairs_within_1_km(0.0);
 
     print_message("%zu scans of pairs within 1 km, %zu where nobody is sent to meet\n", some, none);
     assert_true(some >= 40 && none <= some / 3);
 }
 
-static void a_seed_gives_the_same_flights_again(void **state)
+static void the_same_seed_gives_the_same_flights(void **state)
 {
     (void)state;
     size_t one_count, again_count, other_count;
@@ -204,12 +205,12 @@ static void a_seed_gives_the_same_flights_again(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_many_are_always_in_the_air),
-        cmocka_unit_test(flights_last_and_come_and_go_all_the_time),
-        cmocka_unit_test(flights_keep_to_their_box_speeds_and_turn_rates),
-        cmocka_unit_test(flights_come_over_the_border_and_from_the_ground),
-        cmocka_unit_test(a_share_of_flights_meets_another),
-        cmocka_unit_test(a_seed_gives_the_same_flights_again),
+        cmocka_unit_test(the_number_of_flights_in_the_air_is_constant),
+        cmocka_unit_test(flights_begin_and_end_evenly_over_time),
+        cmocka_unit_test(flights_stay_within_box_speed_and_turn_limits),
+        cmocka_unit_test(flights_begin_at_the_border_or_on_the_ground),
+        cmocka_unit_test(crossing_share_sets_how_many_flights_meet),
+        cmocka_unit_test(the_same_seed_gives_the_same_flights),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

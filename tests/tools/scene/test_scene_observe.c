@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a scene's sensors see of its targets: when the antenna meets them, noise, biases,
- * detections, coverage, resolution, and what events do. Seeds are fixed; bounds are four standard
- * deviations.
+ * What a scene's sensors see of its targets: antenna timing, noise, biases, detections, coverage,
+ * resolution, and events. Seeds are fixed; bounds are four standard deviations.
  */
 #include "scene_text.h"
 
@@ -12,19 +11,19 @@
 #define STANDING_ONE                                                                               \
     "\"targets\": [{\"at_m\": [30000, 40000], \"speed_mps\": 0, \"heading_rad\": 0}]"
 
-static struct scene_run *watch_text(const char *text, struct scene **scene, uint64_t seed)
+static struct scene_run *observe_scene_text(const char *text, struct scene **scene, uint64_t seed)
 {
     *scene = scene_of_text(text);
     return scene_observe(*scene, seed, 0);
 }
 
-static void end_watch(struct scene_run *run, struct scene *scene)
+static void free_observation(struct scene_run *run, struct scene *scene)
 {
     scene_run_free(run);
     scene_free(scene);
 }
 
-static size_t all_plots(const struct scene_run *run)
+static size_t count_all_plots(const struct scene_run *run)
 {
     size_t count = 0;
 
@@ -35,12 +34,13 @@ static size_t all_plots(const struct scene_run *run)
 }
 
 /*
- * Errors of all plots against the truth at their own times, in sigmas; and where the antenna was.
+ * Checks errors of all plots against the truth at their own times, in sigmas, and the antenna's
+ * azimuth.
  */
-static void check_plots(const char *text, const double bias[2], bool turns)
+static void check_plot_errors(const char *text, const double bias[2], bool turns)
 {
     struct scene *scene;
-    struct scene_run *run = watch_text(text, &scene, 1);
+    struct scene_run *run = observe_scene_text(text, &scene, 1);
     struct moments range = {0}, azimuth = {0}, rate = {0};
     const struct scene_sensor *sensor = &scene->sensors[0];
 
@@ -64,7 +64,7 @@ static void check_plots(const char *text, const double bias[2], bool turns)
             assert_true(plot->t_s >= scan->end_s -
                                          (turns ? sensor->turn_s / (double)sensor->sectors : 0) -
                                          1e-9);
-            if (turns) { /* the antenna says the target's azimuth, with its bias */
+            if (turns) { /* the antenna's azimuth is the target's, with its bias */
                 assert_near(remainder(looked_rad - azimuth_rad - bias[1], PORTABLE_TURN), 0, 1e-9);
             }
         }
@@ -79,55 +79,58 @@ static void check_plots(const char *text, const double bias[2], bool turns)
         assert_near(mean_of_moments(&rate), 0, 8 / sqrt(range.count));
         assert_near(sigma_of_moments(&rate), 2, 8 / sqrt(2 * range.count));
     }
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-static void turning_radars_measure(void **state)
+static void turning_radars_measure_with_their_noise_and_biases(void **state)
 {
     (void)state;
     const double none[2] = {0, 0}, some[2] = {70, -0.01};
 
-    check_plots(SCENE("400", RADAR(""), "," FLYERS), none, true);
-    check_plots(SCENE("402",
-                      RADAR(", \"sectors\": 32, \"start_s\": 1.7, \"sigma_range_rate_mps\": 2"),
-                      "," FLYERS),
-                none, true);
-    check_plots(
+    check_plot_errors(SCENE("400", RADAR(""), "," FLYERS), none, true);
+    check_plot_errors(
+        SCENE("402", RADAR(", \"sectors\": 32, \"start_s\": 1.7, \"sigma_range_rate_mps\": 2"),
+              "," FLYERS),
+        none, true);
+    check_plot_errors(
         SCENE("400", RADAR(", \"range_bias_m\": 70, \"azimuth_bias_rad\": -0.01"), "," FLYERS),
         some, true);
 }
 
-static void others_look_everywhere_at_once(void **state)
+static void radars_that_do_not_turn_see_all_targets_at_once(void **state)
 {
     (void)state;
     const double none[2] = {0, 0};
 
-    check_plots(SCENE("200",
-                      "{\"interval_s\": 2, \"range_m\": [1000, 80000], \"sigma_range_m\": 30, "
-                      "\"sigma_azimuth_rad\": 0.003}",
-                      "," FLYERS),
-                none, false);
+    check_plot_errors(
+        SCENE("200",
+              "{\"interval_s\": 2, \"range_m\": [1000, 80000], \"sigma_range_m\": 30, "
+              "\"sigma_azimuth_rad\": 0.003}",
+              "," FLYERS),
+        none, false);
 }
 
-/* A radar that measures x and y has no place of its own: what passes the origin is seen, too. */
-static void planes_have_no_blind_spot(void **state)
+/*
+ * A radar that measures x and y has no place of its own, so it sees targets that pass the origin.
+ */
+static void radars_of_x_and_y_see_targets_at_the_origin(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run =
-        watch_text(SCENE("7", "{\"interval_s\": 1, \"sigma_m\": 1, \"pd\": 1}",
-                         ", \"targets\": [{\"at_m\": [-300, 0], \"velocity_mps\": [100, 0]}]"),
-                   &scene, 1);
+    struct scene_run *run = observe_scene_text(
+        SCENE("7", "{\"interval_s\": 1, \"sigma_m\": 1, \"pd\": 1}",
+              ", \"targets\": [{\"at_m\": [-300, 0], \"velocity_mps\": [100, 0]}]"),
+        &scene, 1);
 
-    assert_int_equal(all_plots(run), 7);
-    end_watch(run, scene);
+    assert_int_equal(count_all_plots(run), 7);
+    free_observation(run, scene);
 }
 
-static void ambiguous_range_rates_are_folded(void **state)
+static void ambiguous_range_rates_are_folded_into_their_interval(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_text(
+    struct scene_run *run = observe_scene_text(
         SCENE("400", RADAR(", \"sigma_range_rate_mps\": 0.001, \"range_rate_span_mps\": 40"),
               "," FLYERS),
         &scene, 1);
@@ -142,17 +145,18 @@ static void ambiguous_range_rates_are_folded(void **state)
             assert_near(remainder(plot->range_rate_mps - rate, 40), 0, 0.01);
         }
     }
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-static void coverage_ends(void **state)
+static void no_plots_come_from_beyond_the_coverage(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_text(SCENE("4000", RADAR(", \"sector_rad\": [3, -2], \"pd\": 1"),
-                                             ",\"targets\": [{\"count\": 100, \"range_m\": [0, "
-                                             "100000], \"speed_mps\": [100, 300]}]"),
-                                       &scene, 1);
+    struct scene_run *run =
+        observe_scene_text(SCENE("4000", RADAR(", \"sector_rad\": [3, -2], \"pd\": 1"),
+                                 ",\"targets\": [{\"count\": 100, \"range_m\": [0, "
+                                 "100000], \"speed_mps\": [100, 300]}]"),
+                           &scene, 1);
     size_t covered = 0;
 
     for (size_t i = 0; i < run->num_scans; i++) {
@@ -173,15 +177,16 @@ static void coverage_ends(void **state)
         assert_near(run->scans[i].to_rad, -2, 1e-12);
     }
     assert_true(covered > 1000);
-    assert_near((double)all_plots(run), (double)covered, 200); /* each end of a life by a turn */
-    end_watch(run, scene);
+    /* +- one turn at each end of a target's life */
+    assert_near((double)count_all_plots(run), (double)covered, 200);
+    free_observation(run, scene);
 }
 
-static void pd_follows_the_range(void **state)
+static void pd_falls_with_range(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_text(
+    struct scene_run *run = observe_scene_text(
         SCENE("8000", RADAR(", \"pd\": [[20000, 0.9], [60000, 0.5]]"),
               ",\"targets\": [{\"at_m\": [10000, 0], \"speed_mps\": 0, \"heading_rad\": 0},"
               "{\"at_m\": [0, 40000], \"speed_mps\": 0, \"heading_rad\": 0},"
@@ -198,14 +203,14 @@ static void pd_follows_the_range(void **state)
     assert_share(seen[0], 2000, 0.9);
     assert_share(seen[1], 2000, 0.7);
     assert_share(seen[2], 2000, 0.5);
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-static void outages_masks_and_fades(void **state)
+static void outages_and_masks_suppress_plots(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_text(
+    struct scene_run *run = observe_scene_text(
         SCENE("4000", RADAR(", \"pd\": 1"),
               "," STANDING_ONE
               ", \"events\": [{\"kind\": \"outage\", \"from_s\": 401, \"until_s\": 500},"
@@ -234,16 +239,17 @@ static void outages_masks_and_fades(void **state)
             faded += run->scans[i].num_plots;
         }
     }
-    assert_int_equal(run->num_scans, 1000 - 25); /* those that began after 396 s and before 500 s */
+    /* without those that began after 396 s and before 500 s */
+    assert_int_equal(run->num_scans, 1000 - 25);
     assert_share(faded, 499, 0.25);
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-static void fades_come_and_go(void **state)
+static void random_fades_suppress_their_share_of_plots(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_text(
+    struct scene_run *run = observe_scene_text(
         SCENE("40000", RADAR(", \"pd\": 1"),
               ",\"targets\": [{\"count\": 20, \"range_m\": [5000, 70000], \"speed_mps\": 0},"
               "{\"count\": 20, \"range_m\": [5000, 70000], \"speed_mps\": 0}],"
@@ -258,19 +264,16 @@ static void fades_come_and_go(void **state)
         }
     }
     assert_int_equal(seen[0], 20 * 10000);
-    /*
-     * of 1333 fades, 60 s each, of a target some overlap: the share that is free is exp(-6 * 60 /
-     * 3600)
-     */
+    /* some of 1333 fades of 60 s overlap: the free share is exp(-6 * 60 / 3600) */
     assert_near((double)seen[1] / 200000, exp(-0.1), 0.01);
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-static void targets_split(void **state)
+static void a_target_may_give_split_plots(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_text(
+    struct scene_run *run = observe_scene_text(
         SCENE("16000", RADAR(""),
               "," STANDING_ONE
               ", \"events\": [{\"kind\": \"split\", \"share\": 0.3, \"range_m\": [400, 600],"
@@ -295,14 +298,14 @@ static void targets_split(void **state)
     assert_near(mean_of_moments(&second), 500, 4 * 65 / sqrt(second.count));
     assert_near(sigma_of_moments(&second), sqrt(30 * 30 + 200 * 200 / 12.), 5);
     assert_near(mean_of_moments(&azimuth), 0.06, 4 * 0.003 / sqrt(second.count));
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-static void what_is_not_resolved_is_one_plot(void **state)
+static void unresolved_targets_give_one_plot(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_text(
+    struct scene_run *run = observe_scene_text(
         SCENE("8000", RADAR(", \"resolution_m\": 200, \"resolution_rad\": 0.014, \"pd\": 0.6"),
               ",\"targets\": [{\"at_m\": [30000, 0], \"speed_mps\": 0, \"heading_rad\": 0},"
               "{\"at_m\": [30150, 200], \"speed_mps\": 0, \"heading_rad\": 0},"
@@ -327,14 +330,14 @@ static void what_is_not_resolved_is_one_plot(void **state)
     assert_share(seen[3], 2000, 0.6);
     assert_near(mean_of_moments(&range), (30000 + hypot(30150, 200)) / 2,
                 4 * 30 / sqrt(range.count));
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
 static void passive_sensors_measure_bearings(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_text(
+    struct scene_run *run = observe_scene_text(
         "{\"version\": 1, \"duration_s\": 8000, \"passive\": [{\"at_m\": [0, -10000], "
         "\"interval_s\": 4,"
         "\"sigma_rad\": 0.002, \"pd\": 0.8, \"false_bearings\": 1.5, \"false_sector_rad\": [-1, "
@@ -358,14 +361,14 @@ static void passive_sensors_measure_bearings(void **state)
     assert_poisson(wrong.count, 3000);
     assert_near(mean_of_moments(&wrong), 0, 4 * 0.577 / sqrt(wrong.count));
     assert_near(sigma_of_moments(&wrong), 0.577, 0.03);
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
 static void scans_come_in_the_order_of_their_ends(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_text(
+    struct scene_run *run = observe_scene_text(
         SCENE("400", RADAR("") "," RADAR(", \"start_s\": 1.7, \"late_share\": 0.25, \"late_s\": 5"),
               "," FLYERS),
         &scene, 1);
@@ -381,22 +384,22 @@ static void scans_come_in_the_order_of_their_ends(void **state)
     }
     assert_int_equal(second, 99);
     assert_share(late, 99, 0.25);
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(turning_radars_measure),
-        cmocka_unit_test(others_look_everywhere_at_once),
-        cmocka_unit_test(planes_have_no_blind_spot),
-        cmocka_unit_test(ambiguous_range_rates_are_folded),
-        cmocka_unit_test(coverage_ends),
-        cmocka_unit_test(pd_follows_the_range),
-        cmocka_unit_test(outages_masks_and_fades),
-        cmocka_unit_test(fades_come_and_go),
-        cmocka_unit_test(targets_split),
-        cmocka_unit_test(what_is_not_resolved_is_one_plot),
+        cmocka_unit_test(turning_radars_measure_with_their_noise_and_biases),
+        cmocka_unit_test(radars_that_do_not_turn_see_all_targets_at_once),
+        cmocka_unit_test(radars_of_x_and_y_see_targets_at_the_origin),
+        cmocka_unit_test(ambiguous_range_rates_are_folded_into_their_interval),
+        cmocka_unit_test(no_plots_come_from_beyond_the_coverage),
+        cmocka_unit_test(pd_falls_with_range),
+        cmocka_unit_test(outages_and_masks_suppress_plots),
+        cmocka_unit_test(random_fades_suppress_their_share_of_plots),
+        cmocka_unit_test(a_target_may_give_split_plots),
+        cmocka_unit_test(unresolved_targets_give_one_plot),
         cmocka_unit_test(passive_sensors_measure_bearings),
         cmocka_unit_test(scans_come_in_the_order_of_their_ends),
     };

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Where a scene's targets are: angles beside libm, legs beside small steps of integration, groups
- * within what they say.
+ * Paths of a scene's targets: angles compared with libm, legs with small integration steps, groups
+ * within their stated extent.
  */
 #include "scene_text.h"
 
-static void angles_are_those_of_libm(void **state)
+static void portable_sine_and_cosine_equal_libm(void **state)
 {
     (void)state;
     struct random random = random_start(1, 2, 3);
@@ -26,8 +26,8 @@ static void angles_are_those_of_libm(void **state)
     assert_near(portable_sin(0.0), 0.0, 0.0);
 }
 
-static struct scene_path *paths_of(const char *targets, double duration_s, uint64_t seed,
-                                   size_t *count)
+static struct scene_path *paths_of_targets(const char *targets, double duration_s, uint64_t seed,
+                                           size_t *count)
 {
     char text[4096];
     struct scene *scene;
@@ -48,8 +48,9 @@ static void free_paths(struct scene_path *paths, size_t count)
     free(paths);
 }
 
-/* The path goes where its velocity leads, and its velocity does not jump. */
-static void assert_is_smooth(const struct scene_path *path, double until_s, double accel_max_mps2)
+/* A path's places are the integral of its velocity, which has no jumps. */
+static void assert_path_is_smooth(const struct scene_path *path, double until_s,
+                                  double accel_max_mps2)
 {
     const double step_s = 0.01;
     struct motion last = path_motion_at(path, path->from_s);
@@ -65,43 +66,44 @@ static void assert_is_smooth(const struct scene_path *path, double until_s, doub
     }
 }
 
-static void legs_are_flown(void **state)
+static void a_target_flies_its_legs(void **state)
 {
     (void)state;
     size_t count;
-    struct scene_path *paths =
-        paths_of("{\"at_m\": [1000, 2000], \"velocity_mps\": [100, 0], \"from_s\": 5, \"legs\": ["
-                 "{\"for_s\": 10}, {\"turn_deg\": 90, \"across_mps2\": 10}, {\"for_s\": 5},"
-                 "{\"to_speed_mps\": 50, \"along_mps2\": 5}, {\"for_s\": 4, \"turn_degps\": -3},"
-                 "{\"for_s\": 10, \"along_mps2\": 2, \"across_mps2\": 4},"
-                 "{\"to_speed_mps\": 0, \"along_mps2\": 10}, {\"for_s\": 20},"
-                 "{\"to_speed_mps\": 30, \"along_mps2\": 3}]}",
-                 200, 1, &count);
+    struct scene_path *paths = paths_of_targets(
+        "{\"at_m\": [1000, 2000], \"velocity_mps\": [100, 0], \"from_s\": 5, \"legs\": ["
+        "{\"for_s\": 10}, {\"turn_deg\": 90, \"across_mps2\": 10}, {\"for_s\": 5},"
+        "{\"to_speed_mps\": 50, \"along_mps2\": 5}, {\"for_s\": 4, \"turn_degps\": -3},"
+        "{\"for_s\": 10, \"along_mps2\": 2, \"across_mps2\": 4},"
+        "{\"to_speed_mps\": 0, \"along_mps2\": 10}, {\"for_s\": 20},"
+        "{\"to_speed_mps\": 30, \"along_mps2\": 3}]}",
+        200, 1, &count);
     double quarter_s = PORTABLE_PI / 2.0 * 100.0 / 10.0;
     struct motion at;
 
     assert_int_equal(count, 1);
-    assert_is_smooth(paths, 150, 12);
+    assert_path_is_smooth(paths, 150, 12);
     at = path_motion_at(paths, 15);
     assert_near(at.x_m, 2000, 1e-6);
-    at = path_motion_at(paths, 15 + quarter_s); /* a circle of 1000 m to the left */
+    /* a quarter of a circle of 1000 m radius to the left */
+    at = path_motion_at(paths, 15 + quarter_s);
     assert_near(at.x_m, 3000, 1e-6);
     assert_near(at.y_m, 3000, 1e-6);
     assert_near(at.vx_mps, 0, 1e-6);
     assert_near(at.vy_mps, 100, 1e-6);
-    at = path_motion_at(paths, 15 + quarter_s + 5 + 10); /* slowed down to 50 m/s in 10 s */
+    at = path_motion_at(paths, 15 + quarter_s + 5 + 10); /* slowed down to 50 m/s within 10 s */
     assert_near(at.vy_mps, 50, 1e-6);
     assert_near(at.y_m, 3000 + 500 + 750, 1e-6);
     at = path_motion_at(paths, 15 + quarter_s + 19);
     assert_near(atan2(at.vy_mps, at.vx_mps), (90 - 12) * PORTABLE_PI / 180, 1e-9);
-    at = path_motion_at(paths, 15 + quarter_s + 29 + 7 + 10); /* it stands */
+    at = path_motion_at(paths, 15 + quarter_s + 29 + 7 + 10); /* it has stopped */
     assert_near(hypot(at.vx_mps, at.vy_mps), 0, 1e-6);
     at = path_motion_at(paths, 190);
     assert_near(hypot(at.vx_mps, at.vy_mps), 30, 1e-6);
     free_paths(paths, count);
 }
 
-static struct motion at_of(const char *targets, uint64_t seed, double t_s)
+static struct motion motion_at(const char *targets, uint64_t seed, double t_s)
 {
     char text[2048];
     struct scene *scene;
@@ -119,45 +121,48 @@ static struct motion at_of(const char *targets, uint64_t seed, double t_s)
     return at;
 }
 
-/* One acceleration, whatever the heading, and upwards; what is reached goes on. */
-static void pulls_have_a_direction(void **state)
+/*
+ * One acceleration in a fixed direction, whatever the heading, and upwards; the velocity reached is
+ * kept.
+ */
+static void accelerations_have_a_given_direction(void **state)
 {
     (void)state;
     const char *target = "{\"at_m\": [100, 200, 300], \"velocity_mps\": [-6, -8, 2], \"legs\": "
                          "[{\"for_s\": 10}, {\"for_s\": 4, \"accel_mps2\": [1, -2, 3]}, "
                          "{\"for_s\": 2}, {\"for_s\": 4, \"accel_mps2\": [-1, 2, -3]}]}";
-    struct motion at = at_of(target, 1, 12);
+    struct motion at = motion_at(target, 1, 12);
 
     assert_near(at.x_m, 100 - 72 + 2, 1e-6);
     assert_near(at.y_m, 200 - 96 - 4, 1e-6);
     assert_near(at.z_m, 300 + 24 + 6, 1e-6);
-    at = at_of(target, 1, 16);
+    at = motion_at(target, 1, 16);
     assert_near(at.vx_mps, -2, 1e-6);
     assert_near(at.vy_mps, -16, 1e-6);
     assert_near(at.vz_mps, 14, 1e-6);
-    at = at_of(target, 1, 30);
+    at = motion_at(target, 1, 30);
     assert_near(at.x_m, 100 - 180 + 8 + 8 + 8, 1e-6);
     assert_near(at.z_m, 300 + 60 + 24 + 24 + 24, 1e-6);
     assert_near(at.vz_mps, 2, 1e-6);
 }
 
-static void points_are_passed(void **state)
+static void a_target_passes_its_waypoints(void **state)
 {
     (void)state;
     const char *target = "{\"points\": [[5, 100, 200], [10, 150, 200], [20, 150, 100]]}";
 
-    assert_near(at_of(target, 1, 7.5).x_m, 125, 1e-9);
-    assert_near(at_of(target, 1, 7.5).vx_mps, 10, 1e-9);
-    assert_near(at_of(target, 1, 10).x_m, 150, 1e-9);
-    assert_near(at_of(target, 1, 20).y_m, 100, 1e-9);
-    assert_near(at_of(target, 1, 22).y_m, 80, 1e-9);
+    assert_near(motion_at(target, 1, 7.5).x_m, 125, 1e-9);
+    assert_near(motion_at(target, 1, 7.5).vx_mps, 10, 1e-9);
+    assert_near(motion_at(target, 1, 10).x_m, 150, 1e-9);
+    assert_near(motion_at(target, 1, 20).y_m, 100, 1e-9);
+    assert_near(motion_at(target, 1, 22).y_m, 80, 1e-9);
 }
 
 /*
- * As many sums of random accelerations as there were intervals: of the velocity n, of the place
- * about n^3 / 3.
+ * A random acceleration in each of n intervals: the variance of the velocity grows as n, of the
+ * place about as n^3 / 3.
  */
-static void who_is_shaken_wanders(void **state)
+static void random_accelerations_make_a_target_wander(void **state)
 {
     (void)state;
     const char *target = "{\"at_m\": [0, 0, 0], \"velocity_mps\": [10, 0], \"shake\": "
@@ -166,7 +171,7 @@ static void who_is_shaken_wanders(void **state)
     const double n = 100;
 
     for (uint64_t seed = 0; seed < 1000; seed++) {
-        struct motion at = at_of(target, seed, 50), before = at_of(target, seed, 49.999);
+        struct motion at = motion_at(target, seed, 50), before = motion_at(target, seed, 49.999);
 
         assert_near(at.x_m - before.x_m, 0.001 * at.vx_mps, 1e-5);
         add_moment(&place, at.x_m - 500);
@@ -179,11 +184,11 @@ static void who_is_shaken_wanders(void **state)
     assert_near(sigma_of_moments(&velocity), 2 * 0.5 * sqrt(n), 0.9);
 }
 
-static void one_separates_from_another(void **state)
+static void a_child_target_starts_where_its_parent_is(void **state)
 {
     (void)state;
     size_t count;
-    struct scene_path *paths = paths_of(
+    struct scene_path *paths = paths_of_targets(
         "{\"at_m\": [0, 9000], \"speed_mps\": 200, \"heading_rad\": 1,"
         " \"legs\": [{\"for_s\": 10}, {\"for_s\": 50, \"turn_degps\": 2}]},"
         "{\"parent\": 0, \"from_s\": 30, \"speed_change_mps\": 20, \"heading_change_rad\": 0.1}",
@@ -198,15 +203,15 @@ static void one_separates_from_another(void **state)
     free_paths(paths, count);
 }
 
-static void groups_are_as_they_say(void **state)
+static void groups_have_the_configured_spread(void **state)
 {
     (void)state;
     size_t count;
     struct scene_path *paths =
-        paths_of("{\"count\": 2000, \"about_m\": [500, -300], \"range_m\": [10000, 40000],"
-                 " \"azimuth_rad\": [0, 1], \"speed_mps\": [100, 300], \"from_s\": [5, 25],"
-                 " \"life_s\": [30, 50]}",
-                 100, 3, &count);
+        paths_of_targets("{\"count\": 2000, \"about_m\": [500, -300], \"range_m\": [10000, 40000],"
+                         " \"azimuth_rad\": [0, 1], \"speed_mps\": [100, 300], \"from_s\": [5, 25],"
+                         " \"life_s\": [30, 50]}",
+                         100, 3, &count);
     struct moments speed = {0}, azimuth = {0}, square = {0}, from = {0}, life = {0}, heading = {0};
 
     assert_int_equal(count, 2000);
@@ -222,32 +227,33 @@ static void groups_are_as_they_say(void **state)
         add_moment(&from, paths[i].from_s);
         add_moment(&life, paths[i].until_s - paths[i].from_s);
     }
-    /* uniform ones: mean in the middle, standard deviation width / sqrt(12) */
+    /* uniform: mean in the middle, standard deviation width / sqrt(12) */
     assert_near(mean_of_moments(&speed), 200, 4 * 57.7 / sqrt(2000));
     assert_near(sigma_of_moments(&speed), 57.7, 2);
     assert_near(mean_of_moments(&azimuth), 0.5, 4 * 0.289 / sqrt(2000));
-    assert_near(mean_of_moments(&square), 8.5e8, 4 * 4.33e8 / sqrt(2000)); /* even over the area */
+    /* uniform over the area */
+    assert_near(mean_of_moments(&square), 8.5e8, 4 * 4.33e8 / sqrt(2000));
     assert_near(mean_of_moments(&heading), 0, 4 * 1.81 / sqrt(2000));
     assert_near(mean_of_moments(&from), 15, 4 * 5.77 / sqrt(2000));
     assert_near(mean_of_moments(&life), 40, 4 * 5.77 / sqrt(2000));
     free_paths(paths, count);
 }
 
-static void who_is_to_keep_within_does(void **state)
+static void targets_stay_within_keep_range_m(void **state)
 {
     (void)state;
     size_t count;
-    struct scene_path *paths =
-        paths_of("{\"count\": 30, \"range_m\": [5000, 20000], \"speed_mps\": [100, 200],"
-                 " \"keep_range_m\": [2000, 30000], \"turns\": {\"every_s\": [20, 60],"
-                 " \"across_mps2\": [5, 10], \"turn_deg\": [30, 180]},"
-                 " \"speed_changes\": {\"every_s\": [50, 100], \"along_mps2\": 2},"
-                 " \"stops\": {\"every_s\": [100, 200], \"for_s\": [5, 10], \"along_mps2\": 10}}",
-                 600, 4, &count);
+    struct scene_path *paths = paths_of_targets(
+        "{\"count\": 30, \"range_m\": [5000, 20000], \"speed_mps\": [100, 200],"
+        " \"keep_range_m\": [2000, 30000], \"turns\": {\"every_s\": [20, 60],"
+        " \"across_mps2\": [5, 10], \"turn_deg\": [30, 180]},"
+        " \"speed_changes\": {\"every_s\": [50, 100], \"along_mps2\": 2},"
+        " \"stops\": {\"every_s\": [100, 200], \"for_s\": [5, 10], \"along_mps2\": 10}}",
+        600, 4, &count);
     size_t turning = 0, standing = 0;
 
     for (size_t i = 0; i < count; i++) {
-        assert_is_smooth(&paths[i], 600, 10);
+        assert_path_is_smooth(&paths[i], 600, 10);
         for (int t = 0; t < 600; t++) {
             struct motion at = path_motion_at(&paths[i], t),
                           next = path_motion_at(&paths[i], t + 0.1);
@@ -264,14 +270,14 @@ static void who_is_to_keep_within_does(void **state)
     free_paths(paths, count);
 }
 
-static void a_box_keeps_who_is_to_stay(void **state)
+static void targets_stay_within_their_box(void **state)
 {
     (void)state;
     size_t count;
     struct scene_path *paths =
-        paths_of("{\"count\": 500, \"box_m\": [0, 9000, 0, 9000], \"speed_mps\": [10, 80],"
-                 " \"keep_box_m\": [0, 9000, 1000, 8000]}",
-                 100, 4, &count);
+        paths_of_targets("{\"count\": 500, \"box_m\": [0, 9000, 0, 9000], \"speed_mps\": [10, 80],"
+                         " \"keep_box_m\": [0, 9000, 1000, 8000]}",
+                         100, 4, &count);
 
     for (size_t i = 0; i < count; i++) {
         struct motion first = path_motion_at(&paths[i], 0), last = path_motion_at(&paths[i], 100);
@@ -282,11 +288,11 @@ static void a_box_keeps_who_is_to_stay(void **state)
     free_paths(paths, count);
 }
 
-static void always_as_many_where_they_are_replaced(void **state)
+static void replaced_targets_keep_the_number_constant(void **state)
 {
     (void)state;
     size_t count, total = 0;
-    struct scene_path *paths = paths_of(
+    struct scene_path *paths = paths_of_targets(
         "{\"count\": 40, \"range_m\": [5000, 20000], \"speed_mps\": 100, \"life_s\": [50, 150],"
         " \"is_replaced\": true}",
         2000, 5, &count);
@@ -306,18 +312,18 @@ static void always_as_many_where_they_are_replaced(void **state)
     free_paths(paths, count);
 }
 
-static void others_change_no_path(void **state)
+static void adding_targets_changes_no_path_of_others(void **state)
 {
     (void)state;
     const char *group = "{\"count\": 5, \"range_m\": [5000, 20000], \"speed_mps\": [100, 200]}";
     char more[512];
     size_t count, more_count, again_count;
-    struct scene_path *paths = paths_of(group, 100, 7, &count), *again, *others;
+    struct scene_path *paths = paths_of_targets(group, 100, 7, &count), *again, *others;
 
     snprintf(more, sizeof more, "%s, %s, {\"at_m\": [0, 0], \"velocity_mps\": [1, 1]}", group,
              group);
-    again = paths_of(more, 100, 7, &more_count);
-    others = paths_of(group, 100, 8, &again_count);
+    again = paths_of_targets(more, 100, 7, &more_count);
+    others = paths_of_targets(group, 100, 8, &again_count);
     assert_int_equal(more_count, 11);
     for (size_t i = 0; i < count; i++) {
         struct motion at = path_motion_at(&paths[i], 50), same = path_motion_at(&again[i], 50);
@@ -336,17 +342,17 @@ static void others_change_no_path(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(angles_are_those_of_libm),
-        cmocka_unit_test(legs_are_flown),
-        cmocka_unit_test(pulls_have_a_direction),
-        cmocka_unit_test(points_are_passed),
-        cmocka_unit_test(who_is_shaken_wanders),
-        cmocka_unit_test(a_box_keeps_who_is_to_stay),
-        cmocka_unit_test(one_separates_from_another),
-        cmocka_unit_test(groups_are_as_they_say),
-        cmocka_unit_test(who_is_to_keep_within_does),
-        cmocka_unit_test(always_as_many_where_they_are_replaced),
-        cmocka_unit_test(others_change_no_path),
+        cmocka_unit_test(portable_sine_and_cosine_equal_libm),
+        cmocka_unit_test(a_target_flies_its_legs),
+        cmocka_unit_test(accelerations_have_a_given_direction),
+        cmocka_unit_test(a_target_passes_its_waypoints),
+        cmocka_unit_test(random_accelerations_make_a_target_wander),
+        cmocka_unit_test(targets_stay_within_their_box),
+        cmocka_unit_test(a_child_target_starts_where_its_parent_is),
+        cmocka_unit_test(groups_have_the_configured_spread),
+        cmocka_unit_test(targets_stay_within_keep_range_m),
+        cmocka_unit_test(replaced_targets_keep_the_number_constant),
+        cmocka_unit_test(adding_targets_changes_no_path_of_others),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The scenes polar, doppler, rotating and two-radars: noise and biases, detections, clutter, where
- * targets are, sectors, late arrivals. Seeds are fixed; bounds are four standard deviations.
+ * The scenes polar, doppler, rotating and two-radars: noise and biases, detections, clutter, places
+ * of targets, sectors, late arrivals. Seeds are fixed; bounds are four standard deviations.
  */
 #include "scene_text.h"
 
@@ -9,26 +9,26 @@
 
 #define SEED 4711
 
-static struct scene_run *watch_scene(const char *name, const char *const *sets, size_t num_sets,
-                                     uint64_t run, struct scene **scene)
+static struct scene_run *observe_scene(const char *name, const char *const *sets, size_t num_sets,
+                                       uint64_t run, struct scene **scene)
 {
     *scene = scene_load_by_name(name, sets, num_sets);
     return scene_observe(*scene, SEED, run);
 }
 
-static void end_watch(struct scene_run *run, struct scene *scene)
+static void free_observation(struct scene_run *run, struct scene *scene)
 {
     scene_run_free(run);
     scene_free(scene);
 }
 
-/* What plots are off, in sigmas of their radar, its biases taken off; and how many are clutter. */
+/* Errors of plots in sigmas of their radar, without its biases; and the number of clutter plots. */
 struct errors {
     struct moments range, azimuth, rate;
     size_t clutter;
 };
 
-static struct errors errors_of(const struct scene_run *run, size_t radar)
+static struct errors plot_errors_of_radar(const struct scene_run *run, size_t radar)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[radar];
     struct errors errors = {.clutter = 0};
@@ -66,13 +66,13 @@ static void assert_standard_normal(const struct moments *moments)
     assert_near(sigma_of_moments(moments), 1.0, 4.0 / sqrt(2.0 * moments->count));
 }
 
-static void polar_is_as_its_manual_says(void **state)
+static void scene_polar_has_its_documented_noise_and_clutter(void **state)
 {
     (void)state;
     const char *sets[] = {"targets.0.count=400", "radars.0.sigma_range_rate_mps=1"};
     struct scene *scene;
-    struct scene_run *run = watch_scene("polar", sets, 2, 0, &scene);
-    struct errors errors = errors_of(run, 0);
+    struct scene_run *run = observe_scene("polar", sets, 2, 0, &scene);
+    struct errors errors = plot_errors_of_radar(run, 0);
 
     assert_int_equal(run->num_scans, 15);
     assert_standard_normal(&errors.range);
@@ -89,16 +89,16 @@ static void polar_is_as_its_manual_says(void **state)
             assert_true(speed_mps >= 100.0 && speed_mps <= 400.0);
         }
     }
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-/* Range rates of what stands have a standard deviation of 1. */
-static void clutter_of_doppler_stands(void **state)
+/* Range rates of clutter that stands still have a standard deviation of 1 m/s. */
+static void clutter_of_scene_doppler_stands_still(void **state)
 {
     (void)state;
     const char *sets[] = {"targets=[]", "clutter.0.plots=0", "clutter.1.plots=400"};
     struct scene *scene;
-    struct scene_run *run = watch_scene("doppler", sets, 3, 0, &scene);
+    struct scene_run *run = observe_scene("doppler", sets, 3, 0, &scene);
     struct moments rates = {0};
 
     for (size_t i = 0; i < run->num_scans; i++) {
@@ -108,18 +108,18 @@ static void clutter_of_doppler_stands(void **state)
     }
     assert_poisson(rates.count, 6000.0);
     assert_standard_normal(&rates);
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
 /*
- * One after the other, clockwise; the last of three targets turns by 2 m/s^2 for 20 s, the others
- * do not.
+ * Sectors follow one another clockwise; the last of three targets turns at 2 m/s^2 for 20 s, the
+ * others fly straight.
  */
-static void rotating_has_sectors_and_turns(void **state)
+static void scene_rotating_has_sectors_and_a_turning_target(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_scene("rotating", NULL, 0, 0, &scene);
+    struct scene_run *run = observe_scene("rotating", NULL, 0, 0, &scene);
 
     assert_int_equal(run->num_scans, 15 * 32);
     for (size_t i = 0; i < run->num_scans; i++) {
@@ -141,18 +141,18 @@ static void rotating_has_sectors_and_turns(void **state)
         }
         assert_near(turning_s, i == 2 ? 20.0 : 0.0, 0.3);
     }
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-static void two_radars_are_off_by_their_biases(void **state)
+static void scene_two_radars_has_its_configured_biases(void **state)
 {
     (void)state;
     const char *sets[] = {"radars.1.time_bias_s=0.5"};
     struct scene *scene;
-    struct scene_run *run = watch_scene("two-radars", sets, 1, 0, &scene);
+    struct scene_run *run = observe_scene("two-radars", sets, 1, 0, &scene);
 
     for (size_t radar = 0; radar < 2; radar++) {
-        struct errors errors = errors_of(run, radar);
+        struct errors errors = plot_errors_of_radar(run, radar);
         double sign = radar == 0 ? 1.0 : -1.0;
 
         assert_near(scene->sensors[radar].range_bias_m, sign * 50.0, 0.0);
@@ -161,20 +161,20 @@ static void two_radars_are_off_by_their_biases(void **state)
         assert_standard_normal(&errors.azimuth);
         assert_poisson((double)errors.clutter, 20.0 * (radar == 0 ? 60.0 : 149.0));
     }
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-static double range_of(const struct scene_sensor *radar, const struct motion *at)
+static double range_from_radar(const struct scene_sensor *radar, const struct motion *at)
 {
     return hypot(at->x_m - radar->x_m, at->y_m - radar->y_m);
 }
 
-/* Five nautical miles apart; always in one radar's reach, and in both for most of their time. */
-static void aircraft_of_two_radars_are_common(void **state)
+/* Aircraft keep five nautical miles apart, in range of at least one radar, and mostly of both. */
+static void aircraft_of_two_radars_are_mostly_seen_by_both(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_scene("two-radars", NULL, 0, 1, &scene);
+    struct scene_run *run = observe_scene("two-radars", NULL, 0, 1, &scene);
 
     assert_int_equal(run->num_paths, 20);
     for (size_t i = 0; i < 20; i++) {
@@ -182,8 +182,8 @@ static void aircraft_of_two_radars_are_common(void **state)
 
         for (int t_s = 0; t_s < 600; t_s++) {
             struct motion at = path_motion_at(&run->paths[i], t_s);
-            double first_m = range_of(&scene->sensors[0], &at);
-            double second_m = range_of(&scene->sensors[1], &at);
+            double first_m = range_from_radar(&scene->sensors[0], &at);
+            double second_m = range_from_radar(&scene->sensors[1], &at);
             bool first = first_m >= 4000.0 && first_m <= 148000.0;
             bool second = second_m >= 3000.0 && second_m <= 98000.0;
 
@@ -197,15 +197,18 @@ static void aircraft_of_two_radars_are_common(void **state)
         }
         assert_true(both >= 479);
     }
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-/* In the order of arrival, a fifth 300 ms late; the second radar begins anywhere in its turn. */
-static void a_share_arrives_late(void **state)
+/*
+ * Scans are in order of arrival, a fifth of them 300 ms late; the second radar starts at any point
+ * of its turn.
+ */
+static void a_fifth_of_the_scans_arrives_late(void **state)
 {
     (void)state;
     struct scene *scene;
-    struct scene_run *run = watch_scene("two-radars", NULL, 0, 2, &scene);
+    struct scene_run *run = observe_scene("two-radars", NULL, 0, 2, &scene);
     struct scene_run *other = scene_observe(scene, SEED, 3);
     double first_s = INFINITY, others_s = INFINITY;
     size_t late = 0;
@@ -225,17 +228,17 @@ static void a_share_arrives_late(void **state)
     assert_true(first_s >= 0.125 && first_s < 4.125 && fabs(first_s - others_s) > 1e-3);
     assert_true(fabs(run->scans[0].from_rad - other->scans[0].from_rad) > 1e-6);
     scene_run_free(other);
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
-/* Times of scans are by the radar's own clock, and plots within them. */
-static void a_clock_that_is_off(void **state)
+/* Scan times follow the radar's own clock, as do times of plots. */
+static void scan_times_follow_the_biased_radar_clock(void **state)
 {
     (void)state;
     static struct rho_plot plots[RHO_MAX_PLOTS];
     const char *sets[] = {"radars.1.time_bias_s=-0.5", "radars.0.sectors=1", "radars.1.sectors=1"};
     struct scene *scene;
-    struct scene_run *run = watch_scene("two-radars", sets, 3, 2, &scene);
+    struct scene_run *run = observe_scene("two-radars", sets, 3, 2, &scene);
 
     for (size_t i = 0; i < run->num_scans; i++) {
         const struct scene_scan *seen = &run->scans[i];
@@ -250,19 +253,19 @@ static void a_clock_that_is_off(void **state)
             assert_true(plots[k].offset_us <= 0 && plots[k].offset_us >= -1e6 * radar->turn_s - 1);
         }
     }
-    end_watch(run, scene);
+    free_observation(run, scene);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(polar_is_as_its_manual_says),
-        cmocka_unit_test(clutter_of_doppler_stands),
-        cmocka_unit_test(rotating_has_sectors_and_turns),
-        cmocka_unit_test(two_radars_are_off_by_their_biases),
-        cmocka_unit_test(aircraft_of_two_radars_are_common),
-        cmocka_unit_test(a_share_arrives_late),
-        cmocka_unit_test(a_clock_that_is_off),
+        cmocka_unit_test(scene_polar_has_its_documented_noise_and_clutter),
+        cmocka_unit_test(clutter_of_scene_doppler_stands_still),
+        cmocka_unit_test(scene_rotating_has_sectors_and_a_turning_target),
+        cmocka_unit_test(scene_two_radars_has_its_configured_biases),
+        cmocka_unit_test(aircraft_of_two_radars_are_mostly_seen_by_both),
+        cmocka_unit_test(a_fifth_of_the_scans_arrives_late),
+        cmocka_unit_test(scan_times_follow_the_biased_radar_clock),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

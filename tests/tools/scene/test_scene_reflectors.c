@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Walls in scenes: where images are, how many, and what a tracker is told.
+ * Walls in scenes: where mirror images of targets are, how many, and what a tracker is told of
+ * walls.
  */
 #include "scene_text.h"
 
 #include "scene/scene_reflectors.h"
 
-static void images_are_as_far_behind(void **state)
+static void images_mirror_place_and_velocity_at_the_wall(void **state)
 {
     const struct scene_reflector wall = {.from_m = {0, 100}, .to_m = {300, 400}, .probability = 1};
     struct motion image;
     (void)state;
-    /* the wall y = x + 100 takes (x, y) to (y - 100, x + 100) */
+    /* mirrored at the wall y = x + 100, (x, y) becomes (y - 100, x + 100) */
     assert_true(scene_reflector_image(
         &wall, 0, 0, &(struct motion){.x_m = 120, .y_m = 180, .vx_mps = 7, .vy_mps = -2}, &image));
     assert_near(image.x_m, 80, 1e-9);
     assert_near(image.y_m, 220, 1e-9);
     assert_near(image.vx_mps, -2, 1e-9);
     assert_near(image.vy_mps, 7, 1e-9);
-    /* behind the wall; past its end; and for a sensor behind it */
+    /* no image: target behind the wall; line past its end; sensor behind the wall */
     assert_false(
         scene_reflector_image(&wall, 0, 0, &(struct motion){.x_m = 80, .y_m = 220}, &image));
     assert_false(
@@ -27,7 +28,7 @@ static void images_are_as_far_behind(void **state)
         scene_reflector_image(&wall, 0, 300, &(struct motion){.x_m = 120, .y_m = 180}, &image));
 }
 
-static void a_share_of_the_plots_has_images(void **state)
+static void reflections_have_the_configured_probability(void **state)
 {
     struct scene *scene = scene_of_text(
         SCENE("400",
@@ -60,7 +61,7 @@ static void a_share_of_the_plots_has_images(void **state)
     scene_free(scene);
 }
 
-static void a_tracker_is_told_what_is_told(void **state)
+static void the_tracker_is_told_of_marked_walls_only(void **state)
 {
     char text[128] = "";
     struct scene *scene =
@@ -79,9 +80,9 @@ static void a_tracker_is_told_what_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(images_are_as_far_behind),
-        cmocka_unit_test(a_share_of_the_plots_has_images),
-        cmocka_unit_test(a_tracker_is_told_what_is_told),
+        cmocka_unit_test(images_mirror_place_and_velocity_at_the_wall),
+        cmocka_unit_test(reflections_have_the_configured_probability),
+        cmocka_unit_test(the_tracker_is_told_of_marked_walls_only),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

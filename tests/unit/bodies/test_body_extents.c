@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Targets that give several plots a scan: one track each, with its extent; near each other they
- * stay two; and what a tracker may be told of them.
+ * Extended targets of several plots a scan: each gets one track with its extent; near each other
+ * they keep two; and which extents a tracker may be told.
  */
 #include "rhotrack/operator.h"
 #include "tracker_setup.h"
@@ -14,10 +14,10 @@ struct vehicle {
     int scatterers;
 };
 
-/* Plots have this time after their scan's. */
+/* Plots are this many seconds after their scan's time. */
 static double own_s;
 
-static void prepare(float longest_m)
+static void start_tracker_with_longest(float longest_m)
 {
     const struct rho_sensor radar = {.sensor_id = SENSOR, .pd = 0.9f, .range_max_m = 1e3f};
     use_usual_configs(11);
@@ -28,8 +28,10 @@ static void prepare(float longest_m)
     assert_int_equal(rho_tracker_set_body_max(&tracker, longest_m), RHO_OK);
 }
 
-/* Each scatterer somewhere in its part of the length, seen .7 of the time. */
-static void see(const struct vehicle *vehicle, int k)
+/*
+ * Each scatterer lies at a random point of its part of the length and is seen with probability 0.7.
+ */
+static void see_vehicle(const struct vehicle *vehicle, int k)
 {
     for (int i = 0; i < vehicle->scatterers; i++) {
         const double part = (i + uniform(0.0, 1.0)) / vehicle->scatterers - 0.5;
@@ -43,13 +45,13 @@ static void see(const struct vehicle *vehicle, int k)
     }
 }
 
-static void look(int k)
+static void step_scan_at(int k)
 {
     step_scan((struct rho_scan){.time_us = INT64_C(100000) * k, .sensor_id = SENSOR});
 }
 
-/* Places of tracks that are tracks of a body near there. */
-static int place_of(const struct vehicle *vehicle, int k)
+/* Row of the only track on the vehicle; -1: none. */
+static int row_of_track_on(const struct vehicle *vehicle, int k)
 {
     int found = -1;
     for (unsigned i = 0; i < report.num_tracks; i++) {
@@ -66,21 +68,21 @@ static int place_of(const struct vehicle *vehicle, int k)
 
 static const struct vehicle truck = {-200.0, 60.0, 20.0, 12.0, 2.5, 8};
 
-static void a_truck_is_one_track(void **state)
+static void a_truck_of_several_plots_has_one_track(void **state)
 {
     (void)state;
     for (int with_bodies = 0; with_bodies < RHO_BODIES + 1; with_bodies++) {
         unsigned most = 0;
         struct rho_body body;
-        prepare(with_bodies ? 15.0f : 0.0f);
+        start_tracker_with_longest(with_bodies ? 15.0f : 0.0f);
         assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 0);
         for (int k = 0; k < 150; k++) {
-            see(&truck, k);
+            see_vehicle(&truck, k);
             const uint32_t seen = num_plots;
-            look(k);
+            step_scan_at(k);
             most = report.num_tracks > most ? report.num_tracks : most;
             if (with_bodies && k > 20) {
-                /* every plot is the track's, and its row one of the scan's */
+                /* every plot belongs to the track, and the track's row is one of the scan's */
                 assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], seen);
                 assert_int_equal(report.num_tracks, 1);
                 assert_int_equal(report.tracks[0].track_id, 1);
@@ -97,7 +99,10 @@ static void a_truck_is_one_track(void **state)
         assert_true(fabs((double)body.width_m - 2.5) < 0.5);
         assert_true(fabs((double)body.heading_rad) < 0.05);
         assert_true(body.sigma_length_m < 2.0f && body.sigma_heading_rad < 0.1f);
-        /* a group's noise is mostly that of places on the body: nothing is learned from it */
+        /*
+         * the noise of a group is mostly the spread over the body, so no sensor noise is learned
+         * from it
+         */
         assert_true(tracker.learned[0].log_noise[0] == 0.0f);
         const double off_m =
             (double)report.tracks[0].state[0] - truck.x_m - truck.vx_mps * STEP_S * 149;
@@ -109,27 +114,27 @@ static void a_truck_is_one_track(void **state)
     }
 }
 
-/* Scan k of two vehicles: each has a track, the same one from the twentieth scan on. */
-static void keep_two(const struct vehicle *pair, int k, uint32_t ids[2])
+/* Scan k of two vehicles: from the twentieth scan on each keeps its track. */
+static void expect_a_track_for_each(const struct vehicle *pair, int k, uint32_t ids[2])
 {
-    see(&pair[0], k);
-    see(&pair[1], k);
-    look(k);
+    see_vehicle(&pair[0], k);
+    see_vehicle(&pair[1], k);
+    step_scan_at(k);
     for (int n = 0; n < 2 && k >= 20; n++) {
-        const int place = place_of(&pair[n], k);
+        const int place = row_of_track_on(&pair[n], k);
         assert_true(place >= 0);
         ids[n] = ids[n] ? ids[n] : report.tracks[place].track_id;
         assert_int_equal(report.tracks[place].track_id, ids[n]);
     }
 }
 
-/* Seen apart first, then for long beside or behind each other. */
-static void neighbours_stay_two(void **state)
+/* First seen apart, then beside or behind each other for long. */
+static void neighbouring_vehicles_keep_two_tracks(void **state)
 {
     static const struct vehicle pairs[][2] = {
-        /* bumper to bumper: 1.5 m between two cars that close up */
+        /* bumper to bumper: two cars close up to 1.5 m */
         {{-200.0, 60.0, 15.0, 4.5, 1.8, 4}, {-194.0, 60.0, 15.0, 4.5, 1.8, 4}},
-        /* a car beside a truck, a lane off */
+        /* a car beside a truck, one lane apart */
         {{-200.0, 60.0, 20.0, 12.0, 2.5, 8}, {-199.0, 63.5, 20.0, 4.5, 1.8, 4}},
     };
     (void)state;
@@ -138,19 +143,19 @@ static void neighbours_stay_two(void **state)
     }
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         uint32_t ids[2] = {0, 0};
-        prepare(15.0f);
+        start_tracker_with_longest(15.0f);
         for (int k = 0; k < 260; k++) {
             struct vehicle now[2] = {pairs[i][0], pairs[i][1]};
-            /* 20 m more between them, which they make good in 10 s */
+            /* 20 m further apart at first, closed in 10 s */
             now[1].x_m += k < 100 ? 20.0 - 0.2 * k : 0.0;
-            keep_two(now, k, ids);
+            expect_a_track_for_each(now, k, ids);
             assert_true(k < 20 || report.num_tracks == 2);
         }
     }
 }
 
-/* A car overtakes a truck a lane off. Where plots are, tracks are not at the scan's time. */
-static void plots_far_off_the_scans_time_are_owned(void **state)
+/* A car overtakes a truck one lane apart, with plots taken long after the scan's time. */
+static void plots_far_from_the_scan_time_go_to_their_track(void **state)
 {
     const struct vehicle pair[2] = {{-250.0, 60.0, 20.0, 12.0, 2.5, 8},
                                     {-275.0, 63.5, 22.0, 4.5, 1.8, 4}};
@@ -159,15 +164,18 @@ static void plots_far_off_the_scans_time_are_owned(void **state)
     if (!RHO_BODIES) {
         skip();
     }
-    prepare(15.0f);
+    start_tracker_with_longest(15.0f);
     own_s = 1.5;
     for (int k = 0; k < 220; k++) {
-        keep_two(pair, k, ids);
+        expect_a_track_for_each(pair, k, ids);
     }
 }
 
-/* A truck half in an excluded area: its plots in there start nothing, and are told one by one. */
-static void excluded_plots_are_in_no_group(void **state)
+/*
+ * A truck half in an excluded area: its plots in the area start nothing and are reported one by
+ * one.
+ */
+static void plots_in_excluded_areas_join_no_group(void **state)
 {
     (void)state;
     if (!RHO_BODIES) {
@@ -177,14 +185,14 @@ static void excluded_plots_are_in_no_group(void **state)
         const struct rho_extent area = {-100.0f, most ? 100.0f : 0.0f, 50.0f, 70.0f};
         const struct vehicle parked = {1.0, 60.0, 0.0, 12.0, 2.5, 8};
         uint32_t inside = 0;
-        prepare(15.0f);
+        start_tracker_with_longest(15.0f);
         assert_int_equal(rho_tracker_exclude_area(&tracker, &area), RHO_OK);
         for (int k = 0; k < 20; k++) {
-            see(&parked, k);
+            see_vehicle(&parked, k);
             for (uint32_t i = 0; i < num_plots; i++) {
                 inside += plots[i].x_m <= area.x_max_m;
             }
-            look(k);
+            step_scan_at(k);
             if (most) {
                 assert_int_equal(report.fates_total[RHO_FATE_GHOST], report.num_plots);
             }
@@ -196,8 +204,8 @@ static void excluded_plots_are_in_no_group(void **state)
     }
 }
 
-/* Trucks that meet, 12 m beside each other, soon after they were found. */
-static void those_that_only_pass_stay_two(void **state)
+/* Two trucks that pass each other 12 m apart, soon after they were found. */
+static void vehicles_passing_each_other_keep_two_tracks(void **state)
 {
     const struct vehicle pair[2] = {{-60.0, 60.0, 20.0, 12.0, 2.5, 2},
                                     {60.0, 72.0, -20.0, 12.0, 2.5, 2}};
@@ -206,25 +214,25 @@ static void those_that_only_pass_stay_two(void **state)
     if (!RHO_BODIES) {
         skip();
     }
-    prepare(25.0f);
+    start_tracker_with_longest(25.0f);
     for (int k = 0; k < 120; k++) {
-        keep_two(pair, k, ids);
+        expect_a_track_for_each(pair, k, ids);
     }
 }
 
-static void bad_plots_and_full_scans(void **state)
+static void bad_plots_and_full_scans_do_no_harm(void **state)
 {
     (void)state;
     if (!RHO_BODIES) {
         skip();
     }
-    prepare(15.0f);
+    start_tracker_with_longest(15.0f);
     for (int k = 0; k < 20; k++) {
         add_plot(NAN, 60.0, 0.2);
-        see(&truck, k);
+        see_vehicle(&truck, k);
         add_plot(0.0, 0.0, -1.0);
         const uint32_t seen = num_plots;
-        look(k);
+        step_scan_at(k);
         assert_int_equal(report.fates_total[RHO_FATE_INVALID], 2);
         assert_int_equal(report.fates[0], RHO_FATE_INVALID);
         assert_int_equal(report.fates[seen - 1], RHO_FATE_INVALID);
@@ -233,13 +241,13 @@ static void bad_plots_and_full_scans(void **state)
     for (int i = 0; i < RHO_MAX_PLOTS + 10; i++) {
         add_plot(uniform(-900.0, 900.0), 500.0, 0.2);
     }
-    look(20);
+    step_scan_at(20);
     assert_int_equal(report.num_plots, RHO_MAX_PLOTS + 10);
     assert_in_range(report.fates_total[RHO_FATE_NO_ROOM], 10, RHO_MAX_PLOTS);
 }
 
-/* Little work: what is not grouped is as points are, and the step says so. */
-static void work_is_bounded(void **state)
+/* With a small work limit, plots that are not grouped count as points, and the step reports it. */
+static void work_of_grouping_is_bounded(void **state)
 {
     (void)state;
     if (!RHO_BODIES) {
@@ -254,17 +262,17 @@ static void work_is_bounded(void **state)
         for (int i = 0; i < 120; i++) {
             add_noisy_plot(uniform(-20.0, 20.0), 60.0, 0.2);
         }
-        look(k);
+        step_scan_at(k);
         assert_true(report.is_partial);
         assert_true(tracker.work.work < 8000);
     }
 }
 
-static void telling(void **state)
+static void bad_body_lengths_are_refused(void **state)
 {
     static struct rho_tracker empty;
     (void)state;
-    prepare(0.0f);
+    start_tracker_with_longest(0.0f);
     assert_int_equal(rho_tracker_set_body_max(NULL, 1.0f), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_set_body_max(&empty, 1.0f), RHO_ERROR_STATE);
     assert_int_equal(rho_tracker_set_body_max(&tracker, -1.0f), RHO_ERROR_VALUE);
@@ -275,21 +283,21 @@ static void telling(void **state)
     assert_int_equal(rho_tracker_set_body_max(&tracker, 0.0f), RHO_OK);
 }
 
-/* What is learned of a body is sound, too, where plots say next to nothing of how it is turned. */
-static void poor_azimuths_teach_sound_bodies(void **state)
+/* A body stays finite where plots say almost nothing of its heading. */
+static void a_body_seen_with_poor_azimuths_stays_finite(void **state)
 {
     struct rho_body body;
     (void)state;
     if (!RHO_BODIES) {
         skip();
     }
-    prepare(15.0f);
+    start_tracker_with_longest(15.0f);
     for (int k = 0; k < 400; k++) {
         for (int i = 0; i < 20; i++) {
             const double along_m = uniform(-0.5, 0.5), off_m = normal();
             add_plot(100.0 + 20.0 * STEP_S * k + along_m, 30.0 * off_m, 0.3)->sigma_cross_m = 30.0f;
         }
-        look(k);
+        step_scan_at(k);
         assert_true(rho_tracker_is_sound(&tracker));
     }
     assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 1);
@@ -297,8 +305,8 @@ static void poor_azimuths_teach_sound_bodies(void **state)
     assert_true(isfinite(body.sigma_width_m) && isfinite(body.sigma_length_m));
 }
 
-/* Told that bodies have next to no length, and of one that stands: its extent is never learned. */
-static void least_bodies_have_a_size(void **state)
+/* The longest body is told to be nearly 0 m, and one that stands still never shows its extent. */
+static void the_shortest_bodies_keep_a_length_of_0_1_m(void **state)
 {
     static const float longest_m[] = {1e-30f, 1e-3f, 0.1f};
     (void)state;
@@ -307,11 +315,11 @@ static void least_bodies_have_a_size(void **state)
     }
     for (size_t i = 0; i < sizeof longest_m / sizeof longest_m[0]; i++) {
         struct rho_body body;
-        prepare(longest_m[i]);
+        start_tracker_with_longest(longest_m[i]);
         for (int k = 0; k < 30; k++) {
             (void)add_plot(30.0, 50.0, 0.2);
             (void)add_plot(30.0, 50.0, 0.2);
-            look(k);
+            step_scan_at(k);
             assert_true(rho_tracker_is_sound(&tracker));
             if (rho_tracker_body_of(&tracker, 0, &body)) {
                 assert_true(fabs((double)body.length_m - 0.1) < 0.02);
@@ -322,27 +330,29 @@ static void least_bodies_have_a_size(void **state)
     }
 }
 
-/* Of a body that stands nothing is learned: half as long as the longest, and as wide. */
-static void a_body_that_stands_is_half_as_long_as_the_longest(void **state)
+/*
+ * The extent of a standing body is not learned: it stays half as long as the longest, and as wide.
+ */
+static void a_standing_body_is_taken_as_half_the_longest(void **state)
 {
     struct rho_body body;
     (void)state;
     if (!RHO_BODIES) {
         skip();
     }
-    prepare(15.0f);
+    start_tracker_with_longest(15.0f);
     for (int k = 0; k < 10; k++) {
         (void)add_plot(29.0, 50.0, 0.2);
         (void)add_plot(31.0, 50.0, 0.2);
-        look(k);
+        step_scan_at(k);
     }
     assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 1);
     assert_true(fabs((double)body.length_m - 7.5) < 0.1);
     assert_true(fabs((double)body.width_m - 7.5) < 0.1);
 }
 
-/* A body of which nothing was learned is half as long as the longest, but 0.1 m at least. */
-static void a_body_that_stands_has_a_least_length(void **state)
+/* A body of unknown length is taken as half the longest, but at least 0.1 m. */
+static void a_standing_body_is_at_least_0_1_m_long(void **state)
 {
     static const struct {
         float longest_m;
@@ -354,11 +364,11 @@ static void a_body_that_stands_has_a_least_length(void **state)
     }
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct rho_body body;
-        prepare(cases[i].longest_m);
+        start_tracker_with_longest(cases[i].longest_m);
         for (int k = 0; k < 10; k++) {
             (void)add_plot(30.0, 50.0, 0.2);
             (void)add_plot(30.0, 50.0, 0.2);
-            look(k);
+            step_scan_at(k);
         }
         assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 1);
         assert_true(fabs((double)body.length_m - cases[i].length_m) < 0.005);
@@ -366,17 +376,17 @@ static void a_body_that_stands_has_a_least_length(void **state)
     }
 }
 
-/* Places vary by 1e-7 m^2 on the least body that a filter can work with. */
-static void least_variances_are_sound(void **state)
+/* The filter works with variances of 1e-7 m^2 and above. */
+static void variances_below_1e_7_m2_are_unsound(void **state)
 {
     (void)state;
     if (!RHO_BODIES) {
         skip();
     }
-    prepare(15.0f);
+    start_tracker_with_longest(15.0f);
     for (int k = 0; k < 20; k++) {
-        see(&truck, k);
-        look(k);
+        see_vehicle(&truck, k);
+        step_scan_at(k);
     }
     for (int i = 0; i < 3; i++) {
         const struct rho_bodies good = tracker.bodies;
@@ -390,16 +400,16 @@ static void least_variances_are_sound(void **state)
     }
 }
 
-static void unsound_bodies_are_found(void **state)
+static void corrupt_body_state_is_detected(void **state)
 {
     (void)state;
     if (!RHO_BODIES) {
         skip();
     }
-    prepare(15.0f);
+    start_tracker_with_longest(15.0f);
     for (int k = 0; k < 20; k++) {
-        see(&truck, k);
-        look(k);
+        see_vehicle(&truck, k);
+        step_scan_at(k);
     }
     assert_true(rho_tracker_is_sound(&tracker));
     const struct rho_bodies good = tracker.bodies;
@@ -418,10 +428,10 @@ static void unsound_bodies_are_found(void **state)
     tracker.bodies.of[0].along.prior_share = NAN;
     assert_false(rho_tracker_is_sound(&tracker));
     tracker.bodies = good;
-    tracker.bodies.of[0].slope_weight = 0.0f; /* its reciprocal is taken */
+    tracker.bodies.of[0].slope_weight = 0.0f; /* the weight's reciprocal is taken */
     assert_false(rho_tracker_is_sound(&tracker));
     tracker.bodies = good;
-    tracker.bodies.of[0].along_m2 = 0.0f; /* and that of the length */
+    tracker.bodies.of[0].along_m2 = 0.0f; /* the length's reciprocal is taken */
     assert_false(rho_tracker_is_sound(&tracker));
     tracker.bodies = good;
     assert_true(rho_tracker_is_sound(&tracker));
@@ -430,20 +440,20 @@ static void unsound_bodies_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_truck_is_one_track),
-        cmocka_unit_test(neighbours_stay_two),
-        cmocka_unit_test(plots_far_off_the_scans_time_are_owned),
-        cmocka_unit_test(excluded_plots_are_in_no_group),
-        cmocka_unit_test(those_that_only_pass_stay_two),
-        cmocka_unit_test(bad_plots_and_full_scans),
-        cmocka_unit_test(work_is_bounded),
-        cmocka_unit_test(telling),
-        cmocka_unit_test(poor_azimuths_teach_sound_bodies),
-        cmocka_unit_test(least_bodies_have_a_size),
-        cmocka_unit_test(a_body_that_stands_is_half_as_long_as_the_longest),
-        cmocka_unit_test(a_body_that_stands_has_a_least_length),
-        cmocka_unit_test(least_variances_are_sound),
-        cmocka_unit_test(unsound_bodies_are_found),
+        cmocka_unit_test(a_truck_of_several_plots_has_one_track),
+        cmocka_unit_test(neighbouring_vehicles_keep_two_tracks),
+        cmocka_unit_test(plots_far_from_the_scan_time_go_to_their_track),
+        cmocka_unit_test(plots_in_excluded_areas_join_no_group),
+        cmocka_unit_test(vehicles_passing_each_other_keep_two_tracks),
+        cmocka_unit_test(bad_plots_and_full_scans_do_no_harm),
+        cmocka_unit_test(work_of_grouping_is_bounded),
+        cmocka_unit_test(bad_body_lengths_are_refused),
+        cmocka_unit_test(a_body_seen_with_poor_azimuths_stays_finite),
+        cmocka_unit_test(the_shortest_bodies_keep_a_length_of_0_1_m),
+        cmocka_unit_test(a_standing_body_is_taken_as_half_the_longest),
+        cmocka_unit_test(a_standing_body_is_at_least_0_1_m_long),
+        cmocka_unit_test(variances_below_1e_7_m2_are_unsound),
+        cmocka_unit_test(corrupt_body_state_is_detected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The plots of a body show two targets beyond each limit of the evidence, and one target within it.
- * Lengths are tested from outside. For range rates, tracks and their bodies are made by hand, which
- * takes the private header: those of a scene never stand at a limit.
- *
- * Sums fade by 1 / 80 a look: n looks in a row count S(n) = 80 (1 - (79 / 80)^n) looks.
+ * The plots of a body split it into two targets just beyond each limit of the evidence, and not
+ * within it. Lengths are tested through the public interface. For range rates, tracks and bodies
+ * are made by hand, with the private header, as those of a scene never stand exactly at a limit.
+ * Sums fade by 1 / 80 a look: n looks in a row count as S(n) = 80 (1 - (79 / 80)^n) looks.
  */
 #include "../../src/tracker/step.h"
 #include "rhotrack/body.h"
@@ -14,7 +13,7 @@
 
 #define LONGEST_M 10.0
 
-static void prepare(void)
+static void start_tracker_with_bodies(void)
 {
     use_usual_configs(1);
     config.v_max_mps = initiation.v_max_mps = 60.0f;
@@ -22,16 +21,16 @@ static void prepare(void)
     assert_int_equal(rho_tracker_set_body_max(&tracker, (float)LONGEST_M), RHO_OK);
 }
 
-/* ---- length ---------------------------------------------------------------------------------- */
+/* ---- evidence from lengths ------------------------------------------------------------------- */
 
 #define STEP_S 0.1
 #define SPEED_MPS 15.0
-#define PLAIN_M 9.0 /* a length that one body may have */
-#define LONG_M 13.0 /* a length that no body has */
+#define PLAIN_M 9.0 /* a length within the longest */
+#define LONG_M 13.0 /* a length beyond the longest and the noise */
 
 static int num_looks;
 
-/* A scan of a truck that drives away from the radar: plots of rear and front with 0.5 m noise. */
+/* A scan of a truck driving away from the radar: plots of its rear and front with 0.5 m noise. */
 static void see_truck(double length_m)
 {
     const double x_m = 100.0 + SPEED_MPS * STEP_S * num_looks;
@@ -51,11 +50,11 @@ static void see_truck_for(int looks, double length_m)
     }
 }
 
-/* Within ten looks a truck of a usual length has a track with a heading. */
+/* After ten looks a truck of usual length has a track with a heading. */
 static void begin_truck(void)
 {
     struct rho_body body;
-    prepare();
+    start_tracker_with_bodies();
     num_looks = 0;
     see_truck_for(10, PLAIN_M);
     assert_int_equal(report.num_tracks, 1);
@@ -63,30 +62,30 @@ static void begin_truck(void)
     assert_true(body.sigma_heading_rad < 0.3f);
 }
 
-static int is_two_after(int looks, double length_m)
+static int is_split_after(int looks, double length_m)
 {
     begin_truck();
     see_truck_for(looks, length_m);
     return report.num_tracks == 2;
 }
 
-/* The limit is four sigmas of a plot beyond the longest body: 10 + 4 0.5 = 12 m. */
-static void a_body_is_too_long_beyond_the_noise_of_its_plots(void **state)
+/* Too long is more than four sigmas of a plot beyond the longest body: 10 + 4 0.5 = 12 m. */
+static void a_body_is_too_long_four_sigmas_beyond_the_longest(void **state)
 {
     (void)state;
-    assert_false(is_two_after(40, 11.9));
-    assert_true(is_two_after(40, 12.1));
+    assert_false(is_split_after(40, 11.9));
+    assert_true(is_split_after(40, 12.1));
 }
 
-/* More than 4 long looks are needed: S(4) = 3.93, S(5) = 4.88. */
-static void five_looks_at_a_long_body_show_two_targets(void **state)
+/* More than 4 too long looks are needed: S(4) = 3.93, S(5) = 4.88. */
+static void five_looks_at_a_too_long_body_split_it(void **state)
 {
     (void)state;
-    assert_false(is_two_after(4, LONG_M));
-    assert_true(is_two_after(5, LONG_M));
+    assert_false(is_split_after(4, LONG_M));
+    assert_true(is_split_after(5, LONG_M));
 }
 
-static int is_two_after_long_look_every(int period)
+static int is_split_by_long_look_every(int period)
 {
     begin_truck();
     for (int k = 1; k <= 400; k++) {
@@ -99,17 +98,17 @@ static int is_two_after_long_look_every(int period)
 }
 
 /*
- * A share of more than 0.1 is needed. Where each p-th look is long, long looks count up to
- * 1 / (1 - (79 / 80)^p) of 80 looks: a share of 0.106 for p = 10, of 0.097 for p = 11.
+ * More than 0.1 of the looks must be too long. If every p-th look is, they count as up to 1 / (1 -
+ * (79 / 80)^p) of 80 looks: a share of 0.106 for p = 10, of 0.097 for p = 11.
  */
-static void long_looks_are_more_than_a_tenth_of_all(void **state)
+static void more_than_a_tenth_of_looks_must_be_too_long(void **state)
 {
     (void)state;
-    assert_true(is_two_after_long_look_every(10));
-    assert_false(is_two_after_long_look_every(11));
+    assert_true(is_split_by_long_look_every(10));
+    assert_false(is_split_by_long_look_every(11));
 }
 
-static int is_two_after_pause_of(int looks)
+static int is_split_after_pause_of(int looks)
 {
     begin_truck();
     see_truck_for(3, LONG_M);
@@ -119,26 +118,27 @@ static int is_two_after_pause_of(int looks)
 }
 
 /*
- * Three long looks, and two more after a pause of n looks, count (79 / 80)^(n + 2) S(3) + S(2):
- * 4.04 for n = 27, 3.97 for n = 30.
+ * Three too long looks, and two more after n others, count as (79 / 80)^(n + 2) S(3) + S(2): 4.04
+ * for n = 27, 3.97 for n = 30.
  */
-static void long_looks_are_forgotten_over_eighty(void **state)
+static void too_long_looks_are_forgotten_within_eighty(void **state)
 {
     (void)state;
-    assert_true(is_two_after_pause_of(27));
-    assert_false(is_two_after_pause_of(30));
+    assert_true(is_split_after_pause_of(27));
+    assert_false(is_split_after_pause_of(30));
 }
 
-/* ---- range rates ----------------------------------------------------------------------------- */
+/* ---- evidence from range rates --------------------------------------------------------------- */
 
-#define RANGE_M 199.0f /* the rule divides by a metre more: 200 m */
+#define RANGE_M 199.0f /* + 1 m, which the rule adds before dividing, is 200 m */
 
-/* The four plots of each look, by their places and range rates about those of the body. */
+/* Places and range rates of the four plots of each look, relative to the body's. */
 struct look {
-    float far_m, side_m; /* half sides of the rectangle, along the line of sight and across it */
-    float oblique_m; /* shift across the line of sight: the far side's; opposite at the near side */
+    float far_m, side_m; /* half sides of the rectangle, along and across the line of sight */
+    /* shift of the far side across the line of sight; the near side's is opposite */
+    float oblique_m;
     float rate_mps;  /* half the difference of range rates across the line of sight */
-    float twist_mps; /* added to range rates at two opposite corners, subtracted at the others */
+    float twist_mps; /* added to range rates at two opposite corners, subtracted at the other two */
     float sigma_cross_m, sigma_rate_mps;
 };
 
@@ -149,10 +149,10 @@ static const struct look usual = {
 static struct rho_scan scan;
 static struct step at;
 
-/* A track 200 m east of the radar, with a body that heads away from it and is known well. */
-static void have_body(void)
+/* A track 200 m east of the radar, with a well-known body that heads away from the radar. */
+static void make_track_with_body(void)
 {
-    prepare();
+    start_tracker_with_bodies();
     struct rho_track *track = &tracker.tracks[0];
     *track = (struct rho_track){.track_id = 1, .status = RHO_TRACK_CONFIRMED, .plot = 0};
     track->kalman.state[RHO_X] = RANGE_M;
@@ -163,7 +163,7 @@ static void have_body(void)
     scan = (struct rho_scan){.measures = RHO_MEASURES_RANGE_RATE, .plots = plots};
 }
 
-static void set_velocity_sigma(float sigma_mps)
+static void set_track_velocity_sigma(float sigma_mps)
 {
     float *covariance = tracker.tracks[0].kalman.covariance;
     for (int axis = 0; axis < 2; axis++) {
@@ -172,8 +172,8 @@ static void set_velocity_sigma(float sigma_mps)
     }
 }
 
-/* Adds the plot of a corner of the rectangle to the track's group; far, side: -1 or 1. */
-static void see_corner(const struct look *look, float far, float side)
+/* Adds the plot at a corner of the rectangle to the track's group; far, side: -1 or 1. */
+static void add_corner_plot(const struct look *look, float far, float side)
 {
     struct rho_groups *groups = &tracker.bodies.groups;
     const uint32_t i = num_plots;
@@ -188,12 +188,12 @@ static void see_corner(const struct look *look, float far, float side)
     }
 }
 
-static void look_for(int looks, float each_s, const struct look *look)
+static void add_looks(int looks, float each_s, const struct look *look)
 {
     for (int k = 0; k < looks; k++) {
         num_plots = 0;
         for (int corner = 0; corner < 4; corner++) {
-            see_corner(look, corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f);
+            add_corner_plot(look, corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f);
         }
         scan.num_plots = num_plots;
         at.time_us += llround(1e6 * (double)each_s);
@@ -202,174 +202,175 @@ static void look_for(int looks, float each_s, const struct look *look)
     }
 }
 
-static int moves_apart(void)
+static int do_parts_move_apart(void)
 {
     return rho_tracker_find_body_split_reason(&at, 0) == RHO_BODY_MOVES_APART;
 }
 
-/* 1: sixty such looks, S(60) = 42.4, show two targets. sigma_mps: of the track's velocity */
-static int moves_apart_by(float each_s, float sigma_mps, const struct look *look)
+/* 1: sixty such looks, S(60) = 42.4, split the body. sigma_mps: of the track's velocity */
+static int do_parts_move_apart_after_sixty(float each_s, float sigma_mps, const struct look *look)
 {
-    have_body();
-    set_velocity_sigma(sigma_mps);
-    look_for(60, each_s, look);
-    return moves_apart();
+    make_track_with_body();
+    set_track_velocity_sigma(sigma_mps);
+    add_looks(60, each_s, look);
+    return do_parts_move_apart();
 }
 
-/* 30 looks are needed: S(37) = 29.8, S(38) = 30.4. */
-static void range_rates_are_judged_after_thirty_looks(void **state)
+/* More than 30 looks are needed: S(37) = 29.8, S(38) = 30.4. */
+static void range_rates_split_a_body_after_thirty_looks(void **state)
 {
     (void)state;
-    have_body();
-    look_for(37, 0.05f, &usual);
-    assert_false(moves_apart());
-    look_for(1, 0.05f, &usual);
-    assert_true(moves_apart());
+    make_track_with_body();
+    add_looks(37, 0.05f, &usual);
+    assert_false(do_parts_move_apart());
+    add_looks(1, 0.05f, &usual);
+    assert_true(do_parts_move_apart());
 }
 
-/* Range rates count once the body is known from 30 plots. */
-static void range_rates_of_a_new_body_are_no_evidence(void **state)
+/* Range rates count once more than 30 plots have shaped the body. */
+static void range_rates_of_a_body_of_few_plots_are_ignored(void **state)
 {
     (void)state;
     for (int is_known = 0; is_known < 2; is_known++) {
-        have_body();
+        make_track_with_body();
         tracker.bodies.of[0].plots = is_known ? 31.0f : 29.0f;
-        look_for(60, 0.05f, &usual);
-        assert_int_equal(moves_apart(), is_known);
+        add_looks(60, 0.05f, &usual);
+        assert_int_equal(do_parts_move_apart(), is_known);
     }
 }
 
-static int moves_apart_after_turn(float turn_rad, float heading_sigma_rad)
+static int do_parts_move_apart_after_turn(float turn_rad, float heading_sigma_rad)
 {
-    have_body();
+    make_track_with_body();
     tracker.bodies.of[0].heading_sigma_rad = heading_sigma_rad;
-    look_for(60, 0.05f, &usual);
+    add_looks(60, 0.05f, &usual);
     tracker.bodies.of[0].cos_heading = cosf(turn_rad);
     tracker.bodies.of[0].sin_heading = sinf(turn_rad);
-    look_for(1, 0.05f, &usual);
-    return moves_apart();
+    add_looks(1, 0.05f, &usual);
+    return do_parts_move_apart();
 }
 
-/* A heading is steady within 0.1 rad and one sigma of the heading. */
-static void sums_of_range_rates_begin_anew_where_the_body_has_turned(void **state)
+/* A heading counts as steady within 0.1 rad and one sigma of the heading. */
+static void a_turn_of_the_body_resets_sums_of_range_rates(void **state)
 {
     (void)state;
-    assert_true(moves_apart_after_turn(0.09f, 0.0f));
-    assert_true(moves_apart_after_turn(-0.09f, 0.0f));
-    assert_false(moves_apart_after_turn(0.11f, 0.0f));
-    assert_false(moves_apart_after_turn(-0.11f, 0.0f));
-    assert_true(moves_apart_after_turn(0.14f, 0.05f));
-    assert_false(moves_apart_after_turn(0.16f, 0.05f));
+    assert_true(do_parts_move_apart_after_turn(0.09f, 0.0f));
+    assert_true(do_parts_move_apart_after_turn(-0.09f, 0.0f));
+    assert_false(do_parts_move_apart_after_turn(0.11f, 0.0f));
+    assert_false(do_parts_move_apart_after_turn(-0.11f, 0.0f));
+    assert_true(do_parts_move_apart_after_turn(0.14f, 0.05f));
+    assert_false(do_parts_move_apart_after_turn(0.16f, 0.05f));
 }
 
 /*
- * Sixty looks, one each 50 ms, last 0.05 S(59) = 2.10 s. A turn by 2 0.1 rad in that time moves
+ * Sixty looks, one each 50 ms, last 0.05 S(59) = 2.10 s. A turn by 2 x 0.1 rad in that time moves
  * parts 4 m off the middle at 0.38 m/s.
  */
-static void an_unseen_turn_explains_range_rates_up_to_two_tolerances(void **state)
+static void range_rates_that_an_unseen_turn_explains_do_not_split(void **state)
 {
     struct look look = usual;
     (void)state;
     look.rate_mps = 0.37f;
-    assert_false(moves_apart_by(0.05f, 0.0f, &look));
+    assert_false(do_parts_move_apart_after_sixty(0.05f, 0.0f, &look));
     look.rate_mps = 0.39f;
-    assert_true(moves_apart_by(0.05f, 0.0f, &look));
+    assert_true(do_parts_move_apart_after_sixty(0.05f, 0.0f, &look));
 }
 
 /*
- * At 200 m, a velocity that is 2 m/s off across the line of sight adds 0.04 m/s to the range rates
- * of parts 4 m off the middle, and two sigmas add 0.08 m/s. An unseen turn by 0.2 rad in the
- * S(59) = 41.9 s that sixty looks last, one each second, adds 0.019 m/s: 0.082 m/s with both.
+ * At 200 m, a velocity error of 2 m/s across the line of sight adds 0.04 m/s to range rates of
+ * parts 4 m off the middle; two sigmas add 0.08 m/s. An unseen turn by 0.2 rad in the S(59) = 41.9
+ * s of sixty looks, one each second, adds 0.019 m/s: together 0.082 m/s.
  */
-static void an_error_of_the_velocity_explains_two_sigmas_of_it(void **state)
+static void range_rates_that_a_velocity_error_explains_do_not_split(void **state)
 {
     struct look look = usual;
     (void)state;
     look.sigma_rate_mps = 0.01f;
     look.rate_mps = 0.08f;
-    assert_false(moves_apart_by(1.0f, 2.0f, &look));
+    assert_false(do_parts_move_apart_after_sixty(1.0f, 2.0f, &look));
     look.rate_mps = 0.085f;
-    assert_true(moves_apart_by(1.0f, 2.0f, &look));
+    assert_true(do_parts_move_apart_after_sixty(1.0f, 2.0f, &look));
 }
 
 /*
- * A noise of 5 m alone has a variance of 3 / 4 5^2 m^2 about the mean of four plots, which explains
- * plots 4 m off the middle. The parts themselves then count as root(0.2 3 / 4) 5 = 1.94 m off the
- * middle, and an unseen turn moves them at 0.185 m/s.
+ * Noise of 5 m alone has a variance of 3 / 4 5^2 m^2 about the mean of four plots, which explains
+ * plots 4 m off the middle. The parts then count as root(0.2 3 / 4) 5 = 1.94 m off the middle,
+ * where an unseen turn moves them at 0.185 m/s.
  */
-static void places_across_the_line_of_sight_have_a_least_variance(void **state)
+static void cross_range_places_count_as_at_least_a_fifth_of_their_variance(void **state)
 {
     struct look look = usual;
     (void)state;
     look.sigma_cross_m = 5.0f;
     look.rate_mps = 0.18f;
-    assert_false(moves_apart_by(0.05f, 0.0f, &look));
+    assert_false(do_parts_move_apart_after_sixty(0.05f, 0.0f, &look));
     look.rate_mps = 0.19f;
-    assert_true(moves_apart_by(0.05f, 0.0f, &look));
+    assert_true(do_parts_move_apart_after_sixty(0.05f, 0.0f, &look));
 }
 
 /*
- * A thin body is oblique to the line of sight: its far end, 1.5 m behind the middle, is 1.5 m to
- * the side. With half a thickness of d, 1 - correlation^2 of the places is d^2 / (1.5^2 + d^2),
- * which is 0.1 for d = 0.5 m.
+ * A thin body oblique to the line of sight: its far end, 1.5 m behind the middle, is 1.5 m to the
+ * side. With half a thickness of d, 1 - correlation^2 of the places is d^2 / (1.5^2 + d^2), which
+ * is the limit of 0.1 for d = 0.5 m.
  */
-static void no_plane_is_fitted_to_range_rates_along_a_line(void **state)
+static void plots_nearly_on_a_line_give_no_range_rate_evidence(void **state)
 {
     struct look look = usual;
     (void)state;
     look.far_m = look.oblique_m = 1.5f;
     look.side_m = 0.48f;
-    assert_false(moves_apart_by(0.05f, 0.0f, &look));
+    assert_false(do_parts_move_apart_after_sixty(0.05f, 0.0f, &look));
     look.side_m = 0.52f;
-    assert_true(moves_apart_by(0.05f, 0.0f, &look));
+    assert_true(do_parts_move_apart_after_sixty(0.05f, 0.0f, &look));
 }
 
 /*
- * Range rates of r at four plots have the sum of squares 4 r^2, and noise alone has 3 sigma^2: the
+ * Range rates of +-r at four plots have the sum of squares 4 r^2, noise alone has 3 sigma^2: the
  * limit is r = 0.866 sigma. In a minute an unseen turn explains next to nothing.
  */
-static void range_rates_differ_by_more_than_their_noise(void **state)
+static void range_rates_within_their_noise_do_not_split(void **state)
 {
     struct look look = usual;
     (void)state;
     look.sigma_rate_mps = 1.0f;
     look.rate_mps = 0.85f;
-    assert_false(moves_apart_by(1.0f, 0.0f, &look));
+    assert_false(do_parts_move_apart_after_sixty(1.0f, 0.0f, &look));
     look.rate_mps = 0.88f;
-    assert_true(moves_apart_by(1.0f, 0.0f, &look));
+    assert_true(do_parts_move_apart_after_sixty(1.0f, 0.0f, &look));
 }
 
 /*
- * Range rates of 1 m/s that no plane explains, as those of wheels, are noise. Chi-square of range
- * rates of r that a plane explains is then 3 S(60) r^2, which is 40 for r = 0.561 m/s.
+ * Range rates of 1 m/s that no plane fits, like those of wheels, count as noise. Chi-square of
+ * range rates +-r that a plane fits is then 3 S(60) r^2: the limit of 40 is reached at r = 0.561
+ * m/s.
  */
-static void a_plane_explains_surely_more_than_wheels_do(void **state)
+static void range_rates_of_turning_wheels_do_not_split(void **state)
 {
     struct look look = usual;
     (void)state;
     look.twist_mps = 1.0f;
     look.rate_mps = 0.55f;
-    assert_false(moves_apart_by(1.0f, 0.0f, &look));
+    assert_false(do_parts_move_apart_after_sixty(1.0f, 0.0f, &look));
     look.rate_mps = 0.57f;
-    assert_true(moves_apart_by(1.0f, 0.0f, &look));
+    assert_true(do_parts_move_apart_after_sixty(1.0f, 0.0f, &look));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_body_is_too_long_beyond_the_noise_of_its_plots),
-        cmocka_unit_test(five_looks_at_a_long_body_show_two_targets),
-        cmocka_unit_test(long_looks_are_more_than_a_tenth_of_all),
-        cmocka_unit_test(long_looks_are_forgotten_over_eighty),
-        cmocka_unit_test(range_rates_are_judged_after_thirty_looks),
-        cmocka_unit_test(range_rates_of_a_new_body_are_no_evidence),
-        cmocka_unit_test(sums_of_range_rates_begin_anew_where_the_body_has_turned),
-        cmocka_unit_test(an_unseen_turn_explains_range_rates_up_to_two_tolerances),
-        cmocka_unit_test(an_error_of_the_velocity_explains_two_sigmas_of_it),
-        cmocka_unit_test(places_across_the_line_of_sight_have_a_least_variance),
-        cmocka_unit_test(no_plane_is_fitted_to_range_rates_along_a_line),
-        cmocka_unit_test(range_rates_differ_by_more_than_their_noise),
-        cmocka_unit_test(a_plane_explains_surely_more_than_wheels_do),
+        cmocka_unit_test(a_body_is_too_long_four_sigmas_beyond_the_longest),
+        cmocka_unit_test(five_looks_at_a_too_long_body_split_it),
+        cmocka_unit_test(more_than_a_tenth_of_looks_must_be_too_long),
+        cmocka_unit_test(too_long_looks_are_forgotten_within_eighty),
+        cmocka_unit_test(range_rates_split_a_body_after_thirty_looks),
+        cmocka_unit_test(range_rates_of_a_body_of_few_plots_are_ignored),
+        cmocka_unit_test(a_turn_of_the_body_resets_sums_of_range_rates),
+        cmocka_unit_test(range_rates_that_an_unseen_turn_explains_do_not_split),
+        cmocka_unit_test(range_rates_that_a_velocity_error_explains_do_not_split),
+        cmocka_unit_test(cross_range_places_count_as_at_least_a_fifth_of_their_variance),
+        cmocka_unit_test(plots_nearly_on_a_line_give_no_range_rate_evidence),
+        cmocka_unit_test(range_rates_within_their_noise_do_not_split),
+        cmocka_unit_test(range_rates_of_turning_wheels_do_not_split),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Which plots of a scan one target can have given, at both sides of each limit. Tracks and their
- * bodies are made by hand, which takes the private header: those of a scene never stand at a limit.
+ * Which plots of a scan one target can have given, at both sides of each limit. Tracks and bodies
+ * are made by hand, with the private header, as those of a scene never stand exactly at a limit.
  */
 #include "../../src/tracker/step.h"
 #include "tracker_setup.h"
 
 #define LONGEST_M 10.0f
-#define SECOND (RHO_BODIES ? 1 : 0) /* row of the other track; without bodies nothing runs */
+/* row of the second track; builds without bodies skip these tests */
+#define SECOND (RHO_BODIES ? 1 : 0)
 
 static const struct rho_sensor radar = {.sensor_id = 1, .pd = 0.9f, .range_max_m = 5e3f};
 static struct rho_scan scan;
 static struct step at;
 
-static void prepare(uint32_t measures)
+static void start_tracker_with_bodies(uint32_t measures)
 {
     use_usual_configs(1);
     config.v_max_mps = initiation.v_max_mps = 60.0f;
@@ -24,8 +25,8 @@ static void prepare(uint32_t measures)
     scan = (struct rho_scan){.sensor_id = 1, .measures = measures, .plots = plots};
 }
 
-/* A plot of 0.5 m and 1 m/s, 1 km east of the radar. */
-static void see(double x_m, double y_m, double rate_mps)
+/* Adds a plot of 0.5 m and 1 m/s sigma, 1 km east of the radar. */
+static void add_plot_near_track(double x_m, double y_m, double rate_mps)
 {
     struct rho_plot *plot = add_plot(1000.0 + x_m, y_m, 0.5);
     plot->range_rate_mps = (float)rate_mps;
@@ -33,9 +34,10 @@ static void see(double x_m, double y_m, double rate_mps)
 }
 
 /*
- * One that flies east at 10 m/s, 1 m and 1 m/s uncertain, whose body is known from so many plots.
+ * A track flying east at 10 m/s, with sigmas of 1 m and 1 m/s, whose body was shaped by so many
+ * plots.
  */
-static void have_track(float plots_of_body)
+static void make_track_with_body(float plots_of_body)
 {
     struct rho_track *track = &tracker.tracks[0];
     struct rho_body_filter *body = &tracker.bodies.of[0];
@@ -58,7 +60,7 @@ static void have_track(float plots_of_body)
     tracker.num_tracks = tracker.bodies.count = 1;
 }
 
-static void group(void)
+static void group_plots(void)
 {
     static struct rho_scan grouped;
     scan.num_plots = num_plots;
@@ -72,13 +74,13 @@ static void group(void)
     rho_tracker_group_plots(&at, &grouped);
 }
 
-static int owner_of(uint32_t plot)
+static int owner_of_plot(uint32_t plot)
 {
     const struct rho_groups *groups = &tracker.bodies.groups;
     return plot >= RHO_BODY_PLOTS || groups->owner[plot] == RHO_NO_ROW ? -1 : groups->owner[plot];
 }
 
-static int contender_of(uint32_t plot)
+static int contender_of_plot(uint32_t plot)
 {
     const struct rho_groups *groups = &tracker.bodies.groups;
     return plot >= RHO_BODY_PLOTS || groups->contender[plot] == RHO_NO_ROW
@@ -86,139 +88,141 @@ static int contender_of(uint32_t plot)
                : groups->contender[plot];
 }
 
-/* ---- plots of no track ----------------------------------------------------------------------- */
+/* ---- plots without a track ------------------------------------------------------------------- */
 
-static unsigned groups_of_two(uint32_t measures, double apart_m, double rate_mps)
+static unsigned count_groups_of_two_plots(uint32_t measures, double apart_m, double rate_mps)
 {
-    prepare(measures);
-    see(0.0, 0.0, 0.0);
-    see(0.0, apart_m, rate_mps);
-    group();
+    start_tracker_with_bodies(measures);
+    add_plot_near_track(0.0, 0.0, 0.0);
+    add_plot_near_track(0.0, apart_m, rate_mps);
+    group_plots();
     return tracker.bodies.groups.count;
 }
 
-/* Two sigmas of both beyond the longest target: 10 + 2 (0.5 + 0.5). */
-static void two_plots_of_one_target_are_as_far_apart_as_it_is_long(void **state)
+/* Plots may be two sigmas of both beyond the longest target apart: 10 + 2 (0.5 + 0.5) m. */
+static void plots_within_the_longest_length_form_one_group(void **state)
 {
     (void)state;
-    assert_int_equal(groups_of_two(0, 11.9, 0.0), 1);
-    assert_int_equal(groups_of_two(0, 12.1, 0.0), 2);
-    assert_int_equal(groups_of_two(0, -11.9, 0.0), 1);
+    assert_int_equal(count_groups_of_two_plots(0, 11.9, 0.0), 1);
+    assert_int_equal(count_groups_of_two_plots(0, 12.1, 0.0), 2);
+    assert_int_equal(count_groups_of_two_plots(0, -11.9, 0.0), 1);
 }
 
 /*
- * Four sigmas: root(1 + 1 + (0.1^2 + 0.02^2) d^2) m/s, d across the line of sight, 0.41 of the
- * longest at most; or the noise of both places.
+ * Range rates may differ by four sigmas: root(1 + 1 + (0.1^2 + 0.02^2) d^2) m/s, with d across the
+ * line of sight at most 0.41 of the longest, or the noise of both places.
  */
-static void two_range_rates_of_one_target_are_alike(void **state)
+static void plots_of_different_range_rates_form_two_groups(void **state)
 {
     (void)state;
-    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, 5.85), 1);
-    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, 5.95), 2);
-    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, -5.85), 1);
-    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, -5.95), 2);
-    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 1.0, 5.69), 1);
-    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 1.0, 5.74), 2);
-    assert_int_equal(groups_of_two(0, 5.0, 99.0), 1);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, 5.85), 1);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, 5.95), 2);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, -5.85), 1);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 5.0, -5.95), 2);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 1.0, 5.69), 1);
+    assert_int_equal(count_groups_of_two_plots(RHO_MEASURES_RANGE_RATE, 1.0, 5.74), 2);
+    assert_int_equal(count_groups_of_two_plots(0, 5.0, 99.0), 1);
 }
 
-/* ---- a track's plots ------------------------------------------------------------------------- */
+/* ---- plots of a track ------------------------------------------------------------------------ */
 
-/* Three sigmas: along root(1 + 7.75 + 0.25) m, across root(1 + 0.25 + 0.25) m. */
-static void a_body_has_a_gate_along_and_across(void **state)
+/* The gate is three sigmas: along root(1 + 7.75 + 0.25) m, across root(1 + 0.25 + 0.25) m. */
+static void a_track_owns_plots_within_its_body_gate(void **state)
 {
     (void)state;
-    prepare(0);
-    have_track(100.0f);
-    see(8.9, 0.0, 0.0);
-    see(-9.1, 0.0, 0.0);
-    see(0.0, 3.6, 0.0);
-    see(0.0, -3.75, 0.0);
-    group();
-    assert_int_equal(owner_of(0), 0);
-    assert_int_equal(owner_of(1), -1);
-    assert_int_equal(owner_of(2), 0);
-    assert_int_equal(owner_of(3), -1);
+    start_tracker_with_bodies(0);
+    make_track_with_body(100.0f);
+    add_plot_near_track(8.9, 0.0, 0.0);
+    add_plot_near_track(-9.1, 0.0, 0.0);
+    add_plot_near_track(0.0, 3.6, 0.0);
+    add_plot_near_track(0.0, -3.75, 0.0);
+    group_plots();
+    assert_int_equal(owner_of_plot(0), 0);
+    assert_int_equal(owner_of_plot(1), -1);
+    assert_int_equal(owner_of_plot(2), 0);
+    assert_int_equal(owner_of_plot(3), -1);
 }
 
-/* Four sigmas of both, 8 m/s, and 0.3 m/s a metre. */
-static void a_body_has_the_range_rate_of_its_track(void **state)
+/*
+ * The gate in range rate is four sigmas of both, 8 m/s, and 0.3 m/s for each metre off the middle.
+ */
+static void a_track_owns_plots_of_its_range_rate_only(void **state)
 {
     (void)state;
-    prepare(RHO_MEASURES_RANGE_RATE);
-    have_track(100.0f);
-    see(0.0, 0.0, 17.9);
-    see(0.0, 0.0, 18.1);
-    see(5.0, 0.0, 19.4);
-    see(5.0, 0.0, 19.6);
-    group();
+    start_tracker_with_bodies(RHO_MEASURES_RANGE_RATE);
+    make_track_with_body(100.0f);
+    add_plot_near_track(0.0, 0.0, 17.9);
+    add_plot_near_track(0.0, 0.0, 18.1);
+    add_plot_near_track(5.0, 0.0, 19.4);
+    add_plot_near_track(5.0, 0.0, 19.6);
+    group_plots();
     for (uint32_t i = 0; i < 4; i++) {
-        assert_int_equal(owner_of(i), i % 2 ? -1 : 0);
+        assert_int_equal(owner_of_plot(i), i % 2 ? -1 : 0);
     }
 }
 
 /*
- * Two tracks that differ by their velocity alone. A plot is the one's whose velocity says its range
- * rate, by -2 ln of the likelihoods; the other one contends for it where that is less than 6.
+ * Two tracks that differ in velocity alone. A plot goes to the track whose range rate is likelier,
+ * by -2 ln of the likelihoods; the other track contends for it if the difference is below 6.
  */
-static void range_rates_tell_whose_plot_it_is(void **state)
+static void range_rates_decide_which_track_owns_a_plot(void **state)
 {
     (void)state;
-    prepare(RHO_MEASURES_RANGE_RATE);
-    have_track(100.0f);
+    start_tracker_with_bodies(RHO_MEASURES_RANGE_RATE);
+    make_track_with_body(100.0f);
     tracker.tracks[SECOND] = tracker.tracks[0];
     tracker.bodies.of[SECOND] = tracker.bodies.of[0];
     tracker.tracks[SECOND].track_id = tracker.bodies.of[SECOND].track_id = 2;
     tracker.tracks[SECOND].kalman.state[RHO_VX] = 14.0f;
     tracker.num_tracks = tracker.bodies.count = 2;
-    see(0.0, 0.0, 10.0); /* 16 / 2 off the second one's */
-    see(0.0, 0.0, 11.5);
-    see(0.0, 0.0, 12.5);
-    see(0.0, 0.0, 14.0);
-    see(0.0, 0.0, 10.45); /* (3.55^2 - 0.45^2) / 2 = 6.2 */
-    see(0.0, 0.0, 10.55); /* (3.45^2 - 0.55^2) / 2 = 5.8 */
-    group();
+    add_plot_near_track(0.0, 0.0, 10.0); /* 16 / 2 worse for the second track */
+    add_plot_near_track(0.0, 0.0, 11.5);
+    add_plot_near_track(0.0, 0.0, 12.5);
+    add_plot_near_track(0.0, 0.0, 14.0);
+    add_plot_near_track(0.0, 0.0, 10.45); /* (3.55^2 - 0.45^2) / 2 = 6.2 */
+    add_plot_near_track(0.0, 0.0, 10.55); /* (3.45^2 - 0.55^2) / 2 = 5.8 */
+    group_plots();
     for (uint32_t i = 0; i < 6; i++) {
         const int is_second = i == 2 || i == 3, is_contested = i == 1 || i == 2 || i == 5;
-        assert_int_equal(owner_of(i), is_second);
-        assert_int_equal(contender_of(i), is_contested ? !is_second : -1);
+        assert_int_equal(owner_of_plot(i), is_second);
+        assert_int_equal(contender_of_plot(i), is_contested ? !is_second : -1);
     }
 }
 
-/* ---- the rest -------------------------------------------------------------------------------- */
+/* ---- work and rows --------------------------------------------------------------------------- */
 
-static void a_body_of_unknown_length_is_half_as_long_as_the_longest(void **state)
+static void the_gate_of_an_unknown_body_is_half_the_longest(void **state)
 {
     (void)state;
-    prepare(0);
+    start_tracker_with_bodies(0);
     assert_float_equal(rho_tracker_body_prior_variance_m2(&tracker), 5.0 * 5.0 / 12.0, 1e-6);
 }
 
-/* Six units for a plot and a body; two for two plots, one for each that is passed over. */
-static void work_is_counted(void **state)
+/* Work units: six for a plot and a body, two for a pair of plots, one for each skipped plot. */
+static void work_of_grouping_is_counted(void **state)
 {
     (void)state;
-    prepare(0);
-    have_track(100.0f);
-    see(0.0, 0.0, 0.0);
-    group();
+    start_tracker_with_bodies(0);
+    make_track_with_body(100.0f);
+    add_plot_near_track(0.0, 0.0, 0.0);
+    group_plots();
     assert_int_equal(at.work, 6);
-    (void)groups_of_two(0, 5.0, 0.0);
+    (void)count_groups_of_two_plots(0, 5.0, 0.0);
     assert_int_equal(at.work, 2 + 2 * 1);
     tracker.config.work_max = 800000;
-    group();
-    assert_int_equal(at.share.end, 200000); /* of all work a quarter */
+    group_plots();
+    assert_int_equal(at.share.end, 200000); /* grouping may use a quarter of all work */
 }
 
-static void rows_are_those_of_the_plots_again(void **state)
+static void group_rows_are_mapped_back_to_plot_rows(void **state)
 {
     (void)state;
-    prepare(0);
-    have_track(100.0f);
-    see(0.0, 100.0, 0.0);
-    see(1.0, 105.0, 0.0); /* of the first one's group */
-    see(0.0, 0.0, 0.0);
-    group();
+    start_tracker_with_bodies(0);
+    make_track_with_body(100.0f);
+    add_plot_near_track(0.0, 100.0, 0.0);
+    add_plot_near_track(1.0, 105.0, 0.0); /* in the group of the first plot */
+    add_plot_near_track(0.0, 0.0, 0.0);
+    group_plots();
     assert_int_equal(tracker.bodies.groups.count, 2);
     tracker.tracks[0].plot = 1;
     report.fates[0] = RHO_FATE_HELD;
@@ -235,14 +239,14 @@ static void rows_are_those_of_the_plots_again(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_plots_of_one_target_are_as_far_apart_as_it_is_long),
-        cmocka_unit_test(two_range_rates_of_one_target_are_alike),
-        cmocka_unit_test(a_body_has_a_gate_along_and_across),
-        cmocka_unit_test(a_body_has_the_range_rate_of_its_track),
-        cmocka_unit_test(range_rates_tell_whose_plot_it_is),
-        cmocka_unit_test(a_body_of_unknown_length_is_half_as_long_as_the_longest),
-        cmocka_unit_test(work_is_counted),
-        cmocka_unit_test(rows_are_those_of_the_plots_again),
+        cmocka_unit_test(plots_within_the_longest_length_form_one_group),
+        cmocka_unit_test(plots_of_different_range_rates_form_two_groups),
+        cmocka_unit_test(a_track_owns_plots_within_its_body_gate),
+        cmocka_unit_test(a_track_owns_plots_of_its_range_rate_only),
+        cmocka_unit_test(range_rates_decide_which_track_owns_a_plot),
+        cmocka_unit_test(the_gate_of_an_unknown_body_is_half_the_longest),
+        cmocka_unit_test(work_of_grouping_is_counted),
+        cmocka_unit_test(group_rows_are_mapped_back_to_plot_rows),
     };
     return RHO_BODIES ? cmocka_run_group_tests(tests, NULL, NULL) : 0;
 }

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Speeds that no target has end a track: a tenth beyond v_max, where the speed is known that well,
- * in three updates in a row. One that is surely too slow ends at once, which is tried with a track
- * that is made by hand: that takes the private header.
+ * Speeds that no target has end a track: a tenth above v_max, known that well, in three updates in
+ * a row. A track surely below v_min ends at once; that track is made by hand, with the private
+ * header.
  */
 #include "../../src/step/phases.h"
 #include "tracker_setup.h"
 
 #define V_MAX_MPS 100.0
 
-/* Scans with a plot of a target that is so fast until its track ends; 0: it does not. */
+/* Scans with plots of a target at this speed until its track ends; 0: it does not end. */
 static int scans_until_too_fast(double speed_mps, double sigma_m)
 {
     use_usual_configs(1);
@@ -29,18 +29,18 @@ static int scans_until_too_fast(double speed_mps, double sigma_m)
     return 0;
 }
 
-static void a_tenth_beyond_the_fastest_is_no_target(void **state)
+static void tracks_a_tenth_faster_than_v_max_end(void **state)
 {
     (void)state;
     assert_int_equal(scans_until_too_fast(1.06 * V_MAX_MPS, 2.0), 0);
-    /* the filter follows in four; two more are the third in a row */
+    /* the filter needs four scans to follow; two more make three in a row */
     assert_int_equal(scans_until_too_fast(1.2 * V_MAX_MPS, 2.0), 7);
-    /* with 80 m of noise the speed must be known within an eighth first, for two sigmas */
+    /* with 80 m noise, two sigmas of the speed must first fall below an eighth */
     assert_int_equal(scans_until_too_fast(1.25 * V_MAX_MPS, 80.0), 15);
 }
 
-/* Three sigmas of 1 m/s below 30 m/s. */
-static void what_is_surely_too_slow_is_no_target(void **state)
+/* The limit is three sigmas of 1 m/s below 30 m/s. */
+static void tracks_surely_slower_than_v_min_end(void **state)
 {
     const struct rho_track_limits limits = {.tentative_mnat = -100000,
                                             .fall_mnat = 100000,
@@ -72,8 +72,8 @@ static void what_is_surely_too_slow_is_no_target(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_tenth_beyond_the_fastest_is_no_target),
-        cmocka_unit_test(what_is_surely_too_slow_is_no_target),
+        cmocka_unit_test(tracks_a_tenth_faster_than_v_max_end),
+        cmocka_unit_test(tracks_surely_slower_than_v_min_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Frames of bearings: what becomes of each bearing, counters, capacities, late and refused frames,
- * no initiation.
+ * Frames of bearings: the fate of each bearing, counters, capacities, late and refused frames, and
+ * frames without initiation.
  */
 #include "bearing_frame_chain.h"
 
@@ -12,11 +12,11 @@ static struct rho_passive passive_then;
 static struct rho_report report_then;
 static struct rho_bearing many[3][RHO_MAX_PLOTS + 50];
 
-/* Coming in from the east, in sight of sensor 0 at 0.25 rad, of sensor 1 at -0.09 rad. */
+/* A target coming in from the east, at 0.25 rad from sensor 0 and -0.09 rad from sensor 1. */
 static const struct target incomer = {.x_m = 60e3, .y_m = 5e3, .vx_mps = -200.0, .vy_mps = 10.0};
 
-/* Frames 0 .. 11 of that target, which is found and followed. */
-static void fly_one(unsigned sensors)
+/* Steps frames 0 .. 11 of that target, which is found and followed. */
+static void fly_twelve_frames(unsigned sensors)
 {
     random_state = 9;
     scene = scene_of(sensors, 1, 0.1, 1.0, 0.0);
@@ -26,41 +26,41 @@ static void fly_one(unsigned sensors)
     assert_int_equal(report.num_tracks, 1);
 }
 
-static void keep_snapshot(void)
+static void copy_objects(void)
 {
     tracker_then = tracker;
     passive_then = passive;
     report_then = report;
 }
 
-static void say(struct look *look, double bearing_rad)
+static void add_look_bearing(struct look *look, double bearing_rad)
 {
     add_bearing(look, bearing_rad, 0.1 * DEG_RAD, -1);
 }
 
-/* ---- fates ----------------------------------------------------------------------------------- */
+/* ---- fates of bearings ----------------------------------------------------------------------- */
 
-static void every_bearing_has_its_fate_in_its_place(void **state)
+static void each_bearing_has_its_fate_in_its_row(void **state)
 {
     (void)state;
-    fly_one(2);
+    fly_twelve_frames(2);
     see_frame(12, 120.0);
     struct look *look = scene.look[scene_slot_of(12)];
-    say(&look[0], 0.0);
+    add_look_bearing(&look[0], 0.0);
     look[0].bearings[1].bearing_rad = NAN;
-    say(&look[0], -1.4); /* to the south: meets nothing */
-    say(&look[0], 0.5);  /* meets the second sensor's first */
-    say(&look[0], 0.6);
+    add_look_bearing(&look[0], -1.4); /* to the south, crosses no other bearing */
+    add_look_bearing(&look[0], 0.5);  /* crosses the second sensor's first bearing */
+    add_look_bearing(&look[0], 0.6);
     look[0].bearings[4].offset_us = RHO_LIMIT_OFFSET_US + 1;
-    say(&look[0], 0.6);
+    add_look_bearing(&look[0], 0.6);
     look[0].bearings[5].sigma_rad = 0.0f;
     while (look[0].count < RHO_MAX_BEARINGS + 2) {
-        say(&look[0], 0.5 + 0.01 * look[0].count);
+        add_look_bearing(&look[0], 0.5 + 0.01 * look[0].count);
     }
     struct rho_bearing target = look[1].bearings[0];
     look[1].count = 0;
-    say(&look[1], -0.5);
-    say(&look[1], 2.0); /* to the other side of the base */
+    add_look_bearing(&look[1], -0.5);
+    add_look_bearing(&look[1], 2.0); /* to the other side of the base line */
     look[1].bearings[look[1].count++] = target;
     fill_frame(&scene, scene_slot_of(12), &full);
     step_frame(&full.frame);
@@ -72,10 +72,10 @@ static void every_bearing_has_its_fate_in_its_place(void **state)
     }
     const uint8_t second[] = {RHO_FATE_HELD, RHO_FATE_GHOST, RHO_FATE_CLAIMED};
     assert_memory_equal(report.fates + look[0].count, second, sizeof second);
-    assert_int_equal(report.tracks[0].plot, 2); /* of the last sensor's scan */
+    assert_int_equal(report.tracks[0].plot, 2); /* index in the last sensor's scan */
     assert_int_equal(report.tracks[0].sensor_id, 11);
     assert_int_equal(report.fates_total[RHO_FATE_GHOST], 2);
-    /* what was held is in the batch, ghosts too, and nothing else */
+    /* the batch holds the bearings of fate HELD or GHOST, and no others */
     assert_int_equal(passive.batch.num_bearings[BATCH - 1][0], RHO_MAX_BEARINGS - 4);
     assert_int_equal(passive.batch.num_bearings[BATCH - 1][1], 2);
     assert_float_equal(passive.batch.bearings[BATCH - 1][0][1].bearing_rad, 0.5, 1e-6);
@@ -83,19 +83,19 @@ static void every_bearing_has_its_fate_in_its_place(void **state)
     assert_float_equal(passive.batch.bearings[BATCH - 1][1][1].bearing_rad, 2.0, 1e-6);
 }
 
-/* A bearing that meets nobody's, as nobody else has any, may be a target's. */
-static void a_lonely_bearing_is_no_ghost(void **state)
+/* A bearing without any bearing of another sensor may be a target's: it is held. */
+static void a_bearing_without_partners_is_held(void **state)
 {
     (void)state;
     start_chain(5.0f);
     scene = scene_of(2, 0, 0.1, 1.0, 0.0);
     see_frame(0, 0.0);
-    say(&scene.look[0][0], -1.4);
+    add_look_bearing(&scene.look[0][0], -1.4);
     fill_frame(&scene, 0, &full);
     step_frame(&full.frame);
     assert_int_equal(report.fates[0], RHO_FATE_HELD);
-    say(&scene.look[0][1], 0.0);
-    scene.look[0][1].bearings[0].sigma_rad = NAN; /* is none */
+    add_look_bearing(&scene.look[0][1], 0.0);
+    scene.look[0][1].bearings[0].sigma_rad = NAN; /* an invalid bearing */
     fill_frame(&scene, 0, &full);
     full.frame.time_us = 1;
     step_frame(&full.frame);
@@ -103,8 +103,8 @@ static void a_lonely_bearing_is_no_ghost(void **state)
     assert_int_equal(report.fates[1], RHO_FATE_INVALID);
 }
 
-/* Held bearings start tracks, leave with the oldest frame, or are there. */
-static void counters_add_up_over_a_long_run(void **state)
+/* Each held bearing started a track, left with the oldest frame, or is in the batch. */
+static void fate_counters_add_up_over_a_long_run(void **state)
 {
     (void)state;
     uint32_t frames = 0;
@@ -114,7 +114,7 @@ static void counters_add_up_over_a_long_run(void **state)
         scene.target[i] = random_target(300.0);
     }
     start_chain(5.0f);
-    for (unsigned k = 0; k < 60; k++) { /* also beyond the sensors, where tracks end */
+    for (unsigned k = 0; k < 60; k++) { /* targets also pass behind the sensors, where tracks end */
         fly_frame(k, 10.0);
         const struct rho_tracker_counters *counters = &tracker.counters;
         frames++;
@@ -130,13 +130,13 @@ static void counters_add_up_over_a_long_run(void **state)
     assert_true(tracker.counters.plots_clutter > 50 && tracker.counters.plots_initiated > 30);
 }
 
-/* ---- capacities ------------------------------------------------------------------------------ */
+/* ---- bearings beyond the capacities ---------------------------------------------------------- */
 
 /*
- * The batch's newest frame holds just the bearings of this scan that are HELD or a GHOST, in their
+ * The batch's newest frame holds exactly this scan's bearings of fate HELD or GHOST, in their
  * order.
  */
-static void expect_held(unsigned sensor, const struct rho_bearing_scan *scan, uint32_t first)
+static void expect_batch_holds(unsigned sensor, const struct rho_bearing_scan *scan, uint32_t first)
 {
     unsigned newest = passive.batch.num_scans - 1u, held = 0;
     for (uint32_t i = 0; i < scan->num_bearings && first + i < RHO_MAX_PLOTS; i++) {
@@ -149,8 +149,8 @@ static void expect_held(unsigned sensor, const struct rho_bearing_scan *scan, ui
     assert_int_equal(passive.batch.num_bearings[newest][sensor], held);
 }
 
-/* Three scans with so many bearings, all of which meet those of the others. */
-static void expect_room(uint32_t num_0, uint32_t num_1, uint32_t num_2)
+/* Steps three scans with so many bearings, which all cross those of the other sensors. */
+static void expect_fates_with_bearings(uint32_t num_0, uint32_t num_1, uint32_t num_2)
 {
     const uint32_t num[3] = {num_0, num_1, num_2};
     const float middle_rad[3] = {0.4f, -0.4f, -0.3f};
@@ -176,27 +176,30 @@ static void expect_room(uint32_t num_0, uint32_t num_1, uint32_t num_2)
             assert_int_equal(report.fates[first + i],
                              i < RHO_MAX_BEARINGS ? RHO_FATE_HELD : RHO_FATE_NO_ROOM);
         }
-        expect_held(s, &scans[s], first);
+        expect_batch_holds(s, &scans[s], first);
         first += num[s];
     }
     assert_int_equal(report.fates_total[RHO_FATE_INVALID] + report.fates_total[RHO_FATE_GHOST], 0);
 }
 
-static void bearings_beyond_the_capacities_find_no_room(void **state)
+static void bearings_beyond_the_capacities_get_fate_no_room(void **state)
 {
     (void)state;
-    expect_room(RHO_MAX_BEARINGS, RHO_MAX_BEARINGS + 1, 2);
-    expect_room(RHO_MAX_BEARINGS + 7, 0, RHO_MAX_BEARINGS + 9);
-    /* fates end within the second scan, before the third, with the first, within the first */
-    expect_room(RHO_MAX_PLOTS - 3, 5, 4);
-    expect_room(RHO_MAX_PLOTS - 3, 3, 4);
-    expect_room(RHO_MAX_PLOTS, 3, 4);
-    expect_room(RHO_MAX_PLOTS + 40, 3, 4);
-    expect_room(1, RHO_MAX_PLOTS + 40, 4);
+    expect_fates_with_bearings(RHO_MAX_BEARINGS, RHO_MAX_BEARINGS + 1, 2);
+    expect_fates_with_bearings(RHO_MAX_BEARINGS + 7, 0, RHO_MAX_BEARINGS + 9);
+    /*
+     * the last bearing with a fate is in the second scan, before the third, the last of the first,
+     * in the first
+     */
+    expect_fates_with_bearings(RHO_MAX_PLOTS - 3, 5, 4);
+    expect_fates_with_bearings(RHO_MAX_PLOTS - 3, 3, 4);
+    expect_fates_with_bearings(RHO_MAX_PLOTS, 3, 4);
+    expect_fates_with_bearings(RHO_MAX_PLOTS + 40, 3, 4);
+    expect_fates_with_bearings(1, RHO_MAX_PLOTS + 40, 4);
 }
 
-/* Their sum is beyond 32 bits; only the first of each scan are looked at. */
-static void numbers_beyond_all_reason_do_no_harm(void **state)
+/* The total exceeds 32 bits; only the first bearings of each scan are read. */
+static void absurd_numbers_of_bearings_do_no_harm(void **state)
 {
     (void)state;
     struct rho_bearing_scan scans[3];
@@ -216,23 +219,21 @@ static void numbers_beyond_all_reason_do_no_harm(void **state)
     const struct rho_frame frame = {.num_scans = 3, .scans = scans};
     assert_int_equal(rho_tracker_step_frame(&tracker, &passive, &frame, &report), RHO_OK);
     assert_int_equal(report.num_plots, UINT32_MAX);
-    assert_int_equal(passive.batch.num_bearings[0][1], 0); /* no fates, so not held either */
+    /* bearings without a fate are not held */
+    assert_int_equal(passive.batch.num_bearings[0][1], 0);
     assert_int_equal(passive.batch.num_bearings[0][2], 0);
-    expect_held(0, &(struct rho_bearing_scan){.num_bearings = 50, .bearings = many[0]}, 0);
+    expect_batch_holds(0, &(struct rho_bearing_scan){.num_bearings = 50, .bearings = many[0]}, 0);
 }
 
-/*
- * All places of the table are taken by plots' tracks in the west, where the passive sensors do not
- * look.
- */
-static void a_full_table_starts_no_track_and_keeps_the_bearings(void **state)
+/* The track table is full of tracks of plots in the west, where the passive sensors do not look. */
+static void a_full_track_table_starts_no_track_and_holds_bearings(void **state)
 {
     (void)state;
     static struct rho_initiator initiator;
     static struct rho_plot plots[RHO_MAX_TRACKS];
     struct rho_initiator_config config;
     if (RHO_MAX_TRACKS > RHO_MAX_PLOTS || RHO_MAX_TRACKS > 100) {
-        skip(); /* the workstation's table is not filled in a unit test */
+        skip(); /* a workstation's track table is too large to fill in a unit test */
     }
     rho_initiator_config_default(&config);
     config.scans = 5;
@@ -269,13 +270,13 @@ static void a_full_table_starts_no_track_and_keeps_the_bearings(void **state)
     assert_int_equal(count_held(), 2 * BATCH);
 }
 
-/* ---- late, refused, alone -------------------------------------------------------------------- */
+/* ---- late and refused frames, frames without initiation -------------------------------------- */
 
-static void a_late_frame_changes_nothing_but_counters(void **state)
+static void a_late_frame_changes_counters_only(void **state)
 {
     (void)state;
-    fly_one(2);
-    keep_snapshot();
+    fly_twelve_frames(2);
+    copy_objects();
     see_frame(12, 109.999999);
     step_frame(&full.frame);
     assert_int_equal(report.fates_total[RHO_FATE_STALE], 2);
@@ -292,7 +293,7 @@ static void a_late_frame_changes_nothing_but_counters(void **state)
     assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);
 }
 
-static void expect_status(struct rho_passive *of, enum rho_status status)
+static void expect_refused_frame(struct rho_passive *of, enum rho_status status)
 {
     assert_int_equal(rho_tracker_step_frame(&tracker, of, &full.frame, &report), status);
     assert_memory_equal(&tracker, &tracker_then, sizeof tracker);
@@ -300,25 +301,25 @@ static void expect_status(struct rho_passive *of, enum rho_status status)
     assert_memory_equal(&report, &report_then, sizeof report);
 }
 
-/* A good frame that was never taken, with one thing wrong of it. */
+/* A good frame that was never stepped, with one fault in it. */
 #define EXPECT_REFUSED(change, status)                                                             \
     do {                                                                                           \
         fill_frame(&scene, scene_slot_of(12), &full);                                              \
         change;                                                                                    \
-        expect_status(&passive, status);                                                           \
+        expect_refused_frame(&passive, status);                                                    \
     } while (0)
 
-static void start_refusals(void)
+static void prepare_good_frame(void)
 {
-    fly_one(2);
+    fly_twelve_frames(2);
     see_frame(12, 120.0);
-    keep_snapshot();
+    copy_objects();
 }
 
 static void null_pointers_are_refused(void **state)
 {
     (void)state;
-    start_refusals();
+    prepare_good_frame();
     assert_int_equal(rho_tracker_step_frame(NULL, &passive, &full.frame, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_step_frame(&tracker, &passive, NULL, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_step_frame(&tracker, &passive, &full.frame, NULL), RHO_ERROR_NULL);
@@ -327,18 +328,18 @@ static void null_pointers_are_refused(void **state)
     EXPECT_REFUSED(full.scans[1].bearings = NULL, RHO_ERROR_NULL);
 }
 
-static void what_was_never_initialised_is_refused(void **state)
+static void objects_never_initialised_are_refused(void **state)
 {
     (void)state;
-    start_refusals();
+    prepare_good_frame();
     tracker.magic = tracker_then.magic = 0;
     EXPECT_REFUSED((void)0, RHO_ERROR_STATE);
-    fly_one(2);
+    fly_twelve_frames(2);
     see_frame(12, 120.0);
     passive.magic = 0;
-    keep_snapshot();
+    copy_objects();
     EXPECT_REFUSED((void)0, RHO_ERROR_STATE);
-    expect_status(&passive, RHO_ERROR_STATE);
+    expect_refused_frame(&passive, RHO_ERROR_STATE);
 }
 
 static void numbers_out_of_range_are_refused(void **state)
@@ -346,7 +347,7 @@ static void numbers_out_of_range_are_refused(void **state)
     (void)state;
     const float bad_m[] = {NAN, INFINITY, -INFINITY, 2.1e6f};
     const float bad_rad[] = {NAN, INFINITY, 6.3f, -6.3f};
-    start_refusals();
+    prepare_good_frame();
     for (unsigned i = 0; i < NUM(bad_m); i++) {
         EXPECT_REFUSED(full.scans[1].x_m = bad_m[i], RHO_ERROR_VALUE);
         EXPECT_REFUSED(full.scans[1].y_m = bad_m[i], RHO_ERROR_VALUE);
@@ -361,30 +362,31 @@ static void numbers_out_of_range_are_refused(void **state)
     EXPECT_REFUSED(full.scans[1].time_us -= RHO_LIMIT_OFFSET_US + 1, RHO_ERROR_VALUE);
 }
 
-static void what_the_batch_refuses_is_refused(void **state)
+static void frames_that_the_batch_refuses_are_refused(void **state)
 {
     (void)state;
-    start_refusals();
+    prepare_good_frame();
     EXPECT_REFUSED(full.frame.time_us = full.scans[0].time_us = 110000000, RHO_ERROR_STATE);
     EXPECT_REFUSED(full.scans[1].y_m += 0.5f, RHO_ERROR_VALUE);
     EXPECT_REFUSED(full.scans[1] = full.scans[0], RHO_ERROR_VALUE);
     EXPECT_REFUSED(full.scans[1].sensor_id = 99, RHO_ERROR_VALUE);
-    fly_one(RHO_MAX_PASSIVE_SENSORS < SCENE_SENSORS ? RHO_MAX_PASSIVE_SENSORS : SCENE_SENSORS);
+    fly_twelve_frames(RHO_MAX_PASSIVE_SENSORS < SCENE_SENSORS ? RHO_MAX_PASSIVE_SENSORS
+                                                              : SCENE_SENSORS);
     see_frame(12, 120.0);
-    keep_snapshot();
+    copy_objects();
     if (RHO_MAX_PASSIVE_SENSORS <= SCENE_SENSORS) {
         EXPECT_REFUSED((full.scans[0].sensor_id = 99, full.scans[0].x_m = 5e3f),
                        RHO_ERROR_CAPACITY);
     }
     fill_frame(&scene, scene_slot_of(12), &full);
-    full.scans[0].time_us += RHO_LIMIT_OFFSET_US; /* as far as it goes */
+    full.scans[0].time_us += RHO_LIMIT_OFFSET_US; /* the largest offset allowed */
     step_frame(&full.frame);
 }
 
-static void without_an_initiation_tracks_go_on_and_none_start(void **state)
+static void without_passive_initiation_tracks_go_on_and_none_start(void **state)
 {
     (void)state;
-    fly_one(2);
+    fly_twelve_frames(2);
     passive_then = passive;
     scene.targets = 2;
     scene.target[1] = (struct target){.x_m = 30e3, .y_m = -20e3, .vx_mps = -100.0, .vy_mps = 90.0};
@@ -398,7 +400,8 @@ static void without_an_initiation_tracks_go_on_and_none_start(void **state)
         assert_int_equal(report.tracks[0].hits, k + 1);
     }
     assert_memory_equal(&passive, &passive_then, sizeof passive);
-    full.frame.time_us += 1; /* a sensor that moved is nothing to it, nor are many */
+    /* a moved sensor or too many sensors do not matter without initiation */
+    full.frame.time_us += 1;
     full.scans[0].x_m += 100.0f;
     full.scans[1].sensor_id = 99;
     assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &full.frame, &report), RHO_OK);
@@ -406,11 +409,11 @@ static void without_an_initiation_tracks_go_on_and_none_start(void **state)
     assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &full.frame, &report), RHO_ERROR_VALUE);
 }
 
-/* Nobody looked: nothing is missed, and the batch moves on. */
-static void a_frame_without_scans_is_a_frame(void **state)
+/* A frame without scans counts no miss, but the batch moves on. */
+static void a_frame_without_scans_is_accepted(void **state)
 {
     (void)state;
-    fly_one(2);
+    fly_twelve_frames(2);
     for (int64_t k = 12; k < 30; k++) {
         const struct rho_frame frame = {.time_us = 10000000 * k};
         step_frame(&frame);
@@ -421,8 +424,8 @@ static void a_frame_without_scans_is_a_frame(void **state)
     assert_int_equal(count_held(), 0);
 }
 
-/* Bearings of 0.01 rad are covered up to four sigmas beyond the sector of a sensor. */
-static void bearings_beyond_the_sector_are_outside(void **state)
+/* Bearings of 0.01 rad sigma are covered up to four sigmas beyond a sensor's sector. */
+static void bearings_beyond_a_sensors_sector_are_outside(void **state)
 {
     static const float bearings_rad[] = {0.539f, 0.541f, -0.539f, -0.541f};
     (void)state;
@@ -449,20 +452,20 @@ static void bearings_beyond_the_sector_are_outside(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_bearing_has_its_fate_in_its_place),
-        cmocka_unit_test(bearings_beyond_the_sector_are_outside),
-        cmocka_unit_test(a_lonely_bearing_is_no_ghost),
-        cmocka_unit_test(counters_add_up_over_a_long_run),
-        cmocka_unit_test(bearings_beyond_the_capacities_find_no_room),
-        cmocka_unit_test(numbers_beyond_all_reason_do_no_harm),
-        cmocka_unit_test(a_full_table_starts_no_track_and_keeps_the_bearings),
-        cmocka_unit_test(a_late_frame_changes_nothing_but_counters),
+        cmocka_unit_test(each_bearing_has_its_fate_in_its_row),
+        cmocka_unit_test(bearings_beyond_a_sensors_sector_are_outside),
+        cmocka_unit_test(a_bearing_without_partners_is_held),
+        cmocka_unit_test(fate_counters_add_up_over_a_long_run),
+        cmocka_unit_test(bearings_beyond_the_capacities_get_fate_no_room),
+        cmocka_unit_test(absurd_numbers_of_bearings_do_no_harm),
+        cmocka_unit_test(a_full_track_table_starts_no_track_and_holds_bearings),
+        cmocka_unit_test(a_late_frame_changes_counters_only),
         cmocka_unit_test(null_pointers_are_refused),
-        cmocka_unit_test(what_was_never_initialised_is_refused),
+        cmocka_unit_test(objects_never_initialised_are_refused),
         cmocka_unit_test(numbers_out_of_range_are_refused),
-        cmocka_unit_test(what_the_batch_refuses_is_refused),
-        cmocka_unit_test(without_an_initiation_tracks_go_on_and_none_start),
-        cmocka_unit_test(a_frame_without_scans_is_a_frame),
+        cmocka_unit_test(frames_that_the_batch_refuses_are_refused),
+        cmocka_unit_test(without_passive_initiation_tracks_go_on_and_none_start),
+        cmocka_unit_test(a_frame_without_scans_is_accepted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

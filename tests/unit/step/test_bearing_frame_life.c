@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Frames of bearings: identities, misses, sensors that are late, blind or look elsewhere, own times
- * of bearings.
+ * Frames of bearings: identities, misses, sensors that are late, blind or look elsewhere, and
+ * bearings' own times.
  */
 #include "bearing_frame_chain.h"
 
@@ -9,8 +9,8 @@
 
 static uint8_t gate_of_tracks; /* enum rho_tracker_gate */
 
-/* One target that is found, and followed until frame 11 at 110 s. */
-static void fly_one(unsigned seed)
+/* A target that is found and followed until frame 11 at 110 s. */
+static void fly_twelve_frames(unsigned seed)
 {
     random_state = seed;
     scene = scene_of(2, 1, 0.1, 1.0, 0.0);
@@ -24,11 +24,11 @@ static void fly_one(unsigned seed)
     assert_int_equal(report.tracks[0].misses, 0);
 }
 
-/* ---- identities ------------------------------------------------------------------------------ */
+/* ---- identities of crossing targets ---------------------------------------------------------- */
 
-/* Along the line of sight from sensor 0 and across it, range_m out at time_s. */
-static struct target pass_by(double range_m, double direction_rad, double along_mps,
-                             double across_mps, double time_s)
+/* A target range_m away from sensor 0 at time_s; velocity along the line of sight and across it. */
+static struct target target_passing_by(double range_m, double direction_rad, double along_mps,
+                                       double across_mps, double time_s)
 {
     double c = cos(direction_rad), s = sin(direction_rad);
     struct target target = {.vx_mps = along_mps * c - across_mps * s,
@@ -38,23 +38,21 @@ static struct target pass_by(double range_m, double direction_rad, double along_
     return target;
 }
 
-/*
- * At 96 s both are on one bearing of sensor 0, 20 km apart; their bearings move against each other.
- */
-static void draw_crossing(void)
+/* At 96 s both targets are on one bearing of sensor 0, 20 km apart; their bearings cross. */
+static void draw_crossing_targets(void)
 {
     double direction_rad = uniform(0.1, 0.6), rate = uniform(0.0003, 0.002);
     double near_mps = uniform(-60.0, 60.0);
     rate = uniform(-1.0, 1.0) < 0.0 ? -rate : rate;
     double far_mps = 55e3 * (near_mps / 35e3 + rate);
     double near_along_mps = uniform(-150.0, 150.0);
-    scene.target[0] = pass_by(35e3, direction_rad, near_along_mps, near_mps, 96.0);
-    scene.target[1] = pass_by(55e3, direction_rad, uniform(-150.0, 150.0), far_mps, 96.0);
+    scene.target[0] = target_passing_by(35e3, direction_rad, near_along_mps, near_mps, 96.0);
+    scene.target[1] = target_passing_by(55e3, direction_rad, uniform(-150.0, 150.0), far_mps, 96.0);
 }
 
 /*
- * Three sensors, as with two the ghosts of such targets fly as straight as they do. Of 300 runs 299
- * keep them.
+ * Three sensors, as with two the ghosts of such targets fly as straight as the targets. In 299 of
+ * 300 runs identities are kept.
  */
 static void targets_that_cross_at_one_sensor_keep_their_identities(void **state)
 {
@@ -65,7 +63,7 @@ static void targets_that_cross_at_one_sensor_keep_their_identities(void **state)
         uint32_t track_id[2];
         random_state = seed;
         scene = scene_of(3, 2, 0.1, 0.95, 0.0);
-        draw_crossing();
+        draw_crossing_targets();
         start_chain(5.0f);
         fly_frames(0, 12, 6.0);
         for (unsigned i = 0; i < 2; i++) {
@@ -85,21 +83,21 @@ static void targets_that_cross_at_one_sensor_keep_their_identities(void **state)
 
 /* ---- misses ---------------------------------------------------------------------------------- */
 
-/* Both sensors look, and see nothing. */
-static void miss_frame(unsigned k)
+/* Both sensors look and see nothing. */
+static void step_frame_without_targets(unsigned k)
 {
     scene.targets = 0;
     fly_frame(k, 10.0);
 }
 
-static void frames_without_its_bearings_end_a_track(void **state)
+static void five_frames_without_its_bearings_end_a_track(void **state)
 {
     (void)state;
-    fly_one(3);
+    fly_twelve_frames(3);
     const uint32_t track_id = report.tracks[0].track_id;
     double score_nat = (double)report.tracks[0].score_nat;
     for (unsigned k = 12; k < 16; k++) {
-        miss_frame(k);
+        step_frame_without_targets(k);
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(report.tracks[0].status,
                          k < 14 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
@@ -107,22 +105,22 @@ static void frames_without_its_bearings_end_a_track(void **state)
         assert_int_equal(report.tracks[0].hits, 12);
         assert_int_equal(report.tracks[0].plot, -1);
         assert_int_equal(report.tracks[0].update_age_us, 10000000 * (int)(k - 11));
-        score_nat -= 2.0 * MISS_NAT; /* both sensors' */
+        score_nat -= 2.0 * MISS_NAT; /* a miss of each sensor */
         assert_float_equal(report.tracks[0].score_nat, score_nat, 0.01);
     }
-    miss_frame(16);
+    step_frame_without_targets(16);
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], track_id);
     assert_int_equal(tracker.counters.tracks_ended, 1);
 }
 
-static void a_bearing_in_time_ends_the_misses(void **state)
+static void a_bearing_resets_the_misses_of_a_track(void **state)
 {
     (void)state;
-    fly_one(3);
+    fly_twelve_frames(3);
     for (unsigned k = 12; k < 16; k++) {
-        miss_frame(k);
+        step_frame_without_targets(k);
     }
     scene.targets = 1;
     fly_frame(16, 10.0);
@@ -130,18 +128,18 @@ static void a_bearing_in_time_ends_the_misses(void **state)
     assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
     assert_int_equal(report.tracks[0].hits, 13);
     assert_int_equal(report.tracks[0].misses, 4);
-    miss_frame(17);
-    assert_int_equal(report.num_tracks, 1); /* not the fifth in a row */
+    step_frame_without_targets(17);
+    assert_int_equal(report.num_tracks, 1); /* four misses in a row, not yet five */
     assert_int_equal(report.tracks[0].misses, 5);
 }
 
-/* Sensor 1 is blind in one frame and missing in another, else the same. */
-static void one_sensors_miss_takes_score_and_is_no_miss(void **state)
+/* Sensor 1 is blind in one frame and absent in another, otherwise the same. */
+static void a_miss_of_one_sensor_lowers_the_score_only(void **state)
 {
     (void)state;
     static struct rho_tracker tracker_then;
     static struct rho_passive passive_then;
-    fly_one(3);
+    fly_twelve_frames(3);
     see_frame(12, 120.0);
     tracker_then = tracker;
     passive_then = passive;
@@ -166,15 +164,15 @@ static void one_sensors_miss_takes_score_and_is_no_miss(void **state)
     }
 }
 
-/* ---- sensors that say nothing ---------------------------------------------------------------- */
+/* ---- absent sensors -------------------------------------------------------------------------- */
 
-/* Of each frame only one of the two is there, in turn, or any, or none. */
-static void a_sensor_that_is_missing_does_no_harm(void **state)
+/* Each frame has only one of two sensors, alternately or at random, or none. */
+static void sensors_missing_from_frames_do_no_harm(void **state)
 {
     (void)state;
     double error2 = 0.0;
     for (unsigned seed = 1; seed <= 20; seed++) {
-        fly_one(seed);
+        fly_twelve_frames(seed);
         for (unsigned k = 12; k < 24; k++) {
             for (unsigned s = 0; s < 2; s++) {
                 scene.look[scene_slot_of(k)][s].is_absent = uniform(0.0, 1.0) < 0.6;
@@ -194,15 +192,15 @@ static void a_sensor_that_is_missing_does_no_harm(void **state)
 }
 
 /*
- * 100 s with sensor 0 alone, then both again: it was never lost, and its covariance says how far
- * off it is.
+ * 100 s with sensor 0 alone, then both again: the track goes on, and its covariance covers its
+ * error.
  */
-static void one_sensor_alone_keeps_a_track_going(void **state)
+static void bearings_of_one_sensor_keep_a_track(void **state)
 {
     (void)state;
     double share2 = 0.0;
     for (unsigned seed = 1; seed <= 20; seed++) {
-        fly_one(seed);
+        fly_twelve_frames(seed);
         double sigma_m = (double)report.tracks[0].sigma_m;
         for (unsigned k = 12; k < 22; k++) {
             scene.look[scene_slot_of(k)][1].is_absent = 1;
@@ -226,19 +224,20 @@ static void one_sensor_alone_keeps_a_track_going(void **state)
                     5.0 * (double)report.tracks[0].sigma_m);
     }
     print_message("one sensor alone: squared error %.2f of the variance\n", share2 / 20.0);
-    assert_true(share2 / 20.0 < 4.0); /* two axes' */
+    assert_true(share2 / 20.0 < 4.0); /* NEES over two axes */
 }
 
-/* ---- where sensors look ---------------------------------------------------------------------- */
+/* ---- coverage of sensors --------------------------------------------------------------------- */
 
-/* Twelve frames see nothing; `is_seen`: it should have been. */
-static void expect_misses(int is_seen)
+/* Twelve frames without bearings; is_seen: the sensors looked at the target. */
+static void expect_misses_if_seen(int is_seen)
 {
     const float score_nat = report.tracks[0].score_nat;
     for (unsigned k = 12; k < 24; k++) {
         scene.targets = 0;
         see_frame(k, 10.0 * k);
-        for (unsigned s = 0; s < 2 && !is_seen; s++) { /* the target is to the east */
+        /* the sectors look west, the target is in the east */
+        for (unsigned s = 0; s < 2 && !is_seen; s++) {
             full.scans[s].sector_from_rad = 2.5f;
             full.scans[s].sector_to_rad = -2.5f;
         }
@@ -252,18 +251,18 @@ static void expect_misses(int is_seen)
     }
 }
 
-static void there_is_no_miss_where_no_sensor_looked(void **state)
+static void no_miss_is_counted_where_no_sensor_looked(void **state)
 {
     (void)state;
-    fly_one(5);
-    expect_misses(1);
-    fly_one(5);
-    expect_misses(0);
+    fly_twelve_frames(5);
+    expect_misses_if_seen(1);
+    fly_twelve_frames(5);
+    expect_misses_if_seen(0);
 }
 
-/* Described in the tracker's table; the place is the scan's all the same. */
-static void describe(int32_t sensor_id, float range_max_m, float sector_from_rad,
-                     float sector_to_rad)
+/* Describes a sensor in the tracker's table; its place is still taken from the scan. */
+static void describe_sensor(int32_t sensor_id, float range_max_m, float sector_from_rad,
+                            float sector_to_rad)
 {
     const struct rho_sensor sensor = {.sensor_id = sensor_id,
                                       .x_m = 9e5f,
@@ -274,10 +273,10 @@ static void describe(int32_t sensor_id, float range_max_m, float sector_from_rad
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
 }
 
-static void miss_some(unsigned first, unsigned count, unsigned num_tracks)
+static void miss_frames_and_expect(unsigned first, unsigned count, unsigned num_tracks)
 {
     for (unsigned k = first; k < first + count; k++) {
-        miss_frame(k);
+        step_frame_without_targets(k);
     }
     assert_int_equal(report.num_tracks, num_tracks);
     if (num_tracks) {
@@ -285,44 +284,45 @@ static void miss_some(unsigned first, unsigned count, unsigned num_tracks)
     }
 }
 
-/* What no sensor can see is not missed; it coasts for the time of five frames. */
-static void a_sensors_own_reach_and_sector_count(void **state)
+/* A target that no sensor can see is not missed; it coasts for the time of five frames. */
+static void misses_count_within_a_sensors_coverage_only(void **state)
 {
     (void)state;
     for (int32_t sensor_id = 10; sensor_id <= 11; sensor_id++) {
-        fly_one(5);
-        describe(10, 1000.0f, 0.0f, 0.0f);
-        describe(11, 1000.0f, 0.0f, 0.0f);
-        miss_some(12, 4, 1);
-        miss_some(16, 8, 0);
-        fly_one(5);
-        describe(10, 2e5f, 2.5f, -2.5f);
-        describe(11, 2e5f, 2.5f, -2.5f);
-        miss_some(12, 4, 1);
-        describe(sensor_id, 2e5f, 0.0f, 0.0f); /* one that would have seen it is enough */
+        fly_twelve_frames(5);
+        describe_sensor(10, 1000.0f, 0.0f, 0.0f);
+        describe_sensor(11, 1000.0f, 0.0f, 0.0f);
+        miss_frames_and_expect(12, 4, 1);
+        miss_frames_and_expect(16, 8, 0);
+        fly_twelve_frames(5);
+        describe_sensor(10, 2e5f, 2.5f, -2.5f);
+        describe_sensor(11, 2e5f, 2.5f, -2.5f);
+        miss_frames_and_expect(12, 4, 1);
+        describe_sensor(sensor_id, 2e5f, 0.0f,
+                        0.0f); /* one sensor that covers the target is enough */
         const float score_nat = report.tracks[0].score_nat;
-        miss_frame(16);
+        step_frame_without_targets(16);
         assert_int_equal(report.tracks[0].misses, 1);
         assert_true(report.tracks[0].score_nat < score_nat);
     }
 }
 
-/* Of a sensor that is not in the table, the reach is the passive initiation's. */
-static void the_initiations_reach_is_the_sensors(void **state)
+/* A sensor that is not in the table has the range of the passive initiation. */
+static void undescribed_sensors_have_the_range_of_the_initiation(void **state)
 {
     (void)state;
     struct rho_passive_config config;
     rho_passive_config_default(&config);
     config.range_max_m = 1500.0f;
-    fly_one(5);
+    fly_twelve_frames(5);
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
-    miss_some(12, 12, 1);
+    miss_frames_and_expect(12, 12, 1);
 }
 
-/* ---- own times ------------------------------------------------------------------------------- */
+/* ---- bearings' own times --------------------------------------------------------------------- */
 
-/* A bearing of the target at scan's time + offset_s, from the scan's sensor. */
-static struct rho_bearing bearing_at(const struct rho_bearing_scan *scan, double offset_s)
+/* The bearing of the target from the scan's sensor at the scan's time + offset_s. */
+static struct rho_bearing bearing_of_target_at(const struct rho_bearing_scan *scan, double offset_s)
 {
     double time_s = (double)scan->time_us * 1e-6 + offset_s;
     double dx_m = target_x_m(&scene.target[0], time_s) - (double)scan->x_m;
@@ -333,16 +333,18 @@ static struct rho_bearing bearing_at(const struct rho_bearing_scan *scan, double
                                 .sigma_rad = (float)(0.1 * DEG_RAD)};
 }
 
-/* The sensors' scans may be off the frame's time, and the bearings off the scans'. */
-static void fly_late_bearings(unsigned k, const double scan_s[2], const double offset_s[2],
-                              struct ekf *ekf)
+/*
+ * Steps a frame whose scans are off the frame's time and whose bearings are off their scan's time.
+ */
+static void step_bearings_of_own_times(unsigned k, const double scan_s[2], const double offset_s[2],
+                                       struct ekf *ekf)
 {
     static struct rho_bearing bearings[2];
     double at_s = 10.0 * k - 10.0;
     see_frame(k, 10.0 * k);
     for (unsigned s = 0; s < 2; s++) {
         full.scans[s].time_us += (int64_t)llround(scan_s[s] * 1e6);
-        bearings[s] = bearing_at(&full.scans[s], offset_s[s]);
+        bearings[s] = bearing_of_target_at(&full.scans[s], offset_s[s]);
         full.scans[s].num_bearings = 1;
         full.scans[s].bearings = &bearings[s];
     }
@@ -356,19 +358,20 @@ static void fly_late_bearings(unsigned k, const double scan_s[2], const double o
     ekf_predict(ekf, 10.0 * k - at_s, 6.25);
 }
 
-/* Mean error along the way, and squared errors. */
+/* Sums of the error along the course, and of squared errors. */
 struct bias {
     double along_m, error2, ekf_error2;
     unsigned rows;
 };
 
-static void follow_late(const double scan_s[2], const double offset_s[2], struct bias *bias)
+static void follow_with_time_offsets(const double scan_s[2], const double offset_s[2],
+                                     struct bias *bias)
 {
     const struct target *target = &scene.target[0];
-    fly_one(1 + bias->rows);
+    fly_twelve_frames(1 + bias->rows);
     struct ekf ekf = ekf_from_track(&report.tracks[0]);
     for (unsigned k = 12; k < 24; k++) {
-        fly_late_bearings(k, scan_s, offset_s, &ekf);
+        step_bearings_of_own_times(k, scan_s, offset_s, &ekf);
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);
         const struct rho_track_report *track = &report.tracks[0];
@@ -388,21 +391,21 @@ static void expect_no_bias(double scan_0_s, double scan_1_s, double offset_0_s, 
     const double scan_s[2] = {scan_0_s, scan_1_s}, offset_s[2] = {offset_0_s, offset_1_s};
     struct bias bias = {0};
     for (unsigned run = 0; run < 15; run++) {
-        follow_late(scan_s, offset_s, &bias);
+        follow_with_time_offsets(scan_s, offset_s, &bias);
     }
     double along_m = bias.along_m / bias.rows, ratio = sqrt(bias.error2 / bias.ekf_error2);
     print_message("scans %.1f and %.1f s, bearings %.1f and %.1f s late: %.0f m along the way, rms "
                   "%.0f m, %.4f of the filter's\n",
                   scan_0_s, scan_1_s, offset_0_s, offset_1_s, along_m,
                   sqrt(bias.error2 / bias.rows), ratio);
-    assert_true(fabs(along_m) < 60.0); /* of the 1000 m that the target flies in 4 s */
+    assert_true(fabs(along_m) < 60.0); /* of 1000 m that the target flies in 4 s */
     assert_true(ratio > 0.97 && ratio < 1.05);
 }
 
-static void own_times_of_bearings_count(void **state)
+static void bearings_update_at_their_own_times(void **state)
 {
     (void)state;
-    gate_of_tracks = RHO_TRACKER_NEAREST; /* the filter beside it has its model */
+    gate_of_tracks = RHO_TRACKER_NEAREST; /* the EKF beside it has the same model */
     expect_no_bias(0.0, 0.0, 4.0, 4.0);
     expect_no_bias(0.0, 0.0, -3.0, -4.0);
     expect_no_bias(0.0, 0.0, 3.0, -4.0);
@@ -410,13 +413,13 @@ static void own_times_of_bearings_count(void **state)
     gate_of_tracks = RHO_TRACKER_BEST;
 }
 
-/* ---- thresholds ------------------------------------------------------------------------------ */
+/* ---- start thresholds ------------------------------------------------------------------------ */
 
 /*
- * One target that bearings of eight degrees make hardly likelier than chance; returns the tracks
- * started.
+ * One target whose bearings of eight degrees are hardly better than chance; returns the number of
+ * tracks started.
  */
-static uint32_t start_at_rate(float false_tracks_per_hour)
+static uint32_t start_with_false_track_rate(float false_tracks_per_hour)
 {
     struct rho_passive_config config;
     random_state = 5;
@@ -430,15 +433,15 @@ static uint32_t start_at_rate(float false_tracks_per_hour)
     return tracker.counters.tracks_started;
 }
 
-static void a_track_starts_where_chance_makes_so_few(void **state)
+static void the_start_threshold_follows_the_false_track_rate(void **state)
 {
     (void)state;
-    assert_int_equal(start_at_rate(1e5f), 1);
+    assert_int_equal(start_with_false_track_rate(1e5f), 1);
     int32_t often_mnat = passive.start_mnat, score_mnat = passive.tracks[0].score_mnat;
-    assert_int_equal(start_at_rate(1e-5f), 0);
-    assert_int_equal(passive.num_tracks, 1); /* found, but not believed */
+    assert_int_equal(start_with_false_track_rate(1e-5f), 0);
+    assert_int_equal(passive.num_tracks, 1); /* a candidate was found, but it started no track */
     assert_int_equal(passive.tracks[0].score_mnat, score_mnat);
-    /* a threshold of ln(1 / rate) */
+    /* the threshold grows by ln(1 / rate) */
     assert_in_range(passive.start_mnat - often_mnat, 23026 - 3, 23026 + 3);
     assert_true(often_mnat <= score_mnat && score_mnat < passive.start_mnat);
 }
@@ -447,16 +450,16 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(targets_that_cross_at_one_sensor_keep_their_identities),
-        cmocka_unit_test(frames_without_its_bearings_end_a_track),
-        cmocka_unit_test(a_bearing_in_time_ends_the_misses),
-        cmocka_unit_test(one_sensors_miss_takes_score_and_is_no_miss),
-        cmocka_unit_test(a_sensor_that_is_missing_does_no_harm),
-        cmocka_unit_test(one_sensor_alone_keeps_a_track_going),
-        cmocka_unit_test(there_is_no_miss_where_no_sensor_looked),
-        cmocka_unit_test(a_sensors_own_reach_and_sector_count),
-        cmocka_unit_test(the_initiations_reach_is_the_sensors),
-        cmocka_unit_test(own_times_of_bearings_count),
-        cmocka_unit_test(a_track_starts_where_chance_makes_so_few),
+        cmocka_unit_test(five_frames_without_its_bearings_end_a_track),
+        cmocka_unit_test(a_bearing_resets_the_misses_of_a_track),
+        cmocka_unit_test(a_miss_of_one_sensor_lowers_the_score_only),
+        cmocka_unit_test(sensors_missing_from_frames_do_no_harm),
+        cmocka_unit_test(bearings_of_one_sensor_keep_a_track),
+        cmocka_unit_test(no_miss_is_counted_where_no_sensor_looked),
+        cmocka_unit_test(misses_count_within_a_sensors_coverage_only),
+        cmocka_unit_test(undescribed_sensors_have_the_range_of_the_initiation),
+        cmocka_unit_test(bearings_update_at_their_own_times),
+        cmocka_unit_test(the_start_threshold_follows_the_false_track_rate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

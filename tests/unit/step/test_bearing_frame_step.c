@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Frames of bearings, in many scenes: targets are found, followed as well as they can be, kept
- * apart, and let go.
+ * Frames of bearings in many scenes: targets are found, followed as well as possible, kept apart,
+ * and let go.
  */
 #include "bearing_frame_chain.h"
 
 /*
- * Of 1000 runs: 999 targets found with the first full batch and all soon, errors 1.001 to 1.015 of
- * the filter's, NEES 4.02 to 4.09, 2.2 where the filter is too careful.
+ * Of 1000 runs: 999 targets found with the first full batch and all soon after; errors 1.001 to
+ * 1.015 of the EKF's; NEES 4.02 to 4.09, and 2.2 where the filter expects manoeuvres that do not
+ * come.
  */
 #define RUNS 20u
 
-/* ---- found ----------------------------------------------------------------------------------- */
+/* ---- targets are found ----------------------------------------------------------------------- */
 
-static void expect_found_with(unsigned sensors)
+static void expect_target_found_with(unsigned sensors)
 {
     unsigned runs = 0;
     for (unsigned seed = 1; seed <= 20; seed++) {
@@ -48,15 +49,15 @@ static void expect_found_with(unsigned sensors)
     assert_int_equal(runs, 20);
 }
 
-static void a_target_is_found_when_the_batch_is_full(void **state)
+static void a_target_is_found_with_the_first_full_batch(void **state)
 {
     (void)state;
-    expect_found_with(2);
-    expect_found_with(3);
+    expect_target_found_with(2);
+    expect_target_found_with(3);
 }
 
-/* Margins of 2.3 to 9.2 nat about the least one, ln 100: those below start no track. */
-static void tracks_start_where_odds_are_a_hundred_to_one(void **state)
+/* Scores of 2.3 to 9.2 nat about the threshold ln 100: those below start no track. */
+static void tracks_start_at_a_score_of_ln_100(void **state)
 {
     unsigned below = 0, above = 0;
     (void)state;
@@ -86,10 +87,10 @@ static void tracks_start_where_odds_are_a_hundred_to_one(void **state)
 }
 
 /*
- * Seen in all frames but `missing` ones: a bit a frame. Found by the search, of the full batch, and
- * a track or not.
+ * Target unseen in the frames whose bit is set in `missing`; the full batch finds it, and a track
+ * starts or not.
  */
-static void expect_start_without(unsigned missing, int starts)
+static void expect_starts_with_missing_frames(unsigned missing, int starts)
 {
     random_state = 2;
     scene = scene_of(3, 1, 0.1, 1.0, 0.0);
@@ -106,18 +107,18 @@ static void expect_start_without(unsigned missing, int starts)
     assert_int_equal(tracker.counters.tracks_started, starts);
 }
 
-/* What the last two frames do not have is gone, or is a track's that claims its bearings. */
-static void a_track_starts_from_what_was_just_seen(void **state)
+/* A target missing in the last two frames has gone, or its bearings belong to an existing track. */
+static void no_track_starts_if_the_last_two_frames_missed_it(void **state)
 {
     (void)state;
-    expect_start_without(0x00, 1);
-    expect_start_without(0x80, 1);
-    expect_start_without(0x60, 1);
-    expect_start_without(0xc0, 0);
+    expect_starts_with_missing_frames(0x00, 1);
+    expect_starts_with_missing_frames(0x80, 1);
+    expect_starts_with_missing_frames(0x60, 1);
+    expect_starts_with_missing_frames(0xc0, 0);
 }
 
-/* Two are followed from the start; the third comes at frame 14. */
-static void a_later_target_is_found_while_others_are_followed(void **state)
+/* Two targets are followed from the start; the third appears at frame 14. */
+static void a_new_target_is_found_while_others_are_tracked(void **state)
 {
     (void)state;
     unsigned found = 0;
@@ -143,8 +144,8 @@ static void a_later_target_is_found_while_others_are_followed(void **state)
     assert_true(found >= 17);
 }
 
-/* Four false bearings in each look, and no target. */
-static void false_bearings_alone_make_no_track(void **state)
+/* Four false bearings in each scan, and no target. */
+static void false_bearings_alone_start_no_track(void **state)
 {
     (void)state;
     uint32_t started = 0;
@@ -161,19 +162,19 @@ static void false_bearings_alone_make_no_track(void **state)
     assert_int_equal(started, 0);
 }
 
-/* ---- followed -------------------------------------------------------------------------------- */
+/* ---- targets are followed -------------------------------------------------------------------- */
 
 /*
- * Over many runs: squared errors of the tracks and of the filter beside them, and of the tracks by
- * their covariance.
+ * Sums over many runs: squared errors of the tracks and of an EKF beside them, and of the tracks by
+ * their covariance (NEES).
  */
 struct figures {
     unsigned found, kept, rows;
     double error2, ekf_error2, nees;
 };
 
-static void add_row(struct figures *figures, const struct rho_track_report *track,
-                    const struct ekf *ekf, const struct target *target, double time_s)
+static void add_errors(struct figures *figures, const struct rho_track_report *track,
+                       const struct ekf *ekf, const struct target *target, double time_s)
 {
     const double truth[4] = {target_x_m(target, time_s), target_y_m(target, time_s), target->vx_mps,
                              target->vy_mps};
@@ -184,10 +185,11 @@ static void add_row(struct figures *figures, const struct rho_track_report *trac
 }
 
 /*
- * Targets whose velocity wanders by white acceleration once the batch is full: the filter's own
- * model.
+ * Moves a target whose velocity wanders by white acceleration once the batch is full, as the
+ * filter's model assumes.
  */
-static void wander(struct target *target, double dt_s, double density, double time_s)
+static void add_white_acceleration(struct target *target, double dt_s, double density,
+                                   double time_s)
 {
     for (int axis = 0; axis < 2; axis++) {
         double along = normal(), apart = normal();
@@ -196,13 +198,14 @@ static void wander(struct target *target, double dt_s, double density, double ti
         double *place_m = axis ? &target->y_m : &target->x_m;
         double *velocity_mps = axis ? &target->vy_mps : &target->vx_mps;
         *velocity_mps += v;
-        *place_m += p - v * time_s; /* its place is told from time 0 on, and goes on from here */
+        /* the place is stored for time 0, so the new velocity goes on from here */
+        *place_m += p - v * time_s;
     }
 }
 
-/* One run of one target: all its bearings are the filter's, the track finds them by itself. */
-static void follow(unsigned sensors, double density, double truth_density, uint8_t gate,
-                   struct figures *figures)
+/* One run with one target: the EKF is given all its bearings, the tracker has to find them. */
+static void follow_one_target(unsigned sensors, double density, double truth_density, uint8_t gate,
+                              struct figures *figures)
 {
     const double interval_s = 6.0;
     const unsigned frames = 34;
@@ -214,31 +217,31 @@ static void follow(unsigned sensors, double density, double truth_density, uint8
     for (unsigned k = 0; k < frames; k++) {
         ekf_predict(&ekf, k ? interval_s : 0.0, k < BATCH ? 0.0 : density);
         if (k >= BATCH && truth_density > 0.0) {
-            wander(&scene.target[0], interval_s, truth_density, interval_s * k);
+            add_white_acceleration(&scene.target[0], interval_s, truth_density, interval_s * k);
         }
         fly_frame(k, interval_s);
         ekf_take_frame(&ekf, k, 0);
         const struct rho_track_report *track = track_with_id(1);
         figures->found += k == BATCH && track;
         if (k > BATCH && track) {
-            add_row(figures, track, &ekf, &scene.target[0], interval_s * k);
+            add_errors(figures, track, &ekf, &scene.target[0], interval_s * k);
         }
     }
     figures->kept += report.num_tracks == 1 && report.tracks[0].track_id == 1;
 }
 
-/* Bounds: of the ratio of errors, and of NEES, 4 where the covariance is right. */
+/* Bounds of the ratio of errors and of NEES, which is 4 for a correct covariance. */
 struct bounds {
     double ratio_min, ratio_max, nees_min, nees_max;
 };
 
-static void follow_runs(unsigned sensors, double density, double truth_density, uint8_t gate,
-                        const struct bounds *bounds)
+static void compare_errors_with_ekf(unsigned sensors, double density, double truth_density,
+                                    uint8_t gate, const struct bounds *bounds)
 {
     struct figures figures = {0};
     for (unsigned run = 0; run < RUNS; run++) {
         random_state = 100 + run;
-        follow(sensors, density, truth_density, gate, &figures);
+        follow_one_target(sensors, density, truth_density, gate, &figures);
     }
     double ratio = sqrt(figures.error2 / figures.ekf_error2), nees = figures.nees / figures.rows;
     print_message("%u sensors, noise %.2f, target's %.2f: %u of %u found, %u kept, rms %.1f m, "
@@ -251,56 +254,55 @@ static void follow_runs(unsigned sensors, double density, double truth_density, 
     assert_true(nees > bounds->nees_min && nees < bounds->nees_max);
 }
 
-static void a_straight_target_is_followed_as_well_as_by_the_filter(void **state)
+static void straight_targets_are_followed_as_well_as_by_an_ekf(void **state)
 {
     (void)state;
     const struct bounds bounds = {0.97, 1.05, 2.5, 6.0};
     for (uint8_t gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        follow_runs(2, 0.0, 0.0, gate, &bounds);
-        follow_runs(3, 0.0, 0.0, gate, &bounds);
+        compare_errors_with_ekf(2, 0.0, 0.0, gate, &bounds);
+        compare_errors_with_ekf(3, 0.0, 0.0, gate, &bounds);
     }
 }
 
-/* The filter is ready for more than the target does: it is too careful. */
-static void a_filter_for_manoeuvres_follows_a_straight_target(void **state)
+/* A filter that expects manoeuvres which do not come: its covariance is too large. */
+static void a_manoeuvre_filter_is_cautious_on_straight_targets(void **state)
 {
     (void)state;
     const struct bounds bounds = {0.97, 1.05, 1.0, 4.0};
-    follow_runs(2, 6.25, 0.0, RHO_TRACKER_NEAREST, &bounds);
-    follow_runs(3, 6.25, 0.0, RHO_TRACKER_NEAREST, &bounds);
+    compare_errors_with_ekf(2, 6.25, 0.0, RHO_TRACKER_NEAREST, &bounds);
+    compare_errors_with_ekf(3, 6.25, 0.0, RHO_TRACKER_NEAREST, &bounds);
 }
 
-/* Two models see that it flies straight: .90 to .95 of the filter's error, measured over 400 runs.
- */
-static void hypotheses_follow_a_straight_target_better(void **state)
+/* Two models detect straight flight: 0.90 to 0.95 of the EKF's error, measured over 400 runs. */
+static void hypotheses_beat_the_ekf_on_straight_targets(void **state)
 {
     (void)state;
     const struct bounds bounds = {0.8, 1.0, 1.0, 4.0};
-    follow_runs(2, 6.25, 0.0, RHO_TRACKER_BEST, &bounds);
-    follow_runs(3, 6.25, 0.0, RHO_TRACKER_BEST, &bounds);
+    compare_errors_with_ekf(2, 6.25, 0.0, RHO_TRACKER_BEST, &bounds);
+    compare_errors_with_ekf(3, 6.25, 0.0, RHO_TRACKER_BEST, &bounds);
 }
 
-static void a_wandering_target_is_followed_as_well_as_by_the_filter(void **state)
+static void wandering_targets_are_followed_as_well_as_by_an_ekf(void **state)
 {
     (void)state;
     const struct bounds bounds = {0.97, 1.05, 2.5, 6.0}, of_two_models = {0.97, 1.25, 2.5, 8.0};
-    follow_runs(2, 6.25, 6.25, RHO_TRACKER_NEAREST, &bounds);
-    follow_runs(3, 6.25, 6.25, RHO_TRACKER_NEAREST, &bounds);
-    follow_runs(3, 6.25, 6.25, RHO_TRACKER_BEST, &of_two_models);
+    compare_errors_with_ekf(2, 6.25, 6.25, RHO_TRACKER_NEAREST, &bounds);
+    compare_errors_with_ekf(3, 6.25, 6.25, RHO_TRACKER_NEAREST, &bounds);
+    compare_errors_with_ekf(3, 6.25, 6.25, RHO_TRACKER_BEST, &of_two_models);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_target_is_found_when_the_batch_is_full),
-        cmocka_unit_test(tracks_start_where_odds_are_a_hundred_to_one),
-        cmocka_unit_test(a_track_starts_from_what_was_just_seen),
-        cmocka_unit_test(a_later_target_is_found_while_others_are_followed),
-        cmocka_unit_test(false_bearings_alone_make_no_track),
-        cmocka_unit_test(a_straight_target_is_followed_as_well_as_by_the_filter),
-        cmocka_unit_test(a_filter_for_manoeuvres_follows_a_straight_target),
-        cmocka_unit_test(hypotheses_follow_a_straight_target_better),
-        cmocka_unit_test(a_wandering_target_is_followed_as_well_as_by_the_filter),
+        cmocka_unit_test(a_target_is_found_with_the_first_full_batch),
+        cmocka_unit_test(tracks_start_at_a_score_of_ln_100),
+        cmocka_unit_test(no_track_starts_if_the_last_two_frames_missed_it),
+        cmocka_unit_test(a_new_target_is_found_while_others_are_tracked),
+        cmocka_unit_test(false_bearings_alone_start_no_track),
+        cmocka_unit_test(straight_targets_are_followed_as_well_as_by_an_ekf),
+        cmocka_unit_test(a_manoeuvre_filter_is_cautious_on_straight_targets),
+        cmocka_unit_test(hypotheses_beat_the_ekf_on_straight_targets),
+        cmocka_unit_test(wandering_targets_are_followed_as_well_as_by_an_ekf),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

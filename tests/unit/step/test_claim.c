@@ -1,31 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Plot by plot: what a hit is worth, what a look elsewhere leaves alone, which plot the Hough gate
- * takes.
+ * Single plots: the score a hit adds, looks elsewhere that change nothing, and which plot the Hough
+ * gate takes.
  */
 #include "gates_scene.h"
 
 static struct rho_tracker tracker_then;
 static struct rho_initiator initiator_then;
 static struct rho_report report_then;
-static double interval_s = 1.0; /* of the scans */
+static double interval_s = 1.0; /* interval of the scans */
 
-static void keep(void)
+static void copy_objects(void)
 {
     memcpy(&tracker_then, &tracker, sizeof tracker);
     memcpy(&initiator_then, &initiator, sizeof initiator);
     memcpy(&report_then, &report, sizeof report);
 }
 
-static void go_back(void)
+static void restore_objects(void)
 {
     memcpy(&tracker, &tracker_then, sizeof tracker);
     memcpy(&initiator, &initiator_then, sizeof initiator);
     memcpy(&report, &report_then, sizeof report);
 }
 
-/* One target, straight, as far as scan k. */
-static void fly_alone(uint8_t gate, uint32_t measures, int k)
+/* One straight target, stepped up to scan k - 1. */
+static void fly_lone_target(uint8_t gate, uint32_t measures, int k)
 {
     set_up_scene(gate, 77);
     scene.interval_s = interval_s;
@@ -39,13 +39,13 @@ static void fly_alone(uint8_t gate, uint32_t measures, int k)
     assert_int_equal(report.num_tracks, 1);
 }
 
-/* ---- hits and misses ------------------------------------------------------------------------- */
+/* ---- scores of hits and misses --------------------------------------------------------------- */
 
-static void a_track_that_is_seen_again_is_confirmed(void **state)
+static void tracks_are_confirmed_by_further_hits(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        fly_alone((uint8_t)gate, 0, 15);
+        fly_lone_target((uint8_t)gate, 0, 15);
         scene.pd = 0.0;
         step_tracker(15);
         assert_int_equal(report.tracks[0].status, RHO_TRACK_COASTING);
@@ -60,13 +60,13 @@ static void a_track_that_is_seen_again_is_confirmed(void **state)
     }
 }
 
-/* What the next scan adds to the score: the target's plot without noise, and how it is measured. */
-static double gain_of(uint32_t measures)
+/* Score that the next scan adds: the target's plot without noise, measured in the given way. */
+static double score_gain_of_plot(uint32_t measures)
 {
     double before_nat = (double)report.tracks[0].score_nat;
     struct rho_scan scan = scan_of_plots(30);
     struct target at = target_at(&scene.target[0], 30.0);
-    keep();
+    copy_objects();
     scene.measures = scan.measures = measures;
     num_plots = 0;
     add_target_plot(&at, 0.0, 0);
@@ -79,38 +79,38 @@ static double gain_of(uint32_t measures)
     step_with_scan(&scan, &initiator);
     assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
     double gain_nat = (double)report.tracks[0].score_nat - before_nat;
-    go_back();
+    restore_objects();
     return gain_nat;
 }
 
 /*
- * A dimension more is worth ln of how widely clutter is spread in it, 2 v_max = 800 m/s, less ln of
- * the innovation's density: by hand, with the reported velocity's variance. Where the target is
- * expected to be, both models agree.
+ * Another measured dimension is worth ln of the clutter's spread in it, 2 v_max = 800 m/s, less ln
+ * of the innovation density, computed here with the reported velocity variance. Where the target is
+ * predicted, both models agree.
  */
-static void what_is_measured_beside_the_place_is_worth_more(void **state)
+static void velocity_and_range_rate_add_to_the_score(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        fly_alone((uint8_t)gate, 0, 30);
+        fly_lone_target((uint8_t)gate, 0, 30);
         double variance = (double)report.tracks[0].sigma_mps * (double)report.tracks[0].sigma_mps;
-        double place = gain_of(0), rate = gain_of(RHO_MEASURES_RANGE_RATE),
-               velocity = gain_of(RHO_MEASURES_VELOCITY);
+        double place = score_gain_of_plot(0), rate = score_gain_of_plot(RHO_MEASURES_RANGE_RATE),
+               velocity = score_gain_of_plot(RHO_MEASURES_VELOCITY);
         double rate_nat = log(800.0) - 0.5 * log(6.2832 * (1.0 + variance));
         double velocity_nat = 2.0 * log(800.0) - log(6.2832 * (25.0 + variance));
         print_message("gate %d: place %.2f, with range rate %.2f, velocity %.2f more\n", gate,
                       place, rate - place, velocity - place);
         assert_true(fabs(rate - place - rate_nat) < 1.0);
-        /* a Kalman filter's gate does not look at velocities */
+        /* a Kalman filter's gate does not use velocities */
         assert_true(fabs(velocity - place - (gate == RHO_TRACKER_BEST ? velocity_nat : 0.0)) < 1.0);
     }
 }
 
-/* Score of hits where so many plots are nobody's, and no initiator tells how dense they are. */
-static double hits_among(uint8_t gate, unsigned strangers)
+/* Score of hits among so many unclaimed plots, while no initiator measures their density. */
+static double score_of_hits_among_unclaimed(uint8_t gate, unsigned strangers)
 {
     double score_nat = 0.0;
-    fly_alone(gate, 0, 10);
+    fly_lone_target(gate, 0, 10);
     for (int k = 10; k < 80; k++) {
         struct rho_scan scan = scan_of_plots(k);
         see_scan(k, k);
@@ -127,19 +127,20 @@ static double hits_among(uint8_t gate, unsigned strangers)
     return ((double)report.tracks[0].score_nat - score_nat) / 9.0;
 }
 
-static void without_an_initiator_strangers_are_clutter(void **state)
+static void without_an_initiator_unclaimed_plots_set_the_clutter(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        double few = hits_among((uint8_t)gate, 4), many = hits_among((uint8_t)gate, 40);
+        double few = score_of_hits_among_unclaimed((uint8_t)gate, 4),
+               many = score_of_hits_among_unclaimed((uint8_t)gate, 40);
         assert_true(fabs(few - many - log(10.0)) < 0.05);
     }
 }
 
 /* ---- looks elsewhere ------------------------------------------------------------------------- */
 
-/* A second plot beside the target's, at each of a few scans: several hypotheses. */
-static void confuse(int from, int to)
+/* Adds a second plot beside the target's at each of a few scans, which opens several hypotheses. */
+static void add_second_plots(int from, int to)
 {
     for (int k = from; k < to; k++) {
         struct rho_scan scan = scan_of_plots(k);
@@ -152,20 +153,20 @@ static void confuse(int from, int to)
     }
 }
 
-/* Neither the score nor the hypotheses: what was open before is open after. */
-static void a_look_elsewhere_changes_no_evidence(void **state)
+/* A look elsewhere changes neither the score nor the open hypotheses. */
+static void scans_of_other_sectors_change_no_evidence(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        fly_alone((uint8_t)gate, 0, 15);
-        confuse(15, 19);
+        fly_lone_target((uint8_t)gate, 0, 15);
+        add_second_plots(15, 19);
         float score_nat = report.tracks[0].score_nat;
         unsigned count = report.tracks[0].num_hypotheses;
         assert_true(gate == RHO_TRACKER_BEST ? count >= 3 : count == 1);
         for (int i = 1; i <= 6; i++) {
             struct rho_scan scan = scan_of_plots(18);
             scan.time_us += 100000 * i;
-            scan.sector_from_rad = -2.0f; /* the target is at 2 to 3 rad */
+            scan.sector_from_rad = -2.0f; /* sector away from the target, which is at 2 to 3 rad */
             scan.sector_to_rad = -1.0f;
             num_plots = 0;
             step_with_scan(&scan, &initiator);
@@ -180,14 +181,14 @@ static void a_look_elsewhere_changes_no_evidence(void **state)
 }
 
 /*
- * Where the sensor looked is asked of where the target is by now: in four seconds it went from
- * azimuth 2.5 rad to 2.4. The sector ends between.
+ * A miss counts where the target is predicted now: in four seconds it went from azimuth 2.5 to 2.4
+ * rad, and the sector ends in between.
  */
-static void looks_follow_the_prediction(void **state)
+static void misses_count_where_the_target_is_predicted(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        fly_alone((uint8_t)gate, 0, 15);
+        fly_lone_target((uint8_t)gate, 0, 15);
         struct target last = target_at(&scene.target[0], 14.0);
         struct target next = target_at(&scene.target[0], 18.0);
         double from_rad = atan2(last.y_m, last.x_m), to_rad = atan2(next.y_m, next.x_m);
@@ -207,15 +208,15 @@ static void looks_follow_the_prediction(void **state)
 }
 
 /*
- * A bearing 10 s after the last plot, of a target that may pull 30 m/s^2: 0.1 rad off, 600 m, it
- * may still be the target's, but 0.1 rad off right after it may not.
+ * A bearing 10 s after the last plot of a target that may pull 30 m/s^2: 0.1 rad (600 m) off it may
+ * be the target's; right after a plot it may not.
  */
-static void a_frame_s_gates_are_as_wide_as_targets_may_pull(void **state)
+static void gates_of_bearings_allow_for_manoeuvres(void **state)
 {
     (void)state;
     for (int i = 0; i < 2 * RHO_NUM_TRACKER_GATES; i++) {
         const int late_s = i % 2 ? 10 : 0;
-        fly_alone((uint8_t)(i / 2), 0, 15);
+        fly_lone_target((uint8_t)(i / 2), 0, 15);
         struct target at = target_at(&scene.target[0], 14.0 + late_s);
         const float x_m = (float)at.x_m, y_m = (float)at.y_m - 6000.0f;
         const struct rho_bearing bearing = {.bearing_rad = 1.5707963f + 0.1f, .sigma_rad = 1e-3f};
@@ -234,8 +235,9 @@ static void a_frame_s_gates_are_as_wide_as_targets_may_pull(void **state)
 
 /* ---- the Hough gate -------------------------------------------------------------------------- */
 
-/* (20) to (30) of the paper, plane by plane, by a search through all cells. */
-static double off_mps(const struct rho_track *track, const double velocity_mps[3], int num_planes)
+/* Change of rho by (20) to (30) of the paper, plane by plane, by searching all cells. */
+static double change_of_rho_mps(const struct rho_track *track, const double velocity_mps[3],
+                                int num_planes)
 {
     static const int axes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
     const double cell_rad = 5.0 * 3.14159265358979 / 180.0;
@@ -257,9 +259,9 @@ static double off_mps(const struct rho_track *track, const double velocity_mps[3
     return sum;
 }
 
-/* The velocity of a plot, measured or by its place. */
-static void velocity_of(const struct rho_plot *plot, const double expected_m[3],
-                        double velocity_mps[3])
+/* The velocity of a plot, measured or from its place. */
+static void velocity_of_plot(const struct rho_plot *plot, const double expected_m[3],
+                             double velocity_mps[3])
 {
     const struct rho_track *track = &tracker_then.tracks[0];
     const float place_m[3] = {plot->x_m, plot->y_m, plot->z_m};
@@ -273,16 +275,16 @@ static void velocity_of(const struct rho_plot *plot, const double expected_m[3],
 }
 
 /*
- * Five plots in the gate, the place of each somewhere about the expected one. Returns 0 where two
- * are as good.
+ * Five plots in the gate, near the predicted place. Returns the paper's choice, 0 if two are
+ * equally good.
  */
-static int choose(int k)
+static int plot_chosen_by_paper(int k)
 {
     double expected_m[3], least = INFINITY, second = INFINITY;
     const float *at = report.tracks[0].state;
     int best = -1;
     struct rho_scan scan = scan_of_plots(k);
-    keep();
+    copy_objects();
     for (int axis = 0; axis < 3; axis++) {
         expected_m[axis] = (double)at[axis] + interval_s * (double)at[3 + axis];
     }
@@ -295,9 +297,9 @@ static int choose(int k)
     }
     for (int i = 0; i < 5; i++) {
         double velocity_mps[3];
-        velocity_of(&plots[i], expected_m, velocity_mps);
-        double off =
-            off_mps(&tracker_then.tracks[0], velocity_mps, scene.measures & RHO_MEASURES_Z ? 3 : 1);
+        velocity_of_plot(&plots[i], expected_m, velocity_mps);
+        double off = change_of_rho_mps(&tracker_then.tracks[0], velocity_mps,
+                                       scene.measures & RHO_MEASURES_Z ? 3 : 1);
         best = off < least ? i : best;
         second = off < least ? least : fmin(off, second);
         least = fmin(off, least);
@@ -310,7 +312,7 @@ static int choose(int k)
     return 1;
 }
 
-static void the_hough_gate_takes_the_plot_that_goes_on_straight(void **state)
+static void the_hough_gate_takes_the_plot_of_least_rho_change(void **state)
 {
     static const uint32_t kinds[] = {0, RHO_MEASURES_Z, RHO_MEASURES_VELOCITY,
                                      RHO_MEASURES_Z | RHO_MEASURES_VELOCITY};
@@ -318,11 +320,11 @@ static void the_hough_gate_takes_the_plot_that_goes_on_straight(void **state)
     interval_s = 2.0;
     for (unsigned kind = 0; kind < 4; kind++) {
         int told = 0;
-        fly_alone(RHO_TRACKER_HOUGH, kinds[kind], 12);
+        fly_lone_target(RHO_TRACKER_HOUGH, kinds[kind], 12);
         for (int k = 12; k < 62; k++) {
             for (int i = 0; i < 4; i++) {
-                told += choose(k);
-                go_back(); /* clutter would lead it astray */
+                told += plot_chosen_by_paper(k);
+                restore_objects(); /* undone, as taking clutter would lead the track astray */
             }
             step_tracker(k);
         }
@@ -331,8 +333,8 @@ static void the_hough_gate_takes_the_plot_that_goes_on_straight(void **state)
     interval_s = 1.0;
 }
 
-/* The normal of the line in velocity space on which the track is to stay: the cell of (20). */
-static void normal_of(const struct rho_track *track, double normal[2])
+/* The normal of the line in velocity space on which the track should stay: the cell of (20). */
+static void normal_of_velocity_line(const struct rho_track *track, double normal[2])
 {
     const double cell_rad = 5.0 * 3.14159265358979 / 180.0;
     double least = INFINITY;
@@ -349,16 +351,16 @@ static void normal_of(const struct rho_track *track, double normal[2])
     }
 }
 
-static unsigned lower, upper; /* rows of two tracks, by their y */
+static unsigned lower, upper; /* rows of the tracks with the lower and the higher y */
 
-/* A plot whose velocity is so far off the lines of both tracks. */
-static void add_off_by(double y_m, double lower_mps, double upper_mps)
+/* Adds a plot whose velocity is this far off the lines of both tracks. */
+static void add_plot_off_both_lines(double y_m, double lower_mps, double upper_mps)
 {
     const float *u_mps = tracker.tracks[lower].newest_mps,
                 *v_mps = tracker.tracks[upper].newest_mps;
     double a[2], b[2];
-    normal_of(&tracker.tracks[lower], a);
-    normal_of(&tracker.tracks[upper], b);
+    normal_of_velocity_line(&tracker.tracks[lower], a);
+    normal_of_velocity_line(&tracker.tracks[upper], b);
     const double p = lower_mps + a[0] * (double)u_mps[0] + a[1] * (double)u_mps[1];
     const double q = upper_mps + b[0] * (double)v_mps[0] + b[1] * (double)v_mps[1];
     const double det = a[0] * b[1] - a[1] * b[0];
@@ -368,8 +370,8 @@ static void add_off_by(double y_m, double lower_mps, double upper_mps)
     plots[num_plots - 1].vy_mps = (float)((a[0] * q - b[0] * p) / det);
 }
 
-/* Two tracks, at y 0 and 400 m, whose velocities changed nearly along x and y. */
-static struct rho_scan fly_two(uint8_t status_of_upper)
+/* Two tracks, at y = 0 and 400 m, whose velocities changed nearly along x and y. */
+static struct rho_scan fly_two_tracks(uint8_t status_of_upper)
 {
     set_up_scene(RHO_TRACKER_HOUGH, 77);
     config.hough_window_m = 2000.0f;
@@ -395,17 +397,17 @@ static struct rho_scan fly_two(uint8_t status_of_upper)
 }
 
 /*
- * The confirmed track may have either plot, the tentative one the first alone, which is just its
- * own: 16 + ln 1000 nat. For the confirmed one the second is worse by 200 ln of the ratio, so up
- * to a ratio of 1.12 it leaves the first.
+ * The confirmed track may take either plot, the tentative one only the first, worth 16 + ln 1000
+ * nat to it. For the confirmed track the second plot costs 200 ln of the residual ratio, so up to a
+ * ratio of 1.12 it leaves the first.
  */
-static void a_confirmed_track_gives_way_by_a_tenth_and_no_more(void **state)
+static void a_confirmed_track_gives_way_for_a_residual_ratio_up_to_1_1(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct rho_scan scan = fly_two(RHO_TRACK_TENTATIVE);
-        add_off_by(0.0, 10.0, 0.0);
-        add_off_by(-1800.0, i ? 10.9 : 11.7, 0.0);
+        struct rho_scan scan = fly_two_tracks(RHO_TRACK_TENTATIVE);
+        add_plot_off_both_lines(0.0, 10.0, 0.0);
+        add_plot_off_both_lines(-1800.0, i ? 10.9 : 11.7, 0.0);
         step_with_scan(&scan, NULL);
         assert_int_equal(report.tracks[lower].plot, i);
         assert_int_equal(report.tracks[upper].plot, i ? 0 : -1);
@@ -413,17 +415,17 @@ static void a_confirmed_track_gives_way_by_a_tenth_and_no_more(void **state)
 }
 
 /*
- * Between confirmed tracks the product of the residuals decides, of each 0.001 m/s more: 0 and 1
- * m/s against twice 0.031.
+ * Between confirmed tracks the product of residuals decides, each plus 0.001 m/s: 0 and 1 m/s
+ * against twice 0.031 m/s.
  */
-static void residuals_below_a_millimetre_a_second_are_alike(void **state)
+static void velocity_residuals_are_compared_with_a_floor_of_1_mmps(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
         const double off_mps = i ? 0.026 : 0.036;
-        struct rho_scan scan = fly_two(RHO_TRACK_CONFIRMED);
-        add_off_by(200.0, 0.0, off_mps);
-        add_off_by(210.0, off_mps, 1.0);
+        struct rho_scan scan = fly_two_tracks(RHO_TRACK_CONFIRMED);
+        add_plot_off_both_lines(200.0, 0.0, off_mps);
+        add_plot_off_both_lines(210.0, off_mps, 1.0);
         step_with_scan(&scan, NULL);
         assert_int_equal(report.tracks[lower].plot, i);
         assert_int_equal(report.tracks[upper].plot, 1 - i);
@@ -431,18 +433,18 @@ static void residuals_below_a_millimetre_a_second_are_alike(void **state)
 }
 
 /*
- * With fewer than three velocities the chi-square gate has its place: the plot in the middle, not
- * the one that goes on straight.
+ * With fewer than three velocities the chi-square gate decides: it takes the plot in the middle,
+ * not the one that continues straight.
  */
 static void the_hough_gate_begins_with_the_third_velocity(void **state)
 {
     (void)state;
     for (uint8_t velocities = 2; velocities < 4; velocities++) {
-        struct rho_scan scan = fly_two(RHO_TRACK_CONFIRMED);
+        struct rho_scan scan = fly_two_tracks(RHO_TRACK_CONFIRMED);
         const float *at = tracker.tracks[lower].kalman.state;
         tracker.tracks[lower].num_velocities = velocities;
-        add_off_by(0.0, 9.0, 1.0);
-        add_off_by(0.0, 0.0, 1.0);
+        add_plot_off_both_lines(0.0, 9.0, 1.0);
+        add_plot_off_both_lines(0.0, 0.0, 1.0);
         for (int i = 0; i < 2; i++) {
             plots[i].x_m = at[0] + at[3];
             plots[i].y_m = at[1] + at[4] + 15.0f * (float)i;
@@ -455,15 +457,15 @@ static void the_hough_gate_begins_with_the_third_velocity(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_track_that_is_seen_again_is_confirmed),
-        cmocka_unit_test(what_is_measured_beside_the_place_is_worth_more),
-        cmocka_unit_test(without_an_initiator_strangers_are_clutter),
-        cmocka_unit_test(a_look_elsewhere_changes_no_evidence),
-        cmocka_unit_test(looks_follow_the_prediction),
-        cmocka_unit_test(a_frame_s_gates_are_as_wide_as_targets_may_pull),
-        cmocka_unit_test(the_hough_gate_takes_the_plot_that_goes_on_straight),
-        cmocka_unit_test(a_confirmed_track_gives_way_by_a_tenth_and_no_more),
-        cmocka_unit_test(residuals_below_a_millimetre_a_second_are_alike),
+        cmocka_unit_test(tracks_are_confirmed_by_further_hits),
+        cmocka_unit_test(velocity_and_range_rate_add_to_the_score),
+        cmocka_unit_test(without_an_initiator_unclaimed_plots_set_the_clutter),
+        cmocka_unit_test(scans_of_other_sectors_change_no_evidence),
+        cmocka_unit_test(misses_count_where_the_target_is_predicted),
+        cmocka_unit_test(gates_of_bearings_allow_for_manoeuvres),
+        cmocka_unit_test(the_hough_gate_takes_the_plot_of_least_rho_change),
+        cmocka_unit_test(a_confirmed_track_gives_way_for_a_residual_ratio_up_to_1_1),
+        cmocka_unit_test(velocity_residuals_are_compared_with_a_floor_of_1_mmps),
         cmocka_unit_test(the_hough_gate_begins_with_the_third_velocity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

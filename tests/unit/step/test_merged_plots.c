@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two old tracks whose targets the sensor sees as one share its plot: they part again as
- * themselves, and a pair of which one has gone does not go on for ever.
+ * Two established tracks whose targets are seen as one share the merged plot: they part with their
+ * identities, and a pair of which one target has gone ends.
  */
 #include "tracker_setup.h"
 
@@ -12,13 +12,13 @@
 #define RUNS 40
 #define SPEED_MPS 200.0
 
-/* How the scan just stepped was shared. */
+/* The merged plot of the last scan. */
 struct share {
-    int plot; /* -1: not */
+    int plot; /* row of the plot; -1: none */
     unsigned tracks;
 };
 
-static struct share find_share(void)
+static struct share find_merged_plot(void)
 {
     struct share share = {-1, 0};
     for (unsigned i = 0; i < report.num_tracks; i++) {
@@ -33,11 +33,12 @@ static struct share find_share(void)
 }
 
 /*
- * A plot has two tracks at most, is claimed then, and both say so. Returns whether one was shared.
+ * Whether a plot was merged in this scan; it has the fate CLAIMED and two tracks at most, which
+ * both name it.
  */
-static int check_share(void)
+static int is_plot_merged(void)
 {
-    const struct share share = find_share();
+    const struct share share = find_merged_plot();
     if (share.plot < 0) {
         return 0;
     }
@@ -55,7 +56,7 @@ static int check_share(void)
     return 1;
 }
 
-static void begin_pair(uint64_t seed)
+static void start_pair(uint64_t seed)
 {
     use_usual_configs(seed);
     config.pd = (float)PD;
@@ -63,7 +64,7 @@ static void begin_pair(uint64_t seed)
     begin_tracker();
 }
 
-static void see_with(double pd, double x_m, double y_m)
+static void add_plot_with_pd(double pd, double x_m, double y_m)
 {
     if (uniform(0.0, 1.0) < pd) {
         const double at_m = x_m + SIGMA_M * normal();
@@ -71,36 +72,36 @@ static void see_with(double pd, double x_m, double y_m)
     }
 }
 
-static void see(double x_m, double y_m)
+static void see_one(double x_m, double y_m)
 {
-    see_with(PD, x_m, y_m);
+    add_plot_with_pd(PD, x_m, y_m);
 }
 
-/* One plot, in the middle, which there is where either of the two is seen. */
-static void see_as_one(double x_m, double y_m)
+/* One plot in the middle, present if either target is detected. */
+static void see_merged(double x_m, double y_m)
 {
-    see_with(1.0 - (1.0 - PD) * (1.0 - PD), x_m, y_m);
+    add_plot_with_pd(1.0 - (1.0 - PD) * (1.0 - PD), x_m, y_m);
 }
 
-/* Both, as one where they are nearer than a sigma to their middle. */
+/* Two plots, or one if each target is within a sigma of the middle. */
 static void see_pair(double x_m, double half_m)
 {
     if (fabs(half_m) < SIGMA_M) {
-        see_as_one(x_m, 0.0);
+        see_merged(x_m, 0.0);
     } else {
-        see(x_m, half_m);
-        see(x_m, -half_m);
+        see_one(x_m, half_m);
+        see_one(x_m, -half_m);
     }
 }
 
-/* ---- two that fly together for a while ------------------------------------------------------- */
+/* ---- a pair that flies together for a while -------------------------------------------------- */
 
 #define APPROACH 40
 #define TOGETHER 30
 #define PARTING 30
 
-/* Half of what lies between them: smoothly from 600 m to 0, and back. */
-static double half_way_m(int k)
+/* Half the distance of the pair: smoothly from 600 m to 0 and back. */
+static double half_gap_m(int k)
 {
     const double left = k < APPROACH              ? 1.0 - (double)k / APPROACH
                         : k < APPROACH + TOGETHER ? 0.0
@@ -109,20 +110,20 @@ static double half_way_m(int k)
 }
 
 struct pair_run {
-    unsigned shared; /* scans */
-    /* from start to end, nothing else started, nothing ended, sides kept or changed */
+    unsigned shared; /* scans with a merged plot */
+    /* tracks kept from start to end; others started or ended; sides kept or swapped */
     int are_both_kept;
-    unsigned least_tracks; /* once both were there */
+    unsigned least_tracks; /* fewest tracks once both had one */
 };
 
-static struct pair_run fly_together(uint64_t seed)
+static struct pair_run fly_pair_together(uint64_t seed)
 {
     struct pair_run run = {.least_tracks = 2};
-    begin_pair(seed);
+    start_pair(seed);
     for (int k = 0; k < APPROACH + TOGETHER + PARTING; k++) {
-        see_pair(SPEED_MPS * k, half_way_m(k));
+        see_pair(SPEED_MPS * k, half_gap_m(k));
         step_at(k);
-        run.shared += (unsigned)check_share();
+        run.shared += (unsigned)is_plot_merged();
         run.least_tracks =
             k > 10 && report.num_tracks < run.least_tracks ? report.num_tracks : run.least_tracks;
     }
@@ -133,35 +134,35 @@ static struct pair_run fly_together(uint64_t seed)
     return run;
 }
 
-static void two_that_are_seen_as_one_for_long_part_as_themselves(void **state)
+static void targets_merged_for_long_keep_their_identities(void **state)
 {
     unsigned kept = 0, shared = 0, dropped = 0;
     (void)state;
     for (uint64_t seed = 1; seed <= RUNS; seed++) {
-        const struct pair_run run = fly_together(seed);
+        const struct pair_run run = fly_pair_together(seed);
         kept += run.are_both_kept != 0;
         shared += run.shared;
         dropped += run.least_tracks < 2;
     }
-    /* 29 and 6 of 40; none and 40 where nothing is shared */
+    /* measured: 29 and 6 of 40 runs; without merged plots none and 40 */
     assert_true(kept >= 27);
     assert_true(dropped <= 8);
     assert_true(shared > RUNS * TOGETHER / 2);
 }
 
-/* ---- two that cross -------------------------------------------------------------------------- */
+/* ---- a pair that crosses --------------------------------------------------------------------- */
 
-static void crossing_targets_keep_their_velocities(void **state)
+static void crossing_merged_targets_keep_their_velocities(void **state)
 {
     unsigned kept = 0, shared = 0;
     double error_mps = 0.0;
     (void)state;
     for (uint64_t seed = 1; seed <= RUNS; seed++) {
-        begin_pair(seed);
+        start_pair(seed);
         for (int k = 0; k < 60; k++) {
             see_pair(SPEED_MPS * k, 40.0 * (k - 30));
             step_at(k);
-            shared += (unsigned)check_share();
+            shared += (unsigned)is_plot_merged();
             for (unsigned i = 0; i < report.num_tracks && k == 33; i++) {
                 error_mps += fabs(fabs((double)report.tracks[i].state[4]) - 40.0) / RUNS / 2.0;
             }
@@ -170,28 +171,27 @@ static void crossing_targets_keep_their_velocities(void **state)
         kept += one && two && tracker.counters.tracks_started == 2 &&
                 one->state[4] * two->state[4] < 0.0f;
     }
-    /* all of 40, three scans each; 2.1 m/s */
+    /* measured: all of 40 runs, three scans each; 2.1 m/s */
     assert_true(kept >= RUNS - 1);
     assert_true(shared >= RUNS);
     assert_true(error_mps < 4.0);
 }
 
-/* ---- one that is gone ------------------------------------------------------------------------ */
+/* ---- a target that disappears beside another ------------------------------------------------- */
 
 /*
- * Side by side, then one of them is not there any more. Returns scans until there is one confirmed
- * track.
+ * Side by side, then one of the two disappears. Returns scans until there is one confirmed track.
  */
-static int outlive(uint64_t seed, double apart_m)
+static int scans_until_one_track(uint64_t seed, double apart_m)
 {
-    begin_pair(seed);
+    start_pair(seed);
     for (int k = 0; k < 120; k++) {
-        see(SPEED_MPS * k, 0.0);
+        see_one(SPEED_MPS * k, 0.0);
         if (k < 30) {
-            see(SPEED_MPS * k, apart_m);
+            see_one(SPEED_MPS * k, apart_m);
         }
         step_at(k);
-        check_share();
+        is_plot_merged();
         unsigned believed = 0;
         for (unsigned i = 0; i < report.num_tracks; i++) {
             believed += report.tracks[i].status == RHO_TRACK_CONFIRMED ||
@@ -204,30 +204,30 @@ static int outlive(uint64_t seed, double apart_m)
     return 999;
 }
 
-static void one_that_is_gone_beside_another_is_doubted_soon(void **state)
+static void a_target_gone_beside_another_ends_soon(void **state)
 {
     int longest = 0, sum = 0;
     (void)state;
     for (uint64_t seed = 1; seed <= RUNS; seed++) {
-        const int scans = outlive(seed, 3.0 * SIGMA_M);
+        const int scans = scans_until_one_track(seed, 3.0 * SIGMA_M);
         longest = scans > longest ? scans : longest;
         sum += scans;
     }
-    /* 13 scans, and 37 */
+    /* measured: 13 and 37 scans */
     assert_true(sum <= 16 * RUNS);
     assert_true(longest <= 60);
 }
 
-static void a_pair_that_never_parts_is_not_kept_for_ever(void **state)
+static void a_pair_merged_forever_becomes_one_track(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= RUNS; seed++) {
-        begin_pair(seed);
+        start_pair(seed);
         int doubted = 0;
         for (int k = 0; k < 140; k++) {
             see_pair(SPEED_MPS * k, k < 30 ? 20.0 * (30 - k) : 0.0);
             step_at(k);
-            check_share();
+            is_plot_merged();
             for (unsigned i = 0; i < report.num_tracks && k > 40; i++) {
                 doubted |= report.tracks[i].status == RHO_TRACK_TENTATIVE;
             }
@@ -237,13 +237,13 @@ static void a_pair_that_never_parts_is_not_kept_for_ever(void **state)
     }
 }
 
-/* ---- who shares ------------------------------------------------------------------------------ */
+/* ---- which tracks share a plot --------------------------------------------------------------- */
 
 /*
- * Two that are there from the start, exact, 30 m apart, and seen as one from `from` on: scans that
- * were shared.
+ * Two targets from the start, without noise, 30 m apart, seen as one from scan `from` on: counts
+ * scans with a merged plot.
  */
-static unsigned scans_shared(uint8_t gate, int from)
+static unsigned count_merged_scans(uint8_t gate, int from)
 {
     unsigned shared = 0;
     use_usual_configs(1);
@@ -255,22 +255,22 @@ static unsigned scans_shared(uint8_t gate, int from)
             add_plot(SPEED_MPS * k, 0.0, 10.0);
         }
         step_at(k);
-        shared += (unsigned)check_share();
+        shared += (unsigned)is_plot_merged();
     }
     return shared;
 }
 
-static void old_tracks_share_in_each_gate_and_new_ones_do_not(void **state)
+static void only_established_tracks_share_a_merged_plot(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        assert_int_equal(scans_shared((uint8_t)gate, 6),
-                         0); /* hits are no ten until the last scan */
-        assert_int_equal(scans_shared((uint8_t)gate, 14), 4);
+        assert_int_equal(count_merged_scans((uint8_t)gate, 6),
+                         0); /* tracks have fewer than ten hits until the last scan */
+        assert_int_equal(count_merged_scans((uint8_t)gate, 14), 4);
     }
 }
 
-static void a_plot_has_two_tracks_at_most(void **state)
+static void two_tracks_at_most_share_a_plot(void **state)
 {
     (void)state;
     use_usual_configs(1);
@@ -284,12 +284,12 @@ static void a_plot_has_two_tracks_at_most(void **state)
             add_plot(SPEED_MPS * k, 0.0, 10.0);
         }
         step_at(k);
-        assert_int_equal(check_share(), k >= 14);
+        assert_int_equal(is_plot_merged(), k >= 14);
     }
 }
 
-/* Two that are seen apart have a plot each, however near they are. */
-static void what_is_seen_apart_is_not_shared(void **state)
+/* Two resolved targets take a plot each, however near they are. */
+static void resolved_targets_share_no_plot(void **state)
 {
     (void)state;
     use_usual_configs(1);
@@ -298,13 +298,16 @@ static void what_is_seen_apart_is_not_shared(void **state)
         add_plot(SPEED_MPS * k, 15.0, 10.0);
         add_plot(SPEED_MPS * k, -15.0, 10.0);
         step_at(k);
-        assert_int_equal(check_share(), 0);
+        assert_int_equal(is_plot_merged(), 0);
         assert_int_equal(report.num_tracks, k < 3 ? 0 : 2);
     }
 }
 
-/* A miss of one five sigmas from the other is a miss, though the other's plot is in its gate. */
-static void one_that_is_far_shares_nothing(void **state)
+/*
+ * A missed target five sigmas from another one counts as missed, though the other's plot is in its
+ * gate.
+ */
+static void a_track_five_sigmas_away_shares_no_plot(void **state)
 {
     (void)state;
     use_usual_configs(1);
@@ -315,21 +318,21 @@ static void one_that_is_far_shares_nothing(void **state)
             add_plot(SPEED_MPS * k, 50.0, 10.0);
         }
         step_at(k);
-        assert_int_equal(check_share(), 0);
+        assert_int_equal(is_plot_merged(), 0);
     }
     assert_int_equal(report.num_tracks, 2);
     assert_int_equal(report.tracks[0].misses + report.tracks[1].misses, 2);
 }
 
 /*
- * Two 300 m apart, 40 km from the sensor, whose plots are good to 30 m in range and to 170 m
- * across. Three scans show one of them alone, or the middle: scans that were shared.
+ * Two targets 300 m apart, 40 km from the sensor, with plots of 30 m sigma in range and 170 m
+ * across. In three scans only one of them, or the middle, is seen: counts scans with a merged plot.
  */
-static unsigned scans_shared_apart(double along_m, double across_m, int is_one)
+static unsigned count_merged_scans_apart(double along_m, double across_m, int is_one)
 {
     unsigned shared = 0;
     use_usual_configs(1);
-    config.accel_max_mps2 = 20.0f; /* each one's plots are in the other's gate */
+    config.accel_max_mps2 = 20.0f; /* puts each one's plots in the other's gate */
     begin_tracker();
     for (int k = 0; k < 24; k++) {
         const int is_missed = k >= 20 && k < 23;
@@ -340,32 +343,32 @@ static unsigned scans_shared_apart(double along_m, double across_m, int is_one)
             plot->sigma_cross_m = 170.0f;
         }
         step_at(4.0 * k);
-        shared += (unsigned)check_share();
+        shared += (unsigned)is_plot_merged();
     }
     assert_int_equal(report.num_tracks, 2);
     return shared;
 }
 
 /*
- * One behind the other are told apart by their ranges, however bad the azimuths are; abreast they
+ * Targets behind each other are resolved by their ranges, however poor the azimuths; abreast they
  * are not.
  */
-static void those_whose_ranges_differ_share_nothing(void **state)
+static void targets_resolved_in_range_share_no_plot(void **state)
 {
     (void)state;
-    assert_int_equal(scans_shared_apart(300.0, 0.0, 0), 0);
-    assert_int_equal(scans_shared_apart(0.0, 300.0, 1), 3);
+    assert_int_equal(count_merged_scans_apart(300.0, 0.0, 0), 0);
+    assert_int_equal(count_merged_scans_apart(0.0, 300.0, 1), 3);
 }
 
 /*
- * Two abreast, seen as one from scan 20 on, half an interval after the scan's time: both keep to
- * their plot's time.
+ * Two targets abreast, seen as one from scan 20 on, half an interval after the scan's time: both
+ * update at the plot's time.
  */
-static void a_shared_plot_has_its_own_time(void **state)
+static void a_merged_plot_updates_at_its_own_time(void **state)
 {
     (void)state;
     for (int offset_s = 0; offset_s <= 5; offset_s += 5) {
-        begin_pair(5);
+        start_pair(5);
         for (int k = 0; k < 32; k++) {
             const double x_m = SPEED_MPS * (10.0 * k + offset_s);
             const int is_one = k >= 20;
@@ -375,7 +378,7 @@ static void a_shared_plot_has_its_own_time(void **state)
             step_at(10.0 * k);
         }
         assert_int_equal(report.num_tracks, 2);
-        assert_int_equal(find_share().tracks, 1);
+        assert_int_equal(find_merged_plot().tracks, 1);
         for (unsigned i = 0; i < 2; i++) {
             assert_float_equal(report.tracks[i].state[0], SPEED_MPS * 310.0, 60.0);
             assert_float_equal(report.tracks[i].state[1], 30.0, 40.0);
@@ -383,11 +386,11 @@ static void a_shared_plot_has_its_own_time(void **state)
     }
 }
 
-/* Two scans that show neither: the one that the plots are claimed by is believed again. */
-static void a_pair_that_was_missed_is_seen_again(void **state)
+/* After two scans without any plot, the track that claims the merged plot is confirmed again. */
+static void a_merged_pair_survives_two_missed_scans(void **state)
 {
     (void)state;
-    begin_pair(6);
+    start_pair(6);
     for (int k = 0; k < 30; k++) {
         for (int i = 0; i < (k < 20 ? 2 : k < 22 ? 0 : 1); i++) {
             add_plot(SPEED_MPS * 10.0 * k, k < 20 ? 60.0 * i : 30.0, SIGMA_M);
@@ -402,12 +405,12 @@ static void a_pair_that_was_missed_is_seen_again(void **state)
 }
 
 /*
- * Two abreast for twenty scans, missed in two, and in the next one seen as one; or each by a plot
- * of its own, which is vague.
+ * Two targets abreast for twenty scans, missed in two, then seen as one, or each by a less accurate
+ * plot.
  */
-static double sigma_after(int is_shared)
+static double sigma_after_update(int is_shared)
 {
-    begin_pair(8);
+    start_pair(8);
     for (int k = 0; k < 23; k++) {
         const double x_m = SPEED_MPS * 10.0 * k;
         for (int i = 0; i < 2 && (k < 20 || (k == 22 && !is_shared)); i++) {
@@ -419,29 +422,29 @@ static double sigma_after(int is_shared)
         step_at(10.0 * k);
     }
     assert_int_equal(report.num_tracks, 2);
-    assert_int_equal(find_share().tracks, is_shared);
+    assert_int_equal(find_merged_plot().tracks, is_shared);
     return (double)report.tracks[0].sigma_m;
 }
 
 /*
- * Where the tracks know little each knows of the plot what (4 r + p) (n + p) - p^2 over
- * 4 r + n + 4 p becomes, r + n / 4: with a cell of n = 4 r it is as vague as root 2 sigmas.
+ * For tracks of large variance p, the variance of a merged plot, (4 r + p) (n + p) - p^2 over 4 r +
+ * n + 4 p, becomes r + n / 4: with a cell of n = 4 r the noise counts as root 2 sigmas.
  */
-static void a_shared_plot_is_a_vague_one(void **state)
+static void a_merged_plot_counts_with_root_2_the_noise(void **state)
 {
     (void)state;
-    const double shared_m = sigma_after(1), vague_m = sigma_after(0);
+    const double shared_m = sigma_after_update(1), vague_m = sigma_after_update(0);
     assert_true(fabs(shared_m - vague_m) < 0.06 * vague_m);
 }
 
-/* Two abreast are seen as one by the last plot of a scan, the first one that has no room. */
-static void a_shared_plot_beyond_the_capacity_is_told_by_its_row(void **state)
+/* Two targets abreast are seen as one by the last plot of a scan, the first one without room. */
+static void a_merged_plot_beyond_the_capacity_is_reported_by_row(void **state)
 {
     (void)state;
     if (!RHO_CLAIMS_BEYOND) {
         skip();
     }
-    begin_pair(7);
+    start_pair(7);
     for (int k = 0; k < 25; k++) {
         const double x_m = SPEED_MPS * 10.0 * k;
         for (int i = 0; i < RHO_MAX_PLOTS && k == 24; i++) {
@@ -453,25 +456,25 @@ static void a_shared_plot_beyond_the_capacity_is_told_by_its_row(void **state)
         step_at(10.0 * k);
     }
     assert_int_equal(report.num_tracks, 2);
-    assert_int_equal(find_share().plot, RHO_MAX_PLOTS);
+    assert_int_equal(find_merged_plot().plot, RHO_MAX_PLOTS);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_that_are_seen_as_one_for_long_part_as_themselves),
-        cmocka_unit_test(crossing_targets_keep_their_velocities),
-        cmocka_unit_test(one_that_is_gone_beside_another_is_doubted_soon),
-        cmocka_unit_test(a_pair_that_never_parts_is_not_kept_for_ever),
-        cmocka_unit_test(old_tracks_share_in_each_gate_and_new_ones_do_not),
-        cmocka_unit_test(a_plot_has_two_tracks_at_most),
-        cmocka_unit_test(what_is_seen_apart_is_not_shared),
-        cmocka_unit_test(one_that_is_far_shares_nothing),
-        cmocka_unit_test(those_whose_ranges_differ_share_nothing),
-        cmocka_unit_test(a_shared_plot_has_its_own_time),
-        cmocka_unit_test(a_pair_that_was_missed_is_seen_again),
-        cmocka_unit_test(a_shared_plot_is_a_vague_one),
-        cmocka_unit_test(a_shared_plot_beyond_the_capacity_is_told_by_its_row),
+        cmocka_unit_test(targets_merged_for_long_keep_their_identities),
+        cmocka_unit_test(crossing_merged_targets_keep_their_velocities),
+        cmocka_unit_test(a_target_gone_beside_another_ends_soon),
+        cmocka_unit_test(a_pair_merged_forever_becomes_one_track),
+        cmocka_unit_test(only_established_tracks_share_a_merged_plot),
+        cmocka_unit_test(two_tracks_at_most_share_a_plot),
+        cmocka_unit_test(resolved_targets_share_no_plot),
+        cmocka_unit_test(a_track_five_sigmas_away_shares_no_plot),
+        cmocka_unit_test(targets_resolved_in_range_share_no_plot),
+        cmocka_unit_test(a_merged_plot_updates_at_its_own_time),
+        cmocka_unit_test(a_merged_pair_survives_two_missed_scans),
+        cmocka_unit_test(a_merged_plot_counts_with_root_2_the_noise),
+        cmocka_unit_test(a_merged_plot_beyond_the_capacity_is_reported_by_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a person changes between two steps: tracks start, end, get other identities and freeze by
+ * An operator's changes between two steps: tracks start, end, get other identities and freeze by
  * hand. Refused calls change no byte.
  */
 #include "rhotrack/operator.h"
 
 #include "two_flights.h"
 
-/* ---- start ----------------------------------------------------------------------------------- */
+/* ---- tracks started by hand ------------------------------------------------------------------ */
 
-static void starts_where_a_person_points(void **state)
+static void an_operator_starts_a_track_at_a_place(void **state)
 {
     const struct rho_operator_start start = {
         .x_m = 500.0f, .y_m = 6000.0f, .sigma_m = 50.0f, .vx_mps = 50.0f, .sigma_mps = 20.0f};
@@ -33,8 +33,8 @@ static void starts_where_a_person_points(void **state)
     assert_int_equal(report.num_tracks, 3);
 }
 
-/* Without plots it ends as any other track. */
-static void ends_where_nothing_follows(void **state)
+/* Without plots a track started by hand ends like any other. */
+static void a_track_started_by_hand_ends_without_plots(void **state)
 {
     const struct rho_operator_start start = {.x_m = 500.0f, .y_m = 6000.0f, .sigma_m = 50.0f};
     (void)state;
@@ -49,7 +49,7 @@ static void ends_where_nothing_follows(void **state)
     assert_int_equal(report.ended[0], 3);
 }
 
-static void refuses_starts_that_are_none(void **state)
+static void bad_starts_by_hand_are_refused(void **state)
 {
     struct rho_operator_start start = {.x_m = 500.0f, .y_m = 6000.0f, .sigma_m = 50.0f};
     struct rho_operator_start bad[] = {start, start, start, start, start};
@@ -85,8 +85,8 @@ static void refuses_starts_that_are_none(void **state)
     assert_int_equal(tracker.counters.tracks_no_room, 1);
 }
 
-/* Another track would end for it, which the report could not say. */
-static void starts_none_without_room_in_the_report(void **state)
+/* The start would end another track, which the full report could not list. */
+static void a_start_needs_room_in_the_report(void **state)
 {
     struct rho_operator_start start = {.x_m = 1000.0f, .y_m = 5000.0f, .sigma_m = 20.0f};
     (void)state;
@@ -106,9 +106,9 @@ static void starts_none_without_room_in_the_report(void **state)
     assert_int_equal(report.ended[RHO_MAX_TRACKS - 1], 2);
 }
 
-/* ---- drop ------------------------------------------------------------------------------------ */
+/* ---- tracks dropped by hand ------------------------------------------------------------------ */
 
-static void drops_one_track(void **state)
+static void an_operator_drops_one_track(void **state)
 {
     (void)state;
     prepare_tracker();
@@ -128,13 +128,13 @@ static void drops_one_track(void **state)
     assert_int_equal(rho_tracker_drop_track(NULL, kept, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_drop_track(&tracker, kept, NULL), RHO_ERROR_NULL);
     check_unchanged();
-    run_scans(8, 1); /* its target is found again, under another identity */
+    run_scans(8, 1); /* its target is found again and gets another identity */
     assert_int_equal(track_near(2000.0)->track_id, 3);
     assert_int_equal(track_near(-2000.0)->track_id, kept);
 }
 
-/* The report's list of ended tracks may be full: the track stays then. */
-static void drops_none_without_room_in_the_report(void **state)
+/* If the report's list of ended tracks is full, the track stays. */
+static void a_drop_needs_room_in_the_report(void **state)
 {
     (void)state;
     prepare_tracker();
@@ -148,9 +148,9 @@ static void drops_none_without_room_in_the_report(void **state)
     assert_int_equal(report.ended[RHO_MAX_TRACKS - 1], 1);
 }
 
-/* ---- renumber -------------------------------------------------------------------------------- */
+/* ---- tracks renumbered ----------------------------------------------------------------------- */
 
-static void renumbers_upwards_and_back(void **state)
+static void an_operator_renumbers_a_track_upwards_and_back(void **state)
 {
     (void)state;
     prepare_tracker();
@@ -161,7 +161,7 @@ static void renumbers_upwards_and_back(void **state)
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], old_id);
     assert_int_equal(tracker.counters.tracks_ended, 0);
-    run_scans(4, 1); /* each step checks that identities are in order */
+    run_scans(4, 1); /* each step checks that tracks are in order of identity */
     assert_int_equal(track_near(2000.0)->track_id, 40);
     assert_int_equal(track_near(2000.0)->hits, track_near(-2000.0)->hits);
     assert_int_equal(rho_tracker_renumber_track(&tracker, 40, old_id, &report), RHO_OK);
@@ -170,13 +170,13 @@ static void renumbers_upwards_and_back(void **state)
     assert_true(rho_tracker_is_sound(&tracker));
     run_scans(4, 1);
     assert_int_equal(track_near(2000.0)->track_id, old_id);
-    /* no later track gets an identity that was given by hand */
+    /* no later track gets an identity given by hand */
     assert_int_equal(rho_tracker_drop_track(&tracker, old_id, &report), RHO_OK);
     run_scans(8, 1);
     assert_int_equal(track_near(2000.0)->track_id, 41);
 }
 
-static void refuses_identities_that_are_taken(void **state)
+static void identities_in_use_are_refused(void **state)
 {
     (void)state;
     prepare_tracker();
@@ -194,8 +194,8 @@ static void refuses_identities_that_are_taken(void **state)
     assert_int_equal(tracker.next_track_id, RHO_LIMIT_TRACK_ID + 1u);
 }
 
-/* Of the tracks that keep their rows the evidence is still known, of the others none. */
-static void evidence_is_that_of_the_row(void **state)
+/* Tracks that keep their rows keep their evidence, others have none. */
+static void evidence_is_kept_for_tracks_that_keep_their_row(void **state)
 {
     struct rho_tracker_evidence evidence;
     (void)state;
@@ -212,7 +212,7 @@ static void evidence_is_that_of_the_row(void **state)
     assert_false(rho_tracker_evidence_of(&tracker, 1, &evidence));
 }
 
-/* ---- freeze ---------------------------------------------------------------------------------- */
+/* ---- frozen tracks --------------------------------------------------------------------------- */
 
 static void a_frozen_track_coasts_until_it_is_thawed(void **state)
 {
@@ -239,7 +239,7 @@ static void a_frozen_track_coasts_until_it_is_thawed(void **state)
     assert_int_equal(report_of(frozen)->status, RHO_TRACK_CONFIRMED);
 }
 
-/* It takes no plots, though its target is seen; thawed, it ends where none come. */
+/* A frozen track takes no plots, though its target is seen; thawed, it ends for lack of plots. */
 static void a_frozen_track_takes_no_plots(void **state)
 {
     (void)state;
@@ -257,7 +257,7 @@ static void a_frozen_track_takes_no_plots(void **state)
     assert_null(report_of(frozen));
 }
 
-static void freezes_no_other_tracks(void **state)
+static void freezing_a_track_leaves_others_alone(void **state)
 {
     (void)state;
     prepare_tracker();
@@ -274,10 +274,10 @@ static void freezes_no_other_tracks(void **state)
     assert_false(rho_tracker_is_sound(&tracker));
 }
 
-/* ---- frames of bearings ---------------------------------------------------------------------- */
+/* ---- frozen tracks in frames of bearings ----------------------------------------------------- */
 
-/* Three sensors see one target; a frozen track of it keeps its hits and its score. */
-static void frames_leave_frozen_tracks_alone(void **state)
+/* Three sensors see one target; its frozen track keeps hits and score. */
+static void frames_of_bearings_leave_frozen_tracks_alone(void **state)
 {
     static const float place_m[3][2] = {{0.0f, 0.0f}, {8000.0f, 0.0f}, {4000.0f, -6000.0f}};
     struct rho_bearing bearings[3];
@@ -315,10 +315,10 @@ static void frames_leave_frozen_tracks_alone(void **state)
     }
 }
 
-/* ---- any order ------------------------------------------------------------------------------- */
+/* ---- random commands ------------------------------------------------------------------------- */
 
-/* Random commands between noisy steps: the tracker stays sound, and its tracks in order. */
-static void any_commands_keep_the_tracker_sound(void **state)
+/* Random commands between noisy steps: the tracker stays sound, with its tracks in order. */
+static void random_commands_keep_the_tracker_sound(void **state)
 {
     unsigned done = 0;
     (void)state;
@@ -348,20 +348,20 @@ static void any_commands_keep_the_tracker_sound(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(starts_where_a_person_points),
-        cmocka_unit_test(starts_none_without_room_in_the_report),
-        cmocka_unit_test(ends_where_nothing_follows),
-        cmocka_unit_test(refuses_starts_that_are_none),
-        cmocka_unit_test(drops_one_track),
-        cmocka_unit_test(drops_none_without_room_in_the_report),
-        cmocka_unit_test(renumbers_upwards_and_back),
-        cmocka_unit_test(refuses_identities_that_are_taken),
-        cmocka_unit_test(evidence_is_that_of_the_row),
+        cmocka_unit_test(an_operator_starts_a_track_at_a_place),
+        cmocka_unit_test(a_start_needs_room_in_the_report),
+        cmocka_unit_test(a_track_started_by_hand_ends_without_plots),
+        cmocka_unit_test(bad_starts_by_hand_are_refused),
+        cmocka_unit_test(an_operator_drops_one_track),
+        cmocka_unit_test(a_drop_needs_room_in_the_report),
+        cmocka_unit_test(an_operator_renumbers_a_track_upwards_and_back),
+        cmocka_unit_test(identities_in_use_are_refused),
+        cmocka_unit_test(evidence_is_kept_for_tracks_that_keep_their_row),
         cmocka_unit_test(a_frozen_track_coasts_until_it_is_thawed),
         cmocka_unit_test(a_frozen_track_takes_no_plots),
-        cmocka_unit_test(freezes_no_other_tracks),
-        cmocka_unit_test(frames_leave_frozen_tracks_alone),
-        cmocka_unit_test(any_commands_keep_the_tracker_sound),
+        cmocka_unit_test(freezing_a_track_leaves_others_alone),
+        cmocka_unit_test(frames_of_bearings_leave_frozen_tracks_alone),
+        cmocka_unit_test(random_commands_keep_the_tracker_sound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The papers' methods start a tracker's tracks: each Hough transform from plots, the passive one
+ * The papers' methods start a tracker's tracks: each Hough transform from plots, the passive method
  * from bearings; what is held, used, counted and refused.
  */
 #include "rhotrack/paper_starts.h"
@@ -14,17 +14,17 @@ static struct rho_paper_starts starts, starts_then;
 static struct rho_passive_paper paper;
 static struct rho_paper_starts_config lines;
 
-static double target_m(int axis, double t_s)
+static double target_place_m(int axis, double t_s)
 {
     return axis ? 1500.0 - 90.0 * t_s : -3000.0 + 220.0 * t_s;
 }
 
-/* Half a metre of noise: what the papers' cells are for. */
-static struct rho_scan scan_at(int k)
+/* Plots have half a metre of noise, as the papers' cells assume. */
+static struct rho_scan make_scan(int k)
 {
     const double t_s = SCAN_S * k;
     num_plots = 0;
-    add_plot(target_m(0, t_s) + 0.5 * normal(), target_m(1, t_s) + 0.5 * normal(), 0.5);
+    add_plot(target_place_m(0, t_s) + 0.5 * normal(), target_place_m(1, t_s) + 0.5 * normal(), 0.5);
     for (int i = 0; i < CLUTTER; i++) {
         const double x_m = uniform(-3500.0, 3500.0);
         add_plot(x_m, uniform(-3500.0, 3500.0), 0.5);
@@ -33,13 +33,14 @@ static struct rho_scan scan_at(int k)
         .time_us = (int64_t)(1e6 * t_s), .sensor_id = 1, .num_plots = num_plots, .plots = plots};
 }
 
-static void begin_by(enum rho_hough_method method)
+static void begin_with_method(enum rho_hough_method method)
 {
     use_usual_configs(5);
     begin_tracker();
     rho_paper_starts_config_default(&lines, method);
     lines.hough.rho_max_m = 5000.0f;
-    lines.hough.rho_cell_m = 25.0f; /* half a metre of noise turns a pair by a milliradian */
+    /* half a metre of noise turns the line of two plots by a milliradian */
+    lines.hough.rho_cell_m = 25.0f;
     lines.hough.theta_cell_rad = 0.02f;
     lines.hough.eps_rho_m = 25.0f;
     lines.hough.eps_theta_rad = 0.02f;
@@ -48,12 +49,12 @@ static void begin_by(enum rho_hough_method method)
 
 static void step_with_starts(int k)
 {
-    const struct rho_scan scan = scan_at(k);
+    const struct rho_scan scan = make_scan(k);
     assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
     assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_OK);
 }
 
-static uint32_t counted(enum rho_fate fate)
+static uint32_t count_fate(enum rho_fate fate)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < report.num_plots; i++) {
@@ -63,11 +64,12 @@ static uint32_t counted(enum rho_fate fate)
     return count;
 }
 
-static const struct rho_track_report *follower(double t_s)
+static const struct rho_track_report *track_on_target(double t_s)
 {
     for (uint32_t i = 0; i < report.num_tracks; i++) {
         const struct rho_track_report *track = &report.tracks[i];
-        if (hypot(track->state[0] - target_m(0, t_s), track->state[1] - target_m(1, t_s)) < 20.0) {
+        if (hypot(track->state[0] - target_place_m(0, t_s),
+                  track->state[1] - target_place_m(1, t_s)) < 20.0) {
             return track;
         }
     }
@@ -75,17 +77,17 @@ static const struct rho_track_report *follower(double t_s)
 }
 
 /* Confirmed with the window's fourth scan, and kept under one identity. */
-static void each_transform_starts_the_target(void **state)
+static void each_hough_transform_starts_a_track_of_the_target(void **state)
 {
     (void)state;
     static const enum rho_hough_method methods[] = {RHO_HOUGH_HT, RHO_HOUGH_MHT, RHO_HOUGH_IHT,
                                                     RHO_HOUGH_NHT_A, RHO_HOUGH_NHT_C};
     for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++) {
         uint32_t track_id = 0;
-        begin_by(methods[i]);
+        begin_with_method(methods[i]);
         for (int k = 0; k < 14; k++) {
             step_with_starts(k);
-            const struct rho_track_report *track = follower(SCAN_S * k);
+            const struct rho_track_report *track = track_on_target(SCAN_S * k);
             if (k == 3) {
                 assert_non_null(track);
                 assert_int_equal(track->status, RHO_TRACK_CONFIRMED);
@@ -97,15 +99,15 @@ static void each_transform_starts_the_target(void **state)
                 assert_int_equal(track->track_id, track_id);
             }
         }
-        assert_float_equal(follower(26.0)->state[3], 220.0f, 3.0f);
+        assert_float_equal(track_on_target(26.0)->state[3], 220.0f, 3.0f);
     }
 }
 
 /* Points, lines and peaks stay until the next step; a line names the track that it started. */
-static void the_last_search_can_be_looked_at(void **state)
+static void points_and_peaks_of_the_last_search_stay_readable(void **state)
 {
     (void)state;
-    begin_by(RHO_HOUGH_NHT_C);
+    begin_with_method(RHO_HOUGH_NHT_C);
     assert_int_equal(rho_paper_starts_points(&starts).at.num_scans, 0);
     for (int k = 0; k < 4; k++) {
         assert_int_equal(starts.has_searched, 0);
@@ -120,7 +122,7 @@ static void the_last_search_can_be_looked_at(void **state)
     for (uint32_t i = points.at.scan_end[2]; i < points.at.scan_end[3]; i++) {
         newest += memcmp(&points.at.x_m[i], &plots[0].x_m, sizeof plots[0].x_m) == 0;
     }
-    assert_int_equal(newest, 1); /* the window has its own order */
+    assert_int_equal(newest, 1); /* the window orders its points differently from the scan */
     for (uint32_t i = 0; i < starts.result.num_peaks; i++) {
         struct rho_hough_track again;
         assert_int_equal(rho_hough_track(&starts.hough, &points, starts.peaks[i].theta_cell,
@@ -130,21 +132,21 @@ static void the_last_search_can_be_looked_at(void **state)
         named += starts.lines[i].track_id == report.tracks[0].track_id;
     }
     assert_int_equal(named, 1);
-    step_with_starts(2); /* late */
+    step_with_starts(2); /* a late scan */
     assert_int_equal(starts.has_searched, 0);
 }
 
-/* What no track claims is held, as by an initiator; fates and counters agree. */
+/* Plots that no track claims are held, as by an initiator; fates and counters agree. */
 static void unclaimed_plots_are_held_and_counted(void **state)
 {
     (void)state;
-    begin_by(RHO_HOUGH_IHT);
+    begin_with_method(RHO_HOUGH_IHT);
     uint32_t held = 0;
     for (int k = 0; k < 8; k++) {
         step_with_starts(k);
-        held += counted(RHO_FATE_HELD);
-        assert_int_equal(counted(RHO_FATE_NO_ROOM), 0);
-        assert_int_equal(counted(RHO_FATE_HELD) + counted(RHO_FATE_CLAIMED), CLUTTER + 1);
+        held += count_fate(RHO_FATE_HELD);
+        assert_int_equal(count_fate(RHO_FATE_NO_ROOM), 0);
+        assert_int_equal(count_fate(RHO_FATE_HELD) + count_fate(RHO_FATE_CLAIMED), CLUTTER + 1);
     }
     assert_int_equal(tracker.counters.fates[RHO_FATE_HELD], held);
     assert_int_equal(tracker.counters.fates[RHO_FATE_NO_ROOM], 0);
@@ -152,41 +154,41 @@ static void unclaimed_plots_are_held_and_counted(void **state)
     assert_int_equal(starts.window.num_scans, 4);
 }
 
-/* A line whose newest plot is missing, or of too few scans, starts nothing. */
-static void stale_and_short_lines_start_nothing(void **state)
+/* A line without a newest plot, or of too few scans, starts nothing. */
+static void lines_without_a_new_plot_start_nothing(void **state)
 {
     (void)state;
-    begin_by(RHO_HOUGH_IHT);
+    begin_with_method(RHO_HOUGH_IHT);
     for (int k = 0; k < 4; k++) {
-        struct rho_scan scan = scan_at(k);
-        scan.num_plots = k == 3 ? 0 : 1; /* the target, without clutter, for three scans */
+        struct rho_scan scan = make_scan(k);
+        scan.num_plots = k == 3 ? 0 : 1; /* three scans with the target alone, the last one empty */
         assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
         assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_OK);
         assert_int_equal(report.num_tracks, 0);
     }
     assert_int_equal(starts.work.peaks, 1);
     assert_int_equal(starts.work.short_lines, 1);
-    begin_by(RHO_HOUGH_IHT);
+    begin_with_method(RHO_HOUGH_IHT);
     lines.scans_min = 3;
     assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, &lines), RHO_OK);
     for (int k = 0; k < 3; k++) {
         step_with_starts(k);
     }
-    assert_non_null(follower(4.0));
+    assert_non_null(track_on_target(4.0));
 }
 
-/* Three sigmas of a cell of 25 m from the motion of the voters: a plot as far is the line's. */
-static void a_line_has_the_plots_near_its_motion(void **state)
+/* A line takes plots within three sigmas of a cell of 25 m from its motion. */
+static void a_line_takes_plots_within_three_sigmas_of_its_motion(void **state)
 {
     const double speed_mps = hypot(220.0, 90.0);
     (void)state;
     for (int i = 0; i < 2; i++) {
-        begin_by(RHO_HOUGH_IHT);
+        begin_with_method(RHO_HOUGH_IHT);
         for (int k = 0; k < 4; k++) {
             const double t_s = SCAN_S * k, off_m = k == 1 ? (i ? 78.0 : 72.0) : 0.0;
             num_plots = 0;
-            add_plot(target_m(0, t_s) + off_m * 90.0 / speed_mps,
-                     target_m(1, t_s) + off_m * 220.0 / speed_mps, 0.5);
+            add_plot(target_place_m(0, t_s) + off_m * 90.0 / speed_mps,
+                     target_place_m(1, t_s) + off_m * 220.0 / speed_mps, 0.5);
             const struct rho_scan scan = {
                 .time_us = (int64_t)(1e6 * t_s), .sensor_id = 1, .num_plots = 1, .plots = plots};
             assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
@@ -198,12 +200,13 @@ static void a_line_has_the_plots_near_its_motion(void **state)
     }
 }
 
-static void the_same_plots_give_the_same_bytes(void **state)
+static void the_same_scans_give_the_same_bytes(void **state)
 {
     (void)state;
     for (int run = 0; run < 2; run++) {
-        memset(&starts, 0x5a * run, sizeof starts); /* whatever lay there before */
-        begin_by(RHO_HOUGH_NHT_C);
+        /* fills the memory with other bytes in each run */
+        memset(&starts, 0x5a * run, sizeof starts);
+        begin_with_method(RHO_HOUGH_NHT_C);
         for (int k = 0; k < 9; k++) {
             step_with_starts(k);
         }
@@ -219,13 +222,13 @@ static void the_same_plots_give_the_same_bytes(void **state)
 static void bad_calls_are_refused(void **state)
 {
     (void)state;
-    begin_by(RHO_HOUGH_IHT);
-    const struct rho_scan scan = scan_at(0);
+    begin_with_method(RHO_HOUGH_IHT);
+    const struct rho_scan scan = make_scan(0);
     assert_int_equal(rho_paper_starts_step(NULL, &tracker, &scan, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_paper_starts_step(&starts, NULL, &scan, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_paper_starts_step(&starts, &tracker, NULL, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL), RHO_ERROR_NULL);
-    /* no step was made yet */
+    /* before the first step */
     assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_ERROR_STATE);
     assert_int_equal(rho_paper_starts_init(NULL, sizeof starts, &lines), RHO_ERROR_NULL);
     assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, NULL), RHO_ERROR_NULL);
@@ -242,16 +245,16 @@ static void bad_calls_are_refused(void **state)
     assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, &wrong), RHO_ERROR_CONFIG);
     assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
     assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report),
-                     RHO_ERROR_STATE); /* the last init was refused */
+                     RHO_ERROR_STATE); /* the init before this was refused */
 }
 
-/* ---- bearings -------------------------------------------------------------------------------- */
+/* ---- tracks from frames of bearings ---------------------------------------------------------- */
 
 static const float place_m[SENSORS][2] = {{-20000.0f, 0.0f}, {20000.0f, 0.0f}, {0.0f, -20000.0f}};
 static struct rho_bearing bearings[SENSORS];
 static struct rho_bearing_scan looks[SENSORS];
 
-static struct rho_frame frame_at(int k)
+static struct rho_frame make_frame(int k)
 {
     const double t_s = 10.0 * k, x_m = -8000.0 + 150.0 * t_s, y_m = 30000.0 + 60.0 * t_s;
     for (int s = 0; s < SENSORS; s++) {
@@ -270,8 +273,8 @@ static struct rho_frame frame_at(int k)
         .time_us = (int64_t)(1e6 * t_s), .num_scans = SENSORS, .scans = looks};
 }
 
-/* By all gates: the track has the filter that the tracker is set to. */
-static void lines_of_bearings_start_tracks(void **state)
+/* For each gate: the track has the filter of that gate. */
+static void lines_from_bearings_start_tracks(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
@@ -283,10 +286,10 @@ static void lines_of_bearings_start_tracks(void **state)
         rho_passive_paper_config_default(&of_paper);
         assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &of_paper), RHO_OK);
         for (int k = 0; k < 16; k++) {
-            const struct rho_frame frame = frame_at(k);
+            const struct rho_frame frame = make_frame(k);
             assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
             assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_OK);
-            assert_int_equal(counted(RHO_FATE_NO_ROOM), 0);
+            assert_int_equal(count_fate(RHO_FATE_NO_ROOM), 0);
             assert_int_equal(report.num_tracks, k < 7 ? 0 : 1);
         }
         assert_int_equal(tracker.counters.tracks_started, 1);
@@ -302,7 +305,7 @@ static void lines_of_bearings_start_tracks(void **state)
 static void bad_frames_are_refused(void **state)
 {
     (void)state;
-    const struct rho_frame frame = frame_at(0);
+    const struct rho_frame frame = make_frame(0);
     use_usual_configs(6);
     begin_tracker();
     struct rho_passive_paper_config of_paper;
@@ -318,11 +321,11 @@ static void bad_frames_are_refused(void **state)
     assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_ERROR_STATE);
 }
 
-static void starts_from_estimates_are_checked(void **state)
+static void bad_estimates_start_no_track(void **state)
 {
     (void)state;
     struct rho_kalman estimate;
-    const struct rho_frame frame = frame_at(0);
+    const struct rho_frame frame = make_frame(0);
     use_usual_configs(6);
     begin_tracker();
     rho_kalman_init(&estimate);
@@ -335,7 +338,7 @@ static void starts_from_estimates_are_checked(void **state)
         assert_int_equal(rho_kalman_open_axis(&estimate, axis, 3e4f, 1e4f, 400.0f), RHO_OK);
     }
     assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 0, 0, &report),
-                     RHO_ERROR_VALUE); /* no scan saw it */
+                     RHO_ERROR_VALUE); /* no scan saw the target */
     assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, INT32_MIN, &report),
                      RHO_ERROR_VALUE);
     assert_int_equal(rho_tracker_start_estimate(NULL, &estimate, 1, 4, 0, &report), RHO_ERROR_NULL);
@@ -351,16 +354,16 @@ static void starts_from_estimates_are_checked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_transform_starts_the_target),
-        cmocka_unit_test(the_last_search_can_be_looked_at),
+        cmocka_unit_test(each_hough_transform_starts_a_track_of_the_target),
+        cmocka_unit_test(points_and_peaks_of_the_last_search_stay_readable),
         cmocka_unit_test(unclaimed_plots_are_held_and_counted),
-        cmocka_unit_test(stale_and_short_lines_start_nothing),
-        cmocka_unit_test(a_line_has_the_plots_near_its_motion),
-        cmocka_unit_test(the_same_plots_give_the_same_bytes),
+        cmocka_unit_test(lines_without_a_new_plot_start_nothing),
+        cmocka_unit_test(a_line_takes_plots_within_three_sigmas_of_its_motion),
+        cmocka_unit_test(the_same_scans_give_the_same_bytes),
         cmocka_unit_test(bad_calls_are_refused),
-        cmocka_unit_test(lines_of_bearings_start_tracks),
+        cmocka_unit_test(lines_from_bearings_start_tracks),
         cmocka_unit_test(bad_frames_are_refused),
-        cmocka_unit_test(starts_from_estimates_are_checked),
+        cmocka_unit_test(bad_estimates_start_no_track),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

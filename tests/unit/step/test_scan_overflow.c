@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * More of everything than there is room for, in the embedded profile: tracks that there are stay as
- * they are, and what had no room is counted. The workstation's capacities are not filled in a unit
- * test.
+ * More tracks, plots and hypotheses than the capacity, in the embedded profile: existing tracks
+ * stay as they are, and what found no room is counted. A workstation's capacities are too large to
+ * fill in a unit test.
  */
 #include "tracker_setup.h"
 
 #ifndef RHO_PROFILE_WORKSTATION
 
 #define TARGETS 60
-#define FIRST 20 /* targets that have tracks before the others come */
+#define FIRST 20 /* targets that have tracks before the overload */
 #define PLOTS 400
-#define QUIET 12 /* scans with the first targets alone */
+#define QUIET 12 /* scans with these targets alone */
 #define SCANS 60
 
-/* In rows 8 km apart, 200 m/s along x. */
+/* Targets in rows 8 km apart, at 200 m/s along x. */
 static void see_target(int i, int k)
 {
     const double x_m = 8000.0 * (i % 10) + 400.0 * k + 20.0 * normal();
@@ -29,8 +29,8 @@ static void see_clutter(uint32_t up_to)
     }
 }
 
-/* The targets that have tracks first in the scan, all others among clutter. */
-static void see_too_much(int k)
+/* A scan with the first targets' plots at its beginning, all other targets among clutter. */
+static void see_more_than_capacity(int k)
 {
     for (int i = 0; i < TARGETS; i++) {
         see_target(i, k);
@@ -38,7 +38,7 @@ static void see_too_much(int k)
     see_clutter(PLOTS);
 }
 
-static void fly_quietly(void)
+static void track_first_targets(void)
 {
     for (int k = 0; k < QUIET; k++) {
         for (int i = 0; i < FIRST; i++) {
@@ -50,7 +50,7 @@ static void fly_quietly(void)
     assert_int_equal(tracker.counters.tracks_confirmed, FIRST);
 }
 
-static void expect_first_tracks(int k)
+static void expect_first_targets_tracked(int k)
 {
     for (uint32_t id = 1; id <= FIRST; id++) {
         const struct rho_track_report *track = report_of(id);
@@ -66,7 +66,7 @@ static void expect_first_tracks(int k)
     }
 }
 
-static void begin_overload(uint8_t gate)
+static void start_overload(uint8_t gate)
 {
     use_usual_configs(11);
     config.gate = gate;
@@ -74,19 +74,19 @@ static void begin_overload(uint8_t gate)
     begin_tracker();
 }
 
-/* Tracks that never were believed give way to what has more evidence, those that were do not. */
-static void existing_tracks_are_kept_and_all_else_is_counted(void **state)
+/* Tracks never confirmed are replaced by ones with more evidence, confirmed ones are not. */
+static void overload_keeps_existing_tracks_and_is_counted(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        begin_overload((uint8_t)gate);
-        fly_quietly();
+        start_overload((uint8_t)gate);
+        track_first_targets();
         const struct rho_tracker_counters then = tracker.counters;
         for (int k = QUIET; k < SCANS; k++) {
-            see_too_much(k);
+            see_more_than_capacity(k);
             step_at(2.0 * k);
-            expect_first_tracks(k);
-            /* of those beyond only what tracks claim has another fate */
+            expect_first_targets_tracked(k);
+            /* of plots beyond the capacity only claimed ones have another fate */
             assert_in_range(report.fates_total[RHO_FATE_NO_ROOM],
                             PLOTS - RHO_MAX_PLOTS - RHO_MAX_TRACKS, PLOTS - RHO_MAX_PLOTS);
             assert_true(report.num_tracks <= RHO_MAX_TRACKS);
@@ -101,14 +101,14 @@ static void existing_tracks_are_kept_and_all_else_is_counted(void **state)
 }
 
 /*
- * 32 tracks in clutter so dense that each would want eight hypotheses, of which there are three a
- * track.
+ * 32 tracks in clutter so dense that each would need eight hypotheses, with three available for
+ * each.
  */
-static void crowded_tracks_count_what_was_cut(void **state)
+static void hypotheses_cut_in_crowds_are_counted(void **state)
 {
     (void)state;
-    begin_overload(RHO_TRACKER_BEST);
-    fly_quietly();
+    start_overload(RHO_TRACKER_BEST);
+    track_first_targets();
     for (int k = QUIET; k < QUIET + 12; k++) {
         for (int i = 0; i < FIRST; i++) {
             see_target(i, k);
@@ -122,17 +122,17 @@ static void crowded_tracks_count_what_was_cut(void **state)
             assert_true(report.tracks[i].num_hypotheses >= 1);
         }
     }
-    expect_first_tracks(QUIET + 11);
+    expect_first_targets_tracked(QUIET + 11);
     assert_true(tracker.counters.hypotheses_cut > 0);
     assert_true(tracker.counters.gate_plots_dropped > 0);
 }
 
-static void nothing_is_counted_where_there_is_room(void **state)
+static void within_capacity_no_loss_is_counted(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        begin_overload((uint8_t)gate);
-        fly_quietly();
+        start_overload((uint8_t)gate);
+        track_first_targets();
         assert_int_equal(tracker.counters.tracks_no_room, 0);
         assert_int_equal(tracker.counters.candidates_dropped, 0);
         assert_int_equal(tracker.counters.hypotheses_cut, 0);
@@ -143,14 +143,14 @@ static void nothing_is_counted_where_there_is_room(void **state)
 }
 
 /*
- * A full table of tracks with plots so vague that new targets' four are more evidence than they
- * have; those of `gone` are not seen from scan 5 on. The new ones are there at scan 8. Returns how
- * many had been confirmed and were reported as ended.
+ * A full table of tracks with plots so imprecise that four new targets have more evidence; those of
+ * `gone` are not seen from scan 5 on. The new targets appear by scan 8. Returns how many replaced
+ * tracks had been confirmed and were reported as ended.
  */
-static unsigned fill_and_add(uint32_t gone, int late)
+static unsigned count_confirmed_tracks_replaced(uint32_t gone, int late)
 {
     unsigned ended = 0;
-    begin_overload(RHO_TRACKER_BEST);
+    start_overload(RHO_TRACKER_BEST);
     for (int k = 0; k < 9; k++) {
         for (uint32_t i = 0; i < RHO_MAX_TRACKS; i++) {
             if (k < 5 || i >= gone) {
@@ -167,10 +167,10 @@ static unsigned fill_and_add(uint32_t gone, int late)
     return ended;
 }
 
-static void tracks_that_are_believed_never_give_way(void **state)
+static void confirmed_tracks_are_never_replaced_by_new_ones(void **state)
 {
     (void)state;
-    assert_int_equal(fill_and_add(0, 5), 0);
+    assert_int_equal(count_confirmed_tracks_replaced(0, 5), 0);
     for (uint32_t i = 0; i < RHO_MAX_TRACKS; i++) {
         assert_int_equal(report.tracks[i].track_id, i + 1);
         assert_int_equal(report.tracks[i].status, RHO_TRACK_CONFIRMED);
@@ -179,18 +179,18 @@ static void tracks_that_are_believed_never_give_way(void **state)
     assert_int_equal(tracker.counters.tracks_ended, 0);
 }
 
-/* They had been confirmed. */
-static void tracks_in_doubt_that_give_way_are_reported_as_ended(void **state)
+/* All replaced tracks had been confirmed. */
+static void replaced_tracks_in_doubt_are_reported_as_ended(void **state)
 {
     (void)state;
-    assert_int_equal(fill_and_add(4, 5), 4);
+    assert_int_equal(count_confirmed_tracks_replaced(4, 5), 4);
     assert_int_equal(tracker.counters.tracks_ended, 4);
 }
 
-/* ---- scans of more plots than have room ------------------------------------------------------ */
+/* ---- scans with more plots than the capacity ------------------------------------------------- */
 
-/* The targets' plots are the last ones of the scan, behind so much clutter. */
-static void see_late(int k, uint32_t behind)
+/* The targets' plots come last in the scan, behind so much clutter. */
+static void see_targets_last(int k, uint32_t behind)
 {
     see_clutter(behind);
     for (int i = 0; i < FIRST; i++) {
@@ -203,11 +203,13 @@ static void tracks_find_plots_beyond_the_capacity(void **state)
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
         unsigned there = 0;
-        begin_overload((uint8_t)gate);
-        fly_quietly();
+        start_overload((uint8_t)gate);
+        track_first_targets();
         for (int k = QUIET; k < SCANS; k++) {
-            /* in the second part, in the third, and across the border of both */
-            see_late(k, k % 3 == 0 ? RHO_MAX_PLOTS + 7 : k % 3 == 1 ? 700 : 2 * RHO_MAX_PLOTS - 9);
+            /* the targets' plots: in the second part, in the third, across both */
+            see_targets_last(k, k % 3 == 0   ? RHO_MAX_PLOTS + 7
+                                : k % 3 == 1 ? 700
+                                             : 2 * RHO_MAX_PLOTS - 9);
             step_at(2.0 * k);
         }
         for (uint32_t id = 1; id <= FIRST; id++) {
@@ -218,13 +220,13 @@ static void tracks_find_plots_beyond_the_capacity(void **state)
     }
 }
 
-/* Which of them was claimed is told by its row in the whole scan, and it is the target's. */
-static void a_claimed_plot_beyond_is_told_by_its_row(void **state)
+/* A claimed plot is reported by its row in the whole scan, and is the target's. */
+static void claimed_plots_beyond_the_capacity_are_reported_by_row(void **state)
 {
     (void)state;
-    begin_overload(RHO_TRACKER_BEST);
-    fly_quietly();
-    see_late(QUIET, RHO_MAX_PLOTS + 50);
+    start_overload(RHO_TRACKER_BEST);
+    track_first_targets();
+    see_targets_last(QUIET, RHO_MAX_PLOTS + 50);
     step_at(2.0 * QUIET);
     for (uint32_t id = 1; id <= FIRST; id++) {
         const struct rho_track_report *track = report_of(id);
@@ -236,15 +238,15 @@ static void a_claimed_plot_beyond_is_told_by_its_row(void **state)
 }
 
 /*
- * Plots in the order of y: the targets, which have gone, were in the last part, where the initiator
- * has seen no clutter. Their tracks are not kept alive by it.
+ * Plots in order of y: the gone targets would have been in the last part, where the initiator has
+ * measured no clutter density. Their tracks still end.
  */
-static void tracks_of_what_has_gone_end_in_any_part(void **state)
+static void tracks_of_gone_targets_end_in_overfull_scans(void **state)
 {
     (void)state;
     unsigned believed = 0;
-    begin_overload(RHO_TRACKER_BEST);
-    fly_quietly();
+    start_overload(RHO_TRACKER_BEST);
+    track_first_targets();
     for (int k = QUIET; k < QUIET + 20; k++) {
         for (int band = 0; band < 4; band++) {
             for (uint32_t i = 0; i < RHO_MAX_PLOTS; i++) {
@@ -259,18 +261,19 @@ static void tracks_of_what_has_gone_end_in_any_part(void **state)
         }
     }
     print_message("%u of %d track-scans\n", believed, 20 * FIRST);
-    assert_true(believed < 5 * FIRST); /* 2 scans each are the misses that tell */
+    /* each may stay confirmed for the 2 scans that misses take */
+    assert_true(believed < 5 * FIRST);
 }
 
-/* Bad ones are INVALID there as well; what lies beyond four times the capacity nobody looks at. */
-static void plots_far_beyond_are_nobody_s(void **state)
+/* Bad plots are INVALID there, too; plots beyond four times the capacity are never read. */
+static void plots_beyond_four_times_the_capacity_are_ignored(void **state)
 {
     (void)state;
-    begin_overload(RHO_TRACKER_BEST);
-    fly_quietly();
+    start_overload(RHO_TRACKER_BEST);
+    track_first_targets();
     see_clutter(RHO_MAX_PLOTS + 10);
     plots[RHO_MAX_PLOTS + 3].x_m = NAN;
-    see_late(QUIET, 4 * RHO_MAX_PLOTS);
+    see_targets_last(QUIET, 4 * RHO_MAX_PLOTS);
     step_at(2.0 * QUIET);
     assert_int_equal(report.fates_total[RHO_FATE_INVALID], 1);
     for (uint32_t id = 1; id <= FIRST; id++) {
@@ -284,15 +287,15 @@ static void plots_far_beyond_are_nobody_s(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(existing_tracks_are_kept_and_all_else_is_counted),
-        cmocka_unit_test(crowded_tracks_count_what_was_cut),
-        cmocka_unit_test(nothing_is_counted_where_there_is_room),
-        cmocka_unit_test(tracks_that_are_believed_never_give_way),
-        cmocka_unit_test(tracks_in_doubt_that_give_way_are_reported_as_ended),
+        cmocka_unit_test(overload_keeps_existing_tracks_and_is_counted),
+        cmocka_unit_test(hypotheses_cut_in_crowds_are_counted),
+        cmocka_unit_test(within_capacity_no_loss_is_counted),
+        cmocka_unit_test(confirmed_tracks_are_never_replaced_by_new_ones),
+        cmocka_unit_test(replaced_tracks_in_doubt_are_reported_as_ended),
         cmocka_unit_test(tracks_find_plots_beyond_the_capacity),
-        cmocka_unit_test(a_claimed_plot_beyond_is_told_by_its_row),
-        cmocka_unit_test(tracks_of_what_has_gone_end_in_any_part),
-        cmocka_unit_test(plots_far_beyond_are_nobody_s),
+        cmocka_unit_test(claimed_plots_beyond_the_capacity_are_reported_by_row),
+        cmocka_unit_test(tracks_of_gone_targets_end_in_overfull_scans),
+        cmocka_unit_test(plots_beyond_four_times_the_capacity_are_ignored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

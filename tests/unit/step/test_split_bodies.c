@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two cars that were taken for one body become two tracks once it is surely wider or longer than
- * any, or range rates say that its parts move apart; a truck stays one.
+ * Two cars tracked as one body are split once the body is surely wider or longer than any target,
+ * or range rates show its parts moving apart; a truck keeps one track.
  */
 #include "rhotrack/body.h"
 #include "tracker_setup.h"
@@ -13,7 +13,7 @@
 #define SPEED_MPS 15.0
 #define LANE_M 3.5
 
-static void begin_road(uint64_t seed)
+static void start_tracker_on_road(uint64_t seed)
 {
     use_usual_configs(seed);
     config.v_max_mps = initiation.v_max_mps = 50.0f;
@@ -21,94 +21,101 @@ static void begin_road(uint64_t seed)
     assert_int_equal(rho_tracker_set_body_max(&tracker, LONGEST_M), RHO_OK);
 }
 
-static double at_m(int k)
+static double road_place_m(int k)
 {
     return 200.0 - SPEED_MPS * STEP_S * k;
 }
 
-/* A scatterer, seen more often than not. */
-static void see(double x_m, double y_m, double sigma_m)
+/* A scatterer seen with probability 0.7. */
+static void see_scatterer_at(double x_m, double y_m, double sigma_m)
 {
     if (uniform(0.0, 1.0) < 0.7) {
         add_noisy_plot(x_m, y_m, sigma_m);
     }
 }
 
-static void look(int k)
+static void step_scan_at(int k)
 {
     step_at(STEP_S * k);
     assert_true(rho_tracker_is_sound(&tracker));
 }
 
-/* Two in neighbouring lanes, one 8 m ahead: from afar they are one, for the noise is as large. */
+/*
+ * Two cars in neighbouring lanes, one 8 m ahead: from afar the noise is as large as their distance,
+ * so they are one.
+ */
 static void see_cars(int k)
 {
     const double sigma_m = k < 40 ? 1.5 : 0.3;
     for (int car = 0; car < 2; car++) {
         for (int i = -1; i <= 1; i++) {
-            see(at_m(k) + 8.0 * car + 1.8 * i, LANE_M * car + 0.6 * i, sigma_m);
+            see_scatterer_at(road_place_m(k) + 8.0 * car + 1.8 * i, LANE_M * car + 0.6 * i,
+                             sigma_m);
         }
     }
 }
 
-static void two_cars_abreast_become_two(void **state)
+static void two_cars_abreast_are_split_into_two_tracks(void **state)
 {
     unsigned split = 0;
     (void)state;
     for (uint64_t seed = 1; seed <= 10; seed++) {
-        begin_road(seed);
+        start_tracker_on_road(seed);
         unsigned one = 0;
         for (int k = 0; k < 200; k++) {
             see_cars(k);
-            look(k);
+            step_scan_at(k);
             one += report.num_tracks == 1;
         }
-        split += one > 20; /* they had been one */
+        split += one > 20; /* they had been tracked as one */
         assert_int_equal(report.num_tracks, 2);
         for (int car = 0; car < 2; car++) {
             unsigned near = 0;
             for (unsigned i = 0; i < 2; i++) {
                 const float *place = report.tracks[i].state;
-                near += fabs((double)place[RHO_X] - at_m(199) - 8.0 * car) < 1.2 &&
+                near += fabs((double)place[RHO_X] - road_place_m(199) - 8.0 * car) < 1.2 &&
                         fabs((double)place[RHO_Y] - LANE_M * car) < 1.0 &&
                         report.tracks[i].status != RHO_TRACK_TENTATIVE;
             }
             assert_int_equal(near, 1);
         }
-        assert_non_null(report_of(1)); /* the identity of both stays one's */
+        assert_non_null(report_of(1)); /* one car keeps the identity of the common track */
     }
     print_message("%u of 10 had been one\n", split);
     assert_true(split >= 7);
 }
 
-static void a_truck_stays_one(void **state)
+static void a_truck_keeps_one_track(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 10; seed++) {
-        begin_road(seed);
+        start_tracker_on_road(seed);
         for (int k = 0; k < 200; k++) {
             for (int i = 0; i < 8; i++) {
-                see(at_m(k) + 1.6 * i - 5.6, i % 2 ? 1.25 : -1.25, 0.3);
+                see_scatterer_at(road_place_m(k) + 1.6 * i - 5.6, i % 2 ? 1.25 : -1.25, 0.3);
             }
-            look(k);
+            step_scan_at(k);
         }
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(tracker.counters.tracks_ended, 0);
     }
 }
 
-/* ---- range rates, and lengths ---------------------------------------------------------------- */
+/* ---- splits by range rates and lengths ------------------------------------------------------- */
 
 #define RATE_SIGMA_MPS 0.1
 
-/* A body before the radar: its place, velocity and turn, and a scatterer in its axes. */
+/*
+ * A body in front of the radar: its place, velocity and turn rate; and a scatterer in the body's
+ * axes.
+ */
 struct body {
     double x_m, y_m, speed_mps, course_rad, turn_radps;
 };
 
 static double azimuth_sigma_rad = 0.01;
 
-/* Wheels: range rates of its parts spread so much more. */
+/* wheels_mps: additional spread of range rates of its parts */
 static void see_scatterer(const struct body *body, double along_m, double across_m,
                           double wheels_mps)
 {
@@ -145,35 +152,39 @@ static void see_truck(const struct body *body, double wheels_mps)
     }
 }
 
-static void drive(struct body *body)
+static void drive_one_step(struct body *body)
 {
     body->course_rad += STEP_S * body->turn_radps;
     body->x_m += STEP_S * body->speed_mps * cos(body->course_rad);
     body->y_m += STEP_S * body->speed_mps * sin(body->course_rad);
 }
 
-static void look_with_rates(int k)
+static void step_scan_with_rates(int k)
 {
     step_scan((struct rho_scan){.time_us = llround(STEP_S * 1e6 * k),
                                 .measures = RHO_MEASURES_RANGE_RATE});
     assert_true(rho_tracker_is_sound(&tracker));
 }
 
-/* Runs of ten in which both cars have a track at the end; *had_been_one: one for a second. */
-static unsigned runs_of_two(struct body one, struct body other, int looks, unsigned *had_been_one)
+/*
+ * Counts, of ten runs, those in which both cars have a track at the end; *had_been_one: those with
+ * one track for a second.
+ */
+static unsigned count_runs_of_two_tracks(struct body one, struct body other, int looks,
+                                         unsigned *had_been_one)
 {
     unsigned runs = 0;
     *had_been_one = 0;
     for (uint64_t seed = 1; seed <= 10; seed++) {
         struct body cars[2] = {one, other};
         unsigned looks_of_one = 0, near[2] = {0, 0};
-        begin_road(seed);
+        start_tracker_on_road(seed);
         for (int k = 0; k < looks; k++) {
             for (int car = 0; car < 2; car++) {
                 see_car(&cars[car]);
-                drive(&cars[car]);
+                drive_one_step(&cars[car]);
             }
-            look_with_rates(k);
+            step_scan_with_rates(k);
             looks_of_one += report.num_tracks == 1;
         }
         *had_been_one += looks_of_one > 20;
@@ -188,80 +199,80 @@ static unsigned runs_of_two(struct body one, struct body other, int looks, unsig
     return runs;
 }
 
-/* Side by side and 1 m/s faster: they are 6 m apart at the end. */
-static void a_car_that_overtakes_is_told_by_its_range_rate(void **state)
+/* Side by side, one of them 1 m/s faster: they are 6 m apart at the end. */
+static void range_rates_split_an_overtaking_car(void **state)
 {
     unsigned had_been_one;
     (void)state;
     const unsigned runs =
-        runs_of_two((struct body){150.0, 0.0, -6.0, 0.0, 0.0},
-                    (struct body){150.0, LANE_M, -7.0, 0.0, 0.0}, 120, &had_been_one);
+        count_runs_of_two_tracks((struct body){150.0, 0.0, -6.0, 0.0, 0.0},
+                                 (struct body){150.0, LANE_M, -7.0, 0.0, 0.0}, 120, &had_been_one);
     print_message("two in %u, after one in %u of 10\n", runs, had_been_one);
     assert_true(had_been_one >= 7 && runs >= 8);
 }
 
-static void two_cars_in_a_row_are_longer_than_any(void **state)
+static void two_cars_in_a_row_are_split_by_their_length(void **state)
 {
     unsigned had_been_one;
     (void)state;
     const unsigned runs =
-        runs_of_two((struct body){100.0, 5.0, -7.0, 0.0, 0.0},
-                    (struct body){113.0, 5.0, -7.0, 0.0, 0.0}, 200, &had_been_one);
+        count_runs_of_two_tracks((struct body){100.0, 5.0, -7.0, 0.0, 0.0},
+                                 (struct body){113.0, 5.0, -7.0, 0.0, 0.0}, 200, &had_been_one);
     print_message("two in %u, after one in %u of 10\n", runs, had_been_one);
     assert_true(had_been_one >= 2);
     assert_int_equal(runs, 10);
 }
 
-static unsigned runs_of_one_truck(double turn_radps, double wheels_mps)
+static unsigned count_runs_of_one_track(double turn_radps, double wheels_mps)
 {
     unsigned runs = 0;
     for (uint64_t seed = 1; seed <= 10; seed++) {
         struct body truck = {120.0, -20.0, 6.0, 2.0, 0.0};
-        begin_road(seed);
+        start_tracker_on_road(seed);
         for (int k = 0; k < 300; k++) {
             truck.turn_radps = k > 100 ? turn_radps : 0.0;
             see_truck(&truck, wheels_mps);
-            drive(&truck);
-            look_with_rates(k);
+            drive_one_step(&truck);
+            step_scan_with_rates(k);
         }
         runs += report.num_tracks == 1;
     }
     return runs;
 }
 
-/* Its ends have other range rates, as its heading shows soon after. */
-static void a_truck_that_turns_stays_one(void **state)
+/* The ends of a turning truck have different range rates, soon explained by its heading. */
+static void a_turning_truck_keeps_one_track(void **state)
 {
     (void)state;
-    assert_int_equal(runs_of_one_truck(0.0, 0.0), 10);
-    assert_int_equal(runs_of_one_truck(0.1, 0.0), 10);
-    assert_true(runs_of_one_truck(0.25, 0.0) >= 9);
+    assert_int_equal(count_runs_of_one_track(0.0, 0.0), 10);
+    assert_int_equal(count_runs_of_one_track(0.1, 0.0), 10);
+    assert_true(count_runs_of_one_track(0.25, 0.0) >= 9);
 }
 
-/* Range rates that differ, but not from place to place. */
-static void wheels_do_not_split_a_truck(void **state)
+/* Range rates that differ at random, not from place to place. */
+static void range_rates_of_wheels_do_not_split_a_truck(void **state)
 {
     (void)state;
-    assert_true(runs_of_one_truck(0.0, 0.3) >= 9);
+    assert_true(count_runs_of_one_track(0.0, 0.3) >= 9);
 }
 
 /*
  * Near the radar the line of sight turns fast: an error of a plot's azimuth moves it along the body
  * and changes the range rate that is expected there, as a part that moves apart would.
  */
-static void a_car_that_passes_near_the_radar_stays_one(void **state)
+static void a_car_that_passes_near_the_radar_keeps_one_track(void **state)
 {
     unsigned runs = 0;
     (void)state;
     azimuth_sigma_rad = 0.045;
     for (uint64_t seed = 1; seed <= 30; seed++) {
         struct body car = {30.0, 5.0 + 0.5 * (double)seed, 12.0, acos(-1.0), 0.0};
-        begin_road(seed);
+        start_tracker_on_road(seed);
         for (int k = 0; k < 200; k++) {
             see_car(&car);
             see_car(&car);
-            drive(&car);
-            look_with_rates(k);
+            drive_one_step(&car);
+            step_scan_with_rates(k);
         }
         runs += report.num_tracks == 1;
     }
@@ -270,37 +281,37 @@ static void a_car_that_passes_near_the_radar_stays_one(void **state)
     assert_true(runs >= 29);
 }
 
-/* ---- from when on ---------------------------------------------------------------------------- */
+/* ---- limits of splits by width --------------------------------------------------------------- */
 
-/* A body of this width and sigma, known from so many plots, is split in the next scan. */
+/* Whether a body of this width and sigma, shaped by so many plots, is split in the next scan. */
 static int is_split(float width_m, float sigma_m, float of_plots)
 {
-    begin_road(3);
+    start_tracker_on_road(3);
     for (int k = 0; k < 60; k++) {
         for (int i = -2; i <= 2; i++) {
-            add_noisy_plot(at_m(k) + 2.0 * i, 0.2 * i, 0.1);
+            add_noisy_plot(road_place_m(k) + 2.0 * i, 0.2 * i, 0.1);
         }
-        look(k);
+        step_scan_at(k);
     }
     assert_int_equal(report.num_tracks, 1);
     struct rho_body_filter *body = &tracker.bodies.of[0];
-    body->most_plots = 100; /* scatterers that stay add nothing to the sigma */
+    body->most_plots = 100; /* scatterers that stay in place add nothing to the sigma */
     body->plots = of_plots;
     body->heading_sigma_rad = 0.0f;
     body->along.weight = body->across.weight = 2000.0f;
     body->across_m2 = body->across.mean_m2 = width_m * width_m / 12.0f;
-    /* the sigma of root(12 v) is 6 / width of v's */
+    /* the width is root(12 v), so its sigma is 6 / width of v's sigma */
     body->across.variance_m4 = width_m * width_m / 36.0f * sigma_m * sigma_m;
     body->across.prior_share = 0.0f;
     for (int i = -1; i <= 1; i += 2) {
-        (void)add_plot(at_m(60) + 1.0 * i, 0.25 * (double)width_m * i, 0.1);
+        (void)add_plot(road_place_m(60) + 1.0 * i, 0.25 * (double)width_m * i, 0.1);
     }
-    look(60);
+    step_scan_at(60);
     return report.num_tracks == 2;
 }
 
-/* 0.3 of the longest are 4.5 m. */
-static void only_what_is_surely_too_wide_is_split(void **state)
+/* The limit is 0.3 of the longest body: 4.5 m. */
+static void only_surely_too_wide_bodies_are_split(void **state)
 {
     (void)state;
     assert_true(is_split(5.5f, 0.3f, 200.0f));
@@ -314,14 +325,14 @@ static void only_what_is_surely_too_wide_is_split(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_cars_abreast_become_two),
-        cmocka_unit_test(a_truck_stays_one),
-        cmocka_unit_test(a_car_that_overtakes_is_told_by_its_range_rate),
-        cmocka_unit_test(two_cars_in_a_row_are_longer_than_any),
-        cmocka_unit_test(a_truck_that_turns_stays_one),
-        cmocka_unit_test(wheels_do_not_split_a_truck),
-        cmocka_unit_test(a_car_that_passes_near_the_radar_stays_one),
-        cmocka_unit_test(only_what_is_surely_too_wide_is_split),
+        cmocka_unit_test(two_cars_abreast_are_split_into_two_tracks),
+        cmocka_unit_test(a_truck_keeps_one_track),
+        cmocka_unit_test(range_rates_split_an_overtaking_car),
+        cmocka_unit_test(two_cars_in_a_row_are_split_by_their_length),
+        cmocka_unit_test(a_turning_truck_keeps_one_track),
+        cmocka_unit_test(range_rates_of_wheels_do_not_split_a_truck),
+        cmocka_unit_test(a_car_that_passes_near_the_radar_keeps_one_track),
+        cmocka_unit_test(only_surely_too_wide_bodies_are_split),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tracks that the caller's own initiator finds: the improved Hough transform serves a tracker that
- * has no initiator; and what is refused.
+ * Tracks started by the caller's own initiator: the improved Hough transform beside a tracker that
+ * has no initiator; and starts that are refused.
  */
 #include "rhotrack/hough.h"
 #include "tracker_setup.h"
@@ -25,7 +25,7 @@ static struct {
 static struct rho_hough hough;
 static struct rho_accumulator_peak peaks[PEAKS];
 
-static void keep_unclaimed(double t_s)
+static void keep_unclaimed_plots(double t_s)
 {
     const int last = WINDOW - 1;
 
@@ -35,7 +35,7 @@ static void keep_unclaimed(double t_s)
         window.count[m] = window.count[m + 1];
         window.t_s[m] = window.t_s[m + 1];
         for (uint32_t i = 0; i < window.count[m]; i++) {
-            window.rows[m][i] = -1; /* of an earlier scan */
+            window.rows[m][i] = -1; /* the row is known for the newest scan only */
         }
     }
     window.count[last] = 0;
@@ -48,8 +48,9 @@ static void keep_unclaimed(double t_s)
     }
 }
 
-/* The plot of each scan that is nearest to the line's target, where it is within 10 m. */
-static unsigned plots_near(const struct rho_hough_track *line, struct rho_track_plot *found)
+/* Finds the plot of each scan nearest to the line's target, if within 10 m. */
+static unsigned find_plots_near_line(const struct rho_hough_track *line,
+                                     struct rho_track_plot *found)
 {
     unsigned num = 0;
 
@@ -76,8 +77,8 @@ static unsigned plots_near(const struct rho_hough_track *line, struct rho_track_
     return num;
 }
 
-/* Starts a track where a line has a plot in each scan. */
-static void start_tracks_of_lines(void)
+/* Starts a track if a line has a plot in each scan. */
+static void start_tracks_from_lines(void)
 {
     static float x_m[WINDOW * RHO_MAX_PLOTS], y_m[WINDOW * RHO_MAX_PLOTS];
     uint32_t scan_end[WINDOW], num = 0;
@@ -101,9 +102,10 @@ static void start_tracks_of_lines(void)
         assert_int_equal(rho_hough_track(&hough, &points, peaks[i].theta_cell, peaks[i].rho_cell,
                                          (float)window.t_s[WINDOW - 1], &line),
                          RHO_OK);
-        if (line.has_velocity && plots_near(&line, found) == WINDOW) {
+        if (line.has_velocity && find_plots_near_line(&line, found) == WINDOW) {
             assert_int_equal(rho_tracker_start_track(&tracker, found, WINDOW, 0, &report), RHO_OK);
-            return; /* the plots are its own; another target shows in the next scan */
+            /* the line's plots now belong to a track; another target is found in the next scan */
+            return;
         }
     }
 }
@@ -118,7 +120,7 @@ static double target_y_m(double t_s)
     return 1500.0 - 90.0 * t_s;
 }
 
-static void look(int k)
+static void step_scan_at(int k)
 {
     const double t_s = SCAN_S * k;
 
@@ -134,8 +136,8 @@ static void look(int k)
     assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
 }
 
-/* One track, confirmed by the first full window, which keeps the target and its identity. */
-static void a_hough_transform_serves_a_tracker(void **state)
+/* One track, confirmed by the first full window, keeps the target and its identity. */
+static void a_caller_may_start_tracks_by_a_hough_transform(void **state)
 {
     struct rho_hough_config lines;
     uint32_t track_id = 0;
@@ -143,7 +145,8 @@ static void a_hough_transform_serves_a_tracker(void **state)
     (void)state;
     rho_hough_config_default(&lines, RHO_HOUGH_IHT);
     lines.rho_max_m = 5000.0f;
-    lines.rho_cell_m = 25.0f; /* half a metre of noise turns a pair by a milliradian */
+    /* half a metre of noise turns the line of two plots by a milliradian */
+    lines.rho_cell_m = 25.0f;
     lines.theta_cell_rad = 0.02f;
     lines.votes_min = 3.0f;
     assert_int_equal(rho_hough_init(&hough, sizeof hough, &lines), RHO_OK);
@@ -151,11 +154,11 @@ static void a_hough_transform_serves_a_tracker(void **state)
     use_usual_configs(3);
     begin_tracker();
     for (int k = 0; k < SCANS; k++) {
-        look(k);
+        step_scan_at(k);
         if (report.num_tracks == 0) {
-            keep_unclaimed(SCAN_S * k);
+            keep_unclaimed_plots(SCAN_S * k);
             if (k >= WINDOW - 1) {
-                start_tracks_of_lines();
+                start_tracks_from_lines();
             }
         }
         assert_int_equal(report.num_tracks, k >= WINDOW - 1);
@@ -173,12 +176,12 @@ static void a_hough_transform_serves_a_tracker(void **state)
     assert_int_equal(tracker.counters.tracks_started, 1);
 }
 
-/* ---- limits ---------------------------------------------------------------------------------- */
+/* ---- refused starts, a full table ------------------------------------------------------------ */
 
 static struct rho_track_plot three[3];
 
 /* Three plots of a target, and a step at the time of the last one. */
-static void see_three(void)
+static void see_three_plots(void)
 {
     use_usual_configs(4);
     begin_tracker();
@@ -197,7 +200,7 @@ static void see_three(void)
     assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
 }
 
-static void expect_refused(enum rho_status status, int32_t score_mnat)
+static void expect_start_refused(enum rho_status status, int32_t score_mnat)
 {
     static struct rho_tracker before;
     static struct rho_report told;
@@ -209,42 +212,42 @@ static void expect_refused(enum rho_status status, int32_t score_mnat)
     assert_memory_equal(&report, &told, sizeof report);
 }
 
-static void bad_starts_are_refused_untouched(void **state)
+static void refused_starts_change_nothing(void **state)
 {
     (void)state;
-    see_three();
+    see_three_plots();
     assert_int_equal(rho_tracker_start_track(NULL, three, 3, 0, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_start_track(&tracker, NULL, 3, 0, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_start_track(&tracker, three, 3, 0, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_start_track(&tracker, three, 0, 0, &report), RHO_ERROR_VALUE);
-    expect_refused(RHO_ERROR_VALUE, INT32_MAX);
-    expect_refused(RHO_ERROR_VALUE, INT32_MIN);
-    expect_refused(RHO_ERROR_VALUE, -4606); /* tracks end there */
-    three[2].row = 1;                       /* of a scan of one plot */
-    expect_refused(RHO_ERROR_VALUE, 0);
+    expect_start_refused(RHO_ERROR_VALUE, INT32_MAX);
+    expect_start_refused(RHO_ERROR_VALUE, INT32_MIN);
+    expect_start_refused(RHO_ERROR_VALUE, -4606); /* the score at which tracks end */
+    three[2].row = 1;                             /* a row beyond the scan, which has one plot */
+    expect_start_refused(RHO_ERROR_VALUE, 0);
     three[2].row = 0;
     three[1].plot.x_m = NAN;
-    expect_refused(RHO_ERROR_VALUE, 0);
+    expect_start_refused(RHO_ERROR_VALUE, 0);
     three[1].plot.x_m = 400.0f;
     three[0].time_us = INT64_MIN;
-    expect_refused(RHO_ERROR_VALUE, 0);
+    expect_start_refused(RHO_ERROR_VALUE, 0);
     three[0].time_us = INT64_MAX;
-    expect_refused(RHO_ERROR_VALUE, 0);
+    expect_start_refused(RHO_ERROR_VALUE, 0);
     three[0].time_us = 0;
     report.time_us++;
-    expect_refused(RHO_ERROR_STATE, 0);
+    expect_start_refused(RHO_ERROR_STATE, 0);
     report.time_us--;
     assert_int_equal(rho_tracker_start_track(&tracker, three, 3, -4605, &report), RHO_OK);
     assert_int_equal(report.tracks[0].status, RHO_TRACK_TENTATIVE);
     memset(&tracker, 0, sizeof tracker);
-    expect_refused(RHO_ERROR_STATE, 0);
+    expect_start_refused(RHO_ERROR_STATE, 0);
 }
 
-/* The lowest tentative track gives way to a better one; to a worse one none does. */
-static void a_full_tracker_keeps_the_best(void **state)
+/* The lowest tentative track is replaced by a better one; a worse one replaces none. */
+static void a_full_tracker_replaces_its_lowest_tentative_track(void **state)
 {
     (void)state;
-    see_three();
+    see_three_plots();
     for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
         assert_int_equal(
             rho_tracker_start_track(&tracker, three, 3, -1000 - (int32_t)(i % 3), &report), RHO_OK);
@@ -262,9 +265,9 @@ static void a_full_tracker_keeps_the_best(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_hough_transform_serves_a_tracker),
-        cmocka_unit_test(bad_starts_are_refused_untouched),
-        cmocka_unit_test(a_full_tracker_keeps_the_best),
+        cmocka_unit_test(a_caller_may_start_tracks_by_a_hough_transform),
+        cmocka_unit_test(refused_starts_change_nothing),
+        cmocka_unit_test(a_full_tracker_replaces_its_lowest_tentative_track),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tracks in the Doppler notch of their sensor coast, and go on under their identity; the sensor is
- * not blamed. Where nothing hides them they end as others do.
+ * Tracks in the Doppler notch of their sensor coast and keep their identity, and the sensor is not
+ * suspect. Gone targets that the notch cannot hide end as usual.
  */
 #include "tracker_setup.h"
 
@@ -9,7 +9,7 @@
 
 static struct rho_sensor radar;
 
-static void describe(float notch_mps, float blind_speed_mps)
+static void describe_radar(float notch_mps, float blind_speed_mps)
 {
     radar = (struct rho_sensor){.sensor_id = SENSOR,
                                 .pd = 0.9f,
@@ -19,7 +19,7 @@ static void describe(float notch_mps, float blind_speed_mps)
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
 }
 
-static void prepare(float v_max_mps, float accel_max_mps2, float v_min_mps)
+static void start_tracker(float v_max_mps, float accel_max_mps2, float v_min_mps)
 {
     use_usual_configs(3);
     config.v_max_mps = initiation.v_max_mps = v_max_mps;
@@ -28,9 +28,12 @@ static void prepare(float v_max_mps, float accel_max_mps2, float v_min_mps)
     begin_tracker();
 }
 
-/* Seen where its range rate over ground is beyond the notch of `true_notch_mps`. */
-static int see(double t_s, double x_m, double y_m, double vx_mps, double vy_mps, double sigma_m,
-               double true_notch_mps)
+/*
+ * Adds a plot if the range rate over ground is outside the notch of `true_notch_mps`. Returns
+ * whether it did.
+ */
+static int see_if_outside_notch(double t_s, double x_m, double y_m, double vx_mps, double vy_mps,
+                                double sigma_m, double true_notch_mps)
 {
     const double dx_m = x_m - (double)radar.x_m, dy_m = y_m - (double)radar.y_m;
     const double rate_mps = (dx_m * vx_mps + dy_m * vy_mps) / hypot(dx_m, dy_m);
@@ -42,14 +45,14 @@ static int see(double t_s, double x_m, double y_m, double vx_mps, double vy_mps,
     return is_seen;
 }
 
-/* Reports in which the track is neither confirmed nor coasting, and how it ends. */
+/* Scans in which the track is neither confirmed nor coasting, and its identities. */
 struct passage {
     unsigned unseen, lost, misses;
     uint32_t first_id, last_id;
     int is_there;
 };
 
-static void note(struct passage *passage, int k, int is_seen)
+static void note_passage(struct passage *passage, int k, int is_seen)
 {
     const struct rho_track_report *track = report.num_tracks > 0 ? &report.tracks[0] : NULL;
     passage->unseen += !is_seen;
@@ -62,55 +65,60 @@ static void note(struct passage *passage, int k, int is_seen)
     }
 }
 
-/* An aircraft of 75 m/s that passes 12 km away; the radar may move with it sideways. */
-static struct passage fly(double platform_mps)
+/* An aircraft of 75 m/s passes 12 km away; the radar may move sideways with it. */
+static struct passage fly_past_radar(double platform_mps)
 {
     struct passage passage = {0};
     for (int k = 0; k < 110; k++) {
         const double t_s = 4.0 * k;
         radar.x_m = (float)(platform_mps * (t_s - 220.0));
         assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
-        note(&passage, k, see(t_s, 75.0 * (t_s - 220.0), 12000.0, 75.0, 0.0, 30.0, 12.0));
+        note_passage(
+            &passage, k,
+            see_if_outside_notch(t_s, 75.0 * (t_s - 220.0), 12000.0, 75.0, 0.0, 30.0, 12.0));
     }
     return passage;
 }
 
-static void an_aircraft_passes(void **state)
+static void an_aircraft_in_the_notch_keeps_its_track(void **state)
 {
     (void)state;
-    prepare(350.0f, 20.0f, 30.0f);
-    describe(12.0f, 0.0f);
-    const struct passage passage = fly(0.0);
+    start_tracker(350.0f, 20.0f, 30.0f);
+    describe_radar(12.0f, 0.0f);
+    const struct passage passage = fly_past_radar(0.0);
     assert_true(passage.unseen > 10);
     assert_int_equal(passage.lost, 0);
     assert_int_equal(passage.first_id, passage.last_id);
-    /* looks that were blind are no misses; those at its edge are a few */
+    /* blind looks are no misses; a few at the notch's edge are */
     assert_true(passage.misses <= 3);
 }
 
-static void not_told_it_is_lost(void **state)
+static void an_aircraft_in_an_undeclared_notch_is_lost(void **state)
 {
     (void)state;
-    prepare(350.0f, 20.0f, 30.0f);
-    describe(0.0f, 0.0f);
-    const struct passage passage = fly(0.0);
+    start_tracker(350.0f, 20.0f, 30.0f);
+    describe_radar(0.0f, 0.0f);
+    const struct passage passage = fly_past_radar(0.0);
     assert_true(passage.lost > 5);
 }
 
-/* A radar that flies beside it sees it at the range rate of the line of sight, not of the two. */
-static void a_platform_moves(void **state)
+/*
+ * A radar flying beside the aircraft sees it in the notch by the range rate over ground, without
+ * its own motion.
+ */
+static void the_notch_follows_a_moving_radar(void **state)
 {
     (void)state;
-    prepare(350.0f, 20.0f, 30.0f);
-    describe(12.0f, 0.0f);
-    const struct passage passage = fly(45.0);
+    start_tracker(350.0f, 20.0f, 30.0f);
+    describe_radar(12.0f, 0.0f);
+    const struct passage passage = fly_past_radar(45.0);
     assert_true(passage.unseen > 20);
     assert_int_equal(passage.lost, 0);
     assert_int_equal(passage.first_id, passage.last_id);
 }
 
-/* A car that brakes, stands for 20 s within the notch, and drives on, 20 looks a second. */
-static struct passage stop_at_a_light(double for_s, float *off_m)
+/* A car brakes, stands in the notch for 20 s and drives on; 20 looks a second. */
+static struct passage fly_stopping_car(double for_s, float *off_m)
 {
     struct passage passage = {0};
     double x_m = 150.0, v_mps = -14.0, stood_s = 0.0;
@@ -125,7 +133,7 @@ static struct passage stop_at_a_light(double for_s, float *off_m)
             v_mps = v_mps > 0.0 ? 0.0 : v_mps < -14.0 ? -14.0 : v_mps;
             x_m += 0.05 * v_mps;
         }
-        note(&passage, k, see(0.05 * k, x_m, 3.0, v_mps, 0.0, 0.3, 0.3));
+        note_passage(&passage, k, see_if_outside_notch(0.05 * k, x_m, 3.0, v_mps, 0.0, 0.3, 0.3));
         if (stood_s > 0.0 && stood_s < for_s && report.num_tracks > 0) {
             const float *at = report.tracks[0].state;
             *off_m = fmaxf(*off_m, hypotf(at[0] - (float)x_m, at[1] - 3.0f));
@@ -134,87 +142,91 @@ static struct passage stop_at_a_light(double for_s, float *off_m)
     return passage;
 }
 
-static void a_car_stops(void **state)
+static void a_stopped_car_in_the_notch_keeps_its_track(void **state)
 {
     float off_m;
     (void)state;
-    prepare(40.0f, 6.0f, 0.0f);
-    describe(0.3f, 0.0f);
-    const struct passage passage = stop_at_a_light(20.0, &off_m);
+    start_tracker(40.0f, 6.0f, 0.0f);
+    describe_radar(0.3f, 0.0f);
+    const struct passage passage = fly_stopping_car(20.0, &off_m);
     assert_true(passage.unseen > 390);
     assert_int_equal(passage.lost, 0);
     assert_int_equal(passage.first_id, passage.last_id);
-    assert_true(off_m < 1.0f); /* it does not run away */
-    prepare(40.0f, 6.0f, 0.0f);
-    describe(0.0f, 0.0f);
-    assert_true(stop_at_a_light(20.0, &off_m).lost > 300);
+    assert_true(off_m < 1.0f); /* the coasting track stays at the car */
+    start_tracker(40.0f, 6.0f, 0.0f);
+    describe_radar(0.0f, 0.0f);
+    assert_true(fly_stopping_car(20.0, &off_m).lost > 300);
 }
 
-/* One that never drives on is given up in the end. */
-static void it_does_not_wait_for_ever(void **state)
+/* The track of a car that never drives on ends after some minutes. */
+static void a_track_in_the_notch_ends_after_minutes(void **state)
 {
     int k = 0;
     (void)state;
-    prepare(40.0f, 6.0f, 0.0f);
-    describe(0.3f, 0.0f);
+    start_tracker(40.0f, 6.0f, 0.0f);
+    describe_radar(0.3f, 0.0f);
     for (; k < 100; k++) {
-        (void)see(0.5 * k, 150.0 - 0.5 * k, 3.0, -1.0, 0.0, 0.3, 0.3);
+        (void)see_if_outside_notch(0.5 * k, 150.0 - 0.5 * k, 3.0, -1.0, 0.0, 0.3, 0.3);
     }
-    /* it brakes within a look */
+    /* the car stops within one look */
     for (; k < 106; k++) {
-        (void)see(0.5 * k, 100.0 - 0.2 * (k - 100), 3.0, -0.4, 0.0, 0.1, 0.3);
+        (void)see_if_outside_notch(0.5 * k, 100.0 - 0.2 * (k - 100), 3.0, -0.4, 0.0, 0.1, 0.3);
     }
     for (; k < 106 + 560; k++) {
-        (void)see(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
+        (void)see_if_outside_notch(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
     }
     assert_int_equal(report.num_tracks, 1);
     for (; k < 106 + 700; k++) {
-        (void)see(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
+        (void)see_if_outside_notch(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
     }
     assert_int_equal(report.num_tracks, 0);
 }
 
-/* One that has gone is missed where its range rate would show it. */
-static void what_has_gone_ends(void **state)
+/* A gone target is missed if its range rate would be outside the notch. */
+static void a_gone_target_outside_the_notch_ends(void **state)
 {
     (void)state;
     for (int blind = 0; blind < 2; blind++) {
-        prepare(350.0f, 20.0f, 30.0f);
-        describe(12.0f, blind ? 40.0f : 0.0f);
+        start_tracker(350.0f, 20.0f, 30.0f);
+        describe_radar(12.0f, blind ? 40.0f : 0.0f);
         for (int k = 0; k < 40; k++) {
-            (void)see(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0, k < 24 ? 0.0 : 1e9);
+            (void)see_if_outside_notch(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0,
+                                       k < 24 ? 0.0 : 1e9);
         }
-        /* 75 m/s is within 12 of a multiple of 40 m/s: nothing says that it has gone */
+        /*
+         * 75 m/s is within 12 m/s of a multiple of 40 m/s: misses do not show that the target has
+         * gone
+         */
         assert_int_equal(report.num_tracks, blind);
     }
 }
 
-/* What the twentieth plot of an aircraft adds to its score; its look is blind, or is not. */
-static double gain_nat(int is_blind)
+/* Score that the twentieth plot of an aircraft adds, in a blind or an open look. */
+static double score_gain_of_plot_nat(int is_blind)
 {
     double before_nat = 0.0;
-    prepare(350.0f, 20.0f, 30.0f);
-    describe(0.0f, 0.0f);
+    start_tracker(350.0f, 20.0f, 30.0f);
+    describe_radar(0.0f, 0.0f);
     for (int k = 0; k < 20; k++) {
-        (void)see(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0, 0.0);
+        (void)see_if_outside_notch(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0, 0.0);
         if (k == 18) {
             before_nat = (double)report.tracks[0].score_nat;
-            describe(is_blind ? 12.0f : 0.0f, is_blind ? 37.5f : 0.0f);
+            describe_radar(is_blind ? 12.0f : 0.0f, is_blind ? 37.5f : 0.0f);
         }
     }
     assert_int_equal(report.num_tracks, 1);
     return (double)report.tracks[0].score_nat - before_nat;
 }
 
-/* All looks but one of a hundred are blind, and of these three of a hundred have a plot. */
-static void a_plot_in_the_notch_is_unlikely(void **state)
+/* All but one of a hundred looks are blind, and three in a hundred blind looks have a plot. */
+static void a_plot_of_a_blind_look_adds_less_score(void **state)
 {
     (void)state;
-    const double less_nat = gain_nat(0) - gain_nat(1);
+    const double less_nat = score_gain_of_plot_nat(0) - score_gain_of_plot_nat(1);
     assert_true(fabs(less_nat - log(0.9 / (0.99 * 0.03 + 0.01 * 0.9))) < 0.2);
 }
 
-/* One step without the initiator: 240 plots of clutter that the target is not in. */
+/* One step without the initiator: 240 plots of clutter, away from the target. */
 static void see_among_clutter(double t_s, int is_seen)
 {
     for (int i = 0; i < 240; i++) {
@@ -229,8 +241,8 @@ static void see_among_clutter(double t_s, int is_seen)
     num_plots = 0;
 }
 
-/* Plots of clutter in the gate of three sigmas: those that nobody claimed, over where they were. */
-static double clutter_in_gate(void)
+/* Expected unclaimed plots in the gate of three sigmas, at their density over the covered area. */
+static double clutter_plots_in_gate(void)
 {
     const struct rho_extent *extent = &tracker.extent;
     const double area_m2 =
@@ -239,28 +251,30 @@ static double clutter_in_gate(void)
            (double)tracker.unclaimed_plots / area_m2;
 }
 
-/* A track in the notch is missed all the same where three plots of clutter are in its gate. */
-static void clutter_ends_the_wait(void **state)
+/* With three plots of clutter in its gate, a track in the notch is missed all the same. */
+static void clutter_in_the_gate_ends_coasting_in_the_notch(void **state)
 {
     (void)state;
     for (int last = 40; last < 44; last++) {
         double before = 0.0;
-        prepare(350.0f, 20.0f, 30.0f);
-        describe(12.0f, 37.5f);
+        start_tracker(350.0f, 20.0f, 30.0f);
+        describe_radar(12.0f, 37.5f);
         for (int k = 0; k < 12; k++) {
-            (void)see(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0, 0.0);
+            (void)see_if_outside_notch(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0, 0.0);
         }
         for (int k = 12; k < 80 && report.tracks[0].misses == 0; k++) {
-            before = clutter_in_gate();
+            before = clutter_plots_in_gate();
             see_among_clutter(4.0 * k, k < last);
             assert_int_equal(report.num_tracks, 1);
         }
-        assert_true(before < 3.3 && clutter_in_gate() > 2.7);
+        assert_true(before < 3.3 && clutter_plots_in_gate() > 2.7);
     }
 }
 
-/* Aircraft on straight ways past the radar, that others follow: range rates of -190 .. 190 m/s. */
-static void fly_past(int k)
+/*
+ * Aircraft on straight courses past the radar, new ones following: range rates of -190 .. 190 m/s.
+ */
+static void see_flights_past_radar(int k)
 {
     for (int i = 0; i < 12; i++) {
         const int life = (k + 7 * i) / 40, age = (k + 7 * i) % 40;
@@ -277,18 +291,18 @@ static void fly_past(int k)
 }
 
 /*
- * pd is learned beside the notches. A sensor that is blind at multiples of a speed that is not told
- * is taken for a bad one: a notch at rest is found a few times, is none, and is given up.
+ * P_D is learned outside the notches. Undeclared blind speeds make the sensor suspect; a notch at
+ * rest is found a few times, is refuted, and is given up.
  */
-static void the_sensor_is_not_blamed(void **state)
+static void a_radar_with_a_notch_is_not_suspect(void **state)
 {
     struct rho_tracker_known known;
     (void)state;
     for (int is_told = 0; is_told < 2; is_told++) {
-        prepare(350.0f, 20.0f, 30.0f);
-        describe(is_told ? 12.0f : 0.0f, is_told ? 60.0f : 0.0f);
+        start_tracker(350.0f, 20.0f, 30.0f);
+        describe_radar(is_told ? 12.0f : 0.0f, is_told ? 60.0f : 0.0f);
         for (int k = 0; k < 600; k++) {
-            fly_past(k);
+            see_flights_past_radar(k);
         }
         assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
         assert_true(known.looks > 500);
@@ -297,11 +311,11 @@ static void the_sensor_is_not_blamed(void **state)
     }
 }
 
-static void a_notch_is_checked(void **state)
+static void bad_notches_are_refused(void **state)
 {
     (void)state;
-    prepare(350.0f, 20.0f, 30.0f);
-    describe(12.0f, 25.0f);
+    start_tracker(350.0f, 20.0f, 30.0f);
+    describe_radar(12.0f, 25.0f);
     radar.blind_speed_mps = 24.0f;
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_ERROR_CONFIG);
     radar.blind_speed_mps = 0.0f;
@@ -312,16 +326,16 @@ static void a_notch_is_checked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_aircraft_passes),
-        cmocka_unit_test(not_told_it_is_lost),
-        cmocka_unit_test(a_platform_moves),
-        cmocka_unit_test(a_car_stops),
-        cmocka_unit_test(it_does_not_wait_for_ever),
-        cmocka_unit_test(what_has_gone_ends),
-        cmocka_unit_test(the_sensor_is_not_blamed),
-        cmocka_unit_test(a_notch_is_checked),
-        cmocka_unit_test(a_plot_in_the_notch_is_unlikely),
-        cmocka_unit_test(clutter_ends_the_wait),
+        cmocka_unit_test(an_aircraft_in_the_notch_keeps_its_track),
+        cmocka_unit_test(an_aircraft_in_an_undeclared_notch_is_lost),
+        cmocka_unit_test(the_notch_follows_a_moving_radar),
+        cmocka_unit_test(a_stopped_car_in_the_notch_keeps_its_track),
+        cmocka_unit_test(a_track_in_the_notch_ends_after_minutes),
+        cmocka_unit_test(a_gone_target_outside_the_notch_ends),
+        cmocka_unit_test(a_radar_with_a_notch_is_not_suspect),
+        cmocka_unit_test(bad_notches_are_refused),
+        cmocka_unit_test(a_plot_of_a_blind_look_adds_less_score),
+        cmocka_unit_test(clutter_in_the_gate_ends_coasting_in_the_notch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * What a step takes from the clutter map and teaches it: the density that an echo and a strobe add
- * at a plot, by the formulas in double precision, at both sides of each limit. Echoes are made by
- * hand, which takes the private header: those of a scene never stand at a limit.
+ * at a plot, compared with the formulas in double precision, at both sides of each limit. Echoes
+ * are made by hand, with the private header, as those of a scene never stand exactly at a limit.
  */
 #include "../../src/tracker/step.h"
 #include "tracker_setup.h"
@@ -17,7 +17,7 @@ static const struct rho_sensor radar = {
 static struct rho_scan scan;
 static struct step at;
 
-static void prepare(uint32_t measures)
+static void start_tracker(uint32_t measures)
 {
     use_usual_configs(1);
     config.v_min_mps = initiation.v_min_mps = 30.0f;
@@ -28,7 +28,7 @@ static void prepare(uint32_t measures)
     scan = (struct rho_scan){.sensor_id = 1, .measures = measures, .plots = plots};
 }
 
-static void look(void)
+static void begin_step_with_plots(void)
 {
     scan.num_plots = num_plots;
     at = (struct step){.tracker = &tracker,
@@ -43,7 +43,7 @@ static void look(void)
     for (uint32_t i = 0; i < num_plots; i++) {
         report.fates[i] = RHO_FATE_HELD;
     }
-    tracker.unclaimed_plots = 100.0f; /* on 100 by 100 km */
+    tracker.unclaimed_plots = 100.0f; /* on an area of 100 by 100 km */
     tracker.extent = (struct rho_extent){-50000.0f, 50000.0f, -50000.0f, 50000.0f};
     rho_tracker_index_plots(&at);
     rho_tracker_predict_clutter_at_plots(&at);
@@ -51,7 +51,7 @@ static void look(void)
 
 static const double usual_per_m2 = 100.0 / 1e10;
 
-static struct rho_clutter_map *map_of(void)
+static struct rho_clutter_map *clutter_map(void)
 {
     return &tracker.clutter_map;
 }
@@ -61,12 +61,15 @@ static void expect_close(double is, double wanted)
     assert_true(fabs(is - wanted) <= 2e-4 * fabs(wanted) + 1e-7);
 }
 
-/* ---- echoes ---------------------------------------------------------------------------------- */
+/* ---- echoes: fixed places that often give plots ---------------------------------------------- */
 
-/* 20 km east, seen 20 times and in the last scan, 20 m uncertain along and nearly sure across. */
-static struct rho_echo *have_echo(void)
+/*
+ * An echo 20 km east, seen 20 times and in the last scan, with a sigma of 20 m along and almost 0
+ * across the line of sight.
+ */
+static struct rho_echo *make_known_echo(void)
 {
-    struct rho_echo *echo = &map_of()->echoes[0];
+    struct rho_echo *echo = &clutter_map()->echoes[0];
     *echo = (struct rho_echo){.time_us = 4000000,
                               .sensor_id = 1,
                               .x_m = 20000.0f,
@@ -77,158 +80,166 @@ static struct rho_echo *have_echo(void)
     return echo;
 }
 
-/* Of a plot of 10 m, so many sigmas off along, root(400 + 100) m, and across, root(1 + 100) m. */
-static double denser_at(double along, double across)
+/*
+ * Density that the echo adds at a plot of 10 m, so many sigmas off: root(400 + 100) m along, root(1
+ * + 100) m across.
+ */
+static double density_of_echo_at(double along, double across)
 {
-    prepare(0);
-    have_echo();
+    start_tracker(0);
+    make_known_echo();
     (void)add_plot(20000.0 + along * sqrt(500.0), across * sqrt(101.0), 10.0);
-    look();
-    return (double)map_of()->denser[0];
+    begin_step_with_plots();
+    return (double)clutter_map()->denser[0];
 }
 
-static void an_echo_makes_clutter_denser_within_its_gate(void **state)
+static void an_echo_adds_clutter_density_within_its_gate(void **state)
 {
     (void)state;
     for (int i = 0; i < 4; i++) {
-        const double sigmas = i == 3 ? -4.2 : 1.5 * i, denser = denser_at(sigmas, 0.0);
-        const double probability = (double)rho_clutter_map_return_probability(map_of(), 0, 20, 1);
+        const double sigmas = i == 3 ? -4.2 : 1.5 * i, denser = density_of_echo_at(sigmas, 0.0);
+        const double probability =
+            (double)rho_clutter_map_return_probability(clutter_map(), 0, 20, 1);
         const double per_m2 =
             probability * exp(-0.5 * sigmas * sigmas) / (2.0 * PI * sqrt(500.0 * 101.0));
         expect_close(denser, log(1.0 + per_m2 / usual_per_m2));
     }
-    /* the squares' sum is 18 */
-    assert_true(denser_at(2.9, 3.0) > 0.0);
-    assert_true(denser_at(3.1, 3.0) == 0.0);
+    /* the squared sigmas sum to 18 */
+    assert_true(density_of_echo_at(2.9, 3.0) > 0.0);
+    assert_true(density_of_echo_at(3.1, 3.0) == 0.0);
 }
 
-/* Four units a plot in the box, of which there is none six sigmas off; ten with range rates. */
-static void work_is_counted(void **state)
+/* Work units: four for each plot in the box, none six sigmas off; ten with range rates. */
+static void work_for_echoes_is_counted(void **state)
 {
     (void)state;
-    (void)denser_at(1.0, 0.0);
+    (void)density_of_echo_at(1.0, 0.0);
     assert_int_equal(at.work, 4);
-    (void)denser_at(6.5, 0.0);
+    (void)density_of_echo_at(6.5, 0.0);
     assert_int_equal(at.work, 0);
-    prepare(RHO_MEASURES_RANGE_RATE);
-    have_echo();
+    start_tracker(RHO_MEASURES_RANGE_RATE);
+    make_known_echo();
     add_plot(20000.0, 0.0, 10.0)->sigma_range_rate_mps = 1.0f;
-    look();
+    begin_step_with_plots();
     assert_int_equal(at.work, 10);
 }
 
-/* Density of a normal range rate over an even one. */
-static double over_all(double off_mps, double variance)
+/* Density of a normal range rate over the uniform one. */
+static double range_rate_density_over_uniform(double off_mps, double variance)
 {
     return 700.0 * exp(-0.5 * off_mps * off_mps / variance) / sqrt(2.0 * PI * variance);
 }
 
-/* A share has the echo's own rate, of the others half are within 1 m/s, and half are any. */
-static void range_rates_tell_an_echo(void **state)
+/*
+ * Some echo plots have the echo's own rate; of the others half are within 1 m/s and half anywhere.
+ */
+static void range_rates_scale_the_density_of_an_echo(void **state)
 {
     static const double rates_mps[] = {0.0, 1.5, 4.0, 9.0}, plots_seen[] = {0.0, 20.0};
     (void)state;
     for (int i = 0; i < 8; i++) {
         const double rate_mps = rates_mps[i % 4], seen = plots_seen[i / 4];
-        prepare(RHO_MEASURES_RANGE_RATE);
-        have_echo();
+        start_tracker(RHO_MEASURES_RANGE_RATE);
+        make_known_echo();
         struct rho_plot *plot = add_plot(20000.0, 0.0, 10.0);
         plot->range_rate_mps = (float)rate_mps;
         plot->sigma_range_rate_mps = 1.0f;
-        map_of()->rate_plots = (float)seen;
-        map_of()->exact_plots = (float)seen / 4.0f;
-        look();
+        clutter_map()->rate_plots = (float)seen;
+        clutter_map()->exact_plots = (float)seen / 4.0f;
+        begin_step_with_plots();
         const double variance = 1.0 + 4.0, share = (seen / 4.0 + 0.3 * 10.0) / (seen + 10.0);
-        const double ratio = share * over_all(rate_mps, variance) +
-                             (1.0 - share) * (0.5 + 0.5 * over_all(rate_mps, variance + 1.0));
-        const double probability = (double)rho_clutter_map_return_probability(map_of(), 0, 20, 1);
+        const double ratio =
+            share * range_rate_density_over_uniform(rate_mps, variance) +
+            (1.0 - share) * (0.5 + 0.5 * range_rate_density_over_uniform(rate_mps, variance + 1.0));
+        const double probability =
+            (double)rho_clutter_map_return_probability(clutter_map(), 0, 20, 1);
         const double per_m2 = probability * ratio / (2.0 * PI * sqrt(500.0 * 101.0));
-        expect_close((double)map_of()->denser[0], log(1.0 + per_m2 / usual_per_m2));
+        expect_close((double)clutter_map()->denser[0], log(1.0 + per_m2 / usual_per_m2));
     }
 }
 
-/* A hundredth of the range's square, 8 km, is no place any more. */
-static void an_echo_that_may_be_anywhere_is_lost(void **state)
+/* A range variance of a hundredth of the range's square, sigma 8 km, drops the echo. */
+static void an_echo_of_uncertain_place_is_dropped(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        prepare(0);
-        have_echo()->along[0] = i ? 6.41e7f : 6.38e7f;
+        start_tracker(0);
+        make_known_echo()->along[0] = i ? 6.41e7f : 6.38e7f;
         (void)add_plot(0.0, 20000.0, 10.0);
-        look();
-        assert_int_equal(map_of()->echoes[0].hits, i ? 0 : 20);
+        begin_step_with_plots();
+        assert_int_equal(clutter_map()->echoes[0].hits, i ? 0 : 20);
     }
 }
 
-/* From a share of 0.3 on, and whichever row the plot has. */
-static void an_echo_takes_the_plot_that_it_explains(void **state)
+/* An echo takes a plot from a weight of 0.3 on, whichever row the plot has. */
+static void an_echo_takes_a_plot_of_weight_above_0_3(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
         for (int row = 0; row < 2; row++) {
-            prepare(0);
-            struct rho_echo *echo = have_echo();
+            start_tracker(0);
+            struct rho_echo *echo = make_known_echo();
             if (row == 1) {
                 (void)add_plot(0.0, 20000.0, 10.0);
             }
             (void)add_plot(20000.0, 0.0, 10.0);
-            look();
+            begin_step_with_plots();
             assert_int_equal(echo->plot, row);
             assert_true(echo->weight > 0.0f);
             echo->weight = i ? 0.31f : 0.29f;
             rho_tracker_update_clutter_map(&at);
             assert_int_equal(echo->hits, 20 + i);
-            assert_int_equal(map_of()->echoes[1].hits, row == 1 || i == 0);
+            assert_int_equal(clutter_map()->echoes[1].hits, row == 1 || i == 0);
         }
     }
 }
 
 /* Sums of range rates are halved at a thousand plots. */
-static void range_rates_are_remembered_for_a_thousand_plots(void **state)
+static void range_rate_sums_are_halved_at_1000_plots(void **state)
 {
     static const float before[] = {999.0f, 1000.0f}, after[] = {1000.0f, 501.0f};
     (void)state;
     for (int i = 0; i < 2; i++) {
-        prepare(RHO_MEASURES_RANGE_RATE);
-        have_echo();
+        start_tracker(RHO_MEASURES_RANGE_RATE);
+        make_known_echo();
         add_plot(20000.0, 0.0, 10.0)->sigma_range_rate_mps = 1.0f;
-        look();
-        map_of()->echoes[0].weight = 0.9f;
-        map_of()->rate_plots = before[i];
+        begin_step_with_plots();
+        clutter_map()->echoes[0].weight = 0.9f;
+        clutter_map()->rate_plots = before[i];
         rho_tracker_update_clutter_map(&at);
-        assert_true(map_of()->rate_plots == after[i]);
+        assert_true(clutter_map()->rate_plots == after[i]);
     }
 }
 
-/* ---- turns ----------------------------------------------------------------------------------- */
+/* ---- duration of map updates in turns -------------------------------------------------------- */
 
-/* A scan is half of a turn where two sensors were heard in the last minute. */
-static void a_sensor_that_was_silent_for_a_minute_is_not_there(void **state)
+/* A scan counts as half a turn if two sensors were heard in the last minute. */
+static void sensors_silent_for_a_minute_do_not_count(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        prepare(0);
-        look();
+        start_tracker(0);
+        begin_step_with_plots();
         at.time_us = 100000000;
         tracker.num_paces = 2;
         tracker.paces[0].time_us = at.time_us;
         tracker.paces[1].time_us = at.time_us - (i ? 61000000 : 59000000);
-        const float before = map_of()->scans_to_blocks;
+        const float before = clutter_map()->scans_to_blocks;
         rho_tracker_update_clutter_map(&at);
-        assert_float_equal(before - map_of()->scans_to_blocks, i ? 1.0 : 0.5, 1e-6);
+        assert_float_equal(before - clutter_map()->scans_to_blocks, i ? 1.0 : 0.5, 1e-6);
     }
 }
 
-/* ---- targets --------------------------------------------------------------------------------- */
+/* ---- tracks that are targets teach no clutter ------------------------------------------------ */
 
-/* Twelve hits make a target of a confirmed track that is fast, or has left its start. */
-static int is_target(uint16_t hits, float v_min_mps, float moved_m)
+/* After twelve hits a confirmed track is a target if it is fast or has left its start. */
+static int do_twelve_hits_make_a_target(uint16_t hits, float v_min_mps, float moved_m)
 {
     struct rho_track *track = &tracker.tracks[0];
-    prepare(0);
+    start_tracker(0);
     tracker.config.v_min_mps = v_min_mps;
     (void)add_plot(0.0, 20000.0, 10.0);
-    look();
+    begin_step_with_plots();
     tracker.num_tracks = 1;
     *track = (struct rho_track){.track_id = 1,
                                 .status = RHO_TRACK_CONFIRMED,
@@ -246,23 +257,23 @@ static int is_target(uint16_t hits, float v_min_mps, float moved_m)
     return rho_tracker_is_known_moving_target(track);
 }
 
-static void tracks_of_targets_take_back_what_they_taught(void **state)
+static void tracks_of_targets_unlearn_their_echoes(void **state)
 {
     (void)state;
-    assert_false(is_target(11, 30.0f, 0.0f));
-    assert_true(is_target(12, 30.0f, 0.0f));
-    /* where targets may stand: eight sigmas of both places */
-    assert_false(is_target(12, 0.0f, 79.0f));
-    assert_true(is_target(12, 0.0f, 81.0f));
+    assert_false(do_twelve_hits_make_a_target(11, 30.0f, 0.0f));
+    assert_true(do_twelve_hits_make_a_target(12, 30.0f, 0.0f));
+    /* a target counts as standing still within eight sigmas of both places */
+    assert_false(do_twelve_hits_make_a_target(12, 0.0f, 79.0f));
+    assert_true(do_twelve_hits_make_a_target(12, 0.0f, 81.0f));
 }
 
-/* ---- strobes --------------------------------------------------------------------------------- */
+/* ---- strobes: jammed directions -------------------------------------------------------------- */
 
-/* Plots in one direction, in the eighths of the range from `first` on, and others all round. */
+/* Plots in one direction, in the eighths of the range from `first` on, and `others` all round. */
 static int has_strobe(int count, int first, int eighths, double last_m, int others)
 {
     const double bin_rad = 2.0 * PI / RHO_ECHO_STROBES;
-    prepare(0);
+    start_tracker(0);
     for (int i = 0; i < count; i++) {
         const double range_m = RANGE_MAX_M / 8.0 * (first + i % eighths + 0.5);
         (void)add_plot(i == count - 1 && last_m > 0.0 ? last_m : range_m, 0.01 * range_m * bin_rad,
@@ -272,8 +283,8 @@ static int has_strobe(int count, int first, int eighths, double last_m, int othe
         const double azimuth_rad = 3.0 * bin_rad + (2.0 * PI - 6.0 * bin_rad) * i / others;
         (void)add_plot(30000.0 * cos(azimuth_rad), 30000.0 * sin(azimuth_rad), 10.0);
     }
-    look();
-    return map_of()->denser[0] > 0.0f;
+    begin_step_with_plots();
+    return clutter_map()->denser[0] > 0.0f;
 }
 
 static void a_strobe_has_more_than_eight_plots(void **state)
@@ -283,8 +294,8 @@ static void a_strobe_has_more_than_eight_plots(void **state)
     assert_true(has_strobe(9, 0, 6, 0.0, 0));
 }
 
-/* Those of six of the others' directions more. */
-static void a_strobe_has_six_times_as_many_as_elsewhere(void **state)
+/* A strobe has more than six times the plots of other directions. */
+static void a_strobe_has_six_times_the_plots_of_other_directions(void **state)
 {
     const int others = 150;
     const double usual = others * 3.0 / (RHO_ECHO_STROBES - 3.0), least = 8.0 + 6.0 * usual;
@@ -294,8 +305,8 @@ static void a_strobe_has_six_times_as_many_as_elsewhere(void **state)
     assert_true(has_strobe((int)floor(least) + 1, 0, 6, 0.0, others));
 }
 
-/* In six eighths of the range, of which the last has what lies beyond. */
-static void a_strobe_fills_six_eighths_of_the_range(void **state)
+/* In six eighths of the range, the last of which includes plots beyond it. */
+static void a_strobe_covers_six_eighths_of_the_range(void **state)
 {
     (void)state;
     assert_false(has_strobe(20, 2, 5, 0.0, 0));
@@ -307,17 +318,17 @@ static void a_strobe_fills_six_eighths_of_the_range(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_echo_makes_clutter_denser_within_its_gate),
-        cmocka_unit_test(work_is_counted),
-        cmocka_unit_test(range_rates_tell_an_echo),
-        cmocka_unit_test(an_echo_that_may_be_anywhere_is_lost),
-        cmocka_unit_test(an_echo_takes_the_plot_that_it_explains),
-        cmocka_unit_test(range_rates_are_remembered_for_a_thousand_plots),
-        cmocka_unit_test(a_sensor_that_was_silent_for_a_minute_is_not_there),
-        cmocka_unit_test(tracks_of_targets_take_back_what_they_taught),
+        cmocka_unit_test(an_echo_adds_clutter_density_within_its_gate),
+        cmocka_unit_test(work_for_echoes_is_counted),
+        cmocka_unit_test(range_rates_scale_the_density_of_an_echo),
+        cmocka_unit_test(an_echo_of_uncertain_place_is_dropped),
+        cmocka_unit_test(an_echo_takes_a_plot_of_weight_above_0_3),
+        cmocka_unit_test(range_rate_sums_are_halved_at_1000_plots),
+        cmocka_unit_test(sensors_silent_for_a_minute_do_not_count),
+        cmocka_unit_test(tracks_of_targets_unlearn_their_echoes),
         cmocka_unit_test(a_strobe_has_more_than_eight_plots),
-        cmocka_unit_test(a_strobe_has_six_times_as_many_as_elsewhere),
-        cmocka_unit_test(a_strobe_fills_six_eighths_of_the_range),
+        cmocka_unit_test(a_strobe_has_six_times_the_plots_of_other_directions),
+        cmocka_unit_test(a_strobe_covers_six_eighths_of_the_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

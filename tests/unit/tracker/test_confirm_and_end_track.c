@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tracks end where nobody sees them: targets that left, radars that are switched off; what lies
- * beyond a stated coverage, and what is faster than any target.
+ * Tracks end when no sensor sees them: targets that left, radars that are switched off; plots
+ * beyond a stated coverage, and tracks faster than any target.
  */
 #include "tracker_setup.h"
 
 #define PI 3.14159265358979323846
 #define TARGETS_MAX 64
 #define RADARS_MAX 3
-#define EMPTY_S 600.0 /* after the last target has left */
+#define EMPTY_S 600.0 /* seconds after the last target has left */
 
 struct radar {
     double x_m, y_m, range_m, turn_s, sigma_m, sigma_rad, clutter;
-    double sector_from_rad, sector_to_rad; /* equal: all round */
-    int sectors;                           /* scans of a turn */
+    double sector_from_rad, sector_to_rad; /* equal angles: the whole circle */
+    int sectors;                           /* scans in a turn */
     int is_described, is_off;
 };
 
@@ -25,18 +25,18 @@ static struct radar radars[RADARS_MAX];
 static struct target targets[TARGETS_MAX];
 static int num_radars, num_targets;
 static double now_s;
-static int says_sector; /* scans say the radar's own sector */
+static int says_sector; /* scans state the radar's own sector */
 
 /*
- * What was reported: rows of believed tracks, those far from any target that is or was seen lately,
- * those of impossible speed.
+ * Rows reported: of believed tracks, of those far from any target seen lately (false), of those too
+ * fast.
  */
 static struct tally {
     unsigned rows, false_rows, fast_rows, scans, most_tracks;
-    unsigned missing, present; /* of targets well inside: without a track; all */
+    unsigned missing, present; /* well-covered targets without a track, and all */
 } tally;
 
-static struct radar usual_radar(void)
+static struct radar radar_of_80_km(void)
 {
     return (struct radar){.range_m = 80e3,
                           .turn_s = 4.0,
@@ -47,7 +47,7 @@ static struct radar usual_radar(void)
                           .is_described = 1};
 }
 
-static void start(uint64_t seed, double v_min_mps, double v_max_mps, double accel_mps2)
+static void start_scene(uint64_t seed, double v_min_mps, double v_max_mps, double accel_mps2)
 {
     use_usual_configs(seed);
     rho_tracker_config_default(&config);
@@ -74,17 +74,17 @@ static void start(uint64_t seed, double v_min_mps, double v_max_mps, double acce
     }
 }
 
-static double x_of(const struct target *target, double t_s)
+static double target_x_m(const struct target *target, double t_s)
 {
     return target->x_m + target->vx_mps * t_s;
 }
 
-static double y_of(const struct target *target, double t_s)
+static double target_y_m(const struct target *target, double t_s)
 {
     return target->y_m + target->vy_mps * t_s;
 }
 
-static int in_sector(double azimuth_rad, double from_rad, double to_rad)
+static int is_in_sector(double azimuth_rad, double from_rad, double to_rad)
 {
     const double width =
         to_rad - from_rad <= 0.0 ? to_rad - from_rad + 2.0 * PI : to_rad - from_rad;
@@ -93,21 +93,22 @@ static int in_sector(double azimuth_rad, double from_rad, double to_rad)
     return off < width;
 }
 
-/* Has any radar that is on been able to see it at that time? */
-static int is_inside(const struct target *target, double t_s, double share)
+/* Whether any radar that is on covers the target at that time; share: of its range. */
+static int is_seen_by_any_radar(const struct target *target, double t_s, double share)
 {
     for (int i = 0; i < num_radars; i++) {
         const struct radar *radar = &radars[i];
-        const double dx_m = x_of(target, t_s) - radar->x_m, dy_m = y_of(target, t_s) - radar->y_m;
+        const double dx_m = target_x_m(target, t_s) - radar->x_m,
+                     dy_m = target_y_m(target, t_s) - radar->y_m;
         if (t_s >= target->born_s && !radar->is_off && hypot(dx_m, dy_m) < share * radar->range_m &&
-            in_sector(atan2(dy_m, dx_m), radar->sector_from_rad, radar->sector_to_rad)) {
+            is_in_sector(atan2(dy_m, dx_m), radar->sector_from_rad, radar->sector_to_rad)) {
             return 1;
         }
     }
     return 0;
 }
 
-static void add_polar(const struct radar *radar, double range_m, double azimuth_rad)
+static void add_plot_at_range(const struct radar *radar, double range_m, double azimuth_rad)
 {
     const double x_m = radar->x_m + range_m * cos(azimuth_rad);
     const double y_m = radar->y_m + range_m * sin(azimuth_rad);
@@ -115,7 +116,7 @@ static void add_polar(const struct radar *radar, double range_m, double azimuth_
     plot->sigma_cross_m = (float)(range_m * radar->sigma_rad);
 }
 
-static unsigned poisson(double mean)
+static unsigned draw_poisson(double mean)
 {
     unsigned count = 0;
     for (double product = uniform(0.0, 1.0), least = exp(-mean); product > least; count++) {
@@ -124,8 +125,8 @@ static unsigned poisson(double mean)
     return count;
 }
 
-/* One scan of a radar, or of a sector of it. */
-static void look(int which, double from_rad, double to_rad)
+/* Steps one scan of a radar, or of one of its sectors. */
+static void step_radar_scan(int which, double from_rad, double to_rad)
 {
     const struct radar *radar = &radars[which];
     const int is_part = radar->sectors > 1;
@@ -134,20 +135,20 @@ static void look(int which, double from_rad, double to_rad)
     double width_rad = last_rad - first_rad;
     width_rad += width_rad <= 0.0 ? 2.0 * PI : 0.0;
     for (int i = 0; i < num_targets; i++) {
-        const double dx_m = x_of(&targets[i], now_s) - radar->x_m;
-        const double dy_m = y_of(&targets[i], now_s) - radar->y_m;
+        const double dx_m = target_x_m(&targets[i], now_s) - radar->x_m;
+        const double dy_m = target_y_m(&targets[i], now_s) - radar->y_m;
         const double range_m = hypot(dx_m, dy_m) + radar->sigma_m * normal();
         const double azimuth_rad = atan2(dy_m, dx_m) + radar->sigma_rad * normal();
         const int is_seen = uniform(0.0, 1.0) < 0.9;
         if (is_seen && now_s >= targets[i].born_s && hypot(dx_m, dy_m) < radar->range_m &&
-            in_sector(atan2(dy_m, dx_m), first_rad, last_rad)) {
-            add_polar(radar, range_m, azimuth_rad);
+            is_in_sector(atan2(dy_m, dx_m), first_rad, last_rad)) {
+            add_plot_at_range(radar, range_m, azimuth_rad);
         }
     }
-    const unsigned clutter = poisson(radar->clutter * width_rad / (2.0 * PI));
+    const unsigned clutter = draw_poisson(radar->clutter * width_rad / (2.0 * PI));
     for (unsigned i = 0; i < clutter; i++) {
         const double range_m = uniform(0.01, 1.0) * radar->range_m;
-        add_polar(radar, range_m, uniform(first_rad, first_rad + width_rad));
+        add_plot_at_range(radar, range_m, uniform(first_rad, first_rad + width_rad));
     }
     const int says = is_part || says_sector;
     step_scan(
@@ -162,20 +163,22 @@ static int is_believed(const struct rho_track_report *track)
     return track->status == RHO_TRACK_CONFIRMED || track->status == RHO_TRACK_COASTING;
 }
 
-static const struct rho_track_report *track_near(const struct target *target, double most_m)
+static const struct rho_track_report *believed_track_near(const struct target *target,
+                                                          double most_m)
 {
     for (unsigned i = 0; i < report.num_tracks; i++) {
         const struct rho_track_report *track = &report.tracks[i];
-        if (is_believed(track) && hypot((double)track->state[0] - x_of(target, now_s),
-                                        (double)track->state[1] - y_of(target, now_s)) < most_m) {
+        if (is_believed(track) &&
+            hypot((double)track->state[0] - target_x_m(target, now_s),
+                  (double)track->state[1] - target_y_m(target, now_s)) < most_m) {
             return track;
         }
     }
     return NULL;
 }
 
-/* A target that left counts for six more turns. */
-static void count_rows(double range_m, double turn_s)
+/* Rows near a target that left do not count as false for six more turns. */
+static void count_track_rows(double range_m, double turn_s)
 {
     tally.scans++;
     tally.most_tracks =
@@ -186,11 +189,12 @@ static void count_rows(double range_m, double turn_s)
         for (int k = 0; k < num_targets; k++) {
             int was_inside = 0;
             for (int back = 0; back <= 6; back++) {
-                was_inside |= is_inside(&targets[k], now_s - back * turn_s, 1.0);
+                was_inside |= is_seen_by_any_radar(&targets[k], now_s - back * turn_s, 1.0);
             }
-            has_target |= was_inside && hypot((double)track->state[0] - x_of(&targets[k], now_s),
-                                              (double)track->state[1] - y_of(&targets[k], now_s)) <
-                                            0.0125 * range_m + 3.0 * (double)track->sigma_m;
+            has_target |=
+                was_inside && hypot((double)track->state[0] - target_x_m(&targets[k], now_s),
+                                    (double)track->state[1] - target_y_m(&targets[k], now_s)) <
+                                  0.0125 * range_m + 3.0 * (double)track->sigma_m;
         }
         const double speed_mps = hypot((double)track->state[3], (double)track->state[4]);
         tally.rows += is_believed(track);
@@ -198,16 +202,16 @@ static void count_rows(double range_m, double turn_s)
         tally.fast_rows += is_believed(track) && speed_mps > 1.1 * (double)config.v_max_mps;
     }
     for (int k = 0; k < num_targets; k++) {
-        if (is_inside(&targets[k], now_s, 0.97) &&
-            is_inside(&targets[k], now_s - 6.0 * turn_s, 0.97)) {
+        if (is_seen_by_any_radar(&targets[k], now_s, 0.97) &&
+            is_seen_by_any_radar(&targets[k], now_s - 6.0 * turn_s, 0.97)) {
             tally.present++;
-            tally.missing += !track_near(&targets[k], 0.0125 * range_m);
+            tally.missing += !believed_track_near(&targets[k], 0.0125 * range_m);
         }
     }
 }
 
-/* Turns of all radars, which have the same period, one after the other within it. */
-static void fly(double until_s)
+/* Steps turns of all radars, which have the same period, interleaved within it. */
+static void step_all_until(double until_s)
 {
     const double begin_s = now_s;
     for (int turn = 0; begin_s + (turn + 1) * radars[0].turn_s <= until_s + 1e-9; turn++) {
@@ -217,16 +221,16 @@ static void fly(double until_s)
                 now_s =
                     begin_s + radars[0].turn_s * (turn + (double)i / num_radars +
                                                   (double)sector / radars[i].sectors / num_radars);
-                look(i, -PI + width_rad * sector, -PI + width_rad * (sector + 1));
+                step_radar_scan(i, -PI + width_rad * sector, -PI + width_rad * (sector + 1));
             }
         }
-        count_rows(radars[0].range_m, radars[0].turn_s);
+        count_track_rows(radars[0].range_m, radars[0].turn_s);
         now_s = begin_s + radars[0].turn_s * (turn + 1);
     }
 }
 
-/* From the middle outwards; they have left after 300 s. */
-static void add_leaving(int count, double range_m, double speed_mps)
+/* Targets fly outwards from the middle and have left after 300 s. */
+static void add_leaving_targets(int count, double range_m, double speed_mps)
 {
     for (int i = 0; i < count; i++) {
         const double heading_rad = uniform(-PI, PI);
@@ -246,7 +250,7 @@ static unsigned count_believed(void)
     return count;
 }
 
-static void tell(const char *what)
+static void print_tally(const char *what)
 {
     print_message("%s: %.3f false a scan, %u of %u rows too fast, missing %.3f, at most %u tracks, "
                   "%u at the end\n",
@@ -255,17 +259,17 @@ static void tell(const char *what)
                   report.num_tracks);
 }
 
-/* ---- targets leave --------------------------------------------------------------------------- */
+/* ---- targets that leave the coverage --------------------------------------------------------- */
 
-static void expect_none(const char *what, uint64_t seed, double speed_mps, double v_max_mps,
-                        double accel_mps2)
+static void expect_no_track_after(const char *what, uint64_t seed, double speed_mps,
+                                  double v_max_mps, double accel_mps2)
 {
-    start(seed, 0.1 * speed_mps, v_max_mps, accel_mps2);
-    add_leaving(8, radars[0].range_m, speed_mps);
-    fly(270.0);
+    start_scene(seed, 0.1 * speed_mps, v_max_mps, accel_mps2);
+    add_leaving_targets(8, radars[0].range_m, speed_mps);
+    step_all_until(270.0);
     const uint32_t newest = tracker.next_track_id;
-    fly(300.0 + EMPTY_S);
-    tell(what);
+    step_all_until(300.0 + EMPTY_S);
+    print_tally(what);
     assert_true(tracker.counters.tracks_confirmed >= 6);
     assert_int_equal(count_believed(), 0);
     for (unsigned i = 0; i < report.num_tracks; i++) {
@@ -275,29 +279,30 @@ static void expect_none(const char *what, uint64_t seed, double speed_mps, doubl
     assert_true(tally.fast_rows * 100 <= tally.rows);
 }
 
-static void ten_minutes_after_the_last_target_left_no_track_is_there(void **state)
+static void no_track_is_left_ten_minutes_after_the_last_target(void **state)
 {
     (void)state;
     num_radars = 1;
     for (int is_described = 0; is_described < 2; is_described++) {
         for (uint64_t seed = 1; seed <= 3; seed++) {
-            radars[0] = usual_radar();
+            radars[0] = radar_of_80_km();
             radars[0].is_described = is_described;
-            expect_none(is_described ? "turns, described" : "turns", seed, 250.0, 350.0, 20.0);
+            expect_no_track_after(is_described ? "turns, described" : "turns", seed, 250.0, 350.0,
+                                  20.0);
             if (RHO_SECTORS) {
                 radars[0].sectors = 8;
-                expect_none(is_described ? "sectors, described" : "sectors", seed, 250.0, 350.0,
-                            20.0);
+                expect_no_track_after(is_described ? "sectors, described" : "sectors", seed, 250.0,
+                                      350.0, 20.0);
             }
         }
     }
 }
 
 /*
- * 24 GHz: 20 scans a second of a sector of 2 rad, 80 m; cars at 2 to 20 m/s leave over its end and
- * its sides.
+ * A 24 GHz radar: 20 scans a second of a sector of 2 rad, 80 m; cars at 2 to 20 m/s leave at its
+ * end and sides.
  */
-static void a_short_radar_of_a_sector_keeps_none(void **state)
+static void a_short_range_sector_radar_keeps_no_track_of_gone_cars(void **state)
 {
     (void)state;
     num_radars = 1;
@@ -313,7 +318,7 @@ static void a_short_radar_of_a_sector_keeps_none(void **state)
                                        .sectors = 1,
                                        .is_described = kind == 0};
             says_sector = kind == 2;
-            start(seed, 0.5, 40.0, 8.0);
+            start_scene(seed, 0.5, 40.0, 8.0);
             for (int i = 0; i < 12; i++) {
                 const double range_m = uniform(10.0, 60.0), azimuth_rad = uniform(-0.9, 0.9);
                 const double speed_mps = uniform(2.0, 20.0), heading_rad = uniform(-PI, PI);
@@ -321,12 +326,12 @@ static void a_short_radar_of_a_sector_keeps_none(void **state)
                     range_m * cos(azimuth_rad), range_m * sin(azimuth_rad),
                     speed_mps * cos(heading_rad), speed_mps * sin(heading_rad), 0.0};
             }
-            fly(60.0);
+            step_all_until(60.0);
             const uint32_t newest = tracker.next_track_id;
-            fly(60.0 + 0.2 * EMPTY_S);
-            tell(kind == 0   ? "24 GHz, described"
-                 : kind == 1 ? "24 GHz"
-                             : "24 GHz, scans of a sector");
+            step_all_until(60.0 + 0.2 * EMPTY_S);
+            print_tally(kind == 0   ? "24 GHz, described"
+                        : kind == 1 ? "24 GHz"
+                                    : "24 GHz, scans of a sector");
             says_sector = 0;
             assert_true(tracker.counters.tracks_confirmed >= 8);
             for (unsigned i = 0; i < report.num_tracks; i++) {
@@ -338,7 +343,7 @@ static void a_short_radar_of_a_sector_keeps_none(void **state)
 
 /* ---- radars that are silent ------------------------------------------------------------------ */
 
-static void add_crossing(int count, double range_m)
+static void add_crossing_targets(int count, double range_m)
 {
     for (int i = 0; i < count; i++) {
         const double heading_rad = uniform(-PI, PI), speed_mps = uniform(100.0, 300.0);
@@ -350,7 +355,7 @@ static void add_crossing(int count, double range_m)
     }
 }
 
-static void a_minute_without_the_radar(void **state)
+static void tracks_survive_a_minute_without_the_radar(void **state)
 {
     (void)state;
     num_radars = 1;
@@ -358,29 +363,29 @@ static void a_minute_without_the_radar(void **state)
     for (int is_described = 0; is_described < 2; is_described++) {
         for (uint64_t seed = 1; seed <= 5; seed++) {
             uint32_t ids[TARGETS_MAX];
-            radars[0] = usual_radar();
+            radars[0] = radar_of_80_km();
             radars[0].range_m = 120e3;
             radars[0].is_described = is_described;
-            start(seed, 30.0, 350.0, 20.0);
-            add_crossing(20, 120e3);
-            fly(100.0);
+            start_scene(seed, 30.0, 350.0, 20.0);
+            add_crossing_targets(20, 120e3);
+            step_all_until(100.0);
             for (int i = 0; i < num_targets; i++) {
-                const struct rho_track_report *track = track_near(&targets[i], 1500.0);
+                const struct rho_track_report *track = believed_track_near(&targets[i], 1500.0);
                 ids[i] = track ? track->track_id : 0;
             }
             now_s += 60.0;
             memset(&tally, 0, sizeof tally);
-            fly(now_s + 16.0);
+            step_all_until(now_s + 16.0);
             for (int i = 0; i < num_targets; i++) {
-                const struct rho_track_report *track = track_near(&targets[i], 1500.0);
+                const struct rho_track_report *track = believed_track_near(&targets[i], 1500.0);
                 kept += track && track->track_id == ids[i];
                 found += track != NULL;
                 all++;
             }
-            fly(now_s + 40.0);
+            step_all_until(now_s + 40.0);
             false_rows += tally.false_rows;
             scans += tally.scans;
-            tell("a minute's outage");
+            print_tally("a minute's outage");
         }
     }
     print_message("kept %u, there after four turns %u of %u, false %.3f\n", kept, found, all,
@@ -389,8 +394,8 @@ static void a_minute_without_the_radar(void **state)
     assert_true((double)false_rows / scans < 0.1);
 }
 
-/* One target that flies straight, seen or not, and clutter far from it. */
-static void look_at_one(double t_s, int is_seen, int clutter)
+/* One scan: a straight target, seen or not, and clutter far from it. */
+static void step_scan_of_one_target(double t_s, int is_seen, int clutter)
 {
     if (is_seen) {
         const double x_m = -40e3 + 200.0 * t_s + 30.0 * normal();
@@ -404,27 +409,27 @@ static void look_at_one(double t_s, int is_seen, int clutter)
 }
 
 /*
- * The radar is off for a minute, and misses the target so many times when it is back; what is left
- * of its track then.
+ * The radar is off for a minute and then misses the target `misses` times: until the third miss the
+ * track is tentative.
  */
-static void miss_after_a_minute(uint64_t seed, int misses, int clutter)
+static void miss_after_radar_was_off(uint64_t seed, int misses, int clutter)
 {
     double t_s = 0.0;
-    start(seed, 30.0, 350.0, 20.0);
+    start_scene(seed, 30.0, 350.0, 20.0);
     for (; t_s < 120.0; t_s += 4.0) {
-        look_at_one(t_s, 1, clutter);
+        step_scan_of_one_target(t_s, 1, clutter);
     }
     const uint32_t id = report.tracks[0].track_id;
     assert_int_equal(report_of(id)->status, RHO_TRACK_CONFIRMED);
     t_s += 60.0;
     for (int k = 1; k <= misses; k++, t_s += 4.0) {
-        look_at_one(t_s, 0, clutter);
+        step_scan_of_one_target(t_s, 0, clutter);
         const struct rho_track_report *track = report_of(id);
         assert_int_equal(track != NULL, k < 3);
         assert_true(!track || track->status == RHO_TRACK_TENTATIVE);
     }
     for (int k = 0; k < 5 && misses < 3; k++, t_s += 4.0) {
-        look_at_one(t_s, 1, clutter);
+        step_scan_of_one_target(t_s, 1, clutter);
         assert_non_null(report_of(id));
         assert_int_equal(report_of(id)->plot, 0);
     }
@@ -432,37 +437,40 @@ static void miss_after_a_minute(uint64_t seed, int misses, int clutter)
 }
 
 /*
- * Until it is seen again the track is tentative; it ends at the third miss. In dense clutter the
- * plot that ends the wait is a doubtful one, which must not count against the track a second time.
+ * Until it is seen again the track is tentative; the third miss ends it. In dense clutter the plot
+ * that ends the wait is doubtful and must not lower the score a second time.
  */
-static void a_target_missed_when_the_radar_is_back_keeps_its_track(void **state)
+static void a_target_missed_after_a_radar_pause_keeps_its_track(void **state)
 {
     (void)state;
     num_radars = 1;
     for (int is_described = 0; is_described < 2; is_described++) {
-        radars[0] = usual_radar();
+        radars[0] = radar_of_80_km();
         radars[0].is_described = is_described;
         for (uint64_t seed = 1; seed <= 5; seed++) {
             for (int misses = 0; misses <= 3; misses++) {
-                miss_after_a_minute(seed, misses, 6);
+                miss_after_radar_was_off(seed, misses, 6);
             }
             if (RHO_MAX_PLOTS > 300) {
-                miss_after_a_minute(seed, 1, 300);
+                miss_after_radar_was_off(seed, 1, 300);
             }
         }
     }
 }
 
-/* Seen in so many scans, then missed in so many; the track's identity before. */
-static uint32_t hide(int seen, int missed, double *t_s)
+/*
+ * A target seen in so many scans, then missed in so many. Returns the track's identity before the
+ * misses.
+ */
+static uint32_t identity_after_misses(int seen, int missed, double *t_s)
 {
-    start(7, 30.0, 350.0, 20.0);
+    start_scene(7, 30.0, 350.0, 20.0);
     for (int k = 0; k < seen; k++, *t_s += 4.0) {
-        look_at_one(*t_s, 1, 6);
+        step_scan_of_one_target(*t_s, 1, 6);
     }
     const uint32_t id = report.tracks[0].track_id;
     for (int k = 1; k <= missed; k++, *t_s += 4.0) {
-        look_at_one(*t_s, 0, 6);
+        step_scan_of_one_target(*t_s, 0, 6);
         const struct rho_track_report *track = report_of(id);
         assert_true(!track || k < 3 || track->status == RHO_TRACK_TENTATIVE);
     }
@@ -470,87 +478,83 @@ static uint32_t hide(int seen, int missed, double *t_s)
 }
 
 /*
- * Behind a hill for forty seconds; what is not back after twelve misses has gone. Of a new track
- * five are enough.
+ * Behind a hill for forty seconds the track goes on; twelve misses end it. Of a new track five
+ * misses are enough.
  */
-static void a_grown_target_that_hides_keeps_its_identity(void **state)
+static void an_established_target_hidden_for_a_while_keeps_its_identity(void **state)
 {
     (void)state;
     num_radars = 1;
-    radars[0] = usual_radar();
+    radars[0] = radar_of_80_km();
     for (int missed = 9; missed <= 12; missed++) {
         double t_s = 0.0;
-        const uint32_t id = hide(24, missed, &t_s);
+        const uint32_t id = identity_after_misses(24, missed, &t_s);
         assert_int_equal(report_of(id) != NULL, missed < 12);
         for (int k = 0; k < 3; k++, t_s += 4.0) {
-            look_at_one(t_s, 1, 6);
+            step_scan_of_one_target(t_s, 1, 6);
         }
         assert_int_equal(report_of(id) != NULL, missed < 12);
         assert_true(missed == 12 || report_of(id)->status == RHO_TRACK_CONFIRMED);
     }
     double t_s = 0.0;
-    assert_non_null(report_of(hide(12, 4, &t_s)));
+    assert_non_null(report_of(identity_after_misses(12, 4, &t_s)));
     t_s = 0.0;
-    assert_null(report_of(hide(12, 5, &t_s)));
+    assert_null(report_of(identity_after_misses(12, 5, &t_s)));
 }
 
-/*
- * Radars of which one is switched off for good, where the others see none of its targets, or some
- * of them.
- */
-static void a_radar_that_is_switched_off_leaves_no_tracks(void **state)
+/* One of two radars is switched off for good; the other one sees none or some of its targets. */
+static void tracks_end_when_their_radar_is_switched_off(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 3; seed++) {
         for (int is_described = 0; is_described < 2; is_described++) {
             num_radars = 2;
-            radars[0] = radars[1] = usual_radar();
+            radars[0] = radars[1] = radar_of_80_km();
             radars[0].is_described = radars[1].is_described = is_described;
-            radars[1].x_m = 140e3; /* an overlap of 20 km */
+            radars[1].x_m = 140e3; /* coverages overlap by 20 km */
             radars[0].is_off = radars[1].is_off = 0;
-            start(seed, 30.0, 350.0, 20.0);
-            add_crossing(12, 80e3);
-            fly(120.0);
+            start_scene(seed, 30.0, 350.0, 20.0);
+            add_crossing_targets(12, 80e3);
+            step_all_until(120.0);
             const uint32_t newest = tracker.next_track_id;
             const unsigned tracks = report.num_tracks;
             for (int i = 0; i < num_targets; i++) {
-                targets[i].born_s = 1e9; /* all are gone */
+                targets[i].born_s = 1e9; /* no target is left */
             }
             radars[0].is_off = 1;
-            fly(240.0); /* more than four times what it may coast */
+            step_all_until(240.0); /* more than four times the longest coasting */
             assert_true(tracks >= 10);
             for (unsigned i = 0; i < report.num_tracks; i++) {
                 assert_true(report.tracks[i].track_id >= newest);
             }
-            /* described, the other one alone sees what it sees; else it looked everywhere */
+            /* described radars cover their own area alone, others are taken to look everywhere */
             assert_true(!is_described || tracker.counters.tracks_unseen > 0);
         }
     }
 }
 
 /*
- * A radar that is silent for ten minutes: at its next scan nothing is left of what is not there any
- * more.
+ * A radar is silent for ten minutes: at its next scan no track of the targets gone by then is left.
  */
-static void after_a_long_silence_nothing_old_is_left(void **state)
+static void after_ten_silent_minutes_no_old_track_is_left(void **state)
 {
     (void)state;
     num_radars = 1;
     for (int is_described = 0; is_described < 2; is_described++) {
         for (uint64_t seed = 1; seed <= 3; seed++) {
-            radars[0] = usual_radar();
+            radars[0] = radar_of_80_km();
             radars[0].is_described = is_described;
-            start(seed, 30.0, 350.0, 20.0);
-            add_crossing(12, 80e3);
-            fly(120.0);
+            start_scene(seed, 30.0, 350.0, 20.0);
+            add_crossing_targets(12, 80e3);
+            step_all_until(120.0);
             const uint32_t newest = tracker.next_track_id;
             num_targets = 0;
             now_s += EMPTY_S;
-            fly(now_s + 4.0);
+            step_all_until(now_s + 4.0);
             for (unsigned i = 0; i < report.num_tracks; i++) {
                 assert_false(is_believed(&report.tracks[i]) && report.tracks[i].track_id < newest);
             }
-            fly(now_s + 16.0);
+            step_all_until(now_s + 16.0);
             for (unsigned i = 0; i < report.num_tracks; i++) {
                 assert_true(report.tracks[i].track_id >= newest);
             }
@@ -558,23 +562,23 @@ static void after_a_long_silence_nothing_old_is_left(void **state)
     }
 }
 
-/* Two radars, out of step: targets are found and followed across both, and end behind them. */
-static void targets_pass_through_two_radars(void **state)
+/* Two radars out of step: targets are tracked across both coverages, and tracks end behind them. */
+static void targets_are_tracked_through_the_coverage_of_two_radars(void **state)
 {
     (void)state;
     unsigned missing = 0, present = 0, false_rows = 0, scans = 0;
     for (uint64_t seed = 1; seed <= 4; seed++) {
         num_radars = 2;
-        radars[0] = radars[1] = usual_radar();
+        radars[0] = radars[1] = radar_of_80_km();
         radars[1].x_m = 80e3;
-        start(seed, 30.0, 350.0, 20.0);
+        start_scene(seed, 30.0, 350.0, 20.0);
         for (int i = 0; i < 20; i++) {
             targets[num_targets++] =
                 (struct target){-90e3 + 12e3 * (i % 5), uniform(-40e3, 40e3), uniform(200.0, 300.0),
                                 uniform(-30.0, 30.0), 0.0};
         }
-        fly(900.0);
-        tell("two radars");
+        step_all_until(900.0);
+        print_tally("two radars");
         missing += tally.missing;
         present += tally.present;
         false_rows += tally.false_rows;
@@ -586,14 +590,14 @@ static void targets_pass_through_two_radars(void **state)
 
 /*
  * Forty minutes of targets that come and go, three or four at a time: an embedded tracker's slots
- * are for those.
+ * must suffice.
  */
-static void targets_that_have_gone_take_no_slots(void **state)
+static void tracks_of_gone_targets_free_their_slots(void **state)
 {
     (void)state;
     num_radars = 1;
-    radars[0] = usual_radar();
-    start(1, 30.0, 350.0, 20.0);
+    radars[0] = radar_of_80_km();
+    start_scene(1, 30.0, 350.0, 20.0);
     for (int i = 0; i < TARGETS_MAX; i++) {
         const double heading_rad = uniform(-PI, PI), off_m = uniform(-70e3, 70e3);
         const double along_m = -sqrt(80e3 * 80e3 - off_m * off_m), born_s = 37.0 * i;
@@ -604,24 +608,24 @@ static void targets_that_have_gone_take_no_slots(void **state)
         target.y_m -= born_s * target.vy_mps;
         targets[num_targets++] = target;
     }
-    fly(2400.0);
-    tell("come and go");
+    step_all_until(2400.0);
+    print_tally("come and go");
     assert_int_equal(tracker.counters.tracks_no_room, 0);
     assert_true(tally.most_tracks < 32);
     assert_true(tally.missing * 100 < tally.present * 3);
     assert_true((double)tally.false_rows / tally.scans < 0.1);
 }
 
-/* ---- what is beyond limits ------------------------------------------------------------------- */
+/* ---- plots and tracks beyond limits ---------------------------------------------------------- */
 
 /*
- * A plot at that range and azimuth of a radar of 10 to 80 km that sees from -1 to 1 rad; heights
- * count for the least range.
+ * The fate of a plot at that range and azimuth, of a radar of 10 to 80 km that covers -1 to 1 rad;
+ * heights count for the least range.
  */
-static void expect_fate(double range_m, double azimuth_rad, int fate)
+static void expect_fate_of_plot_at(double range_m, double azimuth_rad, int fate)
 {
     const uint32_t outside = tracker.counters.plots_outside;
-    add_polar(&radars[0], range_m, azimuth_rad);
+    add_plot_at_range(&radars[0], range_m, azimuth_rad);
     now_s += 4.0;
     step_scan((struct rho_scan){.time_us = llround(now_s * 1e6), .sensor_id = 1});
     assert_int_equal(report.fates[0], fate);
@@ -642,49 +646,49 @@ static void plots_beyond_a_stated_coverage_are_invalid(void **state)
                                 .sector_from_rad = -1.0f,
                                 .sector_to_rad = 1.0f};
     num_radars = 1;
-    radars[0] = usual_radar();
+    radars[0] = radar_of_80_km();
     radars[0].x_m = 5e3;
     radars[0].y_m = -3e3;
     radars[0].is_described = 0;
-    start(1, 30.0, 350.0, 20.0);
-    expect_fate(200e3, 3.0, RHO_FATE_HELD); /* nothing was said */
+    start_scene(1, 30.0, 350.0, 20.0);
+    expect_fate_of_plot_at(200e3, 3.0, RHO_FATE_HELD); /* no coverage was stated */
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
-    expect_fate(40e3, 0.0, RHO_FATE_HELD);
-    expect_fate(80e3 + 110.0, 0.5, RHO_FATE_HELD); /* noise of 30 m, 4 of it */
-    expect_fate(80e3 + 130.0, 0.5, RHO_FATE_INVALID);
-    expect_fate(10e3 - 110.0, 0.5, RHO_FATE_HELD);
-    expect_fate(10e3 - 130.0, 0.5, RHO_FATE_INVALID);
-    expect_fate(40e3, 1.011, RHO_FATE_HELD); /* of 3 mrad */
-    expect_fate(40e3, 1.013, RHO_FATE_INVALID);
-    expect_fate(40e3, -1.011, RHO_FATE_HELD);
-    expect_fate(40e3, -1.013, RHO_FATE_INVALID);
-    expect_fate(40e3, 3.0, RHO_FATE_INVALID);
+    expect_fate_of_plot_at(40e3, 0.0, RHO_FATE_HELD);
+    expect_fate_of_plot_at(80e3 + 110.0, 0.5, RHO_FATE_HELD); /* within 4 sigmas of 30 m */
+    expect_fate_of_plot_at(80e3 + 130.0, 0.5, RHO_FATE_INVALID);
+    expect_fate_of_plot_at(10e3 - 110.0, 0.5, RHO_FATE_HELD);
+    expect_fate_of_plot_at(10e3 - 130.0, 0.5, RHO_FATE_INVALID);
+    expect_fate_of_plot_at(40e3, 1.011, RHO_FATE_HELD); /* within 4 sigmas of 3 mrad */
+    expect_fate_of_plot_at(40e3, 1.013, RHO_FATE_INVALID);
+    expect_fate_of_plot_at(40e3, -1.011, RHO_FATE_HELD);
+    expect_fate_of_plot_at(40e3, -1.013, RHO_FATE_INVALID);
+    expect_fate_of_plot_at(40e3, 3.0, RHO_FATE_INVALID);
     assert_int_equal(rho_tracker_forget_sensor(&tracker, 1), RHO_OK);
-    expect_fate(40e3, 3.0, RHO_FATE_HELD);
+    expect_fate_of_plot_at(40e3, 3.0, RHO_FATE_HELD);
 }
 
-/* At v_max targets are followed; one that goes on to pull beyond it is not for long. */
-static void nothing_is_faster_than_v_max_for_long(void **state)
+/* Targets at v_max are followed; a target that accelerates beyond v_max soon loses its track. */
+static void tracks_faster_than_v_max_end_soon(void **state)
 {
     (void)state;
     num_radars = 1;
     for (uint64_t seed = 1; seed <= 3; seed++) {
-        radars[0] = usual_radar();
+        radars[0] = radar_of_80_km();
         radars[0].range_m = 150e3;
-        start(seed, 30.0, 350.0, 20.0);
+        start_scene(seed, 30.0, 350.0, 20.0);
         for (int i = 0; i < 12; i++) {
             targets[num_targets++] =
                 (struct target){-110e3, -110e3 + 20e3 * i, 350.0, uniform(-1.0, 1.0), 0.0};
         }
-        fly(500.0);
-        tell("at v_max");
+        step_all_until(500.0);
+        print_tally("at v_max");
         print_message("too fast: %u\n", tracker.counters.tracks_too_fast);
         assert_int_equal(tracker.counters.tracks_too_fast, 0);
         assert_true(tally.fast_rows * 20 < tally.rows);
     }
-    radars[0] = usual_radar();
+    radars[0] = radar_of_80_km();
     radars[0].clutter = 0.0;
-    start(1, 30.0, 350.0, 20.0);
+    start_scene(1, 30.0, 350.0, 20.0);
     int rows = 0;
     for (int k = 0; k < 40; k++) {
         const double t_s = 4.0 * k, pulls_s = t_s > 80.0 ? t_s - 80.0 : 0.0;
@@ -697,14 +701,14 @@ static void nothing_is_faster_than_v_max_for_long(void **state)
     }
     print_message("%d rows of the one that is too fast\n", rows);
     assert_true(tracker.counters.tracks_too_fast >= 1);
-    assert_true(rows <= 2); /* three updates in a row are too fast */
+    assert_true(rows <= 2); /* three updates in a row are too fast, the third ends the track */
 }
 
 /*
- * A track of clutter is given up once its score has fallen 4.6 nat below the threshold that started
- * it, in steps of ln 2: one in a hundred is true.
+ * A track of clutter ends once its score has fallen 4.6 nat, ln 100, below the threshold that
+ * started it, in steps of ln 2.
  */
-static void tentative_tracks_end_at_a_score(void **state)
+static void tentative_tracks_end_4_6_nat_below_their_start(void **state)
 {
     double least_nat = 0.0;
     (void)state;
@@ -735,18 +739,18 @@ static void tentative_tracks_end_at_a_score(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ten_minutes_after_the_last_target_left_no_track_is_there),
-        cmocka_unit_test(a_short_radar_of_a_sector_keeps_none),
-        cmocka_unit_test(a_minute_without_the_radar),
-        cmocka_unit_test(a_target_missed_when_the_radar_is_back_keeps_its_track),
-        cmocka_unit_test(a_grown_target_that_hides_keeps_its_identity),
-        cmocka_unit_test(a_radar_that_is_switched_off_leaves_no_tracks),
-        cmocka_unit_test(after_a_long_silence_nothing_old_is_left),
-        cmocka_unit_test(targets_pass_through_two_radars),
-        cmocka_unit_test(targets_that_have_gone_take_no_slots),
+        cmocka_unit_test(no_track_is_left_ten_minutes_after_the_last_target),
+        cmocka_unit_test(a_short_range_sector_radar_keeps_no_track_of_gone_cars),
+        cmocka_unit_test(tracks_survive_a_minute_without_the_radar),
+        cmocka_unit_test(a_target_missed_after_a_radar_pause_keeps_its_track),
+        cmocka_unit_test(an_established_target_hidden_for_a_while_keeps_its_identity),
+        cmocka_unit_test(tracks_end_when_their_radar_is_switched_off),
+        cmocka_unit_test(after_ten_silent_minutes_no_old_track_is_left),
+        cmocka_unit_test(targets_are_tracked_through_the_coverage_of_two_radars),
+        cmocka_unit_test(tracks_of_gone_targets_free_their_slots),
         cmocka_unit_test(plots_beyond_a_stated_coverage_are_invalid),
-        cmocka_unit_test(nothing_is_faster_than_v_max_for_long),
-        cmocka_unit_test(tentative_tracks_end_at_a_score),
+        cmocka_unit_test(tracks_faster_than_v_max_end_soon),
+        cmocka_unit_test(tentative_tracks_end_4_6_nat_below_their_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Where tracks end early, a new one is confirmed only when it is seen as targets are; elsewhere at
- * once. The figures are those of tracks that are made by hand, which takes the private header.
+ * Where tracks often end early, a new one needs more evidence to be confirmed. Figures are tested
+ * with tracks made by hand, with the private header.
  */
 #include "../../src/tracker/step.h"
 #include "tracker_setup.h"
@@ -9,18 +9,18 @@
 #define SIGMA_M 20.0
 #define SPEED_MPS 150.0
 #define TURN_S 4.0
-#define TARGETS 4 /* targets, seen all the time */
+#define TARGETS 4 /* targets that are seen in every scan */
 
 static int turn;
 
-static void begin_turns(void)
+static void start_tracker(void)
 {
     begin_tracker_by_rate(20);
     turn = 0;
 }
 
-/* Clutter, and targets that fly far from all else. */
-static void see_sky(void)
+/* Adds clutter, and targets that fly far from the tested places. */
+static void see_targets_and_clutter(void)
 {
     for (int i = 0; i < 10; i++) {
         const double x_m = uniform(-40000.0, 80000.0);
@@ -31,17 +31,17 @@ static void see_sky(void)
     }
 }
 
-static void take_turn(void)
+static void step_turn(void)
 {
-    see_sky();
+    see_targets_and_clutter();
     step_at(TURN_S * turn++);
 }
 
 /*
- * Something that moves as a target does and is seen `hits` times in a row, then no more for ten
- * turns. Returns the turns in which it was reported as confirmed or coasting.
+ * Something moves like a target, is seen `hits` times in a row and then no more for ten turns.
+ * Returns turns in which it was reported as confirmed or coasting.
  */
-static int show(double x_m, double y_m, int hits)
+static int show_short_lived_target(double x_m, double y_m, int hits)
 {
     int reported = 0;
     for (int k = 0; k < hits + 10; k++) {
@@ -49,7 +49,7 @@ static int show(double x_m, double y_m, int hits)
         if (k < hits) {
             add_noisy_plot(at_m, y_m, SIGMA_M);
         }
-        take_turn();
+        step_turn();
         for (unsigned i = 0; i < report.num_tracks; i++) {
             const struct rho_track_report *track = &report.tracks[i];
             reported +=
@@ -60,99 +60,101 @@ static int show(double x_m, double y_m, int hits)
     return reported;
 }
 
-static double somewhere(int n)
+static double place_of_number(int n)
 {
     return -40000.0 + 7000.0 * (n % 10);
 }
 
-static void a_track_that_lasts_is_believed_at_its_third_plot(void **state)
+static void where_tracks_last_they_are_confirmed_at_three_plots(void **state)
 {
     (void)state;
-    begin_turns();
+    start_tracker();
     for (int n = 0; n < 8; n++) {
-        assert_true(show(-20000.0, somewhere(n), 20) >= 18);
+        assert_true(show_short_lived_target(-20000.0, place_of_number(n), 20) >= 18);
     }
     assert_true(tracker.ended_early < 1.0f);
     assert_true(tracker.established > 8.0f);
 }
 
-static void a_few_deaths_are_chance(void **state)
+static void a_few_short_lived_tracks_change_nothing(void **state)
 {
     (void)state;
-    begin_turns();
+    start_tracker();
     for (int k = 0; k < 30; k++) {
-        take_turn();
+        step_turn();
     }
-    assert_true(show(-20000.0, -30000.0, 4) > 0);
-    assert_true(show(-20000.0, -20000.0, 20) >= 18);
+    assert_true(show_short_lived_target(-20000.0, -30000.0, 4) > 0);
+    assert_true(show_short_lived_target(-20000.0, -20000.0, 20) >= 18);
 }
 
-static void where_tracks_die_young_hits_are_counted(void **state)
+static void where_tracks_end_early_more_hits_are_needed(void **state)
 {
     int first = 0, last = 0;
     (void)state;
-    begin_turns();
+    start_tracker();
     for (int k = 0; k < 30; k++) {
-        take_turn();
+        step_turn();
     }
     for (int n = 0; n < 24; n++) {
-        const int reported = show(-20000.0, somewhere(n), 4);
+        const int reported = show_short_lived_target(-20000.0, place_of_number(n), 4);
         first += n < 4 ? reported : 0;
         last += n >= 20 ? reported : 0;
     }
     assert_true(tracker.ended_early > 10.0f);
-    assert_true(first > 8);    /* each for some turns */
-    assert_int_equal(last, 0); /* none any more */
-    const int reported = show(-20000.0, -30000.0, 20);
-    assert_in_range(reported, 12, 17); /* a target is believed some turns later */
+    assert_true(first > 8);    /* turns that each was reported for */
+    assert_int_equal(last, 0); /* the last one was never confirmed */
+    const int reported = show_short_lived_target(-20000.0, -30000.0, 20);
+    assert_in_range(reported, 12, 17); /* a real target is confirmed some turns later */
     for (int n = 0; n < 6; n++) {
-        (void)show(-20000.0, somewhere(n), 20);
+        (void)show_short_lived_target(-20000.0, place_of_number(n), 20);
     }
     assert_true(tracker.established > 8.0f);
 }
 
-static void what_died_is_forgotten(void **state)
+static void short_lived_tracks_are_forgotten_after_a_while(void **state)
 {
     (void)state;
-    begin_turns();
+    start_tracker();
     for (int n = 0; n < 12; n++) {
-        (void)show(-20000.0, somewhere(n), 4);
+        (void)show_short_lived_target(-20000.0, place_of_number(n), 4);
     }
     assert_true(tracker.ended_early > 6.0f);
     for (int k = 0; k < 1200; k++) {
-        take_turn();
+        step_turn();
     }
     assert_true(tracker.ended_early < 1.0f);
-    assert_true(show(-20000.0, -30000.0, 20) >= 18);
+    assert_true(show_short_lived_target(-20000.0, -30000.0, 20) >= 18);
 }
 
-/* ---- figures --------------------------------------------------------------------------------- */
+/* ---- evidence by formula --------------------------------------------------------------------- */
 
 static void expect_close(double is, double wanted)
 {
     assert_true(fabs(is - wanted) <= 1e-4 * fabs(wanted) + 1e-6);
 }
 
-static void have(unsigned row, uint16_t hits, uint16_t misses)
+static void make_track(unsigned row, uint16_t hits, uint16_t misses)
 {
     tracker.tracks[row] = (struct rho_track){
         .status = RHO_TRACK_CONFIRMED, .hits = hits, .misses = misses, .plot = -1};
     tracker.num_tracks = (uint16_t)(row + 1);
 }
 
-/* As the head of evidence_after_short_lived_tracks.c derives it, for 0.3 of a target's looks and
- * one in ten. */
-static void the_evidence_needed_is_as_derived(void **state)
+/*
+ * Formula at the head of short_lived_tracks.c, for tracks seen in 0.3 of a target's looks, one in
+ * ten of all.
+ */
+static void the_evidence_needed_equals_its_formula(void **state)
 {
     struct step at = {.tracker = &tracker};
     const double hit_nat = log(1.0 / 0.3), wanted = 3.0 * 1600.0 / 3600.0;
     (void)state;
     use_usual_configs(1);
     begin_tracker();
-    have(0, 100, 20);
-    have(1, 16, 5); /* established */
-    have(2, 15, 5); /* not yet: almost, by its evidence */
-    have(3, 7, 3);
+    make_track(0, 100, 20);
+    make_track(1, 16, 5); /* established */
+    make_track(2, 15, 5); /* not yet established, but almost, by its evidence */
+    make_track(3, 7, 3);
     tracker.wanted_per_hour = 3.0f;
     tracker.ended_early = 20.0f;
     tracker.established = 4.0f;
@@ -165,21 +167,22 @@ static void the_evidence_needed_is_as_derived(void **state)
     expect_close((double)tracker.established, established);
     expect_close((double)at.miss_nat, log((1.0 - 0.3 * pd) / (1.0 - pd)));
     const double miss_nat = (double)at.miss_nat;
-    assert_true(15.0 * hit_nat - 5.0 * miss_nat > 6.0 * hit_nat); /* almost: twice three hits */
+    /* almost: the evidence of twice three hits */
+    assert_true(15.0 * hit_nat - 5.0 * miss_nat > 6.0 * hit_nat);
     assert_true(7.0 * hit_nat - 3.0 * miss_nat < 6.0 * hit_nat);
     const double excess = ended - wanted - 0.5 * sqrt(ended);
     expect_close((double)at.needed_nat,
                  3.0 * hit_nat + log(10.0 * excess / (established + 1.0 + 2.0)));
-    /* a hit more or less about the evidence needed */
+    /* one hit more or less than the evidence needed */
     const double needed = (double)at.needed_nat;
     const uint16_t hits = (uint16_t)ceil(needed / hit_nat);
-    have(3, hits, 0);
+    make_track(3, hits, 0);
     assert_false(rho_tracker_lacks_evidence(&at, &tracker.tracks[3]));
-    have(3, (uint16_t)(hits - 1), 0);
+    make_track(3, (uint16_t)(hits - 1), 0);
     assert_true(rho_tracker_lacks_evidence(&at, &tracker.tracks[3]));
 }
 
-/* With its sixteenth plot, whichever row of the scan that is. */
+/* Established with its sixteenth plot, whichever row of the scan it has. */
 static void a_track_is_established_with_its_sixteenth_plot(void **state)
 {
     struct step at = {.tracker = &tracker};
@@ -189,7 +192,7 @@ static void a_track_is_established_with_its_sixteenth_plot(void **state)
     for (int16_t plot = -1; plot < 2; plot++) {
         for (uint16_t hits = 15; hits < 18; hits++) {
             tracker.established = 0.0f;
-            have(0, hits, 0);
+            make_track(0, hits, 0);
             tracker.tracks[0].plot = plot;
             rho_tracker_count_if_newly_established(&at, &tracker.tracks[0]);
             assert_true(tracker.established == (hits == 16 && plot >= 0 ? 1.0f : 0.0f));
@@ -200,11 +203,11 @@ static void a_track_is_established_with_its_sixteenth_plot(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_track_that_lasts_is_believed_at_its_third_plot),
-        cmocka_unit_test(a_few_deaths_are_chance),
-        cmocka_unit_test(where_tracks_die_young_hits_are_counted),
-        cmocka_unit_test(what_died_is_forgotten),
-        cmocka_unit_test(the_evidence_needed_is_as_derived),
+        cmocka_unit_test(where_tracks_last_they_are_confirmed_at_three_plots),
+        cmocka_unit_test(a_few_short_lived_tracks_change_nothing),
+        cmocka_unit_test(where_tracks_end_early_more_hits_are_needed),
+        cmocka_unit_test(short_lived_tracks_are_forgotten_after_a_while),
+        cmocka_unit_test(the_evidence_needed_equals_its_formula),
         cmocka_unit_test(a_track_is_established_with_its_sixteenth_plot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Excluded areas: no plot in them starts a track, and tracks pass through. */
+/* Excluded areas: their plots start no track, and tracks pass through. */
 #include "rhotrack/operator.h"
 
 #include "two_flights.h"
 
 static const struct rho_extent north = {-10000.0f, 10000.0f, 1000.0f, 3000.0f};
 
-static void plots_in_an_excluded_area_start_nothing(void **state)
+static void plots_in_an_excluded_area_start_no_track(void **state)
 {
     (void)state;
     for (int is_excluded = 0; is_excluded < 2; is_excluded++) {
@@ -42,11 +42,11 @@ static void tracks_pass_through_an_excluded_area(void **state)
     assert_int_equal(tracker.counters.plots_excluded, 0);
     run_scans(3 * config.coast_scans_max, 0);
     assert_null(track_near(2000.0));
-    run_scans(8, 1); /* back again, its target starts none */
+    run_scans(8, 1); /* its target, back again, starts no track */
     assert_null(track_near(2000.0));
 }
 
-static void refuses_areas_that_are_none(void **state)
+static void bad_excluded_areas_are_refused(void **state)
 {
     struct rho_extent bad[] = {north, north, north, north};
     (void)state;
@@ -82,8 +82,8 @@ static void refuses_areas_that_are_none(void **state)
     assert_false(rho_tracker_is_sound(&tracker));
 }
 
-/* Eight comparisons of a plot with an area are one unit of work. */
-static void comparisons_are_work(void **state)
+/* Eight comparisons of a plot with an area cost one unit of work. */
+static void comparisons_with_areas_are_counted_as_work(void **state)
 {
     uint32_t work[2];
     (void)state;
@@ -107,10 +107,10 @@ static void comparisons_are_work(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plots_in_an_excluded_area_start_nothing),
+        cmocka_unit_test(plots_in_an_excluded_area_start_no_track),
         cmocka_unit_test(tracks_pass_through_an_excluded_area),
-        cmocka_unit_test(refuses_areas_that_are_none),
-        cmocka_unit_test(comparisons_are_work),
+        cmocka_unit_test(bad_excluded_areas_are_refused),
+        cmocka_unit_test(comparisons_with_areas_are_counted_as_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Hypotheses of which some have heights, bearings that leave one of them, plots at other times,
- * claims of none.
+ * Hypotheses of a tracker: some without height, some dropped by bearings, plots at other times, and
+ * tracks that claim no plot.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +21,7 @@
 #define LOG_MISS (-2.3f)
 
 static struct rho_hypotheses pool;
-/* as dense as makes a plot of the target worth about as much as a miss */
+/* clutter so dense that a plot of the target is worth about as much as a miss */
 static const struct rho_hypotheses_clutter clutter = {.log_per_m2 = -9.0f, .log_per_m = -9.0f};
 
 static struct rho_plot plot_at(float x_m, float y_m, float z_m)
@@ -34,8 +34,8 @@ static struct rho_plot plot_at(float x_m, float y_m, float z_m)
                              .sigma_up_m = SIGMA_M};
 }
 
-/* A level estimate in the origin that rests. */
-static struct rho_kalman resting(void)
+/* A level estimate at the origin, at rest. */
+static struct rho_kalman estimate_at_rest(void)
 {
     struct rho_kalman estimate;
     rho_kalman_init(&estimate);
@@ -45,10 +45,10 @@ static struct rho_kalman resting(void)
     return estimate;
 }
 
-static uint16_t opened(void)
+static uint16_t open_slot(void)
 {
     struct rho_imm_model model;
-    const struct rho_kalman estimate = resting();
+    const struct rho_kalman estimate = estimate_at_rest();
     uint16_t slot = 0;
     rho_imm_model_default(&model, 10.0f, 300.0f);
     assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
@@ -56,9 +56,12 @@ static uint16_t opened(void)
     return slot;
 }
 
-/* Predicts, looks, and weighs a plot at the scan's time. */
-static int weighed(uint16_t slot, int scan, const struct rho_plot *plot, uint32_t measures,
-                   struct rho_hypotheses_box *reach)
+/*
+ * Predicts to the scan, opens the gate, and scores a plot at the scan's time. Returns whether it is
+ * in the gate.
+ */
+static int is_plot_in_gate(uint16_t slot, int scan, const struct rho_plot *plot, uint32_t measures,
+                           struct rho_hypotheses_box *reach)
 {
     struct rho_imm_plot seen;
     float gain_nat = 0.0f;
@@ -69,7 +72,7 @@ static int weighed(uint16_t slot, int scan, const struct rho_plot *plot, uint32_
     return rho_hypotheses_score_plot(&pool, slot, &seen, time_us, 0, LOG_PD, &clutter, &gain_nat);
 }
 
-static void commit(uint16_t slot, int scan, const struct rho_plot *plot, uint32_t measures)
+static void commit_plot(uint16_t slot, int scan, const struct rho_plot *plot, uint32_t measures)
 {
     const struct rho_hypotheses_scan at = {.time_us = (int64_t)scan * SCAN_US,
                                            .measures = measures,
@@ -82,35 +85,35 @@ static void commit(uint16_t slot, int scan, const struct rho_plot *plot, uint32_
 /* ---- heights --------------------------------------------------------------------------------- */
 
 /*
- * The hypothesis that the first plot with a height was clutter has none: any height may be the
- * target's.
+ * If the first plot with a height was clutter, its hypothesis has no height, and any height may be
+ * the target's.
  */
-static void a_hypothesis_without_height_minds_none(void **state)
+static void a_hypothesis_without_height_accepts_any_height(void **state)
 {
     (void)state;
     struct rho_hypotheses_box reach;
-    const uint16_t slot = opened();
+    const uint16_t slot = open_slot();
     const struct rho_plot low = plot_at(2.0f, -3.0f, 500.0f), high = plot_at(0.0f, 4.0f, 90000.0f);
-    assert_int_equal(weighed(slot, 1, &low, RHO_MEASURES_Z, &reach), 1);
-    commit(slot, 1, &low, RHO_MEASURES_Z);
+    assert_int_equal(is_plot_in_gate(slot, 1, &low, RHO_MEASURES_Z, &reach), 1);
+    commit_plot(slot, 1, &low, RHO_MEASURES_Z);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
-    assert_int_equal(weighed(slot, 2, &high, RHO_MEASURES_Z, &reach), 1);
+    assert_int_equal(is_plot_in_gate(slot, 2, &high, RHO_MEASURES_Z, &reach), 1);
     assert_int_equal(rho_hypotheses_is_in_box(&pool, slot, &reach, &high, RHO_MEASURES_Z), 1);
 }
 
 /* ---- bearings -------------------------------------------------------------------------------- */
 
 /*
- * The plot was clutter, as bearings from the other side say: its hypothesis goes back to the pool.
+ * Bearings from the other side show that a plot was clutter: its hypothesis goes back to the pool.
  */
-static void bearings_give_up_what_they_rule_out(void **state)
+static void a_bearing_drops_hypotheses_it_contradicts(void **state)
 {
     (void)state;
     struct rho_hypotheses_box reach;
-    const uint16_t slot = opened();
+    const uint16_t slot = open_slot();
     const struct rho_plot aside = plot_at(0.0f, 60.0f, 0.0f);
-    assert_int_equal(weighed(slot, 2, &aside, 0, &reach), 1);
-    commit(slot, 2, &aside, 0);
+    assert_int_equal(is_plot_in_gate(slot, 2, &aside, 0, &reach), 1);
+    commit_plot(slot, 2, &aside, 0);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
     assert_int_equal(
         rho_hypotheses_update_bearing(&pool, slot, 2 * SCAN_US, -5000.0f, 0.0f, -0.02f, 1e-3f),
@@ -120,15 +123,18 @@ static void bearings_give_up_what_they_rule_out(void **state)
     assert_true(rho_hypotheses_at(&pool, slot, 0)->imm.steady.state[1] < 0.0f);
 }
 
-/* A hypothesis in the sensor's own place has no bearing: that is no reason to believe it. */
-static void a_bearing_that_says_nothing_makes_no_hypothesis_the_better(void **state)
+/*
+ * A hypothesis at the sensor's own place has no bearing, which must not make it likelier than
+ * others.
+ */
+static void a_bearing_undefined_for_a_hypothesis_does_not_favour_it(void **state)
 {
     (void)state;
     struct rho_hypotheses_box reach;
     const struct rho_plot plot = plot_at(50.0f, 0.0f, 0.0f);
-    const uint16_t slot = opened();
-    assert_int_equal(weighed(slot, 1, &plot, 0, &reach), 1);
-    commit(slot, 1, &plot, 0);
+    const uint16_t slot = open_slot();
+    assert_int_equal(is_plot_in_gate(slot, 1, &plot, 0, &reach), 1);
+    commit_plot(slot, 1, &plot, 0);
     assert_int_equal(rho_hypotheses_predict(&pool, slot, 2 * SCAN_US), RHO_OK);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
     const struct rho_hypothesis best = *rho_hypotheses_at(&pool, slot, 0);
@@ -136,7 +142,7 @@ static void a_bearing_that_says_nothing_makes_no_hypothesis_the_better(void **st
     const float *at_m = other.imm.steady.state;
     const float bearing_rad =
         atan2f(best.imm.steady.state[1] - at_m[1], best.imm.steady.state[0] - at_m[0]);
-    assert_true(other.weight_nat > -2.5f); /* less than what the bearing takes */
+    assert_true(other.weight_nat > -2.5f); /* a smaller loss than the bearing causes */
     assert_int_equal(rho_hypotheses_update_bearing(&pool, slot, 2 * SCAN_US, at_m[0], at_m[1],
                                                    bearing_rad, 1.0f),
                      RHO_OK);
@@ -145,12 +151,10 @@ static void a_bearing_that_says_nothing_makes_no_hypothesis_the_better(void **st
     assert_float_equal(rho_hypotheses_at(&pool, slot, 1)->weight_nat, other.weight_nat, 1e-5);
 }
 
-/* ---- times ----------------------------------------------------------------------------------- */
+/* ---- plots' own times ------------------------------------------------------------------------ */
 
-/*
- * A plot of its own time is weighed there, whichever came before it and wherever that time is said.
- */
-static void a_plot_is_weighed_at_its_time(void **state)
+/* A plot is scored at its own time, whatever plot came before it and wherever the time is given. */
+static void a_plot_is_scored_at_its_own_time(void **state)
 {
     (void)state;
     struct rho_hypotheses_box reach;
@@ -158,26 +162,26 @@ static void a_plot_is_weighed_at_its_time(void **state)
     struct rho_imm_plot seen;
     float first_nat = 0.0f, second_nat = 0.0f;
     rho_imm_prepare_plot(&seen, &plot, 0, NULL);
-    uint16_t slot = opened();
+    uint16_t slot = open_slot();
     rho_hypotheses_begin_scan(&pool, slot, &reach);
     assert_int_equal(
         rho_hypotheses_score_plot(&pool, slot, &seen, 4 * SCAN_US, 0, LOG_PD, &clutter, &first_nat),
         1);
-    slot = opened();
-    assert_int_equal(weighed(slot, 0, &plot, 0, &reach), 1);
+    slot = open_slot();
+    assert_int_equal(is_plot_in_gate(slot, 0, &plot, 0, &reach), 1);
     assert_int_equal(rho_hypotheses_score_plot(&pool, slot, &seen, 4 * SCAN_US, 1, LOG_PD, &clutter,
                                                &second_nat),
                      1);
     assert_true(fabsf(first_nat - second_nat) < 1e-6f);
 }
 
-/* ---- claims ---------------------------------------------------------------------------------- */
+/* ---- plots claimed by tracks ----------------------------------------------------------------- */
 
-static void a_track_that_takes_no_plot_claims_none(void **state)
+static void a_track_that_scores_no_plot_claims_none(void **state)
 {
     (void)state;
     struct rho_track track;
-    (void)opened();
+    (void)open_slot();
     const struct rho_track_model model = {
         .speed_sigma_mps = 300.0f, .noise_density = 1.0f, .hypotheses = &pool};
     const struct rho_track_plot start = {.plot = plot_at(0.0f, 0.0f, 0.0f), .row = 7};
@@ -190,8 +194,8 @@ static void a_track_that_takes_no_plot_claims_none(void **state)
     assert_int_equal(track.plot, -1);
 }
 
-/* The slot is another track's by then. */
-static void a_track_ends_once(void **state)
+/* By the second call the slot belongs to another track. */
+static void freeing_hypotheses_twice_does_no_harm(void **state)
 {
     (void)state;
     struct rho_track first, second;
@@ -212,8 +216,8 @@ static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_report report;
 
-/* One track, along x with 200 m/s until 11 s. */
-static void follow(const struct rho_tracker_config *config)
+/* One target, along x at 200 m/s until 11 s. */
+static void follow_straight_target(const struct rho_tracker_config *config)
 {
     struct rho_initiator_config search;
     rho_initiator_config_default(&search);
@@ -229,13 +233,13 @@ static void follow(const struct rho_tracker_config *config)
     assert_int_equal(report.tracks[0].plot, 0);
 }
 
-/* Its plots are another scan's: no row of theirs was claimed. */
-static void late_scans_claim_nothing(void **state)
+/* The late scan has no plots, so the track claims no row of it. */
+static void late_scans_without_plots_claim_none(void **state)
 {
     (void)state;
     struct rho_tracker_config config;
     rho_tracker_config_default(&config);
-    follow(&config);
+    follow_straight_target(&config);
     const struct rho_scan late = {.time_us = 10 * SCAN_US};
     assert_int_equal(rho_tracker_step(&tracker, &initiator, &late, &report), RHO_OK);
     assert_int_equal(report.num_tracks, 1);
@@ -244,19 +248,19 @@ static void late_scans_claim_nothing(void **state)
 
 #define NUM_ABREAST 6
 
-/* Fixed numbers, -1 .. 1. */
-static float drawn(void)
+/* Pseudo-random numbers -1 .. 1. */
+static float draw_uniform(void)
 {
     static uint32_t seed = 1;
     seed = seed * 1103515245u + 12345u;
     return (float)(seed >> 16 & 1023u) / 512.0f - 1.0f;
 }
 
-static void step_abreast(int k, float gap_m)
+static void step_targets_abreast(int k, float gap_m)
 {
     struct rho_plot plots[NUM_ABREAST];
     for (int i = 0; i < NUM_ABREAST; i++) {
-        const float x_m = 30.0f * drawn(), y_m = 30.0f * drawn();
+        const float x_m = 30.0f * draw_uniform(), y_m = 30.0f * draw_uniform();
         plots[i] = plot_at(200.0f * (float)k + x_m, gap_m * (float)i + y_m, 0.0f);
         plots[i].sigma_range_m = plots[i].sigma_cross_m = 30.0f;
     }
@@ -266,10 +270,10 @@ static void step_abreast(int k, float gap_m)
 }
 
 /*
- * As many plots as targets, all in each other's gates: what a hypothesis liked better is others',
- * and each gets one.
+ * As many plots as targets, all in each other's gates: each target still claims one plot, though a
+ * hypothesis may prefer another's.
  */
-static void targets_abreast_all_get_a_plot(void **state)
+static void targets_abreast_each_claim_a_plot(void **state)
 {
     (void)state;
     struct rho_tracker_config config;
@@ -280,7 +284,7 @@ static void targets_abreast_all_get_a_plot(void **state)
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &search), RHO_OK);
     for (int k = 0; k < 60; k++) {
-        step_abreast(k, k < 15 ? 400.0f - 26.0f * (float)k : 10.0f);
+        step_targets_abreast(k, k < 15 ? 400.0f - 26.0f * (float)k : 10.0f);
         for (unsigned i = 0; k >= 15 && i < report.num_tracks; i++) {
             missed += report.tracks[i].plot < 0;
         }
@@ -290,10 +294,10 @@ static void targets_abreast_all_get_a_plot(void **state)
 }
 
 /*
- * An input may have begun since the last plot: it brings the target far out of what the filter
- * knows without it.
+ * An input may have begun since the last plot and moved the target far out of the gate without
+ * input.
  */
-static void bearings_meet_the_gate_of_an_input(void **state)
+static void bearings_are_gated_with_a_possible_new_input(void **state)
 {
     (void)state;
     struct rho_tracker_config config;
@@ -304,7 +308,7 @@ static void bearings_meet_the_gate_of_an_input(void **state)
     config.input.model = RHO_INPUT_PHYSICAL;
     config.input.sigma_mps2 = 200.0f;
     config.input.noise_m = config.input.noise_mps = 0.0f;
-    follow(&config);
+    follow_straight_target(&config);
     const struct rho_bearing bearing = {.bearing_rad = 0.02f, .sigma_rad = 1e-4f};
     const struct rho_bearing_scan scan = {.time_us = 12 * SCAN_US,
                                           .sensor_id = 5,
@@ -319,15 +323,15 @@ static void bearings_meet_the_gate_of_an_input(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_hypothesis_without_height_minds_none),
-        cmocka_unit_test(bearings_give_up_what_they_rule_out),
-        cmocka_unit_test(a_bearing_that_says_nothing_makes_no_hypothesis_the_better),
-        cmocka_unit_test(a_plot_is_weighed_at_its_time),
-        cmocka_unit_test(a_track_that_takes_no_plot_claims_none),
-        cmocka_unit_test(a_track_ends_once),
-        cmocka_unit_test(late_scans_claim_nothing),
-        cmocka_unit_test(targets_abreast_all_get_a_plot),
-        cmocka_unit_test(bearings_meet_the_gate_of_an_input),
+        cmocka_unit_test(a_hypothesis_without_height_accepts_any_height),
+        cmocka_unit_test(a_bearing_drops_hypotheses_it_contradicts),
+        cmocka_unit_test(a_bearing_undefined_for_a_hypothesis_does_not_favour_it),
+        cmocka_unit_test(a_plot_is_scored_at_its_own_time),
+        cmocka_unit_test(a_track_that_scores_no_plot_claims_none),
+        cmocka_unit_test(freeing_hypotheses_twice_does_no_harm),
+        cmocka_unit_test(late_scans_without_plots_claim_none),
+        cmocka_unit_test(targets_abreast_each_claim_a_plot),
+        cmocka_unit_test(bearings_are_gated_with_a_possible_new_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Which counts of looks by range rate say that a sensor has a notch, each limit from both sides: a
- * tracker with one aircraft, whose looks are the last of the counts.
+ * Which counts of looks by range rate show that a sensor has a Doppler notch, each limit from both
+ * sides: one aircraft, whose looks complete prepared counts.
  */
 #include "tracker_setup.h"
 
 #if RHO_DOPPLER_NOTCH
 
 #define SENSOR 3
-#define TOP (RHO_LEARN_RATES - 1) /* the interval of all range rates from 32 m/s on */
-#define FEW 88                    /* looks there, of which nine in ten have a plot */
+#define TOP (RHO_LEARN_RATES - 1) /* the interval of all range rates from 32 m/s up */
+#define FEW 88                    /* looks in it, nine in ten of which have a plot */
 
 static int next;
 
-/* One look at an aircraft that flies away with this speed. */
-static void look(double speed_mps)
+/* Steps one look at an aircraft that flies away at this speed. */
+static void step_look_at_speed(double speed_mps)
 {
     const double x_m = 3000.0 + speed_mps * 4.0 * next;
     add_noisy_plot(x_m, 0.0, 1.0);
@@ -22,7 +22,7 @@ static void look(double speed_mps)
     next++;
 }
 
-static struct rho_tracker_learned *prepare(double speed_mps)
+static struct rho_tracker_learned *start_with_looks_at(double speed_mps)
 {
     const struct rho_sensor radar = {.sensor_id = SENSOR, .pd = 0.9f, .range_max_m = 60e3f};
     use_usual_configs(5);
@@ -30,7 +30,7 @@ static struct rho_tracker_learned *prepare(double speed_mps)
     begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
     for (next = 0; next < 30;) {
-        look(speed_mps);
+        step_look_at_speed(speed_mps);
     }
     assert_int_equal(report.num_tracks, 1);
     struct rho_tracker_learned *learned = &tracker.learned[0];
@@ -39,139 +39,145 @@ static struct rho_tracker_learned *prepare(double speed_mps)
     return learned;
 }
 
-/* The first intervals have as many looks each, and plots in so many of them. */
-static struct rho_tracker_learned *prepare_slow(unsigned intervals, unsigned looks, unsigned hits)
+/* Sets the counts of the first intervals: so many looks each, and hits. */
+static struct rho_tracker_learned *start_with_slow_counts(unsigned intervals, unsigned looks,
+                                                          unsigned hits)
 {
-    struct rho_tracker_learned *learned = prepare(75.0);
+    struct rho_tracker_learned *learned = start_with_looks_at(75.0);
     memset(learned->rate_looks, (int)looks, intervals);
     memset(learned->rate_hits, (int)hits, intervals);
     return learned;
 }
 
-/* Intervals of the notch after the look that makes so many at the fast one, and so many plots. */
-static unsigned found_with(unsigned looks, unsigned hits)
+/* Intervals in the notch after the look that makes the TOP interval have so many looks and hits. */
+static unsigned notch_intervals_after(unsigned looks, unsigned hits)
 {
     struct rho_tracker_learned *learned = &tracker.learned[0];
     learned->rate_looks[TOP] = (uint8_t)(looks - 1u);
     learned->rate_hits[TOP] = (uint8_t)(hits - 1u);
-    look(75.0);
+    step_look_at_speed(75.0);
     assert_true(rho_tracker_is_sound(&tracker));
     return learned->blind_rates;
 }
 
-static unsigned found(void)
+static unsigned notch_intervals_found(void)
 {
-    return found_with(FEW, FEW * 9 / 10);
+    return notch_intervals_after(FEW, FEW * 9 / 10);
 }
 
-/* From 0.25 m/s on, root 2 times as wide each: 2.8 to 4 m/s is the ninth, 32 m/s the last. */
-static void intervals_are_octaves_of_the_square(void **state)
+/*
+ * Intervals begin at 0.25 m/s, each root 2 times as wide as the one before: 2.8 to 4 m/s is the
+ * ninth, 32 m/s the last.
+ */
+static void range_rate_intervals_widen_by_root_2(void **state)
 {
-    struct rho_tracker_learned *learned = prepare(3.36);
+    struct rho_tracker_learned *learned = start_with_looks_at(3.36);
     (void)state;
-    look(3.36);
+    step_look_at_speed(3.36);
     assert_int_equal(learned->rate_looks[8], 1);
     assert_int_equal(learned->rate_hits[8], 1);
-    learned = prepare(75.0);
-    look(75.0);
+    learned = start_with_looks_at(75.0);
+    step_look_at_speed(75.0);
     assert_int_equal(learned->rate_looks[TOP], 1);
 }
 
-/* 65 of 100 of what faster ones are seen, all together. */
-static void a_notch_is_seen_less(void **state)
+/* Intervals of a notch together are seen below 65 % as often as faster ones. */
+static void a_notch_is_seen_less_than_65_percent_as_often(void **state)
 {
     (void)state;
-    (void)prepare_slow(8, 10, 5);
-    assert_int_equal(found(), 8);
-    (void)prepare_slow(8, 10, 7);
-    assert_int_equal(found(), 0);
+    (void)start_with_slow_counts(8, 10, 5);
+    assert_int_equal(notch_intervals_found(), 8);
+    (void)start_with_slow_counts(8, 10, 7);
+    assert_int_equal(notch_intervals_found(), 0);
 }
 
-/* 85 of 100 in the fastest of them. */
-static void its_fastest_interval_is_seen_less(void **state)
+/* The fastest interval of a notch is seen below 85 % as often. */
+static void the_fastest_interval_of_a_notch_is_below_85_percent(void **state)
 {
     (void)state;
-    prepare_slow(8, 10, 2)->rate_hits[7] = 7;
-    assert_int_equal(found(), 8);
-    prepare_slow(8, 10, 2)->rate_hits[7] = 8;
-    assert_int_equal(found(), 7);
+    start_with_slow_counts(8, 10, 2)->rate_hits[7] = 7;
+    assert_int_equal(notch_intervals_found(), 8);
+    start_with_slow_counts(8, 10, 2)->rate_hits[7] = 8;
+    assert_int_equal(notch_intervals_found(), 7);
 }
 
-/* Four standard deviations: 9.8 of 24 looks where every other one is expected to have a plot. */
-static void it_is_no_chance(void **state)
+/*
+ * By four standard deviations: 9.8 for 24 looks, every other of which is expected to have a plot.
+ */
+static void a_notch_is_rarer_than_chance_by_four_standard_deviations(void **state)
 {
     (void)state;
-    prepare_slow(8, 3, 0)->rate_hits[0] = 1;
-    assert_int_equal(found_with(FEW, FEW / 2), 8);
-    prepare_slow(8, 3, 0)->rate_hits[0] = 3;
+    start_with_slow_counts(8, 3, 0)->rate_hits[0] = 1;
+    assert_int_equal(notch_intervals_after(FEW, FEW / 2), 8);
+    start_with_slow_counts(8, 3, 0)->rate_hits[0] = 3;
     tracker.learned[0].rate_hits[1] = 1;
-    assert_int_equal(found_with(FEW, FEW / 2), 0);
+    assert_int_equal(notch_intervals_after(FEW, FEW / 2), 0);
 }
 
-static void it_takes_20_looks_there_and_60_above(void **state)
+static void a_notch_needs_20_looks_within_and_60_above(void **state)
 {
     (void)state;
-    (void)prepare_slow(8, 3, 0);
-    assert_int_equal(found(), 8);
-    (void)prepare_slow(8, 2, 0);
-    assert_int_equal(found(), 0);
-    (void)prepare_slow(4, 10, 0);
-    assert_int_equal(found_with(48, 43), 0);
-    assert_int_equal(found_with(64, 58), 4);
+    (void)start_with_slow_counts(8, 3, 0);
+    assert_int_equal(notch_intervals_found(), 8);
+    (void)start_with_slow_counts(8, 2, 0);
+    assert_int_equal(notch_intervals_found(), 0);
+    (void)start_with_slow_counts(4, 10, 0);
+    assert_int_equal(notch_intervals_after(48, 43), 0);
+    assert_int_equal(notch_intervals_after(64, 58), 4);
 }
 
-static void four_intervals_are_the_narrowest(void **state)
+static void a_notch_is_at_least_four_intervals_wide(void **state)
 {
     (void)state;
-    (void)prepare_slow(4, 10, 0);
-    assert_int_equal(found(), 4);
-    (void)prepare_slow(3, 10, 0);
-    assert_int_equal(found(), 0);
+    (void)start_with_slow_counts(4, 10, 0);
+    assert_int_equal(notch_intervals_found(), 4);
+    (void)start_with_slow_counts(3, 10, 0);
+    assert_int_equal(notch_intervals_found(), 0);
 }
 
-/* A notch that is used, and its last interval with these counts. */
-static unsigned used_after(unsigned looks, unsigned hits)
+/* Sets a learned notch of eight intervals, the last with these counts. */
+static unsigned notch_intervals_after_counts(unsigned looks, unsigned hits)
 {
-    struct rho_tracker_learned *learned = prepare_slow(8, 10, 0);
+    struct rho_tracker_learned *learned = start_with_slow_counts(8, 10, 0);
     learned->blind_rates = 8;
     learned->rate_looks[7] = (uint8_t)looks;
     learned->rate_hits[7] = (uint8_t)hits;
-    return found();
+    return notch_intervals_found();
 }
 
-/* It is narrower where that is seen 60 of 100 times as often, of 40 looks. */
-static void a_notch_in_use_becomes_narrower(void **state)
+/* A notch narrows if its last interval is seen 60 % as often, from 40 looks on. */
+static void a_notch_narrows_when_its_last_interval_is_seen(void **state)
 {
     (void)state;
-    assert_int_equal(used_after(50, 30), 7);
-    assert_int_equal(used_after(50, 24), 8);
-    assert_int_equal(used_after(30, 20), 8);
+    assert_int_equal(notch_intervals_after_counts(50, 30), 7);
+    assert_int_equal(notch_intervals_after_counts(50, 24), 8);
+    assert_int_equal(notch_intervals_after_counts(30, 20), 8);
 }
 
-static void three_that_were_none_are_the_last(void **state)
+static void after_three_false_notches_none_is_learned(void **state)
 {
     (void)state;
-    prepare_slow(8, 10, 0)->notches_forgotten = 2;
-    assert_int_equal(found(), 8);
-    prepare_slow(8, 10, 0)->notches_forgotten = 3;
-    assert_int_equal(found(), 0);
-    struct rho_tracker_learned *learned = prepare_slow(8, 10, 9);
+    start_with_slow_counts(8, 10, 0)->notches_forgotten = 2;
+    assert_int_equal(notch_intervals_found(), 8);
+    start_with_slow_counts(8, 10, 0)->notches_forgotten = 3;
+    assert_int_equal(notch_intervals_found(), 0);
+    struct rho_tracker_learned *learned = start_with_slow_counts(8, 10, 9);
     learned->blind_rates = 8;
-    assert_int_equal(found(), 0);
+    assert_int_equal(notch_intervals_found(), 0);
     assert_int_equal(learned->notches_forgotten, 1);
 }
 
-/* They are searched at each eighth look, and halved at 250. */
-static void counts_of_looks(void **state)
+/* Counts are searched at each eighth look, and halved at 250. */
+static void looks_are_counted_and_halved_at_250(void **state)
 {
     (void)state;
-    (void)prepare_slow(8, 10, 0);
-    assert_int_equal(found_with(FEW - 4, 75), 0);
-    assert_int_equal(found_with(FEW, 79), 8);
-    const struct rho_tracker_learned *learned = prepare(75.0);
-    (void)found_with(248, 240);
+    (void)start_with_slow_counts(8, 10, 0);
+    assert_int_equal(notch_intervals_after(FEW - 4, 75), 0);
+    assert_int_equal(notch_intervals_after(FEW, 79), 8);
+    const struct rho_tracker_learned *learned = start_with_looks_at(75.0);
+    (void)notch_intervals_after(248, 240);
     assert_int_equal(learned->rate_looks[TOP], 248);
-    (void)found_with(250, 240);
+    (void)notch_intervals_after(250, 240);
     assert_int_equal(learned->rate_looks[TOP], 125);
     assert_int_equal(learned->rate_hits[TOP], 120);
 }
@@ -179,15 +185,15 @@ static void counts_of_looks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intervals_are_octaves_of_the_square),
-        cmocka_unit_test(a_notch_is_seen_less),
-        cmocka_unit_test(its_fastest_interval_is_seen_less),
-        cmocka_unit_test(it_is_no_chance),
-        cmocka_unit_test(it_takes_20_looks_there_and_60_above),
-        cmocka_unit_test(four_intervals_are_the_narrowest),
-        cmocka_unit_test(a_notch_in_use_becomes_narrower),
-        cmocka_unit_test(three_that_were_none_are_the_last),
-        cmocka_unit_test(counts_of_looks),
+        cmocka_unit_test(range_rate_intervals_widen_by_root_2),
+        cmocka_unit_test(a_notch_is_seen_less_than_65_percent_as_often),
+        cmocka_unit_test(the_fastest_interval_of_a_notch_is_below_85_percent),
+        cmocka_unit_test(a_notch_is_rarer_than_chance_by_four_standard_deviations),
+        cmocka_unit_test(a_notch_needs_20_looks_within_and_60_above),
+        cmocka_unit_test(a_notch_is_at_least_four_intervals_wide),
+        cmocka_unit_test(a_notch_narrows_when_its_last_interval_is_seen),
+        cmocka_unit_test(after_three_false_notches_none_is_learned),
+        cmocka_unit_test(looks_are_counted_and_halved_at_250),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scans that are older than what was stepped: by late_max_s at most they update tracks as if they
- * had come in time, nearly; beyond that they are stale.
+ * Out-of-sequence scans: up to late_max_s old they update tracks nearly as if they had come in
+ * time; older ones are stale.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -25,7 +25,7 @@ static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_report report;
 
-static void start(uint8_t gate, float late_max_s)
+static void start_tracker(uint8_t gate, float late_max_s)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start_config;
@@ -42,10 +42,13 @@ static void start(uint8_t gate, float late_max_s)
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &start_config), RHO_OK);
 }
 
-/* ---- one target, no noise to speak of -------------------------------------------------------- */
+/* ---- one target, almost without noise -------------------------------------------------------- */
 
-/* A scan at k intervals with the target (200 m/s), or none, and something that stands far off. */
-static void step_one(int k, int has_target, int has_other)
+/*
+ * Steps the scan at time k with the target (200 m/s) or without it, and with a plot that stands far
+ * away.
+ */
+static void step_lone_target(int k, int has_target, int has_other)
 {
     const struct rho_plot target = {.x_m = 800.0f * (float)k + 5.0f * sinf((float)k),
                                     .y_m = 1000.0f,
@@ -60,10 +63,10 @@ static void step_one(int k, int has_target, int has_other)
     assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
 }
 
-static void fly_until(int last)
+static void track_target_until(int last)
 {
     for (int k = 0; k <= last; k++) {
-        step_one(k, 1, 0);
+        step_lone_target(k, 1, 0);
     }
     assert_int_equal(report.num_tracks, 1);
 }
@@ -72,13 +75,13 @@ static void a_late_scan_updates_tracks_and_starts_none(void **state)
 {
     (void)state;
     for (uint8_t gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        start(gate, 20.0f);
-        fly_until(9);
-        step_one(11, 1, 0);
+        start_tracker(gate, 20.0f);
+        track_target_until(9);
+        step_lone_target(11, 1, 0);
         const struct rho_track_report before = report.tracks[0];
         const uint32_t held = tracker.counters.fates[RHO_FATE_HELD];
 
-        step_one(10, 1, 1);
+        step_lone_target(10, 1, 1);
         assert_int_equal(report.time_us, 11 * INTERVAL_US);
         assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
         assert_int_equal(report.fates[1], RHO_FATE_STALE);
@@ -92,21 +95,21 @@ static void a_late_scan_updates_tracks_and_starts_none(void **state)
         assert_int_equal(tracker.counters.scans_retrodicted, 1);
         assert_int_equal(tracker.counters.scans_late, 0);
         assert_int_equal(tracker.counters.fates[RHO_FATE_HELD], held);
-        step_one(12, 1, 0); /* and it goes on */
+        step_lone_target(12, 1, 0); /* the next scan in time updates the track as before */
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(report.tracks[0].plot, 0);
     }
 }
 
-static void a_miss_counts_late_as_well(void **state)
+static void a_late_scan_without_the_target_counts_a_miss(void **state)
 {
     (void)state;
-    start(RHO_TRACKER_BEST, 20.0f);
-    fly_until(9);
-    step_one(11, 1, 0);
+    start_tracker(RHO_TRACKER_BEST, 20.0f);
+    track_target_until(9);
+    step_lone_target(11, 1, 0);
     const struct rho_track_report before = report.tracks[0];
 
-    step_one(10, 0, 1);
+    step_lone_target(10, 0, 1);
     assert_int_equal(report.tracks[0].misses, before.misses + 1);
     assert_true(report.tracks[0].score_nat < before.score_nat - 2.0f);
     assert_float_equal(report.tracks[0].state[0], before.state[0], 0.5f);
@@ -114,53 +117,53 @@ static void a_miss_counts_late_as_well(void **state)
 }
 
 /*
- * A whole turn has no neighbours: a miss counts where the radar looks, though its edge cuts the
- * track's gate.
+ * The scan of a whole turn has no neighbouring sector: a miss counts if the track is in it, though
+ * the sector's edge cuts the gate.
  */
-static void a_miss_in_a_whole_turn_counts_at_the_edge_too(void **state)
+static void a_late_miss_at_the_edge_of_a_full_turn_counts(void **state)
 {
     const struct rho_sensor sensor = {.pd = 0.95f,
                                       .range_max_m = 1e5f,
                                       .x_m = 4000.0f,
-                                      .y_m = 999.0f, /* the target flies 1 m within the edge */
+                                      .y_m = 999.0f, /* the target flies 1 m inside the edge */
                                       .sector_from_rad = 0.0f,
                                       .sector_to_rad = 1.0f};
     (void)state;
     for (int is_late = 0; is_late < 2; is_late++) {
-        start(RHO_TRACKER_BEST, 20.0f);
-        fly_until(9);
+        start_tracker(RHO_TRACKER_BEST, 20.0f);
+        track_target_until(9);
         assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
         if (is_late) {
-            step_one(11, 1, 0);
+            step_lone_target(11, 1, 0);
         }
         const struct rho_track_report before = report.tracks[0];
 
-        step_one(10, 0, 1);
+        step_lone_target(10, 0, 1);
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(report.tracks[0].misses, before.misses + 1);
     }
 }
 
-static void beyond_the_limit_all_is_stale_and_nothing_changes(void **state)
+static void scans_later_than_late_max_s_are_stale(void **state)
 {
     static struct rho_tracker before;
     (void)state;
-    start(RHO_TRACKER_BEST, 7.9f);
-    fly_until(12);
+    start_tracker(RHO_TRACKER_BEST, 7.9f);
+    track_target_until(12);
     before = tracker;
-    step_one(10, 1, 1); /* 8 s */
+    step_lone_target(10, 1, 1); /* 8 s after the last scan */
     assert_int_equal(report.fates_total[RHO_FATE_STALE], 2);
     assert_int_equal(tracker.counters.scans_late, 1);
     assert_int_equal(tracker.counters.scans_retrodicted, 0);
     assert_int_equal(report.tracks[0].plot, -1);
     before.counters = tracker.counters;
     assert_memory_equal(&tracker, &before, sizeof tracker);
-    step_one(11, 1, 0); /* 4 s */
+    step_lone_target(11, 1, 0); /* 4 s late */
     assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
 }
 
-/* Tracks that a late scan does not reach stay where they are, whatever the times are. */
-static void a_late_scan_elsewhere_moves_no_track(void **state)
+/* Tracks outside a late scan's sector stay where they are, whatever the times are. */
+static void a_late_scan_of_another_place_moves_no_track(void **state)
 {
     static struct rho_tracker before;
     (void)state;
@@ -169,7 +172,7 @@ static void a_late_scan_elsewhere_moves_no_track(void **state)
             const int64_t start_us = early ? INT64_C(-1000000000) : 0;
             struct rho_scan scan = {.num_plots = 1};
 
-            start(gate, 20.0f);
+            start_tracker(gate, 20.0f);
             for (int k = 0; k < 8; k++) {
                 const struct rho_plot plot = {.x_m = 20000.0f + 800.0f * (float)k,
                                               .sigma_range_m = 10.0f,
@@ -192,37 +195,40 @@ static void a_late_scan_elsewhere_moves_no_track(void **state)
     }
 }
 
-static void an_initiator_that_is_none_is_refused(void **state)
+static void an_uninitialised_initiator_is_refused(void **state)
 {
     const struct rho_scan scan = {.time_us = 8 * INTERVAL_US};
     (void)state;
-    start(RHO_TRACKER_BEST, 20.0f);
-    fly_until(9);
+    start_tracker(RHO_TRACKER_BEST, 20.0f);
+    track_target_until(9);
     memset(&initiator, 0x11, sizeof initiator);
     assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_ERROR_STATE);
 }
 
-/* The newest scan of a sensor comes twice, after another one's. */
-static void a_double_is_stale(void **state)
+/* A sensor's newest scan is given twice, with another sensor's in between. */
+static void a_scan_given_twice_is_stale(void **state)
 {
     const struct rho_scan other = {.time_us = 10 * INTERVAL_US, .sensor_id = 3};
     (void)state;
-    start(RHO_TRACKER_BEST, 20.0f);
-    fly_until(9);
+    start_tracker(RHO_TRACKER_BEST, 20.0f);
+    track_target_until(9);
     assert_int_equal(rho_tracker_step(&tracker, &initiator, &other, &report), RHO_OK);
-    step_one(9, 1, 0);
+    step_lone_target(9, 1, 0);
     assert_int_equal(report.fates[0], RHO_FATE_STALE);
     assert_int_equal(tracker.counters.scans_late, 1);
 }
 
-/* Scans of sensor 2 until its target, which no other sensor sees, is confirmed; 0: it never is. */
+/*
+ * Counts scans of sensor 2 until its target, which no other sensor sees, is confirmed; 0: it never
+ * is.
+ */
 static int scans_to_confirm(uint8_t gate, int is_late)
 {
     const struct rho_sensor blind = {.sensor_id = 1, .pd = 0.9f, .range_max_m = 100.0f};
     static struct rho_initiator own;
     struct rho_initiator_config config;
 
-    start(gate, 20.0f);
+    start_tracker(gate, 20.0f);
     rho_initiator_config_default(&config);
     config.v_max_mps = 400.0f;
     assert_int_equal(rho_initiator_init(&own, sizeof own, &config), RHO_OK);
@@ -254,7 +260,7 @@ static int scans_to_confirm(uint8_t gate, int is_late)
     return 0;
 }
 
-static void a_radar_that_is_always_late_starts_tracks(void **state)
+static void a_radar_whose_scans_are_always_late_starts_tracks(void **state)
 {
     (void)state;
     for (uint8_t gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
@@ -264,18 +270,18 @@ static void a_radar_that_is_always_late_starts_tracks(void **state)
     }
 }
 
-static void none_are_taken_where_the_limit_is_0(void **state)
+static void late_max_s_0_takes_no_late_scan(void **state)
 {
     (void)state;
-    start(RHO_TRACKER_BEST, 0.0f);
-    fly_until(9);
-    step_one(11, 1, 0);
-    step_one(10, 1, 0);
+    start_tracker(RHO_TRACKER_BEST, 0.0f);
+    track_target_until(9);
+    step_lone_target(11, 1, 0);
+    step_lone_target(10, 1, 0);
     assert_int_equal(report.fates[0], RHO_FATE_STALE);
     assert_int_equal(tracker.counters.scans_late, 1);
 }
 
-static void limits_beyond_a_minute_are_refused(void **state)
+static void late_max_s_beyond_a_minute_is_refused(void **state)
 {
     const float bad[] = {-0.1f, 60.1f, NAN, INFINITY};
     struct rho_tracker_config config;
@@ -290,14 +296,14 @@ static void limits_beyond_a_minute_are_refused(void **state)
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
 }
 
-/* ---- what it is worth ------------------------------------------------------------------------ */
+/* ---- accuracy with and without late scans ---------------------------------------------------- */
 
 static double truth_m[SCANS][TARGETS][2];
 static struct rho_plot plots[SCANS][TARGETS];
 static uint32_t num_plots[SCANS];
 
 /* Aircraft of 150 to 250 m/s that begin and end turns of up to 1 g. */
-static void fly_all(uint64_t seed)
+static void draw_scans_of_aircraft(uint64_t seed)
 {
     random_state = seed;
     for (int i = 0; i < TARGETS; i++) {
@@ -335,8 +341,10 @@ struct worth {
     int judged, lost;
 };
 
-/* Confirmed tracks at the report's time; a target without one near is lost there. */
-static void judge(struct worth *worth)
+/*
+ * Errors of confirmed tracks at the report's time; a target without a track near it counts as lost.
+ */
+static void add_errors_of_report(struct worth *worth)
 {
     int k = (int)(report.time_us / INTERVAL_US);
 
@@ -358,7 +366,7 @@ static void judge(struct worth *worth)
     }
 }
 
-static void step_all(int k)
+static void step_scan_of_all(int k)
 {
     const struct rho_scan scan = {
         .time_us = k * INTERVAL_US, .num_plots = num_plots[k], .plots = plots[k]};
@@ -366,26 +374,26 @@ static void step_all(int k)
     assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
 }
 
-/* One scan of five comes `behind` scans later than it should; 0: all in time. */
-static struct worth run(int behind, float late_max_s)
+/* One scan in five comes `behind` scans late; 0: all in time. */
+static struct worth run_with_late_scans(int behind, float late_max_s)
 {
     struct worth worth = {0};
 
     for (uint64_t seed = 1; seed <= 6; seed++) {
-        fly_all(seed);
-        start(RHO_TRACKER_BEST, late_max_s);
+        draw_scans_of_aircraft(seed);
+        start_tracker(RHO_TRACKER_BEST, late_max_s);
         for (int k = 0; k < SCANS; k++) {
             int is_late = behind > 0 && k > 10 && k % 5 == 3;
             int before = k - behind;
 
             if (!is_late) {
-                step_all(k);
+                step_scan_of_all(k);
             }
             if (behind > 0 && before > 10 && before % 5 == 3) {
-                step_all(before);
+                step_scan_of_all(before);
             }
             if (!is_late) {
-                judge(&worth);
+                add_errors_of_report(&worth);
             }
         }
     }
@@ -397,17 +405,18 @@ static double rmse_m(const struct worth *worth)
     return sqrt(worth->sum_m2 / worth->judged);
 }
 
-static void late_scans_are_worth_nearly_as_much_as_others(void **state)
+static void late_scans_improve_tracks_nearly_as_much_as_timely_ones(void **state)
 {
-    struct worth in_time = run(0, 20.0f);
+    struct worth in_time = run_with_late_scans(0, 20.0f);
     (void)state;
     for (int behind = 1; behind <= 2; behind++) {
-        struct worth taken = run(behind, 20.0f), dropped = run(behind, 0.0f);
+        struct worth taken = run_with_late_scans(behind, 20.0f),
+                     dropped = run_with_late_scans(behind, 0.0f);
 
         print_message("%d late: %.1f m in time, %.1f m taken, %.1f m dropped\n", behind,
                       rmse_m(&in_time), rmse_m(&taken), rmse_m(&dropped));
         assert_true(taken.lost <= in_time.lost);
-        /* until it comes, what is two scans late is missing in two reports */
+        /* until it comes, a scan two scans late is missing in two reports */
         assert_true(rmse_m(&taken) < (behind == 1 ? 1.05 : 1.08) * rmse_m(&in_time));
         assert_true(rmse_m(&taken) < 1.01 * rmse_m(&dropped));
     }
@@ -417,16 +426,16 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_late_scan_updates_tracks_and_starts_none),
-        cmocka_unit_test(a_miss_counts_late_as_well),
-        cmocka_unit_test(a_miss_in_a_whole_turn_counts_at_the_edge_too),
-        cmocka_unit_test(beyond_the_limit_all_is_stale_and_nothing_changes),
-        cmocka_unit_test(a_late_scan_elsewhere_moves_no_track),
-        cmocka_unit_test(an_initiator_that_is_none_is_refused),
-        cmocka_unit_test(a_double_is_stale),
-        cmocka_unit_test(a_radar_that_is_always_late_starts_tracks),
-        cmocka_unit_test(none_are_taken_where_the_limit_is_0),
-        cmocka_unit_test(limits_beyond_a_minute_are_refused),
-        cmocka_unit_test(late_scans_are_worth_nearly_as_much_as_others),
+        cmocka_unit_test(a_late_scan_without_the_target_counts_a_miss),
+        cmocka_unit_test(a_late_miss_at_the_edge_of_a_full_turn_counts),
+        cmocka_unit_test(scans_later_than_late_max_s_are_stale),
+        cmocka_unit_test(a_late_scan_of_another_place_moves_no_track),
+        cmocka_unit_test(an_uninitialised_initiator_is_refused),
+        cmocka_unit_test(a_scan_given_twice_is_stale),
+        cmocka_unit_test(a_radar_whose_scans_are_always_late_starts_tracks),
+        cmocka_unit_test(late_max_s_0_takes_no_late_scan),
+        cmocka_unit_test(late_max_s_beyond_a_minute_is_refused),
+        cmocka_unit_test(late_scans_improve_tracks_nearly_as_much_as_timely_ones),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

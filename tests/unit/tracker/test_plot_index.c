@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Which plots a track looks at must not depend on where else there are plots, or in which order
- * they come (RHO_PLOT_STRIPS; the same holds without strips).
+ * Which plots a track considers must not depend on other plots far away, or on the order of plots
+ * (RHO_PLOT_STRIPS; the same holds without strips).
  */
 #include "tracker_setup.h"
 
@@ -14,7 +14,7 @@ struct target {
 };
 
 static struct target targets[TARGETS];
-static int targets_of[PLOTS_MAX]; /* by the plot's row; -1: clutter */
+static int targets_of[PLOTS_MAX]; /* target of each plot by its row; -1: clutter */
 static struct rho_report other;
 static int other_targets_of[PLOTS_MAX];
 
@@ -30,30 +30,32 @@ static void begin_scene(uint8_t gate)
     }
 }
 
-static void add_of(int target, double x_m, double y_m, double t_s)
+static void add_plot_of(int target, double x_m, double y_m, double t_s)
 {
     targets_of[num_plots] = target;
     add_plot(x_m, y_m, 20.0)->offset_us = (int32_t)lround(t_s * 1e6);
 }
 
-/* Plots of targets and of clutter; turn_s: at their own times, up to that much later. */
-static void see_all(int k, double turn_s)
+/*
+ * Adds plots of targets and clutter; turn_s: at their own times, up to so much later than the scan.
+ */
+static void see_targets_and_clutter(int k, double turn_s)
 {
     for (int i = 0; i < TARGETS; i++) {
         const double own_s = floor(uniform(0.0, turn_s) * 1e6) * 1e-6, t_s = 2.0 * k + own_s;
         const double x_m = targets[i].x_m + targets[i].vx_mps * t_s + 20.0 * normal();
-        add_of(i, x_m, targets[i].y_m + targets[i].vy_mps * t_s + 20.0 * normal(), own_s);
+        add_plot_of(i, x_m, targets[i].y_m + targets[i].vy_mps * t_s + 20.0 * normal(), own_s);
     }
     for (int i = 0; i < CLUTTER; i++) {
         const double x_m = uniform(-4e4, 4e4), y_m = uniform(-4e4, 4e4);
-        add_of(-1, x_m, y_m, floor(uniform(0.0, turn_s) * 1e6) * 1e-6);
+        add_plot_of(-1, x_m, y_m, floor(uniform(0.0, turn_s) * 1e6) * 1e-6);
     }
 }
 
 static uint64_t order_state = 1;
 
-/* By random numbers of its own: the scene is the same. */
-static void shuffle(void)
+/* Shuffles plots with its own random numbers, so that the scene stays the same. */
+static void shuffle_plots(void)
 {
     for (uint32_t i = num_plots; i > 1; i--) {
         order_state = order_state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
@@ -67,12 +69,12 @@ static void shuffle(void)
     }
 }
 
-static int target_of(const struct rho_track_report *track, const int *of)
+static int target_of_track(const struct rho_track_report *track, const int *of)
 {
     return track->plot < 0 ? -2 : of[track->plot];
 }
 
-static const struct rho_track_report *twin_of(const struct rho_track_report *track)
+static const struct rho_track_report *track_of_same_state(const struct rho_track_report *track)
 {
     for (unsigned i = 0; i < report.num_tracks; i++) {
         if (memcmp(report.tracks[i].state, track->state, sizeof track->state) == 0) {
@@ -83,8 +85,8 @@ static const struct rho_track_report *twin_of(const struct rho_track_report *tra
 }
 
 /*
- * Each track of the other run is here, with the same bits and the same target's plot; identities
- * may come in another order.
+ * Both runs report the same tracks, with the same bits and the same target's plot; identities may
+ * be in another order.
  */
 static void expect_same_tracks(void)
 {
@@ -92,18 +94,19 @@ static void expect_same_tracks(void)
     assert_int_equal(report.num_ended, other.num_ended);
     assert_memory_equal(report.fates_total, other.fates_total, sizeof report.fates_total);
     for (unsigned i = 0; i < other.num_tracks; i++) {
-        const struct rho_track_report *track = &other.tracks[i], *twin = twin_of(track);
+        const struct rho_track_report *track = &other.tracks[i], *twin = track_of_same_state(track);
         assert_non_null(twin);
-        assert_int_equal(target_of(twin, targets_of), target_of(track, other_targets_of));
+        assert_int_equal(target_of_track(twin, targets_of),
+                         target_of_track(track, other_targets_of));
         assert_int_equal(twin->hits, track->hits);
         assert_memory_equal(twin->covariance, track->covariance, sizeof track->covariance);
     }
 }
 
-/* ---- order ----------------------------------------------------------------------------------- */
+/* ---- the order of plots ---------------------------------------------------------------------- */
 
-/* Runs both orders scan by scan, each with objects of its own. */
-static unsigned compare_orders(uint8_t gate, double turn_s)
+/* Steps both orders scan by scan, each with its own objects. */
+static unsigned compare_both_orders(uint8_t gate, double turn_s)
 {
     static struct rho_tracker other_tracker;
     static struct rho_initiator other_initiator;
@@ -113,13 +116,13 @@ static unsigned compare_orders(uint8_t gate, double turn_s)
     other_tracker = tracker;
     other_initiator = initiator;
     for (int k = 0; k < SCANS; k++) {
-        see_all(k, turn_s);
+        see_targets_and_clutter(k, turn_s);
         const struct rho_scan scan = {
             .time_us = 2000000 * (int64_t)k, .num_plots = num_plots, .plots = kept};
         memcpy(kept, plots, sizeof kept);
         memcpy(other_targets_of, targets_of, sizeof targets_of);
         assert_int_equal(rho_tracker_step(&other_tracker, &other_initiator, &scan, &other), RHO_OK);
-        shuffle();
+        shuffle_plots();
         step_at(2.0 * k);
         expect_same_tracks();
         most = report.num_tracks > most ? report.num_tracks : most;
@@ -131,7 +134,7 @@ static void plots_in_any_order_make_the_same_tracks(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        assert_true(compare_orders((uint8_t)gate, 0.0) >= TARGETS);
+        assert_true(compare_both_orders((uint8_t)gate, 0.0) >= TARGETS);
     }
 }
 
@@ -139,14 +142,14 @@ static void plots_with_own_times_in_any_order_make_the_same_tracks(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        assert_true(compare_orders((uint8_t)gate, 1.9) >= TARGETS);
+        assert_true(compare_both_orders((uint8_t)gate, 1.9) >= TARGETS);
     }
 }
 
-/* ---- what is far ----------------------------------------------------------------------------- */
+/* ---- plots far away -------------------------------------------------------------------------- */
 
-/* One track at the origin, flying along x at 300 m/s; nothing is started from here on. */
-static void begin_one(uint8_t gate)
+/* One track at the origin, flying along x at 300 m/s; no other tracks are started. */
+static void start_one_track(uint8_t gate)
 {
     use_usual_configs(3);
     config.gate = gate;
@@ -155,14 +158,14 @@ static void begin_one(uint8_t gate)
         add_plot(600.0 * (k - 8), 0.0, 20.0);
         for (int i = 0; i < 4 && k == 0; i++) {
             add_plot(i & 1 ? 2e6 : -2e6, i & 2 ? 2e6 : -2e6,
-                     20.0); /* what clutter is spread over stays the same */
+                     20.0); /* keeps the area over which clutter is spread */
         }
         step_at(2.0 * k);
     }
     assert_int_equal(report.num_tracks, 1);
 }
 
-static void take(const struct rho_tracker *from, struct rho_tracker *tracker_then)
+static void step_copy(const struct rho_tracker *from, struct rho_tracker *tracker_then)
 {
     const struct rho_scan scan = {.time_us = 16000000, .num_plots = num_plots, .plots = plots};
     *tracker_then = *from;
@@ -171,14 +174,14 @@ static void take(const struct rho_tracker *from, struct rho_tracker *tracker_the
 }
 
 /*
- * The plot at (x, y), of that own time and noise, alone in its scan, and then among plots that are
- * far: the track makes the same of it. Returns 1 where it claimed the plot.
+ * Steps the plot at (x, y), with its own time and noise, alone and then among far plots: the
+ * track's result is the same. Returns 1 if the track claimed the plot.
  */
 static int is_claimed_alike(double x_m, double y_m, int32_t offset_us, double sigma_m)
 {
     /*
-     * what the strips are laid over: nothing else, all at one x, narrow, wide, as wide as can be,
-     * on one side, crowded
+     * extents that the strips are laid over: the plot alone, one x, narrow, wide, maximal, one
+     * side, crowded
      */
     static const double from_m[] = {1.0, 5e4, -2e4, -2e6, 9e4, -2e6, 1e5};
     static const double to_m[] = {1.0, 5e4, 2e4, 2e6, 2e6, -9e4, 1.001e5};
@@ -186,7 +189,7 @@ static int is_claimed_alike(double x_m, double y_m, int32_t offset_us, double si
     struct rho_track_report alone;
     num_plots = 0;
     add_plot(x_m, y_m, sigma_m)->offset_us = offset_us;
-    take(&tracker, &then);
+    step_copy(&tracker, &then);
     alone = report.tracks[0];
     for (size_t i = 1; i < sizeof from_m / sizeof from_m[0]; i++) {
         num_plots = 0;
@@ -198,7 +201,7 @@ static int is_claimed_alike(double x_m, double y_m, int32_t offset_us, double si
         plots[60].y_m = (float)y_m;
         plots[60].sigma_range_m = plots[60].sigma_cross_m = (float)sigma_m;
         plots[60].offset_us = offset_us;
-        take(&tracker, &then);
+        step_copy(&tracker, &then);
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(report.tracks[0].plot, alone.plot < 0 ? -1 : 60);
         assert_memory_equal(report.tracks[0].state, alone.state, sizeof alone.state);
@@ -208,12 +211,12 @@ static int is_claimed_alike(double x_m, double y_m, int32_t offset_us, double si
     return alone.plot >= 0;
 }
 
-static void no_plot_in_a_gate_is_missed_whatever_else_there_is(void **state)
+static void far_plots_do_not_hide_a_plot_in_the_gate(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
         int claimed = 0, refused = 0;
-        begin_one((uint8_t)gate);
+        start_one_track((uint8_t)gate);
         for (double x_m = -300.0; x_m <= 300.0; x_m += 12.5) {
             const int is_claimed = is_claimed_alike(x_m, 0.0, 0, 20.0);
             claimed += is_claimed;
@@ -223,15 +226,12 @@ static void no_plot_in_a_gate_is_missed_whatever_else_there_is(void **state)
     }
 }
 
-/*
- * Seconds before and after the scan's time a target is hundreds of metres away, and its plots in
- * other strips.
- */
-static void plots_of_other_times_are_found_where_they_are(void **state)
+/* Seconds before or after the scan's time a target is hundreds of metres away, in other strips. */
+static void plots_of_own_times_are_found_in_other_strips(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        begin_one((uint8_t)gate);
+        start_one_track((uint8_t)gate);
         for (int offset_s = -1; offset_s <= 8; offset_s++) {
             assert_true(is_claimed_alike(300.0 * offset_s, 0.0, offset_s * 1000000, 20.0));
             assert_false(
@@ -240,22 +240,22 @@ static void plots_of_other_times_are_found_where_they_are(void **state)
     }
 }
 
-/* One plot of a scan may be much vaguer than the others. */
-static void vague_plots_are_found_where_they_are(void **state)
+/* One plot of a scan may have a much larger sigma than the others. */
+static void plots_with_large_sigmas_are_found(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        begin_one((uint8_t)gate);
+        start_one_track((uint8_t)gate);
         assert_true(is_claimed_alike(500.0, 0.0, 0, 300.0));
         assert_true(is_claimed_alike(-500.0, 100.0, 0, 300.0));
         assert_false(is_claimed_alike(500.0, 0.0, 0, 10.0));
     }
 }
 
-/* ---- places at their ends -------------------------------------------------------------------- */
+/* ---- plots at the limits of places, on borders of strips ------------------------------------- */
 
-/* Flies along y at that x, alone, with others at all ends of where plots may be. */
-static void track_at(double x_m, int has_others)
+/* Tracks a target that flies along y at x_m, alone or with plots at all limits of places. */
+static void track_target_at(double x_m, int has_others)
 {
     use_usual_configs(5);
     begin_tracker();
@@ -274,21 +274,21 @@ static void track_at(double x_m, int has_others)
     }
 }
 
-static void plots_at_all_ends_are_claimed(void **state)
+static void plots_at_the_limits_of_places_are_claimed(void **state)
 {
     static const double x_m[] = {-2e6, -1999999.0, -1.0, 0.0, 1.0, 1999999.0, 2e6};
     (void)state;
     for (size_t i = 0; i < sizeof x_m / sizeof x_m[0]; i++) {
-        track_at(x_m[i], 0);
-        track_at(x_m[i], 1);
+        track_target_at(x_m[i], 0);
+        track_target_at(x_m[i], 1);
     }
 }
 
 /*
- * As many places as there are strips and some more, and exactly on their borders: 1024 m wide, or a
+ * At as many places as there are strips and some more, exactly on their borders: 1024 m wide, or a
  * power of two of it.
  */
-static void plots_on_borders_are_claimed(void **state)
+static void plots_on_borders_of_strips_are_claimed(void **state)
 {
     enum { COUNT = 17 };
     (void)state;
@@ -312,11 +312,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plots_in_any_order_make_the_same_tracks),
         cmocka_unit_test(plots_with_own_times_in_any_order_make_the_same_tracks),
-        cmocka_unit_test(no_plot_in_a_gate_is_missed_whatever_else_there_is),
-        cmocka_unit_test(plots_of_other_times_are_found_where_they_are),
-        cmocka_unit_test(vague_plots_are_found_where_they_are),
-        cmocka_unit_test(plots_at_all_ends_are_claimed),
-        cmocka_unit_test(plots_on_borders_are_claimed),
+        cmocka_unit_test(far_plots_do_not_hide_a_plot_in_the_gate),
+        cmocka_unit_test(plots_of_own_times_are_found_in_other_strips),
+        cmocka_unit_test(plots_with_large_sigmas_are_found),
+        cmocka_unit_test(plots_at_the_limits_of_places_are_claimed),
+        cmocka_unit_test(plots_on_borders_of_strips_are_claimed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

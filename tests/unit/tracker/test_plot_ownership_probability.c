@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Support, shared evidence and clutter of a track's last look: of a lone target, of two that share
- * plots, of a miss, and beside tracks that end and start.
+ * Support, shared evidence and clutter probability of a track's last look: a single target, two
+ * that share plots, a miss, and while other tracks end and start.
  */
 #include "tracker_setup.h"
 
@@ -9,8 +9,8 @@
 
 static struct rho_tracker_evidence evidence;
 
-/* Whether the track's evidence is known; then it adds up to 1. */
-static int look(uint32_t track_id)
+/* Whether the track's evidence is known; if so, its three parts sum to 1. */
+static int read_evidence_of(uint32_t track_id)
 {
     for (unsigned i = 0; i < tracker.num_tracks; i++) {
         if (tracker.tracks[i].track_id == track_id) {
@@ -28,8 +28,8 @@ static int look(uint32_t track_id)
 }
 
 #if RHO_KEEPS_OFFERS
-/* The track of the northern or the southern one. */
-static uint32_t id_of(int is_north)
+/* Identity of the northern or the southern track. */
+static uint32_t track_id_of(int is_north)
 {
     for (unsigned i = 0; i < report.num_tracks; i++) {
         if ((report.tracks[i].state[1] > 0.0f) == is_north) {
@@ -40,8 +40,8 @@ static uint32_t id_of(int is_north)
 }
 #endif
 
-/* Two targets that fly beside each other, so many metres apart. */
-static void add_pair(int k, double apart_m)
+/* Adds plots of two targets that fly beside each other, apart_m apart. */
+static void add_plots_of_pair(int k, double apart_m)
 {
     const double t_s = SCAN_S * k;
     add_plot(-9000.0 + 200.0 * t_s, 0.5 * apart_m, 10.0);
@@ -54,19 +54,19 @@ static void fly_pair(int scans, double apart_m, int gate)
     config.gate = (uint8_t)gate;
     begin_tracker();
     for (int k = 0; k < scans; k++) {
-        add_pair(k, apart_m);
+        add_plots_of_pair(k, apart_m);
         step_at(SCAN_S * k);
     }
     assert_int_equal(report.num_tracks, 2);
 }
 
-static void targets_far_apart_have_all_to_themselves(void **state)
+static void far_apart_targets_own_their_plots_alone(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
         fly_pair(10, 4000.0, gate);
         for (uint32_t id = 1; id <= 2; id++) {
-            assert_int_equal(look(id), RHO_KEEPS_OFFERS);
+            assert_int_equal(read_evidence_of(id), RHO_KEEPS_OFFERS);
             if (RHO_KEEPS_OFFERS) {
                 assert_true(evidence.support > 0.99f);
                 assert_float_equal(evidence.shared, 0.0, 1e-6);
@@ -77,8 +77,8 @@ static void targets_far_apart_have_all_to_themselves(void **state)
 
 #if RHO_KEEPS_OFFERS
 
-/* One plot in the middle of both is claimed by one, and shared by both. */
-static void a_plot_between_two_targets_is_shared(void **state)
+/* A plot in the middle of both is claimed by one track and supports both. */
+static void a_plot_between_two_targets_supports_both(void **state)
 {
     (void)state;
     fly_pair(10, 60.0, RHO_TRACKER_BEST);
@@ -86,37 +86,37 @@ static void a_plot_between_two_targets_is_shared(void **state)
     step_at(SCAN_S * 10);
     assert_int_equal(report.num_tracks, 2);
     for (uint32_t id = 1; id <= 2; id++) {
-        assert_true(look(id));
+        assert_true(read_evidence_of(id));
         assert_true(evidence.shared > 0.4f && evidence.shared < 0.51f);
         assert_float_equal(evidence.shared, evidence.support, 0.02);
     }
-    /* and a plot that is near one of them is more its own than the other's */
+    /* a plot near one of them supports this track more */
     fly_pair(10, 60.0, RHO_TRACKER_BEST);
-    const uint32_t north = id_of(1), south = id_of(0);
+    const uint32_t north = track_id_of(1), south = track_id_of(0);
     add_plot(-9000.0 + 200.0 * SCAN_S * 10, 22.0, 10.0);
     step_at(SCAN_S * 10);
-    assert_true(look(north));
+    assert_true(read_evidence_of(north));
     const struct rho_tracker_evidence near = evidence;
-    assert_true(look(south));
+    assert_true(read_evidence_of(south));
     assert_true(near.support > evidence.support + 0.2f);
     assert_true(near.shared < 0.4f);
     assert_true(evidence.clutter > near.clutter);
 }
 
-static void a_miss_is_clutter_alone(void **state)
+static void after_a_miss_all_evidence_is_clutter(void **state)
 {
     (void)state;
     fly_pair(10, 4000.0, RHO_TRACKER_BEST);
     add_plot(-9000.0 + 200.0 * SCAN_S * 10, 2000.0, 10.0);
     step_at(SCAN_S * 10);
-    assert_true(look(id_of(0)));
+    assert_true(read_evidence_of(track_id_of(0)));
     assert_float_equal(evidence.clutter, 1.0, 0.0);
-    assert_true(look(id_of(1)));
+    assert_true(read_evidence_of(track_id_of(1)));
     assert_true(evidence.support > 0.99f);
 }
 
-/* A plot near the gate's border is little better than none. */
-static void a_poor_plot_may_be_clutter(void **state)
+/* A plot near the gate's border is likely clutter. */
+static void a_plot_at_the_gate_border_is_likely_clutter(void **state)
 {
     (void)state;
     float before = 0.0f;
@@ -124,23 +124,23 @@ static void a_poor_plot_may_be_clutter(void **state)
         fly_pair(10, 4000.0, RHO_TRACKER_NEAREST);
         add_plot(-9000.0 + 200.0 * SCAN_S * 10, 2000.0 + 15.0 * off, 10.0);
         step_at(SCAN_S * 10);
-        assert_true(look(id_of(1)));
+        assert_true(read_evidence_of(track_id_of(1)));
         assert_true(evidence.clutter >= before);
         before = evidence.clutter;
     }
     assert_true(before > 0.5f);
 }
 
-/* The first track ends; what the second one's gate offered goes along with it. */
-static void evidence_stays_with_its_track(void **state)
+/* The first track ends; the second one's evidence moves to its row. */
+static void evidence_follows_its_track_to_another_row(void **state)
 {
     (void)state;
     fly_pair(10, 4000.0, RHO_TRACKER_BEST);
-    const int is_north = id_of(1) == 2;
+    const int is_north = track_id_of(1) == 2;
     for (int k = 10; k < 40 && report.num_tracks == 2; k++) {
         add_plot(-9000.0 + 200.0 * SCAN_S * k, is_north ? 2000.0 : -2000.0, 10.0);
         step_at(SCAN_S * k);
-        assert_true(look(2));
+        assert_true(read_evidence_of(2));
         assert_true(evidence.support > 0.99f);
     }
     assert_int_equal(report.num_tracks, 1);
@@ -148,31 +148,31 @@ static void evidence_stays_with_its_track(void **state)
     assert_int_equal(rho_tracker_evidence_of(&tracker, 1, &evidence), 0);
 }
 
-static void a_track_of_this_step_and_one_not_looked_at_have_none(void **state)
+static void new_and_unobserved_tracks_have_no_evidence(void **state)
 {
     (void)state;
     use_usual_configs(2);
     begin_tracker();
     for (int k = 0; report.num_tracks == 0 || k == 0; k++) {
-        add_pair(k, 4000.0);
+        add_plots_of_pair(k, 4000.0);
         step_at(SCAN_S * k);
         assert_true(k < 8);
     }
-    assert_int_equal(look(1), 0);
+    assert_int_equal(read_evidence_of(1), 0);
     for (int k = 4; k < 10; k++) {
-        add_pair(k, 4000.0);
+        add_plots_of_pair(k, 4000.0);
         step_at(SCAN_S * k);
     }
-    assert_int_equal(look(1), 1);
-    /* a sector in the west: both fly in the east by now, nobody looks there */
+    assert_int_equal(read_evidence_of(1), 1);
+    /* a sector in the west: both targets are in the east, unobserved */
     step_scan((struct rho_scan){.time_us = 20000000,
                                 .sector_from_rad = RHO_SECTORS ? 1.0f : 0.0f,
                                 .sector_to_rad = RHO_SECTORS ? 1.5f : 0.0f});
-    assert_int_equal(look(1), !RHO_SECTORS);
+    assert_int_equal(read_evidence_of(1), !RHO_SECTORS);
 }
 
-/* The lowest tentative track gives way: rows behind it move up. */
-static void a_full_tracker_keeps_evidence_in_its_place(void **state)
+/* A new track replaces the lowest tentative one, and rows behind it move up. */
+static void a_replaced_track_does_not_shift_evidence_of_others(void **state)
 {
     (void)state;
     const struct rho_track_plot plot = {
@@ -192,7 +192,7 @@ static void a_full_tracker_keeps_evidence_in_its_place(void **state)
     assert_int_equal(tracker.counters.tracks_no_room, 1);
     assert_int_equal(report.num_tracks, RHO_MAX_TRACKS);
     for (uint32_t id = 1; id <= 2; id++) {
-        assert_true(look(id));
+        assert_true(read_evidence_of(id));
         assert_true(evidence.support > 0.99f);
     }
     for (unsigned i = 2; i < RHO_MAX_TRACKS; i++) {
@@ -202,7 +202,7 @@ static void a_full_tracker_keeps_evidence_in_its_place(void **state)
 
 #endif
 
-static void evidence_of_nothing_is_not_known(void **state)
+static void missing_tracks_and_null_pointers_have_no_evidence(void **state)
 {
     (void)state;
     fly_pair(10, 4000.0, RHO_TRACKER_BEST);
@@ -216,16 +216,16 @@ static void evidence_of_nothing_is_not_known(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(targets_far_apart_have_all_to_themselves),
+        cmocka_unit_test(far_apart_targets_own_their_plots_alone),
 #if RHO_KEEPS_OFFERS
-        cmocka_unit_test(a_plot_between_two_targets_is_shared),
-        cmocka_unit_test(a_miss_is_clutter_alone),
-        cmocka_unit_test(a_poor_plot_may_be_clutter),
-        cmocka_unit_test(evidence_stays_with_its_track),
-        cmocka_unit_test(a_track_of_this_step_and_one_not_looked_at_have_none),
-        cmocka_unit_test(a_full_tracker_keeps_evidence_in_its_place),
+        cmocka_unit_test(a_plot_between_two_targets_supports_both),
+        cmocka_unit_test(after_a_miss_all_evidence_is_clutter),
+        cmocka_unit_test(a_plot_at_the_gate_border_is_likely_clutter),
+        cmocka_unit_test(evidence_follows_its_track_to_another_row),
+        cmocka_unit_test(new_and_unobserved_tracks_have_no_evidence),
+        cmocka_unit_test(a_replaced_track_does_not_shift_evidence_of_others),
 #endif
-        cmocka_unit_test(evidence_of_nothing_is_not_known),
+        cmocka_unit_test(missing_tracks_and_null_pointers_have_no_evidence),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

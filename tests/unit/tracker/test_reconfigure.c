@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Settings change while tracking: tracks go on, and each field applies when settings.h says. */
+/* Settings changed while tracking: tracks go on, and each field applies when settings.h says. */
 #include "rhotrack/settings.h"
 #include "tracker_setup.h"
 
@@ -7,10 +7,10 @@ static struct rho_settings settings;
 static struct rho_tracker before;
 static int next_k;
 
-/* A target along x that may turn by so much, and a slow one. */
+/* Steps scans of a target along x that may turn by turn_mps2, and of a slow one. */
 static double x_m, y_m, vx_mps, vy_mps;
 
-static void run(int scans, double turn_mps2, int is_seen)
+static void step_scans(int scans, double turn_mps2, int is_seen)
 {
     for (int i = 0; i < scans; i++, next_k++) {
         if (is_seen) {
@@ -24,7 +24,7 @@ static void run(int scans, double turn_mps2, int is_seen)
     }
 }
 
-static void apply(void)
+static void apply_settings(void)
 {
     config = tracker.config;
     initiation = initiator.config;
@@ -34,7 +34,7 @@ static void apply(void)
     assert_true(rho_tracker_is_sound(&tracker));
 }
 
-static void prepare(void)
+static void start_tracker(void)
 {
     use_usual_configs(3);
     rho_settings_default(&settings);
@@ -47,14 +47,14 @@ static void prepare(void)
     y_m = 0.0;
     vx_mps = 100.0;
     vy_mps = 0.0;
-    run(20, 0.0, 1);
+    step_scans(20, 0.0, 1);
     assert_int_equal(report.num_tracks, 2);
 }
 
-static void tracks_survive_a_change(void **state)
+static void tracks_survive_a_change_of_settings(void **state)
 {
     (void)state;
-    prepare();
+    start_tracker();
     const uint16_t hits[2] = {report.tracks[0].hits, report.tracks[1].hits};
     const uint32_t ids[2] = {report.tracks[0].track_id, report.tracks[1].track_id};
     settings.v_max_mps = 300.0f;
@@ -66,9 +66,9 @@ static void tracks_survive_a_change(void **state)
     settings.work_max = 50000;
     settings.area_is_fixed = 1;
     settings.area = (struct rho_extent){-2e4f, 2e4f, -2e4f, 2e4f};
-    apply();
+    apply_settings();
     assert_true(tracker.config.accel_max_mps2 > 39.0f);
-    run(10, 0.0, 1);
+    step_scans(10, 0.0, 1);
     assert_int_equal(report.num_tracks, 2);
     for (int i = 0; i < 2; i++) {
         assert_int_equal(report.tracks[i].track_id, ids[i]);
@@ -78,48 +78,48 @@ static void tracks_survive_a_change(void **state)
     assert_int_equal(tracker.counters.tracks_ended, 0);
 }
 
-/* A turn of 4 g: only a tracker that was told of it follows. */
-static void manoeuvres_are_followed_from_the_next_step_on(void **state)
+/* A turn of 4 g is followed only after the limit of accelerations was raised. */
+static void a_raised_acceleration_limit_applies_from_the_next_step(void **state)
 {
     (void)state;
     if (!RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
         skip();
     }
     for (int is_told = 0; is_told < 2; is_told++) {
-        prepare();
+        start_tracker();
         const struct rho_track_report *track =
             report.tracks[0].state[1] < 1000.0f ? &report.tracks[0] : &report.tracks[1];
         const uint32_t track_id = track->track_id;
         settings.accel_max_mps2 = is_told ? 50.0f : 0.5f;
-        apply();
-        run(4, 40.0, 1);
+        apply_settings();
+        step_scans(4, 40.0, 1);
         assert_int_equal(report_of(track_id) && report_of(track_id)->misses == 0, is_told);
     }
 }
 
-static void misses_and_speeds_end_tracks_from_the_next_step_on(void **state)
+static void changed_end_rules_apply_from_the_next_step(void **state)
 {
     (void)state;
-    prepare();
+    start_tracker();
     settings.coast_scans_max = 2;
-    apply();
-    run(1, 0.0, 0);
+    apply_settings();
+    step_scans(1, 0.0, 0);
     assert_int_equal(report.num_tracks, 2);
-    run(4, 0.0, 0);
+    step_scans(4, 0.0, 0);
     assert_int_equal(report.num_tracks, 0);
 
-    prepare();
+    start_tracker();
     settings.v_min_mps = 50.0f;
-    apply();
-    run(1, 0.0, 1);
+    apply_settings();
+    step_scans(1, 0.0, 1);
     assert_int_equal(report.num_tracks, 1);
     assert_true(report.tracks[0].state[3] > 90.0f);
 }
 
-static void what_is_refused_changes_nothing(void **state)
+static void refused_settings_change_nothing(void **state)
 {
     (void)state;
-    prepare();
+    start_tracker();
     memcpy(&before, &tracker, sizeof before);
     config = tracker.config;
     config.pd = 1.5f;
@@ -128,15 +128,15 @@ static void what_is_refused_changes_nothing(void **state)
     config.v_max_mps = NAN;
     assert_int_equal(rho_tracker_reconfigure(&tracker, &config), RHO_ERROR_CONFIG);
     config = tracker.config;
-    config.gate = RHO_TRACKER_NEAREST; /* another filter, and there are tracks */
+    config.gate = RHO_TRACKER_NEAREST; /* another filter, which needs a tracker without tracks */
     assert_int_equal(rho_tracker_reconfigure(&tracker, &config), RHO_ERROR_STATE);
     assert_int_equal(rho_tracker_reconfigure(&tracker, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_reconfigure(NULL, &config), RHO_ERROR_NULL);
     assert_memory_equal(&before, &tracker, sizeof before);
-    run(40, 0.0, 0);
+    step_scans(40, 0.0, 0);
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(rho_tracker_reconfigure(&tracker, &config), RHO_OK);
-    run(20, 0.0, 1);
+    step_scans(20, 0.0, 1);
     assert_int_equal(report.num_tracks, 2);
     assert_true(rho_tracker_is_sound(&tracker));
     memset(&tracker, 0, sizeof tracker);
@@ -146,10 +146,10 @@ static void what_is_refused_changes_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tracks_survive_a_change),
-        cmocka_unit_test(manoeuvres_are_followed_from_the_next_step_on),
-        cmocka_unit_test(misses_and_speeds_end_tracks_from_the_next_step_on),
-        cmocka_unit_test(what_is_refused_changes_nothing),
+        cmocka_unit_test(tracks_survive_a_change_of_settings),
+        cmocka_unit_test(a_raised_acceleration_limit_applies_from_the_next_step),
+        cmocka_unit_test(changed_end_rules_apply_from_the_next_step),
+        cmocka_unit_test(refused_settings_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

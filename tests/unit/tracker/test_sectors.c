@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A rotating radar stepped sector by sector: targets at the edges of sectors are seen once a turn,
- * tracks start as early as from whole turns, and what is reported is never older than a sector.
+ * A rotating radar stepped sector by sector: targets at edges of sectors are seen once a turn,
+ * tracks start as early as from whole turns, and reports are never older than a sector.
  */
 #include "sectors_scene.h"
 
-/* A scan of another radar, all round, of all targets. */
-static void look_around(const struct scene *scene, int64_t time_us)
+/* A scan by another radar of the whole circle, with plots of all targets. */
+static void step_scan_of_other_radar(const struct scene *scene, int64_t time_us)
 {
     struct rho_plot plots[TARGETS];
     const struct rho_scan scan = {
@@ -19,7 +19,7 @@ static void look_around(const struct scene *scene, int64_t time_us)
     assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], TARGETS);
 }
 
-/* Tracks start with the window's plots: these are hits, the later plots too. */
+/* Tracks start from the window's plots, which count as hits, as do later plots. */
 static void assert_all_seen_once(struct scene *scene, int turns)
 {
     int plots = 0;
@@ -40,7 +40,7 @@ static void assert_all_seen_once(struct scene *scene, int turns)
     assert_int_equal(tracker.counters.plots_initiated, scene->fates[RHO_FATE_HELD]);
 }
 
-static void targets_at_edges_are_seen_once_a_turn(void **state)
+static void targets_at_sector_edges_are_seen_once_a_turn(void **state)
 {
     (void)state;
     for (int turning = -1; turning <= 1; turning += 2) {
@@ -58,7 +58,7 @@ static void targets_at_edges_are_seen_once_a_turn(void **state)
     }
 }
 
-static void other_numbers_of_sectors_do_the_same(void **state)
+static void any_number_of_sectors_sees_targets_once_a_turn(void **state)
 {
     const int numbers[] = {1, 3, 4, 8, 64, 128};
     (void)state;
@@ -71,10 +71,10 @@ static void other_numbers_of_sectors_do_the_same(void **state)
 }
 
 /*
- * The antenna saw the target at the end of a sector; what comes at the beginning of the next one is
- * not its second plot.
+ * After a plot at the end of a sector, a plot at the beginning of the next one is not a second plot
+ * of the same pass.
  */
-static void a_track_takes_one_plot_a_pass(void **state)
+static void a_track_takes_one_plot_per_pass_of_the_antenna(void **state)
 {
     struct scene scene = {.turning = 1, .hidden = -1};
     uint32_t second = 0;
@@ -90,7 +90,7 @@ static void a_track_takes_one_plot_a_pass(void **state)
                                 .sector_to_rad = (float)wrapped(2.0 * PI * (sector + 1) / SECTORS),
                                 .plots = &plot};
 
-        if (sector % 4 < 2 && sector > 1) { /* of target sector / 4, at this edge, twice */
+        if (sector % 4 < 2 && sector > 1) { /* two more plots of target sector / 4, at this edge */
             plot = target_plot(&scene, sector / 4, (double)scan.time_us * 1e-6, scan.time_us);
             scan.num_plots = 1;
         }
@@ -109,9 +109,10 @@ static void a_track_takes_one_plot_a_pass(void **state)
 }
 
 /*
- * Another radar's plots between two sectors: who was seen at the edge has been seen all the same.
+ * Another radar's plots between two sectors: a target seen at the edge still counts as seen in this
+ * turn.
  */
-static void another_radar_in_between_changes_nothing(void **state)
+static void scans_of_another_radar_between_sectors_change_nothing(void **state)
 {
     (void)state;
     for (int turning = -1; turning <= 1; turning += 2) {
@@ -122,7 +123,7 @@ static void another_radar_in_between_changes_nothing(void **state)
             for (int sector = 0; sector < SECTORS; sector++) {
                 step_sector(&scene, turn, sector);
                 if (turn >= 6 && sector % 4 == 0) {
-                    look_around(&scene, report.time_us + SECTOR_US / 2);
+                    step_scan_of_other_radar(&scene, report.time_us + SECTOR_US / 2);
                 }
             }
         }
@@ -133,8 +134,8 @@ static void another_radar_in_between_changes_nothing(void **state)
     }
 }
 
-/* A target that is not there any more is missed once a turn, wherever it stands to the edges. */
-static void misses_count_once_a_turn(void **state)
+/* A gone target is missed once a turn, wherever it is relative to the edges of sectors. */
+static void misses_are_counted_once_a_turn(void **state)
 {
     (void)state;
     for (int turning = -1; turning <= 1; turning += 2) {
@@ -148,14 +149,14 @@ static void misses_count_once_a_turn(void **state)
             fly_turns(&scene, 12);
             track = track_of_target(&scene, target);
             assert_non_null(track);
-            assert_in_range(track->misses, 1, 2); /* the edge of the turn is one of a sector, too */
+            assert_in_range(track->misses, 1, 2); /* the edge of the turn is also one of a sector */
             assert_int_equal(track->status, RHO_TRACK_COASTING);
         }
     }
 }
 
-/* As whole turns do: with the third plot, or as many as clear skies ask for. */
-static void tracks_start_as_early_as_from_whole_turns(void **state)
+/* Tracks start with the third plot, or as many as low clutter requires, as from whole turns. */
+static void sectors_start_tracks_as_early_as_whole_turns(void **state)
 {
     int first_turn[2] = {0, 0};
     (void)state;
@@ -175,8 +176,8 @@ static void tracks_start_as_early_as_from_whole_turns(void **state)
     assert_int_equal(first_turn[0], first_turn[1]);
 }
 
-/* A track's report is of the sector that its plot came with. */
-static void reports_keep_up_with_the_antenna(void **state)
+/* A track's report is of the sector with its plot. */
+static void reports_are_as_recent_as_the_sector(void **state)
 {
     struct scene scene = {.turning = -1, .speed_mps = 100.0, .hidden = -1};
     int seen = 0;
@@ -196,11 +197,11 @@ static void reports_keep_up_with_the_antenna(void **state)
         assert_int_equal(claimed, report.fates_total[RHO_FATE_CLAIMED]);
         seen += (int)claimed;
     }
-    assert_in_range(seen, TARGETS - 1, TARGETS + 1); /* one may move over the turn's edge */
+    assert_in_range(seen, TARGETS - 1, TARGETS + 1); /* one target may cross the turn's edge */
 }
 
-/* The window holds turns, not sectors: a lost one begins another scan, and goes on. */
-static void a_lost_sector_costs_little(void **state)
+/* The window holds turns, not sectors: after a lost sector it begins another turn and goes on. */
+static void a_lost_sector_loses_few_plots(void **state)
 {
     struct scene scene = {.turning = 1, .speed_mps = 60.0, .hidden = -1, .sectors = SECTORS};
     (void)state;
@@ -220,14 +221,14 @@ static void a_lost_sector_costs_little(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(targets_at_edges_are_seen_once_a_turn),
-        cmocka_unit_test(other_numbers_of_sectors_do_the_same),
-        cmocka_unit_test(a_track_takes_one_plot_a_pass),
-        cmocka_unit_test(another_radar_in_between_changes_nothing),
-        cmocka_unit_test(misses_count_once_a_turn),
-        cmocka_unit_test(tracks_start_as_early_as_from_whole_turns),
-        cmocka_unit_test(reports_keep_up_with_the_antenna),
-        cmocka_unit_test(a_lost_sector_costs_little),
+        cmocka_unit_test(targets_at_sector_edges_are_seen_once_a_turn),
+        cmocka_unit_test(any_number_of_sectors_sees_targets_once_a_turn),
+        cmocka_unit_test(a_track_takes_one_plot_per_pass_of_the_antenna),
+        cmocka_unit_test(scans_of_another_radar_between_sectors_change_nothing),
+        cmocka_unit_test(misses_are_counted_once_a_turn),
+        cmocka_unit_test(sectors_start_tracks_as_early_as_whole_turns),
+        cmocka_unit_test(reports_are_as_recent_as_the_sector),
+        cmocka_unit_test(a_lost_sector_loses_few_plots),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,35 +1,35 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tracks in doubt: believed no more, not yet dropped; what is said of them. Starts that share their
- * newest plot. How long targets are taken to fly straight (steady_s).
+ * Doubted tracks: no longer believed but not yet ended, and how they are reported. Starts that
+ * share their newest plot. The mean time of straight flight (steady_s).
  */
 #include "tracker_setup.h"
 
 #define SCAN_S 2.0
-#define LAST 12 /* scans that a target is seen in at first */
+#define LAST 12 /* scan until which the target is seen at first */
 
 /* A target at 250 m/s along x. */
-static void see(int k)
+static void see_target(int k)
 {
     const double x_m = 500.0 * k + uniform(-8.0, 8.0);
     add_plot(x_m, uniform(-8.0, 8.0), 10.0);
 }
 
-static void fly(int from, int to)
+static void step_scans(int from, int to)
 {
     for (int k = from; k < to; k++) {
-        see(k);
+        see_target(k);
         step_at(SCAN_S * k);
     }
 }
 
-static enum rho_track_status status_of_first(void)
+static enum rho_track_status status_of_first_track(void)
 {
     const struct rho_track_report *first = report_of(1);
     return first ? first->status : RHO_TRACK_FREE;
 }
 
-/* ---- doubt ----------------------------------------------------------------------------------- */
+/* ---- doubted tracks -------------------------------------------------------------------------- */
 
 static void a_track_in_doubt_comes_back_with_its_identity(void **state)
 {
@@ -37,34 +37,34 @@ static void a_track_in_doubt_comes_back_with_its_identity(void **state)
     for (int misses = 3; misses <= 4; misses++) {
         use_usual_configs((uint64_t)misses);
         begin_tracker();
-        fly(0, LAST);
+        step_scans(0, LAST);
         for (int k = LAST; k < LAST + misses; k++) {
             step_at(SCAN_S * k);
-            assert_int_equal(status_of_first(),
+            assert_int_equal(status_of_first_track(),
                              k < LAST + 2 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
         }
-        fly(LAST + misses, LAST + misses + 3);
+        step_scans(LAST + misses, LAST + misses + 3);
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(report.tracks[0].track_id, 1);
         assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
         assert_int_equal(tracker.counters.tracks_started, 1);
         assert_int_equal(tracker.counters.tracks_ended, 0);
-        /* believed once; what came after doubt is no other belief */
+        /* confirmed once; after the doubt it is not counted as confirmed again */
         assert_int_equal(tracker.counters.tracks_confirmed, 1);
     }
 }
 
-static void a_track_that_ends_in_doubt_is_reported_as_ended(void **state)
+static void a_doubted_track_that_ends_is_reported_as_ended(void **state)
 {
     (void)state;
     use_usual_configs(1);
     begin_tracker();
-    fly(0, LAST);
+    step_scans(0, LAST);
     for (int k = LAST; k < LAST + 4; k++) {
         step_at(SCAN_S * k);
         assert_int_equal(report.num_ended, 0);
     }
-    assert_int_equal(status_of_first(), RHO_TRACK_TENTATIVE);
+    assert_int_equal(status_of_first_track(), RHO_TRACK_TENTATIVE);
     step_at(SCAN_S * (LAST + 4));
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(report.num_ended, 1);
@@ -73,8 +73,8 @@ static void a_track_that_ends_in_doubt_is_reported_as_ended(void **state)
     assert_int_equal(tracker.counters.tracks_ended, 1);
 }
 
-/* Believed is what has more than the score of a start: it takes plots to come. */
-static void what_never_was_believed_is_not_reported_as_ended(void **state)
+/* A track is confirmed above the score of a start, which takes further plots. */
+static void tracks_never_confirmed_are_not_reported_as_ended(void **state)
 {
     (void)state;
     use_usual_configs(1);
@@ -87,7 +87,7 @@ static void what_never_was_believed_is_not_reported_as_ended(void **state)
             const double x_m = uniform(-2e4, 2e4);
             add_plot(x_m, uniform(-2e4, 2e4), 10.0);
         }
-        see(k);
+        see_target(k);
         step_at(SCAN_S * k);
     }
     if (tracker.counters.tracks_started == 0 || report.tracks[0].status != RHO_TRACK_TENTATIVE) {
@@ -105,29 +105,29 @@ static void what_never_was_believed_is_not_reported_as_ended(void **state)
 }
 
 /*
- * Of a sensor that sees half of its targets, five misses in a row are rarer than none, and commoner
- * than an end.
+ * If a sensor sees half of its targets, five misses in a row are rarer than none, but commoner than
+ * the end of a target.
  */
-static void misses_of_a_weak_sensor_are_no_doubt(void **state)
+static void misses_of_a_low_pd_sensor_raise_no_doubt(void **state)
 {
     (void)state;
     use_usual_configs(1);
     config.pd = 0.5f;
     initiation.pd = 0.5f;
     begin_tracker();
-    fly(0, LAST);
-    assert_int_equal(status_of_first(), RHO_TRACK_CONFIRMED);
+    step_scans(0, LAST);
+    assert_int_equal(status_of_first_track(), RHO_TRACK_CONFIRMED);
     for (int k = LAST; k < LAST + 4; k++) {
         step_at(SCAN_S * k);
-        assert_int_equal(status_of_first(), RHO_TRACK_COASTING);
+        assert_int_equal(status_of_first_track(), RHO_TRACK_COASTING);
     }
     step_at(SCAN_S * (LAST + 4));
-    assert_int_equal(status_of_first(), RHO_TRACK_FREE);
+    assert_int_equal(status_of_first_track(), RHO_TRACK_FREE);
     assert_int_equal(report.num_ended, 1);
 }
 
-/* One step may end all that there is. */
-static void all_ends_of_a_step_are_reported(void **state)
+/* One step may end all tracks. */
+static void all_tracks_ended_in_a_step_are_reported(void **state)
 {
     enum { TRACKS = 16 };
     (void)state;
@@ -151,10 +151,10 @@ static void all_ends_of_a_step_are_reported(void **state)
     assert_int_equal(tracker.counters.tracks_confirmed, TRACKS);
 }
 
-/* ---- starts that share a plot ---------------------------------------------------------------- */
+/* ---- starts that share their newest plot ----------------------------------------------------- */
 
-/* Two targets meet in one plot of the scan that both could start with, and part. */
-static void of_two_starts_with_the_same_newest_plot_one_waits(void **state)
+/* Two targets meet in one plot of the scan in which both could start, and part again. */
+static void of_two_starts_from_one_newest_plot_one_waits(void **state)
 {
     (void)state;
     use_usual_configs(1);
@@ -172,8 +172,8 @@ static void of_two_starts_with_the_same_newest_plot_one_waits(void **state)
     assert_true(report.tracks[0].state[4] * report.tracks[1].state[4] < 0.0f);
 }
 
-/* Plots that two others share are no reason: the newest ones are each target's own. */
-static void starts_with_newest_plots_of_their_own_are_both_started(void **state)
+/* Older plots shared with other tracks do not matter: each target has its own newest plot. */
+static void starts_from_different_newest_plots_are_both_made(void **state)
 {
     (void)state;
     use_usual_configs(1);
@@ -186,9 +186,9 @@ static void starts_with_newest_plots_of_their_own_are_both_started(void **state)
     assert_int_equal(tracker.counters.tracks_started, 2);
 }
 
-/* ---- how long targets fly straight ----------------------------------------------------------- */
+/* ---- mean time of straight flight ------------------------------------------------------------ */
 
-static void steady_times_out_of_range_are_refused(void **state)
+static void steady_s_out_of_range_is_refused(void **state)
 {
     static const float bad_s[] = {NAN, INFINITY, -INFINITY, -1.0f, -1e-6f, 1.0001e5f, 2e5f};
     static const float good_s[] = {0.0f, 1e-6f, 60.0f, 1e5f};
@@ -209,14 +209,14 @@ static void steady_times_out_of_range_are_refused(void **state)
 }
 
 struct flight {
-    double early_m, straight_m, turning_m; /* root mean squares of the errors */
-    double sure;   /* of a manoeuvre, in the turn's second half: mean probability */
-    unsigned kept; /* runs that one track followed to the end */
+    double early_m, straight_m, turning_m; /* root mean square errors in each phase */
+    double sure;   /* mean manoeuvre probability in the turn's second half */
+    unsigned kept; /* runs in which one track followed the target to the end */
 };
 
 /*
- * 100 s straight, of which the first 10 s do not count and 30 s are early; 3 g for 20 s; 50 m, a
- * plot a second.
+ * 100 s straight, of which 10 s do not count and the next 30 s are "early"; then 3 g for 20 s; 50 m
+ * noise, a plot a second.
  */
 static struct flight fly_and_turn(float steady_s)
 {
@@ -263,10 +263,9 @@ static struct flight fly_and_turn(float steady_s)
 }
 
 /*
- * What keeps straight for a while is known well whatever steady_s says: it sets how well until
- * then.
+ * Targets straight for a while are known equally well whatever steady_s is: it matters before that.
  */
-static void straight_targets_are_known_well_and_turns_are_followed(void **state)
+static void steady_s_improves_straight_flight_and_keeps_turns(void **state)
 {
     (void)state;
     const struct flight restless = fly_and_turn(0.0f), steady = fly_and_turn(300.0f);
@@ -274,18 +273,18 @@ static void straight_targets_are_known_well_and_turns_are_followed(void **state)
                   "%.1f m; sure %.2f, %.2f\n",
                   restless.early_m, steady.early_m, restless.straight_m, steady.straight_m,
                   restless.turning_m, steady.turning_m, restless.sure, steady.sure);
-    assert_true(steady.early_m < 0.9 * restless.early_m); /* 38 and 31 m */
-    assert_true(restless.straight_m < 28.0);              /* 24 m, and 24 m */
+    assert_true(steady.early_m < 0.9 * restless.early_m); /* measured: 38 m and 31 m */
+    assert_true(restless.straight_m < 28.0);              /* measured: 24 m in both */
     assert_true(steady.straight_m < 28.0);
-    assert_true(restless.turning_m < 72.0); /* 63 m, and 64 m */
+    assert_true(restless.turning_m < 72.0); /* measured: 63 m and 64 m */
     assert_true(steady.turning_m < 72.0);
-    assert_true(restless.sure > 0.45 && steady.sure > 0.3); /* 0.63 and 0.50 */
+    assert_true(restless.sure > 0.45 && steady.sure > 0.3); /* measured: 0.63 and 0.50 */
     assert_int_equal(restless.kept, 12);
     assert_int_equal(steady.kept, 12);
 }
 
-/* Where it is less than manoeuvres last, it is as long as these. */
-static void a_short_steady_time_is_as_none(void **state)
+/* A steady_s shorter than manoeuvres last counts as their duration. */
+static void a_steady_s_shorter_than_manoeuvres_has_no_effect(void **state)
 {
     static struct rho_report other;
     (void)state;
@@ -293,7 +292,7 @@ static void a_short_steady_time_is_as_none(void **state)
         use_usual_configs(1);
         config.steady_s = i ? 1.0f : 0.0f;
         begin_tracker();
-        fly(0, 20);
+        step_scans(0, 20);
         if (i == 0) {
             other = report;
         }
@@ -301,9 +300,9 @@ static void a_short_steady_time_is_as_none(void **state)
     assert_memory_equal(&report, &other, sizeof report);
 }
 
-/* ---- what stands ----------------------------------------------------------------------------- */
+/* ---- standing objects ------------------------------------------------------------------------ */
 
-static void what_stands_is_no_target_where_targets_move(void **state)
+static void standing_objects_are_no_targets_above_v_min(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
@@ -314,7 +313,7 @@ static void what_stands_is_no_target_where_targets_move(void **state)
             config.v_min_mps = has_least ? 50.0f : 0.0f;
             begin_tracker();
             for (int k = 0; k < 40; k++) {
-                /* it flies, then it has come upon something that stands */
+                /* the track flies, then takes plots of something that stands still */
                 add_plot(k < 20 ? 400.0 * k - 8000.0 : 10.0 * normal(), 10.0 * normal(), 10.0);
                 step_at(2.0 * k);
                 for (unsigned i = 0; i < report.num_ended; i++) {
@@ -330,7 +329,7 @@ static void what_stands_is_no_target_where_targets_move(void **state)
     }
 }
 
-static void least_speeds_out_of_range_are_refused(void **state)
+static void v_min_out_of_range_is_refused(void **state)
 {
     static const float bad[] = {-1.0f, NAN, INFINITY, 701.0f};
     (void)state;
@@ -352,17 +351,17 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_track_in_doubt_comes_back_with_its_identity),
-        cmocka_unit_test(a_track_that_ends_in_doubt_is_reported_as_ended),
-        cmocka_unit_test(what_never_was_believed_is_not_reported_as_ended),
-        cmocka_unit_test(misses_of_a_weak_sensor_are_no_doubt),
-        cmocka_unit_test(all_ends_of_a_step_are_reported),
-        cmocka_unit_test(of_two_starts_with_the_same_newest_plot_one_waits),
-        cmocka_unit_test(starts_with_newest_plots_of_their_own_are_both_started),
-        cmocka_unit_test(steady_times_out_of_range_are_refused),
-        cmocka_unit_test(straight_targets_are_known_well_and_turns_are_followed),
-        cmocka_unit_test(a_short_steady_time_is_as_none),
-        cmocka_unit_test(what_stands_is_no_target_where_targets_move),
-        cmocka_unit_test(least_speeds_out_of_range_are_refused),
+        cmocka_unit_test(a_doubted_track_that_ends_is_reported_as_ended),
+        cmocka_unit_test(tracks_never_confirmed_are_not_reported_as_ended),
+        cmocka_unit_test(misses_of_a_low_pd_sensor_raise_no_doubt),
+        cmocka_unit_test(all_tracks_ended_in_a_step_are_reported),
+        cmocka_unit_test(of_two_starts_from_one_newest_plot_one_waits),
+        cmocka_unit_test(starts_from_different_newest_plots_are_both_made),
+        cmocka_unit_test(steady_s_out_of_range_is_refused),
+        cmocka_unit_test(steady_s_improves_straight_flight_and_keeps_turns),
+        cmocka_unit_test(a_steady_s_shorter_than_manoeuvres_has_no_effect),
+        cmocka_unit_test(standing_objects_are_no_targets_above_v_min),
+        cmocka_unit_test(v_min_out_of_range_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Sensors that are not as stated: noise and pd are learned from what tracks show, within their
- * bounds, and used; where all is as stated, or targets turn, nothing is.
+ * Sensors that differ from their description: noise and P_D are learned from tracks within bounds
+ * and used; nothing is learned from sensors as described or from turning targets.
  */
 #include "tracker_setup.h"
 
@@ -11,13 +11,14 @@
 #define TURN_US 4000000
 
 struct radar {
-    double sigma_range_m, sigma_azimuth_rad; /* true ones */
-    double claim;                            /* what its plots claim of these */
-    double claim_across;                     /* times that, of the second; 0: 1 */
-    double pd, pd_far, pd_stated;            /* to half its range, and beyond */
-    double weave_mps2;                       /* accelerations of its targets, across, in turns */
-    int is_round;                            /* plots have sigma_range_m on both axes */
-    int gone_at; /* targets are there for so many scans, then others; 0: always */
+    double sigma_range_m, sigma_azimuth_rad; /* true sigmas */
+    double claim;                            /* claimed over true sigma */
+    double claim_across; /* claimed sigma factor across, times `claim`; 0 means 1 */
+    /* P_D in the inner and the outer half of the range, and as stated */
+    double pd, pd_far, pd_stated;
+    double weave_mps2; /* lateral accelerations of its targets, to and fro */
+    int is_round;      /* plots have sigma_range_m on both axes */
+    int gone_at;       /* targets are replaced after so many scans; 0: never */
 };
 
 static const struct radar as_stated = {.sigma_range_m = 30.0,
@@ -27,15 +28,15 @@ static const struct radar as_stated = {.sigma_range_m = 30.0,
                                        .pd_far = 0.9,
                                        .pd_stated = 0.9};
 
-static void describe(const struct radar *radar)
+static void describe_sensor(const struct radar *radar)
 {
     const struct rho_sensor sensor = {
         .sensor_id = SENSOR, .pd = (float)radar->pd_stated, .range_max_m = RANGE_MAX_M};
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
 }
 
-/* Half of them near, half far, on straight lines, or weaving about them. */
-static void place_of(const struct radar *radar, int target, int k, double place_m[2])
+/* Half of the targets near, half far, on straight or weaving courses. */
+static void true_place_of(const struct radar *radar, int target, int k, double place_m[2])
 {
     const int life = radar->gone_at ? k / radar->gone_at : 0;
     const double t_s = 4.0 * k, heading = 1.1 * target + 2.3 * life;
@@ -48,16 +49,16 @@ static void place_of(const struct radar *radar, int target, int k, double place_
     place_m[1] = range_m * sin(azimuth) + along_m * sin(heading) + off_m * cos(heading);
 }
 
-static unsigned doubts; /* reports of established tracks that are in doubt */
+static unsigned doubts; /* reports of established tracks in doubt */
 
-static void look(const struct radar *radar, int k)
+static void step_scan_at(const struct radar *radar, int k)
 {
     struct rho_scan scan = {.time_us = (int64_t)TURN_US * k, .sensor_id = SENSOR, .plots = plots};
 
     num_plots = 0;
     for (int i = 0; i < TARGETS; i++) {
         double place_m[2], range_noise = normal(), azimuth_noise = normal();
-        place_of(radar, i, k, place_m);
+        true_place_of(radar, i, k, place_m);
         const double range_m = hypot(place_m[0], place_m[1]);
         const double across_m =
             radar->is_round ? radar->sigma_range_m : range_m * radar->sigma_azimuth_rad;
@@ -85,17 +86,17 @@ static struct rho_tracker_known known_after(const struct radar *radar, int scans
 {
     struct rho_tracker_known known;
 
-    describe(radar);
+    describe_sensor(radar);
     for (int k = 0; k < scans; k++) {
-        describe(radar); /* as the program does before each scan: what is learned stays */
-        look(radar, k);
+        describe_sensor(radar); /* as the program does before each scan; learned values stay */
+        step_scan_at(radar, k);
     }
     assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
     assert_true(rho_tracker_is_sound(&tracker));
     return known;
 }
 
-static void prepare(uint64_t seed)
+static void start_tracker(uint64_t seed)
 {
     use_usual_configs(seed);
     config.accel_max_mps2 = 20.0f;
@@ -109,13 +110,13 @@ static void assert_between(double value, double least, double most)
     }
 }
 
-static void what_is_as_stated_stays(void **state)
+static void a_sensor_as_stated_keeps_its_values(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 4; seed++) {
         struct radar radar = as_stated;
         radar.is_round = seed % 2 == 0;
-        prepare(seed);
+        start_tracker(seed);
         const struct rho_tracker_known known = known_after(&radar, 150);
         assert_float_equal(known.range_factor, 1.0f, 0.0f);
         assert_float_equal(known.cross_factor, 1.0f, 0.0f);
@@ -127,7 +128,7 @@ static void what_is_as_stated_stays(void **state)
     }
 }
 
-static void noise_is_found_on_each_axis(void **state)
+static void noise_is_learned_along_and_across(void **state)
 {
     static const double claims[] = {0.45, 0.6, 2.5, 0.5};
     (void)state;
@@ -135,7 +136,7 @@ static void noise_is_found_on_each_axis(void **state)
         struct radar radar = as_stated;
         radar.claim = claims[i];
         radar.is_round = i == 3;
-        prepare(10u + (uint64_t)i);
+        start_tracker(10u + (uint64_t)i);
         config.learn_noise_min = 0.2f;
         begin_tracker();
         const struct rho_tracker_known known = known_after(&radar, 150);
@@ -145,21 +146,21 @@ static void noise_is_found_on_each_axis(void **state)
     }
 }
 
-/* Of one that claims too little noise along the line of sight alone. */
-static void axes_are_told_apart(void **state)
+/* A sensor whose plots understate the noise along the line of sight alone. */
+static void noise_understated_in_range_alone_is_learned_in_range_alone(void **state)
 {
     struct radar radar = as_stated;
 
     (void)state;
     radar.claim_across = 2.0;
     radar.claim = 0.5;
-    prepare(20);
+    start_tracker(20);
     const struct rho_tracker_known known = known_after(&radar, 150);
     assert_between((double)known.range_factor, 1.64, 2.36);
     assert_float_equal(known.cross_factor, 1.0f, 0.0f);
 }
 
-static void bounds_hold_and_one_is_off(void **state)
+static void learned_values_stay_within_their_bounds(void **state)
 {
     struct radar radar = as_stated;
     struct rho_tracker_known known;
@@ -168,14 +169,14 @@ static void bounds_hold_and_one_is_off(void **state)
     radar.claim = 0.5;
     radar.pd = radar.pd_far = 0.7;
     radar.pd_stated = 0.95;
-    prepare(30);
+    start_tracker(30);
     config.learn_noise_max = 1.5f;
     config.learn_pd_min = 0.8f;
     begin_tracker();
     known = known_after(&radar, 120);
     assert_float_equal(known.range_factor, 1.5f, 0.0f);
     assert_float_equal(known.pd[1], 0.76f, 1e-6f);
-    prepare(30);
+    start_tracker(30);
     config.learn_noise_min = config.learn_noise_max = config.learn_pd_min = 1.0f;
     begin_tracker();
     known = known_after(&radar, 120);
@@ -183,16 +184,16 @@ static void bounds_hold_and_one_is_off(void **state)
     assert_float_equal(known.pd[1], 0.95f, 0.0f);
     radar.claim = 3.0;
     radar.pd = radar.pd_far = 0.9;
-    prepare(31);
+    start_tracker(31);
     known = known_after(&radar, 120);
     assert_float_equal(known.range_factor, 0.7f, 0.0f);
 }
 
-/* Looks were counted with learn_pd_min 1, too, though the pd is not learned then. */
-static void nothing_is_counted_where_learning_is_off(void **state)
+/* An earlier version counted looks with learn_pd_min 1, although no P_D is learned then. */
+static void with_learning_off_no_looks_are_counted(void **state)
 {
     (void)state;
-    prepare(32);
+    start_tracker(32);
     config.learn_noise_min = config.learn_noise_max = config.learn_pd_min = 1.0f;
     begin_tracker();
     const struct rho_tracker_known known = known_after(&as_stated, 60);
@@ -200,15 +201,15 @@ static void nothing_is_counted_where_learning_is_off(void **state)
     assert_int_equal(known.innovations, 0);
 }
 
-/* Targets that turn leave plots beside their predictions, too: that is no noise. */
-static void manoeuvres_are_no_noise(void **state)
+/* Turning targets also leave plots beside their predictions: that is not learned as noise. */
+static void manoeuvres_of_targets_are_not_learned_as_noise(void **state)
 {
     static const double accels_mps2[] = {3.0, 10.0, 30.0};
     (void)state;
     for (int i = 0; i < 3; i++) {
         struct radar radar = as_stated;
         radar.weave_mps2 = accels_mps2[i];
-        prepare(40u + (uint64_t)i);
+        start_tracker(40u + (uint64_t)i);
         const struct rho_tracker_known known = known_after(&radar, 150);
         assert_between((double)known.range_factor, 0.99, 1.01);
         assert_between((double)known.cross_factor, 0.99, 1.01);
@@ -223,24 +224,21 @@ static void pd_is_learned_by_range(void **state)
     radar.pd_stated = 0.95;
     radar.pd = 0.95;
     radar.pd_far = 0.6;
-    prepare(50);
+    start_tracker(50);
     const struct rho_tracker_known known = known_after(&radar, 150);
     assert_float_equal(known.pd[1], 0.95f, 0.03f);
     assert_between((double)known.pd[4], 0.57, 0.7);
 }
 
-/*
- * Times that established tracks are in doubt of targets that are seen in half of the scans, in five
- * runs.
- */
-static unsigned doubts_with(float learn_pd_min)
+/* Counts doubts of established tracks, in five runs of targets seen in half of the scans. */
+static unsigned count_doubts_with(float learn_pd_min)
 {
     doubts = 0;
     for (uint64_t seed = 51; seed <= 55; seed++) {
         struct radar radar = as_stated;
         radar.pd_stated = 0.95;
         radar.pd_far = 0.5;
-        prepare(seed);
+        start_tracker(seed);
         config.learn_pd_min = learn_pd_min;
         begin_tracker();
         (void)known_after(&radar, 150);
@@ -248,18 +246,18 @@ static unsigned doubts_with(float learn_pd_min)
     return doubts;
 }
 
-/* Two misses in a row are a doubt where pd is as stated; where it is known to be less, more. */
-static void tracks_that_are_seen_seldom_are_believed(void **state)
+/* Two misses in a row cast doubt at the stated P_D, at a lower learned one it takes more. */
+static void with_a_learned_low_pd_tracks_are_doubted_less(void **state)
 {
     (void)state;
-    const unsigned learned = doubts_with(0.5f), as_ever = doubts_with(1.0f);
+    const unsigned learned = count_doubts_with(0.5f), as_ever = count_doubts_with(1.0f);
     print_message("%u doubts, %u where pd is as stated\n", learned, as_ever);
     assert_true(as_ever >= 200);
     assert_true(2 * learned < as_ever);
 }
 
-/* A build without hypotheses does the same. */
-static void the_gate_nearest_learns_nothing(void **state)
+/* A build without hypotheses learns nothing, too. */
+static void gate_nearest_learns_no_sensor_values(void **state)
 {
     struct radar radar = as_stated;
 
@@ -278,24 +276,23 @@ static void the_gate_nearest_learns_nothing(void **state)
     assert_int_equal(tracker.sensors[0].sigma_range_percent, 100);
 }
 
-/* Targets that are gone are no misses of those that are there; more than was stated is not
- * believed. */
-static void pd_is_not_lowered_by_what_is_gone_nor_raised(void **state)
+/* Gone targets do not lower the P_D of the others; a P_D above the stated one is not learned. */
+static void pd_is_neither_lowered_by_gone_targets_nor_raised(void **state)
 {
     struct radar radar = as_stated;
 
     (void)state;
     radar.gone_at = 30;
-    prepare(60);
+    start_tracker(60);
     assert_float_equal(known_after(&radar, 150).pd[4], 0.9f, 0.03f);
     radar.gone_at = 0;
     radar.pd = radar.pd_far = 0.99;
     radar.pd_stated = 0.6;
-    prepare(61);
+    start_tracker(61);
     assert_float_equal(known_after(&radar, 100).pd[1], 0.6f, 0.0f);
 }
 
-static void sensors_are_told_apart_and_forgotten(void **state)
+static void each_sensor_learns_alone_and_is_forgotten(void **state)
 {
     struct radar radar = as_stated;
     struct rho_tracker_known known;
@@ -303,7 +300,7 @@ static void sensors_are_told_apart_and_forgotten(void **state)
 
     (void)state;
     radar.claim = 0.5;
-    prepare(70);
+    start_tracker(70);
     assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_ERROR_STATE);
     assert_int_equal(rho_tracker_known_of(NULL, SENSOR, &known), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, NULL), RHO_ERROR_NULL);
@@ -316,30 +313,36 @@ static void sensors_are_told_apart_and_forgotten(void **state)
     assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
     assert_true(known.range_factor > 1.6f);
     assert_int_equal(rho_tracker_forget_sensor(&tracker, SENSOR), RHO_OK);
-    describe(&radar);
+    describe_sensor(&radar);
     assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
     assert_int_equal(known.innovations, 0);
 }
 
-/* ---- what counts so far mean ----------------------------------------------------------------- */
+/* ---- values learned from given counts -------------------------------------------------------- */
 
-static struct rho_tracker_known known_now(void)
+static struct rho_tracker_known known_of_sensor(void)
 {
     struct rho_tracker_known known;
     assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
     return known;
 }
 
-/* Of a radar with the stated pd 0.9, in ring 2 of these looks; all others are seen as stated. */
-static float pd_after(unsigned looks, unsigned hits)
+/*
+ * P_D of ring 2 with these counts, for a radar with the stated P_D 0.9 and all other rings as
+ * stated.
+ */
+static float learned_pd_after(unsigned looks, unsigned hits)
 {
     tracker.learned[0].looks[2] = (uint16_t)looks;
     tracker.learned[0].hits[2] = (uint16_t)hits;
-    return known_now().pd[2];
+    return known_of_sensor().pd[2];
 }
 
-/* (hits + prior pd) / (looks + prior), with 30 prior looks at all rings and 20 at one. */
-static double seen_pd(double looks, double hits, double *sigma)
+/*
+ * Expected P_D (hits + prior pd) / (looks + prior), with 30 prior looks for all rings and 20 for
+ * one.
+ */
+static double expected_pd(double looks, double hits, double *sigma)
 {
     const double all = (hits + 30.0 * 0.9) / (looks + 30.0);
     const double pd = (hits + 20.0 * all) / (looks + 20.0);
@@ -347,50 +350,53 @@ static double seen_pd(double looks, double hits, double *sigma)
     return pd;
 }
 
-/* One sigma above what was seen, where that is 2.5 sigmas below what is stated. */
-static void learned_pd_has_priors_and_caution(void **state)
+/* A learned P_D is one sigma above the observed one, if that is 2.5 sigmas below the stated one. */
+static void learned_pd_has_priors_and_a_threshold(void **state)
 {
     (void)state;
-    prepare(90);
-    describe(&as_stated);
+    start_tracker(90);
+    describe_sensor(&as_stated);
     tracker.learned[0].is_lowered = 1u << 2;
     for (unsigned hits = 20; hits <= 54; hits++) {
-        double sigma, pd = seen_pd(60.0, hits, &sigma);
+        double sigma, pd = expected_pd(60.0, hits, &sigma);
         const double expected = pd + 2.5 * sigma < 0.9 ? pd + sigma : 0.9;
-        assert_float_equal(pd_after(60, hits), expected > 0.45 ? expected : 0.45, 1e-5);
+        assert_float_equal(learned_pd_after(60, hits), expected > 0.45 ? expected : 0.45, 1e-5);
     }
 }
 
-static float factor_after(unsigned innovations, double log_noise)
+static float learned_noise_factor_after(unsigned innovations, double log_noise)
 {
     tracker.learned[0].innovations = (uint16_t)innovations;
     tracker.learned[0].log_noise[0] = tracker.learned[0].log_noise[1] = (float)log_noise;
-    return known_now().range_factor;
+    return known_of_sensor().range_factor;
 }
 
-/* From 100 innovations, and beyond 0.25 + 4 / root of them: 0.65 of 100, 0.376 of 1000. */
-static void learned_noise_counts_beyond_chance(void **state)
+/*
+ * Noise is learned from 100 innovations on, and beyond 0.25 + 4 / root(n): 0.65 for 100, 0.376 for
+ * 1000.
+ */
+static void noise_is_learned_only_beyond_chance(void **state)
 {
     (void)state;
-    prepare(91);
-    describe(&as_stated);
-    assert_float_equal(factor_after(99, 0.8), 1.0, 0.0);
-    assert_float_equal(factor_after(100, 0.8), exp(0.4), 1e-5);
-    assert_float_equal(factor_after(100, 0.64), 1.0, 0.0);
-    assert_float_equal(factor_after(100, 0.66), exp(0.33), 1e-5);
-    assert_float_equal(factor_after(1000, 0.37), 1.0, 0.0);
-    assert_float_equal(factor_after(1000, 0.39), exp(0.195), 1e-5);
+    start_tracker(91);
+    describe_sensor(&as_stated);
+    assert_float_equal(learned_noise_factor_after(99, 0.8), 1.0, 0.0);
+    assert_float_equal(learned_noise_factor_after(100, 0.8), exp(0.4), 1e-5);
+    assert_float_equal(learned_noise_factor_after(100, 0.64), 1.0, 0.0);
+    assert_float_equal(learned_noise_factor_after(100, 0.66), exp(0.33), 1e-5);
+    assert_float_equal(learned_noise_factor_after(1000, 0.37), 1.0, 0.0);
+    assert_float_equal(learned_noise_factor_after(1000, 0.39), exp(0.195), 1e-5);
 }
 
-/* Up to 4.6, 1000 innovations and 1000 looks; what is beyond is no image of a tracker. */
-static void what_is_learned_has_limits(void **state)
+/* Limits are 4.6, 1000 innovations and 1000 looks; a snapshot beyond them is refused. */
+static void learned_counts_have_limits(void **state)
 {
     (void)state;
-    prepare(92);
-    describe(&as_stated);
+    start_tracker(92);
+    describe_sensor(&as_stated);
     const struct rho_tracker_learned none = tracker.learned[0];
-    (void)factor_after(1000, 4.6);
-    (void)pd_after(1000, 1000);
+    (void)learned_noise_factor_after(1000, 4.6);
+    (void)learned_pd_after(1000, 1000);
     assert_true(rho_tracker_is_sound(&tracker));
     for (int i = 0; i < 3; i++) {
         tracker.learned[0] = none;
@@ -401,7 +407,7 @@ static void what_is_learned_has_limits(void **state)
     }
 }
 
-static void bounds_are_checked(void **state)
+static void bad_bounds_of_learning_are_refused(void **state)
 {
     static const float bad[][3] = {{0.09f, 4.0f, 0.5f}, {1.01f, 4.0f, 0.5f}, {0.7f, 0.99f, 0.5f},
                                    {0.7f, 10.1f, 0.5f}, {0.7f, 4.0f, 0.09f}, {0.7f, 4.0f, NAN}};
@@ -417,9 +423,9 @@ static void bounds_are_checked(void **state)
 
 /*
  * Aircraft of 75 m/s pass tangentially at 10 to 21 km, 20 minutes each, one after the other; a
- * radar that is blind within 12 m/s of zero Doppler sees them not.
+ * radar blind within 12 m/s of zero Doppler does not see them in passing.
  */
-static void pass(int k, double notch_mps)
+static void step_tangential_passes(int k, double notch_mps)
 {
     struct rho_scan scan = {.time_us = (int64_t)TURN_US * k, .sensor_id = SENSOR, .plots = plots};
 
@@ -445,65 +451,65 @@ static float learned_notch(void)
 
     assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
     for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-        assert_true(known.pd[ring] > 0.85f); /* of what is not in the notch, as stated */
+        assert_true(known.pd[ring] > 0.85f); /* P_D outside the notch, as stated */
     }
     return known.notch_mps;
 }
 
-static void begin_flights(void)
+static void start_flights(void)
 {
     use_usual_configs(17);
     config.v_max_mps = initiation.v_max_mps = 200.0f;
     begin_tracker();
-    describe(&as_stated);
+    describe_sensor(&as_stated);
 }
 
-static void a_notch_that_nobody_told_is_learned(void **state)
+static void an_unstated_notch_is_learned(void **state)
 {
     uint32_t before, after;
     (void)state;
     if (!RHO_DOPPLER_NOTCH) {
         skip();
     }
-    begin_flights();
+    start_flights();
     for (int k = 0; k < 1500; k++) {
-        pass(k, 12.0);
+        step_tangential_passes(k, 12.0);
     }
     assert_true(learned_notch() > 9.0f && learned_notch() < 13.0f);
     assert_true(rho_tracker_is_sound(&tracker));
     before = tracker.counters.tracks_started;
     for (int k = 1500; k < 2100; k++) {
-        pass(k, 12.0);
+        step_tangential_passes(k, 12.0);
     }
     after = tracker.counters.tracks_started;
     print_message("%u tracks of 24 aircraft once it is learned\n", (unsigned)(after - before));
     assert_true(after - before <= 32);
-    /* one that is stated goes before it */
+    /* a stated notch takes precedence over a learned one */
     const struct rho_sensor told = {
         .sensor_id = SENSOR, .pd = 0.9f, .range_max_m = RANGE_MAX_M, .notch_mps = 5.0f};
     assert_int_equal(rho_tracker_set_sensor(&tracker, &told), RHO_OK);
-    pass(2100, 12.0);
+    step_tangential_passes(2100, 12.0);
     assert_true(tracker.sensors[0].notch_mps == 5.0f && learned_notch() == 0.0f);
 }
 
-static void a_notch_that_is_none_is_not_learned_and_forgotten(void **state)
+static void a_notch_is_learned_only_while_there_is_one(void **state)
 {
     (void)state;
     if (!RHO_DOPPLER_NOTCH) {
         skip();
     }
-    begin_flights();
+    start_flights();
     for (int k = 0; k < 1500; k++) {
-        pass(k, 0.0);
+        step_tangential_passes(k, 0.0);
         assert_true(learned_notch() == 0.0f);
     }
-    begin_flights();
+    start_flights();
     for (int k = 0; k < 1500; k++) {
-        pass(k, 12.0);
+        step_tangential_passes(k, 12.0);
     }
     assert_true(learned_notch() > 9.0f);
     for (int k = 1500; k < 4500; k++) {
-        pass(k, 0.0);
+        step_tangential_passes(k, 0.0);
     }
     assert_true(learned_notch() == 0.0f);
     assert_true(tracker.sensors[0].notch_mps == 0.0f);
@@ -512,23 +518,23 @@ static void a_notch_that_is_none_is_not_learned_and_forgotten(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_as_stated_stays),
-        cmocka_unit_test(noise_is_found_on_each_axis),
-        cmocka_unit_test(axes_are_told_apart),
-        cmocka_unit_test(bounds_hold_and_one_is_off),
-        cmocka_unit_test(nothing_is_counted_where_learning_is_off),
-        cmocka_unit_test(manoeuvres_are_no_noise),
+        cmocka_unit_test(a_sensor_as_stated_keeps_its_values),
+        cmocka_unit_test(noise_is_learned_along_and_across),
+        cmocka_unit_test(noise_understated_in_range_alone_is_learned_in_range_alone),
+        cmocka_unit_test(learned_values_stay_within_their_bounds),
+        cmocka_unit_test(with_learning_off_no_looks_are_counted),
+        cmocka_unit_test(manoeuvres_of_targets_are_not_learned_as_noise),
         cmocka_unit_test(pd_is_learned_by_range),
-        cmocka_unit_test(tracks_that_are_seen_seldom_are_believed),
-        cmocka_unit_test(the_gate_nearest_learns_nothing),
-        cmocka_unit_test(pd_is_not_lowered_by_what_is_gone_nor_raised),
-        cmocka_unit_test(sensors_are_told_apart_and_forgotten),
-        cmocka_unit_test(learned_pd_has_priors_and_caution),
-        cmocka_unit_test(learned_noise_counts_beyond_chance),
-        cmocka_unit_test(what_is_learned_has_limits),
-        cmocka_unit_test(bounds_are_checked),
-        cmocka_unit_test(a_notch_that_nobody_told_is_learned),
-        cmocka_unit_test(a_notch_that_is_none_is_not_learned_and_forgotten),
+        cmocka_unit_test(with_a_learned_low_pd_tracks_are_doubted_less),
+        cmocka_unit_test(gate_nearest_learns_no_sensor_values),
+        cmocka_unit_test(pd_is_neither_lowered_by_gone_targets_nor_raised),
+        cmocka_unit_test(each_sensor_learns_alone_and_is_forgotten),
+        cmocka_unit_test(learned_pd_has_priors_and_a_threshold),
+        cmocka_unit_test(noise_is_learned_only_beyond_chance),
+        cmocka_unit_test(learned_counts_have_limits),
+        cmocka_unit_test(bad_bounds_of_learning_are_refused),
+        cmocka_unit_test(an_unstated_notch_is_learned),
+        cmocka_unit_test(a_notch_is_learned_only_while_there_is_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The functions below a step's phases (step.h), each limit at both of its sides: sensor health,
- * sectors, what clutter is expected, how tracks end, shares of work. Sensors and tracks are made by
- * hand, which takes the private header: those of a scene never stand at a limit.
+ * The functions below a step's phases (step.h), each limit at both sides: sensor health, sectors,
+ * expected clutter, ends of tracks, shares of work. Sensors and tracks are made by hand, with the
+ * private header, as those of a scene never stand exactly at a limit.
  */
 #include "../../src/tracker/step.h"
 #include "rhotrack/operator.h"
@@ -13,14 +13,14 @@ static const struct rho_sensor radar = {.sensor_id = 1, .pd = 0.9f, .range_max_m
 static struct rho_scan scan;
 static struct step at;
 
-static void prepare(void)
+static void start_step(void)
 {
     use_usual_configs(1);
     config.work_max = 0;
     begin_tracker();
     memset(&report, 0, sizeof report);
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
-    tracker.unclaimed_plots = 100.0f; /* on 100 by 100 km */
+    tracker.unclaimed_plots = 100.0f; /* on an area of 100 by 100 km */
     tracker.extent = (struct rho_extent){-50000.0f, 50000.0f, -50000.0f, 50000.0f};
     scan = (struct rho_scan){.sensor_id = 1, .plots = plots};
     at = (struct step){.tracker = &tracker,
@@ -34,8 +34,8 @@ static void prepare(void)
                        .log_miss = -2.3f};
 }
 
-/* 20 km away at this azimuth, with such sigmas. */
-static struct rho_track *have_track(double azimuth_rad, double sigma_m)
+/* A confirmed track 20 km away at this azimuth, with this sigma on both axes. */
+static struct rho_track *make_track(double azimuth_rad, double sigma_m)
 {
     struct rho_track *track = &tracker.tracks[tracker.num_tracks];
     *track = (struct rho_track){.track_id = ++tracker.num_tracks,
@@ -53,7 +53,7 @@ static struct rho_track *have_track(double azimuth_rad, double sigma_m)
     return track;
 }
 
-static void put(double x_m, double y_m)
+static void add_plot_at(double x_m, double y_m)
 {
     (void)add_plot(x_m, y_m, 10.0);
     report.fates[num_plots - 1] = RHO_FATE_HELD;
@@ -64,10 +64,10 @@ static void put(double x_m, double y_m)
 
 #if RHO_SECTORS
 
-/* The radar and three others that agree with it: all see what they should, all are as fine. */
-static struct rho_tracker_look *have_looks(void)
+/* The radar and three others: all see what they should, with the same noise. */
+static struct rho_tracker_look *make_agreeing_looks(void)
 {
-    prepare();
+    start_step();
     tracker.num_looks = 4;
     for (int i = 0; i < 4; i++) {
         tracker.looks[i] = (struct rho_tracker_look){.sensor_id = 1 + i,
@@ -82,18 +82,21 @@ static struct rho_tracker_look *have_looks(void)
     return tracker.looks;
 }
 
-static int is_suspect(void)
+static int is_sensor_suspect(void)
 {
     (void)rho_tracker_update_suspect_and_sigma_factor(&at);
     return at.is_suspect;
 }
 
-/* It sees less than 0.3 of what it should, over 12 looks or more, and one other does agree. */
+/*
+ * A sensor is suspect below 0.3 of the expected detections over at least 12 looks, if one other
+ * agrees.
+ */
 static void a_sensor_that_sees_too_little_is_suspect(void **state)
 {
     (void)state;
     for (int i = 0; i < 8; i++) {
-        struct rho_tracker_look *looks = have_looks();
+        struct rho_tracker_look *looks = make_agreeing_looks();
         looks[0].seen_share = i == 1 ? 0.28f : 0.26f;
         looks[0].watched = i == 2 ? 11 : 12;
         tracker.num_looks = 2;
@@ -101,58 +104,61 @@ static void a_sensor_that_sees_too_little_is_suspect(void **state)
         looks[1].seen_share = i == 4 ? 0.53f : 0.55f;
         looks[1].distance2 = i == 5 ? 2.6f : 2.4f;
         looks[1].time_us = at.time_us - (i == 6 ? 61000000 : 59000000);
-        assert_int_equal(is_suspect(), i == 0 || i == 7);
+        assert_int_equal(is_sensor_suspect(), i == 0 || i == 7);
     }
 }
 
-/* Its squared distances are above 4 of 12 plots or more, and two others agree. */
-static void a_sensor_that_is_off_is_suspect(void **state)
+/*
+ * A sensor is suspect if its squared distances are above 4, over at least 12 plots, if two others
+ * agree.
+ */
+static void a_biased_sensor_is_suspect(void **state)
 {
     (void)state;
     for (int i = 0; i < 4; i++) {
-        struct rho_tracker_look *looks = have_looks();
+        struct rho_tracker_look *looks = make_agreeing_looks();
         looks[0].distance2 = i == 1 ? 3.9f : 4.1f;
         looks[0].watched_hits = i == 2 ? 11 : 12;
         tracker.num_looks = 3;
         looks[2].is_suspect = i == 3;
-        assert_int_equal(is_suspect(), i == 0);
+        assert_int_equal(is_sensor_suspect(), i == 0);
     }
 }
 
-/* Others that are off themselves count up to 0.7 of its distance. */
-static void others_that_are_less_off_are_witnesses(void **state)
+/* Others that are biased, too, are witnesses up to 0.7 of its distance. */
+static void less_biased_sensors_are_witnesses(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct rho_tracker_look *looks = have_looks();
+        struct rho_tracker_look *looks = make_agreeing_looks();
         tracker.num_looks = 3;
         looks[0].distance2 = 5.0f;
         looks[1].distance2 = looks[2].distance2 = i ? 3.6f : 3.4f;
-        assert_int_equal(is_suspect(), !i);
+        assert_int_equal(is_sensor_suspect(), !i);
     }
 }
 
-/* One as fine and one 1.9 times as coarse are not enough. */
-static void a_coarse_sensor_and_a_fine_one_cannot_tell(void **state)
+/* Two witnesses are needed; one of more than 1.9 times the noise does not count. */
+static void witnesses_have_at_most_1_9_times_the_noise(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct rho_tracker_look *looks = have_looks();
+        struct rho_tracker_look *looks = make_agreeing_looks();
         tracker.num_looks = 3;
         looks[0].distance2 = 5.0f;
         looks[1].sigma_m = i ? 19.5f : 18.5f;
-        assert_int_equal(is_suspect(), !i);
+        assert_int_equal(is_sensor_suspect(), !i);
     }
 }
 
-static void a_suspect_sensor_is_trusted_when_it_agrees(void **state)
+static void a_suspect_sensor_that_agrees_is_trusted_again(void **state)
 {
     static const float distance2[] = {2.4f, 2.6f, 1.0f, 19.0f, 25.0f},
                        shares[] = {0.55f, 0.9f, 0.53f, 0.9f, 0.9f};
     static const float factors[] = {1.0f, 2.6f, 1.0f, 19.0f, 20.0f};
     (void)state;
     for (int i = 0; i < 5; i++) {
-        struct rho_tracker_look *looks = have_looks();
+        struct rho_tracker_look *looks = make_agreeing_looks();
         looks[0].is_suspect = 1;
         looks[0].distance2 = distance2[i];
         looks[0].seen_share = shares[i];
@@ -161,17 +167,17 @@ static void a_suspect_sensor_is_trusted_when_it_agrees(void **state)
     }
 }
 
-/* Means are of the last sixteen looks; a plot out of the gate counts 9. */
-static void looks_at_tracks_of_others_are_averaged(void **state)
+/* Means are over the last sixteen looks; a plot outside the gate counts 9. */
+static void sensor_health_averages_the_last_sixteen_looks(void **state)
 {
     (void)state;
     for (int is_seen = 0; is_seen < 2; is_seen++) {
-        struct rho_tracker_look *looks = have_looks();
-        struct rho_track *track = have_track(0.0, 10.0);
+        struct rho_tracker_look *looks = make_agreeing_looks();
+        struct rho_track *track = make_track(0.0, 10.0);
         looks[0].seen_share = 0.8f;
         track->is_shared = 1;
         track->sensor_id = 2;
-        put(20000.0, 5000.0);
+        add_plot_at(20000.0, 5000.0);
         assert_int_equal(rho_assignment_begin(&tracker.assignment, 1, 1), RHO_OK);
         if (is_seen) {
             rho_tracker_add_assignment_pair(&at, 0, 0, 5.0f);
@@ -187,27 +193,27 @@ static void looks_at_tracks_of_others_are_averaged(void **state)
 /* ---- sectors --------------------------------------------------------------------------------- */
 
 /* Three sigmas of 200 m at 20 km are 0.03 rad. */
-static void an_antenna_has_passed_where_the_gate_ends(void **state)
+static void the_antenna_has_passed_a_track_three_sigmas_behind_it(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        prepare();
+        start_step();
         scan.sector_to_rad = 0.5f;
         at.turning = 1.0f;
         assert_int_equal(
-            rho_tracker_has_antenna_passed_gate(&at, have_track(i ? 0.475 : 0.465, 200.0)), !i);
+            rho_tracker_has_antenna_passed_gate(&at, make_track(i ? 0.475 : 0.465, 200.0)), !i);
         at.turning = -1.0f;
         assert_int_equal(
-            rho_tracker_has_antenna_passed_gate(&at, have_track(i ? 0.025 : 0.035, 200.0)), !i);
+            rho_tracker_has_antenna_passed_gate(&at, make_track(i ? 0.025 : 0.035, 200.0)), !i);
     }
 }
 
-/* Thresholds are those of sensors that were heard in the last minute. */
+/* Thresholds are merged over sensors heard in the last minute. */
 static void thresholds_of_silent_sensors_are_left_out(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct rho_tracker_look *looks = have_looks();
+        struct rho_tracker_look *looks = make_agreeing_looks();
         looks[1].time_us = at.time_us - (i ? 61000000 : 59000000);
         looks[1].start_mnat = -5000;
         looks[1].confirm_mnat = 9000;
@@ -223,9 +229,9 @@ static void thresholds_of_silent_sensors_are_left_out(void **state)
 
 #endif
 
-/* ---- clutter that is expected ---------------------------------------------------------------- */
+/* ---- expected clutter ------------------------------------------------------------------------ */
 
-static void clutter_is_smoothed_over_ten_scans(void **state)
+static void clutter_counts_are_averaged_over_ten_scans(void **state)
 {
     float mean = 10.0f;
     (void)state;
@@ -233,12 +239,12 @@ static void clutter_is_smoothed_over_ten_scans(void **state)
     assert_float_equal(mean, 12.0, 1e-5);
 }
 
-/* Spread over 1 by 1 km at least, and no thinner than 1e-12 a square metre. */
-static void clutter_has_an_area_and_a_density(void **state)
+/* The density counts over at least 1 by 1 km, and is at least 1e-12 a square metre. */
+static void clutter_density_has_a_least_area_and_value(void **state)
 {
     const struct rho_plot plot = {.x_m = 1.0f};
     (void)state;
-    prepare();
+    start_step();
     assert_float_equal(rho_tracker_background_density_at_plot(&at, &plot), 1e-8, 1e-12);
     tracker.extent = (struct rho_extent){0.0f, 10.0f, 0.0f, 10.0f};
     assert_float_equal(rho_tracker_background_density_at_plot(&at, &plot), 100.0 / 1e6, 1e-7);
@@ -249,11 +255,11 @@ static void clutter_has_an_area_and_a_density(void **state)
 
 /* ---- how tracks end -------------------------------------------------------------------------- */
 
-/* One in a hundred is given up while tentative. */
-static void a_tentative_track_falls_by_a_hundred_to_one(void **state)
+/* A tentative track ends when it is true with a probability below one in a hundred. */
+static void tentative_tracks_end_when_one_in_a_hundred_is_true(void **state)
 {
     (void)state;
-    prepare();
+    start_step();
     tracker.start_mnat = 2000;
     tracker.looks_max = 1;
     const struct rho_track_limits limits = rho_tracker_track_limits(&at);
@@ -262,14 +268,16 @@ static void a_tentative_track_falls_by_a_hundred_to_one(void **state)
     assert_float_equal(limits.fall_mnat, 5.0 * 2302.6, 2.0);
 }
 
-/* Up to three clutter plots in its gate of three sigmas a track that has moved may hide. */
-static void a_track_hides_where_there_is_little_clutter(void **state)
+/*
+ * A missed track that has moved stays, as tentative, with up to three clutter plots in its gate.
+ */
+static void missed_tracks_are_kept_tentative_only_in_little_clutter(void **state)
 {
     const double sigma_m = sqrt(3.0 / (3.14159265 * 9.0 * 1e-8));
     (void)state;
     for (int i = 0; i < 2; i++) {
-        prepare();
-        struct rho_track *track = have_track(0.0, sigma_m * (i ? 1.01 : 0.99));
+        start_step();
+        struct rho_track *track = make_track(0.0, sigma_m * (i ? 1.01 : 0.99));
         tracker.looks_max = 1;
         track->hits = 20;
         track->has_taken_back = 1;
@@ -280,10 +288,10 @@ static void a_track_hides_where_there_is_little_clutter(void **state)
     }
 }
 
-/* ---- what a sensor sees ---------------------------------------------------------------------- */
+/* ---- coverage and notch of a sensor ---------------------------------------------------------- */
 
-/* Four sigmas beyond the range. */
-static void plots_at_the_border_are_covered(void **state)
+/* Plots up to four sigmas beyond the range count as covered. */
+static void plots_four_sigmas_beyond_the_range_are_covered(void **state)
 {
     (void)state;
     const struct rho_plot inside = {.x_m = 1e5f + 39.0f, .sigma_range_m = 10.0f},
@@ -292,18 +300,18 @@ static void plots_at_the_border_are_covered(void **state)
     assert_false(rho_tracker_coverage_holds_plot(&radar, &outside, 0));
 }
 
-/* A radar with a notch of 10 m/s; a track across its line of sight is in it, 99 % at most. */
-static void a_track_is_blind_for_five_minutes_in_little_clutter(void **state)
+/* A radar with a notch of 10 m/s; a track across its line of sight is in it with at most 99 %. */
+static void tracks_stay_in_the_notch_for_five_minutes_at_most(void **state)
 {
     const double sigma_m = sqrt(3.0 / (3.14159265 * 9.0 * 1e-8));
     (void)state;
     for (int i = 0; i < 4; i++) {
         struct rho_sensor notched = radar;
         notched.notch_mps = 10.0f;
-        prepare();
+        start_step();
         at.sensor = &notched;
         at.time_us = 400000000;
-        struct rho_track *track = have_track(0.0, i < 2 ? 10.0 : sigma_m * (i == 2 ? 0.99 : 1.01));
+        struct rho_track *track = make_track(0.0, i < 2 ? 10.0 : sigma_m * (i == 2 ? 0.99 : 1.01));
         track->filter = RHO_TRACK_KALMAN;
         track->kalman.state[RHO_VY] = 100.0f;
         track->kalman.covariance[RHO_AT(3, 3)] = track->kalman.covariance[RHO_AT(4, 4)] = 1e-4f;
@@ -317,14 +325,14 @@ static void a_track_is_blind_for_five_minutes_in_little_clutter(void **state)
     }
 }
 
-static void a_few_targets_in_the_notch_are_seen(void **state)
+static void a_look_in_the_notch_has_a_small_pd(void **state)
 {
     struct rho_sensor notched = radar;
     (void)state;
     notched.notch_mps = 10.0f;
-    prepare();
+    start_step();
     at.sensor = &notched;
-    struct rho_track *track = have_track(0.0, 10.0);
+    struct rho_track *track = make_track(0.0, 10.0);
     track->kalman.state[RHO_VY] = 100.0f;
     track->blind_percent = 80;
     const struct detection seen = rho_tracker_detection_with_notch(&at, track);
@@ -333,16 +341,16 @@ static void a_few_targets_in_the_notch_are_seen(void **state)
     assert_float_equal(seen.log_miss, log(1.0 - pd * 0.2), 1e-5);
 }
 
-/* Up to a minute between steps teaches; a longer silence begins anew. */
-static void manoeuvres_are_learned_while_tracks_are_looked_at(void **state)
+/* Steps up to a minute apart teach the manoeuvre interval; a longer silence starts anew. */
+static void manoeuvres_are_learned_in_gaps_up_to_a_minute(void **state)
 {
     (void)state;
     if (!RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
         skip();
     }
     for (int i = 0; i < 2; i++) {
-        prepare();
-        have_track(0.0, 10.0)->hits = 16;
+        start_step();
+        make_track(0.0, 10.0)->hits = 16;
         at.model.hypotheses = &tracker.hypotheses;
         rho_tracker_learn_manoeuvre_interval(&at, i ? 61.0f : 59.0f);
         assert_float_equal(tracker.straight_s, i ? 0.0 : 59.0, 1e-4);
@@ -353,7 +361,7 @@ static void manoeuvres_are_learned_while_tracks_are_looked_at(void **state)
     }
 }
 
-static void scans_may_be_late_by_a_minute(void **state)
+static void late_max_s_may_be_a_minute_at_most(void **state)
 {
     (void)state;
     if (!RHO_SECTORS) {
@@ -366,46 +374,46 @@ static void scans_may_be_late_by_a_minute(void **state)
     assert_false(rho_tracker_is_late_max_usable(&config));
 }
 
-/* ---- images ---------------------------------------------------------------------------------- */
+/* ---- mirror images --------------------------------------------------------------------------- */
 
 #if RHO_MAX_REFLECTORS > 0
 
-/* A wall of 1 km north of the radar, and a track that is seen in it at x, 2 km. */
-static struct rho_track *have_wall(float x_m)
+/* A wall 1 km north of the radar, and a track at x whose image is 2 km north. */
+static struct rho_track *make_wall_and_track(float x_m)
 {
     static const struct rho_reflector wall = {
         .from_x_m = -500.0f, .from_y_m = 1000.0f, .to_x_m = 500.0f, .to_y_m = 1000.0f};
-    prepare();
+    start_step();
     assert_int_equal(rho_tracker_set_reflectors(&tracker, &wall, 1), RHO_OK);
-    struct rho_track *track = have_track(0.0, 10.0);
+    struct rho_track *track = make_track(0.0, 10.0);
     track->kalman.state[RHO_X] = x_m;
     return track;
 }
 
-static int is_ghost(float x_m, uint16_t hits)
+static int is_plot_ghost(float x_m, uint16_t hits)
 {
-    have_wall(x_m)->hits = hits;
-    put((double)x_m, 2000.0);
+    make_wall_and_track(x_m)->hits = hits;
+    add_plot_at((double)x_m, 2000.0);
     rho_tracker_index_plots(&at);
     rho_tracker_mark_image_plots_as_ghosts(&at);
     return report.fates[0] == RHO_FATE_GHOST;
 }
 
-/* Of a track of three hits; the line of sight misses the wall by three sigmas of 10 m at most. */
-static void a_track_has_an_image_in_a_wall(void **state)
+/* Tracks of three hits have images; the line of sight may miss the wall by three sigmas of 10 m. */
+static void plots_at_images_of_established_tracks_are_ghosts(void **state)
 {
     (void)state;
-    assert_true(is_ghost(800.0f, 3));
+    assert_true(is_plot_ghost(800.0f, 3));
     assert_int_equal(at.work, 12 + 3);
-    assert_false(is_ghost(800.0f, 2));
-    assert_true(is_ghost(1058.0f, 3));
-    assert_false(is_ghost(1062.0f, 3));
+    assert_false(is_plot_ghost(800.0f, 2));
+    assert_true(is_plot_ghost(1058.0f, 3));
+    assert_false(is_plot_ghost(1062.0f, 3));
 }
 
-static int is_image(double off_m, uint16_t hits, uint16_t misses)
+static int does_track_at_image_end(double off_m, uint16_t hits, uint16_t misses)
 {
-    have_wall(800.0f)->hits = 30;
-    struct rho_track *image = have_track(0.0, 10.0);
+    make_wall_and_track(800.0f)->hits = 30;
+    struct rho_track *image = make_track(0.0, 10.0);
     image->kalman.state[RHO_X] = 800.0f;
     image->kalman.state[RHO_Y] = (float)(2000.0 + off_m);
     image->hits = hits;
@@ -414,14 +422,17 @@ static int is_image(double off_m, uint16_t hits, uint16_t misses)
     return tracker.num_tracks == 1;
 }
 
-/* Within a chi-square of 18.5, of both variances; an established one if it is seen seldom. */
-static void a_track_at_an_image_ends(void **state)
+/*
+ * Within a chi-square of 18.5 of both covariances a track ends; an established one if it is seen
+ * rarely.
+ */
+static void tracks_near_an_image_end(void **state)
 {
     (void)state;
-    assert_true(is_image(sqrt(18.4 * 200.0), 8, 0));
-    assert_false(is_image(sqrt(18.6 * 200.0), 8, 0));
-    assert_true(is_image(0.0, 20, 14));
-    assert_false(is_image(0.0, 20, 13));
+    assert_true(does_track_at_image_end(sqrt(18.4 * 200.0), 8, 0));
+    assert_false(does_track_at_image_end(sqrt(18.6 * 200.0), 8, 0));
+    assert_true(does_track_at_image_end(0.0, 20, 14));
+    assert_false(does_track_at_image_end(0.0, 20, 13));
 }
 
 #endif
@@ -430,30 +441,31 @@ static void a_track_at_an_image_ends(void **state)
 
 #define WORK_MAX 1600000u
 
-static uint32_t share_after(void (*phase)(struct step *step))
+static uint32_t work_share_after(void (*phase)(struct step *step))
 {
-    prepare();
+    start_step();
     tracker.config.work_max = WORK_MAX;
-    put(20000.0, 0.0);
+    add_plot_at(20000.0, 0.0);
     rho_tracker_index_plots(&at);
     phase(&at);
     return at.share.end;
 }
 
-static void each_phase_has_its_share(void **state)
+static void each_phase_has_its_share_of_work(void **state)
 {
     (void)state;
-    assert_int_equal(share_after(rho_tracker_begin_work_per_track), WORK_MAX / 4);
+    assert_int_equal(work_share_after(rho_tracker_begin_work_per_track), WORK_MAX / 4);
     if (RHO_MAX_ECHOES > 0) {
-        assert_int_equal(share_after(rho_tracker_predict_clutter_at_plots), WORK_MAX / 8);
-        assert_int_equal(share_after(rho_tracker_learn_second_plots_end_duplicates), WORK_MAX / 16);
+        assert_int_equal(work_share_after(rho_tracker_predict_clutter_at_plots), WORK_MAX / 8);
+        assert_int_equal(work_share_after(rho_tracker_learn_second_plots_end_duplicates),
+                         WORK_MAX / 16);
     }
     if (RHO_MAX_REFLECTORS > 0) {
-        assert_int_equal(share_after(rho_tracker_mark_image_plots_as_ghosts), WORK_MAX / 16);
-        assert_int_equal(share_after(rho_tracker_end_image_tracks), WORK_MAX / 16);
+        assert_int_equal(work_share_after(rho_tracker_mark_image_plots_as_ghosts), WORK_MAX / 16);
+        assert_int_equal(work_share_after(rho_tracker_end_image_tracks), WORK_MAX / 16);
     }
-    /* what is kept of what the search has, with and without images */
-    prepare();
+    /* work reserved after the search, with and without images */
+    start_step();
     tracker.config.work_max = WORK_MAX;
     at.initiator = &initiator;
     initiator.config.work_max = 0;
@@ -464,31 +476,31 @@ static void each_phase_has_its_share(void **state)
     }
 }
 
-/* Eight comparisons of a plot with an area are one unit. */
+/* Eight comparisons of a plot with an area cost one unit. */
 static void work_for_excluded_areas_is_counted(void **state)
 {
     (void)state;
     if (RHO_MAX_EXCLUDED_AREAS < 3) {
         skip();
     }
-    prepare();
+    start_step();
     for (int i = 0; i < 16; i++) {
-        put(20000.0 + i, 0.0);
+        add_plot_at(20000.0 + i, 0.0);
     }
     tracker.num_excluded = 3;
     rho_tracker_mark_excluded_plots_as_ghosts(&at);
     assert_int_equal(at.work, 16 * 3 / 8);
 }
 
-/* A scan is claimed in four parts at most. */
-static void a_scan_has_four_parts(void **state)
+/* The plots of a scan are claimed in four parts at most. */
+static void a_scan_is_claimed_in_four_parts_at_most(void **state)
 {
     (void)state;
     if (!RHO_CLAIMS_BEYOND) {
         skip();
     }
     for (uint32_t parts = 1; parts < 8; parts++) {
-        prepare();
+        start_step();
         tracker.config.work_max = WORK_MAX;
         at.num_inputs = parts * RHO_MAX_PLOTS;
         rho_tracker_begin_work_per_track(&at);
@@ -496,15 +508,15 @@ static void a_scan_has_four_parts(void **state)
     }
 }
 
-/* Scores of a million nat may be added. */
-static void scores_have_limits(void **state)
+/* Scores are limited to a million nat, so that they can be added. */
+static void scores_beyond_a_million_nat_are_unsound(void **state)
 {
     (void)state;
     assert_true(rho_tracker_is_score_in_range(1000000000) &&
                 rho_tracker_is_score_in_range(-1000000000));
     assert_false(rho_tracker_is_score_in_range(1000000001) ||
                  rho_tracker_is_score_in_range(-1000000001));
-    prepare();
+    start_step();
     initiator.confirm_mnat = 1000000000;
     assert_true(rho_initiator_is_sound(&initiator));
     initiator.confirm_mnat = 1000000001;
@@ -516,31 +528,31 @@ int main(void)
     const struct CMUnitTest tests[] = {
 #if RHO_SECTORS
         cmocka_unit_test(a_sensor_that_sees_too_little_is_suspect),
-        cmocka_unit_test(a_sensor_that_is_off_is_suspect),
-        cmocka_unit_test(others_that_are_less_off_are_witnesses),
-        cmocka_unit_test(a_coarse_sensor_and_a_fine_one_cannot_tell),
-        cmocka_unit_test(a_suspect_sensor_is_trusted_when_it_agrees),
-        cmocka_unit_test(looks_at_tracks_of_others_are_averaged),
-        cmocka_unit_test(an_antenna_has_passed_where_the_gate_ends),
+        cmocka_unit_test(a_biased_sensor_is_suspect),
+        cmocka_unit_test(less_biased_sensors_are_witnesses),
+        cmocka_unit_test(witnesses_have_at_most_1_9_times_the_noise),
+        cmocka_unit_test(a_suspect_sensor_that_agrees_is_trusted_again),
+        cmocka_unit_test(sensor_health_averages_the_last_sixteen_looks),
+        cmocka_unit_test(the_antenna_has_passed_a_track_three_sigmas_behind_it),
         cmocka_unit_test(thresholds_of_silent_sensors_are_left_out),
 #endif
-        cmocka_unit_test(clutter_is_smoothed_over_ten_scans),
-        cmocka_unit_test(clutter_has_an_area_and_a_density),
-        cmocka_unit_test(a_tentative_track_falls_by_a_hundred_to_one),
-        cmocka_unit_test(a_track_hides_where_there_is_little_clutter),
-        cmocka_unit_test(plots_at_the_border_are_covered),
-        cmocka_unit_test(a_track_is_blind_for_five_minutes_in_little_clutter),
-        cmocka_unit_test(a_few_targets_in_the_notch_are_seen),
-        cmocka_unit_test(manoeuvres_are_learned_while_tracks_are_looked_at),
-        cmocka_unit_test(scans_may_be_late_by_a_minute),
+        cmocka_unit_test(clutter_counts_are_averaged_over_ten_scans),
+        cmocka_unit_test(clutter_density_has_a_least_area_and_value),
+        cmocka_unit_test(tentative_tracks_end_when_one_in_a_hundred_is_true),
+        cmocka_unit_test(missed_tracks_are_kept_tentative_only_in_little_clutter),
+        cmocka_unit_test(plots_four_sigmas_beyond_the_range_are_covered),
+        cmocka_unit_test(tracks_stay_in_the_notch_for_five_minutes_at_most),
+        cmocka_unit_test(a_look_in_the_notch_has_a_small_pd),
+        cmocka_unit_test(manoeuvres_are_learned_in_gaps_up_to_a_minute),
+        cmocka_unit_test(late_max_s_may_be_a_minute_at_most),
 #if RHO_MAX_REFLECTORS > 0
-        cmocka_unit_test(a_track_has_an_image_in_a_wall),
-        cmocka_unit_test(a_track_at_an_image_ends),
+        cmocka_unit_test(plots_at_images_of_established_tracks_are_ghosts),
+        cmocka_unit_test(tracks_near_an_image_end),
 #endif
-        cmocka_unit_test(each_phase_has_its_share),
+        cmocka_unit_test(each_phase_has_its_share_of_work),
         cmocka_unit_test(work_for_excluded_areas_is_counted),
-        cmocka_unit_test(a_scan_has_four_parts),
-        cmocka_unit_test(scores_have_limits),
+        cmocka_unit_test(a_scan_is_claimed_in_four_parts_at_most),
+        cmocka_unit_test(scores_beyond_a_million_nat_are_unsound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

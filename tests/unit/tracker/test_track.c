@@ -18,7 +18,7 @@ static const struct rho_track_limits limits = {.confirm_mnat = 5000,
                                                .fall_mnat = 7000,
                                                .misses_in_row_max = 3};
 
-static void line(struct rho_track_plot *plots, unsigned count)
+static void plots_on_line(struct rho_track_plot *plots, unsigned count)
 {
     for (unsigned i = 0; i < count; i++) {
         plots[i] = (struct rho_track_plot){.time_us = 2000000 * (int64_t)i,
@@ -31,11 +31,11 @@ static void line(struct rho_track_plot *plots, unsigned count)
     }
 }
 
-static struct rho_track started(int32_t score_mnat)
+static struct rho_track start_track(int32_t score_mnat)
 {
     struct rho_track_plot plots[5];
     struct rho_track track;
-    line(plots, 5);
+    plots_on_line(plots, 5);
     assert_int_equal(rho_track_start(&track, 42, plots, 5, &model, score_mnat), RHO_OK);
     return track;
 }
@@ -46,7 +46,7 @@ static struct rho_track_plot seen_at(int64_t time_us, const struct rho_plot *plo
         .time_us = time_us + plot->offset_us, .sensor_id = 9, .plot = *plot};
 }
 
-static void every_status_meets_every_event(void **state)
+static void status_changes_follow_the_table_of_events(void **state)
 {
     (void)state;
     enum {
@@ -75,10 +75,10 @@ static void every_status_meets_every_event(void **state)
     assert_string_equal(rho_track_status_name((enum rho_track_status)4), "unknown");
 }
 
-static void a_track_starts_on_its_plots(void **state)
+static void a_track_starts_from_its_plots(void **state)
 {
     (void)state;
-    struct rho_track track = started(1000);
+    struct rho_track track = start_track(1000);
     assert_int_equal(track.status, RHO_TRACK_TENTATIVE);
     assert_int_equal(track.track_id, 42);
     assert_int_equal(track.hits, 5);
@@ -90,13 +90,13 @@ static void a_track_starts_on_its_plots(void **state)
     assert_in_range((int)(rho_track_sigma_mps(&track) * 10.0f), 10, 60);
 }
 
-/* It has the plot's noise, and no velocity but the model's. The second plot tells it. */
-static void one_plot_is_enough_for_a_start(void **state)
+/* The state has the plot's noise, and the model's prior velocity until the second plot. */
+static void a_single_plot_may_start_a_track(void **state)
 {
     (void)state;
     struct rho_track_plot plots[2];
     struct rho_track track;
-    line(plots, 2);
+    plots_on_line(plots, 2);
     assert_int_equal(rho_track_start(&track, 7, plots, 1, &model, 300), RHO_OK);
     assert_int_equal(track.status, RHO_TRACK_TENTATIVE);
     assert_int_equal(track.hits, 1);
@@ -107,7 +107,7 @@ static void one_plot_is_enough_for_a_start(void **state)
     assert_float_equal(track.kalman.state[3], 0.0f, 0.0f);
     assert_int_equal(rho_track_predict(&track, plots[1].time_us, &model), RHO_OK);
     assert_int_equal(rho_track_update(&track, &plots[1], &model, 0), RHO_OK);
-    /* 14 m of noise in 2 s; the prior of 300 m/s takes a thousandth */
+    /* 14 m of noise over 2 s; the prior of 300 m/s weighs a thousandth */
     assert_float_equal(track.kalman.state[3], 250.0f, 1.0f);
     assert_float_equal(track.kalman.state[4], -50.0f, 1.0f);
     assert_float_equal(rho_track_sigma_mps(&track), 7.16f, 0.1f);
@@ -119,7 +119,7 @@ static void bad_starts_are_refused(void **state)
     (void)state;
     struct rho_track_plot plots[5];
     struct rho_track track, before;
-    line(plots, 5);
+    plots_on_line(plots, 5);
     memset(&track, 0x11, sizeof track);
     before = track;
     assert_int_equal(rho_track_start(NULL, 1, plots, 5, &model, 0), RHO_ERROR_NULL);
@@ -128,7 +128,7 @@ static void bad_starts_are_refused(void **state)
     assert_int_equal(rho_track_start(&track, 1, plots, 0, &model, 0), RHO_ERROR_VALUE);
     plots[2].plot.x_m = NAN;
     assert_int_not_equal(rho_track_start(&track, 1, plots, 5, &model, 0), RHO_OK);
-    line(plots, 5);
+    plots_on_line(plots, 5);
     plots[0].plot.sigma_range_m = plots[0].plot.sigma_cross_m = 0.0f;
     assert_int_not_equal(rho_track_start(&track, 1, plots, 5, &model, 0), RHO_OK);
     assert_memory_equal(&track, &before, sizeof track);
@@ -137,7 +137,7 @@ static void bad_starts_are_refused(void **state)
 static void an_update_moves_the_estimate_and_the_score(void **state)
 {
     (void)state;
-    struct rho_track track = started(1000);
+    struct rho_track track = start_track(1000);
     struct rho_plot plot = {
         .x_m = 2505.0f, .y_m = -495.0f, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
     struct rho_track_plot seen = seen_at(10000000, &plot);
@@ -153,15 +153,15 @@ static void an_update_moves_the_estimate_and_the_score(void **state)
     assert_int_equal(track.updated_us, 10000000);
 }
 
-static void a_plot_s_own_time_counts(void **state)
+static void a_plot_updates_at_its_own_time(void **state)
 {
     (void)state;
-    struct rho_track late = started(0), on_time = late;
+    struct rho_track late = start_track(0), on_time = late;
     struct rho_plot now = {
         .x_m = 2500.0f, .y_m = -500.0f, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
     struct rho_plot then = now;
     then.offset_us = 1000000;
-    then.x_m += 250.0f; /* one second later, as the target flies */
+    then.x_m += 250.0f; /* where the target is one second later */
     then.y_m -= 50.0f;
     struct rho_track_plot seen = seen_at(10000000, &now), later = seen_at(10000000, &then);
     assert_int_equal(rho_track_predict(&on_time, 10000000, &model), RHO_OK);
@@ -170,20 +170,20 @@ static void a_plot_s_own_time_counts(void **state)
     assert_int_equal(rho_track_update(&late, &later, &model, 0), RHO_OK);
     assert_int_equal(late.time_us, 11000000);
     assert_int_equal(late.updated_us, 11000000);
-    assert_int_equal(rho_track_predict(&late, 10000000, &model), RHO_OK); /* back */
+    /* predicts back in time */
+    assert_int_equal(rho_track_predict(&late, 10000000, &model), RHO_OK);
     assert_float_equal(late.kalman.state[0], on_time.kalman.state[0], 1.0f);
     assert_float_equal(late.kalman.state[3], on_time.kalman.state[3], 1.0f);
     assert_int_equal(late.time_us, 10000000);
 }
 
 /*
- * Scans' times are only where gates are opened: from plot to plot the estimate is that of one long
- * prediction.
+ * Scan times matter only for gates: from plot to plot the estimate is that of one long prediction.
  */
-static void estimates_go_from_plot_to_plot(void **state)
+static void scan_times_do_not_change_the_estimate(void **state)
 {
     (void)state;
-    struct rho_track track = started(0);
+    struct rho_track track = start_track(0);
     struct rho_kalman direct = track.kalman;
     int64_t at_us = track.time_us;
     for (int k = 0; k < 10; k++) {
@@ -214,7 +214,7 @@ static void estimates_go_from_plot_to_plot(void **state)
 static void refused_updates_change_nothing(void **state)
 {
     (void)state;
-    struct rho_track track = started(0), before = track;
+    struct rho_track track = start_track(0), before = track;
     struct rho_plot plot = {.x_m = NAN, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
     struct rho_track_plot seen = seen_at(8000000, &plot);
     assert_int_equal(rho_track_update(NULL, &seen, &model, 0), RHO_ERROR_NULL);
@@ -222,10 +222,10 @@ static void refused_updates_change_nothing(void **state)
     assert_int_equal(rho_track_update(&track, &seen, NULL, 0), RHO_ERROR_NULL);
     assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_ERROR_VALUE);
     seen.plot.x_m = 2000.0f;
-    seen.plot.y_m = INFINITY; /* the first scalar update is good, the second is not */
+    seen.plot.y_m = INFINITY; /* of the two scalar updates only the second one fails */
     assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_ERROR_VALUE);
     seen.plot.y_m = -400.0f;
-    seen.measures = RHO_MEASURES_RANGE_RATE; /* without a sigma */
+    seen.measures = RHO_MEASURES_RANGE_RATE; /* no sigma of the range rate is given */
     assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_ERROR_VALUE);
     assert_int_equal(rho_track_predict(&track, INT64_MAX, &model), RHO_ERROR_VALUE);
     assert_memory_equal(&track, &before, sizeof track);
@@ -234,7 +234,7 @@ static void refused_updates_change_nothing(void **state)
 static void a_first_height_opens_the_third_axis(void **state)
 {
     (void)state;
-    struct rho_track track = started(0);
+    struct rho_track track = start_track(0);
     struct rho_plot plot = {.x_m = 2000.0f,
                             .y_m = -400.0f,
                             .z_m = 3000.0f,
@@ -252,14 +252,14 @@ static void a_first_height_opens_the_third_axis(void **state)
     assert_true(rho_kalman_is_axis_open(&track.kalman, 2));
     assert_float_equal(track.kalman.state[2], 3000.0f, 0.1f);
     assert_float_equal(track.kalman.state[5], 5.0f, 0.5f);
-    /* seen from the origin under 56 degrees, z has of both sigmas: se^2 100 + ce^2 400 */
+    /* at 56 degrees of elevation the variance of z is se^2 100 + ce^2 400, of both sigmas */
     assert_float_equal(track.kalman.covariance[RHO_AT(2, 2)], 194.8f, 1.0f);
 }
 
-static void evidence_confirms_and_ends(void **state)
+static void scores_confirm_and_misses_end_a_track(void **state)
 {
     (void)state;
-    struct rho_track track = started(4999);
+    struct rho_track track = start_track(4999);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_TENTATIVE);
     track.score_mnat = track.score_max_mnat = 5000;
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
@@ -270,13 +270,13 @@ static void evidence_confirms_and_ends(void **state)
     assert_int_equal(track.misses_in_row, 2);
     rho_track_count_miss(&track, 0);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits),
-                     RHO_TRACK_FREE); /* three in a row */
+                     RHO_TRACK_FREE); /* after three misses in a row */
 }
 
-static void a_fallen_score_ends_a_track(void **state)
+static void a_low_score_ends_a_track(void **state)
 {
     (void)state;
-    struct rho_track confirmed = started(9000), tentative = started(0);
+    struct rho_track confirmed = start_track(9000), tentative = start_track(0);
     assert_int_equal(rho_track_apply_thresholds(&confirmed, &limits), RHO_TRACK_CONFIRMED);
     rho_track_count_miss(&confirmed, 6499);
     assert_int_equal(rho_track_apply_thresholds(&confirmed, &limits), RHO_TRACK_COASTING);
@@ -288,30 +288,30 @@ static void a_fallen_score_ends_a_track(void **state)
     assert_int_equal(rho_track_apply_thresholds(&tentative, &limits), RHO_TRACK_FREE);
 }
 
-static void a_track_in_doubt_comes_back_as_itself(void **state)
+static void a_doubted_track_is_confirmed_again_as_itself(void **state)
 {
     (void)state;
-    struct rho_track track = started(9000);
+    struct rho_track track = start_track(9000);
     assert_false(track.was_confirmed);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
     rho_track_count_miss(&track, 6500);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_TENTATIVE);
     assert_true(track.was_confirmed);
-    /* below the confirm threshold, but the doubt is gone: it had been confirmed */
+    /* below the confirm threshold it is confirmed again, as it had been before the doubt */
     track.score_mnat += 1;
     assert_true(track.score_mnat < limits.confirm_mnat);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
     assert_int_equal(track.track_id, 42);
-    /* one that never was is not, by the same */
-    struct rho_track never = started(4000);
+    /* a track never confirmed is not, at the same score */
+    struct rho_track never = start_track(4000);
     assert_int_equal(rho_track_apply_thresholds(&never, &limits), RHO_TRACK_TENTATIVE);
     assert_false(never.was_confirmed);
 }
 
-static void counters_and_scores_saturate(void **state)
+static void counters_and_scores_stay_at_their_limits(void **state)
 {
     (void)state;
-    struct rho_track track = started(0);
+    struct rho_track track = start_track(0);
     track.misses = UINT16_MAX;
     track.misses_in_row = UINT8_MAX;
     track.score_mnat = -999999999;
@@ -321,11 +321,11 @@ static void counters_and_scores_saturate(void **state)
     assert_int_equal(track.score_mnat, -1000000000);
 }
 
-/* Moved back, and on again without noise: the estimate that it had. */
-static void a_track_returns_to_the_estimate_that_it_had(void **state)
+/* Moved back and forward without noise, the track has its former estimate. */
+static void going_back_in_time_restores_the_estimate(void **state)
 {
     (void)state;
-    struct rho_track track = started(9000);
+    struct rho_track track = start_track(9000);
     assert_int_equal(rho_track_predict(&track, 12000000, &model), RHO_OK);
     const struct rho_track was = track;
     assert_int_equal(rho_track_return_to_time(&track, 9000000, &model), RHO_OK);
@@ -345,20 +345,20 @@ static void a_track_returns_to_the_estimate_that_it_had(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_status_meets_every_event),
-        cmocka_unit_test(a_track_starts_on_its_plots),
-        cmocka_unit_test(one_plot_is_enough_for_a_start),
+        cmocka_unit_test(status_changes_follow_the_table_of_events),
+        cmocka_unit_test(a_track_starts_from_its_plots),
+        cmocka_unit_test(a_single_plot_may_start_a_track),
         cmocka_unit_test(bad_starts_are_refused),
         cmocka_unit_test(an_update_moves_the_estimate_and_the_score),
-        cmocka_unit_test(a_plot_s_own_time_counts),
-        cmocka_unit_test(estimates_go_from_plot_to_plot),
+        cmocka_unit_test(a_plot_updates_at_its_own_time),
+        cmocka_unit_test(scan_times_do_not_change_the_estimate),
         cmocka_unit_test(refused_updates_change_nothing),
         cmocka_unit_test(a_first_height_opens_the_third_axis),
-        cmocka_unit_test(evidence_confirms_and_ends),
-        cmocka_unit_test(a_fallen_score_ends_a_track),
-        cmocka_unit_test(a_track_in_doubt_comes_back_as_itself),
-        cmocka_unit_test(counters_and_scores_saturate),
-        cmocka_unit_test(a_track_returns_to_the_estimate_that_it_had),
+        cmocka_unit_test(scores_confirm_and_misses_end_a_track),
+        cmocka_unit_test(a_low_score_ends_a_track),
+        cmocka_unit_test(a_doubted_track_is_confirmed_again_as_itself),
+        cmocka_unit_test(counters_and_scores_stay_at_their_limits),
+        cmocka_unit_test(going_back_in_time_restores_the_estimate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A track that starts from an estimate, and its updates by bearings. */
+/* A track started from an estimate, and its updates by bearings. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,7 @@ static const struct rho_track_limits limits = {.confirm_mnat = 5000,
                                                .fall_mnat = 7000,
                                                .misses_in_row_max = 3};
 
-static struct rho_kalman estimate(void)
+static struct rho_kalman estimate_of_target(void)
 {
     struct rho_kalman kalman;
     rho_kalman_init(&kalman);
@@ -33,17 +33,17 @@ static struct rho_kalman estimate(void)
     return kalman;
 }
 
-static struct rho_track started(void)
+static struct rho_track start_track(void)
 {
-    const struct rho_kalman kalman = estimate();
+    const struct rho_kalman kalman = estimate_of_target();
     struct rho_track track;
     assert_int_equal(rho_track_start_estimate(&track, 42, &kalman, START_US, 9, 8, &model, 6000),
                      RHO_OK);
     return track;
 }
 
-/* From the origin, to where the estimate is. */
-static struct rho_track_bearing seen(int64_t time_us)
+/* A bearing from the origin to the estimate. */
+static struct rho_track_bearing bearing_at_time(int64_t time_us)
 {
     return (struct rho_track_bearing){
         .time_us = time_us, .sensor_id = 11, .bearing_rad = 0.787f, .sigma_rad = 0.002f, .row = 4};
@@ -52,13 +52,13 @@ static struct rho_track_bearing seen(int64_t time_us)
 static void a_track_starts_from_an_estimate(void **state)
 {
     (void)state;
-    const struct rho_kalman kalman = estimate();
-    struct rho_track track = started();
+    const struct rho_kalman kalman = estimate_of_target();
+    struct rho_track track = start_track();
     assert_int_equal(track.status, RHO_TRACK_TENTATIVE);
     assert_int_equal(track.track_id, 42);
     assert_int_equal(track.hits, 8);
     assert_int_equal(track.misses + track.misses_in_row, 0);
-    assert_int_equal(track.plot, -1); /* none of the newest scan is known to be its */
+    assert_int_equal(track.plot, -1); /* no plot of the newest scan is known to be its own */
     assert_int_equal(track.sensor_id, 9);
     assert_int_equal(track.score_mnat, 6000);
     assert_int_equal(track.score_max_mnat, 6000);
@@ -67,7 +67,7 @@ static void a_track_starts_from_an_estimate(void **state)
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
 }
 
-static void expect_no_start(const struct rho_kalman *kalman, uint16_t hits)
+static void expect_start_refused(const struct rho_kalman *kalman, uint16_t hits)
 {
     struct rho_track track, before;
     memset(&track, 0x5a, sizeof track);
@@ -77,38 +77,38 @@ static void expect_no_start(const struct rho_kalman *kalman, uint16_t hits)
     assert_memory_equal(&track, &before, sizeof track);
 }
 
-static void starts_from_no_estimate_are_refused(void **state)
+static void starts_from_bad_estimates_are_refused(void **state)
 {
     (void)state;
-    struct rho_kalman kalman = estimate();
-    struct rho_track track = started();
+    struct rho_kalman kalman = estimate_of_target();
+    struct rho_track track = start_track();
     assert_int_equal(rho_track_start_estimate(NULL, 1, &kalman, 0, 9, 8, &model, 0),
                      RHO_ERROR_NULL);
     assert_int_equal(rho_track_start_estimate(&track, 1, NULL, 0, 9, 8, &model, 0), RHO_ERROR_NULL);
     assert_int_equal(rho_track_start_estimate(&track, 1, &kalman, 0, 9, 8, NULL, 0),
                      RHO_ERROR_NULL);
     assert_int_equal(track.track_id, 42);
-    expect_no_start(&kalman, 0);
+    expect_start_refused(&kalman, 0);
     for (int axis = 0; axis < 2; axis++) {
-        kalman = estimate();
+        kalman = estimate_of_target();
         kalman.covariance[RHO_AT(axis, axis)] = 0.0f;
-        expect_no_start(&kalman, 8);
+        expect_start_refused(&kalman, 8);
         kalman.covariance[RHO_AT(axis, axis)] = NAN;
-        expect_no_start(&kalman, 8);
+        expect_start_refused(&kalman, 8);
     }
     rho_kalman_init(&kalman);
-    expect_no_start(&kalman, 8);
+    expect_start_refused(&kalman, 8);
 }
 
-/* The filter's own prediction to the bearing's time, and its own update. */
-static void a_bearing_updates_at_its_own_time(void **state)
+/* Equals the filter's own prediction to the bearing's time, and its own update. */
+static void a_bearing_updates_the_track_at_its_own_time(void **state)
 {
     (void)state;
     const int64_t times_us[] = {START_US, START_US + 2500000, START_US - 1500000};
     for (int i = 0; i < 3; i++) {
-        struct rho_track track = started();
+        struct rho_track track = start_track();
         struct rho_kalman expected = track.kalman;
-        const struct rho_track_bearing bearing = seen(times_us[i]);
+        const struct rho_track_bearing bearing = bearing_at_time(times_us[i]);
         assert_int_equal(
             rho_kalman_predict(&expected, (float)(times_us[i] - START_US) * 1e-6f, 1.0f), RHO_OK);
         assert_int_equal(rho_kalman_update_bearing(&expected, 0.0f, 0.0f, bearing.bearing_rad,
@@ -125,12 +125,12 @@ static void a_bearing_updates_at_its_own_time(void **state)
     }
 }
 
-/* In the next step plot is -1 again. */
-static void bearings_of_one_step_are_one_hit(void **state)
+/* The next step resets the plot to -1. */
+static void bearings_of_one_step_count_as_one_hit(void **state)
 {
     (void)state;
-    struct rho_track track = started();
-    struct rho_track_bearing bearing = seen(START_US);
+    struct rho_track track = start_track();
+    struct rho_track_bearing bearing = bearing_at_time(START_US);
     rho_track_count_miss(&track, 100);
     rho_track_count_miss(&track, 100);
     assert_int_equal(track.misses_in_row, 2);
@@ -152,14 +152,14 @@ static void bearings_of_one_step_are_one_hit(void **state)
     assert_int_equal(track.hits, UINT16_MAX);
 }
 
-static void a_bearing_ends_coasting(void **state)
+static void a_bearing_ends_coasting_of_a_track(void **state)
 {
     (void)state;
-    struct rho_track track = started();
-    const struct rho_track_bearing bearing = seen(START_US);
+    struct rho_track track = start_track();
+    const struct rho_track_bearing bearing = bearing_at_time(START_US);
     assert_int_equal(rho_track_update_bearing(&track, &bearing, &model, -20000), RHO_OK);
-    assert_int_equal(track.status, RHO_TRACK_TENTATIVE); /* a bearing is no belief */
-    track = started();
+    assert_int_equal(track.status, RHO_TRACK_TENTATIVE); /* a bearing alone confirms no track */
+    track = start_track();
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
     rho_track_count_miss(&track, 100);
     assert_int_equal(track.status, RHO_TRACK_COASTING);
@@ -175,38 +175,38 @@ static void expect_refused(struct rho_track track, const struct rho_track_bearin
     assert_memory_equal(&track, &before, sizeof track);
 }
 
-static void a_bad_bearing_leaves_the_track_as_it_was(void **state)
+static void a_refused_bearing_changes_nothing(void **state)
 {
     (void)state;
-    struct rho_track track = started();
-    struct rho_track_bearing bearing = seen(START_US + 1000000);
+    struct rho_track track = start_track();
+    struct rho_track_bearing bearing = bearing_at_time(START_US + 1000000);
     assert_int_equal(rho_track_update_bearing(NULL, &bearing, &model, 0), RHO_ERROR_NULL);
     assert_int_equal(rho_track_update_bearing(&track, &bearing, NULL, 0), RHO_ERROR_NULL);
     expect_refused(track, NULL, RHO_ERROR_NULL);
     bearing.bearing_rad = NAN;
     expect_refused(track, &bearing, RHO_ERROR_VALUE);
-    bearing = seen(START_US + 1000000);
+    bearing = bearing_at_time(START_US + 1000000);
     bearing.sigma_rad = 0.0f;
     expect_refused(track, &bearing, RHO_ERROR_VALUE);
-    bearing = seen(INT64_C(4000000000000000000)); /* farther than a filter predicts */
+    bearing = bearing_at_time(INT64_C(4000000000000000000)); /* farther than a filter can predict */
     expect_refused(track, &bearing, RHO_ERROR_VALUE);
-    bearing = seen(START_US);
+    bearing = bearing_at_time(START_US);
     track.kalman.covariance[RHO_AT(3, 3)] = 9e11f;
-    bearing.time_us += 1000000000; /* its covariance grows beyond all limits */
+    bearing.time_us += 1000000000; /* the covariance grows beyond its limits */
     expect_refused(track, &bearing, RHO_ERROR_VALUE);
 }
 
-static void a_loss_is_no_miss(void **state)
+static void a_lowered_score_is_no_miss(void **state)
 {
     (void)state;
-    struct rho_track track = started(), before;
+    struct rho_track track = start_track(), before;
     before = track;
     rho_track_lower_score(&track, 2303);
     assert_int_equal(track.score_mnat, 6000 - 2303);
     before.score_mnat = track.score_mnat;
     assert_memory_equal(&track, &before, sizeof track);
     for (int i = 0; i < 3; i++) {
-        rho_track_lower_score(&track, INT32_MAX); /* as far as it goes */
+        rho_track_lower_score(&track, INT32_MAX); /* the score stays at its limit */
     }
     assert_int_equal(track.score_mnat, -1000000000);
     assert_int_equal(track.score_max_mnat, 6000);
@@ -217,12 +217,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_track_starts_from_an_estimate),
-        cmocka_unit_test(starts_from_no_estimate_are_refused),
-        cmocka_unit_test(a_bearing_updates_at_its_own_time),
-        cmocka_unit_test(bearings_of_one_step_are_one_hit),
-        cmocka_unit_test(a_bearing_ends_coasting),
-        cmocka_unit_test(a_bad_bearing_leaves_the_track_as_it_was),
-        cmocka_unit_test(a_loss_is_no_miss),
+        cmocka_unit_test(starts_from_bad_estimates_are_refused),
+        cmocka_unit_test(a_bearing_updates_the_track_at_its_own_time),
+        cmocka_unit_test(bearings_of_one_step_count_as_one_hit),
+        cmocka_unit_test(a_bearing_ends_coasting_of_a_track),
+        cmocka_unit_test(a_refused_bearing_changes_nothing),
+        cmocka_unit_test(a_lowered_score_is_no_miss),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

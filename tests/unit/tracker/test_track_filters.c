@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * One track by each of its filters: plain, with input estimation, of hypotheses. Who may do what,
- * and what is given back.
+ * One track with each of its filters: plain Kalman, input estimation, hypotheses. Which functions
+ * each filter has, and what is freed.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,9 +19,9 @@
 
 static struct rho_hypotheses pool;
 static struct rho_input_config estimation;
-static struct rho_track_model model; /* of the filter that a test asks for */
+static struct rho_track_model model; /* model of the filter under test */
 
-static void start_with(enum rho_track_filter filter)
+static void set_filter(enum rho_track_filter filter)
 {
     struct rho_imm_model motion;
     rho_imm_model_default(&motion, 40.0f, 400.0f);
@@ -36,8 +36,8 @@ static void start_with(enum rho_track_filter filter)
     model.input = filter == RHO_TRACK_INPUT ? &estimation : NULL;
 }
 
-/* Straight for 4 s, then 30 m/s^2 to the left of a course along x. */
-static struct rho_track_plot seen(int k)
+/* Straight for 4 s, then 30 m/s^2 to the left of the course along x. */
+static struct rho_track_plot plot_of_scan(int k)
 {
     float t_s = (float)k, turned_s = k > 4 ? t_s - 4.0f : 0.0f;
     return (struct rho_track_plot){.time_us = (int64_t)SCAN_US * k,
@@ -49,15 +49,16 @@ static struct rho_track_plot seen(int k)
                                    .row = 0};
 }
 
-static struct rho_track started(void)
+static struct rho_track start_track(void)
 {
     struct rho_track track;
-    struct rho_track_plot plots[4] = {seen(0), seen(1), seen(2), seen(3)};
+    struct rho_track_plot plots[4] = {plot_of_scan(0), plot_of_scan(1), plot_of_scan(2),
+                                      plot_of_scan(3)};
     assert_int_equal(rho_track_start(&track, 1, plots, 4, &model, 0), RHO_OK);
     return track;
 }
 
-static unsigned count_open(void)
+static unsigned count_hypotheses_in_use(void)
 {
     unsigned nodes = 0;
     for (unsigned slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
@@ -67,58 +68,58 @@ static unsigned count_open(void)
     return nodes;
 }
 
-/* ---- the model says which -------------------------------------------------------------------- */
+/* ---- the model selects the filter ------------------------------------------------------------ */
 
-static void the_model_says_which_filter(void **state)
+static void the_model_selects_the_filter_of_a_track(void **state)
 {
     (void)state;
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
-        start_with((enum rho_track_filter)filter);
-        struct rho_track track = started();
+        set_filter((enum rho_track_filter)filter);
+        struct rho_track track = start_track();
         assert_int_equal(track.filter, filter);
-        assert_int_equal(count_open(), filter == RHO_TRACK_HYPOTHESES ? 1 : 0);
+        assert_int_equal(count_hypotheses_in_use(), filter == RHO_TRACK_HYPOTHESES ? 1 : 0);
         assert_int_equal(track.time_us, 3 * SCAN_US);
         assert_float_equal(track.kalman.state[0], 600.0f, 2.0f);
         assert_float_equal(track.kalman.state[3], 200.0f, 2.0f);
         rho_track_free_hypotheses(&track, &model);
-        assert_int_equal(count_open(), 0);
+        assert_int_equal(count_hypotheses_in_use(), 0);
     }
-    /* where there is a pool, input estimation is not asked */
-    start_with(RHO_TRACK_HYPOTHESES);
+    /* with a pool of hypotheses, input estimation is not used */
+    set_filter(RHO_TRACK_HYPOTHESES);
     model.input = &estimation;
-    struct rho_track track = started();
+    struct rho_track track = start_track();
     assert_int_equal(track.filter, RHO_TRACK_HYPOTHESES);
 }
 
-static void an_estimate_starts_the_filter_of_the_model(void **state)
+static void a_start_from_an_estimate_uses_the_models_filter(void **state)
 {
     (void)state;
     struct rho_track track, plain;
-    start_with(RHO_TRACK_KALMAN);
-    plain = started();
+    set_filter(RHO_TRACK_KALMAN);
+    plain = start_track();
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
-        start_with((enum rho_track_filter)filter);
+        set_filter((enum rho_track_filter)filter);
         assert_int_equal(
             rho_track_start_estimate(&track, 2, &plain.kalman, 3 * SCAN_US, 3, 5, &model, 100),
             RHO_OK);
         assert_int_equal(track.filter, filter);
         assert_float_equal(track.kalman.state[0], plain.kalman.state[0], 0.01f);
-        struct rho_track_plot next = seen(4);
+        struct rho_track_plot next = plot_of_scan(4);
         assert_int_equal(rho_track_predict(&track, next.time_us, &model), RHO_OK);
         assert_int_equal(rho_track_update(&track, &next, &model, 0), RHO_OK);
-        assert_int_equal(count_open() > 0, filter == RHO_TRACK_HYPOTHESES);
+        assert_int_equal(count_hypotheses_in_use() > 0, filter == RHO_TRACK_HYPOTHESES);
         rho_track_free_hypotheses(&track, &model);
-        assert_int_equal(count_open(), 0);
+        assert_int_equal(count_hypotheses_in_use(), 0);
     }
 }
 
-/* The paper's P(0|0): the covariance at the start's end, and nowhere else. */
-static void a_start_takes_the_initial_variance(void **state)
+/* The paper's P(0|0) is the covariance at the end of a start, and used nowhere else. */
+static void input_estimation_starts_with_the_initial_variance(void **state)
 {
     (void)state;
     struct rho_track track, other;
-    start_with(RHO_TRACK_INPUT);
-    other = started();
+    set_filter(RHO_TRACK_INPUT);
+    other = start_track();
     estimation.initial_variance = 500.0f;
     for (int from_estimate = 0; from_estimate < 2; from_estimate++) {
         if (from_estimate) {
@@ -126,12 +127,12 @@ static void a_start_takes_the_initial_variance(void **state)
                 rho_track_start_estimate(&track, 2, &other.kalman, 3 * SCAN_US, 3, 5, &model, 100),
                 RHO_OK);
         } else {
-            track = started();
+            track = start_track();
         }
         for (int i = 0; i < RHO_KALMAN_STATES; i++) {
             assert_float_equal(track.kalman.state[i], other.kalman.state[i], 0.0f);
             for (int j = 0; j <= i; j++) {
-                const int is_open = i % 3 < 2; /* x and y */
+                const int is_open = i % 3 < 2; /* axes x and y are open */
                 assert_float_equal(track.kalman.covariance[RHO_AT(i, j)],
                                    i == j && is_open ? 500.0f : 0.0f, 0.0f);
             }
@@ -145,28 +146,29 @@ static void a_refused_start_gives_its_slot_back(void **state)
     (void)state;
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
         struct rho_track track, before;
-        struct rho_track_plot plots[4] = {seen(0), seen(1), seen(2), seen(3)};
-        start_with((enum rho_track_filter)filter);
+        struct rho_track_plot plots[4] = {plot_of_scan(0), plot_of_scan(1), plot_of_scan(2),
+                                          plot_of_scan(3)};
+        set_filter((enum rho_track_filter)filter);
         memset(&track, 0x22, sizeof track);
         before = track;
         plots[2].plot.y_m = NAN;
         assert_int_not_equal(rho_track_start(&track, 1, plots, 4, &model, 0), RHO_OK);
-        plots[2] = seen(2);
-        plots[2].time_us = INT64_MAX; /* no filter can be moved there */
+        plots[2] = plot_of_scan(2);
+        plots[2].time_us = INT64_MAX; /* no filter can predict to this time */
         assert_int_not_equal(rho_track_start(&track, 1, plots, 4, &model, 0), RHO_OK);
         assert_memory_equal(&track, &before, sizeof track);
-        assert_int_equal(count_open(), 0);
+        assert_int_equal(count_hypotheses_in_use(), 0);
     }
 }
 
-/* A slot more than the tracks that may live: a candidate is opened before it has its place. */
-static void a_full_pool_refuses(void **state)
+/* The pool has one slot more than tracks, as a candidate is opened before it gets its row. */
+static void a_full_pool_refuses_a_start(void **state)
 {
     (void)state;
     static struct rho_track tracks[RHO_HYPOTHESES_SLOTS];
     struct rho_track one_more, before;
-    struct rho_track_plot plot = seen(0);
-    start_with(RHO_TRACK_HYPOTHESES);
+    struct rho_track_plot plot = plot_of_scan(0);
+    set_filter(RHO_TRACK_HYPOTHESES);
     for (unsigned i = 0; i < RHO_HYPOTHESES_SLOTS; i++) {
         assert_int_equal(rho_track_start(&tracks[i], i, &plot, 1, &model, 0), RHO_OK);
     }
@@ -182,40 +184,42 @@ static void a_full_pool_refuses(void **state)
 
 /* ---- commit and settle ----------------------------------------------------------------------- */
 
-static enum rho_status commit(struct rho_track *track, const struct rho_plot *plots, float log_miss)
+static enum rho_status commit_plots(struct rho_track *track, const struct rho_plot *plots,
+                                    float log_miss)
 {
     const struct rho_hypotheses_scan scan = {
         .time_us = track->time_us, .plots = plots, .log_miss = log_miss};
     return rho_track_commit_hypotheses_to_scan(track, &scan, 8, &model);
 }
 
-static void commit_and_settle_are_for_hypotheses(void **state)
+static void commit_and_settle_need_a_filter_of_hypotheses(void **state)
 {
     (void)state;
-    struct rho_plot plot = seen(4).plot;
+    struct rho_plot plot = plot_of_scan(4).plot;
     const struct rho_hypotheses_scan scan = {.time_us = 3 * SCAN_US, .plots = &plot};
     for (int filter = 0; filter < RHO_TRACK_HYPOTHESES; filter++) {
-        start_with((enum rho_track_filter)filter);
-        struct rho_track track = started(), before = track;
-        assert_int_equal(commit(&track, &plot, -2.0f), RHO_ERROR_STATE);
+        set_filter((enum rho_track_filter)filter);
+        struct rho_track track = start_track(), before = track;
+        assert_int_equal(commit_plots(&track, &plot, -2.0f), RHO_ERROR_STATE);
         rho_track_merge_estimates(&track, 9 * SCAN_US, &model);
         assert_memory_equal(&track, &before, sizeof track);
-        model.hypotheses = &pool; /* a pool beside it changes nothing */
-        assert_int_equal(commit(&track, &plot, -2.0f), RHO_ERROR_STATE);
+        model.hypotheses = &pool; /* an unused pool makes no difference */
+        assert_int_equal(commit_plots(&track, &plot, -2.0f), RHO_ERROR_STATE);
         rho_track_merge_estimates(&track, 9 * SCAN_US, &model);
         rho_track_free_hypotheses(&track, &model);
         assert_memory_equal(&track, &before, sizeof track);
-        assert_int_equal(count_open(), 0);
+        assert_int_equal(count_hypotheses_in_use(), 0);
     }
-    start_with(RHO_TRACK_HYPOTHESES);
-    struct rho_track track = started();
+    set_filter(RHO_TRACK_HYPOTHESES);
+    struct rho_track track = start_track();
     assert_int_equal(rho_track_commit_hypotheses_to_scan(NULL, &scan, 8, &model), RHO_ERROR_NULL);
     assert_int_equal(rho_track_commit_hypotheses_to_scan(&track, NULL, 8, &model), RHO_ERROR_NULL);
     assert_int_equal(rho_track_commit_hypotheses_to_scan(&track, &scan, 8, NULL), RHO_ERROR_NULL);
 }
 
-/* One step of a track of hypotheses with the plots of a scan; own row 0. */
-static void step(struct rho_track *track, int k, const struct rho_plot *plots, int num_plots)
+/* Steps a track of hypotheses with the plots of a scan; row 0 is its own. */
+static void step_hypotheses(struct rho_track *track, int k, const struct rho_plot *plots,
+                            int num_plots)
 {
     const struct rho_hypotheses_clutter clutter = {.log_per_m2 = logf(1e-6f)};
     struct rho_hypotheses_box reach;
@@ -229,41 +233,42 @@ static void step(struct rho_track *track, int k, const struct rho_plot *plots, i
         (void)rho_hypotheses_score_plot(&pool, track->slot, &opened, (int64_t)SCAN_US * k,
                                         (int16_t)i, logf(0.9f), &clutter, &gain_nat);
     }
-    assert_int_equal(commit(track, plots, logf(0.1f)), RHO_OK);
+    assert_int_equal(commit_plots(track, plots, logf(0.1f)), RHO_OK);
 }
 
-static void a_commit_counts_what_the_best_hypothesis_took(void **state)
+static void a_commit_counts_the_plot_of_the_best_hypothesis(void **state)
 {
     (void)state;
-    start_with(RHO_TRACK_HYPOTHESES);
-    struct rho_track track = started();
-    struct rho_plot plots[2] = {seen(4).plot, seen(4).plot};
-    plots[0].y_m += 2000.0f; /* nobody's */
-    step(&track, 4, plots, 2);
+    set_filter(RHO_TRACK_HYPOTHESES);
+    struct rho_track track = start_track();
+    struct rho_plot plots[2] = {plot_of_scan(4).plot, plot_of_scan(4).plot};
+    plots[0].y_m += 2000.0f; /* a plot outside all gates */
+    step_hypotheses(&track, 4, plots, 2);
     assert_int_equal(track.plot, 1);
     assert_int_equal(track.hits, 5);
     assert_int_equal(track.sensor_id, 8);
     assert_int_equal(track.updated_us, 4 * SCAN_US);
-    /* ln(0.9 / 1e-6) less about ln(2 pi 10^2) of an innovation of 7 to 20 m */
+    /* ln(0.9 / 1e-6) less about ln(2 pi 10^2), for an innovation of 7 to 20 m */
     assert_in_range(track.score_mnat, 5000, 8500);
     assert_int_equal(track.score_max_mnat, track.score_mnat);
     int32_t score_mnat = track.score_mnat;
-    step(&track, 5, plots, 0);
+    step_hypotheses(&track, 5, plots, 0);
     assert_int_equal(track.plot, -1);
     assert_int_equal(track.hits, 5);
     assert_int_equal(track.sensor_id, 8);
-    assert_in_range(score_mnat - track.score_mnat, 2301, 2304); /* ln(0.1), of all hypotheses */
-    assert_int_equal(track.misses, 0); /* that is for rho_track_count_miss */
+    /* ln(0.1), the miss of all hypotheses */
+    assert_in_range(score_mnat - track.score_mnat, 2301, 2304);
+    assert_int_equal(track.misses, 0); /* misses are counted by rho_track_count_miss instead */
 }
 
-static void settling_brings_the_estimate(void **state)
+static void settling_sets_the_estimate_from_the_hypotheses(void **state)
 {
     (void)state;
-    start_with(RHO_TRACK_HYPOTHESES);
-    struct rho_track track = started();
+    set_filter(RHO_TRACK_HYPOTHESES);
+    struct rho_track track = start_track();
     for (int k = 4; k < 10; k++) {
-        struct rho_plot plot = seen(k).plot;
-        step(&track, k, &plot, 1);
+        struct rho_plot plot = plot_of_scan(k).plot;
+        step_hypotheses(&track, k, &plot, 1);
         assert_int_equal(track.plot, 0);
         rho_track_merge_estimates(&track, (int64_t)SCAN_US * k, &model);
     }
@@ -274,45 +279,42 @@ static void settling_brings_the_estimate(void **state)
     assert_float_equal(track.kalman.state[0], 1800.0f, 6.0f);
     assert_float_equal(track.kalman.state[1], 375.0f, 10.0f);
     assert_float_equal(track.kalman.state[4], 150.0f, 15.0f);
-    /* 17.6: an acceleration is remembered for 3.5 s, and may just as well have ended */
+    /* measured 17.6: an acceleration is remembered for 3.5 s, and may already have ended */
     assert_float_equal(track.accel_mps2[1], 22.0f, 10.0f);
     assert_float_equal(track.accel_mps2[0], 0.0f, 5.0f);
     assert_true(track.maneuver_probability > 0.7f);
-    /* at another time: moved there */
+    /* at another time the estimate is predicted to it */
     rho_track_merge_estimates(&track, 9 * SCAN_US + SCAN_US / 2, &model);
     assert_int_equal(track.time_us, 9 * SCAN_US + SCAN_US / 2);
     assert_float_equal(track.kalman.state[0], 1900.0f, 8.0f);
 }
 
-/* A slot that is closed: the track is as it was. */
-static void a_closed_slot_settles_nothing(void **state)
+/* Settling a closed slot leaves the track unchanged. */
+static void settling_a_closed_slot_changes_nothing(void **state)
 {
     (void)state;
-    start_with(RHO_TRACK_HYPOTHESES);
-    struct rho_track track = started(), before;
+    set_filter(RHO_TRACK_HYPOTHESES);
+    struct rho_track track = start_track(), before;
     rho_track_free_hypotheses(&track, &model);
     before = track;
     rho_track_merge_estimates(&track, 5 * SCAN_US, &model);
     assert_int_not_equal(rho_track_predict(&track, 5 * SCAN_US, &model), RHO_OK);
     assert_memory_equal(&track, &before, sizeof track);
-    rho_track_free_hypotheses(&track, &model); /* twice */
-    assert_int_equal(count_open(), 0);
+    rho_track_free_hypotheses(&track, &model); /* freed a second time */
+    assert_int_equal(count_hypotheses_in_use(), 0);
 }
 
-/* ---- the pool's tracks by hand --------------------------------------------------------------- */
+/* ---- every filter updated by a caller -------------------------------------------------------- */
 
-/*
- * A caller that updates tracks itself: the estimate is the filter's, at the plot's time, once it is
- * settled.
- */
-static void every_filter_takes_plots_by_hand(void **state)
+/* For a caller that updates tracks itself, the settled estimate is at the plot's time. */
+static void every_filter_is_updated_by_a_caller_plot_by_plot(void **state)
 {
     (void)state;
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
-        start_with((enum rho_track_filter)filter);
-        struct rho_track track = started();
+        set_filter((enum rho_track_filter)filter);
+        struct rho_track track = start_track();
         for (int k = 4; k < 14; k++) {
-            struct rho_track_plot plot = seen(k);
+            struct rho_track_plot plot = plot_of_scan(k);
             assert_int_equal(rho_track_predict(&track, plot.time_us, &model), RHO_OK);
             assert_int_equal(rho_track_update(&track, &plot, &model, 10), RHO_OK);
             assert_int_equal(track.time_us, plot.time_us);
@@ -322,7 +324,7 @@ static void every_filter_takes_plots_by_hand(void **state)
         }
         assert_int_equal(track.hits, 14);
         assert_int_equal(track.score_mnat, 100);
-        /* measured: 0, 33.2, 18.4 */
+        /* measured: 0, 33.2 and 18.4 m/s^2 */
         static const float accel_mps2[RHO_NUM_TRACK_FILTERS] = {0.0f, 30.0f, 22.0f};
         static const float probability[RHO_NUM_TRACK_FILTERS] = {0.0f, 1.0f, 0.8f};
         assert_float_equal(track.accel_mps2[1], accel_mps2[filter], filter ? 8.0f : 0.0f);
@@ -332,18 +334,19 @@ static void every_filter_takes_plots_by_hand(void **state)
     }
 }
 
-/* Velocity and range rate with 1 m/s: what four places alone tell to some 4 m/s. */
-static void every_filter_takes_all_that_a_plot_measures(void **state)
+/* Velocity and range rate with 1 m/s sigma, which four places alone give to about 4 m/s. */
+static void every_filter_uses_velocity_and_range_rate(void **state)
 {
     static const uint32_t kinds[] = {0, RHO_MEASURES_VELOCITY, RHO_MEASURES_RANGE_RATE};
     (void)state;
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
         for (int kind = 0; kind < 3; kind++) {
-            start_with((enum rho_track_filter)filter);
-            struct rho_track track = started();
-            struct rho_track_plot plot = seen(4);
+            set_filter((enum rho_track_filter)filter);
+            struct rho_track track = start_track();
+            struct rho_track_plot plot = plot_of_scan(4);
             plot.measures = kinds[kind];
-            plot.plot.vx_mps = plot.plot.range_rate_mps = 200.0f; /* it comes from the sensor */
+            /* values that contradict the motion */
+            plot.plot.vx_mps = plot.plot.range_rate_mps = 200.0f;
             plot.plot.sigma_mps = plot.plot.sigma_range_rate_mps = 1.0f;
             assert_int_equal(rho_track_predict(&track, plot.time_us, &model), RHO_OK);
             assert_int_equal(rho_track_update(&track, &plot, &model, 0), RHO_OK);
@@ -354,17 +357,17 @@ static void every_filter_takes_all_that_a_plot_measures(void **state)
     }
 }
 
-static void refused_updates_leave_every_filter_going(void **state)
+static void refused_updates_leave_every_filter_unchanged(void **state)
 {
     (void)state;
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
-        start_with((enum rho_track_filter)filter);
-        struct rho_track track = started(), before = track;
-        struct rho_track_plot bad = seen(4);
+        set_filter((enum rho_track_filter)filter);
+        struct rho_track track = start_track(), before = track;
+        struct rho_track_plot bad = plot_of_scan(4);
         bad.plot.y_m = NAN;
         assert_int_not_equal(rho_track_update(&track, &bad, &model, 10), RHO_OK);
         assert_memory_equal(&track, &before, sizeof track);
-        struct rho_track_plot good = seen(4);
+        struct rho_track_plot good = plot_of_scan(4);
         assert_int_equal(rho_track_predict(&track, good.time_us, &model), RHO_OK);
         assert_int_equal(rho_track_update(&track, &good, &model, 10), RHO_OK);
         rho_track_merge_estimates(&track, good.time_us, &model);
@@ -373,14 +376,14 @@ static void refused_updates_leave_every_filter_going(void **state)
     }
 }
 
-/* What a gate sees: with input estimation, an input that may have begun since. */
-static void only_inputs_widen_the_gate(void **state)
+/* With input estimation the gate includes an input that may have begun since the last plot. */
+static void only_input_estimation_widens_the_gate(void **state)
 {
     (void)state;
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
         struct rho_kalman expected, of_input;
-        start_with((enum rho_track_filter)filter);
-        struct rho_track track = started();
+        set_filter((enum rho_track_filter)filter);
+        struct rho_track track = start_track();
         assert_int_equal(rho_track_predict(&track, 4 * SCAN_US, &model), RHO_OK);
         rho_track_estimate_for_gate(&track, &expected);
         if (filter == RHO_TRACK_INPUT) {
@@ -395,12 +398,12 @@ static void only_inputs_widen_the_gate(void **state)
     }
 }
 
-/* ---- bearings -------------------------------------------------------------------------------- */
+/* ---- updates by bearings --------------------------------------------------------------------- */
 
-/* What a sensor at (x, y) sees of the target at scan k, with 0.5 mrad. */
+/* The bearing of the target at scan k from (x, y), with 0.5 mrad sigma. */
 static struct rho_track_bearing bearing_from(float x_m, float y_m, int k)
 {
-    const struct rho_plot at = seen(k).plot;
+    const struct rho_plot at = plot_of_scan(k).plot;
     return (struct rho_track_bearing){.time_us = (int64_t)SCAN_US * k,
                                       .sensor_id = 4,
                                       .x_m = x_m,
@@ -410,13 +413,16 @@ static struct rho_track_bearing bearing_from(float x_m, float y_m, int k)
                                       .row = 1};
 }
 
-/* Seen along y from 5 km: 2.5 m across, at once, so that the next sensor's gate is the narrower. */
-static void a_bearing_narrows_every_filter_at_once(void **state)
+/*
+ * Seen along y from 5 km the sigma across is 2.5 m after the update, so that the next sensor's gate
+ * is narrower.
+ */
+static void a_bearing_reduces_the_covariance_of_every_filter(void **state)
 {
     (void)state;
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
-        start_with((enum rho_track_filter)filter);
-        struct rho_track track = started();
+        set_filter((enum rho_track_filter)filter);
+        struct rho_track track = start_track();
         struct rho_track_bearing bearing = bearing_from(800.0f, -5000.0f, 4);
         assert_int_equal(rho_track_predict(&track, bearing.time_us, &model), RHO_OK);
         rho_track_merge_estimates(&track, bearing.time_us, &model);
@@ -427,15 +433,13 @@ static void a_bearing_narrows_every_filter_at_once(void **state)
     }
 }
 
-/*
- * A hit by a bearing is an update as one by a plot: of both in one step it is the last that counts.
- */
+/* A bearing counts as an update like a plot; the velocity of the last update in a step is kept. */
 static void velocities_of_the_last_two_hits_are_kept(void **state)
 {
     (void)state;
     for (int filter = 0; filter < RHO_TRACK_HYPOTHESES; filter++) {
-        start_with((enum rho_track_filter)filter);
-        struct rho_track track = started();
+        set_filter((enum rho_track_filter)filter);
+        struct rho_track track = start_track();
         float before_mps = track.kalman.state[4];
         for (int k = 4; k < 9; k++) {
             struct rho_track_bearing south = bearing_from(800.0f, -5000.0f, k);
@@ -453,17 +457,16 @@ static void velocities_of_the_last_two_hits_are_kept(void **state)
 }
 
 /*
- * Two sensors at once. What the first tells must not be decided on alone: where it sees no input
- * there is none as yet, and the second, at the same time, could not see one any more: 43 m behind,
- * instead of 0.01 m.
+ * Two simultaneous bearings: the first alone shows no input, and if that were decided at once, the
+ * second could not show it any more: 43 m of error instead of 0.01 m.
  */
-static void bearings_show_a_turn_too(void **state)
+static void simultaneous_bearings_reveal_a_turn(void **state)
 {
     static const float least[RHO_NUM_TRACK_FILTERS] = {0.0f, 1.0f, 0.6f};
     (void)state;
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
-        start_with((enum rho_track_filter)filter);
-        struct rho_track track = started();
+        set_filter((enum rho_track_filter)filter);
+        struct rho_track track = start_track();
         for (int k = 4; k < 14; k++) {
             struct rho_track_bearing south = bearing_from(800.0f, -5000.0f, k);
             struct rho_track_bearing east = bearing_from(7000.0f, 300.0f, k);
@@ -483,22 +486,22 @@ static void bearings_show_a_turn_too(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_model_says_which_filter),
-        cmocka_unit_test(an_estimate_starts_the_filter_of_the_model),
-        cmocka_unit_test(a_start_takes_the_initial_variance),
+        cmocka_unit_test(the_model_selects_the_filter_of_a_track),
+        cmocka_unit_test(a_start_from_an_estimate_uses_the_models_filter),
+        cmocka_unit_test(input_estimation_starts_with_the_initial_variance),
         cmocka_unit_test(a_refused_start_gives_its_slot_back),
-        cmocka_unit_test(a_full_pool_refuses),
-        cmocka_unit_test(commit_and_settle_are_for_hypotheses),
-        cmocka_unit_test(a_commit_counts_what_the_best_hypothesis_took),
-        cmocka_unit_test(settling_brings_the_estimate),
-        cmocka_unit_test(a_closed_slot_settles_nothing),
-        cmocka_unit_test(every_filter_takes_plots_by_hand),
-        cmocka_unit_test(every_filter_takes_all_that_a_plot_measures),
-        cmocka_unit_test(refused_updates_leave_every_filter_going),
-        cmocka_unit_test(only_inputs_widen_the_gate),
-        cmocka_unit_test(a_bearing_narrows_every_filter_at_once),
+        cmocka_unit_test(a_full_pool_refuses_a_start),
+        cmocka_unit_test(commit_and_settle_need_a_filter_of_hypotheses),
+        cmocka_unit_test(a_commit_counts_the_plot_of_the_best_hypothesis),
+        cmocka_unit_test(settling_sets_the_estimate_from_the_hypotheses),
+        cmocka_unit_test(settling_a_closed_slot_changes_nothing),
+        cmocka_unit_test(every_filter_is_updated_by_a_caller_plot_by_plot),
+        cmocka_unit_test(every_filter_uses_velocity_and_range_rate),
+        cmocka_unit_test(refused_updates_leave_every_filter_unchanged),
+        cmocka_unit_test(only_input_estimation_widens_the_gate),
+        cmocka_unit_test(a_bearing_reduces_the_covariance_of_every_filter),
         cmocka_unit_test(velocities_of_the_last_two_hits_are_kept),
-        cmocka_unit_test(bearings_show_a_turn_too),
+        cmocka_unit_test(simultaneous_bearings_reveal_a_turn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

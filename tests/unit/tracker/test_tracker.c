@@ -29,9 +29,9 @@ static float uniform(float from, float to)
     return from + (to - from) * (float)random_bits() / 16777216.0f;
 }
 
-/* rate: false tracks an hour; 0: tracks start and are believed with a score of 0. */
-static void start_with(struct rho_tracker_config maintain, unsigned scans, unsigned min_scans,
-                       float rate)
+/* rate: false tracks an hour; 0: tracks start and are confirmed with a score of 0. */
+static void start_tracker_with(struct rho_tracker_config maintain, unsigned scans,
+                               unsigned min_scans, float rate)
 {
     struct rho_initiator_config initiate;
     rho_initiator_config_default(&initiate);
@@ -46,21 +46,21 @@ static void start_with(struct rho_tracker_config maintain, unsigned scans, unsig
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &initiate), RHO_OK);
 }
 
-static void start(void)
+static void start_tracker(void)
 {
     struct rho_tracker_config config;
     rho_tracker_config_default(&config);
     config.late_max_s = 0.5f;
-    start_with(config, 5, 4, 0.0f);
+    start_tracker_with(config, 5, 4, 0.0f);
 }
 
-static void add(float x_m, float y_m)
+static void add_plot(float x_m, float y_m)
 {
     plots[num_plots++] =
         (struct rho_plot){.x_m = x_m, .y_m = y_m, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
 }
 
-static void check_sums(const struct rho_scan *scan)
+static void check_fate_sums(const struct rho_scan *scan)
 {
     uint32_t sum = 0, counted = 0;
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
@@ -80,25 +80,25 @@ static void step_at(int64_t time_us)
     struct rho_scan scan = {.time_us = time_us, .num_plots = num_plots, .plots = plots};
     memset(&report, 0xee, sizeof report);
     assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
-    check_sums(&scan);
+    check_fate_sums(&scan);
     num_plots = 0;
 }
 
-static void step(int k)
+static void step_scan_number(int k)
 {
     step_at((int64_t)SCAN_US * k);
 }
 
-/* A target at 250 m/s along x, seen by scans from .. to - 1. */
-static void fly(int from, int to)
+/* A target at 250 m/s along x, seen in scans from .. to - 1. */
+static void track_target(int from, int to)
 {
     for (int k = from; k < to; k++) {
-        add(500.0f * (float)k + uniform(-8.0f, 8.0f), uniform(-8.0f, 8.0f));
-        step(k);
+        add_plot(500.0f * (float)k + uniform(-8.0f, 8.0f), uniform(-8.0f, 8.0f));
+        step_scan_number(k);
     }
 }
 
-static void init_and_sensors_refuse(void **state)
+static void bad_init_and_sensors_are_refused(void **state)
 {
     (void)state;
     struct rho_tracker_config good, bad;
@@ -119,11 +119,12 @@ static void init_and_sensors_refuse(void **state)
         assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &bad), RHO_ERROR_CONFIG);
     }
     assert_memory_equal(&tracker, &before_tracker, sizeof tracker);
-    start();
+    start_tracker();
     for (int i = 0; i < RHO_MAX_SENSORS; i++) {
         sensor.sensor_id = i;
         assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
-        assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK); /* replaces itself */
+        /* setting a sensor again replaces it */
+        assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
     }
     before_tracker = tracker;
     sensor.sensor_id = RHO_MAX_SENSORS;
@@ -137,10 +138,10 @@ static void init_and_sensors_refuse(void **state)
 }
 
 /*
- * A refused init leaves the object as it is. Init clears it before the pool of hypotheses takes the
- * model of motion, so that no configuration in its ranges may give a model that is refused.
+ * A refused init leaves the object unchanged. Init clears it before the hypotheses' motion model is
+ * checked, so every configuration within its ranges must give a valid model.
  */
-static void every_model_of_a_usable_configuration_is_taken(void **state)
+static void every_configuration_within_its_ranges_initialises(void **state)
 {
     static const float accels_mps2[] = {0.0f, 1e-30f, 1e-3f, 1.0f, 1000.0f};
     static const float speeds_mps[] = {1.0f, 30.0f, RHO_LIMIT_SPEED_MPS};
@@ -157,7 +158,7 @@ static void every_model_of_a_usable_configuration_is_taken(void **state)
     }
 }
 
-static void forgotten_sensors_make_room(void **state)
+static void forgotten_sensors_free_their_place(void **state)
 {
     struct rho_sensor sensor = {.pd = 0.9f, .range_max_m = 1000.0f};
 
@@ -165,7 +166,7 @@ static void forgotten_sensors_make_room(void **state)
     assert_int_equal(rho_tracker_forget_sensor(NULL, 0), RHO_ERROR_NULL);
     memset(&tracker, 0, sizeof tracker);
     assert_int_equal(rho_tracker_forget_sensor(&tracker, 0), RHO_ERROR_STATE);
-    start();
+    start_tracker();
     before_tracker = tracker;
     assert_int_equal(rho_tracker_forget_sensor(&tracker, 0), RHO_ERROR_STATE);
     assert_memory_equal(&tracker, &before_tracker, sizeof tracker);
@@ -181,15 +182,16 @@ static void forgotten_sensors_make_room(void **state)
     for (int i = 1; i <= RHO_MAX_SENSORS; i++) {
         assert_int_equal(rho_tracker_forget_sensor(&tracker, i), RHO_OK);
     }
-    assert_memory_equal(&tracker, &before_tracker, sizeof tracker); /* as if never described */
+    /* the counter aside, as if the sensor had never been described */
+    assert_memory_equal(&tracker, &before_tracker, sizeof tracker);
 }
 
-static void refused_steps_change_nothing(void **state)
+static void refused_scans_change_nothing(void **state)
 {
     (void)state;
     struct rho_scan scan = {.time_us = 100, .num_plots = 1, .plots = NULL};
-    start();
-    fly(0, 3);
+    start_tracker();
+    track_target(0, 3);
     before_tracker = tracker;
     other_initiator = initiator;
     other_report = report;
@@ -217,19 +219,19 @@ static void refused_steps_change_nothing(void **state)
 static void every_plot_has_one_fate(void **state)
 {
     (void)state;
-    start();
-    fly(0, 6);
+    start_tracker();
+    track_target(0, 6);
     assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
-    add(3000.0f, 0.0f);
-    add(-7000.0f, 4000.0f);
-    add(NAN, 0.0f);
-    add(0.0f, INFINITY);
-    add(3.0e6f, 0.0f);
-    add(0.0f, 0.0f);
+    add_plot(3000.0f, 0.0f);
+    add_plot(-7000.0f, 4000.0f);
+    add_plot(NAN, 0.0f);
+    add_plot(0.0f, INFINITY);
+    add_plot(3.0e6f, 0.0f);
+    add_plot(0.0f, 0.0f);
     plots[5].sigma_cross_m = 0.0f;
-    add(0.0f, 0.0f);
+    add_plot(0.0f, 0.0f);
     plots[6].offset_us = INT32_MIN;
-    step(6);
+    step_scan_number(6);
     assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
     assert_int_equal(report.fates[1], RHO_FATE_HELD);
     for (int i = 2; i < 7; i++) {
@@ -238,27 +240,27 @@ static void every_plot_has_one_fate(void **state)
     assert_int_equal(report.fates_total[RHO_FATE_INVALID], 5);
 }
 
-static void plots_beyond_the_capacity_have_no_room(void **state)
+static void plots_beyond_the_capacity_get_fate_no_room(void **state)
 {
     (void)state;
-    start();
+    start_tracker();
     for (int i = 0; i < RHO_MAX_PLOTS + 50; i++) {
-        add(uniform(-9e4f, 9e4f), uniform(-9e4f, 9e4f));
+        add_plot(uniform(-9e4f, 9e4f), uniform(-9e4f, 9e4f));
     }
-    step(0);
+    step_scan_number(0);
     assert_int_equal(report.fates_total[RHO_FATE_HELD], RHO_MAX_PLOTS);
     assert_int_equal(report.fates_total[RHO_FATE_NO_ROOM], 50);
 }
 
-static void late_scans_are_stale(void **state)
+static void plots_of_too_late_scans_are_stale(void **state)
 {
     (void)state;
-    start();
-    fly(0, 6);
+    start_tracker();
+    track_target(0, 6);
     before_tracker = tracker;
-    add(1.0f, 1.0f);
-    add(2.0f, 2.0f);
-    step(4);
+    add_plot(1.0f, 1.0f);
+    add_plot(2.0f, 2.0f);
+    step_scan_number(4);
     assert_int_equal(report.fates_total[RHO_FATE_STALE], 2);
     assert_int_equal(report.num_tracks, 1);
     assert_int_equal(tracker.counters.scans_late, 1);
@@ -266,13 +268,13 @@ static void late_scans_are_stale(void **state)
     assert_memory_equal(&tracker, &before_tracker, sizeof tracker);
 }
 
-static void a_target_is_started_kept_and_let_go(void **state)
+static void a_track_is_started_kept_and_ended(void **state)
 {
     (void)state;
-    start();
-    fly(0, 3);
+    start_tracker();
+    track_target(0, 3);
     assert_int_equal(report.num_tracks, 0);
-    fly(3, 10);
+    track_target(3, 10);
     assert_int_equal(report.num_tracks, 1);
     const struct rho_track_report *track = &report.tracks[0];
     assert_int_equal(track->status, RHO_TRACK_CONFIRMED);
@@ -281,32 +283,32 @@ static void a_target_is_started_kept_and_let_go(void **state)
     assert_float_equal(track->state[3], 250.0f, 5.0f);
     assert_int_equal(tracker.counters.plots_initiated, 4);
     for (int k = 10; k < 14; k++) {
-        step(k);
-        /* two misses in ten are not rare, three are rarer than the end of a target */
+        step_scan_number(k);
+        /* two misses in ten looks are usual; three are rarer than the end of a target */
         assert_int_equal(report.tracks[0].status,
                          k < 12 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
         assert_int_equal(report.num_ended, 0);
         assert_int_equal(report.tracks[0].plot, -1);
         assert_int_equal(report.tracks[0].update_age_us, SCAN_US * (k - 9));
     }
-    step(14);
+    step_scan_number(14);
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], 1);
     assert_int_equal(tracker.counters.tracks_ended, 1);
 }
 
-static void misses_count_only_where_the_sensor_looked(void **state)
+static void misses_count_only_within_the_scans_sector(void **state)
 {
     (void)state;
     struct rho_sensor near = {.sensor_id = 7, .pd = 0.9f, .range_max_m = 1000.0f};
-    start();
-    fly(0, 10);
+    start_tracker();
+    track_target(0, 10);
     assert_int_equal(rho_tracker_set_sensor(&tracker, &near), RHO_OK);
     for (int k = 10; k < 30; k++) {
         struct rho_scan scan = {.time_us = (int64_t)SCAN_US * k, .sensor_id = k % 2 ? 7 : 0};
         if (k % 2 == 0) {
-            scan.sector_from_rad = 1.0f; /* the track is at azimuth 0 */
+            scan.sector_from_rad = 1.0f; /* a sector away from the track at azimuth 0 */
             scan.sector_to_rad = 2.0f;
         }
         assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
@@ -318,12 +320,12 @@ static void misses_count_only_where_the_sensor_looked(void **state)
 static void crossing_targets_keep_their_identities(void **state)
 {
     (void)state;
-    start();
+    start_tracker();
     for (int k = 0; k < 20; k++) {
         float t_s = 2.0f * (float)k;
-        add(200.0f * t_s - 4000.0f + uniform(-5.0f, 5.0f), 60.0f * t_s - 1200.0f);
-        add(200.0f * t_s - 4000.0f + uniform(-5.0f, 5.0f), 1200.0f - 60.0f * t_s);
-        step(k);
+        add_plot(200.0f * t_s - 4000.0f + uniform(-5.0f, 5.0f), 60.0f * t_s - 1200.0f);
+        add_plot(200.0f * t_s - 4000.0f + uniform(-5.0f, 5.0f), 1200.0f - 60.0f * t_s);
+        step_scan_number(k);
     }
     assert_int_equal(report.num_tracks, 2);
     assert_int_equal(tracker.counters.tracks_started, 2);
@@ -335,43 +337,43 @@ static void crossing_targets_keep_their_identities(void **state)
     }
 }
 
-static void without_an_initiator_tracks_go_on_and_none_start(void **state)
+static void without_an_initiator_tracks_continue_and_none_start(void **state)
 {
     (void)state;
-    start();
-    fly(0, 6);
-    add(3000.0f, 0.0f);
-    add(-3000.0f, 50.0f);
+    start_tracker();
+    track_target(0, 6);
+    add_plot(3000.0f, 0.0f);
+    add_plot(-3000.0f, 50.0f);
     struct rho_scan scan = {.time_us = (int64_t)SCAN_US * 6, .num_plots = 2, .plots = plots};
     assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
     assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
     assert_int_equal(report.fates[1], RHO_FATE_NO_ROOM);
 }
 
-static void a_snapshot_goes_on_alike(void **state)
+static void a_snapshot_continues_with_the_same_bytes(void **state)
 {
     (void)state;
-    start();
-    fly(0, 8);
+    start_tracker();
+    track_target(0, 8);
     other_tracker = tracker;
     other_initiator = initiator;
     uint32_t seed_then = seed;
-    fly(8, 14);
+    track_target(8, 14);
     other_report = report;
     before_tracker = tracker;
     tracker = other_tracker;
     initiator = other_initiator;
     seed = seed_then;
-    fly(8, 14);
+    track_target(8, 14);
     assert_memory_equal(&report, &other_report, sizeof report);
     assert_memory_equal(&tracker, &before_tracker, sizeof tracker);
 }
 
-static void long_gaps_end_tracks_and_harm_nothing(void **state)
+static void gaps_of_a_century_end_tracks_and_do_no_harm(void **state)
 {
     (void)state;
-    start();
-    fly(0, 8);
+    start_tracker();
+    track_target(0, 8);
     step_at(INT64_C(3600000000) * 24 * 365 * 100); /* a century */
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(report.num_ended, 1);
@@ -379,20 +381,20 @@ static void long_gaps_end_tracks_and_harm_nothing(void **state)
     assert_int_equal(report.num_tracks, 0);
 }
 
-static void a_full_table_is_counted(void **state)
+static void starts_without_room_in_the_table_are_counted(void **state)
 {
     (void)state;
     enum { ROWS = RHO_MAX_TRACKS + 4 };
     if (ROWS > RHO_MAX_PLOTS || ROWS > RHO_MAX_CANDIDATES * 4 || RHO_MAX_TRACKS > 100) {
-        skip(); /* the workstation's table is not filled in a unit test */
+        skip(); /* a workstation's track table is too large to fill in a unit test */
     }
-    start();
+    start_tracker();
     for (int k = 0; k < 8; k++) {
-        int to = k < 4 ? 20 : ROWS; /* the candidates' list holds fewer than the table */
+        int to = k < 4 ? 20 : ROWS; /* the list of candidates is shorter than the track table */
         for (int i = 0; i < to; i++) {
-            add(500.0f * (float)k, 3000.0f * (float)i);
+            add_plot(500.0f * (float)k, 3000.0f * (float)i);
         }
-        step(k);
+        step_scan_number(k);
     }
     assert_int_equal(report.num_tracks, RHO_MAX_TRACKS);
     assert_int_equal(tracker.counters.tracks_no_room, 4);
@@ -407,9 +409,9 @@ static float hostile_number(void)
     return random_bits() % 8 == 0 ? odd[random_bits() % 8] : uniform(-5000.0f, 5000.0f);
 }
 
-static void add_hostile(void)
+static void add_hostile_plot(void)
 {
-    add(hostile_number(), hostile_number());
+    add_plot(hostile_number(), hostile_number());
     struct rho_plot *plot = &plots[num_plots - 1];
     plot->z_m = hostile_number();
     plot->vx_mps = hostile_number() * 0.1f;
@@ -423,7 +425,7 @@ static void add_hostile(void)
     }
 }
 
-static void check_finite(void)
+static void check_reports_finite(void)
 {
     for (unsigned i = 0; i < report.num_tracks; i++) {
         const struct rho_track_report *track = &report.tracks[i];
@@ -435,14 +437,14 @@ static void check_finite(void)
     }
 }
 
-static void garbage_harms_nothing(void **state)
+static void hostile_plots_leave_reports_finite(void **state)
 {
     (void)state;
     int64_t time_us = -50000000;
-    start();
+    start_tracker();
     for (int k = 0; k < 3000; k++) {
         for (uint32_t i = random_bits() % 30; i > 0; i--) {
-            add_hostile();
+            add_hostile_plot();
         }
         struct rho_scan scan = {.time_us = time_us,
                                 .sensor_id = (int32_t)(random_bits() % 3),
@@ -451,8 +453,8 @@ static void garbage_harms_nothing(void **state)
                                 .plots = plots};
         memset(&report, 0xee, sizeof report);
         assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
-        check_sums(&scan);
-        check_finite();
+        check_fate_sums(&scan);
+        check_reports_finite();
         num_plots = 0;
         time_us += random_bits() % 16 == 0 ? -1000000 : (int64_t)(random_bits() % 4000000);
     }
@@ -462,21 +464,21 @@ static void garbage_harms_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(init_and_sensors_refuse),
-        cmocka_unit_test(every_model_of_a_usable_configuration_is_taken),
-        cmocka_unit_test(forgotten_sensors_make_room),
-        cmocka_unit_test(refused_steps_change_nothing),
+        cmocka_unit_test(bad_init_and_sensors_are_refused),
+        cmocka_unit_test(every_configuration_within_its_ranges_initialises),
+        cmocka_unit_test(forgotten_sensors_free_their_place),
+        cmocka_unit_test(refused_scans_change_nothing),
         cmocka_unit_test(every_plot_has_one_fate),
-        cmocka_unit_test(plots_beyond_the_capacity_have_no_room),
-        cmocka_unit_test(late_scans_are_stale),
-        cmocka_unit_test(a_target_is_started_kept_and_let_go),
-        cmocka_unit_test(misses_count_only_where_the_sensor_looked),
+        cmocka_unit_test(plots_beyond_the_capacity_get_fate_no_room),
+        cmocka_unit_test(plots_of_too_late_scans_are_stale),
+        cmocka_unit_test(a_track_is_started_kept_and_ended),
+        cmocka_unit_test(misses_count_only_within_the_scans_sector),
         cmocka_unit_test(crossing_targets_keep_their_identities),
-        cmocka_unit_test(without_an_initiator_tracks_go_on_and_none_start),
-        cmocka_unit_test(a_snapshot_goes_on_alike),
-        cmocka_unit_test(long_gaps_end_tracks_and_harm_nothing),
-        cmocka_unit_test(a_full_table_is_counted),
-        cmocka_unit_test(garbage_harms_nothing),
+        cmocka_unit_test(without_an_initiator_tracks_continue_and_none_start),
+        cmocka_unit_test(a_snapshot_continues_with_the_same_bytes),
+        cmocka_unit_test(gaps_of_a_century_end_tracks_and_do_no_harm),
+        cmocka_unit_test(starts_without_room_in_the_table_are_counted),
+        cmocka_unit_test(hostile_plots_leave_reports_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

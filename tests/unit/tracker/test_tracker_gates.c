@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What holds for the tracker whatever its gate: no plot has two tracks, fates add up, no hypothesis
- * is lost, the same bytes. That best is refused where the build has fewer hypotheses than tracks
- * cannot be tested at run time.
+ * What holds for each gate: no plot has two tracks, fates add up, no hypothesis is lost, results
+ * are byte-identical. That gate best is refused in builds with fewer hypotheses than tracks cannot
+ * be tested at run time.
  */
 #include "gates_scene.h"
 
 #define NUM_SCANS 40
 
-/* gates, and with input estimation */
+/* gates, each plain or with input estimation */
 static const struct {
     uint8_t gate, has_inputs;
 } ways[] = {{RHO_TRACKER_BEST, 0},
@@ -18,7 +18,7 @@ static const struct {
             {RHO_TRACKER_NEAREST, 1}};
 #define NUM_WAYS (sizeof ways / sizeof ways[0])
 
-static void draw_way(unsigned way, uint64_t seed)
+static void set_up_gate(unsigned way, uint64_t seed)
 {
     set_up_scene(ways[way].gate, seed);
     if (ways[way].has_inputs) {
@@ -29,8 +29,8 @@ static void draw_way(unsigned way, uint64_t seed)
 /* ---- scenes ---------------------------------------------------------------------------------- */
 
 /*
- * Four that meet in the middle, two that fly side by side, two that turn; all seen with misses
- * among clutter.
+ * Four targets that meet in the middle, two side by side, two that turn; seen with misses among
+ * clutter.
  */
 static void add_targets(void)
 {
@@ -52,7 +52,7 @@ static void add_targets(void)
 
 enum { FLAT, OWN_TIMES, HEIGHTS, POLAR, VELOCITIES, SECTORS, ALL_OF_IT, DENSE, NUM_KINDS };
 
-static void vary(int kind)
+static void set_up_variant(int kind)
 {
     int all = kind == ALL_OF_IT;
     add_targets();
@@ -70,27 +70,27 @@ static void vary(int kind)
     }
 }
 
-/* Flies on without targets, until all tracks have ended. */
-static void let_all_end(int k)
+/* Steps on without targets until all tracks have ended. */
+static void end_all_tracks(int k)
 {
     scene.num_targets = 0;
     scene.clutter = 0.0;
     scene.num_sectors = 0;
-    for (int i = 0; i < 14; i++) { /* established tracks are in doubt for twelve misses */
+    for (int i = 0; i < 14; i++) { /* doubted established tracks end after twelve misses */
         step_tracker(k + i);
     }
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(tracker.hypotheses.num_free, RHO_MAX_HYPOTHESES);
 }
 
-static void every_gate_keeps_its_books(void **state)
+static void every_gate_keeps_counters_and_pool_consistent(void **state)
 {
     (void)state;
     for (unsigned way = 0; way < NUM_WAYS; way++) {
         for (int kind = 0; kind < NUM_KINDS; kind++) {
             unsigned most = 0, followed = 0;
-            draw_way(way, 100 + (uint64_t)kind);
-            vary(kind);
+            set_up_gate(way, 100 + (uint64_t)kind);
+            set_up_variant(kind);
             begin_tracker();
             for (int k = 0; k < NUM_SCANS; k++) {
                 step_tracker(k);
@@ -102,7 +102,7 @@ static void every_gate_keeps_its_books(void **state)
             for (unsigned i = 0; i < scene.num_targets; i++) {
                 followed += follower_of(i, scene.interval_s * (NUM_SCANS - 1), 300.0) != NULL;
             }
-            /* measured: all, but for one target that turns in dense clutter */
+            /* measured: all targets, but for one that turns in dense clutter */
             assert_true(followed + (kind == DENSE && ways[way].gate != RHO_TRACKER_BEST) >=
                         scene.num_targets);
             assert_in_range(tracker.counters.tracks_started, kind == SECTORS ? 7 : 8, 30);
@@ -111,31 +111,31 @@ static void every_gate_keeps_its_books(void **state)
             assert_int_equal(most, ways[way].gate != RHO_TRACKER_BEST ? 1
                                    : kind == DENSE                    ? RHO_HYPOTHESES_OF_TRACK
                                                                       : most);
-            let_all_end(NUM_SCANS);
+            end_all_tracks(NUM_SCANS);
         }
     }
 }
 
-/* ---- the same bytes -------------------------------------------------------------------------- */
+/* ---- identical bytes ------------------------------------------------------------------------- */
 
 static struct rho_tracker tracker_then;
 static struct rho_initiator initiator_then;
 static struct rho_report report_then;
 static uint64_t random_then;
 
-static void start_alike(unsigned way)
+static void start_scene_of_all_variants(unsigned way)
 {
-    draw_way(way, 9);
-    vary(ALL_OF_IT);
+    set_up_gate(way, 9);
+    set_up_variant(ALL_OF_IT);
     begin_tracker();
 }
 
-static void replays_and_snapshots_give_the_same_bytes(void **state)
+static void replays_and_snapshots_give_identical_bytes(void **state)
 {
     (void)state;
     for (unsigned way = 0; way < NUM_WAYS; way++) {
         static uint8_t snapshot[sizeof tracker + sizeof initiator];
-        start_alike(way);
+        start_scene_of_all_variants(way);
         for (int k = 0; k < 20; k++) {
             step_tracker(k);
         }
@@ -148,7 +148,7 @@ static void replays_and_snapshots_give_the_same_bytes(void **state)
         memcpy(&tracker_then, &tracker, sizeof tracker);
         memcpy(&initiator_then, &initiator, sizeof initiator);
         memcpy(&report_then, &report, sizeof report);
-        /* from the middle */
+        /* restored from the middle of the run */
         memcpy(&tracker, snapshot, sizeof tracker);
         memcpy(&initiator, snapshot + sizeof tracker, sizeof initiator);
         random_state = random_then;
@@ -158,10 +158,10 @@ static void replays_and_snapshots_give_the_same_bytes(void **state)
         assert_memory_equal(&report, &report_then, sizeof report);
         assert_memory_equal(&tracker, &tracker_then, sizeof tracker);
         assert_memory_equal(&initiator, &initiator_then, sizeof initiator);
-        /* and from garbage */
+        /* and into memory of other bytes */
         memset(&tracker, 0xa5, sizeof tracker);
         memset(&initiator, 0xa5, sizeof initiator);
-        start_alike(way);
+        start_scene_of_all_variants(way);
         for (int k = 0; k < NUM_SCANS; k++) {
             step_tracker(k);
         }
@@ -170,17 +170,17 @@ static void replays_and_snapshots_give_the_same_bytes(void **state)
     }
 }
 
-/* ---- late scans ------------------------------------------------------------------------------ */
+/* ---- too late scans -------------------------------------------------------------------------- */
 
 /*
- * Of a late scan only counters tell; its report shows the tracks as they were at its time, whatever
- * follows them.
+ * A too late scan changes counters alone; its report shows the tracks at its time, and later scans
+ * are unaffected.
  */
-static void late_scans_show_the_tracks_at_their_time_and_change_nothing(void **state)
+static void too_late_scans_report_past_tracks_and_change_nothing(void **state)
 {
     (void)state;
     for (unsigned way = 0; way < NUM_WAYS; way++) {
-        draw_way(way, 3);
+        set_up_gate(way, 3);
         scene.num_targets = 1;
         scene.target[0] = (struct target){-4000.0, 500.0, 0.0, 200.0, 0.0, 20.0, 10.0, 30.0};
         begin_tracker();
@@ -207,7 +207,7 @@ static void late_scans_show_the_tracks_at_their_time_and_change_nothing(void **s
 
 /* ---- configuration --------------------------------------------------------------------------- */
 
-static void expect_refused(const struct rho_tracker_config *bad)
+static void expect_config_refused(const struct rho_tracker_config *bad)
 {
     memset(&tracker, 0x5a, sizeof tracker);
     memcpy(&tracker_then, &tracker, sizeof tracker);
@@ -215,29 +215,29 @@ static void expect_refused(const struct rho_tracker_config *bad)
     assert_memory_equal(&tracker, &tracker_then, sizeof tracker);
 }
 
-/* Whatever the gate: what it does not use must be in order, too. */
-static void bad_gates_are_refused(void **state)
+/* Unused parameters of a gate must be within their ranges, too. */
+static void bad_configurations_of_gates_are_refused(void **state)
 {
     static const float cells_rad[] = {0.0f, 0.00099f, 1.5709f, -0.1f, NAN, INFINITY};
     struct rho_tracker_config bad;
     (void)state;
     for (unsigned way = 0; way < NUM_WAYS; way++) {
-        draw_way(way, 1);
-        begin_tracker(); /* good */
+        set_up_gate(way, 1);
+        begin_tracker(); /* a valid tracker */
         for (unsigned i = 0; i < sizeof cells_rad / sizeof cells_rad[0]; i++) {
             bad = config;
             bad.theta_cell_rad = cells_rad[i];
-            expect_refused(&bad);
+            expect_config_refused(&bad);
         }
         for (unsigned planes = 0; planes < 256; planes = planes ? planes + 31 : 8) {
             bad = config;
             bad.planes = (uint8_t)planes;
-            expect_refused(&bad);
+            expect_config_refused(&bad);
         }
         for (unsigned gate = RHO_NUM_TRACKER_GATES; gate < 256; gate++) {
             bad = config;
             bad.gate = (uint8_t)gate;
-            expect_refused(&bad);
+            expect_config_refused(&bad);
         }
         for (int field = 0; field < 7; field++) {
             bad = config;
@@ -248,12 +248,12 @@ static void bad_gates_are_refused(void **state)
             bad.input.noise_density = field == 4 ? -1.0f : bad.input.noise_density;
             bad.input.noise_m = field == 5 ? INFINITY : bad.input.noise_m;
             bad.input.velocity_variance = field == 6 ? 0.0f : bad.input.velocity_variance;
-            expect_refused(&bad);
+            expect_config_refused(&bad);
         }
     }
 }
 
-static void good_ends_of_ranges_are_taken(void **state)
+static void limits_of_configuration_ranges_are_accepted(void **state)
 {
     (void)state;
     set_up_scene(RHO_TRACKER_HOUGH, 1);
@@ -273,7 +273,7 @@ static void good_ends_of_ranges_are_taken(void **state)
     begin_tracker();
 }
 
-static void the_default_is_best(void **state)
+static void the_default_gate_is_best(void **state)
 {
     (void)state;
     struct rho_tracker_config given;
@@ -287,12 +287,12 @@ static void the_default_is_best(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_gate_keeps_its_books),
-        cmocka_unit_test(replays_and_snapshots_give_the_same_bytes),
-        cmocka_unit_test(late_scans_show_the_tracks_at_their_time_and_change_nothing),
-        cmocka_unit_test(bad_gates_are_refused),
-        cmocka_unit_test(good_ends_of_ranges_are_taken),
-        cmocka_unit_test(the_default_is_best),
+        cmocka_unit_test(every_gate_keeps_counters_and_pool_consistent),
+        cmocka_unit_test(replays_and_snapshots_give_identical_bytes),
+        cmocka_unit_test(too_late_scans_report_past_tracks_and_change_nothing),
+        cmocka_unit_test(bad_configurations_of_gates_are_refused),
+        cmocka_unit_test(limits_of_configuration_ranges_are_accepted),
+        cmocka_unit_test(the_default_gate_is_best),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Radars over the same targets, one of which fails or lies from some time on: it is suspect, the
- * tracks stay the others', and it is trusted again when it agrees. No good one is ever suspect,
- * however fine the one that lies claims to be.
+ * Radars over the same targets, one of which is blind or biased for a while: it becomes suspect,
+ * tracks follow the others, and it is trusted again when it agrees. No good radar is ever suspect,
+ * however small a noise the biased one claims.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -21,41 +21,42 @@
 #define SENSORS_MAX 3
 #define SIGMA_M 30.0
 #define ROUND_S 4.0
-#define LOST_MAX 2                       /* misses in a row, by chance */
-#define CLUTTER (2 * RHO_MAX_PLOTS + 40) /* the targets are in the second part */
+#define LOST_MAX 2 /* misses in a row by chance */
+/* more clutter than a scan's capacity, so that targets come in its second part */
+#define CLUTTER (2 * RHO_MAX_PLOTS + 40)
 
 static struct rho_tracker tracker;
 static struct rho_initiator initiators[SENSORS_MAX];
 static struct rho_report report;
 static uint64_t seed = 5;
 
-/* What the other radar does. */
+/* The fault of the radar OTHER. */
 enum fault { NONE, SHIFTED, FAR_OFF, DEAD };
 
 struct scene {
-    int sensors; /* the others are good */
+    int sensors; /* number of radars; all but OTHER are good */
     enum fault fault;
-    int from, to; /* rounds in which it does so */
+    int from, to; /* rounds in which OTHER is faulty */
     double turn_radps;
-    int clutter; /* plots of the other radar far and wide: half before the targets', half behind */
+    int clutter; /* clutter plots of OTHER: half before the targets' plots, half behind */
     /*
-     * of the radars by their identities; 0: SIGMA_M. What the other claims while it lies; 0: that,
-     * too. 0: 4 SIGMA_M
+     * true sigmas by sensor id, 0: SIGMA_M; sigma that OTHER claims while faulty, 0: the true one;
+     * its shift, 0: 4 SIGMA_M
      */
     double sigma_m[SENSORS_MAX + 1], claim_m, shift_m;
-    /* what came of it, from round 20 on */
+    /* results from round 20 on */
     double sum_m2;
     int judged, lost, tracks_most, first_suspect, last_suspect;
 };
 
-static void describe(int32_t sensor_id)
+static void describe_sensor(int32_t sensor_id)
 {
     const struct rho_sensor sensor = {.sensor_id = sensor_id, .pd = 0.9f, .range_max_m = 4e5f};
 
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
 }
 
-static void start(void)
+static void start_tracker(void)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start_config;
@@ -69,12 +70,12 @@ static void start(void)
     for (int i = 0; i < SENSORS_MAX; i++) {
         assert_int_equal(rho_initiator_init(&initiators[i], sizeof initiators[i], &start_config),
                          RHO_OK);
-        describe(i + 1);
+        describe_sensor(i + 1);
     }
 }
 
-/* Straight, 90 km apart; or in circles. */
-static void truth_of(const struct scene *scene, int target, double t_s, double place_m[2])
+/* Targets on straight lines or in circles, 90 km apart. */
+static void true_place_of(const struct scene *scene, int target, double t_s, double place_m[2])
 {
     double heading = 0.7 * target, speed = 150.0 + 10.0 * target, w = scene->turn_radps;
 
@@ -100,20 +101,21 @@ static uint32_t add_clutter(struct rho_plot *plots, uint32_t count, int more)
     return count;
 }
 
-static double or_else(double value, double otherwise)
+static double value_or_default(double value, double otherwise)
 {
     return value > 0.0 ? value : otherwise;
 }
 
-static void step(const struct scene *scene, int32_t sensor_id, double t_s, int is_faulty)
+static void step_sensor_scan(const struct scene *scene, int32_t sensor_id, double t_s,
+                             int is_faulty)
 {
     static struct rho_plot plots[TARGETS + CLUTTER];
     const int clutter = sensor_id == OTHER ? scene->clutter / 2 : 0;
     struct rho_scan scan = {.time_us = (int64_t)llround(1e6 * t_s), .sensor_id = sensor_id};
-    const double sigma_m = or_else(scene->sigma_m[sensor_id], SIGMA_M),
-                 claim_m = is_faulty ? or_else(scene->claim_m, sigma_m) : sigma_m;
+    const double sigma_m = value_or_default(scene->sigma_m[sensor_id], SIGMA_M),
+                 claim_m = is_faulty ? value_or_default(scene->claim_m, sigma_m) : sigma_m;
     double shift_m = !is_faulty                ? 0.0
-                     : scene->fault == SHIFTED ? or_else(scene->shift_m, 4.0 * SIGMA_M)
+                     : scene->fault == SHIFTED ? value_or_default(scene->shift_m, 4.0 * SIGMA_M)
                      : scene->fault == FAR_OFF ? 3000.0
                                                : 0.0;
 
@@ -121,7 +123,7 @@ static void step(const struct scene *scene, int32_t sensor_id, double t_s, int i
     for (int i = 0; i < TARGETS; i++) {
         double place_m[2], dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
 
-        truth_of(scene, i, t_s, place_m);
+        true_place_of(scene, i, t_s, place_m);
         if (uniform(0.0, 1.0) < 0.9 && !(is_faulty && scene->fault == DEAD)) {
             plots[scan.num_plots++] = (struct rho_plot){.x_m = (float)(place_m[0] + dx_m + shift_m),
                                                         .y_m = (float)(place_m[1] + dy_m + shift_m),
@@ -135,7 +137,7 @@ static void step(const struct scene *scene, int32_t sensor_id, double t_s, int i
                      RHO_OK);
 }
 
-static void judge(struct scene *scene, double t_s)
+static void note_errors(struct scene *scene, double t_s)
 {
     int confirmed = 0;
 
@@ -146,7 +148,7 @@ static void judge(struct scene *scene, double t_s)
     for (int i = 0; i < TARGETS; i++) {
         double place_m[2], best_m = 1000.0;
 
-        truth_of(scene, i, t_s, place_m);
+        true_place_of(scene, i, t_s, place_m);
         for (uint32_t k = 0; k < report.num_tracks; k++) {
             double error_m = hypot((double)report.tracks[k].state[0] - place_m[0],
                                    (double)report.tracks[k].state[1] - place_m[1]);
@@ -166,25 +168,25 @@ static int is_suspect(int32_t sensor_id)
     return rho_tracker_look_of(&tracker, sensor_id)->is_suspect;
 }
 
-/* All look once a round, a second after one another. */
-static void fly(struct scene *scene, int rounds)
+/* Each round all radars look once, a second apart. */
+static void run_rounds(struct scene *scene, int rounds)
 {
     scene->first_suspect = scene->last_suspect = -1;
-    start();
+    start_tracker();
     for (int round = 0; round < rounds; round++) {
         double t_s = ROUND_S * round;
 
-        step(scene, OTHER, t_s, round >= scene->from && round < scene->to);
+        step_sensor_scan(scene, OTHER, t_s, round >= scene->from && round < scene->to);
         if (is_suspect(OTHER)) {
             scene->first_suspect = scene->first_suspect < 0 ? round : scene->first_suspect;
             scene->last_suspect = round;
         }
         for (int32_t good = OTHER + 1; good <= scene->sensors; good++) {
-            step(scene, good, t_s + good - OTHER, 0);
+            step_sensor_scan(scene, good, t_s + good - OTHER, 0);
             assert_int_equal(is_suspect(good), 0);
         }
         if (round >= 20) {
-            judge(scene, t_s + scene->sensors - OTHER);
+            note_errors(scene, t_s + scene->sensors - OTHER);
         }
     }
 }
@@ -194,13 +196,13 @@ static double rmse_m(const struct scene *scene)
     return sqrt(scene->sum_m2 / scene->judged);
 }
 
-static void sensors_that_agree_are_not_suspect(void **state)
+static void agreeing_sensors_are_never_suspect(void **state)
 {
     (void)state;
     for (int k = 0; k < 3; k++) {
-        struct scene scene = {.sensors = 2, .turn_radps = 0.02 * k}; /* up to 9 m/s^2 */
+        struct scene scene = {.sensors = 2, .turn_radps = 0.02 * k}; /* turns of up to 9 m/s^2 */
 
-        fly(&scene, 100);
+        run_rounds(&scene, 100);
         assert_int_equal(scene.first_suspect, -1);
         assert_in_range(scene.lost, 0, LOST_MAX);
         assert_int_equal(scene.tracks_most, TARGETS);
@@ -208,31 +210,31 @@ static void sensors_that_agree_are_not_suspect(void **state)
     }
 }
 
-static void one_that_lies_is_suspect_and_counts_little(void **state)
+static void a_biased_sensor_becomes_suspect_and_is_weighted_down(void **state)
 {
     struct scene well = {.sensors = 3, .fault = NONE},
                  lies = {.sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000};
     (void)state;
-    fly(&well, 100);
-    fly(&lies, 100);
+    run_rounds(&well, 100);
+    run_rounds(&lies, 100);
     print_message("all well %.1f m, one off by %.0f m: %.1f m, suspect from round %d\n",
                   rmse_m(&well), 4.0 * SIGMA_M * 1.414, rmse_m(&lies), lies.first_suspect);
     assert_in_range(lies.first_suspect, 31, 36);
     assert_int_equal(lies.last_suspect, 99);
     assert_in_range(lies.lost, 0, LOST_MAX);
     assert_int_equal(lies.tracks_most, TARGETS);
-    /* a third of the measurements is gone */
+    /* without OTHER a third of the measurements is missing */
     assert_true(rmse_m(&lies) < 1.6 * rmse_m(&well));
 }
 
-/* It pulls the tracks, so that the others look off to them as well: less than it is itself. */
-static void whoever_lies_is_found_out_whatever_the_noise(void **state)
+/* The biased radar pulls the tracks, so the others appear biased as well, but less. */
+static void a_biased_sensor_is_found_at_any_claimed_noise(void **state)
 {
     (void)state;
     for (seed = 1; seed <= 20; seed++) {
         struct scene scene = {.sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000};
 
-        fly(&scene, 60);
+        run_rounds(&scene, 60);
         assert_in_range(scene.first_suspect, 30, 36);
         assert_int_equal(scene.last_suspect, 59);
         assert_in_range(scene.lost, 0, LOST_MAX);
@@ -241,10 +243,10 @@ static void whoever_lies_is_found_out_whatever_the_noise(void **state)
 }
 
 /*
- * Two others as fine as it is, or two coarser ones that are less off; what it claims to be is no
- * proof.
+ * Two witnesses of equal noise, or two coarser ones that are less biased, suffice; a claimed small
+ * noise does not help.
  */
-static void of_three_that_are_not_alike_no_good_one_is_suspect(void **state)
+static void of_three_unlike_sensors_only_the_biased_one_is_suspect(void **state)
 {
     const struct scene scenes[] = {
         {.sigma_m = {0.0, 50.0, 30.0, 100.0}, .claim_m = 15.0, .shift_m = 120.0},
@@ -265,14 +267,14 @@ static void of_three_that_are_not_alike_no_good_one_is_suspect(void **state)
             scene.fault = SHIFTED;
             scene.from = 30;
             scene.to = 1000;
-            fly(&scene, 100); /* looks at the good ones after each step */
+            run_rounds(&scene, 100); /* checks the good radars after each step */
         }
     }
     seed = 5;
 }
 
-/* It pulls the tracks most, and is more off than two coarser ones all the same. */
-static void one_that_claims_to_be_finer_is_found_out_often(void **state)
+/* It pulls the tracks most, yet appears more biased than two coarser radars. */
+static void a_biased_sensor_claiming_less_noise_is_mostly_found(void **state)
 {
     int found = 0;
     (void)state;
@@ -280,7 +282,7 @@ static void one_that_claims_to_be_finer_is_found_out_often(void **state)
         struct scene scene = {
             .sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000, .claim_m = 10.0};
 
-        fly(&scene, 60);
+        run_rounds(&scene, 60);
         found += scene.first_suspect >= 0;
     }
     seed = 5;
@@ -288,12 +290,12 @@ static void one_that_claims_to_be_finer_is_found_out_often(void **state)
     assert_true(found >= 10);
 }
 
-/* Beyond all gates: its plots are no second tracks. */
-static void one_that_is_far_off_starts_no_tracks(void **state)
+/* Its plots are outside all gates and start no second tracks. */
+static void a_sensor_3_km_off_starts_no_second_tracks(void **state)
 {
     struct scene scene = {.sensors = 2, .fault = FAR_OFF, .from = 30, .to = 1000};
     (void)state;
-    fly(&scene, 100);
+    run_rounds(&scene, 100);
     assert_in_range(scene.first_suspect, 31, 34);
     assert_int_equal(scene.last_suspect, 99);
     assert_int_equal(scene.tracks_most, TARGETS);
@@ -301,24 +303,24 @@ static void one_that_is_far_off_starts_no_tracks(void **state)
     assert_int_equal(tracker.counters.sensors_suspected, 1);
 }
 
-static void one_that_is_dead_ends_no_track(void **state)
+static void a_blind_sensor_ends_no_track(void **state)
 {
     struct scene scene = {.sensors = 2, .fault = DEAD, .from = 30, .to = 1000};
     (void)state;
-    fly(&scene, 100);
+    run_rounds(&scene, 100);
     assert_in_range(scene.first_suspect, 31, 34);
     assert_in_range(scene.lost, 0, LOST_MAX);
     assert_int_equal(scene.tracks_most, TARGETS);
 }
 
-static void one_that_agrees_again_is_no_longer_suspect(void **state)
+static void a_sensor_no_longer_biased_is_trusted_again(void **state)
 {
     const enum fault faults[] = {SHIFTED, FAR_OFF, DEAD};
     (void)state;
     for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
         struct scene scene = {.sensors = 3, .fault = faults[i], .from = 30, .to = 60};
 
-        fly(&scene, 100);
+        run_rounds(&scene, 100);
         assert_in_range(scene.last_suspect, 59, 75);
         assert_in_range(scene.lost, 0, LOST_MAX);
         assert_int_equal(scene.tracks_most, TARGETS);
@@ -326,8 +328,8 @@ static void one_that_agrees_again_is_no_longer_suspect(void **state)
     }
 }
 
-/* Scans of more plots than there is room for are watched as others are. */
-static void one_of_very_many_plots_is_watched_too(void **state)
+/* Scans of more plots than the capacity are watched, too. */
+static void sensors_of_overfull_scans_are_watched(void **state)
 {
     const enum fault faults[] = {NONE, SHIFTED, FAR_OFF, DEAD};
     (void)state;
@@ -335,13 +337,13 @@ static void one_of_very_many_plots_is_watched_too(void **state)
         struct scene scene = {
             .sensors = 3, .fault = faults[i], .from = 30, .to = 60, .clutter = CLUTTER};
 
-        fly(&scene, 100);
+        run_rounds(&scene, 100);
         assert_in_range(scene.lost, 0, LOST_MAX);
         if (faults[i] == NONE) {
             const struct rho_tracker_look *look = rho_tracker_look_of(&tracker, OTHER);
 
             assert_int_equal(scene.first_suspect, -1);
-            assert_true(look->seen_share > 0.7f); /* of 0.9: the last 16 looks */
+            assert_true(look->seen_share > 0.7f); /* P_D is 0.9, over the last 16 looks */
             assert_int_equal(look->watched, 16);
         } else {
             assert_in_range(scene.first_suspect, 30, 36);
@@ -351,14 +353,14 @@ static void one_of_very_many_plots_is_watched_too(void **state)
 }
 
 /*
- * Two that contradict each other: on whose word would it be? Both count on, and what is wrong
- * shows.
+ * Two radars that contradict each other: neither can be trusted more, so both count on, and the
+ * error shows.
  */
-static void of_two_that_contradict_each_other_none_is_suspect(void **state)
+static void of_two_contradicting_sensors_none_is_suspect(void **state)
 {
     struct scene scene = {.sensors = 2, .fault = SHIFTED, .from = 30, .to = 1000};
     (void)state;
-    fly(&scene, 100);
+    run_rounds(&scene, 100);
     assert_int_equal(scene.first_suspect, -1);
     assert_in_range(scene.lost, 0, LOST_MAX);
     assert_int_equal(scene.tracks_most, TARGETS);
@@ -367,29 +369,31 @@ static void of_two_that_contradict_each_other_none_is_suspect(void **state)
     }
 }
 
-/* On whose word? */
-static void a_sensor_alone_is_never_suspect(void **state)
+/* A single radar has no witness. */
+static void a_single_sensor_is_never_suspect(void **state)
 {
     struct scene scene = {.fault = DEAD, .from = 30, .to = 50};
     (void)state;
-    start();
+    start_tracker();
     for (int round = 0; round < 60; round++) {
-        step(&scene, OTHER, ROUND_S * round, round >= scene.from && round < scene.to);
+        step_sensor_scan(&scene, OTHER, ROUND_S * round, round >= scene.from && round < scene.to);
         assert_int_equal(is_suspect(OTHER), 0);
     }
     assert_int_equal(tracker.counters.sensors_suspected, 0);
 }
 
-/* ---- thresholds ------------------------------------------------------------------------------ */
+/* ---- limits of suspicion --------------------------------------------------------------------- */
 
 #define PD 0.9f
 
-/* Sensor 1 is off or blind, 2 and 3 are witnesses; all with the least that is compared. */
+/*
+ * Sensor 1 is biased or blind, 2 and 3 are witnesses; all with the fewest looks that are compared.
+ */
 static struct rho_tracker_look seen[SENSORS_MAX];
 
-static void compare(void)
+static void set_equal_health(void)
 {
-    start();
+    start_tracker();
     for (int i = 0; i < SENSORS_MAX; i++) {
         seen[i] = (struct rho_tracker_look){.watched = 12,
                                             .watched_hits = 12,
@@ -399,18 +403,18 @@ static void compare(void)
     }
 }
 
-static void hear(int32_t sensor_id, int64_t time_us)
+static void step_empty_scan(int32_t sensor_id, int64_t time_us)
 {
     const struct rho_scan scan = {.time_us = time_us, .sensor_id = sensor_id};
     assert_int_equal(rho_tracker_step(&tracker, &initiators[sensor_id - 1], &scan, &report),
                      RHO_OK);
 }
 
-/* Whether sensor 1 is suspect at its next scan, so many seconds after the others'. */
+/* Whether sensor 1 is suspect at its next scan, t_s seconds after the others' scans. */
 static int is_suspect_after(double t_s)
 {
     for (int32_t id = SENSORS_MAX; id >= 1; id--) {
-        hear(id, SENSORS_MAX - id);
+        step_empty_scan(id, SENSORS_MAX - id);
     }
     for (unsigned i = 0; i < tracker.num_looks; i++) {
         struct rho_tracker_look *look = &tracker.looks[i];
@@ -422,16 +426,19 @@ static int is_suspect_after(double t_s)
         look->sigma_m = as->sigma_m;
         look->is_suspect = as->is_suspect;
     }
-    hear(1, (int64_t)(1e6 * t_s));
+    step_empty_scan(1, (int64_t)(1e6 * t_s));
     return is_suspect(1);
 }
 
-/* It sees less than 0.3 of what it should, and one other sees 0.6 of it, in its place. */
-static void the_blind_are_suspect_by_one_witness(void **state)
+/*
+ * Sensor 1 sees less than 0.3 of the expected detections, and one other sees 0.6 at the same
+ * places.
+ */
+static void a_blind_sensor_is_suspect_by_one_witness(void **state)
 {
     (void)state;
     for (int i = 0; i <= 6; i++) {
-        compare();
+        set_equal_health();
         seen[0].seen_share = (i == 1 ? 0.32f : 0.28f) * PD;
         seen[0].watched = i == 2 ? 11 : 12;
         seen[1].seen_share = (i == 3 ? 0.58f : 0.62f) * PD;
@@ -442,29 +449,29 @@ static void the_blind_are_suspect_by_one_witness(void **state)
     }
 }
 
-/* Its plots are four times as far off as they should be, and two others agree. */
-static void the_biased_are_suspect_by_two_witnesses(void **state)
+/* Plots of sensor 1 are four times as far off as expected, and two others agree. */
+static void a_biased_sensor_is_suspect_by_two_witnesses(void **state)
 {
     (void)state;
     for (int i = 0; i <= 4; i++) {
-        compare();
+        set_equal_health();
         seen[0].distance2 = i == 1 ? 3.9f : 4.1f;
         seen[0].watched_hits = i == 2 ? 11 : 12;
-        seen[1].distance2 = i == 3 ? 2.9f : 2.4f; /* 0.7 of 4.1: 2.87 */
+        seen[1].distance2 = i == 3 ? 2.9f : 2.4f; /* witness limit 0.7 of 4.1: 2.87 */
         seen[2].sigma_m = (i == 4 ? 1.95f : 1.85f) * 30.0f;
         assert_int_equal(is_suspect_after(1.0), i == 0);
     }
 }
 
 /*
- * Two that are less biased, by 0.7, and as fine; it is trusted again at once, as none that is right
- * remains to compare with.
+ * Two witnesses that are less biased, by 0.7, with equal noise; without a good witness left to
+ * compare with, it is trusted again at once.
  */
-static void the_less_biased_are_witnesses(void **state)
+static void less_biased_sensors_are_witnesses(void **state)
 {
     (void)state;
     for (int i = 0; i <= 1; i++) {
-        compare();
+        set_equal_health();
         seen[0].distance2 = 4.5f;
         seen[1].distance2 = seen[2].distance2 = i == 1 ? 3.2f : 3.1f;
         (void)is_suspect_after(1.0);
@@ -472,11 +479,11 @@ static void the_less_biased_are_witnesses(void **state)
     }
 }
 
-static void the_suspect_are_trusted_when_they_agree(void **state)
+static void a_suspect_sensor_that_agrees_is_trusted_again(void **state)
 {
     (void)state;
     for (int i = 0; i <= 2; i++) {
-        compare();
+        set_equal_health();
         seen[0].is_suspect = 1;
         seen[0].distance2 = i == 1 ? 2.6f : 2.4f;
         seen[0].seen_share = (i == 2 ? 0.58f : 0.62f) * PD;
@@ -484,14 +491,14 @@ static void the_suspect_are_trusted_when_they_agree(void **state)
     }
 }
 
-/* Its plots count with as much more noise as they show, up to twenty times. */
-static void the_noise_of_the_suspect_is_what_they_show(void **state)
+/* Plots of a suspect sensor get the noise that they show, up to twenty times. */
+static void a_suspect_sensor_gets_the_noise_it_shows(void **state)
 {
     static const float shown[] = {0.5f, 15.0f, 19.0f, 30.0f};
     static const int percent[] = {100, 1500, 1900, 2000};
     (void)state;
     for (int i = 0; i < 4; i++) {
-        compare();
+        set_equal_health();
         seen[0].is_suspect = 1;
         seen[0].seen_share = 0.1f;
         seen[0].distance2 = shown[i];
@@ -503,22 +510,22 @@ static void the_noise_of_the_suspect_is_what_they_show(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sensors_that_agree_are_not_suspect),
-        cmocka_unit_test(one_that_lies_is_suspect_and_counts_little),
-        cmocka_unit_test(whoever_lies_is_found_out_whatever_the_noise),
-        cmocka_unit_test(of_three_that_are_not_alike_no_good_one_is_suspect),
-        cmocka_unit_test(one_that_claims_to_be_finer_is_found_out_often),
-        cmocka_unit_test(one_that_is_far_off_starts_no_tracks),
-        cmocka_unit_test(one_that_is_dead_ends_no_track),
-        cmocka_unit_test(one_that_agrees_again_is_no_longer_suspect),
-        cmocka_unit_test(one_of_very_many_plots_is_watched_too),
-        cmocka_unit_test(of_two_that_contradict_each_other_none_is_suspect),
-        cmocka_unit_test(a_sensor_alone_is_never_suspect),
-        cmocka_unit_test(the_blind_are_suspect_by_one_witness),
-        cmocka_unit_test(the_biased_are_suspect_by_two_witnesses),
-        cmocka_unit_test(the_less_biased_are_witnesses),
-        cmocka_unit_test(the_suspect_are_trusted_when_they_agree),
-        cmocka_unit_test(the_noise_of_the_suspect_is_what_they_show),
+        cmocka_unit_test(agreeing_sensors_are_never_suspect),
+        cmocka_unit_test(a_biased_sensor_becomes_suspect_and_is_weighted_down),
+        cmocka_unit_test(a_biased_sensor_is_found_at_any_claimed_noise),
+        cmocka_unit_test(of_three_unlike_sensors_only_the_biased_one_is_suspect),
+        cmocka_unit_test(a_biased_sensor_claiming_less_noise_is_mostly_found),
+        cmocka_unit_test(a_sensor_3_km_off_starts_no_second_tracks),
+        cmocka_unit_test(a_blind_sensor_ends_no_track),
+        cmocka_unit_test(a_sensor_no_longer_biased_is_trusted_again),
+        cmocka_unit_test(sensors_of_overfull_scans_are_watched),
+        cmocka_unit_test(of_two_contradicting_sensors_none_is_suspect),
+        cmocka_unit_test(a_single_sensor_is_never_suspect),
+        cmocka_unit_test(a_blind_sensor_is_suspect_by_one_witness),
+        cmocka_unit_test(a_biased_sensor_is_suspect_by_two_witnesses),
+        cmocka_unit_test(less_biased_sensors_are_witnesses),
+        cmocka_unit_test(a_suspect_sensor_that_agrees_is_trusted_again),
+        cmocka_unit_test(a_suspect_sensor_gets_the_noise_it_shows),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

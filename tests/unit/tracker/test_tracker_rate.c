@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The wanted rate of false tracks where clutter is not what it was: a dense start, a plot far out,
- * a pause, sensors that measure different things, a radar that looks into a sector. Nothing but
- * clutter; every confirmed track is false.
+ * The wanted false-track rate while clutter changes: a dense start, a plot far away, a pause,
+ * sensors of different measurements, a narrow sector. All plots are clutter, so every confirmed
+ * track is false.
  */
 #include "initiator_setup.h"
 
@@ -15,8 +15,8 @@ static struct rho_report report;
 static double side_m, time_s;
 static int32_t sensor_id;
 
-/* One false track an hour; the area is given, or found. */
-static void begin(double side, int area_is_fixed)
+/* Allows one false track an hour; the area is given or measured. */
+static void start_tracker(double side, int area_is_fixed)
 {
     struct rho_initiator_config config;
     struct rho_tracker_config maintain;
@@ -33,7 +33,7 @@ static void begin(double side, int area_is_fixed)
     sensor_id = 0;
 }
 
-static void step(uint32_t measures)
+static void step_scan(uint32_t measures)
 {
     struct rho_scan scan = {.time_us = llround(time_s * 1e6),
                             .sensor_id = sensor_id,
@@ -45,7 +45,7 @@ static void step(uint32_t measures)
     time_s += SCAN_S;
 }
 
-static void clutter(int count, uint32_t measures)
+static void add_clutter_plots(int count, uint32_t measures)
 {
     for (int i = 0; i < count; i++) {
         struct rho_plot *plot = add_plot(uniform(0.0, side_m), uniform(0.0, side_m), 10.0, 10.0);
@@ -54,102 +54,102 @@ static void clutter(int count, uint32_t measures)
         plot->range_rate_mps = (float)uniform(-400.0, 400.0);
         plot->sigma_range_rate_mps = 1.0f;
     }
-    step(measures);
+    step_scan(measures);
 }
 
-static unsigned confirmed(void)
+static unsigned count_confirmed(void)
 {
     return tracker.counters.tracks_confirmed;
 }
 
-/* 60 plots a km^2: no set of three plots says anything, though some fit ever so well. */
-static void a_start_in_dense_clutter_confirms_nothing(void **state)
+/* 60 plots a km^2: no set of three plots is evidence, however well it fits. */
+static void very_dense_clutter_at_the_start_confirms_nothing(void **state)
 {
     (void)state;
     unsigned sum = 0;
     random_state = 3;
     for (int run = 0; run < 4; run++) {
-        begin(1826.0, 1);
+        start_tracker(1826.0, 1);
         for (int k = 0; k < 6; k++) {
-            clutter(poisson(50.0) + poisson(50.0) + poisson(50.0) + poisson(50.0), 0);
+            add_clutter_plots(poisson(50.0) + poisson(50.0) + poisson(50.0) + poisson(50.0), 0);
         }
-        sum += confirmed();
+        sum += count_confirmed();
     }
     assert_int_equal(sum, 0);
 }
 
-/* Its area would be a thousand times as large, and clutter as thin. */
-static void one_plot_far_out_does_not_thin_the_clutter(void **state)
+/* The far plot would make the area a thousand times as large, and clutter as thin. */
+static void a_plot_far_out_does_not_lower_the_clutter_density(void **state)
 {
     (void)state;
     random_state = 5;
-    begin(10000.0, 0);
+    start_tracker(10000.0, 0);
     for (int k = 0; k < 600; k++) {
         if (k == 20) {
             add_plot(1.9e6, 1.9e6, 10.0, 10.0);
         }
-        clutter(poisson(10.0), 0);
+        add_clutter_plots(poisson(10.0), 0);
     }
-    assert_true(confirmed() <= 4); /* 0.3 expected */
+    assert_true(count_confirmed() <= 4); /* expected number 0.3 */
 }
 
-static void a_pause_does_not_thin_the_clutter(void **state)
+static void a_pause_does_not_lower_the_clutter_density(void **state)
 {
     (void)state;
     unsigned sum = 0;
     random_state = 7;
     for (int run = 0; run < 6; run++) {
-        begin(10000.0, 0);
+        start_tracker(10000.0, 0);
         for (int k = 0; k < 32; k++) {
             time_s += k == 20 ? 600.0 : 0.0;
-            clutter(poisson(50.0) + poisson(50.0), 0);
+            add_clutter_plots(poisson(50.0) + poisson(50.0), 0);
         }
-        sum += confirmed();
+        sum += count_confirmed();
     }
-    assert_true(sum <= 2); /* 0.1 expected */
+    assert_true(sum <= 2); /* expected number 0.1 */
 }
 
-/* What one sensor does not measure is not known to a millimetre. */
-static void sensors_that_measure_different_things_share_a_window(void **state)
+/* A coordinate that one sensor does not measure must not count as known to a millimetre. */
+static void sensors_of_different_measurements_keep_the_false_track_rate(void **state)
 {
     (void)state;
     random_state = 9;
     for (uint32_t more = RHO_MEASURES_Z; more <= RHO_MEASURES_RANGE_RATE;
          more += RHO_MEASURES_RANGE_RATE - RHO_MEASURES_Z) {
-        begin(10000.0, 1);
+        start_tracker(10000.0, 1);
         for (int k = 0; k < 600; k++) {
             sensor_id = k % 2;
-            clutter(poisson(30.0), k % 2 ? more : 0);
+            add_clutter_plots(poisson(30.0), k % 2 ? more : 0);
         }
-        assert_true(confirmed() <= 5); /* 0.3 expected */
+        assert_true(count_confirmed() <= 5); /* expected number 0.3 */
     }
 }
 
-/* A fifth of a radian: most of the square around the plots is empty. */
-static void a_radar_that_looks_into_a_sector_keeps_the_rate(void **state)
+/* A sector of 0.2 rad: most of the square around the plots is empty. */
+static void a_narrow_sector_keeps_the_false_track_rate(void **state)
 {
     (void)state;
     random_state = 13;
-    begin(0.0, 0);
+    start_tracker(0.0, 0);
     for (int k = 0; k < 1500; k++) {
         int count = poisson(20.0);
         for (int i = 0; i < count; i++) {
             double range_m = uniform(1000.0, 65000.0), azimuth_rad = uniform(0.0, 0.2);
             add_plot(range_m * cos(azimuth_rad), range_m * sin(azimuth_rad), 15.0, 0.003 * range_m);
         }
-        step(0);
+        step_scan(0);
     }
-    assert_true(confirmed() <= 5); /* 0.8 expected */
+    assert_true(count_confirmed() <= 5); /* expected number 0.8 */
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_start_in_dense_clutter_confirms_nothing),
-        cmocka_unit_test(one_plot_far_out_does_not_thin_the_clutter),
-        cmocka_unit_test(a_pause_does_not_thin_the_clutter),
-        cmocka_unit_test(sensors_that_measure_different_things_share_a_window),
-        cmocka_unit_test(a_radar_that_looks_into_a_sector_keeps_the_rate),
+        cmocka_unit_test(very_dense_clutter_at_the_start_confirms_nothing),
+        cmocka_unit_test(a_plot_far_out_does_not_lower_the_clutter_density),
+        cmocka_unit_test(a_pause_does_not_lower_the_clutter_density),
+        cmocka_unit_test(sensors_of_different_measurements_keep_the_false_track_rate),
+        cmocka_unit_test(a_narrow_sector_keeps_the_false_track_rate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What may happen within a turn of sectors: the radar is described anew, or forgotten; sectors are
- * not searched, impossible, late, hold rows that belong to earlier ones, or measure other things;
- * more radars than the table holds.
+ * Events within a turn of sectors: the radar is described anew or forgotten; sectors are not
+ * searched, impossible, late, contain rows of earlier ones, or measure other things; more radars
+ * than the table holds.
  */
 #include "sectors_scene.h"
 
@@ -15,7 +15,7 @@ static struct rho_tracker other_tracker;
 static struct rho_initiator other_initiator;
 static struct rho_report other_report;
 
-static void keep(void)
+static void copy_objects(void)
 {
     other_tracker = tracker;
     other_initiator = initiator;
@@ -29,8 +29,8 @@ static void assert_unchanged(void)
     assert_memory_equal(&report, &other_report, sizeof report);
 }
 
-/* All targets have one track, and the hits that the scene gave them. */
-static void assert_tracked(const struct scene *scene)
+/* All targets have one track, with the hits that the scene gave them. */
+static void assert_all_targets_tracked(const struct scene *scene)
 {
     assert_int_equal(report.num_tracks, TARGETS);
     assert_int_equal(tracker.counters.tracks_started, TARGETS);
@@ -44,10 +44,11 @@ static void assert_tracked(const struct scene *scene)
     }
 }
 
-/* ---- descriptions ---------------------------------------------------------------------------- */
+/* ---- descriptions of the radar --------------------------------------------------------------- */
 
-/* From some turn on the radar is described at a sector of each. */
-static void fly_described(struct scene *scene, int from_turn, int at_sector, float x_m, float pd)
+/* From from_turn on, the radar is described again at one sector of each turn. */
+static void fly_and_describe_radar(struct scene *scene, int from_turn, int at_sector, float x_m,
+                                   float pd)
 {
     scene->sectors = SECTORS;
     start_tracker();
@@ -61,36 +62,32 @@ static void fly_described(struct scene *scene, int from_turn, int at_sector, flo
     }
 }
 
-static void the_same_description_changes_nothing(void **state)
+static void describing_a_radar_the_same_changes_nothing(void **state)
 {
     struct scene without = {.turning = 1, .speed_mps = 80.0, .hidden = -1};
     (void)state;
     fly_turns(&without, 2 * TURNS);
-    keep();
+    copy_objects();
     for (int at = 0; at < SECTORS; at += 5) {
         struct scene with = {.turning = 1, .speed_mps = 80.0, .hidden = -1};
 
-        fly_described(&with, 0, at, 0.0f, 0.9f);
+        fly_and_describe_radar(&with, 0, at, 0.0f, 0.9f);
         assert_unchanged();
     }
 }
 
-/*
- * Another pd, another place: the turn's sectors go on all the same, no target is seen twice or
- * missed.
- */
-static void another_description_does_not_break_the_turn(void **state)
+/* Another P_D or another place: the turn of sectors goes on, no target is seen twice or missed. */
+static void a_new_description_does_not_break_the_turn(void **state)
 {
     const float pds[] = {0.5f, 0.9f, 0.99f}, places_m[] = {0.0f, 5.0f};
     (void)state;
     for (size_t i = 0; i < 3; i++) {
         for (size_t k = 0; k < 2; k++) {
-            for (int at = 0; at < SECTORS;
-                 at += 4) { /* right at a target; its own sector is next */
+            for (int at = 0; at < SECTORS; at += 4) { /* described just before a target's sector */
                 struct scene scene = {.turning = i == 1 ? -1 : 1, .speed_mps = 80.0, .hidden = -1};
 
-                fly_described(&scene, 4, at, places_m[k], pds[i]);
-                assert_tracked(&scene);
+                fly_and_describe_radar(&scene, 4, at, places_m[k], pds[i]);
+                assert_all_targets_tracked(&scene);
                 assert_int_equal(rho_tracker_look_of(&tracker, 1)->count, 2 * TURNS * SECTORS);
             }
         }
@@ -98,10 +95,10 @@ static void another_description_does_not_break_the_turn(void **state)
 }
 
 /*
- * Forgotten right behind target 5, which then hides for so long that the new count of scans comes
- * to where the old one was when it was seen: what was seen before says nothing of this pass.
+ * Forgotten just after target 5, which is hidden until the new count of scans equals the old one at
+ * its last sight: the old sight must not count for this pass.
  */
-static void a_forgotten_sensor_begins_anew(void **state)
+static void a_forgotten_radar_starts_a_new_turn(void **state)
 {
     enum { TARGET = 5, QUARTERS = 4, SECTOR = 2, TURN = 4 };
     struct scene scene = {.turning = 1, .speed_mps = 80.0, .hidden = -1, .sectors = QUARTERS};
@@ -123,7 +120,8 @@ static void a_forgotten_sensor_begins_anew(void **state)
                 describe_sensor(1, 0.0f, 0.9f);
             }
             if (turn == 2 * TURN + 1 && sector == SECTOR) {
-                assert_int_equal(seen, QUARTERS * TURN + SECTOR + 1); /* as when it was seen */
+                /* the same count as at its last sight */
+                assert_int_equal(seen, QUARTERS * TURN + SECTOR + 1);
                 assert_non_null(track_of_target(&scene, TARGET));
                 assert_true(track_of_target(&scene, TARGET)->plot >= 0);
             }
@@ -131,8 +129,11 @@ static void a_forgotten_sensor_begins_anew(void **state)
     }
 }
 
-/* More radars than looks: those heard last are known, targets are seen by all. */
-static void more_sensors_than_the_table_holds(void **state)
+/*
+ * More radars than the table of looks holds: those heard last are known, and targets are seen by
+ * all.
+ */
+static void more_radars_than_the_table_holds_are_tracked(void **state)
 {
     enum { SENSORS = RHO_MAX_SENSORS + 3 };
     struct scene scene = {.turning = 1, .speed_mps = 80.0, .hidden = -1};
@@ -160,20 +161,20 @@ static void more_sensors_than_the_table_holds(void **state)
         assert_int_equal(rho_tracker_look_of(&tracker, scan.sensor_id)->time_us, scan.time_us);
         assert_true(tracker.num_looks <= RHO_MAX_SENSORS);
     }
-    assert_tracked(&scene);
+    assert_all_targets_tracked(&scene);
     assert_int_equal(tracker.num_sensors, RHO_MAX_SENSORS);
-    for (int32_t id = 1; id <= SENSORS; id++) { /* the last round began with 1 */
+    for (int32_t id = 1; id <= SENSORS; id++) { /* the last round began with radar 1 */
         assert_int_equal(rho_tracker_look_of(&tracker, id) != NULL, id > SENSORS - RHO_MAX_SENSORS);
     }
 }
 
-/* ---- sectors --------------------------------------------------------------------------------- */
+/* ---- unusual sectors ------------------------------------------------------------------------- */
 
 /*
- * The antenna looks at two eighths of its turn alone for as long as misses would end the others'
- * tracks twice.
+ * The antenna covers two eighths of its turn for long enough that misses would end the other tracks
+ * twice.
  */
-static void what_is_not_searched_is_not_missed(void **state)
+static void targets_in_unsearched_sectors_are_not_missed(void **state)
 {
     (void)state;
     for (int turning = -1; turning <= 1; turning += 2) {
@@ -185,7 +186,8 @@ static void what_is_not_searched_is_not_missed(void **state)
             before[i] = track_of_target(&scene, i)->hits;
         }
         for (int turn = TURNS; turn < 2 * TURNS; turn++) {
-            for (int sector = 6; sector < 14; sector++) { /* targets at their edges 8 and 12 */
+            /* targets 2 and 3 at their edges 8 and 12 */
+            for (int sector = 6; sector < 14; sector++) {
                 step_sector(&scene, turn, sector);
             }
         }
@@ -199,11 +201,11 @@ static void what_is_not_searched_is_not_missed(void **state)
             assert_int_equal(track->misses, 0);
             assert_int_equal(track->hits - before[i], edge == 8 || edge == 12 ? TURNS : 0);
         }
-        step_sector(&scene, 2 * TURNS, 0); /* and they are seen again when it looks there */
+        step_sector(&scene, 2 * TURNS, 0); /* all are seen again in a full turn */
         for (int sector = 1; sector < SECTORS; sector++) {
             step_sector(&scene, 2 * TURNS, sector);
         }
-        assert_tracked(&scene);
+        assert_all_targets_tracked(&scene);
     }
 }
 
@@ -216,7 +218,7 @@ static void impossible_sectors_are_refused(void **state)
     uint32_t unused = 0;
     (void)state;
     fly_turns(&scene, TURNS);
-    keep();
+    copy_objects();
     const struct rho_scan good = sector_scan(&scene, TURNS, 0, plots);
     for (size_t i = 0; i < 2 * sizeof ends / sizeof ends[0]; i++) {
         struct rho_scan bad = good;
@@ -232,22 +234,23 @@ static void impossible_sectors_are_refused(void **state)
         assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_ERROR_VALUE);
         assert_int_equal(rho_initiator_push(&initiator, &bad, NULL, fates, &unused),
                          RHO_ERROR_VALUE);
-        bad.time_us -= TURN_US; /* a late one, too */
+        bad.time_us -= TURN_US; /* a late sector, too */
         assert_int_equal(rho_tracker_step(&tracker, &initiator, &bad, &report), RHO_ERROR_VALUE);
         assert_unchanged();
     }
-    for (int sector = 0; sector < SECTORS; sector++) { /* nothing of it is left in the turn */
+    /* the refused sector has left nothing in the turn */
+    for (int sector = 0; sector < SECTORS; sector++) {
         step_sector(&scene, TURNS, sector);
     }
-    scene.plots[0]--; /* asked for above, too */
-    assert_tracked(&scene);
+    scene.plots[0]--; /* the refused sector's plot was counted, too */
+    assert_all_targets_tracked(&scene);
 }
 
 /*
- * Two neighbours come in the wrong order, with a target at the edge between them, or at one of the
- * other edges.
+ * Two neighbouring sectors come in the wrong order, with a target at the edge between them or at
+ * another edge.
  */
-static void a_late_sector_is_one_look_all_the_same(void **state)
+static void sectors_in_the_wrong_order_see_targets_once(void **state)
 {
     (void)state;
     for (int turning = -1; turning <= 1; turning += 2) {
@@ -265,13 +268,13 @@ static void a_late_sector_is_one_look_all_the_same(void **state)
                 }
             }
             assert_int_equal(tracker.counters.scans_retrodicted, TURNS);
-            assert_tracked(&scene);
+            assert_all_targets_tracked(&scene);
         }
     }
 }
 
-/* A row comes three sectors after its own: it has one fate, and starts no second track. */
-static void a_row_of_an_earlier_sector_counts_once(void **state)
+/* A row comes up to three sectors late: it has one fate and starts no second track. */
+static void a_late_row_of_an_earlier_sector_counts_once(void **state)
 {
     (void)state;
     for (int late = 1; late <= 3; late++) {
@@ -284,7 +287,7 @@ static void a_row_of_an_earlier_sector_counts_once(void **state)
                 struct rho_plot plots[TARGETS];
                 struct rho_scan scan = sector_scan(&scene, turn, sector, plots);
 
-                if (turn % 5 == 4 && sector == 12) { /* target 3's */
+                if (turn % 5 == 4 && sector == 12) { /* the sector of target 3 */
                     assert_int_equal(scan.num_plots, 1);
                     kept[0] = plots[0];
                     scan.num_plots = 0;
@@ -309,12 +312,10 @@ static void a_row_of_an_earlier_sector_counts_once(void **state)
     }
 }
 
-/* ---- what sectors measure -------------------------------------------------------------------- */
+/* ---- measurements of sectors ----------------------------------------------------------------- */
 
-/*
- * Range rates are in every so many sectors with plots, heights in every so many others; 0: in none.
- */
-static void fly_measuring(struct scene *scene, int range_rates, int heights)
+/* Every n-th sector with plots has range rates or heights; 0: none has. */
+static void fly_with_some_measurements(struct scene *scene, int range_rates, int heights)
 {
     scene->sectors = SECTORS;
     start_tracker();
@@ -331,7 +332,7 @@ static void fly_measuring(struct scene *scene, int range_rates, int heights)
             }
             for (uint32_t i = 0; i < scan.num_plots; i++) {
                 plots[i].sigma_range_rate_mps =
-                    1.0f; /* they fly round the radar: their range rate is 0 */
+                    1.0f; /* targets circle the radar, so their range rate is 0 */
                 plots[i].sigma_up_m = 100.0f;
             }
             step_scan(scene, &scan);
@@ -339,8 +340,8 @@ static void fly_measuring(struct scene *scene, int range_rates, int heights)
     }
 }
 
-/* Sectors that saw nothing measure nothing, as rows of a file or an antenna's messages have it. */
-static void sectors_need_not_measure_the_same(void **state)
+/* Sectors without plots measure nothing, as rows of a file or an antenna's messages say. */
+static void sectors_of_a_turn_may_measure_different_things(void **state)
 {
     static const struct {
         int range_rates, heights;
@@ -349,23 +350,23 @@ static void sectors_need_not_measure_the_same(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct scene scene = {.turning = i % 2 ? 1 : -1, .speed_mps = 80.0, .hidden = -1};
 
-        fly_measuring(&scene, cases[i].range_rates, cases[i].heights);
-        assert_tracked(&scene);
+        fly_with_some_measurements(&scene, cases[i].range_rates, cases[i].heights);
+        assert_all_targets_tracked(&scene);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_same_description_changes_nothing),
-        cmocka_unit_test(another_description_does_not_break_the_turn),
-        cmocka_unit_test(a_forgotten_sensor_begins_anew),
-        cmocka_unit_test(more_sensors_than_the_table_holds),
-        cmocka_unit_test(what_is_not_searched_is_not_missed),
+        cmocka_unit_test(describing_a_radar_the_same_changes_nothing),
+        cmocka_unit_test(a_new_description_does_not_break_the_turn),
+        cmocka_unit_test(a_forgotten_radar_starts_a_new_turn),
+        cmocka_unit_test(more_radars_than_the_table_holds_are_tracked),
+        cmocka_unit_test(targets_in_unsearched_sectors_are_not_missed),
         cmocka_unit_test(impossible_sectors_are_refused),
-        cmocka_unit_test(a_late_sector_is_one_look_all_the_same),
-        cmocka_unit_test(a_row_of_an_earlier_sector_counts_once),
-        cmocka_unit_test(sectors_need_not_measure_the_same),
+        cmocka_unit_test(sectors_in_the_wrong_order_see_targets_once),
+        cmocka_unit_test(a_late_row_of_an_earlier_sector_counts_once),
+        cmocka_unit_test(sectors_of_a_turn_may_measure_different_things),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

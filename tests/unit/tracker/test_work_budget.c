@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A step's work is bounded whatever comes: tracks have their shares of it first, those that are
- * crowded weigh the nearest plots, and what was left out is counted. Where the limit is not reached
- * it changes nothing.
+ * A step's work is bounded for any input: each track has a share of it, crowded tracks score the
+ * nearest plots, and what was left out is counted. A limit that is not reached changes nothing.
  */
 #include "tracker_setup.h"
 
 #define TARGETS 8
 #define CROWD 200 /* plots about one target */
-#define QUIET 8   /* scans before they come */
+#define QUIET 8   /* scans before the crowd appears */
 #define SCANS 20
 #define WORK_MAX 20000u
-/* An echo and a track that were begun end: each with all plots near it. */
+/* Work beyond the limit: an echo and a track, once begun, are finished with all plots near them. */
 #define BEYOND (30u * (CROWD + TARGETS))
 
 static double target_x_m(int i, int k)
@@ -27,7 +26,7 @@ static void see_targets(int k)
     }
 }
 
-/* Plots within the gate of target 0, as near each other as their noise. */
+/* Plots within the gate of target 0, closer than their noise. */
 static void see_crowd(int k, double spread_m)
 {
     for (int i = 0; i < CROWD; i++) {
@@ -36,7 +35,7 @@ static void see_crowd(int k, double spread_m)
     }
 }
 
-static void begin_with(uint32_t work_max, uint8_t gate)
+static void start_with_work_limit(uint32_t work_max, uint8_t gate)
 {
     use_usual_configs(11);
     config.gate = gate;
@@ -46,7 +45,7 @@ static void begin_with(uint32_t work_max, uint8_t gate)
 
 static const uint8_t gates[] = {RHO_TRACKER_BEST, RHO_TRACKER_NEAREST, RHO_TRACKER_HOUGH};
 
-/* Tracks that there are, without a search: the limit is theirs alone. */
+/* Steps existing tracks without a search, so that they have the whole limit. */
 static void step_without_search(double t_s, int32_t sensor_id)
 {
     const struct rho_scan scan = {.time_us = (int64_t)(1e6 * t_s),
@@ -57,14 +56,14 @@ static void step_without_search(double t_s, int32_t sensor_id)
     num_plots = 0;
 }
 
-static void a_step_does_no_more_than_it_may(void **state)
+static void a_step_never_exceeds_its_work_limit(void **state)
 {
     (void)state;
     for (unsigned g = 0; g < sizeof gates; g++) {
         uint32_t unlimited = 0;
         for (uint32_t work_max = RHO_LIMIT_WORK; work_max >= 1000;
              work_max = work_max > WORK_MAX ? WORK_MAX : work_max / 4) {
-            begin_with(RHO_LIMIT_WORK, gates[g]);
+            start_with_work_limit(RHO_LIMIT_WORK, gates[g]);
             for (int k = 0; k < QUIET; k++) {
                 see_targets(k);
                 step_at(2.0 * k);
@@ -87,10 +86,10 @@ static void a_step_does_no_more_than_it_may(void **state)
     }
 }
 
-static void what_is_left_out_is_counted(void **state)
+static void plots_left_out_for_work_are_counted(void **state)
 {
     (void)state;
-    begin_with(WORK_MAX, RHO_TRACKER_BEST);
+    start_with_work_limit(WORK_MAX, RHO_TRACKER_BEST);
     for (int k = 0; k < QUIET; k++) {
         see_targets(k);
         step_at(2.0 * k);
@@ -106,13 +105,13 @@ static void what_is_left_out_is_counted(void **state)
     assert_true(tracker.work.plots_not_tried > 0);
 }
 
-/* The attacked track keeps near its target, and the others are as if there were no crowd. */
-static void others_than_the_crowded_track_have_their_share(void **state)
+/* The crowded track stays near its target, and the others are as without the crowd. */
+static void a_crowd_at_one_track_leaves_work_for_others(void **state)
 {
     (void)state;
     static struct rho_report alone;
     for (int is_crowded = 0; is_crowded < 2; is_crowded++) {
-        begin_with(WORK_MAX, RHO_TRACKER_BEST);
+        start_with_work_limit(WORK_MAX, RHO_TRACKER_BEST);
         for (int k = 0; k < SCANS; k++) {
             const int comes = k >= QUIET && is_crowded;
             see_targets(k);
@@ -143,14 +142,14 @@ static void others_than_the_crowded_track_have_their_share(void **state)
     }
 }
 
-/* No limit, and one that is not reached: the same bytes. */
-static void a_limit_that_is_not_reached_changes_nothing(void **state)
+/* No limit, and one that is not reached, give the same bytes. */
+static void an_unreached_work_limit_changes_nothing(void **state)
 {
     (void)state;
     static struct rho_report unlimited;
     for (unsigned g = 0; g < sizeof gates; g++) {
         for (int run = 0; run < 2; run++) {
-            begin_with(run == 0 ? 0 : RHO_LIMIT_WORK, gates[g]);
+            start_with_work_limit(run == 0 ? 0 : RHO_LIMIT_WORK, gates[g]);
             for (int k = 0; k < SCANS; k++) {
                 see_targets(k);
                 see_crowd(k, 300.0);
@@ -165,11 +164,11 @@ static void a_limit_that_is_not_reached_changes_nothing(void **state)
     }
 }
 
-/* Of equally many plots in reach those nearest to the expected place are weighed. */
-static void the_nearest_plots_are_weighed_first(void **state)
+/* If too many plots are in the gate, those nearest to the prediction are scored. */
+static void under_a_work_limit_the_nearest_plots_are_scored(void **state)
 {
     (void)state;
-    begin_with(WORK_MAX / 8u, RHO_TRACKER_BEST);
+    start_with_work_limit(WORK_MAX / 8u, RHO_TRACKER_BEST);
     for (int k = 0; k < QUIET; k++) {
         add_plot(200.0 * k + normal(), normal(), 20.0);
         step_at(2.0 * k);
@@ -185,8 +184,8 @@ static void the_nearest_plots_are_weighed_first(void **state)
 }
 
 #if RHO_MAX_ECHOES > 0
-/* A sensor's plots that come back are more than there is work for; another's are few. */
-static void echoes_are_looked_for_in_turns(void **state)
+/* One sensor's echoes are more than the work limit; the other sensor's are few. */
+static void echoes_beyond_the_work_limit_are_matched_in_turns(void **state)
 {
     (void)state;
     unsigned partial = 0, before = 0;
@@ -213,13 +212,13 @@ static void echoes_are_looked_for_in_turns(void **state)
 }
 #endif
 
-/* ---- figures --------------------------------------------------------------------------------- */
+/* ---- work units by formula ------------------------------------------------------------------- */
 
-/* Units of the only plot, for each of its track's hypotheses: with these measurements. */
-static uint32_t units_of_plot(uint8_t gate, uint32_t measures, int32_t offset_us)
+/* Units of a single plot for each hypothesis of its track, with these measurements. */
+static uint32_t work_units_of_plot(uint8_t gate, uint32_t measures, int32_t offset_us)
 {
     uint32_t hypotheses = 0;
-    begin_with(0, gate);
+    start_with_work_limit(0, gate);
     for (int k = 0; k <= QUIET; k++) {
         struct rho_plot *plot = add_plot(200.0 * k, 0.0, 20.0);
         plot->sigma_up_m = 20.0f;
@@ -240,26 +239,26 @@ static uint32_t units_of_plot(uint8_t gate, uint32_t measures, int32_t offset_us
     return tracker.work.work / hypotheses;
 }
 
-/* A gate test; the place; its own time; and a velocity in the plane, or with a height. */
-static void plots_near_a_track_cost_their_units(void **state)
+/* A gate test; the place; its own time; and a velocity in the plane or with height. */
+static void plots_in_a_gate_cost_units_by_their_measurements(void **state)
 {
     const uint32_t flat = RHO_MEASURES_VELOCITY, high = flat | RHO_MEASURES_Z;
     (void)state;
-    assert_int_equal(units_of_plot(RHO_TRACKER_NEAREST, 0, 0), 12);
-    assert_int_equal(units_of_plot(RHO_TRACKER_BEST, 0, 0), 20);
-    assert_int_equal(units_of_plot(RHO_TRACKER_BEST, 0, 1000), 20 + 60);
-    assert_int_equal(units_of_plot(RHO_TRACKER_BEST, flat, 0), 20 + 70);
-    assert_int_equal(units_of_plot(RHO_TRACKER_BEST, high, 0), 20 + 140);
+    assert_int_equal(work_units_of_plot(RHO_TRACKER_NEAREST, 0, 0), 12);
+    assert_int_equal(work_units_of_plot(RHO_TRACKER_BEST, 0, 0), 20);
+    assert_int_equal(work_units_of_plot(RHO_TRACKER_BEST, 0, 1000), 20 + 60);
+    assert_int_equal(work_units_of_plot(RHO_TRACKER_BEST, flat, 0), 20 + 70);
+    assert_int_equal(work_units_of_plot(RHO_TRACKER_BEST, high, 0), 20 + 140);
 }
 
-/* Of 256 plots in the order of x an eighth is in the box of the track: four are passed a unit. */
-static void plots_that_are_passed_over_cost_a_quarter_of_a_unit(void **state)
+/* Of 256 plots in order of x an eighth is in the track's box: four skipped plots cost one unit. */
+static void skipped_plots_cost_a_quarter_of_a_unit(void **state)
 {
     (void)state;
     if (RHO_PLOT_STRIPS > 1 || RHO_MAX_PLOTS < 256) {
         skip();
     }
-    begin_with(0, RHO_TRACKER_NEAREST);
+    start_with_work_limit(0, RHO_TRACKER_NEAREST);
     for (int k = 0; k < QUIET; k++) {
         (void)add_plot(200.0 * k, 0.0, 20.0);
         step_at(2.0 * k);
@@ -272,13 +271,14 @@ static void plots_that_are_passed_over_cost_a_quarter_of_a_unit(void **state)
 }
 
 /*
- * A quarter of the limit is for claims, half of it reserved: the first of eight tracks has an
- * eighth of that, and a quarter of the other half. That is 3/64, 60 plots of 12 units each.
+ * A quarter of the limit is for claims, half of it reserved in equal parts: the first of eight
+ * tracks has an eighth of that, and a quarter of the other half. That is 3/64 of the limit, 60
+ * plots of 12 units each.
  */
-static void a_track_has_its_share_of_the_work(void **state)
+static void each_track_has_its_share_of_the_work(void **state)
 {
     (void)state;
-    begin_with(RHO_LIMIT_WORK, RHO_TRACKER_NEAREST);
+    start_with_work_limit(RHO_LIMIT_WORK, RHO_TRACKER_NEAREST);
     for (int k = 0; k < QUIET; k++) {
         see_targets(k);
         step_at(2.0 * k);
@@ -294,7 +294,7 @@ static void a_track_has_its_share_of_the_work(void **state)
     assert_in_range(tracker.work.plots_not_tried, CROWD - 60, CROWD + TARGETS - 60);
 }
 
-static void a_limit_beyond_what_counts_is_refused(void **state)
+static void too_large_work_limits_are_refused(void **state)
 {
     (void)state;
     use_usual_configs(1);
@@ -305,18 +305,18 @@ static void a_limit_beyond_what_counts_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_step_does_no_more_than_it_may),
-        cmocka_unit_test(what_is_left_out_is_counted),
-        cmocka_unit_test(others_than_the_crowded_track_have_their_share),
-        cmocka_unit_test(a_limit_that_is_not_reached_changes_nothing),
-        cmocka_unit_test(the_nearest_plots_are_weighed_first),
+        cmocka_unit_test(a_step_never_exceeds_its_work_limit),
+        cmocka_unit_test(plots_left_out_for_work_are_counted),
+        cmocka_unit_test(a_crowd_at_one_track_leaves_work_for_others),
+        cmocka_unit_test(an_unreached_work_limit_changes_nothing),
+        cmocka_unit_test(under_a_work_limit_the_nearest_plots_are_scored),
 #if RHO_MAX_ECHOES > 0
-        cmocka_unit_test(echoes_are_looked_for_in_turns),
+        cmocka_unit_test(echoes_beyond_the_work_limit_are_matched_in_turns),
 #endif
-        cmocka_unit_test(a_limit_beyond_what_counts_is_refused),
-        cmocka_unit_test(plots_near_a_track_cost_their_units),
-        cmocka_unit_test(a_track_has_its_share_of_the_work),
-        cmocka_unit_test(plots_that_are_passed_over_cost_a_quarter_of_a_unit),
+        cmocka_unit_test(too_large_work_limits_are_refused),
+        cmocka_unit_test(plots_in_a_gate_cost_units_by_their_measurements),
+        cmocka_unit_test(each_track_has_its_share_of_the_work),
+        cmocka_unit_test(skipped_plots_cost_a_quarter_of_a_unit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

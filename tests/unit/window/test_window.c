@@ -518,14 +518,15 @@ static void the_next_sector_of_a_turn_continues_its_scan(void **state)
     (void)state;
     init_window(3);
     struct rho_scan scan = quarter_turn_scan(0, 0.0f);
-    assert_false(rho_window_is_continued_by_scan(&window, &scan, &turning)); /* the window is empty */
+    assert_false(
+        rho_window_is_continued_by_scan(&window, &scan, &turning)); /* the window is empty */
     assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
     scan = quarter_turn_scan(1000000, 90.0f);
     assert_int_equal(rho_window_is_continued_by_scan(&window, &scan, &turning) != 0, RHO_SECTORS);
     assert_false(rho_window_is_continued_by_scan(&window, &scan, &moved));
     scan.sensor_id = 6;
-    assert_false(
-        rho_window_is_continued_by_scan(&window, &scan, &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
+    assert_false(rho_window_is_continued_by_scan(&window, &scan,
+                                                 &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
     scan = quarter_turn_scan(1000000, 90.0f + 40.0f); /* a gap of an eighth of a turn */
     assert_int_equal(rho_window_is_continued_by_scan(&window, &scan, &turning) != 0, RHO_SECTORS);
     scan = quarter_turn_scan(1000000, 90.0f + 50.0f);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* One sensor's scans, one a second, some of them late. */
+/* Scans of one sensor, one a second, some of which are received late. */
 #ifndef LATE_SCANS_H
 #define LATE_SCANS_H
 
 #include "scan_assembler_setup.h"
 
 /* One sensor's scans 1 .. count, one a second. */
-static inline void begin_with(const struct rho_scan_assembler_config *config, int32_t count)
+static inline void start_with_config_and_scans(const struct rho_scan_assembler_config *config,
+                                               int32_t count)
 {
     start_assembler_with(config);
     for (int32_t i = 1; i <= count; i++) {
@@ -16,14 +17,14 @@ static inline void begin_with(const struct rho_scan_assembler_config *config, in
     expect_no_scan(count * SECOND_US);
 }
 
-static inline void begin_with_scans(int32_t count)
+static inline void start_with_scans(int32_t count)
 {
     struct rho_scan_assembler_config config = usual_config();
 
-    begin_with(&config, count);
+    start_with_config_and_scans(&config, count);
 }
 
-/* Scan `scan` at its time, received at now_us. */
+/* Takes scan number `scan` with its own time, received at now_us. */
 static inline void take_late_scan(int32_t scan, int64_t now_us)
 {
     struct look look = {
@@ -32,7 +33,7 @@ static inline void take_late_scan(int32_t scan, int64_t now_us)
     take_message(&look, now_us);
 }
 
-static inline struct look part_of(int32_t scan, int16_t part)
+static inline struct look late_part(int32_t scan, int16_t part)
 {
     return (struct look){.time_us = scan * SECOND_US,
                          .scan = scan,

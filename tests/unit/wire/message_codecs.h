@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The library's messages as a table: shapes, and functions that take any struct. In the order of
- * rho_message_type.
+ * The library's messages as a table, in the order of rho_message_type: shapes, and functions that
+ * take any struct.
  */
 #ifndef RHOTRACK_TESTS_MESSAGE_CODECS_H
 #define RHOTRACK_TESTS_MESSAGE_CODECS_H
@@ -26,12 +26,12 @@ struct message_codec {
     enum rho_status (*decode)(const uint8_t *data, size_t size, void *message);
     enum rho_status (*validate)(const void *message, struct rho_message_place *place);
     const char *(*field)(const struct rho_message_place *place);
-    /* with a list */
+    /* functions of messages that have a list */
     enum rho_status (*begin)(struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
                              const void *head);
     enum rho_status (*add)(struct rho_message_writer *writer, const void *element);
     size_t head_size;
-    const char *channel; /* as lcm_types/ says */
+    const char *channel; /* channel as lcm_types/ says */
     const char *our_channel;
     uint64_t fingerprint;
     size_t max_size;
@@ -81,7 +81,7 @@ static const struct message_codec codecs[] = {MESSAGES_WITHOUT_LIST(ROW_WITHOUT_
 
 #define NUM_CODECS (sizeof codecs / sizeof codecs[0])
 
-/* Room for any message as a struct, and guard bytes behind it. */
+/* Large enough for any message struct, with guard bytes behind it. */
 #define MESSAGE_STRUCT_MAX 2048
 #define MESSAGE_PATTERN 0xa5
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Messages seen as lists of numbers, whatever their C type: to fill, compare and encode them in the
- * plainest way. The tables (vectors/message_table.h) come from lcm_types/ without the codec's
- * generator. The same code handles the library's structs and those of lcm-gen, which hold a pointer
- * to their list.
+ * Messages described as lists of numbers, whatever their C type: to fill, compare and encode them
+ * in the plainest way. The tables (vectors/message_table.h) are made from lcm_types/ without the
+ * codec's generator. The code handles the library's structs and those of lcm-gen, which hold a
+ * pointer to their list.
  */
 #ifndef RHOTRACK_TESTS_MESSAGE_SHAPE_H
 #define RHOTRACK_TESTS_MESSAGE_SHAPE_H
@@ -17,11 +17,11 @@ enum member_rule { MEMBER_ANY, MEMBER_RANGE, MEMBER_ONE_OF, MEMBER_BELOW };
 
 struct message_member {
     const char *name;
-    size_t offset, head_offset; /* head_offset: in the struct of the members before the list */
+    size_t offset, head_offset; /* head_offset: in the struct of members before the list */
     unsigned width, count;
     enum member_rule rule;
     int64_t min, max;
-    size_t other; /* BELOW: the int16_t that it stays below */
+    size_t other; /* for BELOW: offset of the int16_t that it must stay below */
     int choices[8], num_choices;
     bool is_float;
     float low, high;
@@ -29,19 +29,20 @@ struct message_member {
 
 struct message_shape {
     const char *name;
-    const struct message_member *members; /* before the list's count, or all */
+    const struct message_member *members; /* before the list's count, or all members */
     size_t num_members, size;
     struct message_member counter;
     size_t list_offset;
     const struct message_member *element_members;
-    size_t num_element_members, element_size, wire_bytes; /* wire_bytes: of an element */
-    int most;                                             /* elements; 0: no list */
+    /* wire_bytes: encoded size of an element */
+    size_t num_element_members, element_size, wire_bytes;
+    int most; /* largest number of elements; 0: no list */
     bool list_is_pointer;
 };
 
-#define MESSAGE_BYTES_MAX 1472 /* of the longest message, and more */
+#define MESSAGE_BYTES_MAX 1472 /* more than the longest message */
 
-/* ---- Bits of a number, in memory and on the wire ---- */
+/* ---- bits of a number, in memory and on the wire --------------------------------------------- */
 
 static inline uint64_t load_bits(const void *at, unsigned width)
 {
@@ -76,7 +77,7 @@ static inline void store_bits(void *at, unsigned width, uint64_t bits)
     memcpy(at, from[width], width);
 }
 
-static inline uint8_t *put_bits(uint8_t *to, unsigned width, uint64_t bits)
+static inline uint8_t *put_big_endian(uint8_t *to, unsigned width, uint64_t bits)
 {
     for (unsigned i = width; i > 0; i--) {
         *to++ = (uint8_t)(bits >> 8 * (i - 1) & 0xff);
@@ -84,7 +85,7 @@ static inline uint8_t *put_bits(uint8_t *to, unsigned width, uint64_t bits)
     return to;
 }
 
-/* ---- A message's parts ---- */
+/* ---- parts of a message ---------------------------------------------------------------------- */
 
 static inline int16_t message_count(const struct message_shape *shape, const void *message)
 {
@@ -116,8 +117,8 @@ static inline char *message_element(const struct message_shape *shape, void *mes
 }
 
 /*
- * All numbers of a message in the order of the wire, the list's count among them:
- * for (struct walk w = walk_start(shape, message); walk_next(&w);) ... w.member, w.at, w.element.
+ * All numbers of a message in wire order, including the list's count. Use: for (struct walk w =
+ * walk_members(shape, message); walk_to_next(&w);), then w.member, w.at, w.element.
  */
 struct walk {
     const struct message_shape *shape;
@@ -126,15 +127,15 @@ struct walk {
     char *at;
     int element; /* -1: before the list */
     size_t next_member;
-    unsigned next_index; /* of an array */
+    unsigned next_index; /* in an array member */
 };
 
-static inline struct walk walk_start(const struct message_shape *shape, void *message)
+static inline struct walk walk_members(const struct message_shape *shape, void *message)
 {
     return (struct walk){.shape = shape, .message = message, .element = -1};
 }
 
-static inline bool walk_next(struct walk *w)
+static inline bool walk_to_next(struct walk *w)
 {
     const struct message_shape *shape = w->shape;
 
@@ -160,37 +161,37 @@ static inline bool walk_next(struct walk *w)
     return true;
 }
 
-/* ---- Bytes, as the specification of LCM says ---- */
+/* ---- encoding as the specification of LCM says ----------------------------------------------- */
 
-static inline size_t plain_encode(const struct message_shape *shape, uint64_t fingerprint,
-                                  void *message, uint8_t *bytes)
+static inline size_t encode_plainly(const struct message_shape *shape, uint64_t fingerprint,
+                                    void *message, uint8_t *bytes)
 {
-    uint8_t *to = put_bits(bytes, 8, fingerprint);
+    uint8_t *to = put_big_endian(bytes, 8, fingerprint);
 
-    for (struct walk w = walk_start(shape, message); walk_next(&w);) {
-        to = put_bits(to, w.member->width, load_bits(w.at, w.member->width));
+    for (struct walk w = walk_members(shape, message); walk_to_next(&w);) {
+        to = put_big_endian(to, w.member->width, load_bits(w.at, w.member->width));
     }
     return (size_t)(to - bytes);
 }
 
-/* The same numbers, bit for bit. */
-static inline bool same_numbers(const struct message_shape *shape, void *message,
-                                const struct message_shape *other_shape, void *other)
+/* Whether two messages hold the same numbers, bit for bit. */
+static inline bool are_numbers_equal(const struct message_shape *shape, void *message,
+                                     const struct message_shape *other_shape, void *other)
 {
-    struct walk a = walk_start(shape, message), b = walk_start(other_shape, other);
+    struct walk a = walk_members(shape, message), b = walk_members(other_shape, other);
 
-    while (walk_next(&a)) {
-        if (!walk_next(&b) || strcmp(a.member->name, b.member->name) != 0 ||
+    while (walk_to_next(&a)) {
+        if (!walk_to_next(&b) || strcmp(a.member->name, b.member->name) != 0 ||
             load_bits(a.at, a.member->width) != load_bits(b.at, b.member->width)) {
             return false;
         }
     }
-    return !walk_next(&b);
+    return !walk_to_next(&b);
 }
 
-/* ---- Contents ---- */
+/* ---- random contents ------------------------------------------------------------------------- */
 
-/* splitmix64 */
+/* random bits by splitmix64 */
 static inline uint64_t draw_bits(uint64_t *state)
 {
     uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
@@ -200,7 +201,7 @@ static inline uint64_t draw_bits(uint64_t *state)
     return z ^ z >> 31;
 }
 
-/* Elements of a random list: none, all, or any number. */
+/* Number of elements of a random list: none, all, or any number. */
 static inline int draw_count(const struct message_shape *shape, uint64_t *state)
 {
     const uint64_t kind = draw_bits(state) % 8;
@@ -210,20 +211,20 @@ static inline int draw_count(const struct message_shape *shape, uint64_t *state)
                        : (int)(draw_bits(state) % (uint64_t)(shape->most + 1));
 }
 
-/* Any bits in all numbers, a list of this many. */
-static inline void fill_any(const struct message_shape *shape, void *message, int count,
-                            uint64_t *state)
+/* Random bits in all numbers, and a list of this count. */
+static inline void fill_with_random_bits(const struct message_shape *shape, void *message,
+                                         int count, uint64_t *state)
 {
     message_set_count(shape, message, count);
-    for (struct walk w = walk_start(shape, message); walk_next(&w);) {
+    for (struct walk w = walk_members(shape, message); walk_to_next(&w);) {
         if (w.member != &shape->counter) {
             store_bits(w.at, w.member->width, draw_bits(state));
         }
     }
 }
 
-/* A number that its rule allows. Members that others stay below come later, and are 30000 or so. */
-static inline void fill_good_number(const struct message_member *member, char *at, uint64_t *state)
+/* A random number that its rule allows. Members that bound others are set to about 30000 later. */
+static inline void fill_valid_number(const struct message_member *member, char *at, uint64_t *state)
 {
     const uint64_t bits = draw_bits(state);
 
@@ -246,16 +247,16 @@ static inline void fill_good_number(const struct message_member *member, char *a
     }
 }
 
-static inline void fill_good(const struct message_shape *shape, void *message, int count,
-                             uint64_t *state)
+static inline void fill_with_valid_numbers(const struct message_shape *shape, void *message,
+                                           int count, uint64_t *state)
 {
     message_set_count(shape, message, count);
-    for (struct walk w = walk_start(shape, message); walk_next(&w);) {
+    for (struct walk w = walk_members(shape, message); walk_to_next(&w);) {
         if (w.member != &shape->counter) {
-            fill_good_number(w.member, w.at, state);
+            fill_valid_number(w.member, w.at, state);
         }
     }
-    for (struct walk w = walk_start(shape, message); walk_next(&w);) {
+    for (struct walk w = walk_members(shape, message); walk_to_next(&w);) {
         if (w.member->rule == MEMBER_BELOW) {
             store_bits(w.message + w.member->other, 2, 20000 + draw_bits(state) % 12767);
         }
@@ -266,7 +267,7 @@ static inline void fill_good(const struct message_shape *shape, void *message, i
 
 enum golden { GOLDEN_EMPTY, GOLDEN_TYPICAL, GOLDEN_FULL, GOLDEN_EXTREME, NUM_GOLDEN };
 
-/* The ends of the numbers, NaN with a payload and subnormals among them. */
+/* Extreme numbers, among them NaN with a payload and subnormals. */
 static inline uint64_t extreme_bits(const struct message_member *member, unsigned index)
 {
     static const uint32_t floats[] = {0x80000000, 0x7f7fffff, 0xff7fffff, 0x00000001,
@@ -277,7 +278,7 @@ static inline uint64_t extreme_bits(const struct message_member *member, unsigne
     return member->is_float ? floats[index % 8] : ints[index % 4];
 }
 
-/* One of four contents. Typical numbers rise from member to member and are good. */
+/* Fills in one of four contents. Typical numbers rise from member to member and are valid. */
 static inline void fill_golden(const struct message_shape *shape, void *message, enum golden golden)
 {
     const int counts[NUM_GOLDEN] = {0, shape->most < 2 ? shape->most : 2, shape->most,
@@ -285,8 +286,8 @@ static inline void fill_golden(const struct message_shape *shape, void *message,
     unsigned index = 0;
 
     message_set_count(shape, message, counts[golden]);
-    for (struct walk w = walk_start(shape, message); walk_next(&w); index++) {
-        const float v = 0.001953125f * (float)(1 + index % 512); /* below 1, exact */
+    for (struct walk w = walk_members(shape, message); walk_to_next(&w); index++) {
+        const float v = 0.001953125f * (float)(1 + index % 512); /* below 1 and exact in binary */
 
         if (w.member == &shape->counter) {
             continue;

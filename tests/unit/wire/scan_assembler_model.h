@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What scan_assembler.h says, once more and in the plainest way: lists, wide integers, no memory
- * saved. Good messages alone are shown to it; what is no message is counted by the test.
+ * The rules of scan_assembler.h as a plain model: lists, wide integers, no memory saved. It is
+ * given valid messages only; the test itself counts invalid ones.
  */
 #ifndef SCAN_ASSEMBLER_MODEL_H
 #define SCAN_ASSEMBLER_MODEL_H
@@ -27,13 +27,14 @@ struct model_source {
     wide interval_us, known_us;
     uint32_t bucket;
     int has_first,
-        has_no_turn;   /* of its newest scan: its part 0 came; it was refused for want of a turn */
-    struct look first; /* part 0 of its newest scan, as it came first */
+        /* part 0 of its newest scan came; that scan was refused as newcomers share their turns */
+        has_no_turn;
+    struct look first; /* part 0 of its newest scan as first received */
     struct rho_scan_assembler_place place;
-    /* believed since it began or was followed, the first one first */
+    /* accepted numbers since the last restart, oldest first */
     int32_t numbers[MODEL_NUMBERS];
     unsigned num_numbers;
-    struct model_stray strays[RHO_SCAN_ASSEMBLER_STRAYS]; /* the last one first */
+    struct model_stray strays[RHO_SCAN_ASSEMBLER_STRAYS]; /* strays, newest first */
     unsigned num_strays;
 };
 
@@ -41,7 +42,8 @@ struct model_scan {
     enum model_state state;
     struct model_source *source;
     int kind, id, num_parts;
-    int is_late, is_alone; /* came behind a newer one; its sensor's numbers hold no more */
+    /* received behind a newer scan; no older number of its sensor is known */
+    int is_late, is_alone;
     struct rho_scan_assembler_place place;
     int64_t heard_us;
     int is_here[8];
@@ -51,10 +53,11 @@ struct model_scan {
 static struct {
     struct rho_scan_assembler_config config;
     struct rho_scan_assembler_counters counters;
-    struct model_source sources[RHO_MAX_SENSORS], stranger, share; /* share: plots of newcomers */
-    unsigned newcomers; /* scans, since another sensor's */
+    /* share: plots of all newcomers together */
+    struct model_source sources[RHO_MAX_SENSORS], stranger, share;
+    unsigned newcomers; /* scans of newcomers since another sensor's scan */
     struct model_scan scans[RHO_MAX_OPEN_SCANS];
-    int64_t clock_us, out_us; /* out: the newest one that went out, on this clock */
+    int64_t clock_us, out_us; /* out: time of the newest given scan, on this clock */
     int has_clock, has_out, is_restart, is_pressed;
 } model;
 
@@ -70,18 +73,18 @@ static inline void model_start(const struct rho_scan_assembler_config *config)
  * ---- numbers and times of one sensor ----------------------------------------------------------
  */
 
-static inline wide model_past(int64_t from_us, int64_t to_us)
+static inline wide model_elapsed_us(int64_t from_us, int64_t to_us)
 {
     return to_us > from_us ? (wide)to_us - from_us : 0;
 }
 
-static inline wide model_apart(int64_t a, int64_t b)
+static inline wide model_time_difference_us(int64_t a, int64_t b)
 {
     return a > b ? (wide)a - b : (wide)b - a;
 }
 
-/* The shorter way round from one number to another. */
-static inline wide model_ahead(int32_t scan, int32_t from)
+/* Difference of scan numbers, the shorter way round their wrap. */
+static inline wide model_numbers_ahead(int32_t scan, int32_t from)
 {
     wide ahead = (wide)scan - from;
     const wide turn = (wide)1 << 32;
@@ -89,24 +92,24 @@ static inline wide model_ahead(int32_t scan, int32_t from)
     return ahead >= turn / 2 ? ahead - turn : ahead < -turn / 2 ? ahead + turn : ahead;
 }
 
-static inline int model_agrees(const struct rho_scan_assembler_place *next,
-                               const struct rho_scan_assembler_place *last)
+static inline int model_is_plausible_successor(const struct rho_scan_assembler_place *next,
+                                               const struct rho_scan_assembler_place *last)
 {
-    wide ahead = model_ahead(next->scan, last->scan);
+    wide ahead = model_numbers_ahead(next->scan, last->scan);
 
     return next->epoch == last->epoch && ahead > 0 && ahead <= RHO_SCAN_ASSEMBLER_SKIP_MAX &&
            next->time_us > last->time_us &&
-           model_apart(next->time_us, last->time_us) <= model.config.jump_max_us;
+           model_time_difference_us(next->time_us, last->time_us) <= model.config.jump_max_us;
 }
 
-/* The stray with the most scans that it agrees with; of equals the last one. */
+/* The stray with the most scans that this scan continues; of equals the last one. */
 static inline int model_find_stray(const struct model_source *source,
                                    const struct rho_scan_assembler_place *place)
 {
     int found = -1;
 
     for (unsigned i = 0; i < source->num_strays; i++) {
-        if (model_agrees(place, &source->strays[i].place) &&
+        if (model_is_plausible_successor(place, &source->strays[i].place) &&
             (found < 0 || source->strays[i].count > source->strays[found].count)) {
             found = (int)i;
         }
@@ -114,12 +117,12 @@ static inline int model_find_stray(const struct model_source *source,
     return found;
 }
 
-static inline enum model_verdict model_judge_ahead(const struct model_source *source,
-                                                   const struct rho_scan_assembler_place *place,
-                                                   wide ahead, int64_t now_us)
+static inline enum model_verdict
+model_judge_newer_number(const struct model_source *source,
+                         const struct rho_scan_assembler_place *place, wide ahead, int64_t now_us)
 {
     wide took = (wide)place->time_us - source->place.time_us;
-    wide usual = ahead * source->interval_us, silent = model_past(source->heard_us, now_us);
+    wide usual = ahead * source->interval_us, silent = model_elapsed_us(source->heard_us, now_us);
     wide longest = usual > silent ? usual : silent, most = longest + longest / 2 + 10000;
 
     if (took <= 0 || took > model.config.jump_max_us) {
@@ -133,10 +136,10 @@ static inline enum model_verdict model_judge_ahead(const struct model_source *so
                                                                                     : M_NEXT;
 }
 
-/* Between the first number and the newest one, 31 back at most, and it has not come. */
-static inline int model_is_skipped(const struct model_source *source, int32_t scan)
+/* Whether a number between the first and the newest one, 31 back at most, has not come. */
+static inline int model_is_skipped_number(const struct model_source *source, int32_t scan)
 {
-    wide behind = model_ahead(source->place.scan, scan);
+    wide behind = model_numbers_ahead(source->place.scan, scan);
 
     for (unsigned i = 0; i < source->num_numbers; i++) {
         if (source->numbers[i] == scan) {
@@ -144,10 +147,11 @@ static inline int model_is_skipped(const struct model_source *source, int32_t sc
         }
     }
     return behind > 0 && behind <= 31 && source->num_numbers > 0 &&
-           (model_ahead(scan, source->numbers[0]) > 0 || (model.is_restart && RHO_MAX_SENSORS > 1));
+           (model_numbers_ahead(scan, source->numbers[0]) > 0 ||
+            (model.is_restart && RHO_MAX_SENSORS > 1));
 }
 
-/* Not behind what has gone out by more than a tracker takes. */
+/* Whether a scan is not too old after the scans already given. */
 static inline int model_is_in_time(int kind, int64_t time_us)
 {
     wide late_max = kind == RHO_SCAN_ASSEMBLER_BEARINGS ? 0 : model.config.late_max_us;
@@ -155,46 +159,46 @@ static inline int model_is_in_time(int kind, int64_t time_us)
     return !model.has_out || (wide)model.out_us - time_us <= late_max;
 }
 
-static inline int model_is_of_use(const struct model_source *source,
-                                  const struct rho_scan_assembler_place *place)
+static inline int model_is_useful_late_scan(const struct model_source *source,
+                                            const struct rho_scan_assembler_place *place)
 {
-    wide behind = model_ahead(source->place.scan, place->scan);
+    wide behind = model_numbers_ahead(source->place.scan, place->scan);
     wide before = (wide)source->place.time_us - place->time_us;
     wide usual = behind * source->interval_us;
 
-    return source->off == 0 && model_is_skipped(source, place->scan) && before > 0 &&
+    return source->off == 0 && model_is_skipped_number(source, place->scan) && before > 0 &&
            before + 10000 >= usual - usual / 4 && before <= usual + usual / 2 + 10000 &&
            model_is_in_time(source->kind, place->time_us);
 }
 
-/* No older number, of those 31 back at most, has come; or the scans before it were such. */
-static inline int model_begins_again(const struct model_source *source,
-                                     const struct rho_scan_assembler_place *place)
+/* No older number of the 31 before the newest has come, or the scan continues a stray. */
+static inline int model_is_restart_candidate(const struct model_source *source,
+                                             const struct rho_scan_assembler_place *place)
 {
     for (unsigned i = 0; i < source->num_numbers; i++) {
-        if (model_ahead(place->scan, source->numbers[i]) > 0 &&
-            model_ahead(source->place.scan, source->numbers[i]) <= 31) {
+        if (model_numbers_ahead(place->scan, source->numbers[i]) > 0 &&
+            model_numbers_ahead(source->place.scan, source->numbers[i]) <= 31) {
             return RHO_MAX_SENSORS > 1 && model_find_stray(source, place) >= 0;
         }
     }
     return RHO_MAX_SENSORS > 1;
 }
 
-/* Refused, but a restart of the sensor if more of the kind come. */
+/* Whether a refused scan may be the beginning of the sensor's restart. */
 static inline int model_is_stray(const struct model_source *source,
                                  const struct rho_scan_assembler_place *place,
                                  enum model_verdict verdict)
 {
     return verdict == M_NUMBER || verdict == M_TIME ||
            ((verdict == M_DOUBLE || verdict == M_LATE) && place->scan != source->place.scan &&
-            model_begins_again(source, place));
+            model_is_restart_candidate(source, place));
 }
 
-static inline enum model_verdict model_judge(const struct model_source *source,
-                                             const struct rho_scan_assembler_place *place,
-                                             int64_t now_us)
+static inline enum model_verdict model_judge_scan(const struct model_source *source,
+                                                  const struct rho_scan_assembler_place *place,
+                                                  int64_t now_us)
 {
-    wide ahead = model_ahead(place->scan, source->place.scan);
+    wide ahead = model_numbers_ahead(place->scan, source->place.scan);
     enum model_verdict verdict;
     int stray = model_find_stray(source, place);
 
@@ -204,13 +208,14 @@ static inline enum model_verdict model_judge(const struct model_source *source,
     if (place->epoch != source->place.epoch || ahead > RHO_SCAN_ASSEMBLER_SKIP_MAX || ahead < -31) {
         verdict = M_NUMBER;
     } else if (ahead > 0) {
-        verdict = model_judge_ahead(source, place, ahead, now_us);
+        verdict = model_judge_newer_number(source, place, ahead, now_us);
     } else if (ahead < 0 && place->time_us > source->place.time_us) {
         verdict = M_NUMBER;
-    } else if (model_apart(place->time_us, source->place.time_us) > model.config.jump_max_us) {
+    } else if (model_time_difference_us(place->time_us, source->place.time_us) >
+               model.config.jump_max_us) {
         verdict = M_TIME;
     } else {
-        verdict = model_is_of_use(source, place) ? M_SKIPPED : M_LATE;
+        verdict = model_is_useful_late_scan(source, place) ? M_SKIPPED : M_LATE;
         for (unsigned i = 0; i < source->num_numbers; i++) {
             verdict = source->numbers[i] == place->scan ? M_DOUBLE : verdict;
         }
@@ -235,7 +240,7 @@ static inline void model_remember_stray(struct model_source *source,
     }
     if (at < 0 && source->num_strays < RHO_SCAN_ASSEMBLER_STRAYS) {
         at = (int)source->num_strays++;
-    } else if (at < 0) { /* of the fewest scans the one that is there longest */
+    } else if (at < 0) { /* of strays with fewest scans the oldest */
         at = 0;
         for (int i = 1; i < RHO_SCAN_ASSEMBLER_STRAYS; i++) {
             at = source->strays[i].count <= source->strays[at].count ? i : at;
@@ -247,14 +252,14 @@ static inline void model_remember_stray(struct model_source *source,
     source->strays[0] = stray;
 }
 
-static inline void model_believe(struct model_source *source,
-                                 const struct rho_scan_assembler_place *place,
-                                 enum model_verdict verdict, int64_t now_us)
+static inline void model_accept_scan(struct model_source *source,
+                                     const struct rho_scan_assembler_place *place,
+                                     enum model_verdict verdict, int64_t now_us)
 {
     int stray = model_find_stray(source, place), is_first = source->believed == 0;
     struct rho_scan_assembler_place from =
         verdict == M_FOLLOW ? source->strays[stray].place : source->place;
-    wide ahead = model_ahead(place->scan, from.scan);
+    wide ahead = model_numbers_ahead(place->scan, from.scan);
 
     if (!is_first) {
         wide interval_us = ((wide)place->time_us - from.time_us) / ahead;
@@ -273,8 +278,8 @@ static inline void model_believe(struct model_source *source,
     source->num_strays = 0;
     source->has_first = source->has_no_turn = 0;
     source->place = *place;
-    if (!is_first && model_past(source->heard_us, now_us) <= model.config.jump_max_us) {
-        source->known_us += model_past(source->heard_us, now_us);
+    if (!is_first && model_elapsed_us(source->heard_us, now_us) <= model.config.jump_max_us) {
+        source->known_us += model_elapsed_us(source->heard_us, now_us);
     }
     source->known_us = source->known_us > RHO_SCAN_ASSEMBLER_TRUST_US ? RHO_SCAN_ASSEMBLER_TRUST_US
                                                                       : source->known_us;
@@ -286,16 +291,16 @@ static inline void model_believe(struct model_source *source,
  * ---- the common clock -------------------------------------------------------------------------
  */
 
-static inline wide model_lead(void)
+static inline wide model_clock_tolerance_us(void)
 {
     return model.config.jump_max_us / 8 + model.config.hold_us;
 }
 
-static inline int model_says_other(const struct model_source *other, int64_t time_us,
-                                   int64_t now_us)
+static inline int model_contradicts_time(const struct model_source *other, int64_t time_us,
+                                         int64_t now_us)
 {
-    wide now_there = model_past(other->heard_us, now_us);
-    wide lead = other->interval_us > 0 ? model_lead()
+    wide now_there = model_elapsed_us(other->heard_us, now_us);
+    wide lead = other->interval_us > 0 ? model_clock_tolerance_us()
                                        : (wide)model.config.jump_max_us + model.config.hold_us;
 
     if (now_there < 2 * other->interval_us) {
@@ -305,10 +310,10 @@ static inline int model_says_other(const struct model_source *other, int64_t tim
            (wide)time_us < other->place.time_us - lead;
 }
 
-static inline int model_is_live(const struct model_source *source, int64_t now_us)
+static inline int model_was_heard_lately(const struct model_source *source, int64_t now_us)
 {
     return source->used && source->believed > 0 &&
-           model_past(source->heard_us, now_us) <= model.config.jump_max_us;
+           model_elapsed_us(source->heard_us, now_us) <= model.config.jump_max_us;
 }
 
 static inline int model_is_proven(const struct model_source *source)
@@ -316,8 +321,11 @@ static inline int model_is_proven(const struct model_source *source)
     return source->believed >= model.config.follow_scans;
 }
 
-/* Three of its intervals, an eighth to half of jump_max_us; one and a quarter of them anyhow. */
-static inline int model_is_present(const struct model_source *source, int64_t now_us)
+/*
+ * Silent for at most three of its intervals, within an eighth to half of jump_max_us; at least one
+ * and a quarter intervals.
+ */
+static inline int model_is_still_sending(const struct model_source *source, int64_t now_us)
 {
     wide least_us = model.config.jump_max_us / 8, most_us = model.config.jump_max_us / 2;
     wide silent_us = 3 * (wide)source->interval_us;
@@ -325,17 +333,20 @@ static inline int model_is_present(const struct model_source *source, int64_t no
 
     silent_us = silent_us < least_us ? least_us : silent_us > most_us ? most_us : silent_us;
     silent_us = silent_us < next_us ? next_us : silent_us;
-    return model_is_live(source, now_us) && model_past(source->heard_us, now_us) <= silent_us;
+    return model_was_heard_lately(source, now_us) &&
+           model_elapsed_us(source->heard_us, now_us) <= silent_us;
 }
 
-/* Less than half as long heard as another one that still sends, which is heard for a minute. */
-static inline int model_is_new(const struct model_source *source, int64_t now_us)
+/*
+ * Known for less than half the time of another sensor that still sends and was heard for a minute.
+ */
+static inline int model_is_newcomer(const struct model_source *source, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
         wide half_us = other->known_us / 2;
 
-        if (model_is_present(other, now_us) && model_is_proven(other) &&
+        if (model_is_still_sending(other, now_us) && model_is_proven(other) &&
             other->known_us >= RHO_SCAN_ASSEMBLER_EQUALS_US &&
             (source ? source->known_us : 0) < half_us) {
             return 1;
@@ -344,27 +355,26 @@ static inline int model_is_new(const struct model_source *source, int64_t now_us
     return 0;
 }
 
-static inline int model_has_say(const struct model_source *source, int64_t now_us)
+static inline int model_has_vote(const struct model_source *source, int64_t now_us)
 {
-    return source->off == 0 && model_is_live(source, now_us) && model_is_proven(source) &&
-           !model_is_new(source, now_us);
+    return source->off == 0 && model_was_heard_lately(source, now_us) && model_is_proven(source) &&
+           !model_is_newcomer(source, now_us);
 }
 
 /*
- * Nobody who has a say has sent what is not older, nor says by its own clock that what it sends for
- * then is here.
+ * Early: no sensor with a vote has sent a scan as new, or has a clock that has reached this time.
  */
-static inline int model_is_early(const struct model_scan *scan, int64_t now_us)
+static inline int model_is_early_newcomer_scan(const struct model_scan *scan, int64_t now_us)
 {
     int asked = 0;
 
-    if (!model_is_new(scan->source, scan->heard_us) || now_us == INT64_MAX) {
+    if (!model_is_newcomer(scan->source, scan->heard_us) || now_us == INT64_MAX) {
         return 0;
     }
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         const struct model_scan *other = &model.scans[i];
         if (other->state == M_OPEN && other->place.time_us < scan->place.time_us &&
-            !model_is_new(other->source, scan->heard_us)) {
+            !model_is_newcomer(other->source, scan->heard_us)) {
             return 1;
         }
     }
@@ -372,7 +382,7 @@ static inline int model_is_early(const struct model_scan *scan, int64_t now_us)
         const struct model_source *other = &model.sources[i];
         wide ahead = (wide)scan->place.time_us - other->place.time_us;
 
-        if (model_has_say(other, scan->heard_us)) {
+        if (model_has_vote(other, scan->heard_us)) {
             if (ahead <= 0 || (wide)now_us >= other->heard_us + ahead + model.config.hold_us) {
                 return 0;
             }
@@ -382,64 +392,70 @@ static inline int model_is_early(const struct model_scan *scan, int64_t now_us)
     return asked;
 }
 
-static inline int model_is_off(const struct model_source *source, int64_t time_us, int64_t now_us)
+static inline int model_is_outvoted(const struct model_source *source, int64_t time_us,
+                                    int64_t now_us)
 {
     int yes[2] = {0}, no[2] = {0};
 
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
-        if (other != source && other->off == 0 && model_is_live(other, now_us)) {
-            int p = model_has_say(other, now_us);
-            yes[p] += !model_says_other(other, time_us, now_us);
-            no[p] += model_says_other(other, time_us, now_us);
+        if (other != source && other->off == 0 && model_was_heard_lately(other, now_us)) {
+            int p = model_has_vote(other, now_us);
+            yes[p] += !model_contradicts_time(other, time_us, now_us);
+            no[p] += model_contradicts_time(other, time_us, now_us);
         }
     }
     int p = yes[1] + no[1] > 0;
-    return model.has_clock &&
-           (no[p] > yes[p] || model_apart(time_us, model.clock_us) > model.config.jump_max_us);
+    return model.has_clock && (no[p] > yes[p] || model_time_difference_us(time_us, model.clock_us) >
+                                                     model.config.jump_max_us);
 }
 
-/* The sensor restarts not behind what has gone out, and nobody else tells the time. */
-static inline int model_is_set_back(const struct model_source *source, int64_t time_us,
-                                    int64_t now_us)
+/*
+ * Whether a restart is in the past, though not before the scans given, while no other sensor tells
+ * the time.
+ */
+static inline int model_is_restart_in_past(const struct model_source *source, int64_t time_us,
+                                           int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
-        if (other != source && other->off == 0 && model_is_live(other, now_us)) {
+        if (other != source && other->off == 0 && model_was_heard_lately(other, now_us)) {
             return 0;
         }
     }
     return RHO_MAX_SENSORS > 1 && model.has_out && time_us <= model.out_us;
 }
 
-static inline int model_wins(const struct model_source *source, int64_t time_us, int64_t now_us)
+static inline int model_wins_clock_vote(const struct model_source *source, int64_t time_us,
+                                        int64_t now_us)
 {
     unsigned with = 1, against = 0;
 
-    if (model_is_new(source, now_us)) {
+    if (model_is_newcomer(source, now_us)) {
         return 0;
     }
 
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
-        if (other != source && model_is_live(other, now_us) && !model_is_new(other, now_us)) {
+        if (other != source && model_was_heard_lately(other, now_us) &&
+            !model_is_newcomer(other, now_us)) {
             against += other->off == 0 && model_is_proven(other);
             with += other->off >= model.config.follow_scans &&
-                    !model_says_other(other, time_us, now_us);
+                    !model_contradicts_time(other, time_us, now_us);
         }
     }
     if (with != against) {
         return with > against;
     }
-    return model_apart(time_us, now_us) <= model_lead() &&
-           model_apart(model.clock_us, now_us) > model_lead();
+    return model_time_difference_us(time_us, now_us) <= model_clock_tolerance_us() &&
+           model_time_difference_us(model.clock_us, now_us) > model_clock_tolerance_us();
 }
 
 static inline void model_set_clock(int64_t time_us, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         struct model_source *source = &model.sources[i];
-        if (!model_says_other(source, time_us, now_us)) {
+        if (!model_contradicts_time(source, time_us, now_us)) {
             source->off = 0;
         } else if (source->off == 0) {
             source->off = 1;
@@ -448,28 +464,31 @@ static inline void model_set_clock(int64_t time_us, int64_t now_us)
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (model.scans[i].state == M_OPEN || model.scans[i].state == M_WHOLE) {
             model.scans[i].state = M_FREE;
-            model.counters.scans_late += !model.scans[i].is_late; /* else it was counted */
+            /* late scans were counted on arrival */
+            model.counters.scans_late += !model.scans[i].is_late;
         }
     }
     model.is_restart = 1;
     model.has_out = 0;
 }
 
-static inline int model_keeps_clock(struct model_source *source, int64_t time_us,
-                                    enum model_verdict verdict, int64_t now_us)
+static inline int model_update_clock(struct model_source *source, int64_t time_us,
+                                     enum model_verdict verdict, int64_t now_us)
 {
-    if (model_is_off(source, time_us, now_us) ||
-        (verdict == M_FOLLOW && model_is_set_back(source, time_us, now_us))) {
+    if (model_is_outvoted(source, time_us, now_us) ||
+        (verdict == M_FOLLOW && model_is_restart_in_past(source, time_us, now_us))) {
         source->off = verdict == M_FOLLOW && source->off < model.config.follow_scans
                           ? model.config.follow_scans
                           : source->off + (source->off < UINT8_MAX);
-        if (source->off < model.config.follow_scans || !model_wins(source, time_us, now_us)) {
+        if (source->off < model.config.follow_scans ||
+            !model_wins_clock_vote(source, time_us, now_us)) {
             return 0;
         }
         model_set_clock(time_us, now_us);
     }
     source->off = 0;
-    model.clock_us = model.has_clock && model_is_new(source, now_us) ? model.clock_us : time_us;
+    model.clock_us =
+        model.has_clock && model_is_newcomer(source, now_us) ? model.clock_us : time_us;
     model.has_clock = 1;
     return 1;
 }
@@ -478,7 +497,7 @@ static inline int model_keeps_clock(struct model_source *source, int64_t time_us
  * ---- messages ---------------------------------------------------------------------------------
  */
 
-static inline struct model_scan *model_in_state(enum model_state state)
+static inline struct model_scan *model_scan_in_state(enum model_state state)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (model.scans[i].state == state) {
@@ -488,7 +507,7 @@ static inline struct model_scan *model_in_state(enum model_state state)
     return NULL;
 }
 
-static inline unsigned model_parts_here(const struct model_scan *scan)
+static inline unsigned model_count_parts(const struct model_scan *scan)
 {
     unsigned count = 0;
 
@@ -498,13 +517,13 @@ static inline unsigned model_parts_here(const struct model_scan *scan)
     return count;
 }
 
-static inline void model_close(struct model_scan *scan)
+static inline void model_end_scan(struct model_scan *scan)
 {
     scan->state = M_WHOLE;
-    model.counters.scans_incomplete += model_parts_here(scan) < (unsigned)scan->num_parts;
+    model.counters.scans_incomplete += model_count_parts(scan) < (unsigned)scan->num_parts;
 }
 
-static inline struct model_source *model_find(int kind, int id)
+static inline struct model_source *model_find_source(int kind, int id)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         struct model_source *source = &model.sources[i];
@@ -515,16 +534,17 @@ static inline struct model_source *model_find(int kind, int id)
     return NULL;
 }
 
-static inline int model_is_open_of(const struct model_scan *scan, const struct model_source *source)
+static inline int model_is_open_scan_of(const struct model_scan *scan,
+                                        const struct model_source *source)
 {
     return source && scan->state == M_OPEN && scan->source == source;
 }
 
-static inline void model_close_all_of(const struct model_source *source)
+static inline void model_end_scans_of(const struct model_source *source)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        if (model_is_open_of(&model.scans[i], source)) {
-            model_close(&model.scans[i]);
+        if (model_is_open_scan_of(&model.scans[i], source)) {
+            model_end_scan(&model.scans[i]);
         }
     }
 }
@@ -536,7 +556,7 @@ static inline void model_forget_numbers_of(const struct model_source *source)
     }
 }
 
-static inline struct model_source *model_find_room(int64_t now_us)
+static inline struct model_source *model_find_place_for_source(int64_t now_us)
 {
     struct model_source *room = NULL;
 
@@ -547,7 +567,7 @@ static inline struct model_source *model_find_room(int64_t now_us)
             break;
         }
         int is_kept = model_is_proven(source) && source->off == 0 &&
-                      model_past(source->heard_us, now_us) <= model.config.jump_max_us;
+                      model_elapsed_us(source->heard_us, now_us) <= model.config.jump_max_us;
         if (!is_kept && (!room || source->heard_us < room->heard_us)) {
             room = source;
         }
@@ -555,9 +575,9 @@ static inline struct model_source *model_find_room(int64_t now_us)
     return room;
 }
 
-static inline void model_add(struct model_source *room, const struct look *look)
+static inline void model_add_source(struct model_source *room, const struct look *look)
 {
-    model_close_all_of(room);
+    model_end_scans_of(room);
     model_forget_numbers_of(room);
     memset(room, 0, sizeof *room);
     room->used = 1;
@@ -567,7 +587,7 @@ static inline void model_add(struct model_source *room, const struct look *look)
     room->bucket_us = model.stranger.bucket_us;
 }
 
-static inline int model_is_same(const struct look *a, const struct look *b)
+static inline int model_are_parts_equal(const struct look *a, const struct look *b)
 {
     return a->time_us == b->time_us && a->scan == b->scan && a->epoch == b->epoch &&
            a->part == b->part && parts_of(a) == parts_of(b) && a->count == b->count &&
@@ -577,7 +597,7 @@ static inline int model_is_same(const struct look *a, const struct look *b)
 static inline void model_count_double(const struct model_source *source, const struct look *look)
 {
     int is_other = look->part == 0 && look->scan == source->place.scan && source->has_first &&
-                   !model_is_same(look, &source->first);
+                   !model_are_parts_equal(look, &source->first);
 
     model.counters.scans_other += (uint32_t)is_other;
     model.counters.scans_duplicate += !is_other;
@@ -587,7 +607,7 @@ static inline void model_add_part(struct model_scan *scan, const struct look *lo
 {
     if (scan->is_here[look->part]) {
         model_count_double(scan->source, look);
-    } else if (model_parts_here(scan) > 0 &&
+    } else if (model_count_parts(scan) > 0 &&
                (look->time_us != scan->place.time_us || parts_of(look) != scan->num_parts)) {
         model.counters.scans_bad++;
     } else {
@@ -599,14 +619,14 @@ static inline void model_add_part(struct model_scan *scan, const struct look *lo
         }
         scan->heard_us = now_us;
         model.counters.bearings_in += look->kind == RHO_SCAN_ASSEMBLER_BEARINGS ? look->count : 0;
-        if (model_parts_here(scan) == (unsigned)scan->num_parts) {
-            model_close(scan);
+        if (model_count_parts(scan) == (unsigned)scan->num_parts) {
+            model_end_scan(scan);
         }
     }
 }
 
-/* One of all newcomers together between two of the others. */
-static inline int model_may_begin(int is_new)
+/* Newcomers together may begin one scan between two scans of other sensors. */
+static inline int model_may_newcomer_begin(int is_new)
 {
     if (is_new && model.newcomers > 0) {
         model.counters.messages_flooded++;
@@ -616,8 +636,8 @@ static inline int model_may_begin(int is_new)
     return 1;
 }
 
-static inline void model_begin(struct model_source *source, const struct look *look,
-                               enum model_verdict verdict, int is_new, int64_t now_us)
+static inline void model_begin_scan(struct model_source *source, const struct look *look,
+                                    enum model_verdict verdict, int is_new, int64_t now_us)
 {
     struct rho_scan_assembler_place place = {look->time_us, look->scan, look->epoch};
     struct model_scan *scan;
@@ -625,23 +645,23 @@ static inline void model_begin(struct model_source *source, const struct look *l
     if (verdict == M_SKIPPED) {
         source->numbers[source->num_numbers++] = look->scan;
     } else {
-        model_close_all_of(source);
+        model_end_scans_of(source);
         if (verdict == M_FOLLOW) {
             model_forget_numbers_of(source);
         }
-        model_believe(source, &place, verdict, now_us);
+        model_accept_scan(source, &place, verdict, now_us);
     }
     model.counters.sensor_restarts += verdict == M_FOLLOW;
-    if (verdict != M_SKIPPED && !model_keeps_clock(source, look->time_us, verdict, now_us)) {
+    if (verdict != M_SKIPPED && !model_update_clock(source, look->time_us, verdict, now_us)) {
         model.counters.clock_jumps++;
         return;
     }
-    if (verdict != M_SKIPPED && !model_may_begin(is_new)) {
+    if (verdict != M_SKIPPED && !model_may_newcomer_begin(is_new)) {
         source->has_no_turn = 1;
         return;
     }
     model.counters.scans_accepted++;
-    scan = model_in_state(M_FREE);
+    scan = model_scan_in_state(M_FREE);
     *scan = (struct model_scan){.state = M_OPEN,
                                 .source = source,
                                 .kind = look->kind,
@@ -652,8 +672,8 @@ static inline void model_begin(struct model_source *source, const struct look *l
     model_add_part(scan, look, now_us);
 }
 
-static inline void model_refuse(struct model_source *source, const struct look *look,
-                                enum model_verdict verdict)
+static inline void model_refuse_part(struct model_source *source, const struct look *look,
+                                     enum model_verdict verdict)
 {
     struct rho_scan_assembler_place place = {look->time_us, look->scan, look->epoch};
 
@@ -672,8 +692,8 @@ static inline void model_refuse(struct model_source *source, const struct look *
     model.counters.scans_late += verdict == M_LATE;
 }
 
-static inline int model_draw(struct model_source *source, uint32_t count, uint32_t most,
-                             int64_t now_us)
+static inline int model_draw_from_bucket(struct model_source *source, uint32_t count, uint32_t most,
+                                         int64_t now_us)
 {
     if (now_us < source->bucket_us || (wide)now_us - source->bucket_us >= SECOND_US) {
         source->bucket_us = now_us;
@@ -687,25 +707,25 @@ static inline int model_draw(struct model_source *source, uint32_t count, uint32
     return 1;
 }
 
-/* Newcomers' scans that are early count for little. */
-static inline struct model_scan *model_weak_one(int64_t now_us)
+/* Scans of newcomers and unproven sensors give way first. */
+static inline struct model_scan *model_scan_of_weak_sensor(int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (model.scans[i].state == M_OPEN && (!model_is_proven(model.scans[i].source) ||
-                                               model_is_new(model.scans[i].source, now_us))) {
+                                               model_is_newcomer(model.scans[i].source, now_us))) {
             return &model.scans[i];
         }
     }
     return NULL;
 }
 
-static inline struct model_scan *model_first(enum model_state state, int64_t now_us)
+static inline struct model_scan *model_earliest_scan(enum model_state state, int64_t now_us)
 {
     struct model_scan *first = NULL;
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct model_scan *scan = &model.scans[i];
-        if (scan->state != state || model_is_early(scan, now_us)) {
+        if (scan->state != state || model_is_early_newcomer_scan(scan, now_us)) {
             continue;
         }
         if (!first || scan->place.time_us < first->place.time_us ||
@@ -718,48 +738,50 @@ static inline struct model_scan *model_first(enum model_state state, int64_t now
 }
 
 /*
- * It goes out where another needs room; no proven sensor's scan is made late or cut short by that.
+ * The whole scan given when another needs room; no proven sensor's scan becomes late or incomplete
+ * by it.
  */
-static inline struct model_scan *model_spare_one(int64_t now_us)
+static inline struct model_scan *model_scan_given_for_room(int64_t now_us)
 {
-    struct model_scan *whole = model_first(M_WHOLE, now_us);
+    struct model_scan *whole = model_earliest_scan(M_WHOLE, now_us);
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && whole; i++) {
         struct model_scan *scan = &model.scans[i];
 
         if (scan->state == M_OPEN && model_is_proven(scan->source) &&
-            !model_is_new(scan->source, now_us) && scan->place.time_us < whole->place.time_us) {
-            return model_weak_one(now_us);
+            !model_is_newcomer(scan->source, now_us) &&
+            scan->place.time_us < whole->place.time_us) {
+            return model_scan_of_weak_sensor(now_us);
         }
     }
-    return whole ? whole : model_weak_one(now_us);
+    return whole ? whole : model_scan_of_weak_sensor(now_us);
 }
 
-static inline int model_is_late_one(const struct model_scan *scan)
+static inline int model_is_late_scan(const struct model_scan *scan)
 {
     return (scan->state == M_OPEN || scan->state == M_WHOLE) && scan->is_late;
 }
 
-static inline int model_open_late_one_of(const struct model_source *source)
+static inline int model_has_open_late_scan(const struct model_source *source)
 {
     int count = 0;
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        count += model_is_open_of(&model.scans[i], source) && model.scans[i].is_late;
+        count += model_is_open_scan_of(&model.scans[i], source) && model.scans[i].is_late;
     }
     return count > 0;
 }
 
-static inline void model_drop_one(int is_new, int64_t now_us)
+static inline void model_drop_scan_for_room(int is_new, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct model_scan *scan = &model.scans[i];
         int is_waiting = scan->state == M_OPEN || scan->state == M_WHOLE;
-        int is_early = is_waiting && !is_new && model_is_early(scan, now_us);
+        int is_early = is_waiting && !is_new && model_is_early_newcomer_scan(scan, now_us);
 
-        int is_elder_s = is_new && !model_is_new(scan->source, now_us);
+        int is_elder_s = is_new && !model_is_newcomer(scan->source, now_us);
 
-        if (is_early || (model_is_late_one(scan) && !is_elder_s)) {
+        if (is_early || (model_is_late_scan(scan) && !is_elder_s)) {
             model.counters.sensors_no_room += (uint32_t)is_early;
             scan->state = M_FREE;
             return;
@@ -767,65 +789,66 @@ static inline void model_drop_one(int is_new, int64_t now_us)
     }
 }
 
-static inline void model_drop_useless(void)
+static inline void model_drop_too_late_scans(void)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct model_scan *scan = &model.scans[i];
 
-        if (model_is_late_one(scan) && !model_is_in_time(scan->kind, scan->place.time_us)) {
+        if (model_is_late_scan(scan) && !model_is_in_time(scan->kind, scan->place.time_us)) {
             scan->state = M_FREE;
         }
     }
 }
 
-static inline enum rho_status model_take(const struct look *look, int64_t now_us)
+static inline enum rho_status model_take_part(const struct look *look, int64_t now_us)
 {
-    struct model_source *source = model_find(look->kind, look->sensor_id);
-    int is_new = model_is_new(source, now_us);
+    struct model_source *source = model_find_source(look->kind, look->sensor_id);
+    int is_new = model_is_newcomer(source, now_us);
     struct model_source *drawn = source && !is_new ? source : &model.stranger;
     struct rho_scan_assembler_place place = {look->time_us, look->scan, look->epoch};
     enum model_verdict verdict;
 
-    if (!model_draw(drawn, 1, model.config.flood_per_s, now_us) ||
-        (is_new &&
-         !model_draw(&model.share, look->count, model.config.stranger_plots_per_s, now_us))) {
+    if (!model_draw_from_bucket(drawn, 1, model.config.flood_per_s, now_us) ||
+        (is_new && !model_draw_from_bucket(&model.share, look->count,
+                                           model.config.stranger_plots_per_s, now_us))) {
         return RHO_OK;
     }
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct model_scan *scan = &model.scans[i];
 
-        if (model_is_open_of(scan, source) && scan->place.scan == look->scan &&
+        if (model_is_open_scan_of(scan, source) && scan->place.scan == look->scan &&
             scan->place.epoch == look->epoch) {
             model_add_part(scan, look, now_us);
             return RHO_OK;
         }
     }
-    verdict = source ? model_judge(source, &place, now_us) : M_NEXT;
+    verdict = source ? model_judge_scan(source, &place, now_us) : M_NEXT;
     if (verdict != M_NEXT && verdict != M_FOLLOW && verdict != M_SKIPPED) {
-        model_refuse(source, look, verdict);
+        model_refuse_part(source, look, verdict);
         return RHO_OK;
     }
     if (verdict == M_SKIPPED) {
-        if (model_may_begin(is_new)) {
+        if (model_may_newcomer_begin(is_new)) {
             model.counters.scans_late++;
-            if (model_in_state(M_FREE) &&
-                (parts_of(look) == 1 || !model_open_late_one_of(source))) {
-                model_begin(source, look, verdict, is_new, now_us);
+            if (model_scan_in_state(M_FREE) &&
+                (parts_of(look) == 1 || !model_has_open_late_scan(source))) {
+                model_begin_scan(source, look, verdict, is_new, now_us);
             }
         }
         return RHO_OK;
     }
-    if (!source && !model_find_room(now_us)) {
+    if (!source && !model_find_place_for_source(now_us)) {
         model.counters.sensors_no_room++;
         return RHO_OK;
     }
-    if (!model_in_state(M_FREE)) {
-        model_drop_one(is_new, now_us);
+    if (!model_scan_in_state(M_FREE)) {
+        model_drop_scan_for_room(is_new, now_us);
     }
-    if (!model_in_state(M_FREE)) {
-        int may_cut = (source && model_is_proven(source) && !is_new) || model_spare_one(now_us);
+    if (!model_scan_in_state(M_FREE)) {
+        int may_cut =
+            (source && model_is_proven(source) && !is_new) || model_scan_given_for_room(now_us);
 
-        if (!may_cut && !model_in_state(M_OUT)) {
+        if (!may_cut && !model_scan_in_state(M_OUT)) {
             model.counters.sensors_no_room++;
             return RHO_OK;
         }
@@ -835,16 +858,14 @@ static inline enum rho_status model_take(const struct look *look, int64_t now_us
         return RHO_ERROR_CAPACITY;
     }
     if (!source) {
-        source = model_find_room(now_us);
-        model_add(source, look);
+        source = model_find_place_for_source(now_us);
+        model_add_source(source, look);
     }
-    model_begin(source, look, verdict, is_new, now_us);
+    model_begin_scan(source, look, verdict, is_new, now_us);
     return RHO_OK;
 }
 
-/*
- * ---- what goes out ----------------------------------------------------------------------------
- */
+/* ---- scans that are given -------------------------------------------------------------------- */
 
 static inline int model_was_held(const struct model_scan *scan, int64_t now_us)
 {
@@ -852,22 +873,22 @@ static inline int model_was_held(const struct model_scan *scan, int64_t now_us)
            (wide)scan->heard_us - now_us > model.config.hold_us;
 }
 
-static inline int model_one_was_held(int64_t now_us)
+static inline int model_any_scan_was_held(int64_t now_us)
 {
     int count = 0;
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         count += model.scans[i].state == M_WHOLE && model_was_held(&model.scans[i], now_us) &&
-                 !model_is_early(&model.scans[i], now_us);
+                 !model_is_early_newcomer_scan(&model.scans[i], now_us);
     }
     return count > 0;
 }
 
-static inline int model_has_turn(const struct model_scan *scan, int64_t now_us)
+static inline int model_are_others_past(const struct model_scan *scan, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
-        if (model_is_live(other, now_us) && other->off == 0 &&
+        if (model_was_heard_lately(other, now_us) && other->off == 0 &&
             other->place.time_us < scan->place.time_us) {
             return 0;
         }
@@ -879,10 +900,10 @@ static inline int model_has_turn(const struct model_scan *scan, int64_t now_us)
         if (other->state == M_OPEN && ahead < 0) {
             return 0;
         }
-        /* the number before it is missing, and one interval earlier is before this scan */
+        /* the number before is missing, and one interval earlier is before this scan */
         if ((other->state == M_OPEN || other->state == M_WHOLE) && !other->is_late &&
             !other->is_alone &&
-            model_is_skipped(other->source, (int32_t)((uint32_t)other->place.scan - 1u)) &&
+            model_is_skipped_number(other->source, (int32_t)((uint32_t)other->place.scan - 1u)) &&
             other->place.scan != other->source->numbers[0] &&
             (ahead < 0 ? 0 : ahead) < other->source->interval_us) {
             return 0;
@@ -891,34 +912,36 @@ static inline int model_has_turn(const struct model_scan *scan, int64_t now_us)
     return 1;
 }
 
-/* The scan that goes out; NULL: none. It stays readable until the next call. */
-static inline const struct model_scan *model_next(int64_t now_us, int *is_restart)
+/* The scan that is given next; NULL: none. It stays readable until the next call. */
+static inline const struct model_scan *model_next_scan(int64_t now_us, int *is_restart)
 {
-    struct model_scan *scan = model_in_state(M_OUT), *open;
+    struct model_scan *scan = model_scan_in_state(M_OUT), *open;
 
     if (scan) {
         scan->state = M_FREE;
     }
-    model.is_pressed = model.is_pressed && !model_in_state(M_FREE);
-    model_drop_useless();
+    model.is_pressed = model.is_pressed && !model_scan_in_state(M_FREE);
+    model_drop_too_late_scans();
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (model.scans[i].state == M_OPEN && model_was_held(&model.scans[i], now_us) &&
             (model.config.hold_us > 0 || now_us == INT64_MAX)) {
-            model_close(&model.scans[i]);
+            model_end_scan(&model.scans[i]);
         }
     }
-    scan = model_first(M_WHOLE, now_us);
-    open = model_first(M_OPEN, now_us);
+    scan = model_earliest_scan(M_WHOLE, now_us);
+    open = model_earliest_scan(M_OPEN, now_us);
     if (model.is_pressed) {
-        scan = model_spare_one(now_us) ? model_spare_one(now_us) : scan ? scan : open;
+        scan = model_scan_given_for_room(now_us) ? model_scan_given_for_room(now_us)
+               : scan                            ? scan
+                                                 : open;
         if (scan && scan->state == M_OPEN) {
-            model_close(scan);
+            model_end_scan(scan);
         }
-    } else if (scan && model.config.hold_us > 0 && model_one_was_held(now_us) && open &&
+    } else if (scan && model.config.hold_us > 0 && model_any_scan_was_held(now_us) && open &&
                open->place.time_us < scan->place.time_us) {
-        model_close(open); /* it would be late */
+        model_end_scan(open); /* it would be late after the given scan */
         scan = open;
-    } else if (scan && !model_one_was_held(now_us) && !model_has_turn(scan, now_us)) {
+    } else if (scan && !model_any_scan_was_held(now_us) && !model_are_others_past(scan, now_us)) {
         return NULL;
     }
     model.is_pressed = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A assembler, messages for it that are easily told apart, and what comes out. */
+/* A scan assembler, messages for it that are easily distinguished, and the scans that it gives. */
 #ifndef SCAN_ASSEMBLER_SETUP_H
 #define SCAN_ASSEMBLER_SETUP_H
 
@@ -61,15 +61,15 @@ static inline void start_assembler(void)
  */
 
 /*
- * One message. Its inputs count up from `tag`: a plot's x_m in metres, a polar plot's range, a
- * bearing's in mrad.
+ * Contents of one message. Its inputs count up from `tag`: x_m of plots in metres, ranges of polar
+ * plots, bearings in mrad.
  */
 struct look {
     int64_t time_us;
     int32_t scan, epoch;
     int16_t sensor_id;
     uint8_t kind;            /* enum rho_scan_assembler_kind */
-    int16_t part, num_parts; /* 0 counts as 1 */
+    int16_t part, num_parts; /* num_parts 0 means 1 */
     uint16_t count;
     int32_t tag;
 };
@@ -79,7 +79,7 @@ static inline int16_t parts_of(const struct look *look)
     return (int16_t)(look->num_parts > 0 ? look->num_parts : 1);
 }
 
-static inline size_t end_of_message(struct rho_message_writer *writer)
+static inline size_t end_message(struct rho_message_writer *writer)
 {
     size_t size = 0;
 
@@ -103,7 +103,7 @@ static inline size_t pack_plots(const struct look *look, uint8_t *buffer)
         struct rho_message_plot plot = {.x_m = (float)(look->tag + (int32_t)i), .y_m = 1.0f};
         assert_int_equal(rho_message_plot_scan_add(&writer, &plot), RHO_OK);
     }
-    return end_of_message(&writer);
+    return end_message(&writer);
 }
 
 static inline size_t pack_polar(const struct look *look, uint8_t *buffer)
@@ -121,7 +121,7 @@ static inline size_t pack_polar(const struct look *look, uint8_t *buffer)
         struct rho_message_polar_plot plot = {.range_m = (float)(look->tag + (int32_t)i)};
         assert_int_equal(rho_message_polar_scan_add(&writer, &plot), RHO_OK);
     }
-    return end_of_message(&writer);
+    return end_message(&writer);
 }
 
 static inline size_t pack_bearings(const struct look *look, uint8_t *buffer)
@@ -139,7 +139,7 @@ static inline size_t pack_bearings(const struct look *look, uint8_t *buffer)
         float bearing_rad = (float)(look->tag + (int32_t)i) * 1e-3f;
         assert_int_equal(rho_message_bearing_scan_add(&writer, &bearing_rad), RHO_OK);
     }
-    return end_of_message(&writer);
+    return end_message(&writer);
 }
 
 static inline size_t pack_message(const struct look *look, uint8_t *buffer)
@@ -158,7 +158,7 @@ static inline const char *channel_of(uint8_t kind, int16_t sensor_id)
     return channel;
 }
 
-/* Bytes from a buffer of exactly their size, so that sanitizers see what is read behind them. */
+/* Takes bytes from a buffer of exactly their size, so that sanitizers detect reads beyond it. */
 static inline enum rho_status take_bytes(const char *channel, const uint8_t *data, size_t size,
                                          int64_t now_us)
 {
@@ -172,7 +172,7 @@ static inline enum rho_status take_bytes(const char *channel, const uint8_t *dat
     return status;
 }
 
-static inline enum rho_status take_status(const struct look *look, int64_t now_us)
+static inline enum rho_status take_message_status(const struct look *look, int64_t now_us)
 {
     uint8_t buffer[DATAGRAM];
     size_t size = pack_message(look, buffer);
@@ -182,10 +182,10 @@ static inline enum rho_status take_status(const struct look *look, int64_t now_u
 
 static inline void take_message(const struct look *look, int64_t now_us)
 {
-    assert_int_equal(take_status(look, now_us), RHO_OK);
+    assert_int_equal(take_message_status(look, now_us), RHO_OK);
 }
 
-/* A whole scan of plots of one part, with the reception clock at its own time. */
+/* Takes a whole scan of plots in one part, received at its own time. */
 static inline void take_scan(int16_t sensor_id, int32_t scan, int64_t time_us)
 {
     struct look look = {
@@ -194,9 +194,7 @@ static inline void take_scan(int16_t sensor_id, int32_t scan, int64_t time_us)
     take_message(&look, time_us);
 }
 
-/*
- * ---- what comes out ---------------------------------------------------------------------------
- */
+/* ---- scans that are given -------------------------------------------------------------------- */
 
 static inline int64_t item_time_us(void)
 {
@@ -208,7 +206,7 @@ static inline int32_t item_sensor(void)
     return item.kind == RHO_SCAN_ASSEMBLER_BEARINGS ? item.bearings.sensor_id : item.scan.sensor_id;
 }
 
-/* The next item is that sensor's scan of that time. */
+/* The next given scan is that sensor's, of that time. */
 static inline void expect_next_scan(int64_t now_us, int32_t sensor_id, int64_t time_us)
 {
     assert_int_equal(rho_scan_assembler_next(&assembler, now_us, &item), 1);
@@ -221,7 +219,7 @@ static inline void expect_no_scan(int64_t now_us)
     assert_int_equal(rho_scan_assembler_next(&assembler, now_us, &item), 0);
 }
 
-static inline unsigned drain(int64_t now_us)
+static inline unsigned take_all_items(int64_t now_us)
 {
     unsigned count = 0;
 
@@ -231,7 +229,7 @@ static inline unsigned drain(int64_t now_us)
     return count;
 }
 
-/* Counters that moved must be these: a field that is not named is 0. */
+/* Counters must have exactly these values; fields that are not named are 0. */
 static inline void expect_counter_changes(struct rho_scan_assembler_counters want)
 {
     const uint32_t *is = (const uint32_t *)&assembler.counters, *must = (const uint32_t *)&want;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The node: messages in, steps in the order of time, messages out; sensors that it describes and
+ * The node: messages in, steps in order of time, messages out; sensors that it describes and
  * forgets.
  */
 #include <math.h>
@@ -29,10 +29,10 @@ static struct rho_node_waiting waiting[WAITING];
 static struct rho_node node;
 static int64_t now_us;
 
-/* What the node said was due, in order: S, F, R. */
+/* The node's due work in order: S scan, F frame, R restart. */
 static char done[4096];
 
-static struct rho_node_config config_of(uint16_t waiting_max)
+static struct rho_node_config node_config_of(uint16_t waiting_max)
 {
     return (struct rho_node_config){.assembler = &assembler,
                                     .tracker = &tracker,
@@ -44,7 +44,7 @@ static struct rho_node_config config_of(uint16_t waiting_max)
                                     .epoch = EPOCH};
 }
 
-static void open_tracker(void)
+static void init_tracker(void)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start;
@@ -55,7 +55,7 @@ static void open_tracker(void)
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &start), RHO_OK);
 }
 
-static void open_assembler(void)
+static void init_assembler(void)
 {
     struct rho_scan_assembler_config config;
 
@@ -63,15 +63,15 @@ static void open_assembler(void)
     assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, &config), RHO_OK);
 }
 
-static void open_all(void)
+static void init_all_objects(void)
 {
     struct rho_frames_config gather;
     struct rho_passive_config search;
 
     rho_frames_config_default(&gather);
     rho_passive_config_default(&search);
-    open_assembler();
-    open_tracker();
+    init_assembler();
+    init_tracker();
     memset(&report, 0, sizeof report);
     assert_int_equal(rho_frames_init(&frames, sizeof frames, &gather), RHO_OK);
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &search), RHO_OK);
@@ -79,15 +79,15 @@ static void open_all(void)
     done[0] = '\0';
 }
 
-static void start(uint16_t waiting_max)
+static void start_node(uint16_t waiting_max)
 {
-    const struct rho_node_config config = config_of(waiting_max);
+    const struct rho_node_config config = node_config_of(waiting_max);
 
-    open_all();
+    init_all_objects();
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
 }
 
-static void run_until(int64_t until_us)
+static void run_due_work_until(int64_t until_us)
 {
     enum rho_node_due due;
 
@@ -98,7 +98,7 @@ static void run_until(int64_t until_us)
         done[length] = "-SFR"[due];
         done[length + 1] = '\0';
         if (due == RHO_NODE_RESTART) {
-            open_tracker();
+            init_tracker();
             node.epoch++;
         } else {
             assert_int_equal(rho_node_step(&node, &initiator), RHO_OK);
@@ -106,19 +106,19 @@ static void run_until(int64_t until_us)
     }
 }
 
-static void take(const char *prefix, int sensor_id, const uint8_t *data, size_t size)
+static void take_message(const char *prefix, int sensor_id, const uint8_t *data, size_t size)
 {
     char channel[40];
 
     snprintf(channel, sizeof channel, "%s%d", prefix, sensor_id);
     while (rho_node_take(&node, channel, data, size, now_us) == RHO_ERROR_CAPACITY) {
-        run_until(now_us);
+        run_due_work_until(now_us);
     }
-    run_until(now_us);
+    run_due_work_until(now_us);
 }
 
-/* A radar's scan with one plot; scan numbers are seconds. */
-static void send_plots(int16_t sensor_id, int32_t scan, int64_t time_us, int16_t num_parts)
+/* Sends a radar's polar scan with one plot; scan numbers are seconds. */
+static void send_polar_scan(int16_t sensor_id, int32_t scan, int64_t time_us, int16_t num_parts)
 {
     static struct rho_message_polar_scan message;
     uint8_t bytes[RHO_MESSAGE_POLAR_SCAN_MAX_SIZE];
@@ -132,7 +132,7 @@ static void send_plots(int16_t sensor_id, int32_t scan, int64_t time_us, int16_t
                                               .num_polar_plots = 1};
     message.polar_plots[0].range_m = 20000.0f + 100.0f * (float)scan;
     assert_int_equal(rho_message_polar_scan_encode(&message, bytes, sizeof bytes, &size), RHO_OK);
-    take(RHO_MESSAGE_POLAR_SCAN_CHANNEL, sensor_id, bytes, size);
+    take_message(RHO_MESSAGE_POLAR_SCAN_CHANNEL, sensor_id, bytes, size);
 }
 
 static void send_bearing(int16_t sensor_id, float y_m, int32_t scan, int64_t time_us)
@@ -148,20 +148,20 @@ static void send_bearing(int16_t sensor_id, float y_m, int32_t scan, int64_t tim
                                                 .num_bearings = 1};
     message.bearing_rad[0] = atan2f(200.0f * (float)scan - y_m, 30000.0f);
     assert_int_equal(rho_message_bearing_scan_encode(&message, bytes, sizeof bytes, &size), RHO_OK);
-    take(RHO_MESSAGE_BEARING_SCAN_CHANNEL, sensor_id, bytes, size);
+    take_message(RHO_MESSAGE_BEARING_SCAN_CHANNEL, sensor_id, bytes, size);
 }
 
 /*
  * ---- start ------------------------------------------------------------------------------------
  */
 
-static void what_is_missing_is_refused(void **state)
+static void missing_parts_of_a_node_are_refused(void **state)
 {
-    struct rho_node_config config = config_of(WAITING);
+    struct rho_node_config config = node_config_of(WAITING);
 
     (void)state;
     memset(&node, 0, sizeof node);
-    open_all();
+    init_all_objects();
     assert_int_equal(rho_node_take(&node, "RHO_PLOTS_1", (const uint8_t *)"", 0, 0),
                      RHO_ERROR_STATE);
     assert_int_equal(rho_node_take(NULL, "RHO_PLOTS_1", (const uint8_t *)"", 0, 0), RHO_ERROR_NULL);
@@ -173,19 +173,20 @@ static void what_is_missing_is_refused(void **state)
     assert_int_equal(rho_node_init(&node, sizeof node - 1, &config), RHO_ERROR_SIZE);
     config.passive_range_max_m = NAN;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_CONFIG);
-    config = config_of(WAITING);
-    config.frames = NULL; /* a search, and no frames */
+    config = node_config_of(WAITING);
+    config.frames = NULL; /* an initiation of bearings without frames */
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_NULL);
-    config = config_of(WAITING);
-    config.passive = NULL; /* the caller's own, and not said how far its sensors may be apart */
+    config = node_config_of(WAITING);
+    /* the caller's own search, without the distance its sensors may be apart */
+    config.passive = NULL;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_CONFIG);
-    config = config_of(WAITING);
+    config = node_config_of(WAITING);
     config.waiting = NULL;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_NULL);
-    config = config_of(WAITING);
+    config = node_config_of(WAITING);
     config.report = NULL;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_NULL);
-    config = config_of(WAITING);
+    config = node_config_of(WAITING);
     memset(&frames, 0, sizeof frames);
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_STATE);
     assert_int_equal(rho_node_step(NULL, &initiator), RHO_ERROR_NULL);
@@ -195,7 +196,7 @@ static void what_is_missing_is_refused(void **state)
  * ---- steps and messages -----------------------------------------------------------------------
  */
 
-static void scans_become_steps_and_messages(void **state)
+static void scans_are_stepped_and_published(void **state)
 {
     static struct rho_message_track_list tracks;
     static struct rho_message_peak_list peaks;
@@ -204,10 +205,10 @@ static void scans_become_steps_and_messages(void **state)
     uint16_t last;
 
     (void)state;
-    start(WAITING);
+    start_node(WAITING);
     assert_int_equal(rho_node_step(&node, &initiator), RHO_ERROR_STATE);
     for (int32_t k = 0; k < 3; k++, now_us += SECOND_US) {
-        send_plots(1, k, now_us, 1);
+        send_polar_scan(1, k, now_us, 1);
     }
     assert_string_equal(done, "SSS");
     assert_int_equal(node.counters.steps, 3);
@@ -231,14 +232,14 @@ static void scans_become_steps_and_messages(void **state)
     assert_int_equal(rho_node_publish(NULL, &initiator, 0, bytes, 4, &size), RHO_ERROR_NULL);
 }
 
-static void the_state_is_told_with_step_times(void **state)
+static void the_status_holds_mean_and_longest_step_time(void **state)
 {
     struct rho_message_status status;
     struct rho_message_work work;
 
     (void)state;
-    start(WAITING);
-    send_plots(1, 0, now_us, 1);
+    start_node(WAITING);
+    send_polar_scan(1, 0, now_us, 1);
     rho_node_count_time(&node, 30);
     rho_node_count_time(&node, 10);
     rho_node_status(&node, &initiator, &status);
@@ -255,12 +256,12 @@ static void the_state_is_told_with_step_times(void **state)
     assert_int_equal(work.work_max, tracker.config.work_max);
 }
 
-static void sensors_are_told_of_in_turn(void **state)
+static void sensor_messages_go_out_in_turn(void **state)
 {
     struct rho_message_learned learned = {.sensor_id = 77};
 
     (void)state;
-    start(WAITING);
+    start_node(WAITING);
     assert_int_equal(rho_node_learned(&node, &learned), 0);
     assert_int_equal(rho_node_learned(NULL, &learned), 0);
     assert_int_equal(learned.sensor_id, 77);
@@ -278,21 +279,21 @@ static void sensors_are_told_of_in_turn(void **state)
     assert_int_equal(rho_node_learned(&node, NULL), 0);
 }
 
-/* Scans without their last part fill the assembler: the oldest goes out, before it has waited. */
-static void a_message_without_room_waits_for_one_scan(void **state)
+/* Scans without their last part fill the assembler: the oldest is given before its hold time. */
+static void a_full_assembler_gives_one_scan_to_make_room(void **state)
 {
     (void)state;
-    start(WAITING);
+    start_node(WAITING);
     for (int16_t sensor = 1; sensor <= RHO_MAX_OPEN_SCANS; sensor++) {
-        send_plots(sensor, 0, now_us + sensor, 2);
+        send_polar_scan(sensor, 0, now_us + sensor, 2);
     }
     assert_string_equal(done, "");
     assert_true(rho_node_due_us(&node) == now_us + assembler.config.hold_us);
-    send_plots(RHO_MAX_OPEN_SCANS + 1, 0, now_us + RHO_MAX_OPEN_SCANS + 1, 2);
+    send_polar_scan(RHO_MAX_OPEN_SCANS + 1, 0, now_us + RHO_MAX_OPEN_SCANS + 1, 2);
     assert_string_equal(done, "S");
     assert_int_equal(node.counters.scans_early, 1);
     now_us += SECOND_US;
-    run_until(now_us);
+    run_due_work_until(now_us);
     assert_int_equal(strlen(done), RHO_MAX_OPEN_SCANS + 1);
     assert_int_equal(node.counters.scans_early, 1);
 }
@@ -301,25 +302,25 @@ static void a_message_without_room_waits_for_one_scan(void **state)
  * ---- sensors ----------------------------------------------------------------------------------
  */
 
-static void silent_sensors_make_room(void **state)
+static void silent_sensors_make_room_for_others(void **state)
 {
     const int64_t step_us = 20 * SECOND_US;
 
     (void)state;
-    start(WAITING);
+    start_node(WAITING);
     for (int16_t sensor = 1; sensor <= RHO_MAX_SENSORS; sensor++, now_us += 10) {
-        send_plots(sensor, 0, now_us, 1);
+        send_polar_scan(sensor, 0, now_us, 1);
     }
     for (int32_t k = 1; k <= 2; k++) {
         now_us += step_us;
-        send_plots(1, k, now_us, 1);
+        send_polar_scan(1, k, now_us, 1);
     }
     now_us += 10;
     assert_true(2 * step_us > assembler.config.jump_max_us);
     assert_int_equal(tracker.num_sensors, RHO_MAX_SENSORS);
     assert_int_equal(node.counters.sensors_forgotten, 0);
-    send_plots(RHO_MAX_SENSORS + 1, 0, now_us, 1);
-    run_until(INT64_MAX);
+    send_polar_scan(RHO_MAX_SENSORS + 1, 0, now_us, 1);
+    run_due_work_until(INT64_MAX);
     assert_int_equal(node.counters.sensors_forgotten, RHO_MAX_SENSORS - 1);
     assert_int_equal(tracker.num_sensors, 2);
     assert_int_equal(node.counters.scans_refused, 0);
@@ -330,14 +331,14 @@ static void a_scan_of_a_sensor_without_room_is_refused(void **state)
     struct rho_message_status status;
 
     (void)state;
-    start(WAITING);
+    start_node(WAITING);
     for (int16_t sensor = 1; sensor <= RHO_MAX_SENSORS; sensor++) {
-        send_plots(sensor, 0, now_us, 1);
+        send_polar_scan(sensor, 0, now_us, 1);
         assembler.sources[sensor - 1].heard_us = now_us;
     }
-    run_until(INT64_MAX);
+    run_due_work_until(INT64_MAX);
     done[0] = '\0';
-    /* the tracker holds sensors that the assembler hears, under other numbers */
+    /* the tracker's table is full of sensors that the assembler hears under other numbers */
     for (int i = 0; i < RHO_MAX_SENSORS; i++) {
         assembler.sources[i].sensor_id = (int16_t)tracker.sensors[i].sensor_id;
     }
@@ -347,7 +348,7 @@ static void a_scan_of_a_sensor_without_room_is_refused(void **state)
     node.item.has_sensor = 1;
     node.item.scan.num_plots = 5;
     node.has_item = 1;
-    run_until(now_us);
+    run_due_work_until(now_us);
     assert_string_equal(done, "");
     assert_int_equal(node.counters.sensors_refused, 1);
     assert_int_equal(node.counters.scans_refused, 1);
@@ -356,20 +357,20 @@ static void a_scan_of_a_sensor_without_room_is_refused(void **state)
     assert_int_equal(status.plots_in, RHO_MAX_SENSORS + 5);
 }
 
-static void an_older_clock_than_the_snapshot_s_restarts(void **state)
+static void scans_older_than_a_loaded_snapshot_restart_the_node(void **state)
 {
-    const struct rho_node_config config = config_of(WAITING);
+    const struct rho_node_config config = node_config_of(WAITING);
 
     (void)state;
-    start(WAITING);
-    send_plots(1, 0, now_us, 1);
+    start_node(WAITING);
+    send_polar_scan(1, 0, now_us, 1);
     for (int is_older = 0; is_older < 2; is_older++) {
-        open_assembler();
+        init_assembler();
         assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
         node.is_restored = 1;
         done[0] = '\0';
         now_us -= is_older ? assembler.config.jump_max_us + 2 * SECOND_US : -SECOND_US;
-        send_plots(1, 0, now_us, 1);
+        send_polar_scan(1, 0, now_us, 1);
         assert_string_equal(done, is_older ? "RS" : "S");
         assert_int_equal(node.counters.restarts, is_older);
         assert_int_equal(node.epoch, EPOCH + is_older);
@@ -380,48 +381,48 @@ static void an_older_clock_than_the_snapshot_s_restarts(void **state)
  * ---- bearings ---------------------------------------------------------------------------------
  */
 
-static void frames_close_by_the_next_one_or_in_time(void **state)
+static void frames_close_at_the_next_frame_or_by_timeout(void **state)
 {
     (void)state;
-    start(WAITING);
+    start_node(WAITING);
     assembler.config.gives_other = 1;
     for (int32_t k = 0; k < 2; k++, now_us += SECOND_US) {
         send_bearing(1, 0.0f, k, now_us);
         send_bearing(2, 20000.0f, k, now_us);
     }
-    run_until(now_us - SECOND_US + 2 * assembler.config.hold_us);
+    run_due_work_until(now_us - SECOND_US + 2 * assembler.config.hold_us);
     done[0] = '\0';
     send_bearing(1, 0.0f, 2, now_us);
-    run_until(now_us + assembler.config.hold_us);
+    run_due_work_until(now_us + assembler.config.hold_us);
     assert_string_equal(done, "");
     assert_true(rho_node_due_us(&node) > now_us && rho_node_due_us(&node) < now_us + SECOND_US);
-    run_until(rho_node_due_us(&node));
+    run_due_work_until(rho_node_due_us(&node));
     assert_string_equal(done, "F");
     assert_int_equal(tracker.num_sensors, 2);
     assert_int_equal(rho_node_num_messages(&node), 2);
 }
 
-static void plots_wait_for_the_open_frame(void **state)
+static void scans_wait_for_an_open_frame_of_bearings(void **state)
 {
     for (uint16_t room = 0; room <= WAITING; room += WAITING) {
         (void)state;
-        start(room);
+        start_node(room);
         assembler.config.hold_us = 0;
         send_bearing(1, 0.0f, 0, now_us);
-        send_plots(5, 0, now_us + 10, 1);
+        send_polar_scan(5, 0, now_us + 10, 1);
         assert_string_equal(done, room > 0 ? "" : "FS");
-        send_plots(5, 1, now_us + 20, 1);
+        send_polar_scan(5, 1, now_us + 20, 1);
         assert_string_equal(done, "FSS");
-        send_plots(5, 2, now_us + 30, 1);
-        run_until(INT64_MAX);
+        send_polar_scan(5, 2, now_us + 30, 1);
+        run_due_work_until(INT64_MAX);
         assert_string_equal(done, "FSSS");
     }
 }
 
-static void a_passive_sensor_that_has_moved_is_taken_in_the_end(void **state)
+static void a_moved_passive_sensor_is_accepted_after_a_while(void **state)
 {
     (void)state;
-    start(WAITING);
+    start_node(WAITING);
     for (int32_t k = 0; k < 4; k++, now_us += SECOND_US) {
         send_bearing(1, 0.0f, k, now_us);
     }
@@ -434,10 +435,10 @@ static void a_passive_sensor_that_has_moved_is_taken_in_the_end(void **state)
     assert_int_equal(node.counters.restarts, 0);
 }
 
-static void passive_sensors_have_the_range_of_the_search(void **state)
+static void passive_sensors_have_the_range_of_the_initiation(void **state)
 {
     (void)state;
-    start(WAITING);
+    start_node(WAITING);
     assembler.config.gives_other = 1;
     node.config.passive_range_max_m = 90000.0f;
     send_bearing(1, 0.0f, 0, now_us);
@@ -445,29 +446,29 @@ static void passive_sensors_have_the_range_of_the_search(void **state)
     assert_true(tracker.sensors[0].range_max_m <= 90000.0f);
 }
 
-static void radars_alone_refuse_bearings(void **state)
+static void a_node_without_frames_refuses_bearings(void **state)
 {
-    struct rho_node_config config = config_of(0);
+    struct rho_node_config config = node_config_of(0);
 
     (void)state;
-    open_all();
+    init_all_objects();
     config.frames = NULL;
     config.passive = NULL;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
     send_bearing(1, 0.0f, 0, now_us);
-    send_plots(5, 0, now_us + 10, 1);
-    run_until(INT64_MAX);
+    send_polar_scan(5, 0, now_us + 10, 1);
+    run_due_work_until(INT64_MAX);
     assert_string_equal(done, "S");
     assert_int_equal(node.counters.bearings_refused, 1);
 }
 
-/* Frames are stepped and start nothing; a sensor that is too far from the others is refused. */
-static void the_caller_may_start_tracks_from_frames(void **state)
+/* Frames are stepped and start no tracks; a sensor too far from the others is refused. */
+static void frames_are_stepped_for_a_caller_with_its_own_search(void **state)
 {
-    struct rho_node_config config = config_of(0);
+    struct rho_node_config config = node_config_of(0);
 
     (void)state;
-    open_all();
+    init_all_objects();
     config.passive = NULL;
     config.apart_max_m = 30000.0f;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
@@ -475,7 +476,7 @@ static void the_caller_may_start_tracks_from_frames(void **state)
         send_bearing(1, -10000.0f, scan, now_us + 10000000 * scan);
         send_bearing(2, 10000.0f, scan, now_us + 10000000 * scan);
         send_bearing(3, 40000.0f, scan, now_us + 10000000 * scan);
-        run_until(INT64_MAX);
+        run_due_work_until(INT64_MAX);
     }
     assert_string_equal(done, "FFF");
     assert_int_equal(tracker.num_tracks, 0);
@@ -485,20 +486,20 @@ static void the_caller_may_start_tracks_from_frames(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_missing_is_refused),
-        cmocka_unit_test(the_caller_may_start_tracks_from_frames),
-        cmocka_unit_test(scans_become_steps_and_messages),
-        cmocka_unit_test(the_state_is_told_with_step_times),
-        cmocka_unit_test(sensors_are_told_of_in_turn),
-        cmocka_unit_test(a_message_without_room_waits_for_one_scan),
-        cmocka_unit_test(silent_sensors_make_room),
+        cmocka_unit_test(missing_parts_of_a_node_are_refused),
+        cmocka_unit_test(frames_are_stepped_for_a_caller_with_its_own_search),
+        cmocka_unit_test(scans_are_stepped_and_published),
+        cmocka_unit_test(the_status_holds_mean_and_longest_step_time),
+        cmocka_unit_test(sensor_messages_go_out_in_turn),
+        cmocka_unit_test(a_full_assembler_gives_one_scan_to_make_room),
+        cmocka_unit_test(silent_sensors_make_room_for_others),
         cmocka_unit_test(a_scan_of_a_sensor_without_room_is_refused),
-        cmocka_unit_test(an_older_clock_than_the_snapshot_s_restarts),
-        cmocka_unit_test(frames_close_by_the_next_one_or_in_time),
-        cmocka_unit_test(plots_wait_for_the_open_frame),
-        cmocka_unit_test(a_passive_sensor_that_has_moved_is_taken_in_the_end),
-        cmocka_unit_test(passive_sensors_have_the_range_of_the_search),
-        cmocka_unit_test(radars_alone_refuse_bearings),
+        cmocka_unit_test(scans_older_than_a_loaded_snapshot_restart_the_node),
+        cmocka_unit_test(frames_close_at_the_next_frame_or_by_timeout),
+        cmocka_unit_test(scans_wait_for_an_open_frame_of_bearings),
+        cmocka_unit_test(a_moved_passive_sensor_is_accepted_after_a_while),
+        cmocka_unit_test(passive_sensors_have_the_range_of_the_initiation),
+        cmocka_unit_test(a_node_without_frames_refuses_bearings),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Reports, candidates and counters as messages: what the receivers read is what was there. */
+/* Reports, candidates and counters as messages: receivers read the values that were published. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,7 +29,7 @@ static struct rho_message_place place;
  * ---- tracks -----------------------------------------------------------------------------------
  */
 
-static void make_report(unsigned num_tracks, unsigned num_ended)
+static void fill_report(unsigned num_tracks, unsigned num_ended)
 {
     memset(&report, 0, sizeof report);
     report.time_us = -5;
@@ -62,8 +62,8 @@ static void make_report(unsigned num_tracks, unsigned num_ended)
     }
 }
 
-/* The part as its receivers see it, from a buffer that has no byte to spare. */
-static void read_part(uint16_t part)
+/* Publishes a part and decodes it from a buffer of exactly its size. */
+static void publish_and_read_part(uint16_t part)
 {
     uint8_t *buffer = malloc(RHO_MESSAGE_TRACK_LIST_MAX_SIZE);
     size_t size = 0, same = 0;
@@ -88,7 +88,8 @@ static void read_part(uint16_t part)
     free(buffer);
 }
 
-static void is_track(const struct rho_message_track *message, const struct rho_track_report *track)
+static void assert_message_equals_track(const struct rho_message_track *message,
+                                        const struct rho_track_report *track)
 {
     assert_int_equal(message->track_id, track->track_id);
     assert_int_equal(message->status, track->status == RHO_TRACK_TENTATIVE   ? 1
@@ -106,18 +107,18 @@ static void is_track(const struct rho_message_track *message, const struct rho_t
     assert_memory_equal(message->covariance, track->covariance, sizeof message->covariance);
 }
 
-static void all_tracks_go_out_once_in_their_order(void **state)
+static void all_tracks_are_sent_once_in_their_order(void **state)
 {
     (void)state;
     for (unsigned tracks = 0; tracks <= 30; tracks++) {
         for (unsigned ended = 0; ended <= 12; ended += 3) {
             unsigned entry = 0, total = tracks + ended;
 
-            make_report(tracks, ended);
+            fill_report(tracks, ended);
             unsigned parts = total == 0 ? 1 : (total + PART - 1) / PART;
             assert_int_equal(rho_publish_num_parts(&report), parts);
             for (unsigned part = 0; part < parts; part++) {
-                read_part((uint16_t)part);
+                publish_and_read_part((uint16_t)part);
                 assert_int_equal(list.utime, -5);
                 assert_int_equal(list.scan, 77);
                 assert_int_equal(list.epoch, 88);
@@ -126,7 +127,7 @@ static void all_tracks_go_out_once_in_their_order(void **state)
                 assert_int_equal(list.num_tracks_total, total);
                 for (int i = 0; i < list.num_tracks; i++, entry++) {
                     if (entry < tracks) {
-                        is_track(&list.tracks[i], &report.tracks[entry]);
+                        assert_message_equals_track(&list.tracks[i], &report.tracks[entry]);
                     } else {
                         struct rho_message_track want = {
                             .track_id = (int32_t)(5000 + entry - tracks), .status = 4, .plot = -1};
@@ -146,24 +147,24 @@ static void all_tracks_go_out_once_in_their_order(void **state)
     }
 }
 
-static void a_full_report_fits(void **state)
+static void a_full_report_is_sent_in_parts(void **state)
 {
     unsigned seen = 0;
 
     (void)state;
-    make_report(RHO_MAX_TRACKS, RHO_MAX_TRACKS);
+    fill_report(RHO_MAX_TRACKS, RHO_MAX_TRACKS);
     for (uint16_t part = 0; part < rho_publish_num_parts(&report); part++) {
-        read_part(part);
+        publish_and_read_part(part);
         seen += (unsigned)list.num_tracks;
     }
     assert_int_equal(seen, 2 * RHO_MAX_TRACKS);
     assert_int_equal(list.num_tracks_total, 2 * RHO_MAX_TRACKS);
 }
 
-static void numbers_beyond_the_fields_stay_at_their_ends(void **state)
+static void numbers_beyond_their_fields_are_clamped(void **state)
 {
     (void)state;
-    make_report(2, 1);
+    fill_report(2, 1);
     report.tracks[0].hits = report.tracks[0].misses = UINT16_MAX;
     report.tracks[0].plot = 40000;
     report.tracks[0].sensor_id = 32768;
@@ -173,7 +174,7 @@ static void numbers_beyond_the_fields_stay_at_their_ends(void **state)
     report.tracks[1].hits = 32767;
     report.tracks[1].update_age_us = INT32_MAX;
     report.ended[0] = UINT32_MAX;
-    read_part(0);
+    publish_and_read_part(0);
     assert_int_equal(list.tracks[0].hits, 32767);
     assert_int_equal(list.tracks[0].misses, 32767);
     assert_int_equal(list.tracks[0].plot, 32767);
@@ -186,18 +187,18 @@ static void numbers_beyond_the_fields_stay_at_their_ends(void **state)
     assert_int_equal(list.tracks[2].track_id, INT32_MAX);
     report.tracks[0].sensor_id = 32767;
     report.tracks[1].sensor_id = -32768;
-    read_part(0);
+    publish_and_read_part(0);
     assert_int_equal(list.tracks[0].sensor_id, 32767);
     assert_int_equal(list.tracks[1].sensor_id, -32768);
 }
 
-static void what_cannot_be_published_is_refused(void **state)
+static void bad_arguments_of_publishing_are_refused(void **state)
 {
     uint8_t buffer[RHO_MESSAGE_TRACK_LIST_MAX_SIZE];
     size_t size = 3;
 
     (void)state;
-    make_report(PART, 0);
+    fill_report(PART, 0);
     assert_int_equal(rho_publish_num_parts(NULL), 1);
     assert_int_equal(rho_publish_tracks(NULL, 0, 0, 0, buffer, sizeof buffer, &size),
                      RHO_ERROR_NULL);
@@ -220,7 +221,7 @@ static void what_cannot_be_published_is_refused(void **state)
  * ---- peaks ------------------------------------------------------------------------------------
  */
 
-static void read_peaks(int has_initiator, int has_passive)
+static void publish_and_read_peaks(int has_initiator, int has_passive)
 {
     uint8_t buffer[RHO_MESSAGE_PEAK_LIST_MAX_SIZE];
     size_t size = 0;
@@ -235,7 +236,7 @@ static void read_peaks(int has_initiator, int has_passive)
     assert_int_equal(peaks.scan, 56);
 }
 
-static void make_candidates(unsigned num_candidates, unsigned num_passive)
+static void fill_candidates(unsigned num_candidates, unsigned num_passive)
 {
     memset(&initiator, 0, sizeof initiator);
     memset(&passive, 0, sizeof passive);
@@ -255,16 +256,16 @@ static void make_candidates(unsigned num_candidates, unsigned num_passive)
             .x_m = 5.0f, .y_m = 7.0f, .vy_mps = 2.0f, .score_mnat = 1500, .scans = 0xb};
         for (unsigned sensor = 0; sensor < i % (RHO_MAX_PASSIVE_SENSORS + 1); sensor++) {
             passive.tracks[i].claim[(i + sensor) % RHO_MAX_PASSIVE_SCANS][sensor] = 2;
-            passive.tracks[i].claim[0][sensor] = 1; /* more than one scan is one sensor still */
+            passive.tracks[i].claim[0][sensor] = 1; /* several scans of a sensor count it once */
         }
     }
 }
 
-static void a_peak_is_the_candidates_line(void **state)
+static void a_peak_holds_the_line_of_its_candidate(void **state)
 {
     (void)state;
-    make_candidates(20, 0);
-    read_peaks(1, 0);
+    fill_candidates(20, 0);
+    publish_and_read_peaks(1, 0);
     assert_int_equal(peaks.num_peaks, 20);
     for (int i = 0; i < 20; i++) {
         const struct rho_message_peak *peak = &peaks.peaks[i];
@@ -283,15 +284,15 @@ static void a_peak_is_the_candidates_line(void **state)
     }
 }
 
-static void pairs_of_sensors_count_those_with_a_claim(void **state)
+static void sensor_pairs_count_sensors_with_a_claim(void **state)
 {
     const unsigned tracks = RHO_MAX_PASSIVE_SENSORS + 1 < RHO_MAX_PASSIVE_TRACKS
                                 ? RHO_MAX_PASSIVE_SENSORS + 1
                                 : RHO_MAX_PASSIVE_TRACKS;
 
     (void)state;
-    make_candidates(2, tracks);
-    read_peaks(1, 1);
+    fill_candidates(2, tracks);
+    publish_and_read_peaks(1, 1);
     assert_int_equal(peaks.num_peaks, 2 + tracks);
     for (unsigned i = 0; i < tracks; i++) {
         assert_int_equal(peaks.peaks[2 + i].sensor_pairs, i * (i > 0 ? i - 1 : 0) / 2);
@@ -300,28 +301,28 @@ static void pairs_of_sensors_count_those_with_a_claim(void **state)
         assert_true(peaks.peaks[2 + i].speed_mps == 2.0f);
         assert_true(fabs((double)peaks.peaks[2 + i].rho_m - 5.0) < 1e-4);
     }
-    read_peaks(0, 1);
+    publish_and_read_peaks(0, 1);
     assert_int_equal(peaks.num_peaks, tracks);
-    read_peaks(0, 0);
+    publish_and_read_peaks(0, 0);
     assert_int_equal(peaks.num_peaks, 0);
 }
 
-static void the_best_peaks_go_out(void **state)
+static void the_best_peaks_are_sent(void **state)
 {
     (void)state;
-    make_candidates(RHO_MAX_CANDIDATES, RHO_MAX_PASSIVE_TRACKS);
-    read_peaks(1, 1);
+    fill_candidates(RHO_MAX_CANDIDATES, RHO_MAX_PASSIVE_TRACKS);
+    publish_and_read_peaks(1, 1);
     unsigned all = RHO_MAX_CANDIDATES + RHO_MAX_PASSIVE_TRACKS;
     assert_int_equal(peaks.num_peaks, all < 48 ? all : 48);
 }
 
-static void what_stands_still_has_a_line_all_the_same(void **state)
+static void candidates_at_rest_have_a_line(void **state)
 {
     (void)state;
-    make_candidates(1, 1);
+    fill_candidates(1, 1);
     initiator.candidates[0].vx_mps = initiator.candidates[0].vy_mps = 0.0f;
     passive.tracks[0].vy_mps = 0.0f;
-    read_peaks(1, 1);
+    publish_and_read_peaks(1, 1);
     assert_true(peaks.peaks[0].speed_mps == 0.0f && peaks.peaks[0].theta_rad == 0.0f);
     assert_true(peaks.peaks[0].rho_m == initiator.candidates[0].x_m);
     assert_true(peaks.peaks[1].rho_m == 5.0f);
@@ -331,7 +332,7 @@ static void what_stands_still_has_a_line_all_the_same(void **state)
  * ---- status -----------------------------------------------------------------------------------
  */
 
-/* Their bytes as messages: structs have gaps. */
+/* Compares encoded bytes, as structs have padding. */
 static void assert_same_status(const struct rho_message_status *want)
 {
     uint8_t is[RHO_MESSAGE_STATUS_MAX_SIZE], must[RHO_MESSAGE_STATUS_MAX_SIZE];
@@ -342,7 +343,7 @@ static void assert_same_status(const struct rho_message_status *want)
     assert_memory_equal(is, must, size);
 }
 
-static void every_field_comes_from_its_counter(void **state)
+static void every_status_field_comes_from_its_counter(void **state)
 {
     struct rho_message_status want;
 
@@ -410,7 +411,7 @@ static void every_field_comes_from_its_counter(void **state)
     assert_int_equal(rho_message_status_validate(&status, &place), RHO_OK);
 }
 
-static void full_counters_stay_at_the_end(void **state)
+static void full_counters_are_clamped(void **state)
 {
     (void)state;
     memset(&assembler.counters, 0xff, sizeof assembler.counters);
@@ -425,7 +426,7 @@ static void full_counters_stay_at_the_end(void **state)
     }
 }
 
-static void nothing_is_zeros(void **state)
+static void status_of_null_objects_is_all_zero(void **state)
 {
     struct rho_message_status zeros;
 
@@ -440,7 +441,7 @@ static void nothing_is_zeros(void **state)
 
 /* ---- work ----------------------------------------------------------------------------------- */
 
-static void work_is_the_trackers(void **state)
+static void the_work_message_holds_the_trackers_work(void **state)
 {
     struct rho_message_work work, zeros;
 
@@ -466,8 +467,8 @@ static void work_is_the_trackers(void **state)
     rho_publish_work(&tracker, NULL);
 }
 
-/* Three targets that come, are seen, and go, the first one first or last. */
-static void follow_targets(int is_first)
+/* Three targets come, are seen and go, the first one at the beginning or at the end. */
+static void track_three_passing_targets(int is_first)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config initiator_config;
@@ -501,36 +502,36 @@ static void follow_targets(int is_first)
         assert_int_equal(status.tracks_coasting, live[RHO_TRACK_COASTING]);
         most = status.tracks_confirmed > most ? status.tracks_confirmed : most;
         for (uint16_t part = 0; part < rho_publish_num_parts(&report); part++) {
-            read_part(part);
+            publish_and_read_part(part);
         }
     }
     assert_int_equal(most, 3);
     assert_int_equal(report.num_tracks, 0);
 }
 
-static void tracks_that_ended_are_not_counted(void **state)
+static void ended_tracks_are_not_counted_in_the_status(void **state)
 {
     (void)state;
-    follow_targets(0);
-    follow_targets(1);
+    track_three_passing_targets(0);
+    track_three_passing_targets(1);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_tracks_go_out_once_in_their_order),
-        cmocka_unit_test(a_full_report_fits),
-        cmocka_unit_test(numbers_beyond_the_fields_stay_at_their_ends),
-        cmocka_unit_test(what_cannot_be_published_is_refused),
-        cmocka_unit_test(a_peak_is_the_candidates_line),
-        cmocka_unit_test(pairs_of_sensors_count_those_with_a_claim),
-        cmocka_unit_test(the_best_peaks_go_out),
-        cmocka_unit_test(what_stands_still_has_a_line_all_the_same),
-        cmocka_unit_test(every_field_comes_from_its_counter),
-        cmocka_unit_test(full_counters_stay_at_the_end),
-        cmocka_unit_test(nothing_is_zeros),
-        cmocka_unit_test(work_is_the_trackers),
-        cmocka_unit_test(tracks_that_ended_are_not_counted),
+        cmocka_unit_test(all_tracks_are_sent_once_in_their_order),
+        cmocka_unit_test(a_full_report_is_sent_in_parts),
+        cmocka_unit_test(numbers_beyond_their_fields_are_clamped),
+        cmocka_unit_test(bad_arguments_of_publishing_are_refused),
+        cmocka_unit_test(a_peak_holds_the_line_of_its_candidate),
+        cmocka_unit_test(sensor_pairs_count_sensors_with_a_claim),
+        cmocka_unit_test(the_best_peaks_are_sent),
+        cmocka_unit_test(candidates_at_rest_have_a_line),
+        cmocka_unit_test(every_status_field_comes_from_its_counter),
+        cmocka_unit_test(full_counters_are_clamped),
+        cmocka_unit_test(status_of_null_objects_is_all_zero),
+        cmocka_unit_test(the_work_message_holds_the_trackers_work),
+        cmocka_unit_test(ended_tracks_are_not_counted_in_the_status),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

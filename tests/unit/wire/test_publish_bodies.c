@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bodies of tracks as messages: receivers read what the tracker knows, in parts; and the node sends
- * them behind tracks and peaks, where its tracker was told of bodies.
+ * Bodies of tracks as messages in parts: receivers read what the tracker knows; a node whose
+ * tracker was told of bodies sends them after tracks and peaks.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 #include "rhotrack/publish.h"
 #include "rhotrack/udpm.h"
 
-#define VEHICLES 30 /* two parts */
+#define VEHICLES 30 /* enough for two parts */
 #define PLOTS 3
 
 static struct rho_tracker tracker;
@@ -23,7 +23,7 @@ static struct rho_initiator initiator;
 static struct rho_report report;
 static struct rho_message_body_list list;
 
-static void begin(float body_max_m)
+static void start_tracker(float body_max_m)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start;
@@ -36,8 +36,8 @@ static void begin(float body_max_m)
     memset(&report, 0, sizeof report);
 }
 
-/* Vehicles of 8 m side by side, 100 m apart, seen at their ends and in the middle. */
-static void drive(int num_vehicles, int seconds)
+/* Vehicles of 8 m side by side, 100 m apart, seen at both ends and in the middle. */
+static void track_vehicles(int num_vehicles, int seconds)
 {
     static struct rho_plot plots[VEHICLES * PLOTS];
 
@@ -58,7 +58,7 @@ static void drive(int num_vehicles, int seconds)
     }
 }
 
-static void read_part(uint16_t part)
+static void publish_and_read_part(uint16_t part)
 {
     uint8_t buffer[RHO_MESSAGE_BODY_LIST_MAX_SIZE];
     size_t size;
@@ -69,7 +69,7 @@ static void read_part(uint16_t part)
     assert_int_equal(rho_message_body_list_validate(&list, NULL), RHO_OK);
 }
 
-static void each_body_goes_out_once_with_its_track(void **state)
+static void each_body_is_sent_once_with_its_track(void **state)
 {
     struct rho_body body;
     unsigned track = 0;
@@ -78,15 +78,15 @@ static void each_body_goes_out_once_with_its_track(void **state)
     if (!RHO_BODIES) {
         skip();
     }
-    begin(12.0f);
+    start_tracker(12.0f);
     assert_int_equal(rho_publish_num_body_parts(&tracker, &report), 1);
-    read_part(0);
+    publish_and_read_part(0);
     assert_int_equal(list.num_bodies, 0);
-    drive(VEHICLES, 3);
+    track_vehicles(VEHICLES, 3);
     assert_int_equal(report.num_tracks, VEHICLES);
     assert_int_equal(rho_publish_num_body_parts(&tracker, &report), 2);
     for (uint16_t part = 0; part < 2; part++) {
-        read_part(part);
+        publish_and_read_part(part);
         assert_int_equal(list.num_bodies, part == 0 ? RHO_MESSAGE_BODY_LIST_MAX_BODIES
                                                     : VEHICLES - RHO_MESSAGE_BODY_LIST_MAX_BODIES);
         assert_int_equal(list.utime, report.time_us);
@@ -116,20 +116,20 @@ static void each_body_goes_out_once_with_its_track(void **state)
     assert_int_equal(track, VEHICLES);
 }
 
-static void what_cannot_be_published_is_refused(void **state)
+static void bad_arguments_of_publishing_are_refused(void **state)
 {
     uint8_t buffer[RHO_MESSAGE_BODY_LIST_MAX_SIZE];
     size_t size = 12345;
 
     (void)state;
-    begin(0.0f);
+    start_tracker(0.0f);
     assert_int_equal(rho_publish_num_body_parts(&tracker, &report), 0);
     assert_int_equal(rho_publish_num_body_parts(NULL, &report), 0);
     assert_int_equal(rho_publish_num_body_parts(&tracker, NULL), 0);
     assert_int_equal(rho_publish_bodies(&tracker, &report, 0, 0, 0, buffer, sizeof buffer, &size),
                      RHO_ERROR_VALUE);
     if (RHO_BODIES) {
-        begin(12.0f);
+        start_tracker(12.0f);
         assert_int_equal(
             rho_publish_bodies(&tracker, &report, 0, 0, 1, buffer, sizeof buffer, &size),
             RHO_ERROR_VALUE);
@@ -147,7 +147,7 @@ static void what_cannot_be_published_is_refused(void **state)
     assert_int_equal(size, 12345);
 }
 
-static void the_node_sends_them_behind_the_peaks(void **state)
+static void the_node_sends_bodies_after_tracks_and_peaks(void **state)
 {
     static struct rho_scan_assembler assembler;
     static struct rho_node node;
@@ -161,9 +161,9 @@ static void the_node_sends_them_behind_the_peaks(void **state)
     rho_scan_assembler_config_default(&assemble);
     assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, &assemble), RHO_OK);
     for (int has_bodies = 0; has_bodies < RHO_BODIES + 1; has_bodies++) {
-        begin(has_bodies ? 12.0f : 0.0f);
+        start_tracker(has_bodies ? 12.0f : 0.0f);
         assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
-        drive(2, 3);
+        track_vehicles(2, 3);
         assert_int_equal(rho_node_num_messages(&node),
                          rho_publish_num_parts(&report) + 1 + has_bodies);
         const uint16_t peaks = rho_publish_num_parts(&report);
@@ -185,9 +185,9 @@ static void the_node_sends_them_behind_the_peaks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_body_goes_out_once_with_its_track),
-        cmocka_unit_test(what_cannot_be_published_is_refused),
-        cmocka_unit_test(the_node_sends_them_behind_the_peaks),
+        cmocka_unit_test(each_body_is_sent_once_with_its_track),
+        cmocka_unit_test(bad_arguments_of_publishing_are_refused),
+        cmocka_unit_test(the_node_sends_bodies_after_tracks_and_peaks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * Known echoes of the tracker's clutter map as messages: what the receivers read is what is known.
- */
+/* Known echoes of the tracker's clutter map as messages: receivers read the map's values. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +16,7 @@
 static struct rho_tracker tracker;
 static struct rho_message_clutter_map list;
 
-static void begin(void)
+static void start_tracker(void)
 {
     struct rho_tracker_config config;
 
@@ -27,15 +25,15 @@ static void begin(void)
     tracker.time_us = 77;
 }
 
-static void teach(int32_t sensor_id, float x_m, uint16_t hits)
+static void teach_echo(int32_t sensor_id, float x_m, uint16_t hits)
 {
     assert_int_equal(
         rho_clutter_map_teach(&tracker.clutter_map, sensor_id, x_m, 2.0f, 3.0f, 4.0f, hits),
         RHO_OK);
 }
 
-/* The part as its receivers see it. */
-static void read_part(uint16_t part)
+/* Publishes the part and decodes it as receivers do. */
+static void publish_and_read_part(uint16_t part)
 {
     static struct rho_message_clutter_map filled;
     uint8_t buffer[RHO_MESSAGE_CLUTTER_MAP_MAX_SIZE];
@@ -50,14 +48,14 @@ static void read_part(uint16_t part)
     assert_int_equal(rho_message_clutter_map_validate(&list, NULL), RHO_OK);
 }
 
-static void nothing_known_is_one_empty_part(void **state)
+static void an_empty_map_is_sent_as_one_empty_part(void **state)
 {
     (void)state;
-    begin();
-    teach(1, 100.0f, RHO_ECHO_KNOWN_HITS - 1); /* not known yet */
+    start_tracker();
+    teach_echo(1, 100.0f, RHO_ECHO_KNOWN_HITS - 1); /* an echo of too few hits to be known */
     assert_int_equal(rho_publish_num_clutter_parts(&tracker), 1);
     assert_int_equal(rho_publish_num_clutter_parts(NULL), 1);
-    read_part(0);
+    publish_and_read_part(0);
     assert_int_equal(list.num_echoes, 0);
     assert_int_equal(list.num_echoes_total, 0);
     assert_int_equal(list.num_parts, 1);
@@ -69,7 +67,7 @@ static void nothing_known_is_one_empty_part(void **state)
     assert_int_equal(list.part, 77);
 }
 
-static void every_echo_is_in_one_part(void **state)
+static void every_known_echo_is_sent_in_one_part(void **state)
 {
     const int counts[] = {1, PART - 1, PART, PART + 1, 2 * PART + 1, RHO_MAX_ECHOES};
 
@@ -78,13 +76,13 @@ static void every_echo_is_in_one_part(void **state)
         const int parts = (counts[k] + PART - 1) / PART;
         int found = 0;
 
-        begin();
+        start_tracker();
         for (int i = 0; i < counts[k]; i++) {
-            teach(1, (float)i, 6);
+            teach_echo(1, (float)i, 6);
         }
         assert_int_equal(rho_publish_num_clutter_parts(&tracker), parts);
         for (int part = 0; part < parts; part++) {
-            read_part((uint16_t)part);
+            publish_and_read_part((uint16_t)part);
             assert_int_equal(list.part, part);
             assert_int_equal(list.num_parts, parts);
             assert_int_equal(list.num_echoes_total, counts[k]);
@@ -96,11 +94,11 @@ static void every_echo_is_in_one_part(void **state)
     }
 }
 
-static void an_echo_says_what_is_known_of_it(void **state)
+static void an_echo_is_sent_with_its_learned_values(void **state)
 {
     (void)state;
-    begin();
-    teach(7, 100.0f, 20);
+    start_tracker();
+    teach_echo(7, 100.0f, 20);
     tracker.clutter_map.echoes[0].vx_mps = -5.0f;
     tracker.clutter_map.echoes[0].unseen = 2;
     for (unsigned unseen = 1; unseen < 4; unseen++) {
@@ -108,7 +106,7 @@ static void an_echo_says_what_is_known_of_it(void **state)
                                                        unseen, 1e6f, 1e5f * (float)unseen),
                          RHO_OK);
     }
-    read_part(0);
+    publish_and_read_part(0);
     assert_int_equal(list.echoes[0].sensor_id, 7);
     assert_int_equal(list.echoes[0].hits, 20);
     assert_int_equal(list.echoes[0].unseen, 2);
@@ -116,24 +114,25 @@ static void an_echo_says_what_is_known_of_it(void **state)
     assert_true(list.echoes[0].vx_mps == -5.0f && list.echoes[0].vy_mps == 0.0f);
     assert_true(fabsf(list.echoes[0].sigma_range_m - 3.0f) < 1e-4f);
     assert_true(fabsf(list.echoes[0].sigma_cross_m - 4.0f) < 1e-4f);
-    assert_true(fabsf(list.echoes[0].chance - 0.3f) < 1e-3f); /* of the next look, the third */
+    /* chance of a plot in the next look, the third */
+    assert_true(fabsf(list.echoes[0].chance - 0.3f) < 1e-3f);
 }
 
-/* The message's ranges hold whatever the map has come to. */
-static void values_beyond_the_message_become_its_largest(void **state)
+/* Values beyond the message's ranges are sent as the largest value. */
+static void values_beyond_the_message_are_clamped(void **state)
 {
     struct rho_echo *echo = &tracker.clutter_map.echoes[0];
 
     (void)state;
-    begin();
-    teach(70000, 100.0f, 65535);
+    start_tracker();
+    teach_echo(70000, 100.0f, 65535);
     echo->x_m = 1e8f;
     echo->y_m = -1e8f;
     echo->vx_mps = 1e6f;
     echo->vy_mps = -1e6f;
     echo->along[0] = echo->across[0] = 1e30f;
     echo->unseen = UINT8_MAX;
-    read_part(0);
+    publish_and_read_part(0);
     assert_int_equal(list.echoes[0].sensor_id, -1);
     assert_int_equal(list.echoes[0].hits, INT16_MAX);
     assert_true(list.echoes[0].x_m == 2e6f && list.echoes[0].y_m == -2e6f);
@@ -143,10 +142,10 @@ static void values_beyond_the_message_become_its_largest(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_known_is_one_empty_part),
-        cmocka_unit_test(every_echo_is_in_one_part),
-        cmocka_unit_test(an_echo_says_what_is_known_of_it),
-        cmocka_unit_test(values_beyond_the_message_become_its_largest),
+        cmocka_unit_test(an_empty_map_is_sent_as_one_empty_part),
+        cmocka_unit_test(every_known_echo_is_sent_in_one_part),
+        cmocka_unit_test(an_echo_is_sent_with_its_learned_values),
+        cmocka_unit_test(values_beyond_the_message_are_clamped),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

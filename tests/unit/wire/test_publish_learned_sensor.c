@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* What the tracker has learned of its sensors, as messages: what receivers read is what it uses. */
+/*
+ * Values that the tracker has learned of its sensors, as messages: receivers read the values in
+ * use.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,14 +15,14 @@
 
 static struct rho_tracker tracker;
 
-static void describe(int32_t sensor_id, float pd, float range_max_m)
+static void describe_sensor(int32_t sensor_id, float pd, float range_max_m)
 {
     const struct rho_sensor sensor = {.sensor_id = sensor_id, .pd = pd, .range_max_m = range_max_m};
 
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
 }
 
-static void begin(void)
+static void start_tracker(void)
 {
     struct rho_tracker_config config;
 
@@ -27,12 +30,12 @@ static void begin(void)
     config.gate = RHO_TRACKER_BEST;
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
     tracker.time_us = 1234567;
-    describe(3, 0.75f, 60000.0f);
-    describe(40000, 0.5f, 1000.0f);
+    describe_sensor(3, 0.75f, 60000.0f);
+    describe_sensor(40000, 0.5f, 1000.0f);
 }
 
-/* The message as its receivers see it. */
-static struct rho_message_learned read_of(unsigned place)
+/* Publishes the message and decodes it as receivers do. */
+static struct rho_message_learned publish_and_read_sensor(unsigned place)
 {
     struct rho_message_learned filled, read;
     uint8_t buffer[RHO_MESSAGE_LEARNED_MAX_SIZE];
@@ -48,11 +51,11 @@ static struct rho_message_learned read_of(unsigned place)
     return read;
 }
 
-static void at_first_all_is_as_stated(void **state)
+static void before_learning_values_are_as_stated(void **state)
 {
     (void)state;
-    begin();
-    const struct rho_message_learned learned = read_of(0);
+    start_tracker();
+    const struct rho_message_learned learned = publish_and_read_sensor(0);
     assert_int_equal(learned.utime, 1234567);
     assert_int_equal(learned.sensor_id, 3);
     assert_int_equal(learned.innovations, 0);
@@ -64,14 +67,18 @@ static void at_first_all_is_as_stated(void **state)
     for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
         assert_float_equal(learned.pd[ring], 0.75f, 0.0f);
     }
-    assert_int_equal(read_of(1).sensor_id, -1); /* beyond int16_t */
+    assert_int_equal(publish_and_read_sensor(1).sensor_id,
+                     -1); /* the sensor's id is beyond int16_t */
 }
 
-/* Twice the noise in range, pd near .4 in the last ring: (300 + 20 p) / (800 + 20), p of all. */
-static void learned_values_are_those_in_use(void **state)
+/*
+ * Twice the noise in range, and P_D near 0.4 in the last ring: (300 + 20 p) / (800 + 20), with p
+ * over all rings.
+ */
+static void learned_values_sent_are_those_in_use(void **state)
 {
     (void)state;
-    begin();
+    start_tracker();
     tracker.learned[0].log_noise[0] = 1.3862944f;
     tracker.learned[0].innovations = 900;
     tracker.learned[0].looks[0] = 500;
@@ -79,22 +86,23 @@ static void learned_values_are_those_in_use(void **state)
     tracker.learned[0].looks[5] = 800;
     tracker.learned[0].hits[5] = 300;
     tracker.learned[0].is_lowered = 1u << 5;
-    const struct rho_message_learned learned = read_of(0);
+    const struct rho_message_learned learned = publish_and_read_sensor(0);
     assert_int_equal(learned.innovations, 900);
     assert_int_equal(learned.looks, 1300);
     assert_float_equal(learned.sigma_range_factor, 2.0f, 1e-5f);
     assert_float_equal(learned.sigma_cross_factor, 1.0f, 0.0f);
     assert_float_equal(learned.pd[0], 0.75f, 0.0f);
-    assert_float_equal(learned.pd[5], 0.395f, 0.01f); /* .378, one standard deviation up */
-    assert_float_equal(read_of(1).sigma_range_factor, 1.0f, 0.0f);
+    /* 0.378 observed, plus one standard deviation */
+    assert_float_equal(learned.pd[5], 0.395f, 0.01f);
+    assert_float_equal(publish_and_read_sensor(1).sigma_range_factor, 1.0f, 0.0f);
 }
 
-static void where_no_sensor_is_nothing_is_filled(void **state)
+static void rows_without_a_sensor_fill_no_message(void **state)
 {
     struct rho_message_learned learned = {.sensor_id = 77};
 
     (void)state;
-    begin();
+    start_tracker();
     assert_int_equal(rho_publish_learned(&tracker, 2, &learned), 0);
     assert_int_equal(rho_publish_learned(NULL, 0, &learned), 0);
     assert_int_equal(rho_publish_learned(&tracker, 0, NULL), 0);
@@ -106,9 +114,9 @@ static void where_no_sensor_is_nothing_is_filled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(at_first_all_is_as_stated),
-        cmocka_unit_test(learned_values_are_those_in_use),
-        cmocka_unit_test(where_no_sensor_is_nothing_is_filled),
+        cmocka_unit_test(before_learning_values_are_as_stated),
+        cmocka_unit_test(learned_values_sent_are_those_in_use),
+        cmocka_unit_test(rows_without_a_sensor_fill_no_message),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

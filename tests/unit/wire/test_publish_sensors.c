@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the assembler and the tracker know of each sensor, as messages: what the receivers read is
- * what was there.
+ * Values that the assembler and the tracker hold of each sensor, as messages: receivers read the
+ * same values.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +20,7 @@ static struct rho_tracker tracker;
 static struct rho_scan_assembler assembler;
 static struct rho_message_sensor_list list;
 
-static void make_sources(unsigned num_sources)
+static void fill_sources(unsigned num_sources)
 {
     struct rho_scan_assembler_config config;
 
@@ -40,8 +40,8 @@ static void make_sources(unsigned num_sources)
     }
 }
 
-/* The part as its receivers see it. */
-static void read_part(const struct rho_tracker *of, uint16_t part)
+/* Publishes the part and decodes it as receivers do. */
+static void publish_and_read_part(const struct rho_tracker *of, uint16_t part)
 {
     static struct rho_message_sensor_list filled;
     uint8_t buffer[RHO_MESSAGE_SENSOR_LIST_MAX_SIZE];
@@ -56,15 +56,15 @@ static void read_part(const struct rho_tracker *of, uint16_t part)
     assert_int_equal(rho_message_sensor_list_validate(&list, NULL), RHO_OK);
 }
 
-static void nobody_is_one_empty_part(void **state)
+static void without_sensors_one_empty_part_is_sent(void **state)
 {
     struct rho_message_sensor sensor;
 
     (void)state;
-    make_sources(0);
+    fill_sources(0);
     assert_int_equal(rho_publish_num_sensor_parts(&assembler), 1);
     assert_int_equal(rho_publish_num_sensor_parts(NULL), 1);
-    read_part(&tracker, 0);
+    publish_and_read_part(&tracker, 0);
     assert_int_equal(list.num_sensors, 0);
     assert_int_equal(list.num_sensors_total, 0);
     assert_int_equal(rho_publish_sensor(&assembler, &tracker, 0, 0, &sensor), 0);
@@ -76,19 +76,19 @@ static void nobody_is_one_empty_part(void **state)
     assert_int_equal(list.part, 77);
 }
 
-/* As many as there is room for, in the order of their places, also where one in between is free. */
-static void every_sensor_is_in_one_part(void **state)
+/* As many sensors as fit, in the order of their places, even if a place in between is free. */
+static void every_sensor_is_sent_in_one_part(void **state)
 {
     const unsigned used = RHO_MAX_SENSORS - 1;
     unsigned found = 0, hole = RHO_MAX_SENSORS / 2;
 
     (void)state;
-    make_sources(RHO_MAX_SENSORS);
+    fill_sources(RHO_MAX_SENSORS);
     assembler.sources[hole].is_used = 0;
     tracker.time_us = -77;
     assert_int_equal(rho_publish_num_sensor_parts(&assembler), (used + PART - 1) / PART);
     for (uint16_t part = 0; part < rho_publish_num_sensor_parts(&assembler); part++) {
-        read_part(&tracker, part);
+        publish_and_read_part(&tracker, part);
         assert_true(list.utime == -77);
         assert_int_equal(list.part, part);
         assert_int_equal(list.num_sensors_total, used);
@@ -107,20 +107,20 @@ static void every_sensor_is_in_one_part(void **state)
     assert_int_equal(found, used);
 }
 
-static void silence_and_another_clock_are_told(void **state)
+static void silent_and_off_clock_sensors_are_marked(void **state)
 {
     struct rho_message_sensor sensor;
     const int64_t jump_us = 30000000;
 
     (void)state;
-    make_sources(1);
+    fill_sources(1);
     assert_int_equal(rho_publish_sensor(&assembler, NULL, NOW_US + jump_us, 0, &sensor), 1);
     assert_int_equal(sensor.is_silent, 0);
     assert_int_equal(sensor.heard_age_us, jump_us);
     assert_int_equal(rho_publish_sensor(&assembler, NULL, NOW_US + jump_us + 1, 0, &sensor), 1);
     assert_int_equal(sensor.is_silent, 1);
     assert_int_equal(sensor.is_off_clock, 0);
-    /* a reception clock that was set back makes nobody old; the widest span has no overflow */
+    /* with the reception clock set back, ages are 0; the widest time span does not overflow */
     assert_int_equal(rho_publish_sensor(&assembler, NULL, INT64_MIN, 0, &sensor), 1);
     assert_int_equal(sensor.is_silent + sensor.heard_age_us, 0);
     assembler.sources[0].heard_us = INT64_MIN;
@@ -134,12 +134,12 @@ static void silence_and_another_clock_are_told(void **state)
     assert_int_equal(rho_message_sensor_validate(&sensor, NULL), RHO_OK);
 }
 
-/* The tracker watches radars; a passive sensor of the same number is another one. */
-static void doubt_is_of_plots_alone(void **state)
+/* The tracker watches radars; a passive sensor of the same number is a different sensor. */
+static void only_sensors_of_plots_are_marked_suspect(void **state)
 {
     (void)state;
-    make_sources(3);
-    assembler.sources[2].sensor_id = 101; /* bearings */
+    fill_sources(3);
+    assembler.sources[2].sensor_id = 101; /* a sensor of bearings */
     tracker.num_looks = 2;
     tracker.looks[0] = (struct rho_tracker_look){.sensor_id = 55, .is_suspect = 1};
     tracker.looks[1] = (struct rho_tracker_look){.sensor_id = 101,
@@ -148,7 +148,7 @@ static void doubt_is_of_plots_alone(void **state)
                                                  .watched = 16,
                                                  .watched_hits = 12,
                                                  .is_suspect = 1};
-    read_part(&tracker, 0);
+    publish_and_read_part(&tracker, 0);
     assert_int_equal(list.num_sensors, 3);
     assert_int_equal(list.sensors[0].is_doubted + list.sensors[0].watched, 0);
     assert_int_equal(list.sensors[1].is_doubted, 1);
@@ -157,7 +157,7 @@ static void doubt_is_of_plots_alone(void **state)
     assert_float_equal(list.sensors[1].seen_share, 0.75f, 0.0f);
     assert_float_equal(list.sensors[1].innovation_factor, 9.0f, 0.0f);
     assert_int_equal(list.sensors[2].is_doubted + list.sensors[2].watched, 0);
-    read_part(NULL, 0);
+    publish_and_read_part(NULL, 0);
     assert_int_equal(list.sensors[1].is_doubted + list.sensors[1].watched, 0);
     assert_true(list.utime == 0);
 }
@@ -165,10 +165,10 @@ static void doubt_is_of_plots_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nobody_is_one_empty_part),
-        cmocka_unit_test(every_sensor_is_in_one_part),
-        cmocka_unit_test(silence_and_another_clock_are_told),
-        cmocka_unit_test(doubt_is_of_plots_alone),
+        cmocka_unit_test(without_sensors_one_empty_part_is_sent),
+        cmocka_unit_test(every_sensor_is_sent_in_one_part),
+        cmocka_unit_test(silent_and_off_clock_sensors_are_marked),
+        cmocka_unit_test(only_sensors_of_plots_are_marked_suspect),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What zones have counted, as messages: receivers read what they hold. */
+/* Counts and events of zones as messages: receivers read what the zones hold. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,8 +13,8 @@
 static struct rho_zones zones;
 static struct rho_report report;
 
-/* Track 40 stands in both zones for a second, track 41 passes the second one. */
-static void begin(void)
+/* Track 40 stays in both zones for a second, track 41 passes the second one. */
+static void count_tracks_in_zones(void)
 {
     struct rho_zone zone = {.zone_id = 3,
                             .num_corners = 3,
@@ -39,14 +39,14 @@ static void begin(void)
     assert_int_equal(rho_zones_step(&zones, &report), RHO_OK);
 }
 
-static void the_counts_are_those_of_the_zones(void **state)
+static void counts_of_zones_are_sent(void **state)
 {
     struct rho_message_zone_list filled, read;
     uint8_t buffer[RHO_MESSAGE_ZONE_LIST_MAX_SIZE];
     size_t size;
 
     (void)state;
-    begin();
+    count_tracks_in_zones();
     rho_publish_zones(&zones, &filled);
     assert_int_equal(rho_message_zone_list_encode(&filled, buffer, sizeof buffer, &size), RHO_OK);
     assert_int_equal(rho_message_zone_list_decode(buffer, size, &read), RHO_OK);
@@ -66,14 +66,14 @@ static void the_counts_are_those_of_the_zones(void **state)
     }
 }
 
-static void the_events_are_those_of_the_last_step(void **state)
+static void events_of_the_last_step_are_sent(void **state)
 {
     struct rho_message_zone_event_list filled, read;
     uint8_t buffer[RHO_MESSAGE_ZONE_EVENT_LIST_MAX_SIZE];
     size_t size;
 
     (void)state;
-    begin();
+    count_tracks_in_zones();
     rho_publish_zone_events(&zones, &filled);
     assert_int_equal(rho_message_zone_event_list_encode(&filled, buffer, sizeof buffer, &size),
                      RHO_OK);
@@ -87,7 +87,7 @@ static void the_events_are_those_of_the_last_step(void **state)
     assert_true(read.events[1].speed_mps == 3.0f && read.events[1].dwell_s == 1.0f);
 }
 
-static void without_zones_there_are_none(void **state)
+static void without_zones_no_counts_or_events_are_sent(void **state)
 {
     struct rho_message_zone_list list;
     struct rho_message_zone_event_list events;
@@ -108,9 +108,9 @@ static void without_zones_there_are_none(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_counts_are_those_of_the_zones),
-        cmocka_unit_test(the_events_are_those_of_the_last_step),
-        cmocka_unit_test(without_zones_there_are_none),
+        cmocka_unit_test(counts_of_zones_are_sent),
+        cmocka_unit_test(events_of_the_last_step_are_sent),
+        cmocka_unit_test(without_zones_no_counts_or_events_are_sent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Parts to scans in any order, and scans of several sensors in the order of time. */
+/* Parts joined to scans in any order, and scans of several sensors given in order of time. */
 #include "scan_assembler_setup.h"
 
-/* A part of scan 7 of sensor 3, of `num_parts`; part p has p + 1 plots, from 100 p on. */
-static struct look part_of(int part, int num_parts)
+/* A part of scan 7 of sensor 3, of `num_parts`; part p has p + 1 plots, with tags from 100 p on. */
+static struct look part_of_scan(int part, int num_parts)
 {
     return (struct look){.time_us = 5 * SECOND_US,
                          .scan = 7,
@@ -14,15 +14,15 @@ static struct look part_of(int part, int num_parts)
                          .tag = 100 * part};
 }
 
-static void take_part(int part, int num_parts, int64_t now_us)
+static void take_part_of_scan(int part, int num_parts, int64_t now_us)
 {
-    struct look look = part_of(part, num_parts);
+    struct look look = part_of_scan(part, num_parts);
 
     take_message(&look, now_us);
 }
 
-/* The item holds the plots of these parts, in their order. */
-static void holds_parts(unsigned mask, unsigned num_parts)
+/* The given scan holds the plots of these parts, in their order. */
+static void expect_item_of_parts(unsigned mask, unsigned num_parts)
 {
     unsigned row = 0;
 
@@ -38,21 +38,21 @@ static void holds_parts(unsigned mask, unsigned num_parts)
  * ---- parts ------------------------------------------------------------------------------------
  */
 
-static void parts_come_in_any_order(void **state)
+static void parts_in_any_order_make_one_scan(void **state)
 {
     unsigned order[5] = {0, 1, 2, 3, 4}, permutations = 0;
     unsigned swaps[5] = {0}, i = 0;
 
     (void)state;
-    for (;;) { /* Heap's algorithm */
+    for (;;) { /* permutations by Heap's algorithm */
         start_assembler();
         for (unsigned k = 0; k < 5; k++) {
             expect_no_scan(0);
-            take_part((int)order[k], 5, 0);
+            take_part_of_scan((int)order[k], 5, 0);
         }
         expect_next_scan(0, 3, 5 * SECOND_US);
         assert_int_equal(item.parts_missing, 0);
-        holds_parts(31, 5);
+        expect_item_of_parts(31, 5);
         expect_no_scan(INT64_MAX);
         COUNTERS_ARE(.scans_accepted = 1);
         permutations++;
@@ -71,7 +71,7 @@ static void parts_come_in_any_order(void **state)
     assert_int_equal(permutations, 120);
 }
 
-static void a_scan_with_parts_missing_goes_out_when_held(void **state)
+static void an_incomplete_scan_is_given_after_hold(void **state)
 {
     (void)state;
     for (unsigned mask = 1; mask < 15; mask++) {
@@ -81,29 +81,30 @@ static void a_scan_with_parts_missing_goes_out_when_held(void **state)
         for (int part = 3; part >= 0; part--) {
             if (mask >> part & 1u) {
                 last_us = 1000 * (3 - part);
-                take_part(part, 4, last_us);
+                take_part_of_scan(part, 4, last_us);
             }
         }
         assert_int_equal(rho_scan_assembler_due_us(&assembler), last_us + HOLD_US);
         expect_no_scan(last_us + HOLD_US - 1);
         COUNTERS_ARE(.scans_accepted = 1);
         expect_next_scan(last_us + HOLD_US, 3, 5 * SECOND_US);
-        holds_parts(mask, 4);
+        expect_item_of_parts(mask, 4);
         assert_int_equal(item.parts_missing, 4 - (int)rho_count_bits(mask));
         COUNTERS_ARE(.scans_accepted = 1, .scans_incomplete = 1);
-        take_part(mask & 1u ? 1 : 0, 4, last_us + HOLD_US); /* too late, or there before */
+        /* a part that comes too late, or a second time */
+        take_part_of_scan(mask & 1u ? 1 : 0, 4, last_us + HOLD_US);
         COUNTERS_ARE(.scans_accepted = 1, .scans_incomplete = 1, .scans_duplicate = 1);
         expect_no_scan(INT64_MAX);
     }
 }
 
-static void a_newer_scan_ends_the_one_before(void **state)
+static void a_newer_scan_ends_an_incomplete_one(void **state)
 {
-    struct look newer = part_of(0, 1);
+    struct look newer = part_of_scan(0, 1);
 
     (void)state;
     start_assembler();
-    take_part(0, 2, 0);
+    take_part_of_scan(0, 2, 0);
     newer.scan++;
     newer.time_us += SECOND_US;
     take_message(&newer, 0);
@@ -112,41 +113,41 @@ static void a_newer_scan_ends_the_one_before(void **state)
     expect_next_scan(0, 3, 6 * SECOND_US);
     expect_no_scan(0);
     COUNTERS_ARE(.scans_accepted = 2, .scans_incomplete = 1);
-    take_part(1, 2, 0);
+    take_part_of_scan(1, 2, 0);
     COUNTERS_ARE(.scans_accepted = 2, .scans_incomplete = 1, .scans_duplicate = 1);
     expect_no_scan(INT64_MAX);
 }
 
-static void a_part_counts_once(void **state)
+static void a_part_received_twice_counts_once(void **state)
 {
-    struct look other = part_of(0, 2);
+    struct look other = part_of_scan(0, 2);
 
     (void)state;
     start_assembler();
-    take_part(0, 2, 0);
-    take_part(0, 2, 0);
-    other.tag = 999; /* same part, other plots: the first one stays */
+    take_part_of_scan(0, 2, 0);
+    take_part_of_scan(0, 2, 0);
+    other.tag = 999; /* same part, other plots: the first copy counts */
     take_message(&other, 0);
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 1, .scans_other = 1);
-    take_part(1, 2, 0);
+    take_part_of_scan(1, 2, 0);
     expect_next_scan(0, 3, 5 * SECOND_US);
-    holds_parts(3, 2);
-    take_part(1, 2, 0);
+    expect_item_of_parts(3, 2);
+    take_part_of_scan(1, 2, 0);
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 2, .scans_other = 1);
 }
 
-static void doubles_do_not_hold_a_scan_longer(void **state)
+static void repeated_parts_do_not_prolong_the_hold(void **state)
 {
     (void)state;
     start_assembler();
-    take_part(0, 2, 0);
-    take_part(0, 2, HOLD_US - 1);
+    take_part_of_scan(0, 2, 0);
+    take_part_of_scan(0, 2, HOLD_US - 1);
     expect_next_scan(HOLD_US, 3, 5 * SECOND_US);
 }
 
-/* A heading of plots with one thing changed. */
-static void take_head(int64_t utime, int8_t kind, int16_t part, int16_t num_parts, float from_rad,
-                      float to_rad)
+/* Takes a scan head of plots with one field changed. */
+static void take_plot_scan_head(int64_t utime, int8_t kind, int16_t part, int16_t num_parts,
+                                float from_rad, float to_rad)
 {
     struct rho_message_plot_scan_head head = {.utime = utime,
                                               .scan = 7,
@@ -160,38 +161,38 @@ static void take_head(int64_t utime, int8_t kind, int16_t part, int16_t num_part
     uint8_t buffer[DATAGRAM];
 
     assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, sizeof buffer, &head), RHO_OK);
-    assert_int_equal(take_bytes("RHO_PLOTS_3", buffer, end_of_message(&writer), 0), RHO_OK);
+    assert_int_equal(take_bytes("RHO_PLOTS_3", buffer, end_message(&writer), 0), RHO_OK);
 }
 
-static void parts_that_contradict_are_refused(void **state)
+static void contradicting_parts_are_refused(void **state)
 {
     (void)state;
     start_assembler();
-    take_head(10, 2, 0, 2, -1.0f, 1.0f);
-    take_head(11, 2, 1, 2, -1.0f, 1.0f);
-    take_head(9, 2, 1, 2, -1.0f, 1.0f);
-    take_head(10, 3, 1, 2, -1.0f, 1.0f);
-    take_head(10, 4, 1, 2, -1.0f, 1.0f);
-    take_head(10, 2, 1, 3, -1.0f, 1.0f);
-    take_head(10, 2, 2, 3, -1.0f, 1.0f);
-    take_head(10, 2, 1, 2, -1.5f, 1.0f);
-    take_head(10, 2, 1, 2, -1.0f, 1.5f);
+    take_plot_scan_head(10, 2, 0, 2, -1.0f, 1.0f);
+    take_plot_scan_head(11, 2, 1, 2, -1.0f, 1.0f);
+    take_plot_scan_head(9, 2, 1, 2, -1.0f, 1.0f);
+    take_plot_scan_head(10, 3, 1, 2, -1.0f, 1.0f);
+    take_plot_scan_head(10, 4, 1, 2, -1.0f, 1.0f);
+    take_plot_scan_head(10, 2, 1, 3, -1.0f, 1.0f);
+    take_plot_scan_head(10, 2, 2, 3, -1.0f, 1.0f);
+    take_plot_scan_head(10, 2, 1, 2, -1.5f, 1.0f);
+    take_plot_scan_head(10, 2, 1, 2, -1.0f, 1.5f);
     COUNTERS_ARE(.scans_accepted = 1, .scans_bad = 8);
     expect_no_scan(0);
-    take_head(10, 2, 1, 2, -1.0f, 1.0f);
+    take_plot_scan_head(10, 2, 1, 2, -1.0f, 1.0f);
     expect_next_scan(0, 3, 10);
     assert_true(item.scan.sector_from_rad == -1.0f && item.scan.sector_to_rad == 1.0f);
     assert_int_equal(item.scan.measures, 0);
     COUNTERS_ARE(.scans_accepted = 1, .scans_bad = 8);
 }
 
-/* A writer takes no such sector: its bytes are put in the place of a good one's. */
+/* A writer refuses such sectors, so their bytes replace those of a valid one. */
 static void impossible_sectors_are_refused(void **state)
 {
-    static const uint8_t good[4] = {0xbf, 0x40, 0, 0};          /* -0.75 */
+    static const uint8_t good[4] = {0xbf, 0x40, 0, 0};          /* valid: -0.75 */
     static const uint8_t bad[][4] = {{0x7f, 0xc0, 0, 0},        /* NaN */
                                      {0x7f, 0x80, 0, 0},        /* infinite */
-                                     {0xff, 0x80, 0, 0},        /* either way */
+                                     {0xff, 0x80, 0, 0},        /* minus infinity */
                                      {0x40, 0xca, 0, 0},        /* 6.3125 */
                                      {0xc0, 0xca, 0, 0},        /* -6.3125 */
                                      {0x7f, 0x7f, 0xff, 0xff}}; /* FLT_MAX */
@@ -210,7 +211,7 @@ static void impossible_sectors_are_refused(void **state)
 
             assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, sizeof buffer, &heads[i]),
                              RHO_OK);
-            const size_t size = end_of_message(&writer);
+            const size_t size = end_message(&writer);
             while (at + 4 < size && memcmp(&buffer[at], good, 4) != 0) {
                 at++;
             }
@@ -223,7 +224,7 @@ static void impossible_sectors_are_refused(void **state)
     expect_no_scan(SECOND_US);
 }
 
-static void take_polar(int part, float x_m, float y_m, float z_m)
+static void take_polar_part_from(int part, float x_m, float y_m, float z_m)
 {
     struct rho_message_polar_scan_head head = {.scan = 1,
                                                .sensor_id = 3,
@@ -236,29 +237,29 @@ static void take_polar(int part, float x_m, float y_m, float z_m)
     uint8_t buffer[DATAGRAM];
 
     assert_int_equal(rho_message_polar_scan_begin(&writer, buffer, sizeof buffer, &head), RHO_OK);
-    assert_int_equal(take_bytes("RHO_POLAR_3", buffer, end_of_message(&writer), 0), RHO_OK);
+    assert_int_equal(take_bytes("RHO_POLAR_3", buffer, end_message(&writer), 0), RHO_OK);
 }
 
-static void polar_parts_come_from_one_place(void **state)
+static void polar_parts_from_different_places_are_refused(void **state)
 {
     (void)state;
     start_assembler();
-    take_polar(0, 1.0f, 2.0f, 3.0f);
-    take_polar(1, 1.5f, 2.0f, 3.0f);
-    take_polar(1, 1.0f, 2.5f, 3.0f);
-    take_polar(1, 1.0f, 2.0f, 3.5f);
+    take_polar_part_from(0, 1.0f, 2.0f, 3.0f);
+    take_polar_part_from(1, 1.5f, 2.0f, 3.0f);
+    take_polar_part_from(1, 1.0f, 2.5f, 3.0f);
+    take_polar_part_from(1, 1.0f, 2.0f, 3.5f);
     COUNTERS_ARE(.scans_accepted = 1, .scans_bad = 3);
-    take_polar(1, 0.0f, 0.0f, 0.0f); /* not said */
-    take_polar(2, 1.0f, 2.0f, 3.0f);
+    take_polar_part_from(1, 0.0f, 0.0f, 0.0f); /* another part without a place */
+    take_polar_part_from(2, 1.0f, 2.0f, 3.0f);
     expect_next_scan(0, 3, 0);
     assert_true(item.sensor.x_m == 1.0f && item.sensor.y_m == 2.0f && item.sensor.z_m == 3.0f);
     assert_int_equal(item.has_sensor, 1);
     COUNTERS_ARE(.scans_accepted = 1, .scans_bad = 3);
 }
 
-static void empty_parts_are_parts(void **state)
+static void parts_without_plots_count_as_parts(void **state)
 {
-    struct look look = part_of(1, 2);
+    struct look look = part_of_scan(1, 2);
 
     (void)state;
     start_assembler();
@@ -266,9 +267,9 @@ static void empty_parts_are_parts(void **state)
     take_message(&look, 0);
     take_message(&look, 0);
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 1);
-    take_part(0, 2, 0);
+    take_part_of_scan(0, 2, 0);
     expect_next_scan(0, 3, 5 * SECOND_US);
-    holds_parts(1, 2);
+    expect_item_of_parts(1, 2);
     assert_int_equal(item.parts_missing, 0);
 }
 
@@ -276,19 +277,17 @@ static void parts_beyond_the_capacity_are_refused(void **state)
 {
     (void)state;
     start_assembler();
-    take_part(0, RHO_MAX_PARTS + 1, 0);
+    take_part_of_scan(0, RHO_MAX_PARTS + 1, 0);
     COUNTERS_ARE(.scans_bad = 1);
-    take_part(RHO_MAX_PARTS - 1 < 33 ? RHO_MAX_PARTS - 1 : 33, RHO_MAX_PARTS, 0);
+    take_part_of_scan(RHO_MAX_PARTS - 1 < 33 ? RHO_MAX_PARTS - 1 : 33, RHO_MAX_PARTS, 0);
     COUNTERS_ARE(.scans_bad = 1, .scans_accepted = 1);
     expect_next_scan(INT64_MAX, 3, 5 * SECOND_US);
     assert_int_equal(item.parts_missing, RHO_MAX_PARTS - 1);
 }
 
-/*
- * ---- order ------------------------------------------------------------------------------------
- */
+/* ---- order of scans from several sensors ----------------------------------------------------- */
 
-static void one_sensor_waits_for_nothing(void **state)
+static void scans_of_a_single_sensor_are_given_at_once(void **state)
 {
     (void)state;
     start_assembler();
@@ -301,7 +300,7 @@ static void one_sensor_waits_for_nothing(void **state)
     COUNTERS_ARE(.scans_accepted = 10);
 }
 
-static void a_scan_waits_for_the_other_sensor(void **state)
+static void a_scan_waits_for_older_ones_of_another_sensor(void **state)
 {
     struct look look = {.time_us = 2 * SECOND_US, .scan = 2, .sensor_id = 1};
     int64_t now_us = 2 * SECOND_US;
@@ -310,31 +309,30 @@ static void a_scan_waits_for_the_other_sensor(void **state)
     start_assembler();
     take_scan(1, 1, SECOND_US);
     take_scan(2, 1, SECOND_US + 1);
-    assert_int_equal(drain(INT64_MAX), 2);
-    take_message(&look,
-                 now_us); /* the other one is due to send one a microsecond later, or before */
+    assert_int_equal(take_all_items(INT64_MAX), 2);
+    take_message(&look, now_us); /* sensor 1 may still send a scan a microsecond before this one */
     expect_no_scan(now_us + HOLD_US - 1);
     assert_int_equal(rho_scan_assembler_due_us(&assembler), now_us + HOLD_US);
     look = (struct look){.time_us = 2 * SECOND_US - 1, .scan = 2, .sensor_id = 2};
     take_message(&look, now_us + 100);
     expect_next_scan(now_us + 100, 2, 2 * SECOND_US - 1);
-    expect_no_scan(now_us + 100); /* the other's newest scan is older */
+    expect_no_scan(now_us + 100); /* the other sensor's newest scan is older */
     expect_next_scan(now_us + HOLD_US, 1, 2 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = 4);
 }
 
-static void equal_times_wait_for_nobody(void **state)
+static void scans_of_equal_time_are_given_at_once(void **state)
 {
     (void)state;
     start_assembler();
     take_scan(9, 1, SECOND_US);
     take_scan(-4, 1, SECOND_US);
-    expect_next_scan(SECOND_US, -4, SECOND_US); /* the lower number first */
+    expect_next_scan(SECOND_US, -4, SECOND_US); /* of equal times the lower sensor number first */
     expect_next_scan(SECOND_US, 9, SECOND_US);
     expect_no_scan(INT64_MAX);
 }
 
-static void of_one_sensor_plots_come_before_bearings(void **state)
+static void plots_are_given_before_bearings_of_the_same_time(void **state)
 {
     (void)state;
     start_assembler();
@@ -352,9 +350,9 @@ static void of_one_sensor_plots_come_before_bearings(void **state)
     expect_no_scan(INT64_MAX);
 }
 
-static void an_older_scan_is_waited_for_while_its_parts_come(void **state)
+static void a_newer_scan_waits_for_an_older_incomplete_one(void **state)
 {
-    struct look look = part_of(0, 2),
+    struct look look = part_of_scan(0, 2),
                 later = {.time_us = 5 * SECOND_US + 1, .scan = 1, .sensor_id = 4};
 
     (void)state;
@@ -362,17 +360,19 @@ static void an_older_scan_is_waited_for_while_its_parts_come(void **state)
     take_message(&look, 0);
     take_message(&later, 0);
     expect_no_scan(HOLD_US - 2);
-    take_part(1, 2, HOLD_US - 2);
+    take_part_of_scan(1, 2, HOLD_US - 2);
     expect_next_scan(HOLD_US - 2, 3, 5 * SECOND_US);
     expect_no_scan(HOLD_US - 1); /* the other sensor's newest scan is older */
     expect_next_scan(HOLD_US, 4, 5 * SECOND_US + 1);
 }
 
-/* Were the complete one to go out first, the others would be late for the tracker. */
-static void older_scans_go_out_before_one_that_was_held(void **state)
+/*
+ * If the complete scan were given first, the incomplete older ones would be late for the tracker.
+ */
+static void scans_are_given_by_time_when_the_newest_was_held(void **state)
 {
     const unsigned num_older = RHO_MAX_OPEN_SCANS > 2 ? 2 : 1;
-    struct look older[2] = {part_of(0, 2), part_of(1, 2)},
+    struct look older[2] = {part_of_scan(0, 2), part_of_scan(1, 2)},
                 later = {.time_us = 5 * SECOND_US + 2, .scan = 1, .sensor_id = 2};
 
     (void)state;
@@ -394,8 +394,8 @@ static void older_scans_go_out_before_one_that_was_held(void **state)
     COUNTERS_ARE(.scans_accepted = num_older + 1, .scans_incomplete = num_older);
 }
 
-/* The younger one has waited long enough: nothing is held longer, or is due in the past. */
-static void an_older_scan_that_came_later_holds_nothing_up(void **state)
+/* The newer scan has waited for hold: nothing is held longer, and no due time is in the past. */
+static void an_older_scan_received_later_does_not_prolong_the_hold(void **state)
 {
     struct look older = {.time_us = 2 * SECOND_US, .scan = 2, .sensor_id = 1};
     int64_t now_us = 2 * SECOND_US + 1;
@@ -404,21 +404,22 @@ static void an_older_scan_that_came_later_holds_nothing_up(void **state)
     start_assembler();
     for (int16_t sensor_id = 1; sensor_id <= 3; sensor_id++) {
         take_scan(sensor_id, 1, SECOND_US + sensor_id);
-        assert_int_equal(drain(INT64_MAX), 1);
+        assert_int_equal(take_all_items(INT64_MAX), 1);
     }
     take_scan(2, 2, now_us);
     take_message(&older, now_us + HOLD_US / 2);
-    expect_no_scan(now_us + HOLD_US - 1); /* nothing of the third sensor yet */
+    expect_no_scan(now_us + HOLD_US - 1); /* the third sensor has sent no scan of this time */
     assert_int_equal(rho_scan_assembler_due_us(&assembler), now_us + HOLD_US);
     expect_next_scan(now_us + HOLD_US, 1, older.time_us);
     expect_next_scan(now_us + HOLD_US, 2, now_us);
     COUNTERS_ARE(.scans_accepted = 5);
 }
 
-/* One of the same time would not be late. */
-static void younger_scans_are_not_cut_short(void **state)
+/* A scan of equal time would not be late. */
+static void a_given_scan_does_not_end_incomplete_newer_ones(void **state)
 {
-    struct look part = part_of(0, 2), first = {.time_us = 5 * SECOND_US, .scan = 1, .sensor_id = 9};
+    struct look part = part_of_scan(0, 2),
+                first = {.time_us = 5 * SECOND_US, .scan = 1, .sensor_id = 9};
 
     (void)state;
     start_assembler();
@@ -426,22 +427,22 @@ static void younger_scans_are_not_cut_short(void **state)
     take_message(&part, 5);
     expect_next_scan(HOLD_US, 9, first.time_us);
     expect_no_scan(HOLD_US);
-    take_part(1, 2, HOLD_US);
+    take_part_of_scan(1, 2, HOLD_US);
     expect_next_scan(HOLD_US, part.sensor_id, part.time_us);
     assert_int_equal(item.parts_missing, 0);
 }
 
-static void hold_0_waits_for_nobody(void **state)
+static void hold_0_gives_scans_at_once(void **state)
 {
     struct rho_scan_assembler_config config = usual_config();
-    struct look look = part_of(0, 2);
+    struct look look = part_of_scan(0, 2);
 
     (void)state;
     config.hold_us = 0;
     start_assembler_with(&config);
     take_message(&look, 0);
     assert_int_equal(rho_scan_assembler_due_us(&assembler), INT64_MAX);
-    expect_no_scan(INT64_MAX - 1); /* parts wait for a newer scan alone */
+    expect_no_scan(INT64_MAX - 1); /* with hold INT64_MAX, parts wait only for a newer scan */
     take_scan(4, 1, 6 * SECOND_US);
     expect_next_scan(6 * SECOND_US, 4, 6 * SECOND_US);
     expect_no_scan(6 * SECOND_US);
@@ -453,7 +454,7 @@ static void hold_0_waits_for_nobody(void **state)
     expect_next_scan(INT64_MAX, 3, 7 * SECOND_US);
 }
 
-static void a_sensor_that_died_delays_no_more_than_hold(void **state)
+static void a_dead_sensor_delays_others_by_hold_at_most(void **state)
 {
     unsigned waited = 0;
 
@@ -461,7 +462,7 @@ static void a_sensor_that_died_delays_no_more_than_hold(void **state)
     start_assembler();
     take_scan(1, 0, 0);
     take_scan(2, 0, 0);
-    assert_int_equal(drain(0), 2);
+    assert_int_equal(take_all_items(0), 2);
     for (int32_t scan = 1; scan <= 60; scan++) {
         int64_t now_us = scan * SECOND_US;
 
@@ -471,12 +472,12 @@ static void a_sensor_that_died_delays_no_more_than_hold(void **state)
             waited++;
         }
     }
-    assert_int_equal(waited, 30); /* as long as it may still come */
+    assert_int_equal(waited, 30); /* held as long as an older scan may still come */
     COUNTERS_ARE(.scans_accepted = 62);
 }
 
-/* Sensors of several intervals and delays, all within hold: out goes what a sort by time gives. */
-static void delays_within_hold_keep_the_order(void **state)
+/* Sensors of several intervals and delays, all within hold: scans are given in order of time. */
+static void delays_within_hold_are_put_in_order(void **state)
 {
     enum { SENSORS = RHO_MAX_OPEN_SCANS < 3 ? RHO_MAX_OPEN_SCANS : 3, STEPS = 4000 };
     static const int64_t interval_us[3] = {100000, 70000, 330000};
@@ -512,18 +513,18 @@ static void delays_within_hold_keep_the_order(void **state)
             out++;
         }
     }
-    out += drain(INT64_MAX);
+    out += take_all_items(INT64_MAX);
     assert_int_equal(in, out);
     assert_int_equal(assembler.counters.scans_accepted, in);
 }
 
-static void a_reception_clock_that_goes_back_holds_nothing(void **state)
+static void a_reception_clock_set_back_holds_no_scan(void **state)
 {
     (void)state;
     start_assembler();
     take_scan(1, 0, 0);
     take_scan(2, 0, 0);
-    assert_int_equal(drain(0), 2);
+    assert_int_equal(take_all_items(0), 2);
     take_scan(1, 1, 10 * SECOND_US);
     expect_no_scan(10 * SECOND_US - HOLD_US);
     expect_next_scan(10 * SECOND_US - HOLD_US - 1, 1, 10 * SECOND_US);
@@ -532,28 +533,28 @@ static void a_reception_clock_that_goes_back_holds_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_come_in_any_order),
-        cmocka_unit_test(a_scan_with_parts_missing_goes_out_when_held),
-        cmocka_unit_test(a_newer_scan_ends_the_one_before),
-        cmocka_unit_test(a_part_counts_once),
-        cmocka_unit_test(doubles_do_not_hold_a_scan_longer),
-        cmocka_unit_test(parts_that_contradict_are_refused),
+        cmocka_unit_test(parts_in_any_order_make_one_scan),
+        cmocka_unit_test(an_incomplete_scan_is_given_after_hold),
+        cmocka_unit_test(a_newer_scan_ends_an_incomplete_one),
+        cmocka_unit_test(a_part_received_twice_counts_once),
+        cmocka_unit_test(repeated_parts_do_not_prolong_the_hold),
+        cmocka_unit_test(contradicting_parts_are_refused),
         cmocka_unit_test(impossible_sectors_are_refused),
-        cmocka_unit_test(polar_parts_come_from_one_place),
-        cmocka_unit_test(empty_parts_are_parts),
+        cmocka_unit_test(polar_parts_from_different_places_are_refused),
+        cmocka_unit_test(parts_without_plots_count_as_parts),
         cmocka_unit_test(parts_beyond_the_capacity_are_refused),
-        cmocka_unit_test(one_sensor_waits_for_nothing),
-        cmocka_unit_test(a_scan_waits_for_the_other_sensor),
-        cmocka_unit_test(equal_times_wait_for_nobody),
-        cmocka_unit_test(of_one_sensor_plots_come_before_bearings),
-        cmocka_unit_test(an_older_scan_is_waited_for_while_its_parts_come),
-        cmocka_unit_test(older_scans_go_out_before_one_that_was_held),
-        cmocka_unit_test(an_older_scan_that_came_later_holds_nothing_up),
-        cmocka_unit_test(younger_scans_are_not_cut_short),
-        cmocka_unit_test(hold_0_waits_for_nobody),
-        cmocka_unit_test(a_sensor_that_died_delays_no_more_than_hold),
-        cmocka_unit_test(delays_within_hold_keep_the_order),
-        cmocka_unit_test(a_reception_clock_that_goes_back_holds_nothing),
+        cmocka_unit_test(scans_of_a_single_sensor_are_given_at_once),
+        cmocka_unit_test(a_scan_waits_for_older_ones_of_another_sensor),
+        cmocka_unit_test(scans_of_equal_time_are_given_at_once),
+        cmocka_unit_test(plots_are_given_before_bearings_of_the_same_time),
+        cmocka_unit_test(a_newer_scan_waits_for_an_older_incomplete_one),
+        cmocka_unit_test(scans_are_given_by_time_when_the_newest_was_held),
+        cmocka_unit_test(an_older_scan_received_later_does_not_prolong_the_hold),
+        cmocka_unit_test(a_given_scan_does_not_end_incomplete_newer_ones),
+        cmocka_unit_test(hold_0_gives_scans_at_once),
+        cmocka_unit_test(a_dead_sensor_delays_others_by_hold_at_most),
+        cmocka_unit_test(delays_within_hold_are_put_in_order),
+        cmocka_unit_test(a_reception_clock_set_back_holds_no_scan),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

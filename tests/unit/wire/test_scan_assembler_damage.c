@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Copies of a sensor's own messages with random bits flipped, before and behind the real ones. A
- * copy that comes first and is a good message takes the place of the real one: nothing tells them
- * apart. What is looked at is how many real scans are missing, and how many go out as they were
- * sent.
+ * Copies of a sensor's own messages with random bits flipped, sent before and after the originals.
+ * A valid damaged copy received first takes the original's place, as nothing distinguishes them.
+ * Counted are the missing scans, and those given as they were sent.
  */
 #include "scan_assembler_setup.h"
 
@@ -23,7 +22,7 @@ static const struct radar surveillance = {2500000, RHO_SCAN_ASSEMBLER_PLOTS, 3, 
 static const struct radar *sender;
 static unsigned sent, intact, there;
 
-static struct look look_of(int64_t scan, int part)
+static struct look part_of_scan(int64_t scan, int part)
 {
     return (struct look){.time_us = (100 + scan) * sender->interval_us,
                          .scan = (int32_t)(1000 + scan),
@@ -36,7 +35,7 @@ static struct look look_of(int64_t scan, int part)
                          .tag = (int32_t)(scan % 10) * 110 + part * sender->count};
 }
 
-static void judge_item(void)
+static void compare_item_with_sent(void)
 {
     int64_t scan = item_time_us() / sender->interval_us - 100;
     unsigned total = (unsigned)sender->parts * sender->count, same = 0;
@@ -56,10 +55,10 @@ static void judge_item(void)
     intact += same == total && count == total;
 }
 
-static void drain_items(int64_t now_us)
+static void take_all_items_and_compare(int64_t now_us)
 {
     while (rho_scan_assembler_next(&assembler, now_us, &item)) {
-        judge_item();
+        compare_item_with_sent();
     }
 }
 
@@ -67,10 +66,10 @@ static void send_bytes(const uint8_t *bytes, size_t size, int64_t now_us)
 {
     while (take_bytes(channel_of(sender->kind, 1), bytes, size, now_us) == RHO_ERROR_CAPACITY) {
         if (rho_scan_assembler_next(&assembler, now_us, &item)) {
-            judge_item();
+            compare_item_with_sent();
         }
     }
-    drain_items(now_us);
+    take_all_items_and_compare(now_us);
 }
 
 static void send_damaged(const uint8_t *bytes, size_t size, unsigned copies, int64_t now_us)
@@ -89,7 +88,7 @@ static void send_damaged(const uint8_t *bytes, size_t size, unsigned copies, int
     }
 }
 
-static void run(const struct radar *of, unsigned before, unsigned behind)
+static void run_with_damaged_copies(const struct radar *of, unsigned before, unsigned behind)
 {
     int64_t scans = SCANS_S * SECOND_US / of->interval_us;
     uint8_t bytes[DATAGRAM];
@@ -100,7 +99,7 @@ static void run(const struct radar *of, unsigned before, unsigned behind)
     sent = intact = there = 0;
     for (int64_t scan = 0; scan < scans; scan++, sent++) {
         for (int part = 0; part < of->parts; part++) {
-            struct look look = look_of(scan, part);
+            struct look look = part_of_scan(scan, part);
             size_t size = pack_message(&look, bytes);
 
             send_damaged(bytes, size, scan > 5 ? before : 0, look.time_us + 5000);
@@ -108,65 +107,66 @@ static void run(const struct radar *of, unsigned before, unsigned behind)
             send_damaged(bytes, size, scan > 5 ? behind : 0, look.time_us + 5000);
         }
     }
-    drain_items(INT64_MAX);
+    take_all_items_and_compare(INT64_MAX);
 }
 
-static void are_missing(unsigned percent_most)
+static void expect_missing_at_most(unsigned percent_most)
 {
     if (there * 100 < sent * (100 - percent_most)) {
         fail_msg("%u of %u scans came through, %u intact", there, sent, intact);
     }
 }
 
-static void are_intact(unsigned percent_least)
+static void expect_intact_at_least(unsigned percent_least)
 {
     if (intact * 100 < sent * percent_least) {
         fail_msg("%u of %u scans are intact", intact, sent);
     }
 }
 
-static void copies_behind_the_real_ones_do_nothing(void **state)
+static void damaged_copies_after_the_originals_change_nothing(void **state)
 {
     const struct radar *const radars[] = {&radar, &direction_finder};
 
     (void)state;
     for (unsigned i = 0; i < 2; i++) {
-        run(radars[i], 0, 1);
-        are_intact(99);
-        run(radars[i], 0, 10);
-        are_intact(99);
-        run(radars[i], 0, 200);
-        are_intact(94);
+        run_with_damaged_copies(radars[i], 0, 1);
+        expect_intact_at_least(99);
+        run_with_damaged_copies(radars[i], 0, 10);
+        expect_intact_at_least(99);
+        run_with_damaged_copies(radars[i], 0, 200);
+        expect_intact_at_least(94);
     }
-    run(&surveillance, 0, 1);
-    are_intact(99);
-    run(&surveillance, 0, 10); /* a copy of one part may say that it is the next one */
-    are_intact(95);
-    run(&surveillance, 0, 200);
-    are_missing(2);
+    run_with_damaged_copies(&surveillance, 0, 1);
+    expect_intact_at_least(99);
+    run_with_damaged_copies(&surveillance, 0,
+                            10); /* a copy of one part may claim to be the next part */
+    expect_intact_at_least(95);
+    run_with_damaged_copies(&surveillance, 0, 200);
+    expect_missing_at_most(2);
 }
 
-/* Missing is also what went out with another time. */
-static void copies_before_the_real_ones_hide_few(void **state)
+/* Scans given with another time count as missing, too. */
+static void damaged_copies_before_the_originals_hide_few_scans(void **state)
 {
     (void)state;
-    run(&radar, 1, 0);
-    are_missing(3);
-    run(&radar, 100, 100);
-    are_missing(6);
-    run(&surveillance, 100, 100);
-    are_missing(3);
-    run(&direction_finder, 1, 1);
-    are_missing(5);
-    run(&direction_finder, 100, 100); /* 2000 a second */
-    are_missing(25);
+    run_with_damaged_copies(&radar, 1, 0);
+    expect_missing_at_most(3);
+    run_with_damaged_copies(&radar, 100, 100);
+    expect_missing_at_most(6);
+    run_with_damaged_copies(&surveillance, 100, 100);
+    expect_missing_at_most(3);
+    run_with_damaged_copies(&direction_finder, 1, 1);
+    expect_missing_at_most(5);
+    run_with_damaged_copies(&direction_finder, 100, 100); /* 2000 copies a second */
+    expect_missing_at_most(25);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(copies_behind_the_real_ones_do_nothing),
-        cmocka_unit_test(copies_before_the_real_ones_hide_few),
+        cmocka_unit_test(damaged_copies_after_the_originals_change_nothing),
+        cmocka_unit_test(damaged_copies_before_the_originals_hide_few_scans),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

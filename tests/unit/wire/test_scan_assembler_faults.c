@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two radars that see nothing of each other, and faults of every kind in the messages of one: what
- * the tracker makes of the other's is compared, bit by bit, with what it makes without faults.
+ * Two radars of separate coverage, and faults of every kind in the messages of one: the tracker's
+ * results for the other radar are compared bit by bit with those without faults.
  */
 #include <math.h>
 
@@ -17,7 +17,7 @@
 #define CLUTTER 6
 #define PARTS 3
 
-/* Up to the gap at the struct's end. */
+/* Size of the struct up to its padding. */
 #define TRACK_BYTES (offsetof(struct rho_track_report, num_hypotheses) + sizeof(uint16_t))
 
 enum radar { FAULTY, GOOD, NUM_RADARS };
@@ -26,8 +26,8 @@ static const float radar_x_m[NUM_RADARS] = {0.0f, 200000.0f};
 static const int64_t phase_us[NUM_RADARS] = {0, 500000};
 
 /*
- * What the tracker says of the good radar's reach when that has looked. Identities are dealt out to
- * all tracks.
+ * The tracker's report within the good radar's coverage after its scan. Identities are excluded, as
+ * all tracks share them.
  */
 struct measurement_row {
     int64_t time_us;
@@ -46,7 +46,7 @@ static unsigned num_records, steps_of[NUM_RADARS];
  * ---- messages ---------------------------------------------------------------------------------
  */
 
-static uint32_t hash(uint32_t a, uint32_t b, uint32_t c)
+static uint32_t hash_of(uint32_t a, uint32_t b, uint32_t c)
 {
     uint32_t h = a * 2654435761u ^ b * 2246822519u ^ c * 3266489917u;
 
@@ -54,21 +54,21 @@ static uint32_t hash(uint32_t a, uint32_t b, uint32_t c)
     return h ^ h >> 13;
 }
 
-static float spread(uint32_t bits, float size)
+static float spread_bits(uint32_t bits, float size)
 {
     return size * ((float)(bits & 0xffffu) / 32768.0f - 1.0f);
 }
 
 struct message {
     enum radar radar;
-    int32_t look; /* which plots */
+    int32_t look; /* index of the plots */
     int32_t scan, epoch;
     int64_t time_us;
     int16_t part;
-    int16_t sensor_id; /* 0: the radar's */
+    int16_t sensor_id; /* 0: the radar's own id */
 };
 
-static int16_t sensor_of(const struct message *message)
+static int16_t sensor_of_message(const struct message *message)
 {
     return message->sensor_id > 0 ? message->sensor_id : (int16_t)(message->radar + 1);
 }
@@ -79,7 +79,7 @@ static size_t write_message(const struct message *message, uint8_t *buffer)
         .utime = message->time_us,
         .scan = message->scan,
         .epoch = message->epoch,
-        .sensor_id = sensor_of(message),
+        .sensor_id = sensor_of_message(message),
         .kind = RHO_MESSAGE_PLOT_SCAN_POSITION_2D,
         .part = message->part,
         .num_parts = PARTS,
@@ -88,12 +88,13 @@ static size_t write_message(const struct message *message, uint8_t *buffer)
 
     assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, DATAGRAM, &head), RHO_OK);
     for (uint32_t i = (uint32_t)message->part; i < TARGETS + CLUTTER; i += PARTS) {
-        uint32_t bits = hash((uint32_t)message->look, i, (uint32_t)message->radar);
+        uint32_t bits = hash_of((uint32_t)message->look, i, (uint32_t)message->radar);
         int is_target = i < TARGETS;
         float t_s = (float)message->look;
         struct rho_message_plot plot = {
-            .x_m = radar_x_m[message->radar] + spread(bits, is_target ? 15.0f : 0.7f * REACH_M),
-            .y_m = spread(bits >> 16, is_target ? 15.0f : 0.7f * REACH_M),
+            .x_m =
+                radar_x_m[message->radar] + spread_bits(bits, is_target ? 15.0f : 0.7f * REACH_M),
+            .y_m = spread_bits(bits >> 16, is_target ? 15.0f : 0.7f * REACH_M),
             .sigma_m = 10.0f,
         };
         if (is_target) {
@@ -104,15 +105,12 @@ static size_t write_message(const struct message *message, uint8_t *buffer)
             assert_int_equal(rho_message_plot_scan_add(&writer, &plot), RHO_OK);
         }
     }
-    return end_of_message(&writer);
+    return end_message(&writer);
 }
 
-/*
- * ---- the chain: assembler, tracker, record
- * ---------------------------------------------------------
- */
+/* ---- assembler, tracker and recorded reports ------------------------------------------------- */
 
-static void record_good(void)
+static void record_report_of_good_radar(void)
 {
     struct measurement_row *record = &records[num_records++];
 
@@ -137,11 +135,11 @@ static void step_item(void)
         steps_of[item.scan.sensor_id - 1]++;
     }
     if (item.scan.sensor_id - 1 == GOOD) {
-        record_good();
+        record_report_of_good_radar();
     }
 }
 
-static void step_all(int64_t now_us)
+static void step_all_items(int64_t now_us)
 {
     while (rho_scan_assembler_next(&assembler, now_us, &item)) {
         step_item();
@@ -155,22 +153,26 @@ static void send_bytes(const char *channel, const uint8_t *bytes, size_t size, i
             step_item();
         }
     }
-    step_all(now_us);
+    step_all_items(now_us);
 }
 
-static void send(const struct message *message, int64_t now_us)
+static void send_message(const struct message *message, int64_t now_us)
 {
     uint8_t buffer[DATAGRAM];
     size_t size = write_message(message, buffer);
 
-    send_bytes(channel_of(RHO_SCAN_ASSEMBLER_PLOTS, sensor_of(message)), buffer, size, now_us);
+    send_bytes(channel_of(RHO_SCAN_ASSEMBLER_PLOTS, sensor_of_message(message)), buffer, size,
+               now_us);
 }
 
 /*
  * ---- faults -----------------------------------------------------------------------------------
  */
 
-/* First those after which all scans of the faulty radar still arrive, then those that lose some. */
+/*
+ * First the faults after which all scans of the faulty radar still arrive, then those that lose
+ * some.
+ */
 enum fault {
     NONE,
     DOUBLE_PARTS,
@@ -213,7 +215,7 @@ static const char *const fault_names[NUM_FAULTS] = {
     "18 s ahead",   "1 h ahead",       "clock back",
     "restart",      "silent"};
 
-static void send_damaged(enum fault fault, const struct message *message, int64_t now_us)
+static void send_damaged_message(enum fault fault, const struct message *message, int64_t now_us)
 {
     uint8_t buffer[DATAGRAM + 1] = {0};
     size_t size = write_message(message, buffer);
@@ -242,8 +244,8 @@ static void send_damaged(enum fault fault, const struct message *message, int64_
     }
 }
 
-/* A message that is good, and says what is not so. */
-static void send_lie(enum fault fault, struct message message, int64_t now_us)
+/* Sends a valid message with a false value. */
+static void send_false_message(enum fault fault, struct message message, int64_t now_us)
 {
     if (fault == FORGED_SENSORS) {
         message.sensor_id = (int16_t)(100 + random_below(30000));
@@ -260,10 +262,10 @@ static void send_lie(enum fault fault, struct message message, int64_t now_us)
     } else {
         message.epoch += 1 + (int32_t)random_below(1000000);
     }
-    send(&message, now_us);
+    send_message(&message, now_us);
 }
 
-static void send_faulty(enum fault fault, int32_t look, int64_t time_us, int64_t now_us)
+static void send_scan_with_fault(enum fault fault, int32_t look, int64_t time_us, int64_t now_us)
 {
     struct message message = {
         .radar = FAULTY, .look = look, .scan = look, .epoch = 5, .time_us = time_us};
@@ -272,7 +274,7 @@ static void send_faulty(enum fault fault, int32_t look, int64_t time_us, int64_t
         (fault >= NOT_FINITE && fault <= WRONG_SENSOR) || fault == JUNK || fault == FLOOD;
     const int is_lie = (fault >= EXTRA_JUMPS && fault <= OTHER_EPOCH) || fault == FORGED_SENSORS;
 
-    if (fault == SILENT || (fault == LOST_SCANS && hash((uint32_t)look, 0, 9) % 2)) {
+    if (fault == SILENT || (fault == LOST_SCANS && hash_of((uint32_t)look, 0, 9) % 2)) {
         return;
     }
     message.time_us += fault == CLOCK_AHEAD_18_S  ? 18 * SECOND_US
@@ -284,21 +286,21 @@ static void send_faulty(enum fault fault, int32_t look, int64_t time_us, int64_t
         message.scan -= FIRST_FAULT;
     }
     if (fault == SCANS_REORDERED && look % 3 == 0) {
-        return; /* comes behind the next one */
+        return; /* sent after the next scan */
     }
     for (int16_t i = 0; i < PARTS; i++) {
         message.part = fault == PARTS_REORDERED ? orders[look % 4][i] : i;
         if (is_extra) {
-            send_damaged(fault, &message, now_us);
+            send_damaged_message(fault, &message, now_us);
         }
         if (is_lie) {
-            send_lie(fault, message, now_us);
+            send_false_message(fault, message, now_us);
         }
-        if (fault != LOST_PARTS || hash((uint32_t)look, (uint32_t)i, 3) % 3 > 0) {
-            send(&message, now_us);
+        if (fault != LOST_PARTS || hash_of((uint32_t)look, (uint32_t)i, 3) % 3 > 0) {
+            send_message(&message, now_us);
         }
         if (fault == DOUBLE_PARTS) {
-            send(&message, now_us);
+            send_message(&message, now_us);
         }
     }
     for (int16_t i = 0; i < PARTS; i++) {
@@ -308,22 +310,22 @@ static void send_faulty(enum fault fault, int32_t look, int64_t time_us, int64_t
             late.look--;
             late.scan--;
             late.time_us -= SECOND_US;
-            send(&late, now_us);
+            send_message(&late, now_us);
         }
         if (fault == LATE_DOUBLES && look > 4) {
             struct message late = message;
             late.look -= 3;
             late.scan -= 3;
             late.time_us -= 3 * SECOND_US;
-            send(&late, now_us);
+            send_message(&late, now_us);
         }
         if (fault == DOUBLE_SCANS) {
-            send(&message, now_us);
+            send_message(&message, now_us);
         }
     }
 }
 
-static void start_chain(uint8_t gate)
+static void start_objects(uint8_t gate)
 {
     struct rho_scan_assembler_config config = usual_config();
     struct rho_tracker_config tracker_config;
@@ -348,18 +350,18 @@ static void start_chain(uint8_t gate)
     random_state = 77;
 }
 
-static void run(uint8_t gate, enum fault fault)
+static void run_with_fault(uint8_t gate, enum fault fault)
 {
     int64_t now_us = 0;
 
-    start_chain(gate);
+    start_objects(gate);
     for (int32_t look = 0; look < SCANS; look++) {
         int64_t time_us = look * SECOND_US;
         int is_faulty = look >= FIRST_FAULT && look < LAST_FAULT;
 
         now_us = time_us + 3000;
-        send_faulty(is_faulty ? fault : NONE, look, time_us, now_us);
-        step_all(now_us + HOLD_US);
+        send_scan_with_fault(is_faulty ? fault : NONE, look, time_us, now_us);
+        step_all_items(now_us + HOLD_US);
         now_us = time_us + phase_us[GOOD] + 3000;
         for (int16_t part = 0; part < PARTS; part++) {
             struct message message = {.radar = GOOD,
@@ -367,9 +369,9 @@ static void run(uint8_t gate, enum fault fault)
                                       .scan = 1000 + look,
                                       .time_us = time_us + phase_us[GOOD],
                                       .part = part};
-            send(&message, now_us);
+            send_message(&message, now_us);
         }
-        step_all(now_us + HOLD_US);
+        step_all_items(now_us + HOLD_US);
     }
 }
 
@@ -377,30 +379,27 @@ static void run(uint8_t gate, enum fault fault)
  * ---- comparisons ------------------------------------------------------------------------------
  */
 
-static void faults_that_lose_nothing_change_no_bit(void **state)
+static void faults_without_lost_scans_change_no_bit(void **state)
 {
     (void)state;
     for (uint8_t gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        run(gate, NONE);
+        run_with_fault(gate, NONE);
         memcpy(clean, records, sizeof clean);
         assert_int_equal(clean[SCANS - 1].num_tracks, TARGETS);
         for (unsigned fault = NONE; fault < NUM_HARMLESS; fault++) {
-            run(gate, (enum fault)fault);
+            run_with_fault(gate, (enum fault)fault);
             if (num_records != SCANS || memcmp(clean, records, sizeof clean) != 0) {
                 fail_msg("gate %u: %s", gate, fault_names[fault]);
             }
-            assert_int_equal(steps_of[FAULTY], SCANS); /* nor is one of its own scans lost */
+            assert_int_equal(steps_of[FAULTY], SCANS); /* no scan of its own is lost, either */
         }
     }
 }
 
-/* How far a track is off what it is without the fault. */
-/*
- * The score alone may be another one: it is held against the clutter, of which there is one map for
- * all sensors.
- */
-static void is_same_but_for_its_score(const struct rho_track_report *is,
-                                      const struct rho_track_report *was)
+/* How far a track differs from the run without the fault. */
+/* Only the score may differ, as it is compared with the clutter, whose map all sensors share. */
+static void are_tracks_equal_but_for_score(const struct rho_track_report *is,
+                                           const struct rho_track_report *was)
 {
     assert_int_equal(is->status, was->status);
     assert_int_equal(is->hits, was->hits);
@@ -413,17 +412,17 @@ static void is_same_but_for_its_score(const struct rho_track_report *is,
     assert_memory_equal(&is->maneuver_probability, &was->maneuver_probability, sizeof(float));
 }
 
-/* Where scans of one radar are missing, tracks that it cannot see are the same to the last bit. */
-static void where_scans_are_lost_no_bit_of_the_others_tracks_changes(void **state)
+/* If scans of one radar are missing, tracks outside its coverage are the same to the last bit. */
+static void lost_scans_of_one_radar_change_no_track_of_the_other(void **state)
 {
     (void)state;
     for (uint8_t gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        run(gate, NONE);
+        run_with_fault(gate, NONE);
         memcpy(clean, records, sizeof clean);
         for (unsigned fault = NUM_HARMLESS; fault < NUM_FAULTS; fault++) {
-            run(gate, (enum fault)fault);
+            run_with_fault(gate, (enum fault)fault);
             assert_int_equal(num_records, SCANS);
-            if (fault == SCANS_REORDERED) { /* all are there in the end */
+            if (fault == SCANS_REORDERED) { /* reordered scans all arrive in the end */
                 assert_int_equal(steps_of[FAULTY], SCANS);
             } else {
                 assert_in_range(steps_of[FAULTY], SCANS - (LAST_FAULT - FIRST_FAULT) - 2,
@@ -433,15 +432,15 @@ static void where_scans_are_lost_no_bit_of_the_others_tracks_changes(void **stat
                 assert_int_equal(records[i].time_us, clean[i].time_us);
                 assert_int_equal(records[i].num_tracks, clean[i].num_tracks);
                 for (unsigned k = 0; k < clean[i].num_tracks; k++) {
-                    is_same_but_for_its_score(&records[i].tracks[k], &clean[i].tracks[k]);
+                    are_tracks_equal_but_for_score(&records[i].tracks[k], &clean[i].tracks[k]);
                 }
             }
         }
     }
 }
 
-/* Each fault is counted where it belongs, and nowhere else. */
-static void every_fault_has_its_counter(void **state)
+/* Each fault is counted by its own counter and by no other. */
+static void every_fault_is_counted_by_its_counter(void **state)
 {
     const uint32_t faulty = LAST_FAULT - FIRST_FAULT, messages = faulty * PARTS;
 
@@ -449,7 +448,7 @@ static void every_fault_has_its_counter(void **state)
     for (unsigned fault = NONE; fault < NUM_HARMLESS; fault++) {
         struct rho_scan_assembler_counters want = {.scans_accepted = 2 * SCANS};
 
-        run(RHO_TRACKER_NEAREST, (enum fault)fault);
+        run_with_fault(RHO_TRACKER_NEAREST, (enum fault)fault);
         switch ((enum fault)fault) {
         case DOUBLE_PARTS:
         case DOUBLE_SCANS:
@@ -486,9 +485,9 @@ static void every_fault_has_its_counter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(faults_that_lose_nothing_change_no_bit),
-        cmocka_unit_test(where_scans_are_lost_no_bit_of_the_others_tracks_changes),
-        cmocka_unit_test(every_fault_has_its_counter),
+        cmocka_unit_test(faults_without_lost_scans_change_no_bit),
+        cmocka_unit_test(lost_scans_of_one_radar_change_no_track_of_the_other),
+        cmocka_unit_test(every_fault_is_counted_by_its_counter),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

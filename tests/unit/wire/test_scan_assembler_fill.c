@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What becomes of a message's plots and bearings: places, noise, biases, and what is known of the
- * sensor.
+ * How a message's plots and bearings are completed: places, noise, biases, and the description of
+ * the sensor.
  */
 #include <math.h>
 
@@ -12,7 +12,7 @@ static uint8_t buffer[DATAGRAM];
 
 #define KNOWN_BIAS_US 250000
 
-static void set_sensor(const struct rho_scan_assembler_sensor *sensor)
+static void set_known_sensor(const struct rho_scan_assembler_sensor *sensor)
 {
     assert_int_equal(rho_scan_assembler_set_sensor(&assembler, sensor), RHO_OK);
 }
@@ -44,9 +44,9 @@ static struct rho_scan_assembler_sensor known_sensor(void)
  * ---- plots ------------------------------------------------------------------------------------
  */
 
-/* bias_us: of the sensor's clock, as it is known. */
-static void take_plot(int16_t sensor_id, int8_t kind, const struct rho_message_plot *plot,
-                      int64_t bias_us)
+/* Takes a message of one plot; bias_us: the configured bias of the sensor's clock. */
+static void take_message_of_plot(int16_t sensor_id, int8_t kind,
+                                 const struct rho_message_plot *plot, int64_t bias_us)
 {
     struct rho_message_plot_scan_head head = {
         .utime = 1000, .scan = 1, .sensor_id = sensor_id, .kind = kind, .num_parts = 1};
@@ -55,7 +55,7 @@ static void take_plot(int16_t sensor_id, int8_t kind, const struct rho_message_p
     assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, sizeof buffer, &head), RHO_OK);
     assert_int_equal(rho_message_plot_scan_add(&writer, plot), RHO_OK);
     assert_int_equal(take_bytes(channel_of(RHO_SCAN_ASSEMBLER_PLOTS, sensor_id), buffer,
-                                end_of_message(&writer), 0),
+                                end_message(&writer), 0),
                      RHO_OK);
     expect_next_scan(0, sensor_id, 1000 - bias_us);
     assert_int_equal(item.scan.num_plots, 1);
@@ -95,7 +95,7 @@ static void a_plot_keeps_its_values(void **state)
     for (int8_t kind = 2; kind <= 6; kind++) {
         if (kind != 5) {
             start_assembler();
-            take_plot(3, kind, &plot, 0);
+            take_message_of_plot(3, kind, &plot, 0);
             assert_int_equal(item.kind, RHO_SCAN_ASSEMBLER_PLOTS);
             assert_int_equal(item.scan.measures, measures[kind]);
             assert_memory_equal(item.scan.plots, &want, sizeof want);
@@ -104,7 +104,7 @@ static void a_plot_keeps_its_values(void **state)
     }
 }
 
-static void noise_is_the_messages_the_sensors_or_the_defaults(void **state)
+static void noise_comes_from_message_else_sensor_else_default(void **state)
 {
     const struct rho_message_plot said = {.sigma_m = 7.0f, .sigma_mps = 8.0f}, silent = {.x_m = 0};
     struct rho_scan_assembler_sensor known = known_sensor();
@@ -114,9 +114,9 @@ static void noise_is_the_messages_the_sensors_or_the_defaults(void **state)
         for (int is_said = 0; is_said < 2; is_said++) {
             start_assembler();
             if (is_known) {
-                set_sensor(&known);
+                set_known_sensor(&known);
             }
-            take_plot(7, 6, is_said ? &said : &silent, is_known ? KNOWN_BIAS_US : 0);
+            take_message_of_plot(7, 6, is_said ? &said : &silent, is_known ? KNOWN_BIAS_US : 0);
             const struct rho_plot *plot = &item.scan.plots[0];
             assert_true(plot->sigma_range_m == (is_said ? 7.0f : is_known ? 21.0f : 10.0f));
             assert_true(plot->sigma_cross_m == plot->sigma_range_m);
@@ -130,7 +130,7 @@ static void noise_is_the_messages_the_sensors_or_the_defaults(void **state)
     }
 }
 
-static void gives_other_gives_all_items_a_sensor(void **state)
+static void gives_other_describes_unknown_sensors_by_the_config(void **state)
 {
     const struct rho_message_plot plot = {.x_m = 0};
     struct rho_scan_assembler_config config = usual_config();
@@ -140,7 +140,7 @@ static void gives_other_gives_all_items_a_sensor(void **state)
     config.other.sensor.pd = 0.55f;
     config.other.sensor.sensor_id = 99;
     start_assembler_with(&config);
-    take_plot(3, 2, &plot, 0);
+    take_message_of_plot(3, 2, &plot, 0);
     assert_int_equal(item.has_sensor, 1);
     assert_int_equal(item.sensor.sensor_id, 3);
     assert_true(item.sensor.pd == 0.55f);
@@ -150,8 +150,8 @@ static void gives_other_gives_all_items_a_sensor(void **state)
  * ---- polar ------------------------------------------------------------------------------------
  */
 
-static void take_polar(const struct rho_message_polar_scan_head *head, unsigned count,
-                       const struct rho_message_polar_plot *plots)
+static void take_message_of_polar_plots(const struct rho_message_polar_scan_head *head,
+                                        unsigned count, const struct rho_message_polar_plot *plots)
 {
     struct rho_message_writer writer;
 
@@ -160,7 +160,7 @@ static void take_polar(const struct rho_message_polar_scan_head *head, unsigned 
         assert_int_equal(rho_message_polar_scan_add(&writer, &plots[i]), RHO_OK);
     }
     assert_int_equal(take_bytes(channel_of(RHO_SCAN_ASSEMBLER_POLAR, head->sensor_id), buffer,
-                                end_of_message(&writer), 0),
+                                end_message(&writer), 0),
                      RHO_OK);
 }
 
@@ -169,7 +169,7 @@ static float uniform(float from, float to)
     return from + (to - from) * ((float)random_below(1000001) * 1e-6f);
 }
 
-static void polar_plots_are_what_measurement_makes_of_them(void **state)
+static void polar_plots_are_converted_as_by_measurement(void **state)
 {
     (void)state;
     random_state = 4;
@@ -207,14 +207,14 @@ static void polar_plots_are_what_measurement_makes_of_them(void **state)
         }
         start_assembler();
         if (is_known) {
-            set_sensor(&known);
+            set_known_sensor(&known);
         }
-        take_polar(&head, 5, plots);
+        take_message_of_polar_plots(&head, 5, plots);
         expect_next_scan(0, 7, is_known ? 5 - KNOWN_BIAS_US : 5);
         assert_int_equal(item.kind, RHO_SCAN_ASSEMBLER_POLAR);
         assert_int_equal(item.has_sensor, is_known || has_place);
         assert_memory_equal(&item.sensor, &sensor, sizeof sensor);
-        sensor.time_bias_s = 0.0f; /* off the scan's time */
+        sensor.time_bias_s = 0.0f; /* time bias other than 0 */
         for (unsigned i = 0; i < 5; i++) {
             struct rho_polar_plot polar = {.offset_us = plots[i].dt_us,
                                            .range_m = plots[i].range_m,
@@ -244,7 +244,8 @@ static void plots_without_a_place_keep_their_row_and_are_invalid(void **state)
     const struct rho_message_polar_plot plots[] = {{.range_m = 1000.0f},
                                                    {.range_m = 0.0f},
                                                    {.range_m = 2000.0f},
-                                                   {.range_m = 5.0f}, /* less than its bias */
+                                                   /* range smaller than the range bias */
+                                                   {.range_m = 5.0f},
                                                    {.range_m = 3000.0f}};
     struct rho_message_polar_scan_head head = {.sensor_id = 7, .num_parts = 1};
     struct rho_scan_assembler_sensor known = known_sensor();
@@ -252,8 +253,8 @@ static void plots_without_a_place_keep_their_row_and_are_invalid(void **state)
 
     (void)state;
     start_assembler();
-    set_sensor(&known);
-    take_polar(&head, 5, plots);
+    set_known_sensor(&known);
+    take_message_of_polar_plots(&head, 5, plots);
     expect_next_scan(0, 7, -KNOWN_BIAS_US);
     assert_int_equal(item.scan.num_plots, 5);
     rho_tracker_config_default(&config);
@@ -269,7 +270,7 @@ static void plots_without_a_place_keep_their_row_and_are_invalid(void **state)
  * ---- bearings ---------------------------------------------------------------------------------
  */
 
-static void bearings_have_the_sensors_biases_taken_off(void **state)
+static void bearings_are_corrected_by_the_sensors_biases(void **state)
 {
     struct look look = {.time_us = 9,
                         .sensor_id = 7,
@@ -283,7 +284,7 @@ static void bearings_have_the_sensors_biases_taken_off(void **state)
         start_assembler();
         known.sensor.azimuth_bias_rad = 0.02f * (float)sign;
         known.sensor.time_bias_s = 0.25f * (float)sign;
-        set_sensor(&known);
+        set_known_sensor(&known);
         take_message(&look, 0);
         expect_next_scan(0, 7, 9 - KNOWN_BIAS_US * sign);
         assert_int_equal(item.kind, RHO_SCAN_ASSEMBLER_BEARINGS);
@@ -302,7 +303,7 @@ static void bearings_have_the_sensors_biases_taken_off(void **state)
     }
 }
 
-static void bearings_noise_is_the_messages_or_the_defaults(void **state)
+static void noise_of_bearings_comes_from_message_else_default(void **state)
 {
     struct rho_message_bearing_scan_head head = {.sensor_id = 3, .sigma_rad = 0.25f};
     struct rho_message_writer writer;
@@ -315,7 +316,7 @@ static void bearings_noise_is_the_messages_or_the_defaults(void **state)
         assert_int_equal(rho_message_bearing_scan_begin(&writer, buffer, sizeof buffer, &head),
                          RHO_OK);
         assert_int_equal(rho_message_bearing_scan_add(&writer, &bearing_rad), RHO_OK);
-        assert_int_equal(take_bytes("RHO_BEARINGS_3", buffer, end_of_message(&writer), 0), RHO_OK);
+        assert_int_equal(take_bytes("RHO_BEARINGS_3", buffer, end_message(&writer), 0), RHO_OK);
         expect_next_scan(0, 3, 0);
         assert_true(item.bearings.bearings[0].sigma_rad == (is_said ? 0.25f : 0.00175f));
         assert_true(item.bearings.bearings[0].bearing_rad == 1.0f);
@@ -329,10 +330,10 @@ static void bearings_noise_is_the_messages_or_the_defaults(void **state)
  */
 
 /*
- * A clock that is a second behind, and one that is right: scans come as they are made, and go out
- * so, all of them.
+ * One clock is a second behind, one is right: all scans are taken and given in the order in which
+ * they were made.
  */
-static void scans_are_in_order_without_their_time_biases(void **state)
+static void scans_are_sorted_by_time_without_clock_bias(void **state)
 {
     struct rho_scan_assembler_sensor known = known_sensor();
 
@@ -340,7 +341,7 @@ static void scans_are_in_order_without_their_time_biases(void **state)
     for (uint8_t kind = 0; kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; kind++) {
         start_assembler();
         known.sensor.time_bias_s = -1.0f;
-        set_sensor(&known);
+        set_known_sensor(&known);
         for (int32_t k = 1; k <= 20; k++) {
             struct look right = {.time_us = k * SECOND_US, .scan = k, .sensor_id = 3, .kind = kind},
                         behind = right;
@@ -358,20 +359,18 @@ static void scans_are_in_order_without_their_time_biases(void **state)
     }
 }
 
-/*
- * Held no longer than hold_us, a scan whose clock is ahead waits for one that was made before it.
- */
-static void a_scan_waits_for_one_that_was_made_before_it(void **state)
+/* Within hold_us, a scan of a clock that is ahead waits for one that was made before it. */
+static void a_scan_of_a_clock_ahead_waits_for_older_ones(void **state)
 {
     struct rho_scan_assembler_sensor known = known_sensor();
     struct look ahead = {.time_us = 3 * SECOND_US, .scan = 1, .sensor_id = 7},
                 right = {.time_us = 2 * SECOND_US - 5000, .scan = 1, .sensor_id = 3};
 
     (void)state;
-    known.sensor.time_bias_s = 1.0f; /* it was made at 2 s */
+    known.sensor.time_bias_s = 1.0f; /* its true time is 2 s */
     for (int comes_first = 0; comes_first < 2; comes_first++) {
         start_assembler();
-        set_sensor(&known);
+        set_known_sensor(&known);
         ahead.scan = right.scan = 1;
         take_message(comes_first ? &ahead : &right, 0);
         take_message(comes_first ? &right : &ahead, HOLD_US / 2);
@@ -392,7 +391,7 @@ static void times_beyond_their_limit_are_refused(void **state)
 
             start_assembler();
             known.sensor.time_bias_s = i == (unsigned)beyond ? -10.0f : 10.0f;
-            set_sensor(&known);
+            set_known_sensor(&known);
             take_message(&look, 0);
             assert_int_equal(assembler.counters.messages_bad, beyond);
             assert_int_equal(assembler.counters.scans_accepted, 1 - beyond);
@@ -404,14 +403,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_plot_keeps_its_values),
-        cmocka_unit_test(noise_is_the_messages_the_sensors_or_the_defaults),
-        cmocka_unit_test(gives_other_gives_all_items_a_sensor),
-        cmocka_unit_test(polar_plots_are_what_measurement_makes_of_them),
+        cmocka_unit_test(noise_comes_from_message_else_sensor_else_default),
+        cmocka_unit_test(gives_other_describes_unknown_sensors_by_the_config),
+        cmocka_unit_test(polar_plots_are_converted_as_by_measurement),
         cmocka_unit_test(plots_without_a_place_keep_their_row_and_are_invalid),
-        cmocka_unit_test(bearings_have_the_sensors_biases_taken_off),
-        cmocka_unit_test(bearings_noise_is_the_messages_or_the_defaults),
-        cmocka_unit_test(scans_are_in_order_without_their_time_biases),
-        cmocka_unit_test(a_scan_waits_for_one_that_was_made_before_it),
+        cmocka_unit_test(bearings_are_corrected_by_the_sensors_biases),
+        cmocka_unit_test(noise_of_bearings_comes_from_message_else_default),
+        cmocka_unit_test(scans_are_sorted_by_time_without_clock_bias),
+        cmocka_unit_test(a_scan_of_a_clock_ahead_waits_for_older_ones),
         cmocka_unit_test(times_beyond_their_limit_are_refused),
     };
 

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Late scans take nobody's room, whatever a sensor that lies sends. */
+/* Late scans take no room from other scans, whatever a faulty sensor sends. */
 #include "late_scans.h"
 
-/*
- * Others' scans whose parts are still coming are not cut short for it, nor do they lose their room.
- */
-static void a_late_one_takes_nobodys_room(void **state)
+/* A late scan neither ends other sensors' incomplete scans nor takes their room. */
+static void late_scans_take_no_room_of_other_scans(void **state)
 {
     (void)state;
-    begin_with_scans(5);
+    start_with_scans(5);
     take_late_scan(7, 7 * SECOND_US);
     expect_next_scan(8 * SECOND_US, 1, 7 * SECOND_US);
     expect_no_scan(8 * SECOND_US);
@@ -29,10 +27,10 @@ static void a_late_one_takes_nobodys_room(void **state)
 }
 
 /*
- * Sensor 1 sends scans 1 .. 9, one a second, and sensor 9, whose numbers are wrong, a hundred a
- * second. Returns the last number of sensor 9.
+ * Sensor 1 sends scans 1 .. 9, one a second, and sensor 9, with wrong numbers, a hundred a second.
+ * Returns the last number of sensor 9.
  */
-static int32_t begin_with_wrong_numbers(const struct rho_scan_assembler_config *config)
+static int32_t start_with_wrongly_numbered_sensor(const struct rho_scan_assembler_config *config)
 {
     int32_t scan = 0;
 
@@ -41,17 +39,17 @@ static int32_t begin_with_wrong_numbers(const struct rho_scan_assembler_config *
         take_scan(1, i, i * SECOND_US);
         for (int32_t k = 1; k < 100; k++) {
             take_scan(9, ++scan, i * SECOND_US + k * 10000);
-            (void)drain(INT64_MAX);
+            (void)take_all_items(INT64_MAX);
         }
     }
     return scan;
 }
 
 /*
- * The first parts of a scan of sensor 9 far ahead, and of those that it skipped; all with times
- * after 10 s.
+ * Sends first parts of a scan of sensor 9 far ahead and of the numbers that it skipped, all with
+ * times after 10 s.
  */
-static struct look lie(int32_t last, int64_t now_us)
+static struct look send_wrong_numbers(int32_t last, int64_t now_us)
 {
     struct look look = {.scan = last + 32,
                         .time_us = 9990000 + 32 * 10000,
@@ -70,17 +68,17 @@ static struct look lie(int32_t last, int64_t now_us)
     return look;
 }
 
-static void late_scans_of_wrong_numbers_cut_no_scan_short(void **state)
+static void wrong_scan_numbers_end_no_incomplete_scan(void **state)
 {
     const struct rho_scan_assembler_config config = usual_config();
     const int64_t now_us = 10 * SECOND_US;
-    const int32_t last = begin_with_wrong_numbers(&config);
-    struct look look = part_of(10, 0), more;
+    const int32_t last = start_with_wrongly_numbered_sensor(&config);
+    struct look look = late_part(10, 0), more;
 
     (void)state;
     take_message(&look, now_us);
-    more = lie(last, now_us);
-    /* one waits for its parts at most, and none where there is no room */
+    more = send_wrong_numbers(last, now_us);
+    /* at most one waits for its parts, and none without room */
     assert_int_equal(assembler.counters.scans_accepted, 9 + 9 * 99 + 2 + (RHO_MAX_OPEN_SCANS > 2));
     assert_int_equal(assembler.counters.scans_late, 30);
     if (RHO_MAX_OPEN_SCANS > 2) {
@@ -95,12 +93,12 @@ static void late_scans_of_wrong_numbers_cut_no_scan_short(void **state)
     assert_int_equal(item.parts_missing, 0);
 }
 
-static void one_of_a_sensor_waits_for_its_parts_and_whole_ones_pass_it(void **state)
+static void one_late_scan_per_sensor_waits_for_its_parts(void **state)
 {
-    struct look first = part_of(8, 0), second = part_of(7, 0);
+    struct look first = late_part(8, 0), second = late_part(7, 0);
 
     (void)state;
-    begin_with_scans(5);
+    start_with_scans(5);
     take_late_scan(9, 9 * SECOND_US);
     expect_next_scan(10 * SECOND_US, 1, 9 * SECOND_US);
     expect_no_scan(10 * SECOND_US);
@@ -112,25 +110,25 @@ static void one_of_a_sensor_waits_for_its_parts_and_whole_ones_pass_it(void **st
     first.part = second.part = 1;
     take_message(&first, 10 * SECOND_US);
     expect_next_scan(10 * SECOND_US, 1, 8 * SECOND_US);
-    second.num_parts = 1; /* it was not remembered */
+    second.num_parts = 1; /* the refused scan was not remembered */
     second.part = 0;
     take_message(&second, 10 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = 9, .scans_late = 4, .scans_lost = 3);
 }
 
-static void late_scans_of_wrong_numbers_shut_no_sensor_out(void **state)
+static void wrong_scan_numbers_block_no_other_sensor(void **state)
 {
     struct rho_scan_assembler_config config = usual_config();
 
     (void)state;
     for (int is_held = 0; is_held < 2; is_held++) {
         config.hold_us = is_held * HOLD_US;
-        (void)lie(begin_with_wrong_numbers(&config), 10 * SECOND_US);
+        (void)send_wrong_numbers(start_with_wrongly_numbered_sensor(&config), 10 * SECOND_US);
         for (int32_t i = 1; i <= 5; i++) {
             int64_t now_us = (10 + 4 * i) * SECOND_US;
 
             take_scan(3, i, now_us);
-            assert_in_range(drain(now_us + HOLD_US), 1, 3);
+            assert_in_range(take_all_items(now_us + HOLD_US), 1, 3);
             assert_int_equal(item_sensor(), 3);
         }
         assert_int_equal(assembler.counters.scans_accepted, 9 + 9 * 99 + 2 + 5);
@@ -138,9 +136,10 @@ static void late_scans_of_wrong_numbers_shut_no_sensor_out(void **state)
 }
 
 /*
- * Late ones wait for their turn; whoever else needs their room has it, and nobody is late by that.
+ * Late scans wait to be given; another sensor that needs their room gets it, and no scan is late by
+ * that.
  */
-static void late_ones_give_way(void **state)
+static void late_scans_give_way_to_other_scans(void **state)
 {
     struct rho_scan_assembler_config config = usual_config();
     const unsigned late_ones = RHO_MAX_OPEN_SCANS < 4 ? RHO_MAX_OPEN_SCANS - 1 : 3;
@@ -148,14 +147,14 @@ static void late_ones_give_way(void **state)
 
     (void)state;
     config.late_max_us = 20 * SECOND_US;
-    begin_with(&config, 5);
+    start_with_config_and_scans(&config, 5);
     take_scan(2, 1, 5 * SECOND_US + 1);
-    assert_int_equal(drain(INT64_MAX), 1);
+    assert_int_equal(take_all_items(INT64_MAX), 1);
     take_late_scan(9, 9 * SECOND_US);
     for (int32_t scan = 8; scan > 8 - (int32_t)late_ones; scan--) {
         take_late_scan(scan, 9 * SECOND_US);
     }
-    expect_no_scan(9 * SECOND_US); /* sensor 2 may have an older one */
+    expect_no_scan(9 * SECOND_US); /* sensor 2 may still send an older scan */
     for (int16_t id = 10; id < 10 + RHO_MAX_OPEN_SCANS - 1; id++, others++) {
         struct look look = {.time_us = 6 * SECOND_US - 1 + id, .sensor_id = id, .num_parts = 2};
 
@@ -170,22 +169,22 @@ static void late_ones_give_way(void **state)
     expect_next_scan(9 * SECOND_US + HOLD_US, 10, 6 * SECOND_US + 9);
 }
 
-/* A late one does not send a newer scan out before an older one whose parts are still coming. */
-static void a_late_one_makes_nobody_late(void **state)
+/* A late scan does not cause a newer scan to be given before an older incomplete one. */
+static void a_late_scan_makes_no_incomplete_scan_late(void **state)
 {
     const int64_t now_us = 10 * SECOND_US;
-    struct look open = part_of(9, 0), whole = {.time_us = 9 * SECOND_US + 1, .scan = 6};
+    struct look open = late_part(9, 0), whole = {.time_us = 9 * SECOND_US + 1, .scan = 6};
 
     (void)state;
     start_assembler();
     for (int32_t i = 1; i <= 5; i++) {
         for (int16_t id = 1; id <= 3; id++) {
             take_scan(id, i, i * SECOND_US);
-            assert_int_equal(drain(INT64_MAX), 1);
+            assert_int_equal(take_all_items(INT64_MAX), 1);
         }
     }
     take_scan(3, 7, 7 * SECOND_US);
-    (void)drain(INT64_MAX);
+    (void)take_all_items(INT64_MAX);
     take_message(&open, now_us);
     whole.sensor_id = 2;
     take_message(&whole, now_us);
@@ -194,7 +193,7 @@ static void a_late_one_makes_nobody_late(void **state)
 
         take_message(&look, now_us);
     }
-    take_scan(3, 6, 6 * SECOND_US); /* no room for it */
+    take_scan(3, 6, 6 * SECOND_US); /* refused for lack of room */
     assert_int_equal(assembler.counters.scans_late, 1);
     expect_no_scan(now_us);
     open.part = 1;
@@ -207,12 +206,12 @@ static void a_late_one_makes_nobody_late(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_late_one_takes_nobodys_room),
-        cmocka_unit_test(late_scans_of_wrong_numbers_cut_no_scan_short),
-        cmocka_unit_test(one_of_a_sensor_waits_for_its_parts_and_whole_ones_pass_it),
-        cmocka_unit_test(late_scans_of_wrong_numbers_shut_no_sensor_out),
-        cmocka_unit_test(late_ones_give_way),
-        cmocka_unit_test(a_late_one_makes_nobody_late),
+        cmocka_unit_test(late_scans_take_no_room_of_other_scans),
+        cmocka_unit_test(wrong_scan_numbers_end_no_incomplete_scan),
+        cmocka_unit_test(one_late_scan_per_sensor_waits_for_its_parts),
+        cmocka_unit_test(wrong_scan_numbers_block_no_other_sensor),
+        cmocka_unit_test(late_scans_give_way_to_other_scans),
+        cmocka_unit_test(a_late_scan_makes_no_incomplete_scan_late),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,26 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* What a assembler has no room for, what it refuses, and what is no message at all. */
+/* Messages for which an assembler has no room, which it refuses, and which are invalid. */
 #include "scan_assembler_setup.h"
 
 static struct rho_scan_assembler before;
 
-/*
- * ---- flood ------------------------------------------------------------------------------------
- */
+/* ---- flood limit ----------------------------------------------------------------------------- */
 
-static void more_than_flood_per_s_are_not_looked_at(void **state)
+static void messages_beyond_flood_per_s_are_not_read(void **state)
 {
     struct rho_scan_assembler_config config = usual_config();
 
     (void)state;
     config.flood_per_s = 5;
     start_assembler_with(&config);
-    take_scan(1, 0, 0); /* the first one is a stranger's */
+    take_scan(1, 0, 0); /* counted for unknown sensors, as the first message is */
     for (int i = 0; i < 9; i++) {
         take_scan(1, 0, 1);
     }
     COUNTERS_ARE(.scans_accepted = 1, .scans_other = 5, .messages_flooded = 4);
-    take_scan(2, 0, 2); /* another one is not concerned */
+    take_scan(2, 0, 2); /* another sensor is not affected */
     COUNTERS_ARE(.scans_accepted = 2, .scans_other = 5, .messages_flooded = 4);
     take_scan(1, 1, SECOND_US - 1);
     COUNTERS_ARE(.scans_accepted = 2, .scans_other = 5, .messages_flooded = 5);
@@ -31,7 +29,7 @@ static void more_than_flood_per_s_are_not_looked_at(void **state)
     COUNTERS_ARE(.scans_accepted = 3, .scans_other = 5, .messages_flooded = 5);
 }
 
-static void strangers_share_one_measure(void **state)
+static void unknown_sensors_share_one_flood_limit(void **state)
 {
     struct rho_scan_assembler_config config = usual_config();
     uint8_t junk[3] = {0};
@@ -45,7 +43,7 @@ static void strangers_share_one_measure(void **state)
     COUNTERS_ARE(.messages_bad = 5, .messages_flooded = 4);
 }
 
-static void a_reception_clock_that_goes_back_fills_the_bucket(void **state)
+static void a_reception_clock_set_back_refills_the_flood_limit(void **state)
 {
     struct rho_scan_assembler_config config = usual_config();
     struct look look = {.sensor_id = 1};
@@ -62,7 +60,7 @@ static void a_reception_clock_that_goes_back_fills_the_bucket(void **state)
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 2, .messages_flooded = 2);
 }
 
-static void what_is_taken_again_is_drawn_once(void **state)
+static void a_message_offered_again_counts_once_in_the_flood_limit(void **state)
 {
     struct rho_scan_assembler_config config = usual_config();
     struct look look = {.num_parts = 2};
@@ -76,7 +74,7 @@ static void what_is_taken_again_is_drawn_once(void **state)
     }
     look.sensor_id = RHO_MAX_OPEN_SCANS;
     for (int i = 0; i < 10; i++) {
-        assert_int_equal(take_status(&look, 0), RHO_ERROR_CAPACITY);
+        assert_int_equal(take_message_status(&look, 0), RHO_ERROR_CAPACITY);
     }
     assert_int_equal(assembler.counters.messages_flooded, 0);
 }
@@ -90,25 +88,25 @@ static void fill_table(int32_t scans)
     for (int32_t scan = 0; scan < scans; scan++) {
         for (int16_t id = 0; id < RHO_MAX_SENSORS; id++) {
             take_scan(id, scan, scan * SECOND_US + id);
-            assert_int_equal(drain(scan * SECOND_US + HOLD_US + id), 1);
+            assert_int_equal(take_all_items(scan * SECOND_US + HOLD_US + id), 1);
         }
     }
 }
 
-static void the_sensor_heard_longest_ago_gives_way(void **state)
+static void a_new_sensor_replaces_the_one_heard_longest_ago(void **state)
 {
     (void)state;
     start_assembler();
     fill_table(1);
     take_scan(1000, 0, SECOND_US);
-    assert_int_equal(drain(INT64_MAX), 1);
+    assert_int_equal(take_all_items(INT64_MAX), 1);
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         assert_int_equal(assembler.sources[i].sensor_id, i == 0 ? 1000 : (int)i);
     }
     assert_int_equal(assembler.counters.sensors_no_room, 0);
 }
 
-static void proven_sensors_do_not_give_way_while_they_are_heard(void **state)
+static void proven_sensors_are_not_replaced_while_heard(void **state)
 {
     const uint32_t known = 3 * RHO_MAX_SENSORS;
 
@@ -117,14 +115,14 @@ static void proven_sensors_do_not_give_way_while_they_are_heard(void **state)
     fill_table(3);
     take_scan(1000, 0, 3 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = known, .sensors_no_room = 1);
-    take_scan(1000, 0, 2 * SECOND_US + JUMP_US); /* the first one was heard jump_max ago */
+    take_scan(1000, 0, 2 * SECOND_US + JUMP_US); /* the first sensor was heard jump_max ago */
     COUNTERS_ARE(.scans_accepted = known, .sensors_no_room = 2);
     take_scan(1000, 0, 2 * SECOND_US + JUMP_US + 1);
     COUNTERS_ARE(.scans_accepted = known + 1, .sensors_no_room = 2);
     assert_int_equal(assembler.sources[0].sensor_id, 1000);
 }
 
-static void forged_sensors_never_drive_out_proven_ones(void **state)
+static void forged_sensors_never_replace_proven_ones(void **state)
 {
     uint32_t forged = 0;
 
@@ -148,20 +146,20 @@ static void forged_sensors_never_drive_out_proven_ones(void **state)
             }
             take_scan(id, scan, now_us);
             assert_int_equal(assembler.counters.scans_accepted, accepted + 1);
-            assert_int_equal(drain(now_us + HOLD_US), 1);
+            assert_int_equal(take_all_items(now_us + HOLD_US), 1);
         }
     }
     assert_int_equal(assembler.counters.sensors_no_room, forged);
 }
 
-static void a_proven_sensor_off_the_clock_gives_way(void **state)
+static void a_proven_sensor_off_the_clock_is_replaced(void **state)
 {
     int32_t scan = 3;
 
     (void)state;
     start_assembler();
     fill_table(3);
-    for (int i = 0; i < 3; i++, scan++) { /* sensor 1 is an hour ahead */
+    for (int i = 0; i < 3; i++, scan++) { /* the clock of sensor 1 is an hour ahead */
         struct look look = {.sensor_id = 1, .scan = scan, .time_us = (3600 + scan) * SECOND_US};
         take_message(&look, 3 * SECOND_US);
     }
@@ -170,19 +168,19 @@ static void a_proven_sensor_off_the_clock_gives_way(void **state)
     assert_int_equal(assembler.sources[1].sensor_id, 1000);
 }
 
-static void one_number_on_three_channels_is_three_sensors(void **state)
+static void one_sensor_number_on_three_channels_is_three_sensors(void **state)
 {
     (void)state;
     start_assembler();
     for (uint8_t kind = 0; kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; kind++) {
         struct look look = {.sensor_id = 5, .kind = kind, .time_us = kind};
         take_message(&look, 0);
-        assert_int_equal(drain(INT64_MAX), 1);
+        assert_int_equal(take_all_items(INT64_MAX), 1);
     }
     COUNTERS_ARE(.scans_accepted = 3);
 }
 
-static void a_sensor_that_gives_way_leaves_its_scan(void **state)
+static void a_replaced_sensors_scan_is_still_given(void **state)
 {
     struct look look = {.sensor_id = 500, .time_us = 5, .num_parts = 2, .count = 1};
     struct rho_scan_assembler_config config = usual_config();
@@ -191,7 +189,8 @@ static void a_sensor_that_gives_way_leaves_its_scan(void **state)
     config.hold_us = 10000000;
     start_assembler_with(&config);
     take_message(&look, 0);
-    for (int16_t id = 0; id < RHO_MAX_SENSORS; id++) { /* the last one takes its place */
+    /* the last new sensor takes the place of this one */
+    for (int16_t id = 0; id < RHO_MAX_SENSORS; id++) {
         look = (struct look){.sensor_id = id, .time_us = 4};
         take_message(&look, 1);
         expect_next_scan(1, id, 4);
@@ -203,11 +202,9 @@ static void a_sensor_that_gives_way_leaves_its_scan(void **state)
     assert_int_equal(item.scan.num_plots, 1);
 }
 
-/*
- * ---- slots ------------------------------------------------------------------------------------
- */
+/* ---- slots of open scans --------------------------------------------------------------------- */
 
-static void without_room_the_oldest_goes_out_and_the_message_is_taken(void **state)
+static void without_room_the_oldest_scan_is_given_for_a_new_message(void **state)
 {
     struct look look = {.count = 1, .num_parts = 2};
     struct rho_scan_assembler_bucket was;
@@ -222,20 +219,21 @@ static void without_room_the_oldest_goes_out_and_the_message_is_taken(void **sta
     }
     look.sensor_id = 500;
     was = assembler.strangers;
-    assert_int_equal(take_status(&look, 0), RHO_ERROR_CAPACITY);
+    assert_int_equal(take_message_status(&look, 0), RHO_ERROR_CAPACITY);
     assert_memory_equal(&was, &assembler.strangers, sizeof was);
     COUNTERS_ARE(.scans_accepted = RHO_MAX_OPEN_SCANS);
-    expect_next_scan(0, 0, 100); /* the first that is not proven */
+    expect_next_scan(0, 0, 100); /* the first unproven sensor's scan */
     assert_int_equal(item.parts_missing, 1);
-    assert_int_equal(take_status(&look, 0), RHO_ERROR_CAPACITY); /* the item is still read */
+    /* the given scan is still read by the caller */
+    assert_int_equal(take_message_status(&look, 0), RHO_ERROR_CAPACITY);
     assert_true(item.scan.plots[0].x_m == 0.0f);
-    expect_no_scan(0); /* there is room now */
+    expect_no_scan(0); /* after this call its slot is free */
     take_message(&look, 0);
     COUNTERS_ARE(.scans_accepted = RHO_MAX_OPEN_SCANS + 1, .scans_incomplete = 1);
     expect_no_scan(0);
 }
 
-static void complete_scans_make_room_before_open_ones(void **state)
+static void complete_scans_make_room_before_incomplete_ones(void **state)
 {
     struct look open = {.sensor_id = 1, .time_us = 50, .num_parts = 2},
                 whole = {.sensor_id = 2, .time_us = 90};
@@ -246,7 +244,7 @@ static void complete_scans_make_room_before_open_ones(void **state)
     take_message(&whole, 0);
     for (int16_t id = 3; id < 3 + 2 * RHO_MAX_OPEN_SCANS; id++) {
         struct look more = {.sensor_id = id, .time_us = 90 + id};
-        while (take_status(&more, 0) == RHO_ERROR_CAPACITY) {
+        while (take_message_status(&more, 0) == RHO_ERROR_CAPACITY) {
             if (rho_scan_assembler_next(&assembler, 0, &item)) {
                 assert_int_not_equal(item_sensor(), 1);
             }
@@ -257,7 +255,7 @@ static void complete_scans_make_room_before_open_ones(void **state)
     COUNTERS_ARE(.scans_accepted = 2 + 2 * RHO_MAX_OPEN_SCANS);
 }
 
-static void strangers_do_not_cut_short_the_scans_of_proven_sensors(void **state)
+static void unproven_sensors_end_no_incomplete_scan_of_proven_ones(void **state)
 {
     const uint32_t known = 4 * RHO_MAX_OPEN_SCANS;
 
@@ -271,7 +269,7 @@ static void strangers_do_not_cut_short_the_scans_of_proven_sensors(void **state)
                                 .num_parts = (int16_t)(scan == 3 ? 2 : 1)};
             take_message(&look, scan * SECOND_US);
         }
-        assert_int_equal(drain(scan * SECOND_US), scan == 3 ? 0 : RHO_MAX_OPEN_SCANS);
+        assert_int_equal(take_all_items(scan * SECOND_US), scan == 3 ? 0 : RHO_MAX_OPEN_SCANS);
     }
     for (int16_t id = 100; id < 200; id++) {
         struct look look = {.sensor_id = id, .time_us = 3 * SECOND_US};
@@ -282,10 +280,10 @@ static void strangers_do_not_cut_short_the_scans_of_proven_sensors(void **state)
 }
 
 /*
- * Nor do they make them late by scans that are whole and newer: they would go out first, for want
- * of room.
+ * Unproven sensors must not make proven ones' scans late by whole, newer scans that would be given
+ * first for lack of room.
  */
-static void strangers_do_not_make_the_scans_of_proven_sensors_late(void **state)
+static void unproven_sensors_make_no_scan_of_proven_ones_late(void **state)
 {
     struct look open = {.sensor_id = 1, .scan = 4, .time_us = 4 * SECOND_US, .num_parts = 2};
 
@@ -293,7 +291,7 @@ static void strangers_do_not_make_the_scans_of_proven_sensors_late(void **state)
     start_assembler();
     for (int32_t scan = 1; scan < 4; scan++) {
         take_scan(1, scan, scan * SECOND_US);
-        assert_int_equal(drain(scan * SECOND_US), 1);
+        assert_int_equal(take_all_items(scan * SECOND_US), 1);
     }
     take_message(&open, 4 * SECOND_US);
     for (int16_t id = 100; id < 120; id++) {
@@ -309,8 +307,8 @@ static void strangers_do_not_make_the_scans_of_proven_sensors_late(void **state)
                  .sensors_no_room = 20 - (RHO_MAX_OPEN_SCANS - 1));
 }
 
-/* Whatever comes, two calls make room. */
-static void there_is_always_progress(void **state)
+/* For any messages, two calls of next make room. */
+static void two_calls_of_next_always_make_room(void **state)
 {
     unsigned pressed = 0;
 
@@ -326,13 +324,13 @@ static void there_is_always_progress(void **state)
                             .count = (uint16_t)random_below(3)};
         unsigned tries = 0;
 
-        while (take_status(&look, i * 100) == RHO_ERROR_CAPACITY) {
+        while (take_message_status(&look, i * 100) == RHO_ERROR_CAPACITY) {
             (void)rho_scan_assembler_next(&assembler, i * 100, &item);
             assert_true(++tries <= 2);
             pressed++;
         }
         if (random_below(50) == 0) {
-            (void)drain(i * 100);
+            (void)take_all_items(i * 100);
         }
     }
     assert_in_range(pressed, 20, 100000);
@@ -342,7 +340,7 @@ static void there_is_always_progress(void **state)
  * ---- plots beyond the capacities --------------------------------------------------------------
  */
 
-static void of_too_many_plots_the_first_stay(void **state)
+static void of_too_many_plots_the_first_are_kept(void **state)
 {
     enum { PARTS = 12, TOTAL = 34 * PARTS };
     unsigned order[PARTS];
@@ -374,7 +372,7 @@ static void of_too_many_plots_the_first_stay(void **state)
     }
 }
 
-static void of_too_many_bearings_the_first_stay(void **state)
+static void of_too_many_bearings_the_first_are_kept(void **state)
 {
     (void)state;
     for (uint16_t count = 0; count <= 256; count = (uint16_t)(count + 16)) {
@@ -389,11 +387,9 @@ static void of_too_many_bearings_the_first_stay(void **state)
     }
 }
 
-/*
- * ---- what is refused --------------------------------------------------------------------------
- */
+/* ---- refused messages and configurations ----------------------------------------------------- */
 
-static void only_sensors_channels_are_taken(void **state)
+static void only_channels_of_sensors_are_accepted(void **state)
 {
     static const char *const others[] = {"",
                                          "RHO_PLOTS_",
@@ -438,7 +434,7 @@ static void only_sensors_channels_are_taken(void **state)
     }
 }
 
-static void wrong_bytes_are_counted_by_what_is_wrong(void **state)
+static void bad_messages_are_counted_by_their_fault(void **state)
 {
     struct look look = {.sensor_id = 1, .count = 3};
     uint8_t buffer[DATAGRAM + 1] = {0};
@@ -462,7 +458,7 @@ static void wrong_bytes_are_counted_by_what_is_wrong(void **state)
         COUNTERS_ARE(.messages_bad = (uint32_t)size + 1, .messages_wrong_type = 2);
         assert_int_equal(take_bytes(channel_of(look.kind, 2), buffer, size, 0), RHO_OK);
         COUNTERS_ARE(.messages_bad = (uint32_t)size + 2, .messages_wrong_type = 2);
-        memset(buffer + size - 4, 0x7f, 4); /* the last value: no number, or beyond its range */
+        memset(buffer + size - 4, 0x7f, 4); /* the last value becomes no number, or out of range */
         memset(buffer + size - 2, 0xff, 2);
         assert_int_equal(take_bytes(channel_of(look.kind, 1), buffer, size, 0), RHO_OK);
         COUNTERS_ARE(.messages_bad = (uint32_t)size + 3, .messages_wrong_type = 2);
@@ -470,7 +466,7 @@ static void wrong_bytes_are_counted_by_what_is_wrong(void **state)
     }
 }
 
-static void refused(struct rho_scan_assembler_config config)
+static void expect_config_refused(struct rho_scan_assembler_config config)
 {
     before = assembler;
     assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, &config),
@@ -482,7 +478,7 @@ static void refused(struct rho_scan_assembler_config config)
     do {                                                                                           \
         struct rho_scan_assembler_config config = usual_config();                                  \
         config.field = (value);                                                                    \
-        refused(config);                                                                           \
+        expect_config_refused(config);                                                             \
     } while (0)
 #define ALLOW(field, value)                                                                        \
     do {                                                                                           \
@@ -526,7 +522,7 @@ static void configurations_beyond_their_ranges_are_refused(void **state)
     REFUSE(other.sensor.azimuth_bias_rad, 1.0f);
 }
 
-static void init_and_sensors_are_checked(void **state)
+static void bad_init_and_sensors_are_refused(void **state)
 {
     struct rho_scan_assembler_config config = usual_config();
     struct rho_scan_assembler_sensor sensor = config.other;
@@ -564,14 +560,15 @@ static void init_and_sensors_are_checked(void **state)
         assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &sensor), RHO_OK);
     }
     sensor.sensor.sensor_id = 5;
-    assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &sensor), RHO_OK); /* replaced */
+    /* setting a sensor again replaces it */
+    assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &sensor), RHO_OK);
     sensor.sensor.sensor_id = RHO_MAX_SENSORS;
     before = assembler;
     assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &sensor), RHO_ERROR_CAPACITY);
     assert_memory_equal(&assembler, &before, sizeof assembler);
 }
 
-static void a_copy_goes_on_like_the_original(void **state)
+static void a_copied_assembler_continues_like_the_original(void **state)
 {
     static struct rho_scan_assembler copy;
     struct rho_scan_assembler_counters counters;
@@ -598,28 +595,28 @@ static void a_copy_goes_on_like_the_original(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(more_than_flood_per_s_are_not_looked_at),
-        cmocka_unit_test(strangers_share_one_measure),
-        cmocka_unit_test(a_reception_clock_that_goes_back_fills_the_bucket),
-        cmocka_unit_test(what_is_taken_again_is_drawn_once),
-        cmocka_unit_test(the_sensor_heard_longest_ago_gives_way),
-        cmocka_unit_test(proven_sensors_do_not_give_way_while_they_are_heard),
-        cmocka_unit_test(forged_sensors_never_drive_out_proven_ones),
-        cmocka_unit_test(a_proven_sensor_off_the_clock_gives_way),
-        cmocka_unit_test(one_number_on_three_channels_is_three_sensors),
-        cmocka_unit_test(a_sensor_that_gives_way_leaves_its_scan),
-        cmocka_unit_test(without_room_the_oldest_goes_out_and_the_message_is_taken),
-        cmocka_unit_test(complete_scans_make_room_before_open_ones),
-        cmocka_unit_test(strangers_do_not_cut_short_the_scans_of_proven_sensors),
-        cmocka_unit_test(strangers_do_not_make_the_scans_of_proven_sensors_late),
-        cmocka_unit_test(there_is_always_progress),
-        cmocka_unit_test(of_too_many_plots_the_first_stay),
-        cmocka_unit_test(of_too_many_bearings_the_first_stay),
-        cmocka_unit_test(only_sensors_channels_are_taken),
-        cmocka_unit_test(wrong_bytes_are_counted_by_what_is_wrong),
+        cmocka_unit_test(messages_beyond_flood_per_s_are_not_read),
+        cmocka_unit_test(unknown_sensors_share_one_flood_limit),
+        cmocka_unit_test(a_reception_clock_set_back_refills_the_flood_limit),
+        cmocka_unit_test(a_message_offered_again_counts_once_in_the_flood_limit),
+        cmocka_unit_test(a_new_sensor_replaces_the_one_heard_longest_ago),
+        cmocka_unit_test(proven_sensors_are_not_replaced_while_heard),
+        cmocka_unit_test(forged_sensors_never_replace_proven_ones),
+        cmocka_unit_test(a_proven_sensor_off_the_clock_is_replaced),
+        cmocka_unit_test(one_sensor_number_on_three_channels_is_three_sensors),
+        cmocka_unit_test(a_replaced_sensors_scan_is_still_given),
+        cmocka_unit_test(without_room_the_oldest_scan_is_given_for_a_new_message),
+        cmocka_unit_test(complete_scans_make_room_before_incomplete_ones),
+        cmocka_unit_test(unproven_sensors_end_no_incomplete_scan_of_proven_ones),
+        cmocka_unit_test(unproven_sensors_make_no_scan_of_proven_ones_late),
+        cmocka_unit_test(two_calls_of_next_always_make_room),
+        cmocka_unit_test(of_too_many_plots_the_first_are_kept),
+        cmocka_unit_test(of_too_many_bearings_the_first_are_kept),
+        cmocka_unit_test(only_channels_of_sensors_are_accepted),
+        cmocka_unit_test(bad_messages_are_counted_by_their_fault),
         cmocka_unit_test(configurations_beyond_their_ranges_are_refused),
-        cmocka_unit_test(init_and_sensors_are_checked),
-        cmocka_unit_test(a_copy_goes_on_like_the_original),
+        cmocka_unit_test(bad_init_and_sensors_are_refused),
+        cmocka_unit_test(a_copied_assembler_continues_like_the_original),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Random streams of sensors with faults of every kind, beside a model of the rules over lists
+ * Random streams of sensors with faults of every kind, compared with a plain model of the rules
  * (scan_assembler_model.h).
  */
 #include "scan_assembler_model.h"
@@ -9,7 +9,7 @@
 #define PAST 40
 
 struct sender {
-    int64_t next_us, off_us; /* reception clock; of its own clock */
+    int64_t next_us, off_us; /* reception time; offset of its own clock */
     int64_t interval_us;
     int32_t scan, epoch;
     uint8_t kind;
@@ -48,10 +48,10 @@ static void compare_inputs(const struct model_scan *scan)
                                                                    : item.scan.num_plots);
 }
 
-static int next(int64_t at_us)
+static int next_of_both(int64_t at_us)
 {
     int is_restart = 0, is_there = rho_scan_assembler_next(&assembler, at_us, &item);
-    const struct model_scan *scan = model_next(at_us, &is_restart);
+    const struct model_scan *scan = model_next_scan(at_us, &is_restart);
 
     assert_int_equal(is_there, scan != NULL);
     assert_true(is_there || rho_scan_assembler_due_us(&assembler) > at_us || at_us == INT64_MAX);
@@ -60,7 +60,7 @@ static int next(int64_t at_us)
         assert_int_equal(item_sensor(), scan->id);
         assert_int_equal(item_time_us(), scan->place.time_us);
         assert_int_equal(item.is_restart, is_restart);
-        assert_int_equal(item.parts_missing, (unsigned)scan->num_parts - model_parts_here(scan));
+        assert_int_equal(item.parts_missing, (unsigned)scan->num_parts - model_count_parts(scan));
         compare_inputs(scan);
         given++;
         restarted += (unsigned)is_restart;
@@ -69,41 +69,39 @@ static int next(int64_t at_us)
     return is_there;
 }
 
-/* Some of them in another order: a scan is kept back until others have come. */
+/* Offers a part to both; some scans are kept back until others have come. */
 static struct look kept[4];
 static unsigned num_kept;
 
-static void say(const struct look *look)
+static void offer_to_both(const struct look *look)
 {
     for (;;) {
         uint32_t late = assembler.counters.scans_late, accepted = assembler.counters.scans_accepted;
-        enum rho_status status = take_status(look, now_us);
+        enum rho_status status = take_message_status(look, now_us);
 
         skipped +=
             assembler.counters.scans_late > late && assembler.counters.scans_accepted > accepted;
 
-        assert_int_equal(status, model_take(look, now_us));
+        assert_int_equal(status, model_take_part(look, now_us));
         compare_counters();
         if (status != RHO_ERROR_CAPACITY) {
             break;
         }
         pressed++;
-        (void)next(now_us);
+        (void)next_of_both(now_us);
     }
     taken++;
     past[num_past++ % PAST] = *look;
 }
 
-/*
- * ---- streams ----------------------------------------------------------------------------------
- */
+/* ---- random streams -------------------------------------------------------------------------- */
 
-static int64_t any_of(int64_t most)
+static int64_t random_time_below(int64_t most)
 {
     return (int64_t)random_below((uint32_t)most);
 }
 
-static struct look part_of(const struct sender *sender, int part)
+static struct look part_of_next_scan(const struct sender *sender, int part)
 {
     return (struct look){.time_us = sender->next_us + sender->off_us,
                          .scan = sender->scan,
@@ -116,8 +114,8 @@ static struct look part_of(const struct sender *sender, int part)
                          .tag = (int32_t)random_below(3000)};
 }
 
-/* One value of the message is another. */
-static void damage(struct look *look)
+/* Changes one value of the message. */
+static void damage_part(struct look *look)
 {
     switch (random_below(6)) {
     case 0:
@@ -130,11 +128,12 @@ static void damage(struct look *look)
         look->epoch ^= 1 << random_below(4);
         break;
     case 3:
-        look->num_parts =
-            (int16_t)(look->kind == RHO_SCAN_ASSEMBLER_BEARINGS ? 1 : look->part + 1 + any_of(3));
+        look->num_parts = (int16_t)(look->kind == RHO_SCAN_ASSEMBLER_BEARINGS
+                                        ? 1
+                                        : look->part + 1 + random_time_below(3));
         break;
     case 4:
-        look->sensor_id = (int16_t)(100 + any_of(20));
+        look->sensor_id = (int16_t)(100 + random_time_below(20));
         break;
     default:
         look->scan = (int32_t)((uint32_t)look->scan + random_below(5) - 2u);
@@ -142,69 +141,71 @@ static void damage(struct look *look)
     }
 }
 
-static void say_scan(struct sender *sender, unsigned faults)
+static void offer_scan(struct sender *sender, unsigned faults)
 {
     int first = (int)random_below((uint32_t)sender->parts);
 
     for (int i = 0; i < sender->parts; i++) {
-        struct look look = part_of(sender, (first + i) % sender->parts);
+        struct look look = part_of_next_scan(sender, (first + i) % sender->parts);
 
         if (random_below(1000) < faults) {
             struct look other = look;
-            damage(&other);
-            say(&other);
+            damage_part(&other);
+            offer_to_both(&other);
         }
         if (random_below(400) < faults && num_kept < 4) {
             kept[num_kept++] = look;
         } else if (random_below(1000) >= faults) {
-            say(&look);
+            offer_to_both(&look);
         }
         if (num_kept > 0 && random_below(8) == 0) {
-            say(&kept[--num_kept]);
+            offer_to_both(&kept[--num_kept]);
         }
         if (random_below(4) == 0) {
-            now_us += any_of(3000);
-            (void)next(now_us);
+            now_us += random_time_below(3000);
+            (void)next_of_both(now_us);
         }
     }
 }
 
-static void change(struct sender *sender)
+static void change_sender(struct sender *sender)
 {
     switch (random_below(6)) {
     case 0:
         sender->epoch++;
-        sender->scan = (int32_t)any_of(50);
+        sender->scan = (int32_t)random_time_below(50);
         break;
     case 1:
-        sender->off_us = (any_of(5) - 2) * (random_below(2) ? 18 * SECOND_US : 3600 * SECOND_US);
+        sender->off_us =
+            (random_time_below(5) - 2) * (random_below(2) ? 18 * SECOND_US : 3600 * SECOND_US);
         break;
     case 2:
         sender->off_us = 0;
         break;
     case 3:
-        sender->interval_us = 20000 + any_of(2000000);
+        sender->interval_us = 20000 + random_time_below(2000000);
         break;
     case 4:
-        sender->next_us += any_of(60000000); /* silent */
+        sender->next_us +=
+            random_time_below(60000000); /* the sensor is silent for up to a minute */
         break;
     default:
-        sender->scan = INT32_MAX - (int32_t)any_of(10);
+        sender->scan = INT32_MAX - (int32_t)random_time_below(10);
         break;
     }
 }
 
-static void run(uint32_t seed, unsigned steps, unsigned faults,
-                const struct rho_scan_assembler_config *config)
+static void compare_on_random_stream(uint32_t seed, unsigned steps, unsigned faults,
+                                     const struct rho_scan_assembler_config *config)
 {
     random_state = seed;
     start_assembler_with(config);
     model_start(config);
     now_us = random_below(2) ? 0 : INT64_C(-3000000000);
     for (unsigned i = 0; i < SENSORS; i++) {
-        senders[i] = (struct sender){.next_us = now_us + any_of(1000000),
-                                     .interval_us = 20000 + any_of(2000000),
-                                     .scan = (int32_t)any_of(1000),
+        senders[i] = (struct sender){.next_us = now_us + random_time_below(1000000),
+                                     .interval_us = 20000 + random_time_below(2000000),
+                                     .scan = (int32_t)random_time_below(1000),
                                      .kind = (uint8_t)(i % 3),
                                      .parts = i % 3 == 2 ? 1 : 1 + (int)i % 4};
     }
@@ -216,29 +217,29 @@ static void run(uint32_t seed, unsigned steps, unsigned faults,
             sender = senders[i].next_us < sender->next_us ? &senders[i] : sender;
         }
         while (rho_scan_assembler_due_us(&assembler) < sender->next_us &&
-               next(rho_scan_assembler_due_us(&assembler))) {
+               next_of_both(rho_scan_assembler_due_us(&assembler))) {
         }
-        now_us = sender->next_us > now_us ? sender->next_us + any_of(10000) : now_us;
-        say_scan(sender, faults);
+        now_us = sender->next_us > now_us ? sender->next_us + random_time_below(10000) : now_us;
+        offer_scan(sender, faults);
         sender->scan = sender->scan < INT32_MAX ? sender->scan + 1 : INT32_MIN;
-        sender->next_us += sender->interval_us + any_of(sender->interval_us / 10);
+        sender->next_us += sender->interval_us + random_time_below(sender->interval_us / 10);
         if (num_past > 0 && random_below(1000) < faults) {
-            say(&past[random_below(num_past < PAST ? num_past : PAST)]);
+            offer_to_both(&past[random_below(num_past < PAST ? num_past : PAST)]);
         }
         if (random_below(3000) < faults) {
-            change(sender);
+            change_sender(sender);
         }
         if (random_below(20000) < faults) {
-            now_us -= any_of(100000);
+            now_us -= random_time_below(100000);
         }
-        while (random_below(3) && next(now_us)) {
+        while (random_below(3) && next_of_both(now_us)) {
         }
     }
-    while (next(INT64_MAX)) {
+    while (next_of_both(INT64_MAX)) {
     }
 }
 
-static void the_assembler_does_what_the_model_does(void **state)
+static void the_assembler_behaves_like_the_model(void **state)
 {
     struct rho_scan_assembler_config config = usual_config();
 
@@ -250,7 +251,7 @@ static void the_assembler_does_what_the_model_does(void **state)
         config.flood_per_s = seed % 4 == 0 ? 12 : 10000;
         config.late_max_us = (int64_t)(seed % 4) * 5000000;
         config.jump_max_us = seed % 2 ? 30000000 : 3000000;
-        run(seed, 2000, seed % 3 == 0 ? 0 : seed * 5, &config);
+        compare_on_random_stream(seed, 2000, seed % 3 == 0 ? 0 : seed * 5, &config);
     }
     assert_in_range(taken, 200000, 2000000);
     assert_in_range(given, 50000, 2000000);
@@ -263,7 +264,7 @@ static void the_assembler_does_what_the_model_does(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_assembler_does_what_the_model_does),
+        cmocka_unit_test(the_assembler_behaves_like_the_model),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

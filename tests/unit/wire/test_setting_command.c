@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * An operator's settings: each message changes the field of its name and no other, what is outside
- * its range is answered with the range, and changes nothing.
+ * An operator's settings: each message changes only the field of its name; values out of range are
+ * answered with the range and change nothing.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -17,7 +17,7 @@
 static struct rho_settings settings, before;
 static struct rho_message_setting_answer answer;
 
-static enum rho_status set(int field, float value)
+static enum rho_status set_field(int field, float value)
 {
     const struct rho_message_setting setting = {
         .number = 77, .field = (int16_t)field, .value = value};
@@ -36,7 +36,7 @@ static enum rho_status set(int field, float value)
     return status;
 }
 
-static void each_field_is_set_by_its_name(void **state)
+static void each_setting_changes_its_field_only(void **state)
 {
     const struct {
         int field;
@@ -67,61 +67,62 @@ static void each_field_is_set_by_its_name(void **state)
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
         const float value = *fields[i].value > 0.0f ? 0.5f * *fields[i].value : 0.25f;
         assert_string_equal(rho_command_setting_name(fields[i].field), fields[i].name);
-        assert_int_equal(set(fields[i].field, value), RHO_OK);
+        assert_int_equal(set_field(fields[i].field, value), RHO_OK);
         assert_int_equal(answer.applies, fields[i].applies);
         assert_true(answer.value == value && *fields[i].value == value);
-        *fields[i].value = 0.0f; /* no other field has changed */
+        /* cleared, so that the comparison shows that no other field has changed */
+        *fields[i].value = 0.0f;
         struct rho_settings after = settings;
         settings = before;
         *fields[i].value = 0.0f;
         assert_memory_equal(&after, &settings, sizeof settings);
         *fields[i].value = value;
     }
-    assert_int_equal(set(RHO_MESSAGE_SETTING_SCANS, 6.0f), RHO_OK);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_SCANS, 6.0f), RHO_OK);
     assert_int_equal(settings.scans, 6);
     assert_int_equal(answer.applies, RHO_MESSAGE_SETTING_ANSWER_WINDOW);
-    assert_int_equal(set(RHO_MESSAGE_SETTING_MIN_SCANS, 4.0f), RHO_OK);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_MIN_SCANS, 4.0f), RHO_OK);
     assert_int_equal(settings.min_scans, 4);
-    assert_int_equal(set(RHO_MESSAGE_SETTING_COAST_SCANS_MAX, 9.0f), RHO_OK);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_COAST_SCANS_MAX, 9.0f), RHO_OK);
     assert_int_equal(settings.coast_scans_max, 9);
-    assert_int_equal(set(RHO_MESSAGE_SETTING_WORK_MAX, 70000.0f), RHO_OK);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_WORK_MAX, 70000.0f), RHO_OK);
     assert_int_equal(settings.work_max, 70000);
     assert_null(rho_command_setting_name(0));
     assert_null(rho_command_setting_name(18));
     assert_null(rho_command_setting_name(-1));
 }
 
-static void what_is_outside_is_answered_with_its_range(void **state)
+static void values_out_of_range_are_answered_with_the_range(void **state)
 {
     (void)state;
     rho_settings_default(&settings);
-    assert_int_equal(set(RHO_MESSAGE_SETTING_PD, 1.5f), RHO_ERROR_CONFIG);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_PD, 1.5f), RHO_ERROR_CONFIG);
     assert_int_equal(answer.fault_field, RHO_MESSAGE_SETTING_PD);
     assert_true(answer.value == 1.5f && answer.min == 0.01f && answer.max == 0.999f);
-    assert_int_equal(set(RHO_MESSAGE_SETTING_PD, NAN), RHO_ERROR_VALUE);
-    assert_int_equal(set(RHO_MESSAGE_SETTING_SCANS, INFINITY), RHO_ERROR_VALUE);
-    /* another field would be outside */
-    assert_int_equal(set(RHO_MESSAGE_SETTING_V_MIN_MPS, 50.0f), RHO_OK);
-    assert_int_equal(set(RHO_MESSAGE_SETTING_V_MAX_MPS, 40.0f), RHO_ERROR_CONFIG);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_PD, NAN), RHO_ERROR_VALUE);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_SCANS, INFINITY), RHO_ERROR_VALUE);
+    /* this value would put another field out of range */
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_V_MIN_MPS, 50.0f), RHO_OK);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_V_MAX_MPS, 40.0f), RHO_ERROR_CONFIG);
     assert_int_equal(answer.fault_field, RHO_MESSAGE_SETTING_V_MIN_MPS);
     assert_true(answer.value == 50.0f && answer.min == 0.0f && answer.max == 40.0f);
     static const float none[] = {-1.0f, 2.0f, 1e6f, 1e30f, -1e30f};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
-        assert_int_equal(set(RHO_MESSAGE_SETTING_SCANS, none[i]), RHO_ERROR_CONFIG);
+        assert_int_equal(set_field(RHO_MESSAGE_SETTING_SCANS, none[i]), RHO_ERROR_CONFIG);
         assert_int_equal(answer.fault_field, RHO_MESSAGE_SETTING_SCANS);
         assert_true(answer.value == none[i] && answer.min == 3.0f);
         assert_true(answer.max == (float)RHO_MAX_SCANS);
     }
-    assert_int_equal(set(RHO_MESSAGE_SETTING_WORK_MAX, 2e8f), RHO_ERROR_CONFIG);
-    assert_int_equal(set(RHO_MESSAGE_SETTING_SCANS, 5.5f), RHO_ERROR_VALUE);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_WORK_MAX, 2e8f), RHO_ERROR_CONFIG);
+    assert_int_equal(set_field(RHO_MESSAGE_SETTING_SCANS, 5.5f), RHO_ERROR_VALUE);
     assert_int_equal(answer.fault_field, 0);
-    assert_int_equal(set(0, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(set_field(0, 1.0f), RHO_ERROR_VALUE);
     assert_int_equal(answer.applies, 0);
-    assert_int_equal(set(18, 1.0f), RHO_ERROR_VALUE);
-    assert_int_equal(set(-3, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(set_field(18, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(set_field(-3, 1.0f), RHO_ERROR_VALUE);
 }
 
-static void nothing_is_refused(void **state)
+static void null_pointers_are_refused(void **state)
 {
     const struct rho_message_setting setting = {.field = 1};
     (void)state;
@@ -133,9 +134,9 @@ static void nothing_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_field_is_set_by_its_name),
-        cmocka_unit_test(what_is_outside_is_answered_with_its_range),
-        cmocka_unit_test(nothing_is_refused),
+        cmocka_unit_test(each_setting_changes_its_field_only),
+        cmocka_unit_test(values_out_of_range_are_answered_with_the_range),
+        cmocka_unit_test(null_pointers_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

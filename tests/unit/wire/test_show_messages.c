@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a step thought, as messages: ghosts, accumulators, planes and hypotheses as receivers read
- * them, beside the objects; rates, turns, and what is left out.
+ * Inner states of a step as messages: ghosts, accumulators, planes and hypotheses as receivers read
+ * them, compared with the objects; message rates, turns, and messages left out.
  */
 #include "rhotrack/publish.h"
 #include "tracker_setup.h"
@@ -17,7 +17,7 @@ static uint32_t picture[RHO_SHOW_PICTURE];
 static struct rho_paper_starts starts;
 static struct rho_passive_paper paper;
 
-/* The messages of the last step. */
+/* Messages that the last step sent. */
 static struct message {
     char channel[24];
     uint8_t data[RHO_SHOW_MAX_SIZE];
@@ -34,7 +34,7 @@ static void show_kinds(unsigned kinds, unsigned per_s)
     assert_int_equal(rho_show_init(&show, sizeof show, &shown), RHO_OK);
 }
 
-static void collect(int is_frame, int64_t now_us)
+static void collect_messages(int is_frame, int64_t now_us)
 {
     const struct rho_show_source source = {.tracker = &tracker,
                                            .report = &report,
@@ -58,7 +58,7 @@ static void collect(int is_frame, int64_t now_us)
     }
 }
 
-static unsigned count_of(const char *channel)
+static unsigned count_messages_on(const char *channel)
 {
     unsigned count = 0;
     for (unsigned i = 0; i < num_messages; i++) {
@@ -67,8 +67,8 @@ static unsigned count_of(const char *channel)
     return count;
 }
 
-/* The n-th message of a channel; NULL: there are fewer. */
-static const struct message *nth(const char *channel, unsigned n)
+/* The n-th message on a channel; NULL: there are fewer. */
+static const struct message *nth_message_on(const char *channel, unsigned n)
 {
     for (unsigned i = 0; i < num_messages; i++) {
         if (strcmp(messages[i].channel, channel) == 0 && n-- == 0) {
@@ -80,15 +80,15 @@ static const struct message *nth(const char *channel, unsigned n)
 
 #define READ(type, CHANNEL, n, into)                                                               \
     do {                                                                                           \
-        const struct message *read_ = nth(RHO_MESSAGE_##CHANNEL##_CHANNEL, n);                     \
+        const struct message *read_ = nth_message_on(RHO_MESSAGE_##CHANNEL##_CHANNEL, n);          \
         assert_non_null(read_);                                                                    \
         assert_int_equal(rho_message_##type##_decode(read_->data, read_->size, into), RHO_OK);     \
         assert_int_equal(rho_message_##type##_validate(into, NULL), RHO_OK);                       \
     } while (0)
 
-/* ---- plots ----------------------------------------------------------------------------------- */
+/* ---- searches in plots ----------------------------------------------------------------------- */
 
-static void begin_by(enum rho_hough_method method, int gate)
+static void start_with_method(enum rho_hough_method method, int gate)
 {
     struct rho_paper_starts_config lines;
     use_usual_configs(5);
@@ -119,8 +119,8 @@ static void step_plots(int k, int clutter)
     assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_OK);
 }
 
-/* Of every method: cells are the search's peaks, and one of them started the track. */
-static void an_accumulator_tells_the_search(void **state)
+/* For every method: cells are the search's peaks, and one of them started the track. */
+static void accumulator_messages_hold_the_searchs_peaks(void **state)
 {
     (void)state;
     static const int8_t names[] = {RHO_MESSAGE_ACCUMULATOR_HT, RHO_MESSAGE_ACCUMULATOR_MHT,
@@ -128,12 +128,12 @@ static void an_accumulator_tells_the_search(void **state)
                                    RHO_MESSAGE_ACCUMULATOR_NHT};
     for (int method = RHO_HOUGH_HT; method <= (int)RHO_HOUGH_NHT_C; method++) {
         static struct rho_message_accumulator accumulator;
-        begin_by((enum rho_hough_method)method, RHO_TRACKER_BEST);
+        start_with_method((enum rho_hough_method)method, RHO_TRACKER_BEST);
         show_kinds(1u << RHO_SHOW_VOTES, 1000);
         for (int k = 0; k < 4; k++) {
             step_plots(k, CLUTTER);
-            collect(0, report.time_us);
-            assert_int_equal(num_messages, k < 3 ? 0 : 5); /* 4 scans are searched */
+            collect_messages(0, report.time_us);
+            assert_int_equal(num_messages, k < 3 ? 0 : 5); /* the search needs 4 scans */
         }
         READ(accumulator, ACCUMULATOR, 0, &accumulator);
         assert_int_equal(accumulator.utime, 6000000);
@@ -159,7 +159,8 @@ static void an_accumulator_tells_the_search(void **state)
                 assert_non_null(report_of((uint32_t)cell->track_id));
                 started++;
             }
-            if (cell->track_id == 1) { /* (220, -90) m/s through (-3000, 1500) m */
+            /* line of the target, (220, -90) m/s through (-3000, 1500) m */
+            if (cell->track_id == 1) {
                 assert_float_equal(cell->theta_rad, atan2(220.0, 90.0), 0.05);
                 assert_float_equal(cell->rho_m, 252.4, 60.0);
                 assert_int_equal(cell->scan_mask, starts.lines[i].line.mask);
@@ -171,17 +172,20 @@ static void an_accumulator_tells_the_search(void **state)
     }
 }
 
-/* The four parts are 64 rows: the most of each block of cells, in 127ths of the most. */
-static void a_plane_is_the_picture_of_its_cells(void **state)
+/*
+ * The four parts are 64 rows: the largest value of each block of cells, in 127ths of the overall
+ * maximum.
+ */
+static void a_plane_message_is_the_reduced_picture_of_votes(void **state)
 {
     (void)state;
     static uint32_t all[158 * 400];
     static struct rho_message_plane plane;
-    begin_by(RHO_HOUGH_MHT, RHO_TRACKER_BEST);
+    start_with_method(RHO_HOUGH_MHT, RHO_TRACKER_BEST);
     show_kinds(1u << RHO_SHOW_VOTES, 1000);
     for (int k = 0; k < 4; k++) {
         step_plots(k, CLUTTER);
-        collect(0, report.time_us);
+        collect_messages(0, report.time_us);
     }
     const struct rho_hough_points points = rho_paper_starts_points(&starts);
     struct rho_votes_picture whole = {.height = 158, .width = 400, .votes = all};
@@ -213,39 +217,39 @@ static void a_plane_is_the_picture_of_its_cells(void **state)
     assert_true(fullest >= 1);
 }
 
-/* A late scan, or one of a window that is not full, has no search to show. */
-static void no_search_shows_nothing(void **state)
+/* A late scan or a window that is not full has no search, and so no message. */
+static void without_a_search_no_accumulator_is_sent(void **state)
 {
     (void)state;
-    begin_by(RHO_HOUGH_IHT, RHO_TRACKER_BEST);
+    start_with_method(RHO_HOUGH_IHT, RHO_TRACKER_BEST);
     show_kinds(1u << RHO_SHOW_VOTES, 1000);
     for (int k = 0; k < 5; k++) {
         step_plots(k, CLUTTER);
     }
-    collect(0, report.time_us);
+    collect_messages(0, report.time_us);
     assert_int_equal(num_messages, 5);
     step_plots(2, CLUTTER);
-    collect(0, report.time_us);
+    collect_messages(0, report.time_us);
     assert_int_equal(num_messages, 0);
     shown.picture = NULL;
     assert_int_equal(rho_show_init(&show, sizeof show, &shown), RHO_OK);
     step_plots(5, CLUTTER);
-    collect(0, report.time_us);
-    assert_int_equal(num_messages, 1); /* the cells without a plane */
-    assert_int_equal(count_of(RHO_MESSAGE_ACCUMULATOR_CHANNEL), 1);
+    collect_messages(0, report.time_us);
+    assert_int_equal(num_messages, 1); /* the accumulator without a plane */
+    assert_int_equal(count_messages_on(RHO_MESSAGE_ACCUMULATOR_CHANNEL), 1);
 }
 
 /* ---- hypotheses ------------------------------------------------------------------------------ */
 
-static void a_line_of_nht_gives_a_new_track_its_evidence(void **state)
+static void a_track_started_by_nht_has_the_evidence_of_its_line(void **state)
 {
     (void)state;
     struct rho_message_hypotheses of;
-    begin_by(RHO_HOUGH_NHT_C, RHO_TRACKER_HOUGH);
+    start_with_method(RHO_HOUGH_NHT_C, RHO_TRACKER_HOUGH);
     show_kinds(1u << RHO_SHOW_HYPOTHESES, 1000);
     for (int k = 0; k < 4; k++) {
         step_plots(k, 0);
-        collect(0, report.time_us);
+        collect_messages(0, report.time_us);
     }
     assert_int_equal(report.num_tracks, 1);
     assert_int_equal(num_messages, 1);
@@ -259,31 +263,32 @@ static void a_line_of_nht_gives_a_new_track_its_evidence(void **state)
     assert_float_equal(of.clutter, sums->falsity / all, 1e-5);
     assert_int_equal(of.num_hypotheses, 1);
     assert_float_equal(of.hypotheses[0].share, 1.0, 0.0);
-    assert_int_equal(of.hypotheses[0].plots[0], -2); /* of one filter only the last is known */
+    /* with one filter only the last plot is known */
+    assert_int_equal(of.hypotheses[0].plots[0], -2);
     assert_int_equal(of.hypotheses[0].plots[2], 0);
     step_plots(4, 0);
-    collect(0, report.time_us);
+    collect_messages(0, report.time_us);
     READ(hypotheses, HYPOTHESES, 0, &of);
     assert_int_equal(of.evidence, RHO_KEEPS_OFFERS ? RHO_MESSAGE_HYPOTHESES_PLOTS
                                                    : RHO_MESSAGE_HYPOTHESES_NO_EVIDENCE);
     assert_float_equal(of.maneuver + of.steady, 1.0, 1e-6);
 }
 
-static void hypotheses_are_those_of_the_track(void **state)
+static void hypotheses_messages_hold_those_of_the_track(void **state)
 {
     (void)state;
     struct rho_message_hypotheses of;
     unsigned several = 0;
-    begin_by(RHO_HOUGH_IHT, RHO_TRACKER_BEST);
+    start_with_method(RHO_HOUGH_IHT, RHO_TRACKER_BEST);
     show_kinds(1u << RHO_SHOW_HYPOTHESES, 1000);
     for (int k = 0; k < 12; k++) {
         step_plots(k, k < 4 ? 0 : 40);
-        collect(0, report.time_us);
+        collect_messages(0, report.time_us);
         assert_int_equal(num_messages, report.num_tracks);
         for (unsigned i = 0; i < report.num_tracks; i++) {
             const struct rho_track *track = &tracker.tracks[i];
             READ(hypotheses, HYPOTHESES, i, &of);
-            /* they take turns: the list may begin anywhere */
+            /* tracks take turns, so the list may begin anywhere */
             while (track->track_id != (uint32_t)of.track_id) {
                 track =
                     track + 1 < tracker.tracks + tracker.num_tracks ? track + 1 : tracker.tracks;
@@ -314,11 +319,11 @@ static void hypotheses_are_those_of_the_track(void **state)
     assert_true(several > 0);
 }
 
-/* ---- bearings -------------------------------------------------------------------------------- */
+/* ---- searches in bearings -------------------------------------------------------------------- */
 
 static const float place_m[SENSORS][2] = {{-20000.0f, 0.0f}, {20000.0f, 0.0f}, {0.0f, -20000.0f}};
 
-/* Two targets, and of the third sensor a false bearing. */
+/* Bearings of two targets, and a false bearing of the third sensor. */
 static void step_bearings(int k, unsigned sensors, unsigned targets)
 {
     static struct rho_bearing bearings[SENSORS][RHO_MAX_BEARINGS];
@@ -345,7 +350,7 @@ static void step_bearings(int k, unsigned sensors, unsigned targets)
     assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_OK);
 }
 
-static void begin_bearings(void)
+static void start_with_bearings(void)
 {
     struct rho_passive_paper_config of_paper;
     use_usual_configs(6);
@@ -354,18 +359,18 @@ static void begin_bearings(void)
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &of_paper), RHO_OK);
 }
 
-static void ghost_matrices_are_those_of_the_newest_frame(void **state)
+static void ghost_matrices_are_of_the_newest_frame(void **state)
 {
     (void)state;
     struct rho_message_ghost_matrix of;
     struct rho_ghost_matrix matrix;
     unsigned pruned = 0;
-    begin_bearings();
+    start_with_bearings();
     show_kinds(1u << RHO_SHOW_GHOSTS, 1000);
     for (int k = 0; k < 6; k++) {
         step_bearings(k, SENSORS, 2);
-        collect(1, report.time_us);
-        assert_int_equal(num_messages, 3); /* a pair each */
+        collect_messages(1, report.time_us);
+        assert_int_equal(num_messages, 3); /* one matrix for each pair of sensors */
         for (unsigned i = 0; i < 3; i++) {
             struct rho_passive_paper_pair pair;
             assert_int_equal(rho_passive_paper_pair(&paper, i, &pair), 1);
@@ -389,7 +394,8 @@ static void ghost_matrices_are_those_of_the_newest_frame(void **state)
                 if (element->reason == RHO_MESSAGE_GHOST_KEPT) {
                     assert_float_equal(element->delta_rad, matrix.delta_rad[j / 2][j % 2], 1e-6);
                 }
-                if (element->row == element->column) { /* the targets' own crossings */
+                /* crossings of two bearings of the same target */
+                if (element->row == element->column) {
                     const double t_s = 10.0 * k;
                     const int i_target = element->row;
                     assert_float_equal(
@@ -405,8 +411,8 @@ static void ghost_matrices_are_those_of_the_newest_frame(void **state)
     assert_true(pruned > 0);
 }
 
-/* As many bearings as there is room for: a matrix in parts. */
-static void a_large_matrix_goes_out_in_parts(void **state)
+/* As many bearings as the capacity: a matrix in several parts. */
+static void a_large_ghost_matrix_is_sent_in_parts(void **state)
 {
     (void)state;
     struct rho_message_ghost_matrix of;
@@ -414,10 +420,10 @@ static void a_large_matrix_goes_out_in_parts(void **state)
     const unsigned parts =
         (all + RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS - 1) / RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS;
     unsigned elements = 0;
-    begin_bearings();
+    start_with_bearings();
     show_kinds(1u << RHO_SHOW_GHOSTS, 1000);
     step_bearings(0, 2, RHO_MAX_BEARINGS);
-    collect(1, 0);
+    collect_messages(1, 0);
     assert_int_equal(num_messages, parts);
     for (unsigned part = 0; part < parts; part++) {
         READ(ghost_matrix, GHOST_MATRIX, part, &of);
@@ -432,17 +438,17 @@ static void a_large_matrix_goes_out_in_parts(void **state)
     assert_int_equal(elements, all);
 }
 
-/* All pairs together, then each pair; the lines are the search's. */
-static void accumulators_of_bearings_are_of_all_pairs_and_each(void **state)
+/* First all pairs of sensors together, then each pair; lines are those of the search. */
+static void bearing_accumulators_are_sent_for_all_pairs_and_each_pair(void **state)
 {
     (void)state;
     static struct rho_message_accumulator of;
     static struct rho_message_plane plane;
-    begin_bearings();
+    start_with_bearings();
     show_kinds(1u << RHO_SHOW_VOTES, 1000);
     for (int k = 0; k < 8; k++) {
         step_bearings(k, SENSORS, 1);
-        collect(1, report.time_us);
+        collect_messages(1, report.time_us);
         assert_int_equal(num_messages, k < 7 ? 0 : 4 * 5);
     }
     assert_int_equal(report.num_tracks, 1);
@@ -472,34 +478,34 @@ static void accumulators_of_bearings_are_of_all_pairs_and_each(void **state)
         assert_int_equal(of.sensor_a_id, ids[pair][0]);
         assert_int_equal(of.sensor_b_id, ids[pair][1]);
         assert_true(of.num_cells > 0);
-        assert_float_equal(of.votes_max, 8.0, 0.0); /* one target, seen in each scan */
+        assert_float_equal(of.votes_max, 8.0, 0.0); /* one target, seen in each of 8 scans */
         assert_float_equal(of.cells[0].votes, 8.0, 0.0);
         assert_int_equal(of.cells[0].scan_mask, 0xff);
         READ(plane, PLANE, 4 * (pair + 1), &plane);
         assert_int_equal(plane.sensor_b_id, ids[pair][1]);
         assert_float_equal(plane.votes_max, 8.0, 0.0);
     }
-    step_bearings(8, 2, 1); /* the third sensor is gone, its scans are still in the batch */
-    collect(1, report.time_us);
+    step_bearings(8, 2, 1); /* the third sensor has gone, but its scans are still in the batch */
+    collect_messages(1, report.time_us);
     assert_int_equal(num_messages, 4 * 5);
 }
 
-/* ---- rates ----------------------------------------------------------------------------------- */
+/* ---- message rates --------------------------------------------------------------------------- */
 
-/* A step a second with 5 messages of votes: so many a second get through, and the rest is told. */
-static void pictures_keep_to_the_rate_and_are_whole(void **state)
+/* A step a second with 5 messages of votes: messages_per_s pass, and the rest is counted. */
+static void pictures_are_sent_whole_within_the_message_rate(void **state)
 {
     (void)state;
     static struct rho_message_accumulator of;
     unsigned sent = 0, left = 0;
-    begin_by(RHO_HOUGH_IHT, RHO_TRACKER_BEST);
+    start_with_method(RHO_HOUGH_IHT, RHO_TRACKER_BEST);
     show_kinds(1u << RHO_SHOW_VOTES, 2);
     for (int k = 0; k < 3; k++) {
         step_plots(k, CLUTTER);
     }
     for (int k = 3; k < 63; k++) {
         step_plots(k, CLUTTER);
-        collect(0, 1000000 * (int64_t)k);
+        collect_messages(0, 1000000 * (int64_t)k);
         assert_true(num_messages == 0 || num_messages == 5);
         sent += num_messages;
         left += num_messages == 0 ? 5 : 0;
@@ -513,16 +519,16 @@ static void pictures_keep_to_the_rate_and_are_whole(void **state)
     assert_int_equal(rho_show_not_sent(&show, RHO_SHOW_GHOSTS), 0);
     assert_int_equal(rho_show_not_sent(&show, RHO_NUM_SHOW_KINDS), 0);
     assert_int_equal(rho_show_not_sent(NULL, RHO_SHOW_VOTES), 0);
-    step_plots(63, CLUTTER); /* a clock that was set back begins anew */
-    collect(0, 1000);
+    step_plots(63, CLUTTER); /* a clock set back starts the rate anew */
+    collect_messages(0, 1000);
     assert_int_equal(num_messages, 5);
     step_plots(64, CLUTTER);
-    collect(0, 2000);
+    collect_messages(0, 2000);
     assert_int_equal(num_messages, 0);
 }
 
-/* Eight tracks, three messages a second: each gets its turn. */
-static void tracks_take_turns(void **state)
+/* Eight tracks at three messages a second: each is sent in turn. */
+static void tracks_take_turns_within_the_message_rate(void **state)
 {
     (void)state;
     struct rho_message_hypotheses of;
@@ -537,7 +543,7 @@ static void tracks_take_turns(void **state)
         }
         step_at(SCAN_S * k);
         if (report.num_tracks == 8) {
-            collect(0, 1000000 * (int64_t)k);
+            collect_messages(0, 1000000 * (int64_t)k);
             assert_true(num_messages <= 3);
             for (unsigned i = 0; i < num_messages; i++) {
                 READ(hypotheses, HYPOTHESES, i, &of);
@@ -576,12 +582,12 @@ static void bad_configurations_are_refused(void **state)
     assert_int_equal(rho_show_init(&show, sizeof show, &shown), RHO_ERROR_CONFIG);
 }
 
-static void nothing_is_shown_of_what_is_not_there(void **state)
+static void missing_objects_show_no_messages(void **state)
 {
     (void)state;
     uint8_t buffer[RHO_SHOW_MAX_SIZE];
     size_t size;
-    begin_by(RHO_HOUGH_IHT, RHO_TRACKER_BEST);
+    start_with_method(RHO_HOUGH_IHT, RHO_TRACKER_BEST);
     show_kinds(7, 1000);
     for (int k = 0; k < 5; k++) {
         step_plots(k, 0);
@@ -609,13 +615,13 @@ static void nothing_is_shown_of_what_is_not_there(void **state)
     assert_int_equal(rho_show_not_sent(&show, RHO_SHOW_VOTES), 0);
 }
 
-/* What is shown changes no bit of what follows. */
-static void showing_changes_nothing(void **state)
+/* Showing changes no bit of the tracker's results. */
+static void showing_does_not_change_the_tracker(void **state)
 {
     (void)state;
     static struct rho_report without[10];
     for (int run = 0; run < 2; run++) {
-        begin_by(RHO_HOUGH_NHT_C, RHO_TRACKER_BEST);
+        start_with_method(RHO_HOUGH_NHT_C, RHO_TRACKER_BEST);
         show_kinds(7, 10000);
         for (int k = 0; k < 10; k++) {
             memset(&report, 0, sizeof report);
@@ -623,7 +629,7 @@ static void showing_changes_nothing(void **state)
             if (run == 0) {
                 without[k] = report;
             } else {
-                collect(0, report.time_us);
+                collect_messages(0, report.time_us);
                 assert_memory_equal(&report, &without[k], sizeof report);
             }
         }
@@ -633,19 +639,19 @@ static void showing_changes_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_accumulator_tells_the_search),
-        cmocka_unit_test(a_plane_is_the_picture_of_its_cells),
-        cmocka_unit_test(no_search_shows_nothing),
-        cmocka_unit_test(a_line_of_nht_gives_a_new_track_its_evidence),
-        cmocka_unit_test(hypotheses_are_those_of_the_track),
-        cmocka_unit_test(ghost_matrices_are_those_of_the_newest_frame),
-        cmocka_unit_test(a_large_matrix_goes_out_in_parts),
-        cmocka_unit_test(accumulators_of_bearings_are_of_all_pairs_and_each),
-        cmocka_unit_test(pictures_keep_to_the_rate_and_are_whole),
-        cmocka_unit_test(tracks_take_turns),
+        cmocka_unit_test(accumulator_messages_hold_the_searchs_peaks),
+        cmocka_unit_test(a_plane_message_is_the_reduced_picture_of_votes),
+        cmocka_unit_test(without_a_search_no_accumulator_is_sent),
+        cmocka_unit_test(a_track_started_by_nht_has_the_evidence_of_its_line),
+        cmocka_unit_test(hypotheses_messages_hold_those_of_the_track),
+        cmocka_unit_test(ghost_matrices_are_of_the_newest_frame),
+        cmocka_unit_test(a_large_ghost_matrix_is_sent_in_parts),
+        cmocka_unit_test(bearing_accumulators_are_sent_for_all_pairs_and_each_pair),
+        cmocka_unit_test(pictures_are_sent_whole_within_the_message_rate),
+        cmocka_unit_test(tracks_take_turns_within_the_message_rate),
         cmocka_unit_test(bad_configurations_are_refused),
-        cmocka_unit_test(nothing_is_shown_of_what_is_not_there),
-        cmocka_unit_test(showing_changes_nothing),
+        cmocka_unit_test(missing_objects_show_no_messages),
+        cmocka_unit_test(showing_does_not_change_the_tracker),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

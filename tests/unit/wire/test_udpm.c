@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Datagrams: bytes by hand, there and back, and every way to be refused, from buffers of exactly
- * their size.
+ * Datagrams: hand-written bytes, encode and parse, and every way to be refused, from buffers of
+ * exactly their size.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,8 +19,12 @@
 static const uint8_t by_hand[] = {'L',  'C', '0', '2', 0x12, 0x34, 0x56,
                                   0x78, 'A', 'B', 0,   0xca, 0xfe};
 
-/* Parses a copy of exactly that size; what it points to is gone then, but for the numbers. */
-static enum rho_status parse(const uint8_t *data, size_t size, struct rho_udpm_datagram *datagram)
+/*
+ * Parses a copy of exactly that size; pointers in the result are invalid afterwards, numbers are
+ * not.
+ */
+static enum rho_status parse_exact_copy(const uint8_t *data, size_t size,
+                                        struct rho_udpm_datagram *datagram)
 {
     uint8_t *exact = malloc(size > 0 ? size : 1);
     enum rho_status status;
@@ -39,17 +43,17 @@ static enum rho_status parse(const uint8_t *data, size_t size, struct rho_udpm_d
     return status;
 }
 
-static void is_refused(const uint8_t *data, size_t size, enum rho_status status)
+static void assert_refused(const uint8_t *data, size_t size, enum rho_status status)
 {
     struct rho_udpm_datagram datagram, before;
 
     memset(&datagram, 0x5a, sizeof datagram);
     before = datagram;
-    assert_int_equal(parse(data, size, &datagram), status);
+    assert_int_equal(parse_exact_copy(data, size, &datagram), status);
     assert_memory_equal(&datagram, &before, sizeof datagram);
 }
 
-static void a_head_is_these_bytes(void **state)
+static void a_header_is_encoded_as_documented_bytes(void **state)
 {
     uint8_t buffer[32];
     size_t head = 0;
@@ -64,7 +68,7 @@ static void a_head_is_these_bytes(void **state)
     }
 }
 
-static void these_bytes_are_a_datagram(void **state)
+static void a_hand_written_datagram_is_parsed(void **state)
 {
     struct rho_udpm_datagram datagram;
 
@@ -76,7 +80,7 @@ static void these_bytes_are_a_datagram(void **state)
     assert_int_equal(datagram.payload_size, 2);
 }
 
-static void every_length_and_sequence_comes_back(void **state)
+static void names_of_every_length_and_sequences_are_read_back(void **state)
 {
     static const uint32_t sequences[] = {0, 1, 0x7fffffffu, 0x80000000u, 0xffffffffu, 0x01020304u};
     char channel[LONGEST + 1] = "";
@@ -95,19 +99,19 @@ static void every_length_and_sequence_comes_back(void **state)
             assert_int_equal(head, 8 + length + 1);
             memcpy(buffer + head, "xyz", 3);
             for (size_t payload = 0; payload <= 3; payload++) {
-                assert_int_equal(parse(buffer, head + payload, &datagram), RHO_OK);
+                assert_int_equal(parse_exact_copy(buffer, head + payload, &datagram), RHO_OK);
                 assert_int_equal(datagram.sequence, sequences[i]);
                 assert_int_equal(datagram.payload_size, payload);
             }
             for (size_t size = 0; size < head; size++) {
-                is_refused(buffer, size, size < 8 ? RHO_ERROR_SHORT : RHO_ERROR_VALUE);
+                assert_refused(buffer, size, size < 8 ? RHO_ERROR_SHORT : RHO_ERROR_VALUE);
             }
         }
     }
     assert_int_equal(RHO_UDPM_MAX_HEAD, 8 + LONGEST + 1);
 }
 
-static void a_head_that_does_not_fit_is_not_begun(void **state)
+static void a_header_that_does_not_fit_is_refused(void **state)
 {
     uint8_t buffer[16], before[16];
     size_t head = 99;
@@ -128,7 +132,8 @@ static void a_head_that_does_not_fit_is_not_begun(void **state)
 
 static void a_channel_has_63_characters_at_most(void **state)
 {
-    char *channel = malloc(LONGEST + 1); /* 64 characters without an end: not read further */
+    /* a name of 64 characters without an end must not be read further */
+    char *channel = malloc(LONGEST + 1);
     uint8_t buffer[RHO_UDPM_MAX_HEAD + 8];
     size_t head = 99;
 
@@ -141,30 +146,30 @@ static void a_channel_has_63_characters_at_most(void **state)
     memcpy(buffer, by_hand, 8);
     memset(buffer + 8, 'c', sizeof buffer - 8);
     for (size_t size = 8; size <= sizeof buffer; size++) {
-        is_refused(buffer, size, RHO_ERROR_VALUE);
+        assert_refused(buffer, size, RHO_ERROR_VALUE);
     }
-    buffer[8 + LONGEST + 1] = '\0'; /* 64 characters */
-    is_refused(buffer, sizeof buffer, RHO_ERROR_VALUE);
-    buffer[8] = '\0'; /* none */
-    is_refused(buffer, sizeof buffer, RHO_ERROR_VALUE);
+    buffer[8 + LONGEST + 1] = '\0'; /* name of 64 characters */
+    assert_refused(buffer, sizeof buffer, RHO_ERROR_VALUE);
+    buffer[8] = '\0'; /* empty name */
+    assert_refused(buffer, sizeof buffer, RHO_ERROR_VALUE);
 }
 
-static void other_magic_is_refused(void **state)
+static void a_wrong_magic_number_is_refused(void **state)
 {
     uint8_t bytes[sizeof by_hand];
 
     (void)state;
-    for (unsigned bit = 0; bit < 32; bit++) { /* LC03, a fragment, is one of them */
+    for (unsigned bit = 0; bit < 32; bit++) { /* one of the flips gives LC03, a fragment */
         memcpy(bytes, by_hand, sizeof bytes);
         bytes[bit / 8] = (uint8_t)(bytes[bit / 8] ^ 1u << bit % 8);
-        is_refused(bytes, sizeof bytes, RHO_ERROR_TYPE);
-        is_refused(bytes, 8, RHO_ERROR_TYPE);
-        is_refused(bytes, 7, RHO_ERROR_SHORT);
+        assert_refused(bytes, sizeof bytes, RHO_ERROR_TYPE);
+        assert_refused(bytes, 8, RHO_ERROR_TYPE);
+        assert_refused(bytes, 7, RHO_ERROR_SHORT);
     }
-    is_refused((const uint8_t *)"LC03fragment", 13, RHO_ERROR_TYPE);
+    assert_refused((const uint8_t *)"LC03fragment", 13, RHO_ERROR_TYPE);
 }
 
-static void null_is_refused(void **state)
+static void null_pointers_are_refused(void **state)
 {
     struct rho_udpm_datagram datagram;
 
@@ -176,7 +181,7 @@ static void null_is_refused(void **state)
     assert_int_equal(rho_udpm_is_self_test(&datagram), 0);
 }
 
-static void no_alignment_is_needed(void **state)
+static void datagrams_need_no_alignment(void **state)
 {
     uint8_t buffer[64];
 
@@ -193,7 +198,7 @@ static void no_alignment_is_needed(void **state)
     }
 }
 
-static void the_self_test_is_known_by_its_whole_name(void **state)
+static void the_self_test_channel_is_known_by_its_exact_name(void **state)
 {
     static const char *const others[] = {"LCM_SELF_TES", "LCM_SELF_TEST1", "lcm_self_test", "L",
                                          "RHO_TRACKS"};
@@ -207,7 +212,7 @@ static void the_self_test_is_known_by_its_whole_name(void **state)
     }
 }
 
-static void any_bytes_may_be_parsed(void **state)
+static void random_bytes_are_parsed_safely(void **state)
 {
     uint8_t bytes[100];
     struct rho_udpm_datagram datagram;
@@ -224,7 +229,7 @@ static void any_bytes_may_be_parsed(void **state)
         }
         size = bytes[0] % sizeof bytes;
         memcpy(bytes, "LC02", round % 4 > 0 ? 4 : 0);
-        good += parse(bytes, size, &datagram) == RHO_OK;
+        good += parse_exact_copy(bytes, size, &datagram) == RHO_OK;
     }
     assert_in_range(good, 1000, 10000);
 }
@@ -259,16 +264,16 @@ static void only_allowed_addresses_are_admitted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_head_is_these_bytes),
-        cmocka_unit_test(these_bytes_are_a_datagram),
-        cmocka_unit_test(every_length_and_sequence_comes_back),
-        cmocka_unit_test(a_head_that_does_not_fit_is_not_begun),
+        cmocka_unit_test(a_header_is_encoded_as_documented_bytes),
+        cmocka_unit_test(a_hand_written_datagram_is_parsed),
+        cmocka_unit_test(names_of_every_length_and_sequences_are_read_back),
+        cmocka_unit_test(a_header_that_does_not_fit_is_refused),
         cmocka_unit_test(a_channel_has_63_characters_at_most),
-        cmocka_unit_test(other_magic_is_refused),
-        cmocka_unit_test(null_is_refused),
-        cmocka_unit_test(no_alignment_is_needed),
-        cmocka_unit_test(the_self_test_is_known_by_its_whole_name),
-        cmocka_unit_test(any_bytes_may_be_parsed),
+        cmocka_unit_test(a_wrong_magic_number_is_refused),
+        cmocka_unit_test(null_pointers_are_refused),
+        cmocka_unit_test(datagrams_need_no_alignment),
+        cmocka_unit_test(the_self_test_channel_is_known_by_its_exact_name),
+        cmocka_unit_test(random_bytes_are_parsed_safely),
         cmocka_unit_test(only_allowed_addresses_are_admitted),
     };
 
