@@ -36,7 +36,7 @@ struct whole {
 };
 
 /* Takes a row, whose time must be allowed for its scan. */
-static void take_row(struct scan_gather *gather, const struct test_row *row, int32_t element)
+static void take_row(struct rows_to_scans *gather, const struct test_row *row, int32_t element)
 {
     char reason[ROW_REASON_BYTES];
     const struct row_check check = {.reason = reason};
@@ -117,7 +117,7 @@ static void sort_reference_by_time(void)
 /* ---- the tested grouping compared with the reference ----------------------------------------- */
 
 /* Completed scans equal the next scans of the reference. */
-static void check_completed_scans(struct scan_gather *gather, bool all, size_t *next)
+static void check_completed_scans(struct rows_to_scans *gather, bool all, size_t *next)
 {
     struct gathered_scan scan;
 
