@@ -311,7 +311,9 @@ other_scripts := $(filter-out $(quick_scripts),$(sort $(wildcard tests/integrati
                    tools/gates/object_restrictions.py tools/gates/determinism.sh)
 
 # A test that does not build counts as failed, so the build goes on past it (-k) and its runner decides.
-run_tests = @$(MAKE) --no-print-directory -k $(jobs) all $(1) || echo "  ...  the build has failures"; \
+# What an earlier build left of it is removed: it would be run, and would pass.
+run_tests = @$(MAKE) --no-print-directory -k $(jobs) all $(1) || { echo "  ...  the build has failures"; \
+                for program in $(1); do $(MAKE) --no-print-directory -q $$program 2>&- || rm -f $$program; done; }; \
             BUILD=$(BUILD) tests/run.sh $(1) $(2)
 
 ## Set up what is missing, build and run the tests of minutes; ends with `N passed, N failed`
