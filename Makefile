@@ -312,8 +312,9 @@ other_scripts := $(filter-out $(quick_scripts),$(sort $(wildcard tests/integrati
 
 # A test that does not build counts as failed, so the build goes on past it (-k) and its runner decides.
 # What an earlier build left of it is removed: it would be run, and would pass.
-run_tests = @$(MAKE) --no-print-directory -k $(jobs) all $(1) || { echo "  ...  the build has failures"; \
-                for program in $(1); do $(MAKE) --no-print-directory -q $$program 2>&- || rm -f $$program; done; }; \
+run_tests = @mkdir -p $(BUILD); LC_ALL=C $(MAKE) --no-print-directory -k $(jobs) all $(1) 2>$(BUILD)/build-errors.txt || \
+                { cat $(BUILD)/build-errors.txt; echo "  ...  the build has failures"; \
+                  rm -f $$(sed -n "s/.*Target '\(.*\)' not remade because of errors.*/\1/p" $(BUILD)/build-errors.txt); }; \
             BUILD=$(BUILD) tests/run.sh $(1) $(2)
 
 ## Set up what is missing, build and run the tests of minutes; ends with `N passed, N failed`
