@@ -314,7 +314,8 @@ other_scripts := $(filter-out $(quick_scripts),$(sort $(wildcard tests/integrati
 # What an earlier build left of it is removed: it would be run, and would pass.
 run_tests = @mkdir -p $(BUILD); LC_ALL=C $(MAKE) --no-print-directory -k $(jobs) all $(1) 2>$(BUILD)/build-errors.txt || \
                 { cat $(BUILD)/build-errors.txt; echo "  ...  the build has failures"; \
-                  rm -f $$(sed -n "s/.*Target '\(.*\)' not remade because of errors.*/\1/p" $(BUILD)/build-errors.txt); }; \
+                  rm -f $$(sed -n -e "s/.*Target '\(.*\)' not remade because of errors.*/\1/p" \
+                                  -e 's/.*\*\*\* \[[^]]*: \(.*\)\] Error.*/\1/p' $(BUILD)/build-errors.txt); }; \
             BUILD=$(BUILD) tests/run.sh $(1) $(2)
 
 ## Set up what is missing, build and run the tests of minutes; ends with `N passed, N failed`
