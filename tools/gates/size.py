@@ -54,7 +54,7 @@ ROWS = [
     ("names of messages and their fields, likewise", "wire/message_names", ""),
     ("scan assembly from messages, two scans open at a time, likewise", "wire/scan_*",
      "scan_assembler"),
-    ("what a step thought, as messages (show), likewise", "wire/show_messages*", "show"),
+    ("what a step thought, as messages (show), likewise", "wire/show*", "show"),
     ("report of a step", "", "report"),
 ]
 
@@ -64,7 +64,7 @@ AIMS = [
     ("a radar node: all but passive sensors, papers, images and names",
      "base/* measurement/* estimation/* association/* window/* initiation/* tracker/* bodies/* "
      "step/* settings/* wire/* -measurement/bearing_crossing -step/bearing_* -step/paper_starts "
-     "-*_soundness -settings/snapshot -wire/message_names -wire/show_messages*",
+     "-*_soundness -settings/snapshot -wire/message_names -wire/show*",
      96 * 1024, "initiator tracker scan_assembler report", 176 * 1024, 4096),
 ]
 
