@@ -321,7 +321,7 @@ run_tests = @mkdir -p $(BUILD); LC_ALL=C $(MAKE) --no-print-directory -k $(jobs)
 ## Set up what is missing, build and run the tests of minutes; ends with `N passed, N failed`
 test:
 	@tools/setup.sh
-	@BUILD=$(BUILD) tools/python.sh
+	@BUILD=$(BUILD) tools/setup_python.sh
 	$(call run_tests,$(quick_programs),$(quick_scripts))
 
 ## All tests: `make test`, then the other profile, the lab, the network, sizes, gates and determinism
@@ -336,7 +336,7 @@ test-rest:
 	@tools/setup.sh python
 	@tools/setup.sh packages
 	@tools/setup.sh browser
-	@BUILD=$(BUILD) tools/python.sh
+	@BUILD=$(BUILD) tools/setup_python.sh
 	-@$(MAKE) --no-print-directory python # without it, tests of the lab's scripts say that they are skipped
 	$(call run_tests,$(other_programs),$(other_scripts))
 

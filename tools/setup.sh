@@ -33,7 +33,7 @@ gnuplot-nox         # pictures
 librsvg2-bin        # pictures: SVG to PNG
 python3             # make layers, reference vectors
 python3-prometheus-client # reads the metrics of a node as Prometheus does
-python3-venv        # what tests import goes to build/venv (tools/python.sh)
+python3-venv        # what tests import goes to build/venv (tools/setup_python.sh)
 valgrind            # memory checks, instruction counts
 iproute2            # tests on networks of their own: hosts on a bridge
 nftables            # ... and the loss on it

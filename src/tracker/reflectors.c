@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "reflector_image.h"
+#include "mirror_state_in_wall.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "step.h"

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "../tracker/reflector_image.h"
+#include "../tracker/mirror_state_in_wall.h"
 #include "../tracker/step.h"
 #include "learned_line.h"
 #include "rhotrack/detail/angle.h"

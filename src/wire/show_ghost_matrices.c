@@ -84,7 +84,10 @@ static int8_t message_reason_of(unsigned reason)
     return reasons[reason];
 }
 
-/* Makes the message of a matrix element, with the angle that pruning has cleared in the matrix. */
+/*
+ * Makes the message of one crossing of two sensors' bearings, an element of the ghost matrix. Its
+ * angle is computed anew, as pruning has set it to 0 in the matrix.
+ */
 static struct rho_message_ghost ghost_message_of_element(const struct rho_passive_paper *paper,
                                                          const struct rho_passive_paper_pair *pair,
                                                          const struct rho_crossing_base *base,

@@ -70,7 +70,7 @@ static void check_scan(const struct rho_scan *scan)
 
 static void read_scans(char *path, const struct parameters *parameters, bool keep_going)
 {
-    struct scan_reader *reader = plot_scan_reader_open(&path, 1, parameters, keep_going);
+    struct plot_scan_reader *reader = plot_scan_reader_open(&path, 1, parameters, keep_going);
     const struct rho_scan *scan;
     int64_t before_us = INT64_MIN;
     uint64_t num_scans = 0;

@@ -7,7 +7,7 @@
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 lcm_gen=${LCM_GEN:-/usr/bin/lcm-gen}
-python=$(tests/python.sh)
+python=$(tests/find_python.sh)
 messages=${INTEROP_MESSAGES:-10000} # of each type and way
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -64,10 +64,10 @@ else
         echo "skipped: interop: message_vectors.h made anew, $lcm_gen is not 1.3.1"
     fi
     if [ -z "$python" ]; then
-        echo 'skipped: interop with Python: the package lcm is not installed (tools/python.sh)'
+        echo 'skipped: interop with Python: the package lcm is not installed (tools/setup_python.sh)'
     else
         check 'the interpreter is found from any folder' test \
-            "$(cd "$folder" && "$OLDPWD/tests/python.sh")" = "$python"
+            "$(cd "$folder" && "$OLDPWD/tests/find_python.sh")" = "$python"
         mkdir "$folder/out"
         "$folder/interop" write "$folder/out" "$messages"
         with_bindings_of "$lcm_gen"

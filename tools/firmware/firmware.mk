@@ -55,7 +55,7 @@ firmware: $(firmware_images) $(node_images)
 firmware-test:
 	@tools/setup.sh
 	@tools/setup.sh firmware
-	@BUILD=$(BUILD) tools/python.sh
+	@BUILD=$(BUILD) tools/setup_python.sh
 	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(node_images) $(replays) $(worst_images) $(replay) $(replay_radar) $(replay_paper) $(firmware_tests)
 	@BUILD=$(BUILD) tests/run.sh $(firmware_tests) $(sort $(wildcard tests/firmware/*.sh))
 

@@ -263,7 +263,7 @@ struct program_scans *program_read_scans(char *const *paths, int num_paths,
 {
     RETURN_ON_FAILURE(NULL)
     struct parameters *parameters = copy_settings_and_locate_sensors(settings, paths, num_paths);
-    struct inputs *inputs = merged_inputs_open(paths, num_paths, parameters, keep_going);
+    struct merged_inputs *inputs = merged_inputs_open(paths, num_paths, parameters, keep_going);
     struct program_scans *scans = must_calloc(1, sizeof *scans);
 
     for (struct input input = merged_inputs_next(inputs); input.scan || input.frame;

@@ -4,18 +4,18 @@
  */
 
 #include "base/common.h"
+#include "calibration/calibrate_noise_and_pd.h"
+#include "calibration/calibrate_output.h"
 #include "command_line.h"
 #include "commands.h"
 #include "io/scans/merged_inputs.h"
-#include "registration/calibrate.h"
-#include "registration/calibrate_output.h"
 #include "registration/register_data.h"
 
 static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                              struct register_data *data)
 {
-    struct inputs *inputs = merged_inputs_open(line->arguments, line->num_arguments,
-                                               &line->parameters, line->keep_going);
+    struct merged_inputs *inputs = merged_inputs_open(line->arguments, line->num_arguments,
+                                                      &line->parameters, line->keep_going);
     struct progress progress = progress_start("scans", 0);
     uint64_t done = 0, skipped;
 

@@ -16,7 +16,7 @@
 #include "io/turns/revolutions.h"
 #include "rhotrack/tracker.h"
 
-struct batch {
+struct initiation_run {
     struct rho_initiator *initiator;
     int64_t time_us; /* time of the batch's last scan */
     uint64_t scans, plots, plots_no_room;
@@ -25,8 +25,8 @@ struct batch {
 
 /* ---- The batch ---- */
 
-static void push_scan(struct batch *batch, const struct rho_scan *scan,
-                      const struct rho_sensor *sensor)
+static void push_scan_to_initiator(struct initiation_run *batch, const struct rho_scan *scan,
+                                   const struct rho_sensor *sensor)
 {
     static uint8_t fates[RHO_MAX_PLOTS];
     struct rho_scan held = *scan;
@@ -50,22 +50,22 @@ static void push_scan(struct batch *batch, const struct rho_scan *scan,
 /*
  * Pushes the last scans that fit the initiation window; sectors of a turn are joined to one scan.
  */
-static void push_last_scans(struct batch *batch, struct scan_reader *reader)
+static void push_last_scans(struct initiation_run *batch, struct plot_scan_reader *reader)
 {
     struct revolutions revolutions = revolutions_read_last(reader, batch->initiator->config.scans);
 
     for (size_t i = 0; i < revolutions.count; i++) {
         const struct revolution *turn = &revolutions.list[i];
 
-        push_scan(batch, &turn->scan, turn->has_sensor ? &turn->sensor : NULL);
+        push_scan_to_initiator(batch, &turn->scan, turn->has_sensor ? &turn->sensor : NULL);
     }
     revolutions_free(&revolutions);
 }
 
-static void read_and_search_batch(struct batch *batch, const struct command_line *line)
+static void read_and_search_batch(struct initiation_run *batch, const struct command_line *line)
 {
     struct rho_initiator_config config;
-    struct scan_reader *reader;
+    struct plot_scan_reader *reader;
     int64_t start_us;
 
     parameters_to_initiator(&line->parameters, &config);
@@ -92,9 +92,9 @@ static void read_and_search_batch(struct batch *batch, const struct command_line
 
 /* ---- What it found ---- */
 
-static void write_found_tracks(const struct batch *batch, const char *path)
+static void write_found_tracks(const struct initiation_run *batch, const char *path)
 {
-    struct initiated_output *found = initiated_tracks_output_open(path);
+    struct initiated_tracks_output *found = initiated_tracks_output_open(path);
 
     for (unsigned i = 0; i < batch->initiator->num_candidates; i++) {
         struct initiated row =
@@ -118,7 +118,7 @@ static cJSON *track_hits_json(const struct rho_initiator *initiator, double *sum
     return sort_descending_into_json_list(hits, initiator->num_candidates);
 }
 
-static void print_found_json(const struct batch *batch)
+static void print_found_json(const struct initiation_run *batch)
 {
     const struct rho_initiator *initiator = batch->initiator;
     cJSON *object = cJSON_CreateObject(), *peaks;
@@ -151,7 +151,7 @@ static void print_found_json(const struct batch *batch)
 
 static void initiate_kernel(const struct command_line *line)
 {
-    struct batch batch = {.wall_us = 0};
+    struct initiation_run batch = {.wall_us = 0};
 
     read_and_search_batch(&batch, line);
     if (line->output || !line->json) {

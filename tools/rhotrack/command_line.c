@@ -359,7 +359,7 @@ static void suggest_origin_and_warn_of_compass(struct command_line *line, const 
 
     suggest_origin_if_lacking(
         line, path, (struct asterix_place){look.has_place, look.lat_deg, look.lon_deg, look.alt_m});
-    if (look.runs_clockwise) {
+    if (look.has_compass_azimuths) {
         fprintf(stderr,
                 "rhotrack: %s: azimuth_rad goes from 0 to 2 pi and rises with time, as that of a "
                 "compass does; it is read counter-clockwise from east. Clockwise from north: "

@@ -86,7 +86,8 @@ static void step_and_time_scan(struct maintaining *maintaining, const struct rho
     count_plot_fates(maintaining, scan, row);
 }
 
-static void step_and_write_all_scans(struct maintaining *maintaining, struct scan_reader *reader,
+static void step_and_write_all_scans(struct maintaining *maintaining,
+                                     struct plot_scan_reader *reader,
                                      const struct command_line *line, struct tracks_output *tracks)
 {
     struct progress progress = progress_start("scans", 0);
@@ -171,7 +172,7 @@ static void print_run_json(const struct maintaining *maintaining, const struct c
     json_print_and_delete(object);
 }
 
-static struct scan_reader *open_plot_reader(const struct command_line *line)
+static struct plot_scan_reader *open_plot_reader(const struct command_line *line)
 {
     if (bearing_frame_reader_file_has_bearings(line->arguments[0])) {
         fail(EXIT_USAGE, "%s: maintain takes plots, but this file has bearings",
@@ -185,7 +186,7 @@ int command_maintain(struct command_line *line)
     bool has_file = line->output || !line->json;
     struct maintaining maintaining = {.gate = apply_gate_option(line),
                                       .random = random_start(line->seed, 0, 0)};
-    struct scan_reader *reader;
+    struct plot_scan_reader *reader;
     struct plot_scan_reader_counts counts;
     struct tracks_output *tracks;
 

@@ -43,8 +43,8 @@ static void add_scan_or_fail(struct register_data *data, const struct input *inp
 static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                              struct register_data *data)
 {
-    struct inputs *inputs = merged_inputs_open(line->arguments, line->num_arguments,
-                                               &line->parameters, line->keep_going);
+    struct merged_inputs *inputs = merged_inputs_open(line->arguments, line->num_arguments,
+                                                      &line->parameters, line->keep_going);
     struct progress progress = progress_start("scans", 0);
     struct unplaced unplaced = {.is_any = false};
     uint64_t done = 0, skipped;

@@ -53,7 +53,8 @@ static void set_sensor_of_tracker(struct tracking *tracking, const struct rho_se
  * Describes all passive sensors at the start, as they do not move; exit 2 where bearings of sensors
  * so many or so far apart cannot be searched.
  */
-static void check_and_set_passive_sensors(struct tracking *tracking, const struct inputs *inputs,
+static void check_and_set_passive_sensors(struct tracking *tracking,
+                                          const struct merged_inputs *inputs,
                                           const struct parameters *parameters)
 {
     size_t count;
@@ -132,7 +133,7 @@ static void step_and_write_input(struct tracking *tracking, const struct input *
 }
 
 /* Steps and writes all inputs; shows progress unless the tracks are written on the terminal. */
-static void step_and_write_all_inputs(struct tracking *tracking, struct inputs *inputs,
+static void step_and_write_all_inputs(struct tracking *tracking, struct merged_inputs *inputs,
                                       struct tracks_output *tracks, bool are_tracks_on_terminal)
 {
     struct progress progress = progress_start("scans", 0);
@@ -170,7 +171,7 @@ static void stop_at_signal_unless_ignored(int number)
 }
 
 /* Steps all scans that are complete by now; returns whether there were any. */
-static bool step_complete_scans(struct tracking *tracking, struct inputs *inputs,
+static bool step_complete_scans(struct tracking *tracking, struct merged_inputs *inputs,
                                 struct tracks_output *tracks)
 {
     struct input input = {.scan = NULL};
@@ -190,11 +191,11 @@ static bool step_complete_scans(struct tracking *tracking, struct inputs *inputs
  * Steps scans as the file grows, until a signal, the end of a pipe, or the end of the file. Returns
  * why the file ended ("has become shorter"), or NULL.
  */
-static const char *follow_growing_file(struct tracking *tracking, struct inputs *inputs,
+static const char *follow_growing_file(struct tracking *tracking, struct merged_inputs *inputs,
                                        struct tracks_output *tracks, int64_t quiet_us)
 {
     const struct timespec pause = {.tv_nsec = 100000000};
-    struct scan_reader *reader = merged_inputs_scan_reader(inputs);
+    struct plot_scan_reader *reader = merged_inputs_scan_reader(inputs);
     uint64_t position = 0;
     int64_t since_us = clock_us();
     const char *why = NULL;
@@ -234,7 +235,7 @@ static int64_t follow_quiet_us(const struct parameters *parameters)
 }
 
 /* Tracks a growing input to its end; scans still incomplete at the end are stepped as they are. */
-static const char *follow_input_to_end(struct tracking *tracking, struct inputs *inputs,
+static const char *follow_input_to_end(struct tracking *tracking, struct merged_inputs *inputs,
                                        struct tracks_output *tracks,
                                        const struct parameters *parameters)
 {
@@ -385,7 +386,8 @@ static cJSON *origin_json(const struct parameters *parameters)
     return object;
 }
 
-static size_t state_memory_bytes(const struct tracking *tracking, const struct inputs *inputs)
+static size_t state_memory_bytes(const struct tracking *tracking,
+                                 const struct merged_inputs *inputs)
 {
     return sizeof *tracking->pipeline.tracker +
            (merged_inputs_have_plots(inputs)
@@ -406,7 +408,7 @@ static double count_known_echoes(const struct rho_clutter_map *map)
     return num;
 }
 
-static void print_run_json(const struct tracking *tracking, const struct inputs *inputs,
+static void print_run_json(const struct tracking *tracking, const struct merged_inputs *inputs,
                            const struct merged_inputs_counts *counts,
                            const struct parameters *parameters)
 {
@@ -444,7 +446,7 @@ static void print_run_json(const struct tracking *tracking, const struct inputs 
 /*
  * Opens the pipeline. Without plots, the customary parameters for bearings hold for tracks as well.
  */
-static void open_pipeline(struct tracking *tracking, const struct inputs *inputs,
+static void open_pipeline(struct tracking *tracking, const struct merged_inputs *inputs,
                           struct parameters *parameters)
 {
     if (!merged_inputs_have_plots(inputs)) {
@@ -471,7 +473,7 @@ static void check_clutter_map_is_separate(const struct command_line *line)
     clutter_map_file_refuse_same_file(line->clutter_map, line->output, "output");
 }
 
-static struct inputs *open_inputs(const struct command_line *line)
+static struct merged_inputs *open_inputs(const struct command_line *line)
 {
     if (!line->follow) {
         return merged_inputs_open(line->arguments, line->num_arguments, &line->parameters,
@@ -504,7 +506,7 @@ static struct zone_events_output open_zone_events_output(const struct command_li
 }
 
 static void print_summary_zones_and_json(const struct tracking *tracking,
-                                         const struct inputs *inputs,
+                                         const struct merged_inputs *inputs,
                                          const struct command_line *line)
 {
     struct merged_inputs_counts counts = merged_inputs_counts(inputs);
@@ -550,7 +552,7 @@ static void suggest_next_command(const struct command_line *line)
 int command_track(struct command_line *line)
 {
     struct tracking tracking = {.pipeline = pipeline_allocate()};
-    struct inputs *inputs;
+    struct merged_inputs *inputs;
     struct tracks_output *tracks;
     const char *why = NULL;
     bool is_saved, has_tracks;

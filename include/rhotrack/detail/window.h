@@ -60,8 +60,8 @@ struct rho_window_sector {
 };
 
 /*
- * Length of `repeats`, the density ratio of the clutter map at each held plot: 1 without a clutter
- * map.
+ * Length of `repeats`, the coded logarithm of the clutter map's density ratio at each held plot;
+ * without a clutter map the array has one unused element.
  */
 #define RHO_WINDOW_REPEATS (RHO_MAX_ECHOES > 0 ? RHO_MAX_PLOTS : 1)
 

@@ -27,7 +27,7 @@ struct given {
     struct parameters parameters;
     char paths[MAX_FILES][40];
     int num_paths;
-    struct inputs *inputs;
+    struct merged_inputs *inputs;
 };
 
 static struct given given_no_files(void)

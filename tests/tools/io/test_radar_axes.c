@@ -29,7 +29,7 @@ static const double radar[3] = {50.5, 11.5, 400}, target[3] = {49.9, 10.4, 9000}
 /* A radar 120 km east and 55 km north of the origin of the common frame. */
 struct scene {
     struct local_frame *common, *own;
-    struct radar_frame *frame;
+    struct radar_axes *frame;
     double seen_m[3], place_m[3]; /* the target in the radar's frame and in the common frame */
     struct radar_look look;       /* the radar's measurement of the target */
 };
@@ -158,7 +158,7 @@ static void check_spread_against_sigma(const double on_earth[3])
     enum { RUNS = 4000 };
     const struct radar_height height = {on_earth[2], 40, 25};
     struct local_frame *own = local_frame_open(radar[0], radar[1], radar[2]);
-    struct radar_frame *frame = radar_axes_open(own, radar, true);
+    struct radar_axes *frame = radar_axes_open(own, radar, true);
     struct random random = random_start(3, 0, 0);
     double true_m[3], up_m2 = 0, along_m2 = 0, sigma_rad = 0;
 
@@ -216,7 +216,7 @@ static void on_a_flat_earth_elevation_follows_from_the_triangle(void **state)
 static void heights_beyond_the_range_are_refused(void **state)
 {
     struct local_frame *common = local_frame_open(50, 10, 100);
-    struct radar_frame *frame = radar_axes_open(common, radar, true);
+    struct radar_axes *frame = radar_axes_open(common, radar, true);
     struct radar_height height = {7401, 30, 50};
     struct radar_look look = {7000, 0.7, 0.1};
     double sigma_rad = 0.5;

@@ -41,7 +41,7 @@ static struct revolutions read_last_turns(const char *text, size_t max)
 {
     char path[] = "/tmp/rhotrack-turns-XXXXXX", *paths[] = {path};
     struct parameters parameters;
-    struct scan_reader *reader;
+    struct plot_scan_reader *reader;
     struct revolutions revolutions;
     int file = mkstemp(path);
 

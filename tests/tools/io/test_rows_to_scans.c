@@ -21,7 +21,7 @@
 
 struct test_row {
     int32_t sensor_id;
-    struct row_number number;
+    struct scan_number number;
     int64_t time_us;
     bool has_element;
 };
@@ -219,7 +219,7 @@ static void times_may_go_back_within_a_numbered_scan_alone(void **state)
     const struct test_row one = {1, {true, 1, 0}, 5 * SECOND, true},
                           two = {1, {true, 2, 0}, 6 * SECOND, true},
                           back = {1, {true, 1, 0}, 4 * SECOND, true};
-    const struct row_number other = {true, 3, 0};
+    const struct scan_number other = {true, 3, 0};
     struct rows_to_scans gather;
     (void)state;
 

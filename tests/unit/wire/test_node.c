@@ -174,10 +174,10 @@ static void missing_parts_of_a_node_are_refused(void **state)
     config.passive_range_max_m = NAN;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_CONFIG);
     config = node_config_of(WAITING);
-    config.frames = NULL; /* an initiation of bearings without frames */
+    config.frames = NULL; /* refused: a search of bearings without frames */
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_NULL);
     config = node_config_of(WAITING);
-    /* the caller's own search, without the distance its sensors may be apart */
+    /* refused: the caller searches the bearings (no passive), but apart_max_m is not set */
     config.passive = NULL;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_CONFIG);
     config = node_config_of(WAITING);

@@ -79,8 +79,8 @@ static struct points read_confirmed_points(const struct table *table,
 }
 
 /*
- * Sets heights (vertical velocities) to 0 unless has_z (has_vz): they are compared only where both
- * truth and tracks have them.
+ * Sets heights (vertical velocities) to 0 unless compares_z (compares_vz): they are compared only
+ * where both truth and tracks have them.
  */
 static void zero_uncompared_heights(struct points *points, bool compares_z, bool compares_vz)
 {

@@ -27,8 +27,8 @@ struct hough_search {
 
 static void read_batch(struct hough_batch *batch, const struct command_line *line)
 {
-    struct scan_reader *reader = plot_scan_reader_open(line->arguments, line->num_arguments,
-                                                       &line->parameters, line->keep_going);
+    struct plot_scan_reader *reader = plot_scan_reader_open(line->arguments, line->num_arguments,
+                                                            &line->parameters, line->keep_going);
     struct revolutions revolutions =
         revolutions_read_last(reader, (size_t)line->parameters.value[PARAMETER_SCANS]);
 
@@ -132,7 +132,7 @@ static struct initiated fit_track_of_peak(const struct hough_search *search, uin
 
 static void write_found_tracks(const struct hough_search *search, const char *path)
 {
-    struct initiated_output *found = initiated_tracks_output_open(path);
+    struct initiated_tracks_output *found = initiated_tracks_output_open(path);
     struct progress progress = progress_start("tracks", search->result.num_peaks);
 
     for (uint32_t i = 0; i < search->result.num_peaks; i++) {

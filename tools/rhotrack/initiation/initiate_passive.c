@@ -26,7 +26,7 @@ static enum rho_status search_passive_batch(void *object)
 
 static void write_found_tracks(const struct rho_passive *passive, int64_t time_us, const char *path)
 {
-    struct initiated_output *found = initiated_tracks_output_open(path);
+    struct initiated_tracks_output *found = initiated_tracks_output_open(path);
 
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *track = &passive->tracks[i];

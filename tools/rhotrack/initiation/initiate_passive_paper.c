@@ -25,7 +25,7 @@ static enum rho_status search_paper_batch(void *object)
 static void write_found_tracks(const struct rho_passive_paper *paper, int64_t time_us,
                                const char *path)
 {
-    struct initiated_output *found = initiated_tracks_output_open(path);
+    struct initiated_tracks_output *found = initiated_tracks_output_open(path);
 
     for (unsigned i = 0; i < paper->num_lines; i++) {
         const struct rho_passive_paper_line *line = &paper->lines[i];

@@ -25,7 +25,7 @@ static void print_sender(const struct transport_sender *sender, FILE *to)
 /* ---- Sensors ---- */
 
 /*
- * Parses the number in a channel's name, strictly: anyone on the network names channels, and the
+ * Parses the sensor_id in a channel's name, strictly: anyone on the network names channels, and the
  * name is printed.
  */
 static bool parse_sensor_id(const char *text, int16_t *sensor_id)

@@ -23,7 +23,7 @@
 struct maintainer {
     enum maintainer_gate gate;
     /* the hypotheses of the gate best; NULL: another gate, which uses the fields below */
-    struct maintainer_best *best;
+    struct maintainer_hypotheses *best;
     struct scan_clutter_density *density;
     struct rho_input_config config;
     /* RHO_GATE_PLANE_... bits: planes of velocity space in which the Hough gate votes */

@@ -11,7 +11,7 @@
 
 #define NO_SLOT RHO_HYPOTHESES_SLOTS
 
-struct maintainer_best {
+struct maintainer_hypotheses {
     /* the track's slot in the pool; NO_SLOT: no hypotheses are left */
     uint16_t slot;
     int64_t time_us;                    /* time of the last scan or prediction, or of the start */
@@ -23,9 +23,9 @@ struct maintainer_best {
     struct rho_hypotheses *pool;
 };
 
-struct maintainer_best *maintainer_hypotheses_new(const struct parameters *parameters)
+struct maintainer_hypotheses *maintainer_hypotheses_new(const struct parameters *parameters)
 {
-    struct maintainer_best *best = must_calloc(1, sizeof *best);
+    struct maintainer_hypotheses *best = must_calloc(1, sizeof *best);
     struct rho_imm_model model;
 
     rho_imm_model_default(&model, (float)parameters->value[PARAMETER_ACCEL_MAX_MPS2],
@@ -37,16 +37,17 @@ struct maintainer_best *maintainer_hypotheses_new(const struct parameters *param
     return best;
 }
 
-struct maintainer_best *maintainer_hypotheses_new_sharing_pool(const struct maintainer_best *first)
+struct maintainer_hypotheses *
+maintainer_hypotheses_new_sharing_pool(const struct maintainer_hypotheses *first)
 {
-    struct maintainer_best *best = must_calloc(1, sizeof *best);
+    struct maintainer_hypotheses *best = must_calloc(1, sizeof *best);
 
     best->pool = first->pool;
     best->slot = NO_SLOT;
     return best;
 }
 
-void maintainer_hypotheses_free(struct maintainer_best *best)
+void maintainer_hypotheses_free(struct maintainer_hypotheses *best)
 {
     if (best && best->is_first) {
         free(best->pool);
@@ -59,14 +60,15 @@ size_t maintainer_hypotheses_state_bytes(void)
     return RHO_HYPOTHESES_OF_TRACK * sizeof(struct rho_hypothesis);
 }
 
-static void refresh_estimate(struct maintainer_best *best)
+static void refresh_estimate(struct maintainer_hypotheses *best)
 {
     must_succeed(rho_hypotheses_estimate(best->pool, best->slot, best->time_us, &best->now),
                  "estimate");
 }
 
-void maintainer_hypotheses_start(struct maintainer_best *best, int64_t time_us, int64_t scan_us,
-                                 const struct rho_kalman *kalman, const struct rho_sensor *sensor)
+void maintainer_hypotheses_start(struct maintainer_hypotheses *best, int64_t time_us,
+                                 int64_t scan_us, const struct rho_kalman *kalman,
+                                 const struct rho_sensor *sensor)
 {
     best->has_sensor = sensor;
     if (sensor) {
@@ -78,7 +80,7 @@ void maintainer_hypotheses_start(struct maintainer_best *best, int64_t time_us, 
     refresh_estimate(best);
 }
 
-bool maintainer_hypotheses_predict(struct maintainer_best *best, int64_t time_us)
+bool maintainer_hypotheses_predict(struct maintainer_hypotheses *best, int64_t time_us)
 {
     if (rho_hypotheses_predict(best->pool, best->slot, time_us) != RHO_OK) {
         rho_hypotheses_close(best->pool, best->slot);
@@ -90,7 +92,8 @@ bool maintainer_hypotheses_predict(struct maintainer_best *best, int64_t time_us
     return true;
 }
 
-void maintainer_hypotheses_predicted_place(const struct maintainer_best *best, double place_m[3])
+void maintainer_hypotheses_predicted_place(const struct maintainer_hypotheses *best,
+                                           double place_m[3])
 {
     const struct rho_hypothesis *heaviest = rho_hypotheses_at(best->pool, best->slot, 0);
     struct rho_kalman kalman = best->now.kalman; /* used where no hypothesis is left */
@@ -103,7 +106,7 @@ void maintainer_hypotheses_predicted_place(const struct maintainer_best *best, d
     }
 }
 
-static void score_plots_of_scan(struct maintainer_best *best, const struct rho_scan *scan,
+static void score_plots_of_scan(struct maintainer_hypotheses *best, const struct rho_scan *scan,
                                 const struct rho_sensor *sensor, double log_density, double pd)
 {
     /*
@@ -128,7 +131,7 @@ static void score_plots_of_scan(struct maintainer_best *best, const struct rho_s
     }
 }
 
-int maintainer_hypotheses_update(struct maintainer_best *best, const struct rho_scan *scan,
+int maintainer_hypotheses_update(struct maintainer_hypotheses *best, const struct rho_scan *scan,
                                  const struct rho_sensor *sensor, double log_density, double pd)
 {
     struct rho_hypotheses_scan seen = {.time_us = scan->time_us,
@@ -151,7 +154,7 @@ int maintainer_hypotheses_update(struct maintainer_best *best, const struct rho_
     return outcome.row;
 }
 
-void maintainer_hypotheses_estimate(const struct maintainer_best *best,
+void maintainer_hypotheses_estimate(const struct maintainer_hypotheses *best,
                                     struct maintainer_estimate *estimate)
 {
     *estimate = (struct maintainer_estimate){
@@ -164,7 +167,7 @@ void maintainer_hypotheses_estimate(const struct maintainer_best *best,
     }
 }
 
-double maintainer_hypotheses_nis_per_dimension(const struct maintainer_best *best,
+double maintainer_hypotheses_nis_per_dimension(const struct maintainer_hypotheses *best,
                                                const struct rho_plot *plot, uint32_t measures)
 {
     int dimensions = 1;
@@ -174,7 +177,7 @@ double maintainer_hypotheses_nis_per_dimension(const struct maintainer_best *bes
     return distance2 / dimensions;
 }
 
-unsigned long maintainer_hypotheses_num_refused(const struct maintainer_best *best)
+unsigned long maintainer_hypotheses_num_refused(const struct maintainer_hypotheses *best)
 {
     return best->refused;
 }

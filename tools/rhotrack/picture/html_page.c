@@ -230,7 +230,7 @@ static void write_plot_arrays(FILE *file, const struct picture_data *data,
     struct claims claims = collect_claims(data);
     uint32_t count = 0;
     if (data->num_plot_paths > 0) {
-        struct scan_reader *reader = plot_scan_reader_open_sensor_id_optional(
+        struct plot_scan_reader *reader = plot_scan_reader_open_sensor_id_optional(
             data->plot_paths, data->num_plot_paths, parameters);
         const struct rho_scan *scan;
         while ((scan = plot_scan_reader_next(reader)) != NULL) {

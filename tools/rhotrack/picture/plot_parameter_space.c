@@ -111,7 +111,7 @@ struct revolutions plot_parameter_space_read(const struct picture_data *data,
                  data->plot_paths[i]);
         }
     }
-    struct scan_reader *reader = plot_scan_reader_open_sensor_id_optional(
+    struct plot_scan_reader *reader = plot_scan_reader_open_sensor_id_optional(
         data->plot_paths, data->num_plot_paths, parameters);
     struct revolutions revolutions = revolutions_read_last(reader, scans);
     for (size_t i = 0; i < revolutions.count; i++) {

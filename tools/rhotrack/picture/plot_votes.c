@@ -22,7 +22,7 @@ struct plot_votes {
     uint32_t of[PICTURES][THETA_BLOCKS * RHO_BLOCKS];
 };
 
-/* Component of the accumulator and title of each picture. */
+/* What each picture shows of the cells: their votes, or one of the three sums of memberships. */
 static const struct {
     enum rho_hough_component component;
     const char *title;

@@ -14,9 +14,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "scene/scene_doppler_notch.h"
 #include "scene/scene_json.h"
 #include "scene/scene_path.h"
+#include "scene/scene_radar_notch.h"
 #include "scene/scene_reflectors.h"
 #include "settings/parameters.h"
 

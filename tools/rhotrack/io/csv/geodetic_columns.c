@@ -17,11 +17,11 @@ struct kept_radar {
     int32_t sensor_id;
     bool has_own_north;
     double geodetic[3];
-    struct radar_frame *frame;
+    struct radar_axes *frame;
 };
 
 /* Columns of one table, as indices, -1 where it has no such column; and the radars' frames. */
-struct geodetic {
+struct geodetic_columns {
     const struct parameters *parameters;
     struct local_frame *origin; /* frame of the origin; NULL until it is needed */
     bool is_polar;
@@ -97,12 +97,13 @@ static void need_origin(const struct table *table, const struct parameters *para
     }
 }
 
-struct geodetic *geodetic_columns_open(const struct table *table,
-                                       const struct parameters *parameters)
+struct geodetic_columns *geodetic_columns_open(const struct table *table,
+                                               const struct parameters *parameters)
 {
-    struct geodetic *geodetic = must_calloc(1, sizeof *geodetic);
+    struct geodetic_columns *geodetic = must_calloc(1, sizeof *geodetic);
 
-    *geodetic = (struct geodetic){.parameters = parameters,
+    *geodetic =
+        (struct geodetic_columns){.parameters = parameters,
                                   .is_polar = table_find_column(table, "range_m") >= 0,
                                   .lat_deg = table_find_column(table, "lat_deg"),
                                   .lon_deg = table_find_column(table, "lon_deg"),
@@ -125,7 +126,7 @@ struct geodetic *geodetic_columns_open(const struct table *table,
     return geodetic;
 }
 
-void geodetic_columns_close(struct geodetic *geodetic)
+void geodetic_columns_close(struct geodetic_columns *geodetic)
 {
     if (!geodetic) {
         return;
@@ -138,7 +139,7 @@ void geodetic_columns_close(struct geodetic *geodetic)
 }
 
 /* Frame of the origin, made when a position first needs it, since PROJ starts slowly. */
-static const struct local_frame *origin_frame(struct geodetic *geodetic)
+static const struct local_frame *origin_frame(struct geodetic_columns *geodetic)
 {
     if (!geodetic->origin) {
         geodetic->origin = parameters_open_local_frame(geodetic->parameters);
@@ -146,7 +147,7 @@ static const struct local_frame *origin_frame(struct geodetic *geodetic)
     return geodetic->origin;
 }
 
-bool geodetic_columns_has_place_columns(const struct geodetic *geodetic)
+bool geodetic_columns_has_place_columns(const struct geodetic_columns *geodetic)
 {
     return geodetic && !geodetic->is_polar && geodetic->lat_deg >= 0;
 }
@@ -174,13 +175,14 @@ static bool check_distance_to_origin(const struct row_check *check, int lat_deg,
                       (double)RHO_LIMIT_POSITION_M / 1000);
 }
 
-bool geodetic_columns_row_has_place(const struct geodetic *geodetic, const struct row_check *check)
+bool geodetic_columns_row_has_place(const struct geodetic_columns *geodetic,
+                                    const struct row_check *check)
 {
     return row_has_cell(check, geodetic->lat_deg) || row_has_cell(check, geodetic->lon_deg) ||
            row_has_cell(check, geodetic->alt_m);
 }
 
-bool geodetic_columns_read_place(struct geodetic *geodetic, const struct row_check *check,
+bool geodetic_columns_read_place(struct geodetic_columns *geodetic, const struct row_check *check,
                                  double place_m[3], bool *has_alt)
 {
     double on_earth[3] = {0, 0, geodetic->parameters->value[PARAMETER_ORIGIN_ALT_M]};
@@ -199,7 +201,7 @@ bool geodetic_columns_read_place(struct geodetic *geodetic, const struct row_che
 
 /* ---- Radars ---- */
 
-static struct kept_radar *find_radar_slot(struct geodetic *geodetic, int32_t sensor_id,
+static struct kept_radar *find_radar_slot(struct geodetic_columns *geodetic, int32_t sensor_id,
                                           bool has_own_north)
 {
     for (size_t i = 0; i < RHO_MAX_SENSORS; i++) {
@@ -224,9 +226,9 @@ static bool is_same_place(const double one[3], const double other[3])
 }
 
 /* The radar's frame; it is made anew where the slot is another radar's, or the radar has moved. */
-static const struct radar_frame *get_or_make_radar_frame(struct geodetic *geodetic,
-                                                         int32_t sensor_id, bool has_own_north,
-                                                         const double on_earth[3])
+static const struct radar_axes *get_or_make_radar_frame(struct geodetic_columns *geodetic,
+                                                        int32_t sensor_id, bool has_own_north,
+                                                        const double on_earth[3])
 {
     struct kept_radar *radar = find_radar_slot(geodetic, sensor_id, has_own_north);
 
@@ -245,7 +247,7 @@ static const struct radar_frame *get_or_make_radar_frame(struct geodetic *geodet
  * Reads the radar's latitude, longitude and height from the row, else from the parameters. *is_said
  * is false where neither gives them.
  */
-static bool find_radar_place(const struct geodetic *geodetic, const struct row_check *check,
+static bool find_radar_place(const struct geodetic_columns *geodetic, const struct row_check *check,
                              int32_t sensor_id, double on_earth[3], bool *is_said)
 {
     const struct parameters *parameters = geodetic->parameters;
@@ -273,8 +275,9 @@ static bool find_radar_place(const struct geodetic *geodetic, const struct row_c
                "sensor_alt_m is given without sensor_lat_deg or the sensor's parameter lat_deg");
 }
 
-bool geodetic_columns_find_radar_frame(struct geodetic *geodetic, const struct row_check *check,
-                                       int32_t sensor_id, const struct radar_frame **frame)
+bool geodetic_columns_find_radar_frame(struct geodetic_columns *geodetic,
+                                       const struct row_check *check, int32_t sensor_id,
+                                       const struct radar_axes **frame)
 {
     double on_earth[3] = {0, 0, 0};
     bool is_said = false;
@@ -294,8 +297,8 @@ bool geodetic_columns_find_radar_frame(struct geodetic *geodetic, const struct r
 /* ---- Polar plots ---- */
 
 /* The radar's frame; with an origin also for a radar whose position is given in metres. */
-static const struct radar_frame *frame_of_polar_plot(struct geodetic *geodetic,
-                                                     const struct geodetic_columns_polar *polar)
+static const struct radar_axes *frame_of_polar_plot(struct geodetic_columns *geodetic,
+                                                    const struct geodetic_columns_polar *polar)
 {
     double on_earth[3];
 
@@ -306,7 +309,8 @@ static const struct radar_frame *frame_of_polar_plot(struct geodetic *geodetic,
     return get_or_make_radar_frame(geodetic, polar->sensor_id, false, on_earth);
 }
 
-static bool read_target_height(const struct geodetic *geodetic, const struct row_check *check,
+static bool read_target_height(const struct geodetic_columns *geodetic,
+                               const struct row_check *check,
                                const struct geodetic_columns_polar *polar,
                                struct radar_height *height)
 {
@@ -325,7 +329,8 @@ static bool read_target_height(const struct geodetic *geodetic, const struct row
  * Computes the elevation from the target's height and the range without its bias, since the bias is
  * subtracted from the range later.
  */
-static bool set_elevation_from_height(struct geodetic *geodetic, const struct row_check *check,
+static bool set_elevation_from_height(struct geodetic_columns *geodetic,
+                                      const struct row_check *check,
                                       struct geodetic_columns_polar *polar)
 {
     double range_m = polar->look.range_m;
@@ -347,7 +352,8 @@ static bool set_elevation_from_height(struct geodetic *geodetic, const struct ro
                       height.alt_m, range_m);
 }
 
-bool geodetic_columns_convert_polar(struct geodetic *geodetic, const struct row_check *check,
+bool geodetic_columns_convert_polar(struct geodetic_columns *geodetic,
+                                    const struct row_check *check,
                                     struct geodetic_columns_polar *polar)
 {
     if (row_has_cell(check, geodetic->alt_m)) {

@@ -19,19 +19,20 @@
 #include "io/csv/table.h"
 #include "settings/parameters.h"
 
-struct geodetic;
+struct geodetic_columns;
 
 /*
  * Finds the columns of a table. The parameters, which give the origin, must outlive the object.
  * Exit 2, with the header's line, where one of two columns is missing, a position is given twice,
  * there are latitudes without an origin, or two sources of heights.
  */
-struct geodetic *geodetic_columns_open(const struct table *table,
-                                       const struct parameters *parameters);
-void geodetic_columns_close(struct geodetic *geodetic); /* frees the object; NULL is allowed */
+struct geodetic_columns *geodetic_columns_open(const struct table *table,
+                                               const struct parameters *parameters);
+void geodetic_columns_close(
+    struct geodetic_columns *geodetic); /* frees the object; NULL is allowed */
 
 /* Whether the table has lat_deg and lon_deg as positions of plots or targets; false for NULL. */
-bool geodetic_columns_has_place_columns(const struct geodetic *geodetic);
+bool geodetic_columns_has_place_columns(const struct geodetic_columns *geodetic);
 
 /*
  * The bool functions that follow and take a row_check return false where the row is bad, with the
@@ -39,24 +40,26 @@ bool geodetic_columns_has_place_columns(const struct geodetic *geodetic);
  */
 
 /* Whether the row has a value in lat_deg, lon_deg or alt_m. */
-bool geodetic_columns_row_has_place(const struct geodetic *geodetic, const struct row_check *check);
+bool geodetic_columns_row_has_place(const struct geodetic_columns *geodetic,
+                                    const struct row_check *check);
 
 /* Reads the row's position. Without alt_m it is taken at the origin's height, and z_m is 0. */
-bool geodetic_columns_read_place(struct geodetic *geodetic, const struct row_check *check,
+bool geodetic_columns_read_place(struct geodetic_columns *geodetic, const struct row_check *check,
                                  double place_m[3], bool *has_alt);
 
 /*
  * The frame of the row's radar, where the row or the parameters give its position as latitude and
  * longitude; else NULL. Valid until another frame is found, or the close.
  */
-bool geodetic_columns_find_radar_frame(struct geodetic *geodetic, const struct row_check *check,
-                                       int32_t sensor_id, const struct radar_frame **frame);
+bool geodetic_columns_find_radar_frame(struct geodetic_columns *geodetic,
+                                       const struct row_check *check, int32_t sensor_id,
+                                       const struct radar_axes **frame);
 
 /* A polar plot under conversion. */
 struct geodetic_columns_polar {
     int32_t sensor_id;
-    const struct radar_frame *frame; /* result of geodetic_columns_find_radar_frame */
-    double place_m[3];               /* position of the radar in the local frame */
+    const struct radar_axes *frame; /* result of geodetic_columns_find_radar_frame */
+    double place_m[3];              /* position of the radar in the local frame */
     struct radar_look look;
     bool has_elevation;
     double sigma_range_m;
@@ -67,7 +70,8 @@ struct geodetic_columns_polar {
  * Converts angles from the radar's own frame to the local frame, and alt_m, if the row has it, to
  * an elevation.
  */
-bool geodetic_columns_convert_polar(struct geodetic *geodetic, const struct row_check *check,
+bool geodetic_columns_convert_polar(struct geodetic_columns *geodetic,
+                                    const struct row_check *check,
                                     struct geodetic_columns_polar *polar);
 
 #endif

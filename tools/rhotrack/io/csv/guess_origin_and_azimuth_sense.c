@@ -35,7 +35,7 @@ static void add_azimuth(struct azimuths *azimuths, double time_s, double sensor,
     azimuths->last_rad = azimuth_rad;
 }
 
-static bool azimuths_run_clockwise(const struct azimuths *azimuths)
+static bool are_compass_azimuths(const struct azimuths *azimuths)
 {
     const unsigned steps = azimuths->rising + azimuths->falling;
 
@@ -125,6 +125,6 @@ struct origin_and_azimuth_sense origin_and_azimuth_sense_of(const char *path)
         }
     }
     table_stream_close(stream);
-    look.runs_clockwise = azimuths_run_clockwise(&azimuths);
+    look.has_compass_azimuths = are_compass_azimuths(&azimuths);
     return look;
 }

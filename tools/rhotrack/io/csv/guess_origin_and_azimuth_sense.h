@@ -13,7 +13,7 @@ struct origin_and_azimuth_sense {
     bool has_place; /* place of the first sensor, else of the first plot */
     double lat_deg, lon_deg, alt_m;
     /* azimuth_rad is 0 .. 2 pi and mostly rises with time, as clockwise azimuths of antennas do */
-    bool runs_clockwise;
+    bool has_compass_azimuths;
 };
 
 /* Previews a file. No place and no sense for a file that is not plain, not CSV, or a truth. */

@@ -20,10 +20,10 @@
 enum record_kind { RECORD_PLOTS, RECORD_BEARINGS };
 
 struct measurement_row {
-    int64_t time_us;          /* the row's own time, the sensor's time bias not yet subtracted */
-    int32_t bias_us;          /* time bias of the sensor, still contained in time_us */
-    int64_t received_us;      /* reception time, where the file has that column */
-    struct row_number number; /* number of the scan */
+    int64_t time_us;           /* the row's own time, the sensor's time bias not yet subtracted */
+    int32_t bias_us;           /* time bias of the sensor, still contained in time_us */
+    int64_t received_us;       /* reception time, where the file has that column */
+    struct scan_number number; /* number of the scan */
     int32_t sensor_id;
     uint32_t line;                        /* line in the file */
     float sector_from_rad, sector_to_rad; /* sector of the scan; both 0: not given */
@@ -35,7 +35,7 @@ struct measurement_row {
     bool has_sensor;
     struct rho_sensor sensor;
     /* frame of a radar placed by latitude and longitude, or NULL; valid until the next row */
-    const struct radar_frame *frame;
+    const struct radar_axes *frame;
 };
 
 /*
@@ -52,7 +52,7 @@ struct measurement_row_columns {
     int sensor_x_m, sensor_y_m, sensor_z_m;
     int bearing_rad, sigma_rad;
     int sector_from_rad, sector_to_rad, snr_db, scan, epoch;
-    struct geodetic *geodetic;
+    struct geodetic_columns *geodetic;
 };
 
 /* Whether the file holds bearings, and neither Cartesian nor polar plots. */

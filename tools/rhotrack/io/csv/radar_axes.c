@@ -10,17 +10,17 @@
 #define TURN 6.283185307179586
 #define EARTH_RADIUS_M 6371000.0 /* only for a noise, and not for a position */
 
-struct radar_frame {
+struct radar_axes {
     const struct local_frame *common;
     struct local_frame *own;
     bool has_own_north;
     double alt_m, turn_rad, place_m[3];
 };
 
-struct radar_frame *radar_axes_open(const struct local_frame *common, const double geodetic[3],
-                                    bool has_own_north)
+struct radar_axes *radar_axes_open(const struct local_frame *common, const double geodetic[3],
+                                   bool has_own_north)
 {
-    struct radar_frame *frame = must_calloc(1, sizeof *frame);
+    struct radar_axes *frame = must_calloc(1, sizeof *frame);
 
     frame->common = common;
     frame->own = local_frame_open(geodetic[0], geodetic[1], geodetic[2]);
@@ -31,7 +31,7 @@ struct radar_frame *radar_axes_open(const struct local_frame *common, const doub
     return frame;
 }
 
-void radar_axes_close(struct radar_frame *frame)
+void radar_axes_close(struct radar_axes *frame)
 {
     if (frame) {
         local_frame_close(frame->own);
@@ -39,12 +39,12 @@ void radar_axes_close(struct radar_frame *frame)
     }
 }
 
-const double *radar_axes_place_m(const struct radar_frame *frame)
+const double *radar_axes_place_m(const struct radar_axes *frame)
 {
     return frame->place_m;
 }
 
-double radar_axes_turn_rad(const struct radar_frame *frame)
+double radar_axes_turn_rad(const struct radar_axes *frame)
 {
     return frame->has_own_north ? frame->turn_rad : 0.0;
 }
@@ -52,7 +52,7 @@ double radar_axes_turn_rad(const struct radar_frame *frame)
 /* ---- From frame to frame ---- */
 
 /* Azimuth and elevation in the common frame of a position in the radar's own frame. */
-static void set_look_angles_to_place(const struct radar_frame *frame, const double own_m[3],
+static void set_look_angles_to_place(const struct radar_axes *frame, const double own_m[3],
                                      struct radar_look *look)
 {
     double place_m[3];
@@ -65,7 +65,7 @@ static void set_look_angles_to_place(const struct radar_frame *frame, const doub
     look->elevation_rad = atan2(place_m[2], hypot(place_m[0], place_m[1]));
 }
 
-void radar_axes_look_to_common(const struct radar_frame *frame, bool has_elevation,
+void radar_axes_look_to_common(const struct radar_axes *frame, bool has_elevation,
                                struct radar_look *look)
 {
     double ground_m = look->range_m * cos(look->elevation_rad);
@@ -125,7 +125,7 @@ static double elevation_sine_at_target(double radar_alt_m, double target_alt_m, 
     return fmax(-1.0, fmin(1.0, sine));
 }
 
-bool radar_axes_elevation_from_height(const struct radar_frame *frame, double radar_z_m,
+bool radar_axes_elevation_from_height(const struct radar_axes *frame, double radar_z_m,
                                       const struct radar_height *height, struct radar_look *look,
                                       double *sigma_elevation_rad)
 {

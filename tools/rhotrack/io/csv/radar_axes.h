@@ -17,7 +17,7 @@
 
 #include "io/csv/local_frame.h"
 
-struct radar_frame;
+struct radar_axes;
 
 /*
  * Makes the frame of a radar at a place on the earth (lat_deg, lon_deg, alt_m) beside the frame
@@ -25,13 +25,13 @@ struct radar_frame;
  * horizon; else, where its position is given in metres, both are those of the common frame. Never
  * NULL. radar_axes_place_m: its position in the common frame.
  */
-struct radar_frame *radar_axes_open(const struct local_frame *common, const double geodetic[3],
-                                    bool has_own_north);
-void radar_axes_close(struct radar_frame *frame); /* frees a frame; NULL is allowed */
-const double *radar_axes_place_m(const struct radar_frame *frame);
+struct radar_axes *radar_axes_open(const struct local_frame *common, const double geodetic[3],
+                                   bool has_own_north);
+void radar_axes_close(struct radar_axes *frame); /* frees a frame; NULL is allowed */
+const double *radar_axes_place_m(const struct radar_axes *frame);
 
 /* Angle to be added to its azimuths in the common frame; 0 where they are measured there. */
-double radar_axes_turn_rad(const struct radar_frame *frame);
+double radar_axes_turn_rad(const struct radar_axes *frame);
 
 /* A line of sight with its length; angles as in rho_polar_plot. */
 struct radar_look {
@@ -42,7 +42,7 @@ struct radar_look {
  * Converts a line of sight from the radar's own frame to the common one, in place. Without
  * elevation only the azimuth is turned, by the meridian convergence.
  */
-void radar_axes_look_to_common(const struct radar_frame *frame, bool has_elevation,
+void radar_axes_look_to_common(const struct radar_axes *frame, bool has_elevation,
                                struct radar_look *look);
 
 /* A target's height and the sigmas of height and slant range. */
@@ -58,7 +58,7 @@ struct radar_height {
  * radar_z_m; else exact on the ellipsoid. Returns false where the height differs from the radar's
  * by more than the range.
  */
-bool radar_axes_elevation_from_height(const struct radar_frame *frame, double radar_z_m,
+bool radar_axes_elevation_from_height(const struct radar_axes *frame, double radar_z_m,
                                       const struct radar_height *height, struct radar_look *look,
                                       double *sigma_elevation_rad);
 

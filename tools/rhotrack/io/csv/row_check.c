@@ -156,11 +156,11 @@ bool row_check_received_together(const struct row_check *check, int64_t received
 }
 
 bool row_read_scan_number(const struct row_check *check, int scan_column, int epoch_column,
-                          struct row_number *number)
+                          struct scan_number *number)
 {
     const char *why;
 
-    *number = (struct row_number){.is_given = row_has_cell(check, scan_column)};
+    *number = (struct scan_number){.is_given = row_has_cell(check, scan_column)};
     if (!number->is_given) {
         return true;
     }
@@ -174,8 +174,8 @@ bool row_read_scan_number(const struct row_check *check, int scan_column, int ep
     return why ? row_refuse_cell(check, epoch_column, why) : true;
 }
 
-bool row_joins_scan(const struct row_number *number, int64_t time_us, const struct row_number *scan,
-                    int64_t start_us, int64_t interval_us)
+bool row_joins_scan(const struct scan_number *number, int64_t time_us,
+                    const struct scan_number *scan, int64_t start_us, int64_t interval_us)
 {
     int64_t offset_us = time_us - start_us;
 

@@ -77,19 +77,19 @@ bool row_check_received_together(const struct row_check *check, int64_t received
  * Number of a row's scan, where the file has one: rows of one sensor with equal numbers form one
  * scan, whatever their times.
  */
-struct row_number {
+struct scan_number {
     bool is_given;
     int32_t scan, epoch; /* epoch: 0 where not given */
 };
 bool row_read_scan_number(const struct row_check *check, int scan_column, int epoch_column,
-                          struct row_number *number);
+                          struct scan_number *number);
 
 /*
  * Whether a row joins a scan that began at start_us: by their numbers where both have one, else by
  * time, within interval_us.
  */
-bool row_joins_scan(const struct row_number *number, int64_t time_us, const struct row_number *scan,
-                    int64_t start_us, int64_t interval_us);
+bool row_joins_scan(const struct scan_number *number, int64_t time_us,
+                    const struct scan_number *scan, int64_t start_us, int64_t interval_us);
 
 /* Exit 2 where the table has one of two columns that have a meaning only together. */
 void row_need_both_columns_or_neither(const struct table *table, const char *first,

@@ -37,7 +37,7 @@ struct columns {
     int sensor_id, x_m, y_m, sigma_m, sigma_range_m, sigma_cross_m, hits;
     int region, unseen, looks, returns;
     /* NULL where x_m and y_m, not lat_deg and lon_deg, give the positions */
-    struct geodetic *geodetic;
+    struct geodetic_columns *geodetic;
 };
 
 /* Statistics of returns for a class of echoes in a region. */

@@ -12,7 +12,7 @@
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
 
-struct initiated_output {
+struct initiated_tracks_output {
     struct output output;
     const char *path;
     bool is_log;
@@ -20,9 +20,9 @@ struct initiated_output {
     struct rho_message_peak_list list; /* peaks that are not written yet */
 };
 
-struct initiated_output *initiated_tracks_output_open(const char *path)
+struct initiated_tracks_output *initiated_tracks_output_open(const char *path)
 {
-    struct initiated_output *found = must_calloc(1, sizeof *found);
+    struct initiated_tracks_output *found = must_calloc(1, sizeof *found);
 
     if (geojson_path_is_geojson(path)) {
         fail(EXIT_USAGE, "%s: initiate writes CSV files and LCM logs; GeoJSON is made of tracks",
@@ -43,7 +43,7 @@ struct initiated_output *initiated_tracks_output_open(const char *path)
     return found;
 }
 
-static void write_peak_list(struct initiated_output *found)
+static void write_peak_list(struct initiated_tracks_output *found)
 {
     uint8_t buffer[RHO_MESSAGE_PEAK_LIST_MAX_SIZE];
     size_t size;
@@ -54,7 +54,8 @@ static void write_peak_list(struct initiated_output *found)
     found->list.num_peaks = 0;
 }
 
-void initiated_tracks_output_add_row(struct initiated_output *found, const struct initiated *row)
+void initiated_tracks_output_add_row(struct initiated_tracks_output *found,
+                                     const struct initiated *row)
 {
     if (!found->is_log) {
         initiated_write_row(found->output.file, row);
@@ -73,7 +74,7 @@ void initiated_tracks_output_add_row(struct initiated_output *found, const struc
         .sensor_pairs = (int16_t)row->sensor_pairs};
 }
 
-void initiated_tracks_output_close(struct initiated_output *found)
+void initiated_tracks_output_close(struct initiated_tracks_output *found)
 {
     if (found->is_log) {
         write_peak_list(found); /* an empty list, too, tells that no track was found */

@@ -8,13 +8,14 @@
 
 #include "io/csv/tracks_writer.h"
 
-struct initiated_output;
+struct initiated_tracks_output;
 
 /* Opens the output. path NULL: CSV to standard output. Errors: exit 1; 2 for other formats. */
-struct initiated_output *initiated_tracks_output_open(const char *path);
-void initiated_tracks_output_add_row(struct initiated_output *found, const struct initiated *row);
+struct initiated_tracks_output *initiated_tracks_output_open(const char *path);
+void initiated_tracks_output_add_row(struct initiated_tracks_output *found,
+                                     const struct initiated *row);
 
 /* Closes the output; the file then appears under its name. */
-void initiated_tracks_output_close(struct initiated_output *found);
+void initiated_tracks_output_close(struct initiated_tracks_output *found);
 
 #endif

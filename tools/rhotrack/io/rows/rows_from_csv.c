@@ -269,16 +269,16 @@ static bool check_newest_row_by_encoding(const struct reading *reading,
                       rho_message_type_name(rows->kind->type));
 }
 
-static struct row_number scan_number_of_row(const struct reading *reading, const struct row *row)
+static struct scan_number scan_number_of_row(const struct reading *reading, const struct row *row)
 {
-    return (struct row_number){
+    return (struct scan_number){
         .is_given = reading->file->has_scan, .scan = row->scan, .epoch = row->epoch};
 }
 
 /* Whether the row belongs to a numbered scan that has begun before. */
 static bool is_in_begun_scan(const struct reading *reading, const struct row *row)
 {
-    const struct row_number number = scan_number_of_row(reading, row);
+    const struct scan_number number = scan_number_of_row(reading, row);
     size_t first = scan_numbers_find_scan(&reading->numbers, row->sensor_id, &number);
 
     return first != SCAN_NUMBERS_NONE && row_joins_scan(&number, row->time_us, &number,
@@ -308,7 +308,7 @@ static bool check_time_order(const struct reading *reading, const struct row_che
 
 static void note_good_row(struct reading *reading, const struct row *row)
 {
-    const struct row_number number = scan_number_of_row(reading, row);
+    const struct scan_number number = scan_number_of_row(reading, row);
 
     if (reading->file->rows.kind->has_sensor && !is_in_begun_scan(reading, row)) {
         scan_numbers_set_scan(&reading->numbers, row->sensor_id, &number,

@@ -84,7 +84,7 @@ static void rotate_angle_cell(double *cell, double turn_rad)
  * local frame.
  */
 static void put_radar_place_and_sector(const struct rows_geodetic_columns *geodetic,
-                                       const struct radar_frame *frame, double *cells)
+                                       const struct radar_axes *frame, double *cells)
 {
     const double *place_m = radar_axes_place_m(frame);
 
@@ -129,7 +129,7 @@ static bool can_convert_look(const struct geodetic_columns_polar *polar)
 }
 
 static bool fill_polar_cells(const struct rows_geodetic_columns *geodetic,
-                             const struct row_check *check, const struct radar_frame *frame,
+                             const struct row_check *check, const struct radar_axes *frame,
                              int32_t sensor_id, double *cells)
 {
     struct geodetic_columns_polar polar = read_polar_cells(geodetic, sensor_id, cells);
@@ -156,7 +156,7 @@ bool rows_geodetic_columns_fill_local_cells(const struct rows_geodetic_columns *
                                             const struct row_check *check, int32_t sensor_id,
                                             double *cells)
 {
-    const struct radar_frame *frame = NULL;
+    const struct radar_axes *frame = NULL;
 
     if (!geodetic->geodetic) {
         return true;

@@ -14,7 +14,7 @@
 struct rows_geodetic_columns {
     const struct rows_kind *kind;
     const struct parameters *parameters;
-    struct geodetic *geodetic; /* NULL for a kind without latitudes */
+    struct geodetic_columns *geodetic; /* NULL for a kind without latitudes */
 };
 
 /* Finds the latitude and longitude columns of a table; errors as geodetic_columns_open has them. */

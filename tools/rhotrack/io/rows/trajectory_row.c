@@ -9,7 +9,7 @@ struct trajectory_columns trajectory_columns_find(const struct table *table,
                                                   const struct parameters *parameters)
 {
     const bool is_tracks = table_find_column(table, "track_id") >= 0;
-    struct geodetic *geodetic = is_tracks ? NULL : geodetic_columns_open(table, parameters);
+    struct geodetic_columns *geodetic = is_tracks ? NULL : geodetic_columns_open(table, parameters);
     const bool has_places = geodetic_columns_has_place_columns(geodetic);
     return (struct trajectory_columns){
         .table = table,

@@ -30,7 +30,7 @@ struct trajectory_columns {
     const struct table *table;
     int time, id, status, x, y, z, vx, vy, vz;
     int covariance[6];
-    struct geodetic *geodetic; /* of a truth with latitudes and longitudes */
+    struct geodetic_columns *geodetic; /* of a truth with latitudes and longitudes */
 };
 
 /*

@@ -9,8 +9,8 @@
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/plot_scan_reader.h"
 
-struct inputs {
-    struct scan_reader *scan_reader;                   /* NULL: no files of plots */
+struct merged_inputs {
+    struct plot_scan_reader *scan_reader;              /* NULL: no files of plots */
     struct bearing_frame_reader *bearing_frame_reader; /* NULL: no files of bearings */
     /* next scan and next frame, read ahead */
     const struct rho_scan *scan;
@@ -46,7 +46,7 @@ static int paths_of_kind(char *const *paths, int num_paths, unsigned kind, char 
 }
 
 /* Reads the next scan of plots unless one is waiting to be handed out. */
-static void read_ahead_next_scan(struct inputs *inputs)
+static void read_ahead_next_scan(struct merged_inputs *inputs)
 {
     if (inputs->scan_reader && !inputs->has_scan) {
         inputs->scan = plot_scan_reader_next(inputs->scan_reader);
@@ -56,7 +56,7 @@ static void read_ahead_next_scan(struct inputs *inputs)
 }
 
 /* Reads the next frame of bearings unless one is waiting to be handed out. */
-static void read_ahead_next_frame(struct inputs *inputs)
+static void read_ahead_next_frame(struct merged_inputs *inputs)
 {
     if (inputs->bearing_frame_reader && !inputs->has_frame) {
         inputs->frame = bearing_frame_reader_next(inputs->bearing_frame_reader);
@@ -83,10 +83,10 @@ static uint64_t sum_bytes_to_read(char *const *paths, int num_paths)
     return sum;
 }
 
-struct inputs *merged_inputs_open(char *const *paths, int num_paths,
-                                  const struct parameters *parameters, bool keep_going)
+struct merged_inputs *merged_inputs_open(char *const *paths, int num_paths,
+                                         const struct parameters *parameters, bool keep_going)
 {
-    struct inputs *inputs = must_calloc(1, sizeof *inputs);
+    struct merged_inputs *inputs = must_calloc(1, sizeof *inputs);
     char **sorted = must_calloc((size_t)num_paths + 1, sizeof *sorted);
     int count = paths_of_kind(paths, num_paths, LOG_HAS_PLOTS, sorted);
 
@@ -108,31 +108,31 @@ struct inputs *merged_inputs_open(char *const *paths, int num_paths,
     return inputs;
 }
 
-struct inputs *merged_inputs_follow(char *path, const struct parameters *parameters,
-                                    bool keep_going)
+struct merged_inputs *merged_inputs_follow(char *path, const struct parameters *parameters,
+                                           bool keep_going)
 {
-    struct inputs *inputs = must_calloc(1, sizeof *inputs);
+    struct merged_inputs *inputs = must_calloc(1, sizeof *inputs);
 
     inputs->scan_reader = plot_scan_reader_follow(path, parameters, keep_going);
     return inputs;
 }
 
-struct scan_reader *merged_inputs_scan_reader(struct inputs *inputs)
+struct plot_scan_reader *merged_inputs_scan_reader(struct merged_inputs *inputs)
 {
     return inputs->scan_reader;
 }
 
-bool merged_inputs_have_plots(const struct inputs *inputs)
+bool merged_inputs_have_plots(const struct merged_inputs *inputs)
 {
     return inputs->scan_reader;
 }
 
-bool merged_inputs_have_bearings(const struct inputs *inputs)
+bool merged_inputs_have_bearings(const struct merged_inputs *inputs)
 {
     return inputs->bearing_frame_reader;
 }
 
-struct input merged_inputs_next(struct inputs *inputs)
+struct input merged_inputs_next(struct merged_inputs *inputs)
 {
     read_ahead_next_scan(inputs);
     read_ahead_next_frame(inputs);
@@ -148,7 +148,8 @@ struct input merged_inputs_next(struct inputs *inputs)
     return (struct input){.scan = NULL};
 }
 
-const struct frame_sensor *merged_inputs_passive_sensors(const struct inputs *inputs, size_t *count)
+const struct frame_sensor *merged_inputs_passive_sensors(const struct merged_inputs *inputs,
+                                                         size_t *count)
 {
     *count = 0;
     return inputs->bearing_frame_reader
@@ -156,7 +157,7 @@ const struct frame_sensor *merged_inputs_passive_sensors(const struct inputs *in
                : NULL;
 }
 
-uint64_t merged_inputs_bytes_read(const struct inputs *inputs)
+uint64_t merged_inputs_bytes_read(const struct merged_inputs *inputs)
 {
     return (inputs->scan_reader ? plot_scan_reader_position(inputs->scan_reader) : 0) +
            (inputs->bearing_frame_reader
@@ -164,12 +165,12 @@ uint64_t merged_inputs_bytes_read(const struct inputs *inputs)
                 : 0);
 }
 
-uint64_t merged_inputs_total_bytes(const struct inputs *inputs)
+uint64_t merged_inputs_total_bytes(const struct merged_inputs *inputs)
 {
     return inputs->bytes;
 }
 
-struct merged_inputs_counts merged_inputs_counts(const struct inputs *inputs)
+struct merged_inputs_counts merged_inputs_counts(const struct merged_inputs *inputs)
 {
     struct merged_inputs_counts counts = {0};
 
@@ -193,7 +194,7 @@ struct merged_inputs_counts merged_inputs_counts(const struct inputs *inputs)
     return counts;
 }
 
-void merged_inputs_close(struct inputs *inputs)
+void merged_inputs_close(struct merged_inputs *inputs)
 {
     if (!inputs) {
         return;

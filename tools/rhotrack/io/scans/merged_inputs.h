@@ -12,7 +12,7 @@
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 
-struct inputs;
+struct merged_inputs;
 
 /* The next scan of plots or frame of bearings; the other is NULL. Both NULL: the end. */
 struct input {
@@ -33,34 +33,35 @@ struct merged_inputs_counts {
  * bearings at once, of plots when reading gets there. Without files of plots, fewer than two
  * passive sensors are an error, exit 2.
  */
-struct inputs *merged_inputs_open(char *const *paths, int num_paths,
-                                  const struct parameters *parameters, bool keep_going);
+struct merged_inputs *merged_inputs_open(char *const *paths, int num_paths,
+                                         const struct parameters *parameters, bool keep_going);
 
 /* Opens one CSV file of plots that may grow, or a pipe (plot_scan_reader.h). */
-struct inputs *merged_inputs_follow(char *path, const struct parameters *parameters,
-                                    bool keep_going);
-struct scan_reader *merged_inputs_scan_reader(struct inputs *inputs); /* the reader of the plots */
+struct merged_inputs *merged_inputs_follow(char *path, const struct parameters *parameters,
+                                           bool keep_going);
+struct plot_scan_reader *
+merged_inputs_scan_reader(struct merged_inputs *inputs); /* the reader of the plots */
 
-bool merged_inputs_have_plots(const struct inputs *inputs);
-bool merged_inputs_have_bearings(const struct inputs *inputs);
+bool merged_inputs_have_plots(const struct merged_inputs *inputs);
+bool merged_inputs_have_bearings(const struct merged_inputs *inputs);
 
 /* Reads the next scan or frame, valid until the next call. */
-struct input merged_inputs_next(struct inputs *inputs);
+struct input merged_inputs_next(struct merged_inputs *inputs);
 
 /*
  * The passive sensors of the files, *count of them in the order of sensor_id; NULL where there are
  * none.
  */
 struct frame_sensor;
-const struct frame_sensor *merged_inputs_passive_sensors(const struct inputs *inputs,
+const struct frame_sensor *merged_inputs_passive_sensors(const struct merged_inputs *inputs,
                                                          size_t *count);
 
 /* Bytes of the files that were read, and bytes of all files, 0 where that is not known. */
-uint64_t merged_inputs_bytes_read(const struct inputs *inputs);
-uint64_t merged_inputs_total_bytes(const struct inputs *inputs);
+uint64_t merged_inputs_bytes_read(const struct merged_inputs *inputs);
+uint64_t merged_inputs_total_bytes(const struct merged_inputs *inputs);
 
 /* Counts: of plots those read so far, of bearings those of the whole files. */
-struct merged_inputs_counts merged_inputs_counts(const struct inputs *inputs);
-void merged_inputs_close(struct inputs *inputs);
+struct merged_inputs_counts merged_inputs_counts(const struct merged_inputs *inputs);
+void merged_inputs_close(struct merged_inputs *inputs);
 
 #endif

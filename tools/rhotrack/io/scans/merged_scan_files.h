@@ -10,7 +10,7 @@
 
 /* One file, and its next scan read ahead. */
 struct scan_file {
-    struct scan_source *source;
+    struct scans_of_one_file *source;
     struct sensor_scan next;
     bool has_next;
 };

@@ -6,46 +6,47 @@
 #include "base/common.h"
 #include "io/scans/merged_scan_files.h"
 
-struct scan_reader {
+struct plot_scan_reader {
     struct merged_scan_files files;
     struct sensor_scan now; /* the scan handed out */
     uint64_t scans, plots;
 };
 
-static struct scan_reader *open_reader(char *const *paths, int num_paths,
-                                       const struct parameters *parameters,
-                                       struct scans_of_one_file_options options)
+static struct plot_scan_reader *open_reader(char *const *paths, int num_paths,
+                                            const struct parameters *parameters,
+                                            struct scans_of_one_file_options options)
 {
-    struct scan_reader *reader = must_calloc(1, sizeof *reader);
+    struct plot_scan_reader *reader = must_calloc(1, sizeof *reader);
 
     options.kind = RECORD_PLOTS;
     reader->files = merged_scan_files_open(paths, num_paths, parameters, options);
     return reader;
 }
 
-struct scan_reader *plot_scan_reader_open(char *const *paths, int num_paths,
-                                          const struct parameters *parameters, bool keep_going)
+struct plot_scan_reader *plot_scan_reader_open(char *const *paths, int num_paths,
+                                               const struct parameters *parameters, bool keep_going)
 {
     return open_reader(paths, num_paths, parameters,
                        (struct scans_of_one_file_options){.keep_going = keep_going});
 }
 
-struct scan_reader *plot_scan_reader_follow(char *path, const struct parameters *parameters,
-                                            bool keep_going)
+struct plot_scan_reader *plot_scan_reader_follow(char *path, const struct parameters *parameters,
+                                                 bool keep_going)
 {
     return open_reader(
         &path, 1, parameters,
         (struct scans_of_one_file_options){.keep_going = keep_going, .follow = true});
 }
 
-struct scan_reader *plot_scan_reader_open_sensor_id_optional(char *const *paths, int num_paths,
-                                                             const struct parameters *parameters)
+struct plot_scan_reader *
+plot_scan_reader_open_sensor_id_optional(char *const *paths, int num_paths,
+                                         const struct parameters *parameters)
 {
     return open_reader(paths, num_paths, parameters,
                        (struct scans_of_one_file_options){.may_lack_sensor = true});
 }
 
-const struct rho_scan *plot_scan_reader_next(struct scan_reader *reader)
+const struct rho_scan *plot_scan_reader_next(struct plot_scan_reader *reader)
 {
     sensor_scan_free(&reader->now);
     if (!merged_scan_files_next(&reader->files, &reader->now)) {
@@ -57,47 +58,47 @@ const struct rho_scan *plot_scan_reader_next(struct scan_reader *reader)
 }
 
 /* The source of a followed file, which is the only file. */
-static struct scan_source *followed_source(const struct scan_reader *reader)
+static struct scans_of_one_file *followed_source(const struct plot_scan_reader *reader)
 {
     return reader->files.list[0].source;
 }
 
-bool plot_scan_reader_waits_for_rows(const struct scan_reader *reader)
+bool plot_scan_reader_waits_for_rows(const struct plot_scan_reader *reader)
 {
     return scans_of_one_file_waits_for_rows(followed_source(reader));
 }
 
-bool plot_scan_reader_is_mid_row(const struct scan_reader *reader)
+bool plot_scan_reader_is_mid_row(const struct plot_scan_reader *reader)
 {
     return scans_of_one_file_is_mid_row(followed_source(reader));
 }
 
-void plot_scan_reader_complete_scans(struct scan_reader *reader)
+void plot_scan_reader_complete_scans(struct plot_scan_reader *reader)
 {
     scans_of_one_file_complete_scans(followed_source(reader));
 }
 
-void plot_scan_reader_end_reading(struct scan_reader *reader)
+void plot_scan_reader_end_reading(struct plot_scan_reader *reader)
 {
     scans_of_one_file_end_reading(followed_source(reader));
 }
 
-const char *plot_scan_reader_why_ended(const struct scan_reader *reader)
+const char *plot_scan_reader_why_ended(const struct plot_scan_reader *reader)
 {
     return scans_of_one_file_why_ended(followed_source(reader));
 }
 
-const struct rho_sensor *plot_scan_reader_sensor(const struct scan_reader *reader)
+const struct rho_sensor *plot_scan_reader_sensor(const struct plot_scan_reader *reader)
 {
     return reader->now.has_sensor ? &reader->now.sensor : NULL;
 }
 
-uint64_t plot_scan_reader_position(const struct scan_reader *reader)
+uint64_t plot_scan_reader_position(const struct plot_scan_reader *reader)
 {
     return merged_scan_files_position(&reader->files);
 }
 
-struct plot_scan_reader_counts plot_scan_reader_counts(const struct scan_reader *reader)
+struct plot_scan_reader_counts plot_scan_reader_counts(const struct plot_scan_reader *reader)
 {
     return (struct plot_scan_reader_counts){.scans = reader->scans,
                                             .plots = reader->plots,
@@ -105,12 +106,12 @@ struct plot_scan_reader_counts plot_scan_reader_counts(const struct scan_reader 
                                                 merged_scan_files_rows_skipped(&reader->files)};
 }
 
-void plot_scan_reader_report_skipped(const struct scan_reader *reader)
+void plot_scan_reader_report_skipped(const struct plot_scan_reader *reader)
 {
     print_rows_skipped(plot_scan_reader_counts(reader).rows_skipped);
 }
 
-void plot_scan_reader_close(struct scan_reader *reader)
+void plot_scan_reader_close(struct plot_scan_reader *reader)
 {
     if (!reader) {
         return;

@@ -22,7 +22,7 @@
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 
-struct scan_reader;
+struct plot_scan_reader;
 
 struct plot_scan_reader_counts {
     uint64_t scans, plots, rows_skipped; /* rows_skipped: bad rows, with keep_going */
@@ -32,53 +32,55 @@ struct plot_scan_reader_counts {
  * Opens the files. Errors as `rhotrack: FILE:LINE: what is wrong`, exit 2, some of them only when
  * reading gets there; with keep_going bad rows are skipped and counted instead.
  */
-struct scan_reader *plot_scan_reader_open(char *const *paths, int num_paths,
-                                          const struct parameters *parameters, bool keep_going);
+struct plot_scan_reader *plot_scan_reader_open(char *const *paths, int num_paths,
+                                               const struct parameters *parameters,
+                                               bool keep_going);
 
 /* Opens one CSV file that may grow, or a pipe, which is never waited for. */
-struct scan_reader *plot_scan_reader_follow(char *path, const struct parameters *parameters,
-                                            bool keep_going);
+struct plot_scan_reader *plot_scan_reader_follow(char *path, const struct parameters *parameters,
+                                                 bool keep_going);
 
 /*
  * Opens files that may lack a column sensor_id: all plots are then of sensor 0. For pictures,
  * without tracking.
  */
-struct scan_reader *plot_scan_reader_open_sensor_id_optional(char *const *paths, int num_paths,
-                                                             const struct parameters *parameters);
+struct plot_scan_reader *
+plot_scan_reader_open_sensor_id_optional(char *const *paths, int num_paths,
+                                         const struct parameters *parameters);
 
 /*
  * Reads the next scan, valid until the next call, or returns NULL after the last. Scans come in the
  * order of time. For a followed file, NULL is not the end while plot_scan_reader_waits_for_rows.
  */
-const struct rho_scan *plot_scan_reader_next(struct scan_reader *reader);
+const struct rho_scan *plot_scan_reader_next(struct plot_scan_reader *reader);
 
 /* Whether a followed file has no further complete scan, but may still get rows. */
-bool plot_scan_reader_waits_for_rows(const struct scan_reader *reader);
+bool plot_scan_reader_waits_for_rows(const struct plot_scan_reader *reader);
 
 /* Whether the bytes read of a followed file end in the middle of a row. */
-bool plot_scan_reader_is_mid_row(const struct scan_reader *reader);
+bool plot_scan_reader_is_mid_row(const struct plot_scan_reader *reader);
 
 /* For a followed file: takes all rows so far as complete scans; stops reading rows. */
-void plot_scan_reader_complete_scans(struct scan_reader *reader);
-void plot_scan_reader_end_reading(struct scan_reader *reader);
+void plot_scan_reader_complete_scans(struct plot_scan_reader *reader);
+void plot_scan_reader_end_reading(struct plot_scan_reader *reader);
 
 /* Why a followed file cannot get more rows ("has become shorter"), or NULL. */
-const char *plot_scan_reader_why_ended(const struct scan_reader *reader);
+const char *plot_scan_reader_why_ended(const struct plot_scan_reader *reader);
 
 /*
  * Sensor of the scan handed out last; NULL where no description was given. Valid as long as the
  * scan.
  */
-const struct rho_sensor *plot_scan_reader_sensor(const struct scan_reader *reader);
+const struct rho_sensor *plot_scan_reader_sensor(const struct plot_scan_reader *reader);
 
 /* Bytes read of all files, for progress bars. */
-uint64_t plot_scan_reader_position(const struct scan_reader *reader);
+uint64_t plot_scan_reader_position(const struct plot_scan_reader *reader);
 
 /* Counts of what was read so far. */
-struct plot_scan_reader_counts plot_scan_reader_counts(const struct scan_reader *reader);
+struct plot_scan_reader_counts plot_scan_reader_counts(const struct plot_scan_reader *reader);
 
 /* Reports skipped bad rows on standard error, if any. */
-void plot_scan_reader_report_skipped(const struct scan_reader *reader);
-void plot_scan_reader_close(struct scan_reader *reader);
+void plot_scan_reader_report_skipped(const struct plot_scan_reader *reader);
+void plot_scan_reader_close(struct plot_scan_reader *reader);
 
 #endif

@@ -57,7 +57,7 @@ static struct gathered_scan *find_scan_by_order(struct rows_to_scans *gather, si
 }
 
 struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather, int32_t sensor_id,
-                                              const struct row_number *number, int64_t time_us)
+                                              const struct scan_number *number, int64_t time_us)
 {
     size_t order = scan_numbers_find_scan(&gather->numbers, sensor_id, number);
     struct gathered_scan *scan =

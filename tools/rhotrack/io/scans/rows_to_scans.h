@@ -31,7 +31,7 @@
 /* A scan under way with its `count` plots or bearings, each with the time of its row. */
 struct gathered_scan {
     int32_t sensor_id;
-    struct row_number number;
+    struct scan_number number;
     int32_t bias_us;  /* time bias of its sensor, not yet subtracted from the scan's times */
     int64_t start_us; /* time of its first row */
     /* reception times of its first and last row; without reception, these rows' own times */
@@ -83,7 +83,7 @@ void rows_to_scans_set_next_reception(struct rows_to_scans *gather, int64_t rece
  * scan begins or is taken.
  */
 struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather, int32_t sensor_id,
-                                              const struct row_number *number, int64_t time_us);
+                                              const struct scan_number *number, int64_t time_us);
 
 /*
  * Checks that a row's time does not go back; scan: the scan that the row belongs to, or NULL.

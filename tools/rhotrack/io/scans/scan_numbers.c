@@ -8,7 +8,7 @@
 
 struct scan_numbers_slot {
     int32_t sensor_id;
-    struct row_number number; /* is_given false: the slot is free */
+    struct scan_number number; /* is_given false: the slot is free */
     size_t scan;
 };
 
@@ -16,7 +16,7 @@ struct scan_numbers_slot {
  * Hash of a sensor and number: multiplicative, by 2^64 over the golden ratio, so that every bit of
  * the key affects the lower bits of the result.
  */
-static size_t hash_number(int32_t sensor_id, const struct row_number *number)
+static size_t hash_scan_number(int32_t sensor_id, const struct scan_number *number)
 {
     const uint64_t multiplier = UINT64_C(0x9E3779B97F4A7C15);
     uint64_t mixed = (uint32_t)sensor_id * multiplier;
@@ -28,9 +28,9 @@ static size_t hash_number(int32_t sensor_id, const struct row_number *number)
 
 /* The slot of a sensor and number, or the free slot for it; there is always a free one. */
 static struct scan_numbers_slot *find_slot(const struct scan_numbers *numbers, int32_t sensor_id,
-                                           const struct row_number *number)
+                                           const struct scan_number *number)
 {
-    size_t at = hash_number(sensor_id, number);
+    size_t at = hash_scan_number(sensor_id, number);
 
     for (;; at++) {
         struct scan_numbers_slot *slot = &numbers->slots[at & (numbers->capacity - 1)];
@@ -83,7 +83,7 @@ static void ensure_free_slots(struct scan_numbers *numbers)
 }
 
 size_t scan_numbers_find_scan(const struct scan_numbers *numbers, int32_t sensor_id,
-                              const struct row_number *number)
+                              const struct scan_number *number)
 {
     const struct scan_numbers_slot *slot;
 
@@ -95,7 +95,7 @@ size_t scan_numbers_find_scan(const struct scan_numbers *numbers, int32_t sensor
 }
 
 void scan_numbers_set_scan(struct scan_numbers *numbers, int32_t sensor_id,
-                           const struct row_number *number, size_t scan)
+                           const struct scan_number *number, size_t scan)
 {
     struct scan_numbers_slot *slot;
 

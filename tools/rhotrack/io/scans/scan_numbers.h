@@ -26,13 +26,13 @@ struct scan_numbers {
  * is not given. Constant cost.
  */
 size_t scan_numbers_find_scan(const struct scan_numbers *numbers, int32_t sensor_id,
-                              const struct row_number *number);
+                              const struct scan_number *number);
 
 /*
  * Assigns the index of a scan to a sensor and number; does nothing where the number is not given.
  */
 void scan_numbers_set_scan(struct scan_numbers *numbers, int32_t sensor_id,
-                           const struct row_number *number, size_t scan);
+                           const struct scan_number *number, size_t scan);
 
 /*
  * Allows scans with smaller indices to be forgotten, so that memory is needed only for the others.

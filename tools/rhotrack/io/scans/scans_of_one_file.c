@@ -17,7 +17,7 @@
 /* newer scans of its sensor after which a followed, numbered scan is complete */
 #define FOLLOW_BEGUN_MAX 2
 
-struct scan_source {
+struct scans_of_one_file {
     const char *path;
     const struct parameters *parameters;
     struct scans_of_one_file_options options;
@@ -35,8 +35,9 @@ struct scan_source {
 /* ---- Rows to scans ---- */
 
 /* Checks that a row has the values that all rows of its scan must share. */
-static bool check_row_fits_scan(const struct scan_source *source, const struct gathered_scan *scan,
-                                const struct measurement_row *row, const struct row_check *check)
+static bool check_row_fits_scan(const struct scans_of_one_file *source,
+                                const struct gathered_scan *scan, const struct measurement_row *row,
+                                const struct row_check *check)
 {
     if (!scan || source->turns) {
         return true; /* a turn measures what all its rows measure */
@@ -56,7 +57,7 @@ static bool check_row_fits_scan(const struct scan_source *source, const struct g
 }
 
 /* Checks a row's sensor against the sensors of bearings of all files. */
-static bool check_bearing_sensor(const struct scan_source *source,
+static bool check_bearing_sensor(const struct scans_of_one_file *source,
                                  const struct measurement_row *row, const struct row_check *check)
 {
     return source->options.kind == RECORD_PLOTS ||
@@ -74,7 +75,7 @@ static bool check_received_fits_scan(const struct rows_to_scans *gather,
                                        gather->interval_us);
 }
 
-static struct gathered_scan *begin_scan_with_row(struct scan_source *source,
+static struct gathered_scan *begin_scan_with_row(struct scans_of_one_file *source,
                                                  const struct measurement_row *row)
 {
     const struct gathered_scan scan = {.sensor_id = row->sensor_id,
@@ -89,7 +90,7 @@ static struct gathered_scan *begin_scan_with_row(struct scan_source *source,
     return rows_to_scans_begin_scan(&source->gather, &scan, row->time_us);
 }
 
-static void add_row_to_scan(struct scan_source *source, struct gathered_scan *scan,
+static void add_row_to_scan(struct scans_of_one_file *source, struct gathered_scan *scan,
                             const struct measurement_row *row)
 {
     bool is_bearing = source->options.kind == RECORD_BEARINGS;
@@ -109,7 +110,7 @@ static void add_row_to_scan(struct scan_source *source, struct gathered_scan *sc
                               is_bearing ? (const void *)&row->bearing : &row->plot);
 }
 
-static void find_columns(struct scan_source *source, const struct table *table)
+static void find_columns(struct scans_of_one_file *source, const struct table *table)
 {
     if (source->has_columns || !table->names) {
         return;
@@ -126,7 +127,7 @@ static void find_columns(struct scan_source *source, const struct table *table)
 }
 
 /* Numbers a row by the turn of its antenna, where the file's turns were found. */
-static void number_row_by_turn(const struct scan_source *source, struct measurement_row *row)
+static void number_row_by_turn(const struct scans_of_one_file *source, struct measurement_row *row)
 {
     const double place_m[2] = {(double)row->plot.x_m - (double)row->sensor.x_m,
                                (double)row->plot.y_m - (double)row->sensor.y_m};
@@ -136,12 +137,12 @@ static void number_row_by_turn(const struct scan_source *source, struct measurem
                       : 0;
 
     if (number > 0) {
-        row->number = (struct row_number){.is_given = true, .scan = number};
+        row->number = (struct scan_number){.is_given = true, .scan = number};
     }
 }
 
 /* Checks the table's row and adds it to a scan; a bad row is an error, or skipped and counted. */
-static void process_table_row(struct scan_source *source, const struct table *table)
+static void process_table_row(struct scans_of_one_file *source, const struct table *table)
 {
     char reason[ROW_REASON_BYTES];
     const struct row_check check = {.table = table, .row = 0, .reason = reason};
@@ -178,7 +179,7 @@ static void process_table_row(struct scan_source *source, const struct table *ta
  * Exit 2 where a file ends without a good row, unless it is followed, when rows may not have come
  * yet.
  */
-static void need_any_good_row(const struct scan_source *source, const struct table *table)
+static void need_any_good_row(const struct scans_of_one_file *source, const struct table *table)
 {
     if (source->has_good || source->options.follow) {
         return;
@@ -190,7 +191,7 @@ static void need_any_good_row(const struct scan_source *source, const struct tab
 }
 
 /* Reads one more row and processes it, or notes the end, or that none is there yet. */
-static void process_next_row(struct scan_source *source)
+static void process_next_row(struct scans_of_one_file *source)
 {
     enum table_stream_found found = table_stream_next(source->stream);
     const struct table *table = table_stream_table(source->stream);
@@ -244,7 +245,7 @@ static void fill_bearing_scan(struct sensor_scan *out, const struct gathered_sca
                                 .line = scan->line};
 }
 
-static void fill_sensor_scan(const struct scan_source *source, struct sensor_scan *out,
+static void fill_sensor_scan(const struct scans_of_one_file *source, struct sensor_scan *out,
                              struct gathered_scan *scan)
 {
     if (source->options.kind == RECORD_BEARINGS) {
@@ -258,7 +259,7 @@ static void fill_sensor_scan(const struct scan_source *source, struct sensor_sca
 }
 
 /* Takes the next complete scan of a table. *heard_us: reception time of its last row. */
-static bool next_gathered_scan(struct scan_source *source, struct sensor_scan *scan,
+static bool next_gathered_scan(struct scans_of_one_file *source, struct sensor_scan *scan,
                                int64_t *heard_us)
 {
     struct gathered_scan gathered;
@@ -279,7 +280,7 @@ static bool next_gathered_scan(struct scan_source *source, struct sensor_scan *s
 }
 
 /* Next scan of a table; where rows have reception times, scans wait hold_ms for earlier ones. */
-static bool next_table_scan(struct scan_source *source, struct sensor_scan *scan)
+static bool next_table_scan(struct scans_of_one_file *source, struct sensor_scan *scan)
 {
     int64_t heard_us;
 
@@ -303,7 +304,7 @@ static bool next_table_scan(struct scan_source *source, struct sensor_scan *scan
  * Adds the sensor of a log's scan of bearings, or refuses the scan where the sensor is bad; the
  * scan's number stands for a line.
  */
-static bool add_or_refuse_bearing_sensor(struct scan_source *source,
+static bool add_or_refuse_bearing_sensor(struct scans_of_one_file *source,
                                          const struct rho_bearing_scan *item)
 {
     const struct measurement_row row = {.sensor_id = item->sensor_id,
@@ -325,7 +326,7 @@ static bool add_or_refuse_bearing_sensor(struct scan_source *source,
 }
 
 /* Whether the item is of the wanted kind, and of a sensor that is accepted. */
-static bool accept_and_note_item(struct scan_source *source,
+static bool accept_and_note_item(struct scans_of_one_file *source,
                                  const struct rho_scan_assembler_item *item)
 {
     bool is_bearings = item->kind == RHO_SCAN_ASSEMBLER_BEARINGS;
@@ -340,7 +341,7 @@ static void *copy_array(const void *list, size_t count, size_t bytes)
     return count > 0 ? memcpy(must_calloc(count, bytes), list, count * bytes) : NULL;
 }
 
-static bool read_log_scan(struct scan_source *source, struct sensor_scan *scan)
+static bool read_log_scan(struct scans_of_one_file *source, struct sensor_scan *scan)
 {
     struct rho_scan_assembler_item item;
 
@@ -370,7 +371,7 @@ static bool read_log_scan(struct scan_source *source, struct sensor_scan *scan)
  * Next scan of a log in the order of time: an assembler has room for RHO_MAX_OPEN_SCANS, and does
  * not wait for a sensor that it has not heard, so that the reorder buffer has to sort its scans.
  */
-static bool next_log_scan_in_order(struct scan_source *source, struct sensor_scan *scan)
+static bool next_log_scan_in_order(struct scans_of_one_file *source, struct sensor_scan *scan)
 {
     struct sensor_scan next;
 
@@ -388,7 +389,7 @@ static bool next_log_scan_in_order(struct scan_source *source, struct sensor_sca
     return true;
 }
 
-bool scans_of_one_file_next(struct scan_source *source, struct sensor_scan *scan)
+bool scans_of_one_file_next(struct scans_of_one_file *source, struct sensor_scan *scan)
 {
     return source->log ? next_log_scan_in_order(source, scan) : next_table_scan(source, scan);
 }
@@ -399,7 +400,7 @@ bool scans_of_one_file_next(struct scan_source *source, struct sensor_scan *scan
  * Whether turns may be searched for: the file can be read twice, and states neither numbers nor
  * sectors of scans.
  */
-static bool may_have_turns(const struct scan_source *source)
+static bool may_have_turns(const struct scans_of_one_file *source)
 {
     const struct measurement_row_columns *columns = &source->columns;
     struct stat status;
@@ -411,14 +412,14 @@ static bool may_have_turns(const struct scan_source *source)
            S_ISREG(status.st_mode);
 }
 
-static void open_stream(struct scan_source *source)
+static void open_stream(struct scans_of_one_file *source)
 {
     source->stream = table_stream_open(source->path, source->parameters, source->options.keep_going,
                                        source->options.follow);
     find_columns(source, table_stream_table(source->stream));
 }
 
-static void close_stream(struct scan_source *source)
+static void close_stream(struct scans_of_one_file *source)
 {
     measurement_row_columns_free(&source->columns);
     table_stream_close(source->stream);
@@ -428,7 +429,7 @@ static void close_stream(struct scan_source *source)
 /*
  * Searches the first rows for turns of antennas, in a second stream; the source's own is not open.
  */
-static void find_antenna_turns(struct scan_source *source)
+static void find_antenna_turns(struct scans_of_one_file *source)
 {
     struct table_stream *stream =
         table_stream_open(source->path, source->parameters, true, source->options.follow);
@@ -458,7 +459,7 @@ static void find_antenna_turns(struct scan_source *source)
     }
 }
 
-static void open_table(struct scan_source *source)
+static void open_table(struct scans_of_one_file *source)
 {
     int32_t least_us;
 
@@ -482,7 +483,7 @@ static void open_table(struct scan_source *source)
  * Plots are reordered here, with unlimited room; bearings by the scan assembler. For a log of both
  * kinds only the reader of plots reports faults.
  */
-static void open_log(struct scan_source *source)
+static void open_log(struct scans_of_one_file *source)
 {
     bool is_plots = source->options.kind == RECORD_PLOTS;
 
@@ -492,10 +493,11 @@ static void open_log(struct scan_source *source)
                        is_plots || log_scans_kinds(source->path) == LOG_HAS_BEARINGS, is_plots);
 }
 
-struct scan_source *scans_of_one_file_open(const char *path, const struct parameters *parameters,
-                                           struct scans_of_one_file_options options)
+struct scans_of_one_file *scans_of_one_file_open(const char *path,
+                                                 const struct parameters *parameters,
+                                                 struct scans_of_one_file_options options)
 {
-    struct scan_source *source = must_calloc(1, sizeof *source);
+    struct scans_of_one_file *source = must_calloc(1, sizeof *source);
 
     source->path = path;
     source->parameters = parameters;
@@ -510,14 +512,14 @@ struct scan_source *scans_of_one_file_open(const char *path, const struct parame
     return source;
 }
 
-static void close_table(struct scan_source *source)
+static void close_table(struct scans_of_one_file *source)
 {
     rows_to_scans_free(&source->gather);
     antenna_turns_free(source->turns);
     close_stream(source);
 }
 
-void scans_of_one_file_rewind(struct scan_source *source)
+void scans_of_one_file_rewind(struct scans_of_one_file *source)
 {
     source->has_good = source->is_over = source->has_columns = false;
     source->item = 0;
@@ -530,43 +532,43 @@ void scans_of_one_file_rewind(struct scan_source *source)
     }
 }
 
-bool scans_of_one_file_waits_for_rows(const struct scan_source *source)
+bool scans_of_one_file_waits_for_rows(const struct scans_of_one_file *source)
 {
     return source->waits;
 }
 
-const char *scans_of_one_file_why_ended(const struct scan_source *source)
+const char *scans_of_one_file_why_ended(const struct scans_of_one_file *source)
 {
     return source->stream ? table_stream_why_ended(source->stream) : NULL;
 }
 
-bool scans_of_one_file_is_mid_row(const struct scan_source *source)
+bool scans_of_one_file_is_mid_row(const struct scans_of_one_file *source)
 {
     return source->stream && table_stream_is_mid_row(source->stream);
 }
 
-void scans_of_one_file_complete_scans(struct scan_source *source)
+void scans_of_one_file_complete_scans(struct scans_of_one_file *source)
 {
     source->is_complete = true;
 }
 
-void scans_of_one_file_end_reading(struct scan_source *source)
+void scans_of_one_file_end_reading(struct scans_of_one_file *source)
 {
     source->is_over = true;
 }
 
-uint64_t scans_of_one_file_rows_skipped(const struct scan_source *source)
+uint64_t scans_of_one_file_rows_skipped(const struct scans_of_one_file *source)
 {
     return source->rows_skipped +
            (source->stream ? table_stream_table(source->stream)->rows_skipped : 0);
 }
 
-uint64_t scans_of_one_file_position(const struct scan_source *source)
+uint64_t scans_of_one_file_position(const struct scans_of_one_file *source)
 {
     return source->log ? log_scans_position(source->log) : table_stream_position(source->stream);
 }
 
-void scans_of_one_file_close(struct scan_source *source)
+void scans_of_one_file_close(struct scans_of_one_file *source)
 {
     if (source->log) {
         log_scans_close(source->log);

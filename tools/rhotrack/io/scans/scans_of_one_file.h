@@ -13,7 +13,7 @@
 #include "io/scans/reorder_buffer.h"
 #include "settings/parameters.h"
 
-struct scan_source;
+struct scans_of_one_file;
 
 struct scans_of_one_file_options {
     enum record_kind kind; /* kind of scans wanted: a log may have both */
@@ -27,30 +27,31 @@ struct scans_of_one_file_options {
  * Opens a file; plot_scan_reader.h and bearing_frame_reader.h describe its content. Errors as
  * `rhotrack: FILE:LINE: what is wrong`, exit 2. The path must outlive the source.
  */
-struct scan_source *scans_of_one_file_open(const char *path, const struct parameters *parameters,
-                                           struct scans_of_one_file_options options);
+struct scans_of_one_file *scans_of_one_file_open(const char *path,
+                                                 const struct parameters *parameters,
+                                                 struct scans_of_one_file_options options);
 
 /* Reads the next scan. Returns false after the last, and where a followed file has no more yet. */
-bool scans_of_one_file_next(struct scan_source *source, struct sensor_scan *scan);
+bool scans_of_one_file_next(struct scans_of_one_file *source, struct sensor_scan *scan);
 
 /* Starts again at the beginning of a file of bearings. */
-void scans_of_one_file_rewind(struct scan_source *source);
+void scans_of_one_file_rewind(struct scans_of_one_file *source);
 
 /* State of a followed file, as plot_scan_reader.h describes it. */
-bool scans_of_one_file_waits_for_rows(const struct scan_source *source);
-const char *scans_of_one_file_why_ended(const struct scan_source *source);
-bool scans_of_one_file_is_mid_row(const struct scan_source *source);
+bool scans_of_one_file_waits_for_rows(const struct scans_of_one_file *source);
+const char *scans_of_one_file_why_ended(const struct scans_of_one_file *source);
+bool scans_of_one_file_is_mid_row(const struct scans_of_one_file *source);
 
 /* Takes all rows of a followed file so far as complete scans; rows to come begin new ones. */
-void scans_of_one_file_complete_scans(struct scan_source *source);
+void scans_of_one_file_complete_scans(struct scans_of_one_file *source);
 
 /* Stops reading rows of a followed file. */
-void scans_of_one_file_end_reading(struct scan_source *source);
+void scans_of_one_file_end_reading(struct scans_of_one_file *source);
 
-uint64_t scans_of_one_file_rows_skipped(const struct scan_source *source);
+uint64_t scans_of_one_file_rows_skipped(const struct scans_of_one_file *source);
 
 /* Number of bytes of the file that have been read. */
-uint64_t scans_of_one_file_position(const struct scan_source *source);
-void scans_of_one_file_close(struct scan_source *source);
+uint64_t scans_of_one_file_position(const struct scans_of_one_file *source);
+void scans_of_one_file_close(struct scans_of_one_file *source);
 
 #endif

@@ -175,7 +175,7 @@ static void add_scan_to_turns(struct reading *reading, const struct rho_scan *sc
     }
 }
 
-struct revolutions revolutions_read_last(struct scan_reader *reader, size_t max)
+struct revolutions revolutions_read_last(struct plot_scan_reader *reader, size_t max)
 {
     struct reading reading = {.revolutions.max = max};
     const struct rho_scan *scan;

@@ -36,8 +36,8 @@ struct revolutions {
  * and out-of-sequence scans left out. Memory: the turns kept, and a struct rho_window for each
  * sensor that scans in sectors.
  */
-struct scan_reader;
-struct revolutions revolutions_read_last(struct scan_reader *reader, size_t max);
+struct plot_scan_reader;
+struct revolutions revolutions_read_last(struct plot_scan_reader *reader, size_t max);
 void revolutions_free(struct revolutions *revolutions);
 
 #endif

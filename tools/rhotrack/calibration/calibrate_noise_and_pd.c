@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#include "registration/calibrate.h"
+#include "calibration/calibrate_noise_and_pd.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "registration/calibrate_segments.h"
+#include "calibration/calibrate_segments.h"
 
 #define ROUNDS_MAX 8
 /* noise that changes by a smaller share between rounds has converged */

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bearing_frame_for_batch: usable bearings of a frame, and the frame in the form that a batch
- * takes. Private to the step and the initiation of bearings.
+ * bearing_scans_for_batch: usable bearings of a frame (the scans of all passive sensors at one
+ * time), and the frame in the form that a batch takes. Private to the step and the initiation of
+ * bearings.
  */
-#ifndef RHOTRACK_BEARING_FRAME_FOR_BATCH_H
-#define RHOTRACK_BEARING_FRAME_FOR_BATCH_H
+#ifndef RHOTRACK_BEARING_SCANS_FOR_BATCH_H
+#define RHOTRACK_BEARING_SCANS_FOR_BATCH_H
 
 #include "phases.h"
 #include "rhotrack/detail/measurement.h"

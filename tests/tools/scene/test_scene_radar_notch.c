@@ -5,7 +5,7 @@
  */
 #include "scene_text.h"
 
-#include "scene/scene_doppler_notch.h"
+#include "scene/scene_radar_notch.h"
 
 #define FLYERS                                                                                     \
     ", \"targets\": [{\"count\": 40, \"range_m\": [5000, 60000], \"speed_mps\": [50, 200], "       \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "registration/calibrate_output.h"
+#include "calibration/calibrate_output.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>

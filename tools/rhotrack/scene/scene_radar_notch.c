@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene/scene_doppler_notch.h"
+#include "scene/scene_radar_notch.h"
 
 #include <math.h>
 

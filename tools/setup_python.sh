@@ -7,7 +7,7 @@
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export BUILD=${BUILD:-build}
-[ -z "$(tests/python.sh)" ] || exit 0
+[ -z "$(tests/find_python.sh)" ] || exit 0
 
 echo "python: installing $(sed -nE 's/^([^# ]+==[^# ]+).*/\1/p' tests/requirements.txt | paste -s -d ' ') in $BUILD/venv"
 log=$(mktemp)
@@ -19,6 +19,6 @@ if ! { python3 -m venv --system-site-packages "$BUILD/venv" &&
     tail -n 3 "$log" | sed 's/^/python: /' >&2
     rm -rf "$BUILD/venv"
 fi
-[ -n "$(tests/python.sh)" ] || echo \
+[ -n "$(tests/find_python.sh)" ] || echo \
     "python: not installed; the tests that need it will be skipped" >&2
 exit 0

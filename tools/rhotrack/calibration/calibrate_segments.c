@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "registration/calibrate_segments.h"
+#include "calibration/calibrate_segments.h"
 
 #include <math.h>
 #include <stdlib.h>

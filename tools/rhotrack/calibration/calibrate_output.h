@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "registration/calibrate.h"
+#include "calibration/calibrate_noise_and_pd.h"
 
 /* Whether the range noise or the pd of any radar is known. */
 bool calibrate_knows_noise_or_pd(const struct calibrate_result *result);

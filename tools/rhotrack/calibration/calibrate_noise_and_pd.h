@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * calibrate: estimates the noise, pd, clutter, turn time and target speeds of radars from a
+ * calibrate_noise_and_pd: estimates the noise, pd, clutter, turn time and target speeds of radars from a
  * recording of their plots.
  *
  * The library's tracker makes tracks of each radar's plots alone (register_tracks). The tracks are
@@ -8,8 +8,8 @@
  * the line of sight give the radar's noise. Tracks are found again with this noise until it
  * converges. The other figures come from the last tracks.
  */
-#ifndef RHOTRACK_TOOL_CALIBRATE_H
-#define RHOTRACK_TOOL_CALIBRATE_H
+#ifndef RHOTRACK_TOOL_CALIBRATE_NOISE_AND_PD_H
+#define RHOTRACK_TOOL_CALIBRATE_NOISE_AND_PD_H
 
 #include <stdbool.h>
 #include <stddef.h>

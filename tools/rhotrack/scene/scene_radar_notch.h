@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_doppler_notch: the Doppler notch of a simulated radar: it is blind at range rates near
+ * scene_radar_notch: the Doppler notch of a simulated radar: it is blind at range rates near
  * zero, which its clutter filter removes, and near multiples of its blind speed.
  */
-#ifndef RHOTRACK_TOOL_SCENE_DOPPLER_NOTCH_H
-#define RHOTRACK_TOOL_SCENE_DOPPLER_NOTCH_H
+#ifndef RHOTRACK_TOOL_SCENE_RADAR_NOTCH_H
+#define RHOTRACK_TOOL_SCENE_RADAR_NOTCH_H
 
 #include <stdio.h>
 
