@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * calibrate_noise_and_pd: estimates the noise, pd, clutter, turn time and target speeds of radars from a
- * recording of their plots.
+ * calibrate_noise_and_pd: estimates the noise, pd, clutter, turn time and target speeds of radars
+ * from a recording of their plots.
  *
  * The library's tracker makes tracks of each radar's plots alone (register_tracks). The tracks are
  * cut into segments of ten plots, and a parabola is fitted to each; the residuals along and across
