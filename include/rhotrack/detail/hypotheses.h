@@ -236,7 +236,7 @@ int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,
 
 /*
  * Margin about *box for plots with sigmas of at most sigma_max_m and own times of at most
- * offset_max_s either way. Cost and stack: as rho_hypotheses_is_in_box.
+ * offset_max_s either way. Cost as rho_hypotheses_is_in_box, stack as above.
  */
 float rho_hypotheses_box_margin_m(const struct rho_hypotheses *pool, uint16_t slot,
                                   struct rho_hypotheses_box *box, float sigma_max_m,

@@ -181,8 +181,8 @@ void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estima
 
 /*
  * Fills *estimate with the corrected estimate for a gate: an axis without input may have got one
- * since the last plot, so that an input of 0 with variance V(0) is included. Cost and stack: as
- * rho_input_estimate.
+ * since the last plot, so that an input of 0 with variance V(0) is included. Cost as
+ * rho_input_estimate, stack as above.
  */
 void rho_input_estimate_for_gate(const struct rho_input *input, struct rho_kalman *estimate);
 
