@@ -617,7 +617,7 @@ void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s);
 void rho_tracker_reset_manoeuvre_interval_after_silence(struct rho_tracker *tracker,
                                                         int64_t time_us);
 
-/* unobserved_tracks.c: scan intervals of sensors, and tracks that no sensor looks at */
+/* end_unobserved_tracks.c: scan intervals of sensors, and tracks that no sensor looks at */
 void rho_tracker_remove_scan_interval(struct rho_tracker *tracker, int32_t sensor_id);
 /* Measures the scan interval of a sensor, which is at the origin if NULL. */
 void rho_tracker_update_scan_interval(struct rho_tracker *tracker, int32_t sensor_id,

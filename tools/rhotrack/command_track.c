@@ -22,7 +22,7 @@
 #include "pipeline/learned_report.h"
 #include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/pipeline_show.h"
+#include "pipeline/pipeline_show_messages.h"
 #include "settings/initiation_method.h"
 #include "suggested_next_command.h"
 

@@ -17,7 +17,7 @@
 #include <stdio.h>
 
 #include "io/scans/out_of_sequence_counts.h"
-#include "pipeline/pipeline_show.h"
+#include "pipeline/pipeline_show_messages.h"
 #include "pipeline/pipeline_snapshot.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"

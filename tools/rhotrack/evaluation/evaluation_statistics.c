@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * evaluation_result: computes the figures of an evaluation, overall and for each target, from the
- * accumulated pairs.
+ * evaluation_statistics: computes the figures of an evaluation, overall and for each target,
+ * from the accumulated pairs.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * unobserved_tracks: ends tracks that no sensor has looked at for too long.
+ * end_unobserved_tracks: ends tracks that no sensor has looked at for too long.
  *
  * A track counts a miss only in a scan that looked at it. A track that left the coverage, or whose
  * radar is switched off, has no misses. It may coast for the time of coast_scans_max scans of the

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * pipeline_show: messages of the option --show: ghost matrices, accumulators and hypotheses of
- * steps.
+ * pipeline_show_messages: messages of the option --show: ghost matrices, accumulators and
+ * hypotheses of steps.
  */
-#ifndef RHOTRACK_TOOL_PIPELINE_SHOW_H
-#define RHOTRACK_TOOL_PIPELINE_SHOW_H
+#ifndef RHOTRACK_TOOL_PIPELINE_SHOW_MESSAGES_H
+#define RHOTRACK_TOOL_PIPELINE_SHOW_MESSAGES_H
 
 #include <stdbool.h>
 #include <stdint.h>

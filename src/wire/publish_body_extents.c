@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* publish_bodies: messages of the bodies (extents) of the tracks. */
+/* publish_body_extents: messages of the bodies (extents) of the tracks. */
 #include "rhotrack/publish.h"
 
 #define PART_BODIES RHO_MESSAGE_BODY_LIST_MAX_BODIES

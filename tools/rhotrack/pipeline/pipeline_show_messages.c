@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "pipeline/pipeline_show.h"
+#include "pipeline/pipeline_show_messages.h"
 
 #include <stdlib.h>
 #include <string.h>
