@@ -1,11 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# `make fuzz` can fail: each defect seeded in the codec, a reader or the tracker is found within 20
+# `make fuzz` can fail: each defect seeded in the codec, a reader or the tracker is found within 40
 # s, a hang too, and all pass as they are.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=${BUILD:-build}
-seconds=20
+seconds=40
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 passed=0
