@@ -66,7 +66,10 @@ struct rho_body_doubt {
      */
     float far_m2, side_m2, cross_m2, rates_m2ps2, far_m2ps, side_m2ps;
     float side_noise_m2, rate_noise_m2ps2;
-    /* sum of squared range rates that an error of the velocity across the line of sight may give */
+    /*
+     * sum of squared range rates that two errors may give: of the velocity across the line of
+     * sight, and of the plots' azimuths, which turn the line of sight
+     */
     float unknown_m2ps2;
     float doubled;      /* scans in which the body overlapped that of an older track; fades, too */
     int64_t time_us;    /* time of the last look */

@@ -253,8 +253,10 @@ struct rho_tracker_learned {
     unsigned used_rates : 5;        /* intervals of the notch in the sensor's notch_mps */
     unsigned notches_forgotten : 2; /* false notches so far; after three none is learned */
     uint8_t rate_looks[RHO_LEARN_RATES], rate_hits[RHO_LEARN_RATES]; /* halved at 250 */
-    /* resolution cell along the line of sight and across it: ln of its square over that of the
-     * default, and the weight of the estimate (RHO_SHARES_PLOTS) */
+    /*
+     * resolution cell along the line of sight and across it: ln of its square over that of the
+     * default, and the weight of the estimate (RHO_SHARES_PLOTS)
+     */
     float log_cell[2], cell_weight[2];
 };
 
@@ -433,14 +435,17 @@ struct rho_tracker_known {
     uint32_t innovations, looks;      /* numbers from which factors and pd were learned */
     /* notch, learned where none was stated (RHO_DOPPLER_NOTCH); 0: none */
     float notch_mps;
-    /* resolution cell in sigmas of plots, learned where none was stated (RHO_SHARES_PLOTS); 0: not
-     * learned */
+    /*
+     * resolution cell in sigmas of plots, learned where none was stated (RHO_SHARES_PLOTS); 0: not
+     * learned
+     */
     float resolution_range_sigmas, resolution_cross_sigmas;
 };
 
-/* Fills the learned values of a described sensor.
- * Errors: NULL, STATE (not initialised, or the sensor was not described). Constant cost.
- * Stack: 128 bytes. */
+/*
+ * Fills the learned values of a described sensor. Errors: NULL, STATE (not initialised, or the
+ * sensor was not described). Constant cost. Stack: 128 bytes.
+ */
 RHO_MUST_CHECK enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker,
                                                     int32_t sensor_id,
                                                     struct rho_tracker_known *known);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* linalg_update_any_size: scalar Kalman updates and NIS for states of any size up to
- * RHO_LINALG_MAX. */
+/*
+ * linalg_update_any_size: scalar Kalman updates and NIS for states of any size up to
+ * RHO_LINALG_MAX.
+ */
 #include <float.h>
 #include <stddef.h>
 #include <string.h>

@@ -84,8 +84,8 @@ int rho_tracker_range_rate_residual(const struct step *step, const struct rho_sc
     return 1;
 }
 
-int rho_tracker_locate_plot_and_has_rate(const struct step *step, const struct rho_scan *scan,
-                                         unsigned row, unsigned plot, struct body_plot *at)
+int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_scan *scan,
+                                    unsigned row, unsigned plot, struct body_plot *at)
 {
     const struct rho_body_filter *body = &step->tracker->bodies.of[row];
     const struct rho_track *track = &step->tracker->tracks[row];
@@ -118,7 +118,7 @@ static void sum_plots_of_body(const struct step *step, const struct rho_scan *sc
     float axes[3];
     for (unsigned i = bodies->groups.first[step->tracker->tracks[row].plot]; i != RHO_NO_ROW;
          i = bodies->groups.next[i]) {
-        (void)!rho_tracker_locate_plot_and_has_rate(step, scan, row, i, &at);
+        (void)!rho_tracker_locate_plot_on_body(step, scan, row, i, &at);
         rho_tracker_plot_noise_on_body(step, &bodies->of[row], &scan->plots[i], axes);
         look->num_plots++;
         look->along_m2 += at.along_m * at.along_m;

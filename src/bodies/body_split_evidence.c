@@ -32,7 +32,10 @@
 #define TURN_SHARE 2.0f
 /* Looks with a steady heading after which range rates are judged: a turn is seen by then. */
 #define STEADY_LOOKS 30.0f
-/* Square of the number of sigmas that the velocity across the line of sight may be off. */
+/*
+ * Square of the number of sigmas that the velocity across the line of sight and azimuths may be
+ * off.
+ */
 #define UNKNOWN_SHARE 4.0f
 /* Limit of chi-square in two dimensions; large, as errors of successive looks are correlated. */
 #define APART_CHI2 40.0f
@@ -57,7 +60,8 @@ static void clear_range_rate_sums(struct rho_body_doubt *doubt, const struct rho
                                      .doubled_us = doubt->doubled_us};
 }
 
-/* Fades all sums by one look and counts it; clears those of range rates where the body has turned.
+/*
+ * Fades all sums by one look and counts it; clears those of range rates where the body has turned.
  */
 static void fade_doubt_by_one_look(struct rho_body_doubt *doubt, const struct rho_body_filter *body,
                                    float passed_s)
@@ -110,7 +114,7 @@ static struct look_sums sum_look_of_body(const struct step *step, const struct r
              groups, groups->first[step->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
         const struct rho_plot *plot = &scan->plots[i];
-        if (!rho_tracker_locate_plot_and_has_rate(step, scan, row, i, &at) &&
+        if (!rho_tracker_locate_plot_on_body(step, scan, row, i, &at) &&
             (scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue; /* a plot at the sensor has no line of sight */
         }
@@ -187,8 +191,8 @@ void rho_tracker_add_body_split_evidence(const struct step *step, const struct r
 
 /*
  * Fits a plane to the range rates over the body, by least squares. Where the plane explains more
- * than noise, an unseen turn and an error of the velocity do, the plots are of two targets. Wheels
- * and other moving parts raise the noise, which is taken from the residuals.
+ * than noise, an unseen turn and errors of the velocity and of azimuths do, the plots are of two
+ * targets. Wheels and other moving parts raise the noise, which is taken from the residuals.
  */
 static int parts_move_apart(const struct rho_body_filter *body)
 {

@@ -417,8 +417,10 @@ static void make_group_plot(const struct step *step, unsigned group, struct rho_
 
 /* ---- the scan -------------------------------------------------------------------------------- */
 
-/* Clears the groups; fates are HELD for valid plots and INVALID for others. Finds the largest noise
- * and time offset of the valid plots. */
+/*
+ * Clears the groups; fates are HELD for valid plots and INVALID for others. Finds the largest noise
+ * and time offset of the valid plots.
+ */
 static void init_groups_and_fates(struct step *step)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;

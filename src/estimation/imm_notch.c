@@ -17,11 +17,11 @@ void rho_imm_update_by_miss(struct rho_imm *imm, const struct rho_sensor *sensor
         return;
     }
     imm->is_coupled = 1;
-    const float steady = (1.0f - imm->probability) * rho_notch_update_return_miss_probability(
-                                                         sensor, look, RHO_KALMAN_STATES,
-                                                         imm->steady.state, imm->steady.covariance);
+    const float steady = (1.0f - imm->probability) *
+                         rho_notch_update_by_miss(sensor, look, RHO_KALMAN_STATES,
+                                                  imm->steady.state, imm->steady.covariance);
     const float manoeuvre =
-        imm->probability * rho_notch_update_return_miss_probability(sensor, look, RHO_IMM_STATES,
-                                                                    imm->state, imm->covariance);
+        imm->probability *
+        rho_notch_update_by_miss(sensor, look, RHO_IMM_STATES, imm->state, imm->covariance);
     imm->probability = manoeuvre / (steady + manoeuvre);
 }

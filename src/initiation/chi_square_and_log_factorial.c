@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* chi_square_and_log_factorial: quantiles of the chi-square distribution, and logarithms of
- * factorials. */
+/*
+ * chi_square_and_log_factorial: quantiles of the chi-square distribution, and logarithms of
+ * factorials.
+ */
 #include "rhotrack/detail/approx.h"
 #include "search.h"
 

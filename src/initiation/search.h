@@ -148,8 +148,10 @@ float rho_initiator_mean_clutter_density(const struct rho_initiator *initiator, 
 float rho_initiator_log_density_of_hit(const struct search *search, const struct plot_set *set,
                                        unsigned m);
 
-/* Adds the window's oldest scan to the clutter memory before it leaves
- * (clutter_density_long_term.c). */
+/*
+ * Adds the window's oldest scan to the clutter memory before it leaves
+ * (clutter_density_long_term.c).
+ */
 void rho_initiator_remember_oldest_scan(struct rho_initiator *initiator);
 /*
  * Clutter density at a place: density_per_m2, or the remembered density where that is significantly

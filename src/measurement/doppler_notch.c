@@ -195,9 +195,8 @@ static void assume_no_cross_speed_if_possible(const struct component *rate, floa
     }
 }
 
-float rho_notch_update_return_miss_probability(const struct rho_sensor *sensor,
-                                               const struct rho_notch_look *look, int num_states,
-                                               float *state, float *covariance)
+float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho_notch_look *look,
+                               int num_states, float *state, float *covariance)
 {
     struct component rate;
     if (!predict_notched_range_rate(sensor, state, covariance, &rate)) {

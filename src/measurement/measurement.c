@@ -71,7 +71,7 @@ static int is_valid_range_rate_span(float span_mps)
             rho_is_within(span_mps, RHO_LIMIT_SPAN_MIN_MPS, RHO_LIMIT_SPAN_MAX_MPS));
 }
 
-int rho_measurement_are_place_biases_span_valid(const struct rho_sensor *sensor)
+int rho_measurement_has_valid_place_and_biases(const struct rho_sensor *sensor)
 {
     return is_valid_range_rate_span(sensor->range_rate_span_mps) &&
            rho_is_coordinate(sensor->x_m) && rho_is_coordinate(sensor->y_m) &&
@@ -196,7 +196,7 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
         return RHO_ERROR_NULL;
     }
     if (!is_valid_polar_plot(polar, measures) ||
-        (sensor && !rho_measurement_are_place_biases_span_valid(sensor))) {
+        (sensor && !rho_measurement_has_valid_place_and_biases(sensor))) {
         return RHO_ERROR_VALUE;
     }
     struct unbiased_polar seen = remove_biases(polar, measures, sensor);

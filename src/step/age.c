@@ -72,10 +72,10 @@ void rho_tracker_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_learn_second_plots_end_duplicates(step);
+        rho_tracker_learn_second_plots_and_end_duplicates(step);
     }
     const struct rho_track_limits limits = rho_tracker_track_limits(step);
-    rho_tracker_fade_counts_set_evidence_needed(step);
+    rho_tracker_fade_counts_and_set_evidence_needed(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || rho_tracker_is_track_frozen(track)) {

@@ -179,8 +179,10 @@ static int update_track_by_bearing(struct step *step, const struct look *look,
     return 1;
 }
 
-/* Updates tracks by their assigned bearings; the score of a track that the sensor covers but missed
- * falls, even where other sensors of the frame saw it. */
+/*
+ * Updates tracks by their assigned bearings; the score of a track that the sensor covers but missed
+ * falls, even where other sensors of the frame saw it.
+ */
 static void update_or_penalise_tracks(struct step *step, const struct look *look)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -282,7 +284,7 @@ static void count_misses_and_end_tracks(struct step *step)
         }
     }
     const struct rho_track_limits limits = rho_tracker_track_limits(step);
-    rho_tracker_fade_counts_set_evidence_needed(step);
+    rho_tracker_fade_counts_and_set_evidence_needed(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (may_be_updated(track)) {

@@ -4,8 +4,10 @@
  */
 #include "phases.h"
 
-/* 1 where a better candidate of this search has started a track with the same newest plot. If there
- * is another target, the next scan will show it. */
+/*
+ * 1 where a better candidate of this search has started a track with the same newest plot. If there
+ * is another target, the next scan will show it.
+ */
 static int is_newest_plot_used(struct rho_initiator *initiator,
                                const struct rho_candidate *candidate)
 {

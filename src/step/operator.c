@@ -112,8 +112,10 @@ static void swap_tracks_and_bodies(struct rho_tracker *tracker, unsigned row, un
     }
 }
 
-/* Moves a track to its place in the order of identities. The assignment's rows from there on no
- * longer fit the tracks, and are dropped. */
+/*
+ * Moves a track to its place in the order of identities. The assignment's rows from there on no
+ * longer fit the tracks, and are dropped.
+ */
 static void move_track_to_id_order(struct rho_tracker *tracker, unsigned row)
 {
     const uint32_t track_id = tracker->tracks[row].track_id;

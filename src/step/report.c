@@ -6,8 +6,10 @@
 
 #include "phases.h"
 
-/* Tracks at another time than the step's are left alone: the scan did not see them, or they started
- * at a plot's own time. The report moves a copy of their estimates. */
+/*
+ * Tracks at another time than the step's are left alone: the scan did not see them, or they started
+ * at a plot's own time. The report moves a copy of their estimates.
+ */
 void rho_tracker_merge_estimates_per_track(struct step *step)
 {
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
@@ -79,8 +81,10 @@ static void report_track(const struct step *step, const struct rho_track *track,
     memcpy(out->covariance, at->kalman.covariance, sizeof out->covariance);
 }
 
-/* Adds each input's fate to the totals of report and tracker. Inputs without a place in fates[] are
- * STALE in an out-of-sequence scan, else NO_ROOM. */
+/*
+ * Adds each input's fate to the totals of report and tracker. Inputs without a place in fates[] are
+ * STALE in an out-of-sequence scan, else NO_ROOM.
+ */
 static void count_plot_fates(const struct step *step)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;

@@ -69,7 +69,7 @@ static int find_dividing_value(const struct step *step, const struct rho_scan *s
     for (unsigned i = rho_tracker_first_uncontested_plot(
              groups, groups->first[step->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
-        (void)!rho_tracker_locate_plot_and_has_rate(step, scan, row, i, &at);
+        (void)!rho_tracker_locate_plot_on_body(step, scan, row, i, &at);
         least = rho_smaller(least, separating_value(why, &at));
         most = rho_larger(most, separating_value(why, &at));
         rate_m2ps2 = rho_larger(rate_m2ps2, at.rate.variance_m2ps2);
@@ -91,7 +91,7 @@ static int divide_plots_into_sides(const struct step *step, const struct rho_sca
     for (unsigned i = rho_tracker_first_uncontested_plot(
              groups, groups->first[step->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
-        (void)!rho_tracker_locate_plot_and_has_rate(step, scan, row, i, &at);
+        (void)!rho_tracker_locate_plot_on_body(step, scan, row, i, &at);
         struct body_side *side = &sides[separating_value(why, &at) < middle];
         side->plots++;
         side->x_m += at.dx_m;

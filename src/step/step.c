@@ -61,8 +61,10 @@ static void apply_sensor_to_step(struct step *step)
     step->range_rates_mps = rho_exp(step->log_range_rates);
 }
 
-/* An out-of-sequence scan may start tracks where it is the newest one of its initiator: a radar
- * that is always late has an initiator of its own. */
+/*
+ * An out-of-sequence scan may start tracks where it is the newest one of its initiator: a radar
+ * that is always late has an initiator of its own.
+ */
 static int may_start_tracks(const struct step *step)
 {
     return !step->is_late ||

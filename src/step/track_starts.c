@@ -41,8 +41,10 @@ unsigned rho_tracker_copy_candidate_plots(struct rho_window *window,
     return n;
 }
 
-/* Tentative tracks of low rank give way to new tracks. Rank is the score, or, after coast_scans_max
- * misses in a row, the score's fall from its maximum. */
+/*
+ * Tentative tracks of low rank give way to new tracks. Rank is the score, or, after coast_scans_max
+ * misses in a row, the score's fall from its maximum.
+ */
 static int32_t rank_of_tentative_track(const struct step *step, const struct rho_track *track)
 {
     const int hides = track->misses_in_row >= step->tracker->config.coast_scans_max;
@@ -110,7 +112,7 @@ static int are_usable_plots(const struct rho_tracker *tracker, const struct rho_
             plots[i].time_us - tracker->time_us > RHO_LIMIT_OFFSET_US || plots[i].row < -1 ||
             plots[i].row >= (int32_t)report->num_plots ||
             !rho_measurement_is_valid_plot(&plots[i].plot, plots[i].measures) ||
-            (plots[i].sensor && !rho_measurement_are_place_biases_span_valid(plots[i].sensor))) {
+            (plots[i].sensor && !rho_measurement_has_valid_place_and_biases(plots[i].sensor))) {
             return 0;
         }
     }

@@ -213,7 +213,7 @@ static void add_echo_density_at_plots(struct step *step, unsigned place)
 }
 
 /* Clears the echo's results of the last scan. Returns 1 where the new scan covers the echo. */
-static int clear_echo_and_is_covered(const struct step *step, struct rho_echo *echo)
+static int clear_results_of_echo(const struct step *step, struct rho_echo *echo)
 {
     const struct rho_scan *scan = step->scan;
     echo->was_looked_at = 0;
@@ -255,7 +255,7 @@ static void predict_echoes_and_add_densities(struct step *step, float range_max_
     unsigned place = map->first_echo, left_out = 0;
     rho_tracker_begin_work_phase(step, RHO_WORK_ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
-        if (!clear_echo_and_is_covered(step, &map->echoes[place])) {
+        if (!clear_results_of_echo(step, &map->echoes[place])) {
             continue;
         }
         if (rho_tracker_is_phase_work_spent(step)) {
@@ -502,7 +502,7 @@ static int has_left_its_start(const struct rho_track *track)
  * True where a track is of a target: it is as fast as v_min, or, where targets may stand still, it
  * has left its start place once, which is remembered in the track.
  */
-static int update_moved_and_is_target(const struct step *step, struct rho_track *track)
+static int moves_as_target(const struct step *step, struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float v_min_mps = step->tracker->config.v_min_mps;
@@ -564,7 +564,7 @@ static void update_returns_and_find_target_plots(struct step *step, uint32_t *ta
         if (track->plot < 0 || (uint32_t)track->plot >= step->num_gated) {
             continue;
         }
-        if (update_moved_and_is_target(step, track)) {
+        if (moves_as_target(step, track)) {
             remove_track_returns_from_map(step, track);
             targets[track->plot / 32] |= 1u << track->plot % 32;
         } else {

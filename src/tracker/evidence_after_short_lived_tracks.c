@@ -86,7 +86,7 @@ static float count_almost_established_tracks(const struct step *step)
     return count;
 }
 
-void rho_tracker_fade_counts_set_evidence_needed(struct step *step)
+void rho_tracker_fade_counts_and_set_evidence_needed(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (!(tracker->ended_early + tracker->established > 0.0f)) {

@@ -12,7 +12,8 @@
 #include "rhotrack/detail/linalg.h"
 #include "step.h"
 
-/* Standard deviations of a track's place by which the line of sight to its image may miss the wall.
+/*
+ * Standard deviations of a track's place by which the line of sight to its image may miss the wall.
  */
 #define BESIDE_SIGMAS 3.0f
 

@@ -27,7 +27,7 @@ const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *track
 
 int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor)
 {
-    return rho_measurement_are_place_biases_span_valid(sensor) &&
+    return rho_measurement_has_valid_place_and_biases(sensor) &&
            rho_is_within(sensor->pd, 0.01f, 0.999f) &&
            rho_is_within(sensor->range_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&

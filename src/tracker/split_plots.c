@@ -420,7 +420,7 @@ static void count_plot_not_tried(struct step *step)
     step->plots_not_tried = rho_count(step->plots_not_tried, 1);
 }
 
-void rho_tracker_learn_second_plots_end_duplicates(struct step *step)
+void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_second_plots *table = find_or_claim_table(tracker, step->scan->sensor_id);

@@ -286,7 +286,8 @@ int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker);
 
 /* ---- an operator ---------------------------------------------------------------------------- */
 
-/* excluded_areas.c (RHO_MAX_EXCLUDED_AREAS): gives unclaimed plots in excluded areas the fate GHOST
+/*
+ * excluded_areas.c (RHO_MAX_EXCLUDED_AREAS): gives unclaimed plots in excluded areas the fate GHOST
  */
 void rho_tracker_mark_excluded_plots_as_ghosts(struct step *step);
 int rho_tracker_is_in_excluded_area(const struct step *step, uint32_t plot);
@@ -350,8 +351,8 @@ void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
 /* A plot's range rate less that of a target at the plot's place with the track's velocity. */
 struct range_rate_residual {
     float mps;
-    float variance_m2ps2;  /* by the noise of the plot's range rate and of its place */
-    float line_turn_m2ps2; /* of this, by the place: its error turns the line of sight */
+    float variance_m2ps2;  /* variance by the noise of the plot's range rate and of its azimuth */
+    float line_turn_m2ps2; /* the azimuth's part of it: its error turns the line of sight */
     float sight_line[2];   /* unit vector from the sensor to the plot, x and y */
 };
 /* Returns 0 where no range rate was measured, or the plot is at the sensor. */
@@ -360,15 +361,15 @@ int rho_tracker_range_rate_residual(const struct step *step, const struct rho_sc
                                     struct range_rate_residual *rate);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
- * rate by rho_tracker_range_rate_residual, whose result rho_tracker_locate_plot_and_has_rate
+ * rate by rho_tracker_range_rate_residual, whose result rho_tracker_locate_plot_on_body
  * returns.
  */
 struct body_plot {
     float dx_m, dy_m, along_m, across_m;
     struct range_rate_residual rate;
 };
-int rho_tracker_locate_plot_and_has_rate(const struct step *step, const struct rho_scan *scan,
-                                         unsigned row, unsigned plot, struct body_plot *at);
+int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_scan *scan,
+                                    unsigned row, unsigned plot, struct body_plot *at);
 
 /* Variances of a plot's own noise in the axes of a body: along, cross, across. */
 void rho_tracker_plot_noise_on_body(const struct step *step, const struct rho_body_filter *body,
@@ -497,7 +498,8 @@ void rho_tracker_predict_clutter_at_plots(struct step *step);
  * in later parts of a scan.
  */
 float rho_tracker_log_echo_density_ratio(const struct step *step, uint32_t row);
-/* Stores rho_tracker_log_echo_density_ratio of the scan's plots with the held plots in the window.
+/*
+ * Stores rho_tracker_log_echo_density_ratio of the scan's plots with the held plots in the window.
  */
 void rho_tracker_store_echo_ratios_in_window(struct step *step);
 /* Updates the clutter map with the scan's plots, after new tracks have started. */
@@ -522,7 +524,7 @@ int rho_tracker_is_known_moving_target(const struct rho_track *track);
  * plots of a target come, raises the clutter density there, and ends the younger of two tracks of
  * one target
  */
-void rho_tracker_learn_second_plots_end_duplicates(struct step *step);
+void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step);
 void rho_tracker_remove_second_plots_of_sensor(struct rho_tracker *tracker, int32_t sensor_id);
 int rho_tracker_has_sound_second_plots(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_track_second_plots(const struct rho_track *track);
@@ -602,7 +604,7 @@ static inline int rho_tracker_is_established(const struct rho_track *track)
     return track->hits >= RHO_ESTABLISHED_HITS;
 }
 /* Fades the counts of tracks, learns the manoeuvre interval, and sets needed_nat and miss_nat. */
-void rho_tracker_fade_counts_set_evidence_needed(struct step *step);
+void rho_tracker_fade_counts_and_set_evidence_needed(struct step *step);
 /* True of a track that is not established and has less evidence than needed_nat. */
 int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track);
 /* Counts a track that becomes established in this step. */
@@ -610,8 +612,10 @@ void rho_tracker_count_if_newly_established(struct step *step, const struct rho_
 /* Counts an ended track if it ended early. */
 void rho_tracker_count_if_ended_early(struct step *step, const struct rho_track *track);
 
-/* manoeuvre_interval_learning.c: mean time between manoeuvres; learned from established tracks over
- * dt_s */
+/*
+ * manoeuvre_interval_learning.c: mean time between manoeuvres; learned from established tracks over
+ * dt_s
+ */
 void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s);
 /* Sets the mean time between manoeuvres to its default where no scan came for long. */
 void rho_tracker_reset_manoeuvre_interval_after_silence(struct rho_tracker *tracker,

@@ -11,7 +11,8 @@
 
 /* ---- tracks ---------------------------------------------------------------------------------- */
 
-/* True of the filter that tracks of plots are configured with, and of the Kalman filter (bearings).
+/*
+ * True of the filter that tracks of plots are configured with, and of the Kalman filter (bearings).
  */
 static int is_sound_filter(const struct rho_tracker *tracker, const struct rho_track *track)
 {

@@ -69,7 +69,8 @@ static uint32_t units_to_score_plot(const struct step *step, const struct rho_tr
     return units * rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
 }
 
-/* Units of work that the next waiting track may spend: its reserved share, and a part of the rest.
+/*
+ * Units of work that the next waiting track may spend: its reserved share, and a part of the rest.
  */
 static uint32_t take_share_of_next_track(struct step *step)
 {

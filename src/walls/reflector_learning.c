@@ -172,10 +172,10 @@ static void widen_image_by_line_error(const struct rho_learned_reflector *line, 
  * Refines and lengthens a line by the plot of a target's image: the line is half way between both.
  * Returns the distance of that place from the line as it was before.
  */
-static float refine_line_by_image_return_off_m(struct rho_learned_reflector *line,
-                                               const struct observation *observation,
-                                               const struct rho_track_report *target,
-                                               const struct rho_plot *plot, float crossing_m)
+static float refine_line_by_image(struct rho_learned_reflector *line,
+                                  const struct observation *observation,
+                                  const struct rho_track_report *target,
+                                  const struct rho_plot *plot, float crossing_m)
 {
     struct rho_measurement seen;
     float noise[6], along_m, across_m;
@@ -375,11 +375,10 @@ static void look_for_image_and_count(struct rho_reflector_learning *learning,
     }
     observation->images_left--;
     const int32_t nearest = nearest_other_plot_in_gate(observation, &image, target);
-    const float off_m =
-        nearest >= 0
-            ? refine_line_by_image_return_off_m(line, observation, target,
-                                                &observation->scan->plots[nearest], crossing_m)
-            : 0.0f;
+    const float off_m = nearest >= 0
+                            ? refine_line_by_image(line, observation, target,
+                                                   &observation->scan->plots[nearest], crossing_m)
+                            : 0.0f;
     if (witness->looks >= JUDGED_LOOKS || crossing_m < line->from_m || crossing_m > line->to_m) {
         return;
     }

@@ -307,10 +307,9 @@ static void update_heard_time(const struct rho_scan_assembler_config *config,
     source->heard_us = now_us;
 }
 
-uint32_t rho_scan_assembler_set_newest_count_skipped(const struct rho_scan_assembler_config *config,
-                                                     struct rho_scan_assembler_source *source,
-                                                     const struct rho_scan_assembler_place *place,
-                                                     enum scan_verdict verdict, int64_t now_us)
+uint32_t rho_scan_assembler_set_newest_and_count_skipped(
+    const struct rho_scan_assembler_config *config, struct rho_scan_assembler_source *source,
+    const struct rho_scan_assembler_place *place, enum scan_verdict verdict, int64_t now_us)
 {
     const struct rho_scan_assembler_stray *stray =
         verdict == SCAN_RESTARTS_SENSOR ? find_refused_series_to_continue(config, source, place)

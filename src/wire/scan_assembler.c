@@ -50,7 +50,7 @@ static int is_usable_noise(const struct rho_scan_assembler_noise *noise)
 static int is_usable_sensor(const struct rho_scan_assembler_sensor *known)
 {
     return is_usable_noise(&known->noise) &&
-           rho_measurement_are_place_biases_span_valid(&known->sensor);
+           rho_measurement_has_valid_place_and_biases(&known->sensor);
 }
 
 static int is_usable_config(const struct rho_scan_assembler_config *config)
@@ -324,8 +324,8 @@ static void begin_newest_scan(struct rho_scan_assembler *assembler,
     rho_scan_assembler_complete_open_scans(assembler, source, verdict == SCAN_RESTARTS_SENSOR);
     assembler->counters.scans_lost =
         rho_count(assembler->counters.scans_lost,
-                  rho_scan_assembler_set_newest_count_skipped(&assembler->config, source,
-                                                              &heading->place, verdict, now_us));
+                  rho_scan_assembler_set_newest_and_count_skipped(
+                      &assembler->config, source, &heading->place, verdict, now_us));
     if (verdict == SCAN_RESTARTS_SENSOR) {
         rho_scan_assembler_increment(&assembler->counters.sensor_restarts);
     }

@@ -68,10 +68,9 @@ void rho_scan_assembler_remember_refused_scan(const struct rho_scan_assembler_co
                                               const struct rho_scan_assembler_place *place);
 
 /* Makes an accepted scan its sensor's newest. Returns the number of skipped scan numbers. */
-uint32_t rho_scan_assembler_set_newest_count_skipped(const struct rho_scan_assembler_config *config,
-                                                     struct rho_scan_assembler_source *source,
-                                                     const struct rho_scan_assembler_place *place,
-                                                     enum scan_verdict verdict, int64_t now_us);
+uint32_t rho_scan_assembler_set_newest_and_count_skipped(
+    const struct rho_scan_assembler_config *config, struct rho_scan_assembler_source *source,
+    const struct rho_scan_assembler_place *place, enum scan_verdict verdict, int64_t now_us);
 
 /* 1 where time_us is at most late_max_us (bearings: 0) before the newest scan that went out. */
 int rho_scan_assembler_is_not_too_late(const struct rho_scan_assembler *assembler,

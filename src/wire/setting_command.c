@@ -68,8 +68,10 @@ static int16_t find_number_by_name(const char *name)
     return find_field_by_number(number) ? number : 0;
 }
 
-/* Stores a value in its field; a whole number too large for the field's type becomes its maximum,
- * which the check refuses. Returns 0 for a fraction in a field of whole numbers. */
+/*
+ * Stores a value in its field; a whole number too large for the field's type becomes its maximum,
+ * which the check refuses. Returns 0 for a fraction in a field of whole numbers.
+ */
 static int store_value_in_field(const struct setting_field *field, float value,
                                 struct rho_settings *settings)
 {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* show_messages: sends ghosts, votes and hypotheses of a step as messages, each kind within its
- * rate. */
+/*
+ * show_messages: sends ghosts, votes and hypotheses of a step as messages, each kind within its
+ * rate.
+ */
 #include "rhotrack/publish.h"
 
 #include <string.h>

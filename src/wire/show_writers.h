@@ -21,8 +21,10 @@ uint32_t rho_show_count_ghost_matrix_messages(const struct rho_show_source *sour
 const char *rho_show_write_ghost_matrix_part(const struct rho_show_source *source, uint32_t number,
                                              const struct rho_show_output *output);
 
-/* show_accumulators.c: messages of accumulators; writing an accumulator's first one makes its
- * picture */
+/*
+ * show_accumulators.c: messages of accumulators; writing an accumulator's first one makes its
+ * picture
+ */
 uint32_t rho_show_count_accumulator_messages(const struct rho_show *show,
                                              const struct rho_show_source *source);
 const char *rho_show_write_accumulator_or_picture(struct rho_show *show,

@@ -55,7 +55,7 @@ static void suggest_next_command(const struct command_line *line)
                       suggested_next_command_find_file_beside(line->arguments[0], "plots.csv")};
 
     if (path_ends_with(line->arguments[1], ".csv")) {
-        suggested_next_command_suggest_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
+        suggested_next_command_print_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
     }
     free(files[1]);
 }

@@ -79,7 +79,7 @@ static void suggest_next_command(const struct command_line *line)
         words[count++] = config;
         words[count++] = "-o";
         words[count++] = tracks;
-        suggested_next_command_suggest_on_terminal(line, words);
+        suggested_next_command_print_on_terminal(line, words);
     }
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         free(files[i]);

@@ -539,11 +539,10 @@ static void suggest_next_command(const struct command_line *line)
     }
     if (line->output && path_ends_with(line->output, ".csv") && truth &&
         suggested_next_command_can_read_file(line, truth)) {
-        suggested_next_command_suggest_on_terminal(
+        suggested_next_command_print_on_terminal(
             line, (const char *[]){"evaluate", truth, line->output, NULL});
     } else if (line->output && path_ends_with(line->output, ".csv") && strcmp(plots, "-") != 0) {
-        suggested_next_command_suggest_page(line, line->arguments, line->num_arguments,
-                                            line->output);
+        suggested_next_command_print_page(line, line->arguments, line->num_arguments, line->output);
     }
     free(truth);
     free(config);

@@ -29,8 +29,8 @@ static void print_quoted_shell_word(const char *word, bool is_first)
     fputc('\'', stderr);
 }
 
-void suggested_next_command_suggest_on_terminal(const struct command_line *line,
-                                                const char *const *words)
+void suggested_next_command_print_on_terminal(const struct command_line *line,
+                                              const char *const *words)
 {
     if (!isatty(STDERR_FILENO)) {
         return;
@@ -46,8 +46,8 @@ void suggested_next_command_suggest_on_terminal(const struct command_line *line,
     fputc('\n', stderr);
 }
 
-void suggested_next_command_suggest_page(const struct command_line *line, char *const *files,
-                                         int num_files, const char *tracks)
+void suggested_next_command_print_page(const struct command_line *line, char *const *files,
+                                       int num_files, const char *tracks)
 {
     const char **words = must_calloc((size_t)num_files + 6, sizeof *words);
     const int stem = (int)strlen(tracks) - (int)strlen(".csv");
@@ -64,7 +64,7 @@ void suggested_next_command_suggest_page(const struct command_line *line, char *
     words[count++] = tracks;
     words[count++] = "-o";
     words[count++] = page;
-    suggested_next_command_suggest_on_terminal(line, words);
+    suggested_next_command_print_on_terminal(line, words);
     free(page);
     free(words);
 }

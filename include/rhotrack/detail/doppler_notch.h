@@ -12,7 +12,7 @@
  *      L = 1 - pd + pd q
  *
  * and is evidence of r: its density after the miss is N(r; m, s^2) / L within the notch, and
- * (1 - pd) N(r; m, s^2) / L elsewhere. rho_notch_update_return_miss_probability gives the estimate
+ * (1 - pd) N(r; m, s^2) / L elsewhere. rho_notch_update_by_miss gives the estimate
  * the mean and variance of this density, as a measurement of r would. A target that was braking is
  * thereby held in the notch until it is seen again.
  *
@@ -61,9 +61,8 @@ float rho_notch_blind_probability(const struct rho_sensor *sensor, const float *
  * plot. Returns the probability of the miss. Cost: as rho_notch_blind_probability, and 5
  * num_states^2.
  */
-float rho_notch_update_return_miss_probability(const struct rho_sensor *sensor,
-                                               const struct rho_notch_look *look, int num_states,
-                                               float *state, float *covariance);
+float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho_notch_look *look,
+                               int num_states, float *state, float *covariance);
 
 #ifdef __cplusplus
 }

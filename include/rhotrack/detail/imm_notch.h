@@ -21,7 +21,7 @@ float rho_imm_blind_probability(const struct rho_imm *imm, const struct rho_sens
 
 /*
  * Updates both models, and their probabilities, by a look without a plot. Nothing changes for a
- * sensor without a notch. Cost: rho_notch_update_return_miss_probability twice.
+ * sensor without a notch. Cost: rho_notch_update_by_miss twice.
  */
 void rho_imm_update_by_miss(struct rho_imm *imm, const struct rho_sensor *sensor,
                             const struct rho_notch_look *look);

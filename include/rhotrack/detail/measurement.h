@@ -89,7 +89,7 @@ void rho_measurement_from_plot(const struct rho_plot *plot, uint32_t measures,
  * True where a sensor's place, biases and span of range rates are finite and within the limits of
  * types.h. Constant cost.
  */
-int rho_measurement_are_place_biases_span_valid(const struct rho_sensor *sensor);
+int rho_measurement_has_valid_place_and_biases(const struct rho_sensor *sensor);
 
 /*
  * Covariance of a plot's noise in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant

@@ -119,8 +119,10 @@ struct rho_track {
     float returns[RHO_ECHO_HIT_CLASSES];
     uint8_t has_taken_back; /* the returns were subtracted from the map */
     uint8_t has_moved;      /* the track has surely left its start place */
-    /* within a step: share of the sensor's looks that are blind to the track (doppler_notch.h), per
-     * cent */
+    /*
+     * within a step: share of the sensor's looks that are blind to the track (doppler_notch.h), per
+     * cent
+     */
     uint8_t blind_percent;
     uint8_t is_frozen; /* an operator has frozen the track: it coasts, and does not end */
     float start_m[2], start_sigma_m;

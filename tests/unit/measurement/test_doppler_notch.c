@@ -92,9 +92,8 @@ static void blind_probabilities_and_moments_agree_with_sums(void **state)
             sum_over_range_rates(&sensor, (double)cases[i][2], (double)cases[i][3], 0.9);
         assert_float_equal(rho_notch_blind_probability(&sensor, at.state, at.covariance),
                            sums.share, 2e-3);
-        assert_float_equal(
-            rho_notch_update_return_miss_probability(&sensor, &look, 6, at.state, at.covariance),
-            sums.missed, 2e-3);
+        assert_float_equal(rho_notch_update_by_miss(&sensor, &look, 6, at.state, at.covariance),
+                           sums.missed, 2e-3);
         assert_float_equal(at.state[3], sums.mean, 0.01 * (double)cases[i][3]);
         assert_float_equal(at.covariance[RHO_AT(3, 3)] / (cases[i][3] * cases[i][3]),
                            sums.variance / (double)(cases[i][3] * cases[i][3]), 0.02);
@@ -109,9 +108,8 @@ static void with_many_blind_speeds_the_blind_probability_is_their_share(void **s
     struct estimate at = make_estimate(130.0f, 0.0f, 200.0f);
     (void)state;
     assert_float_equal(rho_notch_blind_probability(&sensor, at.state, at.covariance), 0.2f, 1e-6);
-    assert_float_equal(
-        rho_notch_update_return_miss_probability(&sensor, &look, 6, at.state, at.covariance), 0.28f,
-        1e-6);
+    assert_float_equal(rho_notch_update_by_miss(&sensor, &look, 6, at.state, at.covariance), 0.28f,
+                       1e-6);
     assert_float_equal(at.state[3], 130.0f, 1e-4);
     assert_float_equal(at.covariance[RHO_AT(3, 3)], 40000.0f, 40.0f);
 }
@@ -124,7 +122,7 @@ static void correlated_states_move_with_the_range_rate(void **state)
     const struct estimate before = make_estimate(6.0f, 80.0f, 4.0f);
     struct estimate at = before;
     (void)state;
-    (void)rho_notch_update_return_miss_probability(&sensor, &look, 9, at.state, at.covariance);
+    (void)rho_notch_update_by_miss(&sensor, &look, 9, at.state, at.covariance);
     const float off = at.state[3] - before.state[3];
     assert_true(off < -1.0f);
     assert_float_equal(at.state[0] - before.state[0], off * 20.0f / 16.0f, 0.06);
@@ -136,7 +134,7 @@ static void correlated_states_move_with_the_range_rate(void **state)
     assert_float_equal(at.covariance[RHO_AT(4, 4)], 16.0f, 0.01);
     /* an update of six elements leaves accelerations alone */
     struct estimate six = before;
-    (void)rho_notch_update_return_miss_probability(&sensor, &look, 6, six.state, six.covariance);
+    (void)rho_notch_update_by_miss(&sensor, &look, 6, six.state, six.covariance);
     assert_float_equal(six.state[6], 0.0f, 0.0f);
     assert_float_equal(six.state[3], at.state[3], 1e-6);
 }
@@ -166,9 +164,8 @@ static void a_miss_without_a_doppler_notch_changes_nothing(void **state)
     assert_false(rho_notch_sensor_has_notch(NULL));
     assert_float_equal(rho_notch_blind_probability(&sensor, at.state, at.covariance), 0.0f, 0.0f);
     assert_float_equal(rho_notch_blind_probability(NULL, at.state, at.covariance), 0.0f, 0.0f);
-    assert_float_equal(
-        rho_notch_update_return_miss_probability(&sensor, &look, 9, at.state, at.covariance), 0.2f,
-        1e-6);
+    assert_float_equal(rho_notch_update_by_miss(&sensor, &look, 9, at.state, at.covariance), 0.2f,
+                       1e-6);
     assert_memory_equal(&at, &before, sizeof at);
 }
 
@@ -181,12 +178,9 @@ static void a_missed_slow_target_is_taken_to_stand(void **state)
     struct estimate fast = make_estimate(0.1f, 6.0f, 0.4f);
     (void)state;
     for (int i = 0; i < 3; i++) {
-        (void)rho_notch_update_return_miss_probability(&sensor, &may, 9, slow.state,
-                                                       slow.covariance);
-        (void)rho_notch_update_return_miss_probability(&sensor, &may_not, 9, other.state,
-                                                       other.covariance);
-        (void)rho_notch_update_return_miss_probability(&sensor, &may, 9, fast.state,
-                                                       fast.covariance);
+        (void)rho_notch_update_by_miss(&sensor, &may, 9, slow.state, slow.covariance);
+        (void)rho_notch_update_by_miss(&sensor, &may_not, 9, other.state, other.covariance);
+        (void)rho_notch_update_by_miss(&sensor, &may, 9, fast.state, fast.covariance);
     }
     assert_true(fabsf(slow.state[4]) < 0.15f);
     assert_true(slow.covariance[RHO_AT(4, 4)] < 0.04f);
@@ -200,7 +194,7 @@ static int is_taken_to_stand(float along_mps, float across_mps)
     const struct rho_sensor sensor = radar_with_notch(0.3f, 0.0f);
     const struct rho_notch_look look = {.pd = 0.9f, .may_stand = 1};
     struct estimate at = make_estimate(along_mps, across_mps, 0.4f);
-    (void)rho_notch_update_return_miss_probability(&sensor, &look, 9, at.state, at.covariance);
+    (void)rho_notch_update_by_miss(&sensor, &look, 9, at.state, at.covariance);
     return at.state[4] < 0.5f * across_mps;
 }
 
@@ -246,7 +240,7 @@ static float variance_ratio_after_miss(float notch_mps, float blind_speed_mps, s
     const struct rho_sensor sensor = radar_with_notch(notch_mps, blind_speed_mps);
     const struct rho_notch_look look = {.pd = 1.0f};
     const float before = at->covariance[RHO_AT(3, 3)];
-    (void)rho_notch_update_return_miss_probability(&sensor, &look, 6, at->state, at->covariance);
+    (void)rho_notch_update_by_miss(&sensor, &look, 6, at->state, at->covariance);
     return at->covariance[RHO_AT(3, 3)] / before;
 }
 
@@ -298,8 +292,8 @@ static void repeated_misses_keep_estimates_finite(void **state)
             const struct rho_notch_look look = {.pd = 0.999f, .may_stand = 1};
             struct estimate at = make_estimate(rates[k], 0.1f, sigmas[i]);
             for (int n = 0; n < 50; n++) {
-                const float missed = rho_notch_update_return_miss_probability(
-                    &sensor, &look, 9, at.state, at.covariance);
+                const float missed =
+                    rho_notch_update_by_miss(&sensor, &look, 9, at.state, at.covariance);
                 assert_true(missed > 0.0f && missed <= 1.0f);
             }
             assert_true(rho_are_finite(at.state, 9) && rho_are_finite(at.covariance, 45));

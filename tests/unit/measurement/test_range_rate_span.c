@@ -104,12 +104,12 @@ static void spans_beyond_the_limits_are_refused(void **state)
     begin_tracker();
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
         struct rho_sensor sensor = radar_with_span(good[i]);
-        assert_true(rho_measurement_are_place_biases_span_valid(&sensor));
+        assert_true(rho_measurement_has_valid_place_and_biases(&sensor));
         assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
     }
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         struct rho_sensor sensor = radar_with_span(bad[i]);
-        assert_false(rho_measurement_are_place_biases_span_valid(&sensor));
+        assert_false(rho_measurement_has_valid_place_and_biases(&sensor));
         assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_ERROR_CONFIG);
     }
 }

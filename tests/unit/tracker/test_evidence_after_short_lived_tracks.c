@@ -141,8 +141,8 @@ static void make_track(unsigned row, uint16_t hits, uint16_t misses)
 }
 
 /*
- * Formula at the head of short_lived_tracks.c, for tracks seen in 0.3 of a target's looks, one in
- * ten of all.
+ * Formula at the head of evidence_after_short_lived_tracks.c, for tracks seen in 0.3 of a target's
+ * looks, one in ten of all.
  */
 static void the_evidence_needed_equals_its_formula(void **state)
 {
@@ -160,7 +160,7 @@ static void the_evidence_needed_equals_its_formula(void **state)
     tracker.established = 4.0f;
     tracker.counted_us = 0;
     at.time_us = 400000000;
-    rho_tracker_fade_counts_set_evidence_needed(&at);
+    rho_tracker_fade_counts_and_set_evidence_needed(&at);
     const double kept = exp(-400.0 / 1600.0), ended = 20.0 * kept, established = 4.0 * kept;
     const double pd = (9.0 + 100.0 + 16.0) / (10.0 + 120.0 + 21.0);
     expect_close((double)tracker.ended_early, ended);

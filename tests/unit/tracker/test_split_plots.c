@@ -236,7 +236,7 @@ static void score_second_plots(const double gains_nat[2][2])
             report.fates[plot] = RHO_FATE_CLAIMED;
         }
     }
-    rho_tracker_learn_second_plots_end_duplicates(&at);
+    rho_tracker_learn_second_plots_and_end_duplicates(&at);
 }
 
 static void expect_close(double is, double wanted)

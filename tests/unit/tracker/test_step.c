@@ -457,7 +457,7 @@ static void each_phase_has_its_share_of_work(void **state)
     assert_int_equal(work_share_after(rho_tracker_begin_work_per_track), WORK_MAX / 4);
     if (RHO_MAX_ECHOES > 0) {
         assert_int_equal(work_share_after(rho_tracker_predict_clutter_at_plots), WORK_MAX / 8);
-        assert_int_equal(work_share_after(rho_tracker_learn_second_plots_end_duplicates),
+        assert_int_equal(work_share_after(rho_tracker_learn_second_plots_and_end_duplicates),
                          WORK_MAX / 16);
     }
     if (RHO_MAX_REFLECTORS > 0) {

@@ -32,7 +32,8 @@ size_t udp_frame_build_around_payload(uint8_t *frame, const struct udp_frame_hos
  */
 size_t udp_frame_find_payload(const uint8_t *frame, size_t size, const uint8_t **payload);
 
-/* Sender's IPv4 address (10.9.0.1 as 0x0a090001) of a frame that udp_frame_find_payload accepted.
+/*
+ * Sender's IPv4 address (10.9.0.1 as 0x0a090001) of a frame that udp_frame_find_payload accepted.
  */
 uint32_t udp_frame_source_ipv4(const uint8_t *frame);
 

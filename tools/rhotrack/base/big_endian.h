@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* big_endian: reads and writes unsigned numbers of 1 to 8 bytes, the most significant byte first.
+/*
+ * big_endian: reads and writes unsigned numbers of 1 to 8 bytes, the most significant byte first.
  */
 #ifndef RHOTRACK_TOOL_BIG_ENDIAN_H
 #define RHOTRACK_TOOL_BIG_ENDIAN_H

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * evaluation_draw: a picture of GOSPA, its parts and the numbers of targets and tracks over time.
+ * evaluation_picture: a picture of GOSPA, its parts and the numbers of targets and tracks over
+ * time.
  */
 #include <inttypes.h>
 #include <math.h>

@@ -44,7 +44,8 @@ bool node_print_refresh_table(struct node_print *print, const struct node_core *
  */
 void node_print_finish(struct node_print *print, int64_t until_us);
 
-/* Monotonic time at which node_print_refresh_table has work; INT64_MAX: not before the next step.
+/*
+ * Monotonic time at which node_print_refresh_table has work; INT64_MAX: not before the next step.
  */
 int64_t node_print_due_us(const struct node_print *print);
 

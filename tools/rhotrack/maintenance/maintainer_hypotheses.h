@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* maintainer_hypotheses: the maintainer's gate best: multiple hypotheses, each with two motion
- * models. */
+/*
+ * maintainer_hypotheses: the maintainer's gate best: multiple hypotheses, each with two motion
+ * models.
+ */
 #ifndef RHOTRACK_TOOL_MAINTAINER_HYPOTHESES_H
 #define RHOTRACK_TOOL_MAINTAINER_HYPOTHESES_H
 

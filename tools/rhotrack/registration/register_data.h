@@ -73,8 +73,10 @@ void register_track_all_radars(struct register_data *data, struct pipeline *pipe
 void register_track_one_radar(struct register_data *data, size_t radar_number,
                               struct pipeline *pipeline);
 
-/* Index one past the last scan of the turn that begins with scan `first`. In
- * register_track_each_radar.c. */
+/*
+ * Index one past the last scan of the turn that begins with scan `first`. In
+ * register_track_each_radar.c.
+ */
 size_t register_find_turn_end(const struct radar_data *radar, size_t first);
 
 /*
