@@ -441,14 +441,16 @@ $(BUILD)/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/pr
 	@mkdir -p $(@D) && echo "  clang    $@" && clang $(fuzz_flags) -MF $@.d -fsanitize=fuzzer \
 	    $(refusal_wraps) -o $@ $< $(filter %.o,$^) $(filter %.a,$^) $(program_libraries)
 
-# What an image of any contents, or a script of calls leads to: all of the library, in the smaller profile.
+# What an image of any contents, or a script of calls leads to: all of the library, in the smaller profile, with the
+# bodies that it leaves out.
+embedded_fuzz_flags = $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) -DRHO_BODIES=1 -DRHO_KEEPS_OFFERS=1
 embedded_fuzz_objects := $(library_sources:%.c=$(BUILD)/fuzz/embedded/%.o)
 $(BUILD)/fuzz/embedded/%.o: %.c Makefile
-	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) \
+	@mkdir -p $(@D) && echo "  clang    $@" && clang $(embedded_fuzz_flags) \
 	    -fno-sanitize=float-divide-by-zero -fsanitize=fuzzer-no-link -c -o $@ $<
 
 embedded_fuzz_link = @mkdir -p $(@D) && echo "  clang    $@" && \
-    clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) -MF $@.d \
+    clang $(embedded_fuzz_flags) -MF $@.d \
     -fno-sanitize=unsigned-integer-overflow,implicit-conversion -fsanitize=fuzzer -o $@ $< $(filter %.o,$^) -lm
 
 $(BUILD)/fuzz/fuzz_snapshot $(BUILD)/fuzz/fuzz_tracker: $(BUILD)/fuzz/%: tests/fuzz/%.c $(embedded_fuzz_objects) Makefile
@@ -458,7 +460,7 @@ $(BUILD)/fuzz/fuzz_snapshot $(BUILD)/fuzz/fuzz_tracker: $(BUILD)/fuzz/%: tests/f
 small_capacities := -DRHO_CONFIG_FILE='"tests/fuzz/small_capacities.h"' -I.
 small_fuzz_objects := $(library_sources:%.c=$(BUILD)/fuzz/small/%.o)
 $(small_fuzz_objects): $(BUILD)/fuzz/small/%.o: %.c Makefile
-	@mkdir -p $(@D) && echo "  clang    $@" && clang $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) \
+	@mkdir -p $(@D) && echo "  clang    $@" && clang $(embedded_fuzz_flags) \
 	    $(small_capacities) -fno-sanitize=float-divide-by-zero -fsanitize=fuzzer-no-link -c -o $@ $<
 
 $(BUILD)/fuzz/fuzz_tracker_small: tests/fuzz/fuzz_tracker.c $(small_fuzz_objects) Makefile

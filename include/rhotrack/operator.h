@@ -10,7 +10,8 @@
  *     }
  *
  * Functions with a report update the tracks in the last step's report: they are to be called before
- * the report is used or published. A refused call changes nothing.
+ * the report is used or published. A refused call changes nothing, but a start for which there is
+ * no room is counted in tracks_no_room.
  *
  * Tracks that start or end by hand are counted in tracks_started and tracks_ended, dropped ones in
  * tracks_dropped, too. rhotrack/command.h does the same by messages.

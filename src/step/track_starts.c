@@ -51,6 +51,21 @@ static int32_t rank_of_tentative_track(const struct step *step, const struct rho
     return hides ? track->score_mnat - track->score_max_mnat : track->score_mnat;
 }
 
+/* Row of the lowest-ranked tentative track below the score; RHO_MAX_TRACKS: there is none. */
+static unsigned row_that_gives_way(const struct step *step, int32_t score_mnat)
+{
+    unsigned lowest = RHO_MAX_TRACKS;
+    for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
+        const struct rho_track *track = &step->tracker->tracks[i];
+        if (track->status == RHO_TRACK_TENTATIVE &&
+            rank_of_tentative_track(step, track) < score_mnat) {
+            score_mnat = rank_of_tentative_track(step, track);
+            lowest = i;
+        }
+    }
+    return lowest;
+}
+
 /* A full tracker ends its lowest-ranked tentative track below the score. 0: there is none. */
 static int make_room_for_track(struct step *step, int32_t score_mnat)
 {
@@ -59,15 +74,7 @@ static int make_room_for_track(struct step *step, int32_t score_mnat)
         return 1;
     }
     tracker->counters.tracks_no_room = rho_count(tracker->counters.tracks_no_room, 1);
-    unsigned lowest = RHO_MAX_TRACKS;
-    for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
-        const struct rho_track *track = &tracker->tracks[i];
-        if (track->status == RHO_TRACK_TENTATIVE &&
-            rank_of_tentative_track(step, track) < score_mnat) {
-            score_mnat = rank_of_tentative_track(step, track);
-            lowest = i;
-        }
-    }
+    const unsigned lowest = row_that_gives_way(step, score_mnat);
     if (lowest == RHO_MAX_TRACKS) {
         return 0;
     }
@@ -146,16 +153,26 @@ static enum rho_status resume_step_for_start(struct rho_tracker *tracker, struct
                : RHO_ERROR_VALUE;
 }
 
+/*
+ * CAPACITY where the tracker is full, and no track can give way, or the report cannot list it as
+ * ended. Told before the start, which takes hypotheses from the pool.
+ */
+static enum rho_status check_room_for_start(const struct step *step, int32_t score_mnat)
+{
+    struct rho_tracker *tracker = step->tracker;
+    if (tracker->num_tracks < RHO_MAX_TRACKS ||
+        (step->report->num_ended < RHO_MAX_TRACKS &&
+         row_that_gives_way(step, score_mnat) < RHO_MAX_TRACKS)) {
+        return RHO_OK;
+    }
+    tracker->counters.tracks_no_room = rho_count(tracker->counters.tracks_no_room, 1);
+    return RHO_ERROR_CAPACITY;
+}
+
 static enum rho_status admit_track_between_steps(struct step *step, struct rho_track *track)
 {
     const struct rho_track_limits limits = rho_tracker_track_limits(step);
-    /* a full tracker ends another track, which needs a place in the report's list of ended ones */
-    const int has_room =
-        step->tracker->num_tracks < RHO_MAX_TRACKS || step->report->num_ended < RHO_MAX_TRACKS;
-    if (!has_room) {
-        rho_track_free_hypotheses(track, &step->model);
-    }
-    if (!has_room || !rho_tracker_admit_track(step, track, &limits)) {
+    if (!rho_tracker_admit_track(step, track, &limits)) {
         return RHO_ERROR_CAPACITY;
     }
     rho_tracker_merge_estimates_per_track(step);
@@ -182,8 +199,11 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
     const struct rho_scan scan = {.time_us = tracker->time_us,
                                   .sensor_id = plots[num_plots - 1].sensor_id};
     step.scan = &scan;
-    status =
-        rho_track_start(&track, tracker->next_track_id, plots, num_plots, &step.model, score_mnat);
+    status = check_room_for_start(&step, score_mnat);
+    if (status == RHO_OK) {
+        status = rho_track_start(&track, tracker->next_track_id, plots, num_plots, &step.model,
+                                 score_mnat);
+    }
     if (status != RHO_OK) {
         return status;
     }
@@ -206,6 +226,9 @@ enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
         return RHO_ERROR_NULL;
     }
     enum rho_status status = resume_step_for_start(tracker, report, score_mnat, &step);
+    if (status == RHO_OK) {
+        status = check_room_for_start(&step, score_mnat);
+    }
     if (status == RHO_OK) {
         status = rho_track_start_estimate(&track, tracker->next_track_id, estimate, step.time_us,
                                           sensor_id, hits, &step.model, score_mnat);

@@ -2,9 +2,10 @@
 /*
  * Tracker, initiators and passive initiators driven by a script: its bytes are decoded into
  * configurations, descriptions of sensors and a sequence of good and bad calls: scans and frames of
- * a few moving targets among clutter, with any number in any field, time that stands still, jumps
- * and goes back, sectors, full capacities, many plots at one place, images saved and loaded. It
- * uses the public headers alone. After each call the guarantees of these headers are checked; the
+ * a few moving targets, points or bodies of several plots, among clutter, with any number in any
+ * field, time that stands still, jumps and goes back, sectors, full capacities, many plots at one
+ * place, walls told and learned, an operator's commands, images saved and loaded. It uses the
+ * public headers alone. After each call the guarantees of these headers are checked; the
  * first one broken is named. Built twice: with the embedded profile (fuzz_tracker), and with
  * capacities that a short script exhausts (fuzz_tracker_small).
  */
@@ -15,8 +16,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "rhotrack/body.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
+#include "rhotrack/operator.h"
+#include "rhotrack/reflectors.h"
 #include "rhotrack/snapshot.h"
 #include "rhotrack/tracker.h"
 
@@ -160,6 +164,7 @@ static struct world {
     /* time of the targets' motion, which does not follow time jumps that the tracker refuses */
     double clock_s;
     unsigned num_targets, full_scans, images;
+    int has_bodies, learns_walls;
     struct look_from radars[RADARS], posts[LOOKS_MAX];
 } world;
 
@@ -188,6 +193,8 @@ static void begin_world(struct script *script)
     memset(&world, 0, sizeof world);
     world.random = 1 + read_byte(script);
     world.num_targets = 1 + how % 6;
+    world.has_bodies = how >> 7;
+    world.learns_walls = turns >> 7;
     for (unsigned i = 0; i < RADARS; i++) {
         world.radars[i] = (struct look_from){.sensor_id = ids[i],
                                              .x_m = 4e3f * (float)i * (how & 64 ? 1.0f : 0.0f),
@@ -251,13 +258,18 @@ static struct pipeline {
     struct rho_initiator initiators[INITIATORS];
     struct rho_passive passives[PASSIVES];
     struct rho_report report;
+    struct rho_reflector_learning learning; /* behind the report: it is in no image */
 } chain, before, first_run;
+
+/* all but the padding at the end */
+#define OBJECTS_BYTES                                                                              \
+    (offsetof(struct pipeline, learning) + sizeof(struct rho_reflector_learning))
 
 /*
  * Bits for the objects that a call may change; `before` holds all objects as they were before the
  * call.
  */
-#define TRACKER 1u /* and the report */
+#define TRACKER 1u /* and the report, and the learning of walls */
 #define INITIATOR(i) (2u << (i))
 #define PASSIVE(i) (2u << INITIATORS << (i))
 #define ALL (PASSIVE(PASSIVES) - 1u)
@@ -268,6 +280,7 @@ static void copy_objects_before(void)
     if (touched & TRACKER) {
         before.tracker = chain.tracker;
         before.report = chain.report;
+        before.learning = chain.learning;
     }
     for (unsigned i = 0; i < INITIATORS; i++) {
         if (touched & INITIATOR(i)) {
@@ -288,6 +301,7 @@ static struct known {
     uint32_t track_id[RHO_MAX_TRACKS];
     uint8_t was_confirmed[RHO_MAX_TRACKS];
     uint32_t highest; /* highest identity ever reported */
+    int was_renumbered; /* by the operator: identities need not be in their order */
     int was_batch;    /* the largest search of initiator 2 may have been a batch */
 } known, known_first;
 
@@ -406,6 +420,33 @@ static void check_track(const struct rho_track_report *track, uint32_t num_plots
           track->plot >= -1 && (track->plot < 0 || (uint32_t)track->plot < num_plots));
 }
 
+/* What can be asked about a track: its body and its evidence. */
+static void check_answers(unsigned track)
+{
+    struct rho_tracker_evidence evidence;
+    struct rho_body body;
+
+    if (rho_tracker_body_of(&chain.tracker, track, &body)) {
+        const float sizes[] = {body.length_m,       body.width_m,         body.sigma_length_m,
+                               body.sigma_width_m,  body.sigma_heading_rad, body.sigma_along_m,
+                               body.sigma_across_m, body.plots};
+
+        HOLDS("a body is of this build", RHO_BODIES);
+        HOLDS("a heading is finite", isfinite(body.heading_rad));
+        for (unsigned i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+            HOLDS("a body's sizes and sigmas are finite and not negative",
+                  isfinite(sizes[i]) && sizes[i] >= 0.0f);
+        }
+    }
+    if (rho_tracker_evidence_of(&chain.tracker, track, &evidence)) {
+        HOLDS("evidence is three probabilities", rho_is_within(evidence.support, 0.0f, 1.001f) &&
+                                                     rho_is_within(evidence.shared, 0.0f, 1.001f) &&
+                                                     rho_is_within(evidence.clutter, 0.0f, 1.001f));
+        HOLDS("evidence adds up to 1",
+              fabsf(evidence.support + evidence.shared + evidence.clutter - 1.0f) < 1e-3f);
+    }
+}
+
 static unsigned find_known_track(const struct known *all, uint32_t track_id)
 {
     unsigned place = 0;
@@ -419,7 +460,7 @@ static unsigned find_known_track(const struct known *all, uint32_t track_id)
 static void check_identities(void)
 {
     const struct rho_report *report = &chain.report;
-    struct known now = {.highest = known.highest, .was_batch = known.was_batch};
+    struct known now = {.was_renumbered = known.was_renumbered, .was_batch = known.was_batch};
 
     HOLDS("tracks and ended tracks are within their capacities",
           report->num_tracks <= RHO_MAX_TRACKS && report->num_ended <= RHO_MAX_TRACKS);
@@ -427,8 +468,9 @@ static void check_identities(void)
         const uint32_t track_id = report->tracks[i].track_id;
         const unsigned place = find_known_track(&known, track_id);
 
-        HOLDS("identities are unique and in their order",
-              track_id > 0 && (i == 0 || track_id > report->tracks[i - 1].track_id));
+        HOLDS("identities are unique", track_id > 0 && find_known_track(&now, track_id) == now.num);
+        HOLDS("identities are in their order",
+              known.was_renumbered || i == 0 || track_id > report->tracks[i - 1].track_id);
         HOLDS("identities are never used again", place < known.num || track_id > known.highest);
         HOLDS("identities are below the next one", track_id < chain.tracker.next_track_id);
         now.track_id[now.num] = track_id;
@@ -552,6 +594,8 @@ static void check_passive(struct rho_passive *passive)
 static void check_objects(void)
 {
     HOLDS("the tracker is sound", !(touched & TRACKER) || rho_tracker_is_sound(&chain.tracker));
+    HOLDS("what was learned of walls is sound",
+          !(touched & TRACKER) || rho_reflector_learning_is_sound(&chain.learning));
     check_step_work(&chain.tracker);
     for (unsigned i = 0; i < INITIATORS; i++) {
         if (!(touched & INITIATOR(i))) {
@@ -573,7 +617,7 @@ static void check_unchanged(enum rho_status status)
 {
     HOLDS("an outcome is one", status > RHO_OK && status < RHO_NUM_STATUS);
     HOLDS("a refused call leaves all objects and the report as they were",
-          memcmp(&before, &chain, sizeof chain) == 0);
+          memcmp(&before, &chain, OBJECTS_BYTES) == 0);
 }
 
 /* A scan older than late_max_s changes only counters. */
@@ -601,6 +645,7 @@ static void check_step(uint32_t num_plots, int64_t time_us, const struct rho_sca
     check_identities();
     for (unsigned i = 0; i < chain.report.num_tracks; i++) {
         check_track(&chain.report.tracks[i], num_plots);
+        check_answers(i);
     }
     HOLDS("time never goes back",
           !before.tracker.has_time || chain.tracker.time_us >= before.tracker.time_us);
@@ -666,7 +711,10 @@ static int configure_tracker(struct script *script)
         rho_tracker_config_default(&config);
         status = rho_tracker_init(&chain.tracker, sizeof chain.tracker, &config);
     }
-    return status == RHO_OK;
+    return status == RHO_OK &&
+           rho_reflector_learning_init(&chain.learning, sizeof chain.learning) == RHO_OK &&
+           (!RHO_BODIES || !world.has_bodies ||
+            rho_tracker_set_body_max(&chain.tracker, 300.0f) == RHO_OK);
 }
 
 static int configure_initiator(struct script *script, struct rho_initiator *initiator)
@@ -756,8 +804,7 @@ static void start_objects(struct script *script, int fill)
 
     memset(&chain, fill, sizeof chain);
     memset(&chain.report, 0, sizeof chain.report);
-    touched = ALL;
-    copy_objects_before();
+    memcpy(&before, &chain, sizeof chain); /* padding, too */
     memset(&known, 0, sizeof known);
     image_bytes = 0;
     step_number = 0;
@@ -932,6 +979,10 @@ static struct rho_scan make_scan(struct script *script, unsigned how, struct rho
         if (uniform(0, 1) < 0.9 && is_in_sector(&scan, from, x_m, y_m)) {
             plots[scan.num_plots++] = plot_at(x_m, y_m);
         }
+        for (int more = world.has_bodies ? (int)uniform(0, 4) : 0; more > 0; more--) {
+            plots[scan.num_plots++] =
+                plot_at(x_m + uniform(-150, 150), y_m + uniform(-30, 30));
+        }
     }
     if (how & 32) {
         scan.num_plots = add_clutter(script, plots, scan.num_plots);
@@ -975,6 +1026,12 @@ static void step_scan(struct script *script)
     if (status == RHO_OK) {
         check_step(scan.num_plots, scan.time_us, &scan);
         world.time_us = chain.tracker.time_us;
+        if (world.learns_walls) {
+            HOLDS("walls are learned from any step",
+                  rho_reflector_learning_step(&chain.learning, &chain.tracker, &scan,
+                                              &chain.report) == RHO_OK);
+            check_objects();
+        }
     } else {
         check_unchanged(status);
     }
@@ -1304,7 +1361,7 @@ static void save_image(const struct rho_snapshot_part parts[PARTS])
 
     HOLDS("objects that were stepped can be saved", status == RHO_OK);
     HOLDS("an image is as large as it was said", image_bytes == rho_snapshot_size(parts, PARTS));
-    HOLDS("saving changes nothing", memcmp(&before, &chain, sizeof chain) == 0);
+    HOLDS("saving changes nothing", memcmp(&before, &chain, OBJECTS_BYTES) == 0);
     world.images++;
     known_of_image = known;
     world_of_image = world;
@@ -1331,7 +1388,7 @@ static void save_or_load(struct script *script)
         if (!(how & 2)) {
             load_image(parts);
             HOLDS("what is loaded is what was saved, byte for byte",
-                  memcmp(&before, &chain, sizeof chain) == 0);
+                  memcmp(&before, &chain, OBJECTS_BYTES) == 0);
         }
     } else {
         load_image(parts);
@@ -1339,6 +1396,197 @@ static void save_or_load(struct script *script)
         world_of_image.images = world.images;
         world_of_image.full_scans = world.full_scans;
         world = world_of_image;
+    }
+    check_objects();
+}
+
+/* An identity that is alive, or any. */
+static uint32_t read_track_id(struct script *script)
+{
+    const unsigned which = read_byte(script);
+
+    return chain.report.num_tracks > 0 && which < 224
+               ? chain.report.tracks[which % chain.report.num_tracks].track_id
+               : (which < 240 ? which : read_word(script));
+}
+
+static enum rho_status start_track_by_hand(struct script *script)
+{
+    struct rho_operator_start start = {.x_m = (float)target_m(0, 0),
+                                       .y_m = (float)target_m(0, 1),
+                                       .sigma_m = 100.0f,
+                                       .sigma_mps = 50.0f};
+    float *const floats[] = {&start.x_m,    &start.y_m,    &start.sigma_m,
+                             &start.vx_mps, &start.vy_mps, &start.sigma_mps};
+
+    for (unsigned edits = read_byte(script) % 4; edits > 0; edits--) {
+        *floats[read_byte(script) % 6] = read_extreme_float(script);
+    }
+    return rho_tracker_start_at(&chain.tracker, &start, &chain.report);
+}
+
+/* Starts a track from any estimate, as a filter of the caller may. */
+static enum rho_status start_estimate(struct script *script)
+{
+    struct rho_kalman estimate;
+
+    rho_kalman_init(&estimate);
+    for (unsigned i = 0; i < RHO_KALMAN_STATES; i++) {
+        estimate.state[i] = i < 2 ? (float)uniform(-1e4, 1e4) : 0.0f;
+        estimate.covariance[RHO_AT(i, i)] = 1e4f;
+    }
+    for (unsigned edits = read_byte(script) % 4; edits > 0; edits--) {
+        const unsigned field = read_byte(script);
+        const float number = read_extreme_float(script);
+
+        if (field % 2) {
+            estimate.state[field / 2 % RHO_KALMAN_STATES] = number;
+        } else {
+            estimate.covariance[field / 2 % RHO_TRIANGLE(RHO_KALMAN_STATES)] = number;
+        }
+    }
+    return rho_tracker_start_estimate(&chain.tracker, &estimate, world.radars[0].sensor_id, 1,
+                                      (int32_t)read_byte(script) * 100 - 5000, &chain.report);
+}
+
+static enum rho_status tell_walls(struct script *script)
+{
+    struct rho_reflector walls[RHO_MAX_REFLECTORS + 2];
+    const unsigned num = read_byte(script) % (RHO_MAX_REFLECTORS + 2);
+
+    for (unsigned i = 0; i < num; i++) {
+        const float x_m = read_extreme_float(script);
+
+        walls[i] = (struct rho_reflector){x_m, -2e4f, x_m + 500.0f, 2e4f};
+    }
+    return rho_tracker_set_reflectors(&chain.tracker, walls, num);
+}
+
+static enum rho_status exclude_area(struct script *script)
+{
+    const float x_m = read_extreme_float(script), y_m = read_extreme_float(script);
+    const struct rho_extent area = {x_m - 4e3f, x_m + 4e3f, y_m - 4e3f, y_m + 4e3f};
+
+    return rho_tracker_exclude_area(&chain.tracker, &area);
+}
+
+static enum rho_status reconfigure_tracker(struct script *script)
+{
+    struct rho_tracker_config config = chain.tracker.config;
+    float *const floats[] = {&config.pd, &config.v_min_mps, &config.v_max_mps,
+                             &config.accel_max_mps2, &config.steady_s};
+    const unsigned field = read_byte(script) % 8;
+
+    if (field < 5) {
+        *floats[field] = read_extreme_float(script);
+    } else {
+        config.coast_scans_max = (uint16_t)read_byte(script);
+    }
+    return rho_tracker_reconfigure(&chain.tracker, &config);
+}
+
+static enum rho_status reconfigure_initiator(struct script *script)
+{
+    struct rho_initiator_config config = chain.initiators[0].config;
+    float *const floats[] = {&config.v_min_mps, &config.v_max_mps, &config.pd,
+                             &config.false_tracks_per_hour};
+    const unsigned field = read_byte(script) % 8;
+
+    touched = INITIATOR(0);
+    if (field < 4) {
+        *floats[field] = read_extreme_float(script);
+    } else if (field < 6) {
+        config.scans = (uint16_t)(read_byte(script) % (RHO_MAX_SCANS + 2));
+    } else {
+        config.area_is_fixed = 1;
+        config.area = (struct rho_extent){-1e4f, 1e4f, -1e4f, 1e4f};
+    }
+    return rho_initiator_reconfigure(&chain.initiators[0], &config);
+}
+
+/* Tracks changed by hand: the report lists those alive, and others as ended. */
+static void note_tracks_changed_by_hand(void)
+{
+    struct known now = {.highest = chain.tracker.next_track_id - 1,
+                        .was_renumbered = known.was_renumbered,
+                        .was_batch = known.was_batch};
+
+    for (unsigned i = 0; i < chain.report.num_tracks; i++) {
+        const struct rho_track_report *track = &chain.report.tracks[i];
+        const unsigned place = find_known_track(&known, track->track_id);
+
+        HOLDS("identities stay unique", find_known_track(&now, track->track_id) == now.num);
+        now.track_id[now.num] = track->track_id;
+        now.was_confirmed[now.num++] = (place < known.num && known.was_confirmed[place]) ||
+                                       track->status != RHO_TRACK_TENTATIVE;
+        check_track(track, chain.report.num_plots);
+    }
+    HOLDS("the report has room for those ended", chain.report.num_ended <= RHO_MAX_TRACKS);
+    known = now;
+    check_counters();
+}
+
+/* What a person or a caller changes between two steps. */
+static void change_by_hand(struct script *script)
+{
+    const unsigned what = read_byte(script) % 16;
+    uint32_t track_id;
+    float x_m;
+    enum rho_status status;
+
+    touched = TRACKER;
+    switch (what) {
+    case 0:
+    case 1:
+        status = start_track_by_hand(script);
+        break;
+    case 2:
+        status = start_estimate(script);
+        break;
+    case 3:
+    case 4:
+        status = rho_tracker_drop_track(&chain.tracker, read_track_id(script), &chain.report);
+        break;
+    case 5:
+    case 6:
+        track_id = read_track_id(script);
+        status = rho_tracker_renumber_track(&chain.tracker, track_id, read_track_id(script),
+                                            &chain.report);
+        known.was_renumbered |= status == RHO_OK;
+        break;
+    case 7:
+    case 8:
+        track_id = read_track_id(script);
+        status = rho_tracker_freeze_track(&chain.tracker, track_id, read_byte(script) & 1,
+                                          &chain.report);
+        break;
+    case 9:
+        status = exclude_area(script);
+        break;
+    case 10:
+        x_m = read_extreme_float(script);
+        status = rho_tracker_include_place(&chain.tracker, x_m, read_extreme_float(script));
+        break;
+    case 11:
+        status = rho_tracker_set_body_max(&chain.tracker, read_extreme_float(script));
+        break;
+    case 12:
+    case 13:
+        status = tell_walls(script);
+        break;
+    case 14:
+        status = reconfigure_tracker(script);
+        break;
+    default:
+        status = reconfigure_initiator(script);
+    }
+    if (what <= 2 && status == RHO_ERROR_CAPACITY) {
+        before.tracker.counters.tracks_no_room = chain.tracker.counters.tracks_no_room;
+    }
+    if (status != RHO_OK) {
+        check_unchanged(status);
+    } else if (what <= 8) {
+        note_tracks_changed_by_hand();
     }
     check_objects();
 }
@@ -1414,6 +1662,25 @@ static void make_refused_calls(struct script *script)
     check_unchanged(status);
 }
 
+static void check_known(int32_t sensor_id)
+{
+    struct rho_tracker_known known_of_sensor;
+
+    if (rho_tracker_known_of(&chain.tracker, sensor_id, &known_of_sensor) != RHO_OK) {
+        return;
+    }
+    HOLDS("factors on sigmas are finite and above 0",
+          rho_is_within(known_of_sensor.range_factor, 1e-6f, 1e6f) &&
+              rho_is_within(known_of_sensor.cross_factor, 1e-6f, 1e6f));
+    for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+        HOLDS("a learned pd is one", rho_is_within(known_of_sensor.pd[ring], 0.0f, 1.0f));
+    }
+    HOLDS("a notch and a resolution cell are finite and not negative",
+          rho_is_within(known_of_sensor.notch_mps, 0.0f, 1e6f) &&
+              rho_is_within(known_of_sensor.resolution_range_sigmas, 0.0f, 1e6f) &&
+              rho_is_within(known_of_sensor.resolution_cross_sigmas, 0.0f, 1e6f));
+}
+
 static void call_queries(struct script *script)
 {
     const float x_m = read_extreme_float(script), y_m = read_extreme_float(script);
@@ -1423,10 +1690,11 @@ static void call_queries(struct script *script)
         const struct rho_tracker_look *look =
             rho_tracker_look_of(&chain.tracker, world.radars[i].sensor_id);
 
-        HOLDS("what is known of a sensor is finite",
+        HOLDS("a look of a sensor is finite",
               !look || (isfinite(look->seen_share) && isfinite(look->distance2) &&
                         isfinite(look->sigma_m)));
 #endif
+        check_known(world.radars[i].sensor_id);
         if (rho_is_coordinate(x_m) && rho_is_coordinate(y_m)) {
             const float density = rho_initiator_density(&chain.initiators[i % INITIATORS],
                                                         world.radars[i].sensor_id, x_m, y_m);
@@ -1434,7 +1702,7 @@ static void call_queries(struct script *script)
             HOLDS("a density is finite and not negative", isfinite(density) && density >= 0.0f);
         }
     }
-    HOLDS("questions change nothing", memcmp(&before, &chain, sizeof chain) == 0);
+    HOLDS("questions change nothing", memcmp(&before, &chain, OBJECTS_BYTES) == 0);
 }
 
 /* ---- one run --------------------------------------------------------------------------------- */
@@ -1465,6 +1733,8 @@ static void run_script(const uint8_t *data, size_t size, int fill)
             step_scan(&script);
         } else if (what < 176) {
             step_frame(&script);
+        } else if (what >= 232) {
+            change_by_hand(&script);
         } else {
             rare[what % (sizeof rare / sizeof rare[0])](&script);
         }
@@ -1480,7 +1750,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         known_first = known;
         run_script(data, size, 0xc3);
         HOLDS("the same script gives the same bytes",
-              memcmp(&first_run, &chain, sizeof chain) == 0 &&
+              memcmp(&first_run, &chain, OBJECTS_BYTES) == 0 &&
                   memcmp(&known_first, &known, sizeof known) == 0);
     }
     return 0;

@@ -27,5 +27,9 @@
 #define RHO_PLOT_STRIPS 4
 #define RHO_MAX_GATE_PLOTS 3
 #define RHO_MAX_SENSORS 3
+#define RHO_MAX_REFLECTORS 3
+#define RHO_MAX_EXCLUDED_AREAS 2
+#define RHO_BODIES 1
+#define RHO_KEEPS_OFFERS 1
 
 #endif

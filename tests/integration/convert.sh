@@ -4,7 +4,7 @@
 # other LCM programs. Runs beside others.
 types=$(realpath "$(dirname "$0")/../../lcm_types")
 vectors=$(realpath "$(dirname "$0")/../vectors")
-python=$("$(dirname "$0")/../python.sh") # that has the package lcm
+python=$("$(dirname "$0")/../find_python.sh") || exit 1 # that has the package lcm
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 

@@ -143,6 +143,10 @@ tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
     's/return rho_initiator_work_spent\(search\) > search->limit_units;/return 0;/'
 tracker_must_find src/bearings/bearing_frame_batch_soundness.c 'a batch that is unsound for its times' \
     's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
+tracker_must_find src/step/operator.c 'an identity given to two tracks' \
+    's/row_of_track\(tracker, new_id\) < tracker->num_tracks/0/'
+tracker_must_find src/step/operator.c 'a body that goes to another track' \
+    's/rho_tracker_align_bodies_with_tracks\(&step\);//'
 must_pass fuzz_tracker_small src/step/report.c
 
 objects=$(find "$build/program/tools/rhotrack" -name '*.o' ! -name main.o 2>/dev/null)

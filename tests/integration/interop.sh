@@ -7,7 +7,7 @@
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 lcm_gen=${LCM_GEN:-/usr/bin/lcm-gen}
-python=$(tests/find_python.sh)
+python=$(tests/find_python.sh) || exit 1
 messages=${INTEROP_MESSAGES:-10000} # of each type and way
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -57,7 +57,7 @@ lost() { ip netns exec "$1" nft list table ip loss | sed -n \
 # folder bindings; where there is no such Python the script ends. After checks.bash.
 need_bindings() {
     local type
-    python=$("$tests_folder/python.sh")
+    python=$("$tests_folder/find_python.sh") || exit 1
     [ -n "$python" ] || { echo "skipped: $(basename "$0"): no Python package lcm"; finish; }
     for type in "$tests_folder"/../lcm_types/*.lcm; do
         "${LCM_GEN:-/usr/bin/lcm-gen}" -p --ppath bindings "$type" || exit 1

@@ -13,12 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab_input.h"
 #include "pipeline/pipeline.h"
 #include "registration/cholesky.h"
 #include "registration/register.h"
 #include "registration/register_data.h"
-#include "scene_simulation.h"
+#include "tools/scene_for_tracker.h"
 
 #define SEED 4711
 #define RUNS 12
@@ -283,12 +282,21 @@ static void test_unobservable_biases_are_reported_as_unknown(void **state)
     free_observation(&heard);
 }
 
+static struct rho_plot isotropic_plot_at(float x_m, float y_m, float sigma_m)
+{
+    return (struct rho_plot){.x_m = x_m,
+                             .y_m = y_m,
+                             .sigma_range_m = sigma_m,
+                             .sigma_cross_m = sigma_m,
+                             .sigma_up_m = sigma_m};
+}
+
 static void test_bad_input_is_refused(void **state)
 {
     struct parameters parameters;
     parameters_set_defaults(&parameters);
     struct register_data *data = register_start(&parameters);
-    struct rho_plot plot = lab_isotropic_plot(1000.0, 2000.0, 10.0);
+    struct rho_plot plot = isotropic_plot_at(1000.0f, 2000.0f, 10.0f);
     struct rho_scan scan = {.sensor_id = 5, .num_plots = 1, .plots = &plot};
     struct rho_sensor sensor = {.sensor_id = 5, .pd = 0.9f, .range_max_m = 1e5f};
 
@@ -309,7 +317,7 @@ static void a_refused_scan_adds_no_radar(void **state)
     struct parameters parameters;
     parameters_set_defaults(&parameters);
     struct register_data *data = register_start(&parameters);
-    struct rho_plot plot = lab_isotropic_plot(1000.0, 2000.0, 10.0);
+    struct rho_plot plot = isotropic_plot_at(1000.0f, 2000.0f, 10.0f);
     struct rho_scan scan = {.time_us = 1, .sensor_id = 5, .num_plots = 1, .plots = &plot};
     struct rho_sensor sensor = {.sensor_id = 5, .pd = 0.9f, .range_max_m = 1e5f};
 

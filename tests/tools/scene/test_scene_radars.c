@@ -5,7 +5,7 @@
  */
 #include "scene_text.h"
 
-#include "scene_simulation.h"
+#include "tools/scene_for_tracker.h"
 
 #define SEED 4711
 

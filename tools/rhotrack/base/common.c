@@ -386,16 +386,6 @@ void json_add_work(struct cJSON *object, const struct rho_tracker_work *work)
     cJSON_AddNumberToObject(object, "plots_not_tried", work->plots_not_tried);
 }
 
-struct cJSON *json_begin_experiment(const char *name, size_t num_runs, uint64_t seed)
-{
-    cJSON *object = cJSON_CreateObject();
-
-    cJSON_AddStringToObject(object, "experiment", name);
-    cJSON_AddNumberToObject(object, "runs", (double)num_runs);
-    cJSON_AddNumberToObject(object, "seed", (double)seed);
-    return object;
-}
-
 void json_print_and_delete(struct cJSON *object)
 {
     struct output output = output_open(NULL);

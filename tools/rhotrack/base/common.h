@@ -74,9 +74,6 @@ void make_folder_with_parents(const char *path);
 struct cJSON;
 void json_print_and_delete(struct cJSON *object);
 
-/* A new JSON object with the keys experiment (name), runs and seed. */
-struct cJSON *json_begin_experiment(const char *name, size_t num_runs, uint64_t seed);
-
 /* Adds a number to a JSON object, or null where the number is not finite. */
 void json_add_number_or_null(struct cJSON *object, const char *name, double value);
 

@@ -306,11 +306,6 @@ uint64_t asterix_file_position(const struct asterix_file *file)
     return file->offset + file->at;
 }
 
-uint64_t asterix_file_num_records(const struct asterix_file *file)
-{
-    return file->records;
-}
-
 uint64_t asterix_file_num_skipped_blocks(const struct asterix_file *file, uint8_t category)
 {
     return file->others[category];

@@ -47,9 +47,6 @@ bool asterix_file_next_record(struct asterix_file *file, struct asterix_record *
 /* Number of bytes read, of the file or of the datagrams' contents. */
 uint64_t asterix_file_position(const struct asterix_file *file);
 
-/* Number of records read so far. */
-uint64_t asterix_file_num_records(const struct asterix_file *file);
-
 /* Number of blocks of a category that were left out so far, since it is not read. */
 uint64_t asterix_file_num_skipped_blocks(const struct asterix_file *file, uint8_t category);
 

@@ -716,13 +716,6 @@ uint64_t table_stream_position(const struct table_stream *stream)
                            : stream->offset + stream->position;
 }
 
-uint64_t table_stream_size(const struct table_stream *stream)
-{
-    struct stat status;
-
-    return stream->is_plain && fstat(stream->file, &status) == 0 ? (uint64_t)status.st_size : 0;
-}
-
 void table_stream_close(struct table_stream *stream)
 {
     table_free(stream->table);

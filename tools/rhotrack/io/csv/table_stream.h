@@ -42,9 +42,8 @@ const char *table_stream_why_ended(const struct table_stream *stream);
 /* Whether the bytes read end in the middle of a row. */
 bool table_stream_is_mid_row(const struct table_stream *stream);
 
-/* Bytes of the file that were read, and its size, 0 where that is not known. */
+/* Bytes of the file that were read. */
 uint64_t table_stream_position(const struct table_stream *stream);
-uint64_t table_stream_size(const struct table_stream *stream);
 
 void table_stream_close(struct table_stream *stream);
 
