@@ -116,16 +116,16 @@ $(BUILD)/workstation/%.o: %.c Makefile
 
 # What tools/codegen writes is checked in, and must be what it would write.
 $(BUILD)/codegen.checked: $(wildcard lcm_types/* tools/codegen/*.py) include/rhotrack/message.h \
-                          src/wire/message.c src/wire/message_names.c
-	@mkdir -p $(@D) && tools/codegen/codegen.py --check && touch $@
+                          src/wire/message_types.c src/wire/message_and_member_names.c
+	@mkdir -p $(@D) && tools/codegen/generate_lcm_codec.py --check && touch $@
 
 ## Write the LCM codec from lcm_types/
 codegen:
-	@tools/codegen/codegen.py
+	@tools/codegen/generate_lcm_codec.py
 
 # The votes' loops want vector code, which gcc makes at -O3 only.
 ifeq ($(OPT),-O2)
-vote_objects := $(foreach part,accumulator_geometry accumulator_rows accumulator_prune,%/src/papers/$(part).o)
+vote_objects := $(foreach part,accumulator_geometry accumulator_row_votes_and_peaks accumulator_branch_and_bound,%/src/papers/$(part).o)
 $(filter $(vote_objects),$(embedded_objects) $(workstation_objects)): override OPT := -O3
 endif
 
@@ -143,9 +143,9 @@ $(BUILD)/program/scenes.c: $(scenes) Makefile
 	  done; echo '{0, 0}};'; } > $@
 
 # The page of `plot -o NAME.html` in the program: its text, its script, and d3 (ISC licence, beside it).
-page_folder := tools/rhotrack/picture/html_page
+page_folder := tools/rhotrack/picture/interactive_map_page
 $(BUILD)/program/page_parts.c: $(wildcard $(page_folder)/*) Makefile
-	@mkdir -p $(@D) && { echo '#include "picture/html_page_parts.h"'; \
+	@mkdir -p $(@D) && { echo '#include "picture/interactive_map_page_parts.h"'; \
 	  for part in licence:d3.LICENSE d3:d3.min.js html:page.html style:page.css script:page.js; do \
 	    echo "const char page_$${part%%:*}[] ="; \
 	    sed -e 's/[\\"?]/\\&/g' -e 's/.*/"&\\n"/' $(page_folder)/$${part#*:}; echo ';'; \
@@ -199,7 +199,7 @@ packages := $(BUILD)/packages
 .PHONY: packages deb
 ## Packages for Arduino, PlatformIO, ESP-IDF, Zephyr, CMSIS, vcpkg, Conan, Meson (build/packages; PACKAGER='NAME <MAIL>', URL=)
 packages:
-	@tools/packaging/package.py $(if $(PACKAGER),--packager='$(subst ','\'',$(PACKAGER))') $(if $(URL),--url='$(subst ','\'',$(URL))') $(packages)
+	@tools/packaging/write_source_packages.py $(if $(PACKAGER),--packager='$(subst ','\'',$(PACKAGER))') $(if $(URL),--url='$(subst ','\'',$(URL))') $(packages)
 	@ls -d $(packages)/*
 
 ## Debian packages: the program with its service, and the library (build/packages/*.deb)
@@ -217,7 +217,7 @@ deb: packages
 ## Set up what is missing, and write the documentation as pages (build/docs/html/index.html)
 docs: python
 	@tools/setup.sh docs
-	@rm -rf $(BUILD)/docs && /usr/bin/python3 tools/docs/pages.py $(BUILD)/docs/source $(BUILD)
+	@rm -rf $(BUILD)/docs && /usr/bin/python3 tools/docs/lay_out_sphinx_sources.py $(BUILD)/docs/source $(BUILD)
 	@PYTHONPATH=$(python_site) /usr/bin/python3 -m sphinx -q -n -W --keep-going -c tools/docs \
 	    -d $(BUILD)/docs/doctrees $(BUILD)/docs/source $(BUILD)/docs/html
 	@/usr/bin/python3 tools/docs/links.py $(BUILD)/docs/html
@@ -299,11 +299,11 @@ uninstall:
 
 # The inner loop: unit tests in the embedded profile, tests of the program's parts, every command from end to end with the
 # golden files, and the checks of the sources that take seconds. test-all runs everything else behind it.
-quick_scripts := $(addprefix tests/integration/,claims.sh command_line.sh documents.sh examples.sh headers.sh layers.sh security.sh)
+quick_scripts := $(addprefix tests/integration/,papers_claims_gate.sh command_line.sh documents.sh document_examples_gate.sh headers.sh layers.sh security_attacks_have_tests.sh)
 quick_scripts := $(wildcard $(quick_scripts)) $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \
-                 $(addprefix tools/gates/,layers.py tested.py forbidden_words.sh extract_example.sh)
+                 $(addprefix tools/gates/,layers.py tested.py library_needs_no_heap_or_stdio.sh extract_example.sh)
 # What the embedded profile leaves out is tested in the other one.
-left_out := tracker/test_plot_ownership_probability bodies/test_body_extents bodies/test_body_split_evidence bodies/test_plot_groups step/test_split_bodies
+left_out := tracker/test_track_evidence_own_shared_clutter bodies/test_body_extents bodies/test_body_split_evidence bodies/test_plot_groups step/test_split_bodies
 quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) $(filter-out $(BUILD)/tests/lab/%,$(tool_programs)) \
                   $(left_out:%=$(BUILD)/tests/workstation/unit/%)
 other_programs := $(filter-out $(quick_programs),$(unit_programs) $(tool_programs))
@@ -433,8 +433,8 @@ $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a:
 
 # --wrap: a reader that refuses its file comes back to the target instead of ending it, which closes its streams.
 refusal_programs := $(addprefix $(BUILD)/fuzz/,fuzz_config fuzz_scene fuzz_tables)
-$(refusal_programs): $(BUILD)/fuzz/parts/tests/fuzz/refusal.o
-$(refusal_programs): private refusal_wraps = $(shell grep -o '__wrap_[a-z_]*' tests/fuzz/refusal.c | sort -u | \
+$(refusal_programs): $(BUILD)/fuzz/parts/tests/fuzz/catch_reader_fail.o
+$(refusal_programs): private refusal_wraps = $(shell grep -o '__wrap_[a-z_]*' tests/fuzz/catch_reader_fail.c | sort -u | \
     sed 's/__wrap_/-Wl,--wrap=/')
 
 $(BUILD)/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/program.a $(workstation_library) Makefile
@@ -474,7 +474,7 @@ layers: $(library) $(program) $(lab)
 
 ## Check that the library has no heap, no stdio, no double, no mutable globals
 poison: $(library)
-	@BUILD=$(BUILD) tools/gates/forbidden_words.sh
+	@BUILD=$(BUILD) tools/gates/library_needs_no_heap_or_stdio.sh
 
 ## The same in the objects for Cortex-M, Cortex-R and RISC-V, and no recursion, growing frame or call by a pointer
 gates:
@@ -490,11 +490,11 @@ examples: $(library)
 
 ## Code, RAM and worst stack of each module; red where tools/lab/MEASUREMENTS.md differs, or an object does not fit
 size:
-	@BUILD=$(BUILD) tools/gates/size.sh
+	@BUILD=$(BUILD) tools/gates/library_size.sh
 
 ## Write what `make size` measures into tools/lab/MEASUREMENTS.md
 size-update:
-	@BUILD=$(BUILD) tools/gates/size.sh --update
+	@BUILD=$(BUILD) tools/gates/library_size.sh --update
 
 # A Cortex-M4F where nothing else is said; CC= where it was given.
 CROSS := arm-none-eabi-
@@ -504,7 +504,7 @@ budget_opt = $(if $(filter command%,$(origin OPT)),$(OPT),-Os)
 .PHONY: budget
 ## Flash and RAM of RHO_CONFIG_FILE, by module, on a Cortex-M4F (CROSS= or CC=, CFLAGS=, OPT= for another processor)
 budget:
-	@BUILD=$(BUILD) tools/gates/budget.py --config='$(RHO_CONFIG_FILE)' --cc='$(budget_cc)' \
+	@BUILD=$(BUILD) tools/gates/print_configuration_flash_and_ram.py --config='$(RHO_CONFIG_FILE)' --cc='$(budget_cc)' \
 	    --flags='$(strip $(budget_opt) $(budget_cpu) $(CFLAGS))'
 
 ## Instructions that typical jobs execute (valgrind); own covariances cost at most 1.5 times isotropic noise
@@ -539,7 +539,7 @@ tidy:
 
 .PHONY: claims-check
 claims-check:
-	@tools/gates/claims.py
+	@tools/gates/papers_claims_register.py
 
 cppcheck:
 	@echo "  cppcheck src tools/rhotrack tools/firmware"

@@ -85,8 +85,8 @@
 #endif
 
 /*
- * Echoes in the clutter map (rhotrack/detail/clutter_map.h), of all sensors together. 0 leaves the
- * map out of the program. RAM: 64 bytes each. 0 .. 32767.
+ * Echoes in the clutter map (rhotrack/detail/recurring_clutter_map.h), of all sensors together. 0
+ * leaves the map out of the program. RAM: 64 bytes each. 0 .. 32767.
  */
 #ifndef RHO_MAX_ECHOES
 #define RHO_MAX_ECHOES RHO_CONFIG_PICK(128, 8192)
@@ -603,9 +603,9 @@
 #endif
 
 /*
- * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (accumulator.c,
- * hough.c, initiator.c, tracker_setup.c). Embedded: initiator 66 KiB at most. A node also holds the
- * caller's scan (56 bytes a plot) and report.
+ * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts
+ * (accumulator_peak_search.c, hough.c, initiator.c, tracker_setup.c). Embedded: initiator 66 KiB at
+ * most. A node also holds the caller's scan (56 bytes a plot) and report.
  */
 #define RHO_RAM_WINDOW_BYTES                                                                       \
     (RHO_MAX_SCANS * (31 * RHO_MAX_PLOTS + 2 * (RHO_MAX_BINS + 1) + 160) + 120)

@@ -30,8 +30,8 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
-#include "rhotrack/detail/bearing_frame_batch.h"
 #include "rhotrack/detail/ghost_matrix.h"
+#include "rhotrack/detail/recent_bearing_frames.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

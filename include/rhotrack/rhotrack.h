@@ -6,10 +6,10 @@
  *
  * Scans of plots or bearings go in, tracks come out. Each header below is the manual of its part;
  * types.h states the conventions, settings.h what is to be said of a radar, tracker.h the step.
- * detail/ has what the objects of these embed, and comes with them: detail/clutter_map.h the echoes
- * of a tracker, detail/kalman.h, detail/measurement.h and detail/track.h parts for programs that
- * build a tracker of their own. Including all costs nothing: functions that a program does not call
- * are not linked. All headers are C99, and C++17 through extern "C".
+ * detail/ has what the objects of these embed, and comes with them: detail/recurring_clutter_map.h
+ * the echoes of a tracker, detail/kalman.h, detail/measurement.h and detail/track.h parts for
+ * programs that build a tracker of their own. Including all costs nothing: functions that a program
+ * does not call are not linked. All headers are C99, and C++17 through extern "C".
  */
 #ifndef RHOTRACK_RHOTRACK_H
 #define RHOTRACK_RHOTRACK_H

@@ -55,11 +55,11 @@
 #include "rhotrack/body.h"
 #include "rhotrack/config.h"
 #include "rhotrack/detail/assignment.h"
-#include "rhotrack/detail/clutter_map.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/detail/input_estimation.h"
-#include "rhotrack/detail/split_plots.h"
+#include "rhotrack/detail/recurring_clutter_map.h"
+#include "rhotrack/detail/second_plots_of_one_target.h"
 #include "rhotrack/detail/track.h"
 #include "rhotrack/detail/window.h"
 #include "rhotrack/initiator.h"
@@ -534,7 +534,9 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_track(struct rho_tracker *track
  * Starts a track, as rho_tracker_start_track, but from an estimate at the time of the last step,
  * made from hits >= 1 scans: from bearings, or by a filter of the caller. sensor_id is one of the
  * sensors of these scans. Errors: NULL, STATE, and those of rho_track_start_estimate; VALUE for a
- * score at which tracks end. Stack: 2.6 KB.
+ * score at which tracks end, a place or speed beyond its limit, and a covariance that is none
+ * (variances outside RHO_KALMAN_VARIANCE_MIN .. MAX, not positive definite, or of closed axes).
+ * Stack: 2.6 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
                                                           const struct rho_kalman *estimate,

@@ -92,8 +92,8 @@ static void label_and_queue_column(struct rho_assignment *a, struct search *s, i
  * Labels the columns that can be reached from a row with their distances, and the row as an end
  * that gives up its column. price_less_distance: the row's price less its distance.
  */
-static void relax_columns_and_end_from_row(struct rho_assignment *a, struct search *s, int row,
-                                           int32_t price_less_distance)
+static void label_columns_of_row_and_offer_path_end(struct rho_assignment *a, struct search *s,
+                                                    int row, int32_t price_less_distance)
 {
     const int num_pairs = a->num_pairs[row];
     int i;
@@ -118,7 +118,8 @@ static void relax_columns_and_end_from_row(struct rho_assignment *a, struct sear
  * Moves the nearest of the labelled columns that were not scanned, of equals the lowest, to the
  * head of the queue's unscanned part. Returns 0 if none is nearer than the end.
  */
-static int try_move_nearest_to_head(struct rho_assignment *a, const struct search *s)
+static int try_move_nearest_unscanned_to_queue_head(struct rho_assignment *a,
+                                                    const struct search *s)
 {
     int16_t *queue = a->column_queue;
     int32_t least = s->end_distance;
@@ -148,9 +149,9 @@ static int try_move_nearest_to_head(struct rho_assignment *a, const struct searc
  */
 static void find_shortest_path_end(struct rho_assignment *a, struct search *s, int row)
 {
-    relax_columns_and_end_from_row(a, s, row, 0);
+    label_columns_of_row_and_offer_path_end(a, s, row, 0);
     /* at most num_columns times: each column is scanned once */
-    while (try_move_nearest_to_head(a, s)) {
+    while (try_move_nearest_unscanned_to_queue_head(a, s)) {
         const int16_t column = a->column_queue[s->num_scanned];
         const int16_t owner = a->column_row[column];
         int32_t price;
@@ -163,7 +164,7 @@ static void find_shortest_path_end(struct rho_assignment *a, struct search *s, i
         ++s->num_scanned;
         price = a->pairs[owner][pair_index_or_num_pairs(a, owner, column)].cost -
                 a->column_price[column];
-        relax_columns_and_end_from_row(a, s, owner, price - a->column_distance[column]);
+        label_columns_of_row_and_offer_path_end(a, s, owner, price - a->column_distance[column]);
     }
 }
 

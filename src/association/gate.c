@@ -30,7 +30,7 @@ void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, fl
     gate->predicted = *predicted;
     gate->noise_density = noise_density;
     gate->sensor = sensor;
-    gate->has_z = rho_kalman_is_axis_open(predicted, 2);
+    gate->has_z = rho_kalman_has_estimate_on_axis(predicted, 2);
     gate->measures = measures;
     if (measures & RHO_MEASURES_RANGE_RATE) {
         predict_range_rate(predicted, sensor, gate->has_z, &gate->rate);
@@ -100,8 +100,9 @@ static void set_position_innovation(const struct rho_kalman *at, const struct rh
  * Appends a range rate's innovation, which is correlated with the position's. Returns 0 where the
  * prediction has no range rate.
  */
-static int append_range_rate_if_known(const struct rho_gate_rate *rate, const struct rho_plot *plot,
-                                      struct innovation *innovation)
+static int append_range_rate_if_predicted(const struct rho_gate_rate *rate,
+                                          const struct rho_plot *plot,
+                                          struct innovation *innovation)
 {
     int n = innovation->num;
     if (!rate->is_known) {
@@ -158,7 +159,7 @@ static int is_plot_in_gate_of_estimate(const struct rho_gate *gate, const struct
     result->has_z = gate->has_z && seen.has_z;
     set_position_innovation(at, &seen, result->has_z ? 3 : 2, &innovation);
     result->has_range_rate = (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 &&
-                             append_range_rate_if_known(rate, plot, &innovation);
+                             append_range_rate_if_predicted(rate, plot, &innovation);
     if (result->has_range_rate && !rho_measurement_unfold_range_rate(gate->sensor, innovation.num,
                                                                      innovation.s, innovation.d)) {
         result->has_range_rate = 0;

@@ -3,7 +3,7 @@
  * gate_box: the box in space that holds the gates of all hypotheses of a track; plots outside of it
  * need not be scored.
  */
-#include "hypotheses_pool.h"
+#include "hypotheses_nodes.h"
 #include "rhotrack/detail/approx.h"
 
 /* Square root of RHO_IMM_GATE: largest distance of a plot in the gate, in standard deviations. */
@@ -26,8 +26,8 @@ static inline void extend_span_and_max_variance(struct element_span *span, float
  * Range of values and largest variance of one element of the state, over all hypotheses of a slot
  * and both models.
  */
-static struct element_span span_of_element(const struct rho_hypotheses *pool, uint16_t slot,
-                                           int element)
+static struct element_span span_of_state_element_over_hypotheses(const struct rho_hypotheses *pool,
+                                                                 uint16_t slot, int element)
 {
     const int variance = RHO_AT(element, element);
     struct element_span span = {1e30f, -1e30f, 0.0f};
@@ -52,19 +52,20 @@ static float gate_half_width(const struct element_span *span)
  * Largest magnitude of three elements of the state, from `first` on, on any axis, with its
  * uncertainty.
  */
-static float magnitude_bound_of_three_elements(const struct rho_hypotheses *pool, uint16_t slot,
-                                               int first)
+static float largest_gated_magnitude_of_three_elements(const struct rho_hypotheses *pool,
+                                                       uint16_t slot, int first)
 {
     float most = 0.0f;
     for (int axis = 0; axis < 3; axis++) {
-        const struct element_span span = span_of_element(pool, slot, first + axis);
+        const struct element_span span =
+            span_of_state_element_over_hypotheses(pool, slot, first + axis);
         const float one = (span.max > -span.min ? span.max : -span.min) + gate_half_width(&span);
         most = one > most ? one : most;
     }
     return most;
 }
 
-static int have_all_heights(const struct rho_hypotheses *pool, uint16_t slot)
+static int do_all_hypotheses_have_height(const struct rho_hypotheses *pool, uint16_t slot)
 {
     int have = 1;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
@@ -77,14 +78,14 @@ static int have_all_heights(const struct rho_hypotheses *pool, uint16_t slot)
 static void fill_box_around_gates(const struct rho_hypotheses *pool, uint16_t slot,
                                   struct rho_hypotheses_box *box)
 {
-    const struct element_span x = span_of_element(pool, slot, 0),
-                              y = span_of_element(pool, slot, 1);
+    const struct element_span x = span_of_state_element_over_hypotheses(pool, slot, 0),
+                              y = span_of_state_element_over_hypotheses(pool, slot, 1);
     const float x_m = gate_half_width(&x), y_m = gate_half_width(&y);
     /* no limits of z: a hypothesis without a height ignores the height of a plot */
     struct element_span z = {0.0f, 0.0f, 0.0f};
     float z_m = 1e30f;
-    if (have_all_heights(pool, slot)) {
-        z = span_of_element(pool, slot, 2);
+    if (do_all_hypotheses_have_height(pool, slot)) {
+        z = span_of_state_element_over_hypotheses(pool, slot, 2);
         z_m = gate_half_width(&z);
     }
     *box = (struct rho_hypotheses_box){
@@ -100,10 +101,10 @@ static void fill_box_around_gates(const struct rho_hypotheses *pool, uint16_t sl
     };
 }
 
-void rho_hypotheses_begin_scan(struct rho_hypotheses *pool, uint16_t slot,
-                               struct rho_hypotheses_box *box)
+void rho_hypotheses_clear_candidates_get_gate_box(struct rho_hypotheses *pool, uint16_t slot,
+                                                  struct rho_hypotheses_box *box)
 {
-    if (!pool || !rho_hypotheses_is_open(pool, slot)) {
+    if (!pool || !rho_hypotheses_has_any_in_slot(pool, slot)) {
         return;
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
@@ -121,16 +122,18 @@ void rho_hypotheses_begin_scan(struct rho_hypotheses *pool, uint16_t slot,
  * acceleration and by process noise. Fills the box's limits of speed and acceleration if they are
  * unset.
  */
-static float largest_drift_m(const struct rho_hypotheses *pool, uint16_t slot,
-                             struct rho_hypotheses_box *box, float t_s)
+static float largest_distance_target_moves_m(const struct rho_hypotheses *pool, uint16_t slot,
+                                             struct rho_hypotheses_box *box, float t_s)
 {
     const struct rho_imm_model *model = &pool->model;
     const float noise_m2 =
         t_s * t_s * t_s *
         (model->quiet_density * (1.0f / 3.0f) + model->drive_density * t_s * t_s * (1.0f / 20.0f));
     if (box->speed_max_mps < 0.0f) {
-        box->speed_max_mps = magnitude_bound_of_three_elements(pool, slot, RHO_KALMAN_STATES - 3);
-        box->accel_max_mps2 = magnitude_bound_of_three_elements(pool, slot, RHO_KALMAN_STATES);
+        box->speed_max_mps =
+            largest_gated_magnitude_of_three_elements(pool, slot, RHO_KALMAN_STATES - 3);
+        box->accel_max_mps2 =
+            largest_gated_magnitude_of_three_elements(pool, slot, RHO_KALMAN_STATES);
     }
     return t_s * (box->speed_max_mps + 0.5f * t_s * box->accel_max_mps2) +
            GATE_SIGMAS * rho_sqrt(noise_m2);
@@ -141,7 +144,9 @@ float rho_hypotheses_box_margin_m(const struct rho_hypotheses *pool, uint16_t sl
                                   float offset_max_s)
 {
     const float slack_m = GATE_SIGMAS * sigma_max_m;
-    return offset_max_s > 0.0f ? slack_m + largest_drift_m(pool, slot, box, offset_max_s) : slack_m;
+    return offset_max_s > 0.0f
+               ? slack_m + largest_distance_target_moves_m(pool, slot, box, offset_max_s)
+               : slack_m;
 }
 
 int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,

@@ -6,7 +6,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "hypotheses_pool.h"
+#include "hypotheses_nodes.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/imm_notch.h"
 
@@ -39,8 +39,8 @@ struct offered_plot {
  * Inserts a plot into a hypothesis' list of its best plots, of equals behind the earlier ones.
  * Returns the hypothesis' weight with the plot.
  */
-static inline float insert_and_weigh_candidate(struct rho_hypothesis *at, float gain_nat,
-                                               float probability, int16_t row)
+static inline float list_candidate_plot_and_return_weight(struct rho_hypothesis *at, float gain_nat,
+                                                          float probability, int16_t row)
 {
     struct rho_hypotheses_candidate *list = at->candidates;
     unsigned place = at->num_candidates;
@@ -85,15 +85,16 @@ static inline int score_plot_if_in_gate(struct rho_hypotheses *pool,
         return rho_imm_score_plot_with_rates(&at->imm, rates, offer->seen, match);
     }
     const struct rho_imm *imm = rho_hypotheses_filter_at(pool, at, offer->time_us);
-    return imm && rho_imm_score_plot(imm, offer->seen, match);
+    return imm && rho_imm_predict_rates_and_score_plot(imm, offer->seen, match);
 }
 
 /*
  * Scores a plot with each hypothesis in turn. Returns the weight of the best hypothesis with the
  * plot; -FLT_MAX: the plot is in no gate.
  */
-static float offer_plot_to_each_filter(struct rho_hypotheses *pool, uint16_t slot,
-                                       const struct offered_plot *offer)
+static float score_plot_with_hypotheses_return_best_weight(struct rho_hypotheses *pool,
+                                                           uint16_t slot,
+                                                           const struct offered_plot *offer)
 {
     const uint16_t *nodes = pool->node_of[slot];
     struct rho_imm_match match;
@@ -110,7 +111,7 @@ static float offer_plot_to_each_filter(struct rho_hypotheses *pool, uint16_t slo
         struct rho_hypothesis *at = &pool->nodes[nodes[i]];
         if (score_plot_if_in_gate(pool, rates ? &rates[i] : 0, at, offer, &match)) {
             const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
-            const float score = insert_and_weigh_candidate(
+            const float score = list_candidate_plot_and_return_weight(
                 at, pd_over_clutter + match.log_likelihood, match.probability, offer->row);
             best = score > best ? score : best;
         }
@@ -154,7 +155,7 @@ static int ensure_gates_for_plot(struct rho_hypotheses *pool, uint16_t slot,
 }
 
 /* Gain that a plot must exceed to enter the hypothesis' list or to be better than `best`. */
-static inline float least_useful_gain(const struct rho_hypothesis *at, float best)
+static inline float gain_a_plot_must_exceed_to_matter(const struct rho_hypothesis *at, float best)
 {
     if (at->num_candidates < RHO_HYPOTHESES_CHILDREN) {
         return -FLT_MAX;
@@ -174,19 +175,23 @@ static inline float offer_plot_in_one_gate(struct rho_hypothesis *at,
                                            float best_weight_nat)
 {
     float log_likelihood, probability;
-    if (!rho_imm_score_position_in_gate(
-            gate, place_m, least_useful_gain(at, best_weight_nat) - pd_over_clutter_nat,
-            &log_likelihood, &probability)) {
+    if (!rho_imm_score_position_in_gate(gate, place_m,
+                                        gain_a_plot_must_exceed_to_matter(at, best_weight_nat) -
+                                            pd_over_clutter_nat,
+                                        &log_likelihood, &probability)) {
         return best_weight_nat;
     }
-    const float made =
-        insert_and_weigh_candidate(at, pd_over_clutter_nat + log_likelihood, probability, row);
+    const float made = list_candidate_plot_and_return_weight(
+        at, pd_over_clutter_nat + log_likelihood, probability, row);
     return made > best_weight_nat ? made : best_weight_nat;
 }
 
-/* Scores a plot in the prepared gates of all hypotheses; returns as offer_plot_to_each_filter. */
-static float offer_plot_to_prepared_gates(struct rho_hypotheses *pool, uint16_t slot,
-                                          const struct offered_plot *offer)
+/*
+ * Scores a plot in the prepared gates of all hypotheses; returns as
+ * score_plot_with_hypotheses_return_best_weight.
+ */
+static float offer_to_prepared_gates_return_best_weight(struct rho_hypotheses *pool, uint16_t slot,
+                                                        const struct offered_plot *offer)
 {
     const uint16_t *nodes = pool->node_of[slot];
     float best = -FLT_MAX;
@@ -204,7 +209,8 @@ int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
                               float log_pd, const struct rho_hypotheses_clutter *clutter,
                               float *best_weight_nat)
 {
-    if (!pool || !seen || !clutter || !best_weight_nat || !rho_hypotheses_is_open(pool, slot)) {
+    if (!pool || !seen || !clutter || !best_weight_nat ||
+        !rho_hypotheses_has_any_in_slot(pool, slot)) {
         return 0;
     }
     const struct offered_plot offer = {
@@ -215,8 +221,8 @@ int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
         .row = row,
     };
     const float best = ensure_gates_for_plot(pool, slot, seen, time_us)
-                           ? offer_plot_to_prepared_gates(pool, slot, &offer)
-                           : offer_plot_to_each_filter(pool, slot, &offer);
+                           ? offer_to_prepared_gates_return_best_weight(pool, slot, &offer)
+                           : score_plot_with_hypotheses_return_best_weight(pool, slot, &offer);
     if (!(best > -FLT_MAX)) {
         return 0;
     }
@@ -334,7 +340,7 @@ static unsigned select_children_and_make_room(struct rho_hypotheses *pool, uint1
     while (num > 1 && pool->children[num - 1].weight_nat < least) {
         num--;
     }
-    return rho_hypotheses_cut_others_for_slot(pool, slot, num);
+    return rho_hypotheses_room_after_cutting_others(pool, slot, num);
 }
 
 /*
@@ -414,14 +420,15 @@ static void advance_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesi
  * Makes one child of a parent, and returns its node: a copy while the parent has more children; the
  * last child takes the parent's node, whose filter is saved in case the update fails.
  */
-static uint16_t make_child_node(struct rho_hypotheses *pool, uint16_t parent_node,
-                                int is_last_of_parent, const struct rho_hypotheses_scan *scan,
-                                const struct rho_hypotheses_child *child,
-                                const struct rho_imm_plot *seen)
+static uint16_t make_child_hypothesis_get_node(struct rho_hypotheses *pool, uint16_t parent_node,
+                                               int is_last_of_parent,
+                                               const struct rho_hypotheses_scan *scan,
+                                               const struct rho_hypotheses_child *child,
+                                               const struct rho_imm_plot *seen)
 {
     struct rho_hypothesis *from = &pool->nodes[parent_node];
     if (!is_last_of_parent) {
-        const uint16_t node = rho_hypotheses_pop_free_node(pool);
+        const uint16_t node = rho_hypotheses_pop_free_hypothesis_node(pool);
         pool->nodes[node] = *from;
         advance_hypothesis(pool, &pool->nodes[node], &from->imm, scan, child, seen);
         return node;
@@ -460,8 +467,8 @@ static void replace_parents_by_children(struct rho_hypotheses *pool, uint16_t sl
             opened = child->row;
             rho_imm_prepare_plot(&seen, &scan->plots[opened], scan->measures, scan->sensor);
         }
-        nodes[i] = make_child_node(pool, pool->node_of[slot][child->parent], is_last_of_parent,
-                                   scan, child, &seen);
+        nodes[i] = make_child_hypothesis_get_node(pool, pool->node_of[slot][child->parent],
+                                                  is_last_of_parent, scan, child, &seen);
     }
     memcpy(pool->node_of[slot], nodes, num * sizeof nodes[0]);
     pool->num_of[slot] = (uint8_t)num;
@@ -499,7 +506,7 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
     if (!pool || !scan || !outcome) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_hypotheses_is_open(pool, slot)) {
+    if (!rho_hypotheses_has_any_in_slot(pool, slot)) {
         return RHO_ERROR_STATE;
     }
     const float before = rho_hypotheses_sum_of_shares(pool, slot);
@@ -534,7 +541,7 @@ static enum rho_status update_hypothesis(struct rho_hypotheses *pool, struct rho
         return RHO_ERROR_VALUE;
     }
     /* a plot far from both predictions does not change the models' probabilities */
-    if (!rho_imm_score_plot(&at->imm, seen, &match)) {
+    if (!rho_imm_predict_rates_and_score_plot(&at->imm, seen, &match)) {
         match.probability = at->imm.probability;
     }
     pool->scratch = at->imm;
@@ -552,7 +559,7 @@ enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool, uint16_t slot
     if (!pool || !seen) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_hypotheses_is_open(pool, slot)) {
+    if (!rho_hypotheses_has_any_in_slot(pool, slot)) {
         return RHO_ERROR_STATE;
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
@@ -617,7 +624,7 @@ enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool, uint1
     if (!pool) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_hypotheses_is_open(pool, slot)) {
+    if (!rho_hypotheses_has_any_in_slot(pool, slot)) {
         return RHO_ERROR_STATE;
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {

@@ -3,7 +3,7 @@
  * hypotheses_soundness: checks whether a pool of unknown origin, such as a snapshot's, is safe to
  * use.
  */
-#include "hypotheses_pool.h"
+#include "hypotheses_nodes.h"
 
 /* Number of nodes that one pass over the lists checks, to bound the stack. */
 #define PASS_NODES 256u
@@ -25,9 +25,10 @@ static void mark_node_met(struct pass *pass, uint16_t node)
  * PASS_NODES at most. As the lists have as many entries as there are nodes, each node is then
  * listed once.
  */
-static int are_nodes_of_pass_listed(const struct rho_hypotheses *pool, unsigned first)
+static int is_each_node_from_first_in_a_list(const struct rho_hypotheses *pool,
+                                             unsigned first_node_number)
 {
-    struct pass pass = {.first = first};
+    struct pass pass = {.first = first_node_number};
     for (unsigned i = 0; i < pool->num_free; i++) {
         mark_node_met(&pass, pool->spare[i]);
     }
@@ -36,7 +37,7 @@ static int are_nodes_of_pass_listed(const struct rho_hypotheses *pool, unsigned 
             mark_node_met(&pass, pool->node_of[slot][i]);
         }
     }
-    for (unsigned i = 0; i < PASS_NODES && first + i < RHO_MAX_HYPOTHESES; i++) {
+    for (unsigned i = 0; i < PASS_NODES && first_node_number + i < RHO_MAX_HYPOTHESES; i++) {
         if (!pass.is_met[i]) {
             return 0;
         }
@@ -58,7 +59,7 @@ static int has_each_node_once(const struct rho_hypotheses *pool)
         return 0;
     }
     for (unsigned first = 0; first < RHO_MAX_HYPOTHESES; first += PASS_NODES) {
-        if (!are_nodes_of_pass_listed(pool, first)) {
+        if (!is_each_node_from_first_in_a_list(pool, first)) {
             return 0;
         }
     }

@@ -87,7 +87,7 @@ static inline float variance_minus_gain_covariance(float variance, float gain, f
     return taken > 0.0f ? variance * ROUNDING_ALLOWANCE - taken : variance;
 }
 
-static inline void reduce_variances(float p[21], const float row[6], const float gain[6])
+static inline void reduce_diagonal_variances(float p[21], const float row[6], const float gain[6])
 {
     RHO_UNROLL
     for (int i = 0; i < 6; ++i) {
@@ -326,7 +326,7 @@ static int update_all_axes(float x[6], float p[21], const uint8_t place[6],
         return 0;
     }
     reduce_off_diagonal_covariances(p, row, gain);
-    reduce_variances(p, row, gain);
+    reduce_diagonal_variances(p, row, gain);
     write_scaled_row(p, place, row, seen->kept);
     return 1;
 }
@@ -402,7 +402,7 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
         return RHO_ERROR_VALUE;
     }
     reduce_off_diagonal_covariances(p, projected, gain);
-    reduce_variances(p, projected, gain);
+    reduce_diagonal_variances(p, projected, gain);
     if (nis != NULL) {
         *nis = innovation * inverse * innovation;
     }

@@ -70,8 +70,8 @@ static unsigned find_sensor(const struct rho_frames *frames, int32_t sensor_id)
 }
 
 /* Finds or adds the sensor of a scan, and clears its count of silent frames. */
-static unsigned find_or_add_heard_sensor(struct rho_frames *frames,
-                                         const struct rho_bearing_scan *scan)
+static unsigned find_or_add_sensor_and_clear_silent_frames(struct rho_frames *frames,
+                                                           const struct rho_bearing_scan *scan)
 {
     unsigned i = find_sensor(frames, scan->sensor_id);
     if (i == frames->num_sensors) {
@@ -86,8 +86,8 @@ static unsigned find_or_add_heard_sensor(struct rho_frames *frames,
  * A known sensor must not have moved. A new sensor must be at least RHO_CROSSING_BASE_MIN_M from
  * the others, as bearings of nearer sensors do not cross.
  */
-static int is_sensor_position_acceptable(const struct rho_frames *frames,
-                                         const struct rho_bearing_scan *scan)
+static int is_sensor_unmoved_and_apart_from_others(const struct rho_frames *frames,
+                                                   const struct rho_bearing_scan *scan)
 {
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
         return 0;
@@ -113,7 +113,7 @@ static enum rho_status check_scan(const struct rho_frames *frames,
     }
     if (scan->time_us < -RHO_LIMIT_TIME_US || scan->time_us > RHO_LIMIT_TIME_US ||
         !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad) ||
-        !is_sensor_position_acceptable(frames, scan)) {
+        !is_sensor_unmoved_and_apart_from_others(frames, scan)) {
         return RHO_ERROR_VALUE;
     }
     return find_sensor(frames, scan->sensor_id) < RHO_MAX_PASSIVE_SENSORS ? RHO_OK
@@ -198,7 +198,7 @@ static void add_scan_and_close_if_complete(struct rho_frames *frames,
     struct rho_frames_slot *slot = &frames->slots[frames->open];
     int is_first = slot->num_scans == 0;
     copy_scan_up_to_capacity(frames, &slot->scans[slot->num_scans++],
-                             find_or_add_heard_sensor(frames, scan), scan);
+                             find_or_add_sensor_and_clear_silent_frames(frames, scan), scan);
     slot->time_us = is_first || scan->time_us < slot->time_us ? scan->time_us : slot->time_us;
     slot->last_us = is_first || scan->time_us > slot->last_us ? scan->time_us : slot->last_us;
     frames->clock_us = scan->time_us;
@@ -229,7 +229,7 @@ static void add_scan_or_count_late(struct rho_frames *frames, const struct rho_b
     int is_joining = slot->num_scans > 0 && belongs_to_open_frame(frames, scan);
     int is_newer = slot->num_scans == 0 || scan->time_us > slot->time_us;
     if (scan->time_us <= frames->closed_us || (!is_joining && !is_newer)) {
-        find_or_add_heard_sensor(frames, scan);
+        find_or_add_sensor_and_clear_silent_frames(frames, scan);
         frames->counters.scans_late = rho_count(frames->counters.scans_late, 1);
         return;
     }
@@ -251,8 +251,8 @@ static int is_time_far_from_clock(const struct rho_frames *frames, int64_t time_
 }
 
 /* Follows a clock that has jumped: closes the open frame and starts one with this scan. */
-static void close_frame_and_restart_at_scan(struct rho_frames *frames,
-                                            const struct rho_bearing_scan *scan)
+static void close_frame_and_restart_after_clock_jump(struct rho_frames *frames,
+                                                     const struct rho_bearing_scan *scan)
 {
     close_open_frame(frames);
     frames->closed_us = INT64_MIN;
@@ -282,7 +282,7 @@ enum rho_status rho_frames_push(struct rho_frames *frames, const struct rho_bear
         frames->off_clock++;
         frames->counters.scans_off_clock = rho_count(frames->counters.scans_off_clock, 1);
     } else {
-        close_frame_and_restart_at_scan(frames, scan);
+        close_frame_and_restart_after_clock_jump(frames, scan);
     }
     return RHO_OK;
 }

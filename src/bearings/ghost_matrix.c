@@ -80,7 +80,8 @@ static int is_crossing_kept(const struct beams *beams, unsigned beam, unsigned o
            RHO_GHOST_KEPT;
 }
 
-static void remove_crossing(const struct beams *beams, unsigned beam, unsigned other)
+static void mark_crossing_as_ghost_in_matrix(const struct beams *beams, unsigned beam,
+                                             unsigned other)
 {
     unsigned row = beams->are_columns ? other : beam, column = beams->are_columns ? beam : other;
     beams->matrix->delta_rad[row][column] = 0.0f;
@@ -124,7 +125,7 @@ static unsigned prune_beams_by_single_crossings(const struct beams *beams, uint8
     while ((beam = find_beam_with_single_crossing(beams, done, &only)) < beams->count) {
         for (unsigned i = 0; i < beams->count; i++) {
             if (i != beam && is_crossing_kept(beams, i, only)) {
-                remove_crossing(beams, i, only);
+                mark_crossing_as_ghost_in_matrix(beams, i, only);
                 removed++;
             }
         }
@@ -223,7 +224,8 @@ static int find_complete_matching(struct matching *matching)
  * Transitive closure: bit k of ways[i] is set if row i can get the column of row k while rows
  * between them exchange columns.
  */
-static void find_reachable_rows(const struct matching *matching, uint64_t ways[RHO_MAX_BEARINGS])
+static void find_rows_whose_column_each_row_can_get(const struct matching *matching,
+                                                    uint64_t ways[RHO_MAX_BEARINGS])
 {
     for (unsigned i = 0; i < matching->count; i++) {
         ways[i] = 0;
@@ -240,7 +242,7 @@ static void find_reachable_rows(const struct matching *matching, uint64_t ways[R
 
 /*
  * Removes crossings that are in no complete matching. Crossing (i, j) is in one if the row matched
- * with column j can get the column of row i (find_reachable_rows).
+ * with column j can get the column of row i (find_rows_whose_column_each_row_can_get).
  */
 static unsigned prune_crossings_in_no_matching(struct rho_ghost_matrix *matrix)
 {
@@ -251,7 +253,7 @@ static unsigned prune_crossings_in_no_matching(struct rho_ghost_matrix *matrix)
     if (!find_complete_matching(&matching)) {
         return 0;
     }
-    find_reachable_rows(&matching, ways);
+    find_rows_whose_column_each_row_can_get(&matching, ways);
     for (unsigned i = 0; i < matching.count; i++) {
         for (unsigned j = 0; j < matching.count; j++) {
             if (matrix->reason[i][j] == RHO_GHOST_KEPT && !(ways[matching.row[j]] >> i & 1u)) {
@@ -264,7 +266,8 @@ static unsigned prune_crossings_in_no_matching(struct rho_ghost_matrix *matrix)
     return removed;
 }
 
-unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule rule)
+unsigned rho_ghost_prune_and_count_removed(struct rho_ghost_matrix *matrix,
+                                           enum rho_ghost_rule rule)
 {
     if (rule == RHO_GHOST_LITERAL) {
         return prune_by_single_crossings(matrix);

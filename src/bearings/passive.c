@@ -58,7 +58,7 @@ static int is_usable(const struct rho_passive_config *config)
  * Largest distance of two sensors at which all lines through their coverage lie within the cells of
  * rho.
  */
-static float max_sensor_distance_m(const struct rho_passive_config *config)
+static float largest_allowed_sensor_distance_m(const struct rho_passive_config *config)
 {
     float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - config->range_max_m;
     float apart_m =
@@ -83,7 +83,7 @@ enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size
     memset(passive, 0, sizeof *passive);
     passive->config = kept;
     passive->magic = PASSIVE_MAGIC;
-    return rho_batch_init(&passive->batch, kept.scans, max_sensor_distance_m(&kept));
+    return rho_batch_init(&passive->batch, kept.scans, largest_allowed_sensor_distance_m(&kept));
 }
 
 /* ---- frames ---------------------------------------------------------------------------------- */
@@ -141,18 +141,19 @@ static unsigned count_multi_sensor_scans(const struct rho_batch *batch)
  * One pass over the unclaimed bearings: crossings, the lines that they vote for, and candidates
  * from hypotheses on those lines.
  */
-static void find_line_candidates(struct rho_passive_search *search, float votes_share)
+static void find_track_candidates_on_voted_lines(struct rho_passive_search *search,
+                                                 float votes_share)
 {
     struct rho_passive_line line;
     float votes = votes_share * (float)count_multi_sensor_scans(&search->passive->batch);
     unsigned votes_min = (unsigned)votes + ((float)(unsigned)votes < votes ? 1u : 0u);
     votes_min = votes_min > VOTES_MIN ? votes_min : VOTES_MIN;
     rho_passive_find_crossings(search);
-    rho_passive_vote_for_lines(search);
+    rho_passive_vote_by_crossings_for_lines(search);
     for (unsigned i = 0; i < LINES_MAX && rho_passive_take_best_line(search, votes_min, &line);
          i++) {
         search->passive->work.peaks = rho_count(search->passive->work.peaks, 1);
-        rho_passive_fit_hypotheses(search, &line);
+        rho_passive_fit_crossing_pairs_near_line(search, &line);
     }
 }
 
@@ -179,20 +180,20 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     }
     struct rho_passive_search search = {.passive = passive};
     clear_results(passive);
-    rho_batch_compact_bearings(&passive->batch);
+    rho_batch_drop_bearings_marked_removed(&passive->batch);
     if (passive->batch.num_scans < SCANS_MIN || passive->batch.num_sensors < 2) {
         return RHO_OK;
     }
     rho_passive_prepare(&search);
 
     /* first pass: only crossings that a third sensor supports */
-    find_line_candidates(&search, FIRST_VOTES_SHARE);
+    find_track_candidates_on_voted_lines(&search, FIRST_VOTES_SHARE);
     rho_passive_claim_best_set(&search);
     rho_passive_set_score_to_start_track(&search);
 
     /* second pass: all crossings of the bearings that no track of the first pass has claimed */
     search.is_second = 1;
-    find_line_candidates(&search, SECOND_VOTES_SHARE);
+    find_track_candidates_on_voted_lines(&search, SECOND_VOTES_SHARE);
     clear_claims(passive);
 
     /* the final selection is from the candidates of both passes */

@@ -46,8 +46,8 @@ static int has_better_duplicate(const struct rho_passive_search *search,
 }
 
 /* Removes the candidates that share most of their bearings with this one, which is better. */
-static void remove_duplicates_of_candidate(struct rho_passive_search *search,
-                                           const struct rho_passive_candidate *candidate)
+static void remove_candidates_sharing_most_bearings(struct rho_passive_search *search,
+                                                    const struct rho_passive_candidate *candidate)
 {
     struct rho_passive *passive = search->passive;
     for (unsigned i = passive->num_candidates; i > 0; i--) {
@@ -91,7 +91,7 @@ int rho_passive_offer_if_track(struct rho_passive_search *search,
     candidate.hits = score.hits;
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
     if (score.is_track && !has_better_duplicate(search, &candidate)) {
-        remove_duplicates_of_candidate(search, &candidate);
+        remove_candidates_sharing_most_bearings(search, &candidate);
         add_or_replace_lowest_candidate(search, &candidate);
     }
     return score.is_track;

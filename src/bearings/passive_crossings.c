@@ -65,9 +65,9 @@ static int has_bearing_towards(const struct rho_passive_search *search, unsigned
  * In the first pass, with three sensors or more: all but one of the sensors besides the pair, and
  * at least one, must have a bearing towards the crossing.
  */
-static int is_supported_where_required(const struct rho_passive_search *search,
-                                       const struct sensor_pair *pair,
-                                       const struct rho_passive_point *point)
+static int is_supported_by_enough_other_sensors(const struct rho_passive_search *search,
+                                                const struct sensor_pair *pair,
+                                                const struct rho_passive_point *point)
 {
     unsigned num_sensors = search->passive->batch.num_sensors, support = 0;
     if (num_sensors < 3 || search->is_second) {
@@ -95,7 +95,8 @@ static uint32_t find_least_certain_crossing(const struct rho_passive *passive)
  * Adds a crossing; a full list replaces its least certain crossing if the new one is more certain.
  * The index of the least certain one is kept until the list changes.
  */
-static void store_crossing(struct rho_passive_search *search, const struct rho_passive_point *point)
+static void store_crossing_or_replace_least_certain(struct rho_passive_search *search,
+                                                    const struct rho_passive_point *point)
 {
     struct rho_passive *passive = search->passive;
     if (passive->num_points < RHO_MAX_PASSIVE_POINTS) {
@@ -139,8 +140,8 @@ static void cross_and_store_bearing_pair(struct rho_passive_search *search,
                                       .xy_m2 = covariance_m2[1],
                                       .yy_m2 = covariance_m2[2],
                                       .scan = (uint16_t)pair->scan};
-    if (is_supported_where_required(search, pair, &point)) {
-        store_crossing(search, &point);
+    if (is_supported_by_enough_other_sensors(search, pair, &point)) {
+        store_crossing_or_replace_least_certain(search, &point);
     }
 }
 
@@ -155,7 +156,7 @@ static void cross_sensor_pair_in_scan(struct rho_passive_search *search,
                        pair->num_b, passive->config.range_max_m) != RHO_OK) {
         return; /* cannot fail: sensor positions were checked when the frame was pushed */
     }
-    rho_ghost_prune(&matrix, passive->config.rule);
+    rho_ghost_prune_and_count_removed(&matrix, passive->config.rule);
     for (unsigned i = 0; i < pair->num_a; i++) {
         for (unsigned j = 0; j < pair->num_b; j++) {
             int is_ghost = matrix.reason[i][j] != RHO_GHOST_KEPT;

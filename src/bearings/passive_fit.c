@@ -126,8 +126,8 @@ static float clipped(float v, float most)
  * Solves the normal equations and moves the state, each component by a limited step. Returns 0
  * where they are singular, and the state stays.
  */
-static int try_gauss_newton_step(const struct rho_passive_search *search,
-                                 struct equations *equations, float state_m[N])
+static int take_gauss_newton_step_unless_singular(const struct rho_passive_search *search,
+                                                  struct equations *equations, float state_m[N])
 {
     float range_m = search->passive->config.range_max_m, factor[RHO_TRIANGLE(N)];
     if (rho_linalg_cholesky(N, equations->a, factor) != RHO_OK) {
@@ -150,7 +150,7 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search, float stat
     for (unsigned step = 0; step < 4 && goes_on; step++) {
         struct equations equations =
             equations_of_nearest_bearings(search, state_m, gates[step], include_claimed);
-        goes_on = try_gauss_newton_step(search, &equations, state_m);
+        goes_on = take_gauss_newton_step_unless_singular(search, &equations, state_m);
     }
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
 }
@@ -159,7 +159,7 @@ void rho_passive_step_to_claimed_bearings(const struct rho_passive_search *searc
                                           rho_passive_const_claim *claim)
 {
     struct equations equations = equations_of_claimed_bearings(search, state_m, claim);
-    (void)try_gauss_newton_step(search, &equations, state_m);
+    (void)take_gauss_newton_step_unless_singular(search, &equations, state_m);
 }
 
 /* ---- score ----------------------------------------------------------------------------------- */
@@ -293,8 +293,9 @@ rho_passive_claim_and_score_nearest(const struct rho_passive_search *search, con
     return rho_passive_score_claimed(search, state_m, (rho_passive_const_claim *)claim);
 }
 
-float rho_passive_score_gain(const struct rho_passive_search *search, const float state_m[N],
-                             unsigned scan, unsigned sensor, unsigned claim)
+float rho_passive_gain_of_bearing_over_miss_nat(const struct rho_passive_search *search,
+                                                const float state_m[N], unsigned scan,
+                                                unsigned sensor, unsigned claim)
 {
     struct rho_passive_match seen = rho_passive_match_claimed(search, scan, sensor, state_m, claim);
     if (seen.bearing < 0) {

@@ -12,7 +12,7 @@
 #define SQRT_TWO_PI 2.50662827f
 
 /* Sets the sensors' centroid, and their positions relative to it. */
-static void set_sensor_positions(struct rho_passive_search *search)
+static void set_sensor_places_about_centroid(struct rho_passive_search *search)
 {
     const struct rho_passive *passive = search->passive;
     float n = (float)passive->batch.num_sensors;
@@ -27,7 +27,7 @@ static void set_sensor_positions(struct rho_passive_search *search)
 }
 
 /* Sets half the time span of the batch, and each scan's time as -1 .. 1 within it. */
-static void set_scan_times(struct rho_passive_search *search)
+static void set_scan_times_from_minus_1_to_1(struct rho_passive_search *search)
 {
     const struct rho_passive *passive = search->passive;
     int64_t first_us = passive->batch.time_us[0],
@@ -61,7 +61,7 @@ static void set_sigma_floor(struct rho_passive_search *search)
  * Log-likelihood ratios of a hit and a miss. False bearings are taken as uniform in the field of
  * view, with the density of all bearings of the batch.
  */
-static void set_likelihood_ratios(struct rho_passive_search *search)
+static void set_batch_hit_and_miss_log_likelihoods(struct rho_passive_search *search)
 {
     const struct rho_passive *passive = search->passive;
     const struct rho_passive_config *config = &passive->config;
@@ -99,9 +99,9 @@ static void set_theta_rows(struct rho_passive_search *search)
 
 void rho_passive_prepare(struct rho_passive_search *search)
 {
-    set_sensor_positions(search);
-    set_scan_times(search);
-    set_likelihood_ratios(search);
+    set_sensor_places_about_centroid(search);
+    set_scan_times_from_minus_1_to_1(search);
+    set_batch_hit_and_miss_log_likelihoods(search);
     set_sigma_floor(search);
     set_theta_rows(search);
     rho_passive_mark_bearing_directions(search);

@@ -3,20 +3,22 @@
  * passive_search: state of one search of the passive initiator, and the functions that its phases
  * share. A file may call files above it in this list, never files below it:
  *
- *   passive_match.c        the bearings that match a state
- *   passive_fit.c          Gauss-Newton fit, score and covariance of a state
- *   passive_candidate_list.c   the list of candidates for tracks
- *   passive_best_subset.c       the subset of candidates with the highest total score
- *   passive_joint_fit.c    one-to-one assignment of bearings to the chosen tracks, and their fits
- *   passive_margins.c      margins of the tracks against the best other sets
- *
- *   passive_prepare.c      geometry, times, likelihood ratios
- *   passive_crossings.c    phase 1: crossings of all pairs of sensors
- *   passive_line_votes.c        phase 2: votes, and the lines with the most votes
- *   passive_velocity_hypotheses.c   phase 3: constant velocities through pairs of a line's
- * crossings passive_tracks_from_best_subset.c    phases 4 and 5: the best set of candidates, and
- * the tracks passive_targets_behind_ghosts.c         candidates from bearings swapped between two
- * candidates passive.c              configuration, frames, the sequence of phases of a search
+ * - passive_bearings_near_state.c: the bearings that match a state
+ * - passive_fit.c: Gauss-Newton fit, score and covariance of a state
+ * - passive_candidate_list.c: the list of candidates for tracks
+ * - passive_best_candidate_subset.c: the subset of candidates with the highest total score
+ * - passive_fit_of_several_tracks.c: one-to-one assignment of bearings to the chosen tracks, and
+ *   their fits
+ * - passive_track_score_margins.c: margins of the tracks against the best other sets
+ * - passive_prepare.c: geometry, times, likelihood ratios
+ * - passive_crossings.c: phase 1: crossings of all pairs of sensors
+ * - passive_hough_votes_of_crossings.c: phase 2: votes, and the lines with the most votes
+ * - passive_hypotheses_from_crossing_pairs.c: phase 3: constant velocities through pairs of a
+ *   line's crossings
+ * - passive_claims_and_final_tracks.c: phases 4 and 5: the best set of candidates, and the
+ *   tracks
+ * - passive_targets_behind_ghosts.c: candidates from bearings swapped between two candidates
+ * - passive.c: configuration, frames, the sequence of phases of a search
  */
 #ifndef RHOTRACK_PASSIVE_SEARCH_H
 #define RHOTRACK_PASSIVE_SEARCH_H
@@ -86,8 +88,8 @@ static inline float rho_passive_uncertainty_m2(const struct rho_passive_point *p
 }
 
 /* Standard deviation of a crossing's rho, for the line normal (cosine, sine). */
-static inline float rho_passive_rho_sigma_m(const struct rho_passive_point *point, float cosine,
-                                            float sine)
+static inline float rho_passive_crossing_rho_sigma_m(const struct rho_passive_point *point,
+                                                     float cosine, float sine)
 {
     return rho_sqrt(point->xx_m2 * cosine * cosine + 2.0f * point->xy_m2 * cosine * sine +
                     point->yy_m2 * sine * sine);
@@ -96,7 +98,7 @@ static inline float rho_passive_rho_sigma_m(const struct rho_passive_point *poin
 /* ---- phase 2: lines ---- */
 
 /* All crossings vote for the lines (rho, theta) through them, into passive->cells. */
-void rho_passive_vote_for_lines(struct rho_passive_search *search);
+void rho_passive_vote_by_crossings_for_lines(struct rho_passive_search *search);
 
 struct rho_passive_line {
     float cosine, sine, rho_m;
@@ -115,8 +117,8 @@ int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes
  * Tries constant velocities through pairs of crossings on the line: those that agree best with the
  * bearings are fitted and offered as candidates.
  */
-void rho_passive_fit_hypotheses(struct rho_passive_search *search,
-                                const struct rho_passive_line *line);
+void rho_passive_fit_crossing_pairs_near_line(struct rho_passive_search *search,
+                                              const struct rho_passive_line *line);
 
 /* ---- bearings that match a state ---- */
 
@@ -215,9 +217,9 @@ struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_sear
 /*
  * Score of a look with the bearing `claim` (from 1) minus the score of a miss; 0 beyond 3.5 sigmas.
  */
-float rho_passive_score_gain(const struct rho_passive_search *search,
-                             const float state_m[RHO_PASSIVE_STATES], unsigned scan,
-                             unsigned sensor, unsigned claim);
+float rho_passive_gain_of_bearing_over_miss_nat(const struct rho_passive_search *search,
+                                                const float state_m[RHO_PASSIVE_STATES],
+                                                unsigned scan, unsigned sensor, unsigned claim);
 
 /*
  * Fills the position and velocity at the newest scan of a track, and their covariance, from a state
@@ -276,7 +278,7 @@ void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned whic
  * Adds a candidate to a choice (which = count: none), then further candidates while the total
  * grows.
  */
-void rho_passive_include_and_extend(struct rho_passive_choice *choice, unsigned which);
+void rho_passive_add_candidate_then_all_gaining(struct rho_passive_choice *choice, unsigned which);
 
 /* Replaces candidates of a choice, one at a time, by others, as long as the total grows. */
 void rho_passive_improve_choice(struct rho_passive_choice *choice);

@@ -20,7 +20,7 @@ struct claims {
     uint8_t of[SWAPPED][RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
 
-static void copy_claims_of_best(const struct rho_passive *passive, struct claims *claims)
+static void copy_claims_of_best_candidates(const struct rho_passive *passive, struct claims *claims)
 {
     uint8_t order[RHO_MAX_PASSIVE_CANDIDATES];
     rho_passive_rank_candidates(passive, order);
@@ -101,7 +101,7 @@ static void offer_swapped_candidates(struct rho_passive_search *search, const st
 void rho_passive_offer_swapped_candidates(struct rho_passive_search *search)
 {
     struct claims claims;
-    copy_claims_of_best(search->passive, &claims);
+    copy_claims_of_best_candidates(search->passive, &claims);
     for (unsigned i = 0; i < claims.count; i++) {
         for (unsigned j = 0; j < claims.count; j++) {
             if (i != j) {

@@ -16,7 +16,7 @@
 /* Least variance of a place on a body in a sound tracker, far below that of the least prior. */
 #define LEAST_M2 1e-7f
 
-float rho_tracker_body_prior_variance_m2(const struct rho_tracker *tracker)
+float rho_tracker_prior_place_variance_on_body_m2(const struct rho_tracker *tracker)
 {
     const float length_m = rho_larger(PRIOR_SHARE * tracker->bodies.length_max_m, PRIOR_LEAST_M);
     return length_m * length_m / 12.0f;
@@ -55,7 +55,7 @@ void rho_tracker_align_bodies_with_tracks(struct step *step)
             bodies->of[row] = bodies->of[from++];
         } else {
             rho_body_filter_init(&bodies->of[row], track->track_id,
-                                 rho_tracker_body_prior_variance_m2(tracker));
+                                 rho_tracker_prior_place_variance_on_body_m2(tracker));
         }
     }
     bodies->count = tracker->num_tracks;
@@ -84,8 +84,8 @@ int rho_tracker_range_rate_residual(const struct step *step, const struct rho_sc
     return 1;
 }
 
-int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_scan *scan,
-                                    unsigned row, unsigned plot, struct body_plot *at)
+int rho_tracker_locate_on_body_is_rate_usable(const struct step *step, const struct rho_scan *scan,
+                                              unsigned row, unsigned plot, struct body_plot *at)
 {
     const struct rho_body_filter *body = &step->tracker->bodies.of[row];
     const struct rho_track *track = &step->tracker->tracks[row];
@@ -99,8 +99,9 @@ int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_sc
     return rho_tracker_range_rate_residual(step, scan, track, seen, &at->rate);
 }
 
-void rho_tracker_plot_noise_on_body(const struct step *step, const struct rho_body_filter *body,
-                                    const struct rho_plot *plot, float axes[3])
+void rho_tracker_rotate_plot_noise_to_body_axes(const struct step *step,
+                                                const struct rho_body_filter *body,
+                                                const struct rho_plot *plot, float axes[3])
 {
     struct rho_measurement seen;
     float noise[6];
@@ -118,8 +119,8 @@ static void sum_plots_of_body(const struct step *step, const struct rho_scan *sc
     float axes[3];
     for (unsigned i = bodies->groups.first[step->tracker->tracks[row].plot]; i != RHO_NO_ROW;
          i = bodies->groups.next[i]) {
-        (void)!rho_tracker_locate_plot_on_body(step, scan, row, i, &at);
-        rho_tracker_plot_noise_on_body(step, &bodies->of[row], &scan->plots[i], axes);
+        (void)!rho_tracker_locate_on_body_is_rate_usable(step, scan, row, i, &at);
+        rho_tracker_rotate_plot_noise_to_body_axes(step, &bodies->of[row], &scan->plots[i], axes);
         look->num_plots++;
         look->along_m2 += at.along_m * at.along_m;
         look->across_m2 += at.across_m * at.across_m;

@@ -114,11 +114,11 @@ static struct look_sums sum_look_of_body(const struct step *step, const struct r
              groups, groups->first[step->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
         const struct rho_plot *plot = &scan->plots[i];
-        if (!rho_tracker_locate_plot_on_body(step, scan, row, i, &at) &&
+        if (!rho_tracker_locate_on_body_is_rate_usable(step, scan, row, i, &at) &&
             (scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue; /* a plot at the sensor has no line of sight */
         }
-        rho_tracker_plot_noise_on_body(step, &bodies->of[row], plot, axes);
+        rho_tracker_rotate_plot_noise_to_body_axes(step, &bodies->of[row], plot, axes);
         const float far_m = at.rate.sight_line[0] * at.dx_m + at.rate.sight_line[1] * at.dy_m,
                     side_m = at.rate.sight_line[0] * at.dy_m - at.rate.sight_line[1] * at.dx_m;
         sums.n += 1.0f;

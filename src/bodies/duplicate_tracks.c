@@ -31,8 +31,8 @@ struct body_offset {
     float along_m, across_m;
 };
 
-static struct body_offset absolute_offset_on_body(const struct step *step, unsigned row,
-                                                  unsigned other)
+static struct body_offset absolute_offset_of_track_on_body(const struct step *step, unsigned row,
+                                                           unsigned other)
 {
     const struct rho_track *tracks = step->tracker->tracks;
     const struct rho_body_filter *body = &step->tracker->bodies.of[row];
@@ -58,16 +58,17 @@ static int do_bodies_overlap(const struct step *step, unsigned row, unsigned oth
 {
     const struct rho_body_filter *one = &step->tracker->bodies.of[row],
                                  *two = &step->tracker->bodies.of[other];
-    const struct body_offset offset = absolute_offset_on_body(step, row, other);
+    const struct body_offset offset = absolute_offset_of_track_on_body(step, row, other);
     /* a quarter of both lengths, each sqrt(12 variance): 0.866 = sqrt(12) / 4 */
     return one->has_heading && two->has_heading &&
            offset.along_m <= 0.866f * (rho_sqrt(one->along_m2) + rho_sqrt(two->along_m2)) &&
            offset.across_m <= 0.866f * (rho_sqrt(one->across_m2) + rho_sqrt(two->across_m2));
 }
 
-static int is_new_track(const struct step *step, unsigned row)
+static int may_own_plots_and_has_few_hits(const struct step *step, unsigned row)
 {
-    return rho_tracker_may_own_plots(step, row) && step->tracker->tracks[row].hits < NEW_HITS;
+    return rho_tracker_may_own_group_of_plots(step, row) &&
+           step->tracker->tracks[row].hits < NEW_HITS;
 }
 
 /* True where two tracks are near in x and y: a cheap test before that in the body's axes. */
@@ -84,7 +85,7 @@ static int may_be_one_body(const struct step *step, unsigned row, unsigned other
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
     const struct rho_track *tracks = step->tracker->tracks;
-    const struct body_offset offset = absolute_offset_on_body(step, row, other);
+    const struct body_offset offset = absolute_offset_of_track_on_body(step, row, other);
     const float turned_m = TURNED_SIGMAS * bodies->of[row].heading_sigma_rad * offset.along_m;
     return bodies->of[row].has_heading &&
            offset.along_m <= NEW_ALONG_SHARE * bodies->length_max_m &&
@@ -114,7 +115,7 @@ static void count_overlaps_and_end_younger(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     const struct rho_groups *groups = &tracker->bodies.groups;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (rho_tracker_may_own_plots(step, row)) {
+        if (rho_tracker_may_own_group_of_plots(step, row)) {
             tracker->bodies.of[row].doubt.doubled *= 1.0f - 1.0f / MEMORY_SCANS;
         }
     }
@@ -125,8 +126,9 @@ static void count_overlaps_and_end_younger(struct step *step)
         }
         const unsigned older = one < other ? one : other, younger = one + other - older;
         struct rho_body_doubt *doubt = &tracker->bodies.of[younger].doubt;
-        if (doubt->doubled_us == step->time_us || !rho_tracker_may_own_plots(step, one) ||
-            !rho_tracker_may_own_plots(step, other) || !do_bodies_overlap(step, older, younger) ||
+        if (doubt->doubled_us == step->time_us || !rho_tracker_may_own_group_of_plots(step, one) ||
+            !rho_tracker_may_own_group_of_plots(step, other) ||
+            !do_bodies_overlap(step, older, younger) ||
             !move_alike(&tracker->tracks[one], &tracker->tracks[other])) {
             continue;
         }
@@ -139,17 +141,17 @@ static void count_overlaps_and_end_younger(struct step *step)
 }
 
 /* Of two new tracks of one target ends the one with fewer hits, of equals the younger. */
-static void end_new_duplicates(struct step *step)
+static void end_one_of_each_two_new_duplicates(struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_track *tracks = tracker->tracks;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        int goes_on = is_new_track(step, row);
+        int goes_on = may_own_plots_and_has_few_hits(step, row);
         for (unsigned other = row + 1u;
              goes_on && other < tracker->num_tracks && !rho_tracker_is_phase_work_spent(step);
              other++) {
             rho_tracker_spend_work(step, PASS_UNITS);
-            if (are_tracks_near(step, row, other) && is_new_track(step, other) &&
+            if (are_tracks_near(step, row, other) && may_own_plots_and_has_few_hits(step, other) &&
                 may_be_one_body(step, row, other) && move_alike(&tracks[row], &tracks[other])) {
                 goes_on = tracks[row].hits >= tracks[other].hits;
                 end_track_and_move_plots(step, goes_on ? row : other, goes_on ? other : row);
@@ -163,5 +165,5 @@ void rho_tracker_end_duplicate_tracks(struct step *step)
     if (!step->is_late) {
         count_overlaps_and_end_younger(step);
     }
-    end_new_duplicates(step);
+    end_one_of_each_two_new_duplicates(step);
 }

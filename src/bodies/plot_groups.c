@@ -89,7 +89,7 @@ struct predicted_body {
     float rate_sigma_mps;
 };
 
-static struct predicted_body predict_body(const struct step *step, unsigned row)
+static struct predicted_body body_outline_and_place_variances(const struct step *step, unsigned row)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
     const float *p = track->kalman.covariance;
@@ -102,13 +102,15 @@ static struct predicted_body predict_body(const struct step *step, unsigned row)
     const float turned = outline.body->has_heading ? 3.0f * outline.body->heading_sigma_rad *
                                                          outline.body->heading_sigma_rad
                                                    : 0.0f;
-    outline.place_m2[0] += rho_body_along_bound_m2(outline.body) + turned * outline.body->across_m2;
+    outline.place_m2[0] +=
+        rho_body_along_variance_bound_m2(outline.body) + turned * outline.body->across_m2;
     outline.place_m2[2] += outline.body->across_m2 + turned * outline.body->along_m2;
     return outline;
 }
 
 /* Distance that a track moves between the scan's time and that of the plot farthest from it. */
-static float distance_moved_in_scan_m(const struct step *step, const struct predicted_body *outline)
+static float distance_moved_in_largest_plot_offset_m(const struct step *step,
+                                                     const struct predicted_body *outline)
 {
     const float vx_mps = outline->track->kalman.state[RHO_VX],
                 vy_mps = outline->track->kalman.state[RHO_VY];
@@ -121,7 +123,7 @@ static float half_search_box_m(const struct step *step, const struct predicted_b
     const float noise_m2 = step->sigma_max_m * step->sigma_max_m;
     return 1.5f * GATE_SIGMAS *
                rho_sqrt(rho_larger(outline->place_m2[0], outline->place_m2[2]) + noise_m2) +
-           distance_moved_in_scan_m(step, outline);
+           distance_moved_in_largest_plot_offset_m(step, outline);
 }
 
 /*
@@ -156,7 +158,7 @@ static int body_explains_plot(const struct step *step, const struct predicted_bo
     const float dx_m = plot->x_m - state[0] - after_s * state[3],
                 dy_m = plot->y_m - state[1] - after_s * state[4];
     const float along_m = c * dx_m + s * dy_m, across_m = c * dy_m - s * dx_m;
-    rho_tracker_plot_noise_on_body(step, outline->body, plot, axes);
+    rho_tracker_rotate_plot_noise_to_body_axes(step, outline->body, plot, axes);
     const float along_m2 = outline->place_m2[0] + axes[0],
                 across_m2 = outline->place_m2[2] + axes[2];
     const float far = along_m * along_m / along_m2, wide = across_m * across_m / across_m2;
@@ -194,15 +196,15 @@ static void assign_plot_to_better_body(struct rho_groups *groups, unsigned row, 
 }
 
 /* Gives each plot to the track whose body explains it best, then ends tracks of one target. */
-static void find_owners_and_end_duplicates(struct step *step)
+static void find_owners_of_plots_and_end_duplicates(struct step *step)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     float misfit;
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        if (!rho_tracker_may_own_plots(step, row)) {
+        if (!rho_tracker_may_own_group_of_plots(step, row)) {
             continue;
         }
-        const struct predicted_body outline = predict_body(step, row);
+        const struct predicted_body outline = body_outline_and_place_variances(step, row);
         struct plots_near near = plots_near_body(step, &outline, half_search_box_m(step, &outline));
         for (uint32_t i; !rho_tracker_is_phase_work_spent(step) &&
                          rho_tracker_next_plot_near(step, &near, &i);) {
@@ -252,7 +254,7 @@ static int fits_all_in_group(struct step *step, unsigned group, uint32_t plot)
  * Adds plots of no track that may be of one target with all plots of the group. Plots in excluded
  * areas stay alone, as they start no track.
  */
-static void add_near_plots_to_group(struct step *step, unsigned group)
+static void add_plots_that_fit_all_in_group(struct step *step, unsigned group)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     const struct rho_plot *plot = &step->scan->plots[groups->first[group]];
@@ -271,7 +273,7 @@ static void add_near_plots_to_group(struct step *step, unsigned group)
 }
 
 /* Forms the groups, in the order of their first plots: one for each track, the others by place. */
-static void form_groups(struct step *step)
+static void form_plot_groups(struct step *step)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     uint16_t of_track[RHO_BODY_TRACKS];
@@ -292,7 +294,7 @@ static void form_groups(struct step *step)
             of_track[owner] = groups->of[i];
         } else if (step->report->fates[i] == RHO_FATE_HELD &&
                    !rho_tracker_is_plot_excluded(step, i)) {
-            add_near_plots_to_group(step, groups->of[i]);
+            add_plots_that_fit_all_in_group(step, groups->of[i]);
         }
     }
 }
@@ -351,23 +353,25 @@ static struct rho_plot mean_plot_of_group(const struct step *step, unsigned grou
  * a track it is the share of the variance of a place that n plots leave; without, it is the spread
  * of the plots, with the prior as one plot more.
  */
-static void scatter_variance_on_body(const struct step *step, unsigned group,
-                                     const struct rho_plot *mean, unsigned count, float xx_yx_yy[3])
+static void place_on_body_variance_of_group_mean(const struct step *step, unsigned group,
+                                                 const struct rho_plot *mean, unsigned count,
+                                                 float xx_yx_yy[3])
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
     const struct rho_groups *groups = &bodies->groups;
     const unsigned owner = groups->owner[groups->first[group]];
     if (owner != RHO_NO_ROW) {
-        const float share = bodies->of[owner].plots < RHO_BODY_NEW_PLOTS
-                                ? 1.0f
-                                : rho_body_mean_variance_share(&bodies->of[owner], count);
+        const float share =
+            bodies->of[owner].plots < RHO_BODY_NEW_PLOTS
+                ? 1.0f
+                : rho_body_share_of_variance_of_plot_mean(&bodies->of[owner], count);
         rho_body_place_covariance(&bodies->of[owner], xx_yx_yy);
         for (int i = 0; i < 3; i++) {
             xx_yx_yy[i] *= share;
         }
         return;
     }
-    xx_yx_yy[0] = xx_yx_yy[2] = rho_tracker_body_prior_variance_m2(step->tracker);
+    xx_yx_yy[0] = xx_yx_yy[2] = rho_tracker_prior_place_variance_on_body_m2(step->tracker);
     xx_yx_yy[1] = 0.0f;
     for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
         const float dx_m = step->scan->plots[i].x_m - mean->x_m,
@@ -398,7 +402,7 @@ static void make_group_plot(const struct step *step, unsigned group, struct rho_
         return;
     }
     const float n = (float)count;
-    scatter_variance_on_body(step, group, out, count, spread);
+    place_on_body_variance_of_group_mean(step, group, out, count, spread);
     rho_measurement_from_plot(out, 0, step->sensor, &seen);
     const float c = seen.cos_azimuth, s = seen.sin_azimuth;
     const float along_m2 = c * c * spread[0] + 2.0f * c * s * spread[1] + s * s * spread[2];
@@ -421,7 +425,7 @@ static void make_group_plot(const struct step *step, unsigned group, struct rho_
  * Clears the groups; fates are HELD for valid plots and INVALID for others. Finds the largest noise
  * and time offset of the valid plots.
  */
-static void init_groups_and_fates(struct step *step)
+static void clear_groups_set_fates_find_largest_noise(struct step *step)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     groups->count = 0;
@@ -445,11 +449,11 @@ void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     rho_tracker_align_bodies_with_tracks(step);
-    init_groups_and_fates(step);
+    clear_groups_set_fates_find_largest_noise(step);
     rho_tracker_index_plots(step);
     rho_tracker_begin_work_phase(step, RHO_WORK_GROUPS_SHARE);
-    find_owners_and_end_duplicates(step);
-    form_groups(step);
+    find_owners_of_plots_and_end_duplicates(step);
+    form_plot_groups(step);
     step->is_partial |= rho_tracker_is_phase_work_spent(step);
     for (unsigned group = 0; group < groups->count; group++) {
         make_group_plot(step, group, &groups->plots[group]);

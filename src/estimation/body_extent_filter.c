@@ -112,7 +112,7 @@ void rho_body_rotate_covariance(const struct rho_body_filter *body, const float 
     axes[2] = s * s * xx - 2.0f * c * s * yx + c * c * yy;
 }
 
-float rho_body_along_bound_m2(const struct rho_body_filter *body)
+float rho_body_along_variance_bound_m2(const struct rho_body_filter *body)
 {
     return body->along_m2 + body->prior_m2 * (FEW_WEIGHT / (FEW_WEIGHT + body->along.weight));
 }
@@ -136,12 +136,12 @@ static float floored_along_m2(const struct rho_body_filter *body)
     return rho_larger(body->along_m2, body->prior_m2 / 16.0f);
 }
 
-static float across_of_usual_aspect_m2(const struct rho_body_filter *body)
+static float across_variance_of_usual_length_to_width_m2(const struct rho_body_filter *body)
 {
     return floored_along_m2(body) / (ASPECT_USUAL * ASPECT_USUAL);
 }
 
-float rho_body_mean_variance_share(const struct rho_body_filter *body, unsigned n)
+float rho_body_share_of_variance_of_plot_mean(const struct rho_body_filter *body, unsigned n)
 {
     const float most = (float)(n > body->most_plots ? n : body->most_plots);
     if (n <= 1) {
@@ -185,11 +185,12 @@ static void update_side(struct rho_body_side *side, float usual_m2, float seen_m
  * reference point: their apparent slope is the sum of the scatterers' own slope (learned, as it
  * lasts) and of this error, whose expected share is subtracted.
  */
-static void update_across_and_slope(struct rho_body_filter *body, const struct rho_body_look *look,
-                                    float n)
+static void update_across_extent_and_slope(struct rho_body_filter *body,
+                                           const struct rho_body_look *look, float n)
 {
-    const float usual_m2 = across_of_usual_aspect_m2(body), noise_m2 = look->noise_across_m2 / n;
-    const float missed = rho_body_mean_variance_share(body, look->num_plots);
+    const float usual_m2 = across_variance_of_usual_length_to_width_m2(body),
+                noise_m2 = look->noise_across_m2 / n;
+    const float missed = rho_body_share_of_variance_of_plot_mean(body, look->num_plots);
     const float along_m2 = rho_larger(look->along_m2, n * LEAST_M2);
     const float slope = look->cross_m2 / along_m2;
     const float slope_variance = (noise_m2 + missed * usual_m2) / along_m2;
@@ -226,7 +227,7 @@ void rho_body_add_plots(struct rho_body_filter *body, const struct rho_body_look
         look->noise_along_m2 / n + mean_square_heading_error(body) * body->across_m2;
     update_side(&body->along, floored_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
     body->along_m2 = rho_larger(body->along.mean_m2, LEAST_M2);
-    update_across_and_slope(body, look, n);
+    update_across_extent_and_slope(body, look, n);
     body->across_m2 = rho_larger(body->across.mean_m2, body->along_m2 / (ASPECT_MAX * ASPECT_MAX));
     body->plots = rho_smaller(body->plots + n, PLOTS_MOST);
 }

@@ -236,7 +236,7 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
     memcpy(imm->state, estimate->state, sizeof estimate->state);
     memcpy(imm->covariance, estimate->covariance, sizeof estimate->covariance);
     for (int axis = 0; axis < NUM_AXES; axis++) {
-        if (rho_kalman_is_axis_open(estimate, axis)) {
+        if (rho_kalman_has_estimate_on_axis(estimate, axis)) {
             imm->covariance[COVARIANCE_AT(axis, 2, axis, 2)] =
                 model->accel_sigma_mps2 * model->accel_sigma_mps2 + RHO_KALMAN_VARIANCE_MIN;
         }
@@ -404,7 +404,7 @@ static void mix_and_predict_axis(struct rho_imm *imm, int axis, const struct mix
                                  struct prediction_checks *checks)
 {
     struct rho_kalman *kalman = &imm->steady;
-    if (!is_axis_open(imm, axis)) {
+    if (!has_estimate_on_axis(imm, axis)) {
         /* NaN: neither open nor closed */
         checks->is_good &= imm->covariance[RHO_AT(axis, axis)] >= 0.0f;
         return;
@@ -429,8 +429,8 @@ static void mix_and_predict_axis(struct rho_imm *imm, int axis, const struct mix
  * Predicts the manoeuvring model's covariances of two axes, F C F^T: three columns, then three
  * rows.
  */
-static inline void predict_manoeuvre_axis_pair(struct axis_pair *at,
-                                               const struct rho_imm_step *step)
+static inline void predict_manoeuvre_cross_covariances(struct axis_pair *at,
+                                                       const struct rho_imm_step *step)
 {
     const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
                 h = step->accel_by_accel;
@@ -452,7 +452,7 @@ static inline void predict_manoeuvre_axis_pair(struct axis_pair *at,
 }
 
 /* Predicts the steady model's covariances of two axes, F C F^T. */
-static inline void predict_steady_axis_pair(struct axis_pair *at, float dt_s)
+static inline void predict_steady_cross_covariances(struct axis_pair *at, float dt_s)
 {
     const float pv = at->pv + dt_s * at->vv;
     at->vp += dt_s * at->vv;
@@ -460,7 +460,8 @@ static inline void predict_steady_axis_pair(struct axis_pair *at, float dt_s)
     at->pv = pv;
 }
 
-static inline struct model_difference model_difference_on_axis(const struct rho_imm *imm, int axis)
+static inline struct model_difference model_state_difference_on_axis(const struct rho_imm *imm,
+                                                                     int axis)
 {
     return (struct model_difference){
         .p = imm->state[axis] - imm->steady.state[axis],
@@ -473,31 +474,32 @@ static inline struct model_difference model_difference_on_axis(const struct rho_
  * Predicts both models' covariances of an axis with an earlier one; called before the axes
  * themselves are mixed, as mixing needs their differences.
  */
-static void mix_and_predict_axis_pair(struct rho_imm *imm, int axis, int other,
-                                      const struct mixing_weights *by,
-                                      const struct rho_imm_step *step)
+static void mix_and_predict_cross_covariances(struct rho_imm *imm, int axis, int other,
+                                              const struct mixing_weights *by,
+                                              const struct rho_imm_step *step)
 {
     float *p = imm->covariance, *q = imm->steady.covariance;
     const uint8_t *rows = pair_rows[axis + other - 1];
     struct axis_pair steady = load_steady_axis_pair(q, rows), manoeuvre = load_axis_pair(p, rows);
     if (by) {
-        const struct model_difference a = model_difference_on_axis(imm, axis),
-                                      b = model_difference_on_axis(imm, other);
+        const struct model_difference a = model_state_difference_on_axis(imm, axis),
+                                      b = model_state_difference_on_axis(imm, other);
         mix_models_on_axis_pair(&steady, &manoeuvre, &a, &b, by);
     }
-    predict_steady_axis_pair(&steady, step->dt_s);
-    predict_manoeuvre_axis_pair(&manoeuvre, step);
+    predict_steady_cross_covariances(&steady, step->dt_s);
+    predict_manoeuvre_cross_covariances(&manoeuvre, step);
     store_steady_axis_pair(q, rows, &steady);
     store_axis_pair(p, rows, &manoeuvre);
 }
 
-static void mix_and_predict_axis_pairs(struct rho_imm *imm, const struct mixing_weights *by,
-                                       const struct rho_imm_step *step)
+static void mix_and_predict_all_cross_covariances(struct rho_imm *imm,
+                                                  const struct mixing_weights *by,
+                                                  const struct rho_imm_step *step)
 {
-    mix_and_predict_axis_pair(imm, RHO_Y, RHO_X, by, step);
-    if (is_axis_open(imm, RHO_Z)) {
-        mix_and_predict_axis_pair(imm, RHO_Z, RHO_X, by, step);
-        mix_and_predict_axis_pair(imm, RHO_Z, RHO_Y, by, step);
+    mix_and_predict_cross_covariances(imm, RHO_Y, RHO_X, by, step);
+    if (has_estimate_on_axis(imm, RHO_Z)) {
+        mix_and_predict_cross_covariances(imm, RHO_Z, RHO_X, by, step);
+        mix_and_predict_cross_covariances(imm, RHO_Z, RHO_Y, by, step);
     }
 }
 
@@ -518,7 +520,7 @@ static enum rho_status predict_both_models(struct rho_imm *imm, const struct rho
         mixing = &by;
     }
     if (imm->is_coupled) {
-        mix_and_predict_axis_pairs(imm, mixing, step);
+        mix_and_predict_all_cross_covariances(imm, mixing, step);
     }
     const float density =
         step->quiet_density + imm->calm * (step->calm_density - step->quiet_density);

@@ -164,7 +164,7 @@ static inline void load_kinematics(struct rho_kalman *to, const float *state,
     memcpy(to->covariance, covariance, sizeof to->covariance);
 }
 
-static inline int is_axis_open(const struct rho_imm *imm, int axis)
+static inline int has_estimate_on_axis(const struct rho_imm *imm, int axis)
 {
     return imm->covariance[RHO_AT(axis, axis)] > 0.0f;
 }

@@ -5,7 +5,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "imm_plane.h"
+#include "imm_plane_update.h"
 #include "rhotrack/detail/approx.h"
 
 #define LOG_TWO_PI 1.83787707f
@@ -114,8 +114,8 @@ static float axis_position_velocity_nis(const struct model_view *view,
 }
 
 /* Sets NIS, density factor and use of a model for position and velocity, independent axes. */
-static void set_position_velocity_score(struct model_view *view, const struct rho_imm_plot *seen,
-                                        int num_axes)
+static void set_position_velocity_vector_score(struct model_view *view,
+                                               const struct rho_imm_plot *seen, int num_axes)
 {
     float det[NUM_AXES] = {1.0f, 1.0f, 1.0f};
     view->nis = 0.0f;
@@ -337,7 +337,7 @@ static void score_under_model(struct model_view *view, const struct rho_imm *imm
     if (match->has_velocity && (is_coupled || match->has_range_rate)) {
         set_position_velocity_rate_score(view, seen, match);
     } else if (match->has_velocity) {
-        set_position_velocity_score(view, seen, match->num_axes);
+        set_position_velocity_vector_score(view, seen, match->num_axes);
     } else if (!is_coupled && !match->has_range_rate) {
         set_position_score(view, seen, match->num_axes > 2);
     } else {
@@ -440,7 +440,7 @@ void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_i
 {
     const float *states[2] = {imm->steady.state, imm->state};
     const float *covariances[2] = {imm->steady.covariance, imm->covariance};
-    const int has_height = is_axis_open(imm, 2);
+    const int has_height = has_estimate_on_axis(imm, 2);
     for (int i = 0; i < 2; i++) {
         float *expected_mps = &rates->expected_mps[i], *variance = &rates->variance[i];
         float *projected = rates->projected[i];
@@ -455,8 +455,8 @@ void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_i
     }
 }
 
-int rho_imm_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *seen,
-                       struct rho_imm_match *match)
+int rho_imm_predict_rates_and_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *seen,
+                                         struct rho_imm_match *match)
 {
     struct rho_imm_rates rates = {.expected_mps = {0.0f, 0.0f}};
     if (seen->measures & RHO_MEASURES_RANGE_RATE) {
@@ -519,7 +519,7 @@ int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_im
 {
     const float share[2] = {1.0f - imm->probability, imm->probability};
     float factor[2], nis[2];
-    match->num_axes = seen->position.has_z && is_axis_open(imm, 2) ? 3 : 2;
+    match->num_axes = seen->position.has_z && has_estimate_on_axis(imm, 2) ? 3 : 2;
     match->has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
     match->has_range_rate = (seen->measures & RHO_MEASURES_RANGE_RATE) != 0;
     if (can_score_in_plane(imm, seen, match)) {
@@ -567,7 +567,7 @@ int rho_imm_prepare_gate_if_uncoupled(struct rho_imm_gate *gate, const struct rh
     if (imm->is_coupled) {
         return 0;
     }
-    gate->num_axes = has_z && is_axis_open(imm, 2) ? 3 : 2;
+    gate->num_axes = has_z && has_estimate_on_axis(imm, 2) ? 3 : 2;
     fill_gate_of_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
                        floored_probability(1.0f - imm->probability));
     fill_gate_of_model(gate, 1, imm->state, imm->covariance, variance_m2,

@@ -5,7 +5,7 @@
  */
 #include <float.h>
 
-#include "imm_plane.h"
+#include "imm_plane_update.h"
 #include "rhotrack/detail/approx.h"
 
 /* Factor by which a variance is raised before it is reduced, against rounding, as in linalg.c. */
@@ -46,8 +46,8 @@ static inline void apply_position_update(struct axis *at, const struct update_fa
     at->vp *= by->kept;
 }
 
-static inline void apply_velocity_update(struct axis *at, const struct update_factors *by,
-                                         float step)
+static inline void apply_velocity_measurement(struct axis *at, const struct update_factors *by,
+                                              float step)
 {
     const float gain_p = at->vp * by->inverse;
     at->p += at->vp * step;
@@ -62,8 +62,10 @@ static inline void apply_velocity_update(struct axis *at, const struct update_fa
  * acceleration with the measured element; with_other: with the other element; vp: covariance of
  * these two elements.
  */
-static inline void update_acceleration(struct accel *at, float *with_seen, float *with_other,
-                                       float vp, const struct update_factors *by, float step)
+static inline void update_axis_acceleration_by_measurement(struct accel *at, float *with_seen,
+                                                           float *with_other, float vp,
+                                                           const struct update_factors *by,
+                                                           float step)
 {
     const float gain = *with_seen * by->inverse;
     at->a += *with_seen * step;
@@ -77,20 +79,23 @@ static inline void update_acceleration(struct accel *at, float *with_seen, float
  * is a check: not finite if anything computed is not. S is never 0, as the noise variance is at
  * least the floor.
  */
-static inline float update_axis_position_finite_if_ok(struct axis *at, struct accel *more,
-                                                      float place_m, float variance)
+static inline float update_axis_position_get_finiteness_check(struct axis *at, struct accel *more,
+                                                              float place_m, float variance)
 {
     const struct update_factors by = update_factors_of(at->pp, variance);
     const float off = place_m - at->p, step = off * by.inverse;
     const float check = at->pp >= 0.0f ? off * step + at->pp : FLT_MAX + FLT_MAX;
     if (more) {
-        update_acceleration(more, &more->ap, &more->av, at->vp, &by, step);
+        update_axis_acceleration_by_measurement(more, &more->ap, &more->av, at->vp, &by, step);
     }
     apply_position_update(at, &by, step);
     return check + at->p + at->v;
 }
 
-/* Updates one axis by its velocity. Returns a check as update_axis_position_finite_if_ok does. */
+/*
+ * Updates one axis by its velocity. Returns a check as update_axis_position_get_finiteness_check
+ * does.
+ */
 static inline float update_axis_velocity_finite_if_ok(struct axis *at, struct accel *more,
                                                       float speed_mps, float variance)
 {
@@ -98,15 +103,15 @@ static inline float update_axis_velocity_finite_if_ok(struct axis *at, struct ac
     const float off = speed_mps - at->v, step = off * by.inverse;
     const float check = at->vv >= 0.0f ? off * step + at->vv : FLT_MAX + FLT_MAX;
     if (more) {
-        update_acceleration(more, &more->av, &more->ap, at->vp, &by, step);
+        update_axis_acceleration_by_measurement(more, &more->av, &more->ap, at->vp, &by, step);
     }
-    apply_velocity_update(at, &by, step);
+    apply_velocity_measurement(at, &by, step);
     return check + at->p + at->v;
 }
 
 /* Updates both models by the position, axis by axis. The result is not finite after a failure. */
-static float update_positions_finite_if_ok(struct rho_imm *imm, int num_axes,
-                                           const struct rho_imm_plot *seen)
+static float update_positions_get_finiteness_check(struct rho_imm *imm, int num_axes,
+                                                   const struct rho_imm_plot *seen)
 {
     struct rho_kalman *kalman = &imm->steady;
     const float variance = at_least_floor(seen->position.variance_m2[0]);
@@ -116,8 +121,8 @@ static float update_positions_finite_if_ok(struct rho_imm *imm, int num_axes,
         struct axis steady = load_axis(kalman->state, kalman->covariance, axis);
         struct axis at = load_axis(imm->state, imm->covariance, axis);
         struct accel more = load_accel(imm, axis);
-        check += update_axis_position_finite_if_ok(&steady, 0, place_m, variance);
-        check += update_axis_position_finite_if_ok(&at, &more, place_m, variance) + more.a;
+        check += update_axis_position_get_finiteness_check(&steady, 0, place_m, variance);
+        check += update_axis_position_get_finiteness_check(&at, &more, place_m, variance) + more.a;
         store_axis(kalman->state, kalman->covariance, axis, &steady);
         store_axis(imm->state, imm->covariance, axis, &at);
         store_accel(imm, axis, &more);
@@ -126,8 +131,8 @@ static float update_positions_finite_if_ok(struct rho_imm *imm, int num_axes,
 }
 
 /* Updates both models by the velocity, axis by axis. The result is not finite after a failure. */
-static float update_velocities_finite_if_ok(struct rho_imm *imm, int num_axes,
-                                            const struct rho_imm_plot *seen)
+static float update_velocities_get_finiteness_check(struct rho_imm *imm, int num_axes,
+                                                    const struct rho_imm_plot *seen)
 {
     struct rho_kalman *kalman = &imm->steady;
     const float variance = at_least_floor(seen->plot->sigma_mps * seen->plot->sigma_mps);
@@ -149,9 +154,9 @@ static float update_velocities_finite_if_ok(struct rho_imm *imm, int num_axes,
 static enum rho_status update_independent_axes(struct rho_imm *imm, int num_axes,
                                                const struct rho_imm_plot *seen)
 {
-    float check = update_positions_finite_if_ok(imm, num_axes, seen);
+    float check = update_positions_get_finiteness_check(imm, num_axes, seen);
     if (seen->measures & RHO_MEASURES_VELOCITY) {
-        check += update_velocities_finite_if_ok(imm, num_axes, seen);
+        check += update_velocities_get_finiteness_check(imm, num_axes, seen);
     }
     return rho_is_finite(check) ? RHO_OK : RHO_ERROR_SINGULAR;
 }
@@ -296,15 +301,16 @@ static enum rho_status update_plane_position_along(struct rho_imm *imm, float x,
 {
     const float noise = at_least_floor(variance);
     float *steady = imm->steady.state, *state = imm->state, spread[RHO_PLANE_MANOEUVRE];
-    float predicted =
-        rho_imm_plane_project_position(RHO_PLANE_STEADY, imm->steady.covariance, x, y, spread);
+    float predicted = rho_imm_plane_project_along_direction(RHO_PLANE_STEADY,
+                                                            imm->steady.covariance, x, y, spread);
     enum rho_status status = rho_imm_plane_update(
         RHO_PLANE_STEADY, steady, imm->steady.covariance, spread, predicted,
         x * (place_m[0] - steady[RHO_X]) + y * (place_m[1] - steady[RHO_Y]), noise);
     if (status != RHO_OK) {
         return status;
     }
-    predicted = rho_imm_plane_project_position(RHO_PLANE_MANOEUVRE, imm->covariance, x, y, spread);
+    predicted =
+        rho_imm_plane_project_along_direction(RHO_PLANE_MANOEUVRE, imm->covariance, x, y, spread);
     return rho_imm_plane_update(RHO_PLANE_MANOEUVRE, state, imm->covariance, spread, predicted,
                                 x * (place_m[0] - state[RHO_X]) + y * (place_m[1] - state[RHO_Y]),
                                 noise);
@@ -389,11 +395,12 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
     if (!imm || !model || !seen || !match) {
         return RHO_ERROR_NULL;
     }
-    const int opens = seen->position.has_z && !is_axis_open(imm, RHO_Z);
+    const int opens = seen->position.has_z && !has_estimate_on_axis(imm, RHO_Z);
     const int num_axes = seen->position.has_z && !opens ? 3 : 2;
     const int is_simple = !imm->is_coupled && seen->position.is_isotropic &&
                           !(seen->measures & RHO_MEASURES_RANGE_RATE);
-    const int is_in_plane = !is_axis_open(imm, RHO_Z) && !(seen->measures & RHO_MEASURES_VELOCITY);
+    const int is_in_plane =
+        !has_estimate_on_axis(imm, RHO_Z) && !(seen->measures & RHO_MEASURES_VELOCITY);
     imm->is_coupled |= !is_simple;
     enum rho_status status = is_simple     ? update_independent_axes(imm, num_axes, seen)
                              : is_in_plane ? update_in_plane(imm, seen)

@@ -108,8 +108,8 @@ static int find_weakest_input(const struct rho_input *input, uint32_t axes)
  * Tests correlated inputs, the weakest first, and removes those below the limit. Returns the axes
  * with inputs.
  */
-static uint32_t end_weak_correlated_inputs(struct rho_input *input, float nis_limit,
-                                           float initial_variance)
+static uint32_t end_weak_correlated_inputs_get_axes_left(struct rho_input *input, float nis_limit,
+                                                         float initial_variance)
 {
     uint32_t left = INPUT_ALL_PRESENT;
 
@@ -133,8 +133,8 @@ static uint32_t end_weak_correlated_inputs(struct rho_input *input, float nis_li
 /* ---- independent inputs ---------------------------------------------------------------------- */
 
 /* Ends each input with a NIS within the limit. Returns the axes with inputs. */
-static uint32_t end_weak_independent_inputs(struct rho_input *input, float nis_limit,
-                                            float initial_variance)
+static uint32_t end_weak_independent_inputs_get_axes_left(struct rho_input *input, float nis_limit,
+                                                          float initial_variance)
 {
     uint32_t left = 0;
 
@@ -161,6 +161,6 @@ void rho_input_test_and_end_inputs(struct rho_input *input, const struct rho_inp
     const float variance = config->sigma_mps2 * config->sigma_mps2;
 
     input->present = are_inputs_independent(input->variance)
-                         ? end_weak_independent_inputs(input, limit2, variance)
-                         : end_weak_correlated_inputs(input, limit2, variance);
+                         ? end_weak_independent_inputs_get_axes_left(input, limit2, variance)
+                         : end_weak_correlated_inputs_get_axes_left(input, limit2, variance);
 }

@@ -12,11 +12,11 @@ static enum rho_status open_or_update_axis(struct rho_input *input,
                                            const struct rho_input_config *config, int axis,
                                            float place_m, float variance)
 {
-    if (!rho_kalman_is_axis_open(&input->bare, axis)) {
+    if (!rho_kalman_has_estimate_on_axis(&input->bare, axis)) {
         return rho_kalman_open_axis(&input->bare, axis, place_m, variance,
                                     config->velocity_variance);
     }
-    return rho_input_update(input, config, axis, place_m, variance);
+    return rho_input_update_filter_by_element(input, config, axis, place_m, variance);
 }
 
 /*
@@ -39,7 +39,8 @@ static enum rho_status update_along_noise_axes(struct rho_input *input,
         for (int i = 0; i < num_axes; i++) {
             innovation_m += rows[k][i] * (seen->place_m[i] - input->bare.state[i]);
         }
-        status = rho_input_update_row(input, config, rows[k], innovation_m, seen->variance_m2[k]);
+        status = rho_input_update_filter_by_row(input, config, rows[k], innovation_m,
+                                                seen->variance_m2[k]);
     }
     return status;
 }
@@ -47,11 +48,11 @@ static enum rho_status update_along_noise_axes(struct rho_input *input,
 /*
  * Updates the first num_axes axes with a position, or opens them; they are all open or all closed.
  */
-static enum rho_status open_or_update_axes(struct rho_input *input,
-                                           const struct rho_input_config *config,
-                                           const struct rho_measurement *seen, int num_axes)
+static enum rho_status open_or_update_filter_axes(struct rho_input *input,
+                                                  const struct rho_input_config *config,
+                                                  const struct rho_measurement *seen, int num_axes)
 {
-    if (!rho_kalman_is_axis_open(&input->bare, RHO_X)) {
+    if (!rho_kalman_has_estimate_on_axis(&input->bare, RHO_X)) {
         return rho_kalman_update_position(&input->bare, seen, config->velocity_variance);
     }
     return update_along_noise_axes(input, config, seen, num_axes);
@@ -61,9 +62,9 @@ static enum rho_status open_or_update_axes(struct rho_input *input,
  * Updates x and y together and z separately, where only one of (x, y) and z is open; as
  * rho_kalman_update_position.
  */
-static enum rho_status update_height_separately(struct rho_input *input,
-                                                const struct rho_input_config *config,
-                                                const struct rho_measurement *seen)
+static enum rho_status update_plane_and_height_separately(struct rho_input *input,
+                                                          const struct rho_input_config *config,
+                                                          const struct rho_measurement *seen)
 {
     struct rho_measurement level = *seen;
     float covariance[6];
@@ -73,19 +74,19 @@ static enum rho_status update_height_separately(struct rho_input *input,
     level.variance_m2[0] = seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
                            seen->sin_elevation * seen->sin_elevation * seen->variance_m2[2];
     level.has_z = 0;
-    status = open_or_update_axes(input, config, &level, 2);
+    status = open_or_update_filter_axes(input, config, &level, 2);
     if (status == RHO_OK) {
         status = open_or_update_axis(input, config, RHO_Z, seen->place_m[2], covariance[RHO_ZZ]);
     }
     return status;
 }
 
-static enum rho_status update_position(struct rho_input *input,
-                                       const struct rho_input_config *config,
-                                       const struct rho_measurement *seen)
+static enum rho_status update_filter_and_inputs_by_position(struct rho_input *input,
+                                                            const struct rho_input_config *config,
+                                                            const struct rho_measurement *seen)
 {
     const int num_axes = seen->has_z ? NUM_AXES : 2;
-    const int is_open = rho_kalman_is_axis_open(&input->bare, RHO_X);
+    const int is_open = rho_kalman_has_estimate_on_axis(&input->bare, RHO_X);
     enum rho_status status = RHO_OK;
 
     for (int axis = 0; axis < num_axes; axis++) {
@@ -100,13 +101,13 @@ static enum rho_status update_position(struct rho_input *input,
         }
         return status;
     }
-    if (is_open != rho_kalman_is_axis_open(&input->bare, RHO_Y)) {
+    if (is_open != rho_kalman_has_estimate_on_axis(&input->bare, RHO_Y)) {
         return RHO_ERROR_VALUE;
     }
-    if (seen->has_z && is_open != rho_kalman_is_axis_open(&input->bare, RHO_Z)) {
-        return update_height_separately(input, config, seen);
+    if (seen->has_z && is_open != rho_kalman_has_estimate_on_axis(&input->bare, RHO_Z)) {
+        return update_plane_and_height_separately(input, config, seen);
     }
-    return open_or_update_axes(input, config, seen, num_axes);
+    return open_or_update_filter_axes(input, config, seen, num_axes);
 }
 
 enum rho_status rho_input_update_position(struct rho_input *input,
@@ -120,7 +121,7 @@ enum rho_status rho_input_update_position(struct rho_input *input,
     }
     struct rho_input next = *input;
     if (config->is_estimated) {
-        status = update_position(&next, config, measurement);
+        status = update_filter_and_inputs_by_position(&next, config, measurement);
     } else {
         status = rho_kalman_update_position(&next.bare, measurement, config->velocity_variance);
     }
@@ -161,7 +162,7 @@ enum rho_status rho_input_update_range_rate(struct rho_input *input,
     }
     const float innovation_mps =
         bare_filter_innovation(input, &corrected, seen.row, seen.innovation);
-    return rho_input_update_row(input, config, seen.row, innovation_mps, seen.variance);
+    return rho_input_update_filter_by_row(input, config, seen.row, innovation_mps, seen.variance);
 }
 
 enum rho_status rho_input_update_bearing(struct rho_input *input,
@@ -182,5 +183,5 @@ enum rho_status rho_input_update_bearing(struct rho_input *input,
         return RHO_OK;
     }
     const float innovation_m = bare_filter_innovation(input, &corrected, seen.row, seen.off_m);
-    return rho_input_update_row(input, config, seen.row, innovation_m, seen.variance_m2);
+    return rho_input_update_filter_by_row(input, config, seen.row, innovation_m, seen.variance_m2);
 }

@@ -2,7 +2,7 @@
 /*
  * input_estimation_sensitivity: the sensitivity of the state to the input of each axis, one column
  * an axis, and the effect of an input on an estimate. Private to
- * src/estimation/input_estimation*.c.
+ * src/estimation/input_estimation_*.c.
  */
 #ifndef RHOTRACK_INPUT_ESTIMATION_SENSITIVITY_H
 #define RHOTRACK_INPUT_ESTIMATION_SENSITIVITY_H

@@ -226,8 +226,9 @@ static enum rho_status update_axis_with_own_input(struct rho_input *input, int a
     return status;
 }
 
-enum rho_status rho_input_update(struct rho_input *input, const struct rho_input_config *config,
-                                 int element, float value, float variance)
+enum rho_status rho_input_update_filter_by_element(struct rho_input *input,
+                                                   const struct rho_input_config *config,
+                                                   int element, float value, float variance)
 {
     if (input == NULL || config == NULL) {
         return RHO_ERROR_NULL;
@@ -249,8 +250,9 @@ enum rho_status rho_input_update(struct rho_input *input, const struct rho_input
     return update_axis_with_own_input(input, axis, element, value, variance);
 }
 
-enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_input_config *config,
-                                     const float row[6], float innovation, float variance)
+enum rho_status rho_input_update_filter_by_row(struct rho_input *input,
+                                               const struct rho_input_config *config,
+                                               const float row[6], float innovation, float variance)
 {
     if (input == NULL || config == NULL || row == NULL) {
         return RHO_ERROR_NULL;

@@ -147,7 +147,7 @@ void rho_kalman_set_equal_variances(struct rho_kalman *kalman, float variance)
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
         for (int j = 0; j <= i; j++) {
             kalman->covariance[RHO_AT(i, j)] =
-                i == j && rho_kalman_is_axis_open(kalman, i % 3) ? variance : 0.0f;
+                i == j && rho_kalman_has_estimate_on_axis(kalman, i % 3) ? variance : 0.0f;
         }
     }
 }
@@ -211,7 +211,7 @@ enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_v
         }
     }
     for (axis = 0; axis < NUM_AXES; ++axis) {
-        if (rho_kalman_is_axis_open(kalman, axis)) {
+        if (rho_kalman_has_estimate_on_axis(kalman, axis)) {
             kalman->covariance[DIAGONAL(axis)] += position_variance;
             kalman->covariance[DIAGONAL(NUM_AXES + axis)] += velocity_variance;
         }
@@ -285,7 +285,7 @@ static void rotate_estimate(struct rho_kalman *kalman, int a, int b, float c, fl
 static enum rho_status open_or_update_axis(struct rho_kalman *kalman, int axis, float place_m,
                                            float variance, float velocity_variance)
 {
-    if (!rho_kalman_is_axis_open(kalman, axis)) {
+    if (!rho_kalman_has_estimate_on_axis(kalman, axis)) {
         return rho_kalman_open_axis(kalman, axis, place_m, variance, velocity_variance);
     }
     return rho_kalman_update(kalman, axis, place_m, variance, NULL);
@@ -341,9 +341,9 @@ static enum rho_status update_in_noise_frame(struct rho_kalman *kalman, int num_
  * Updates x and y in the frame of the noise, and z separately with its own variance, where only one
  * of (x, y) and z is open.
  */
-static enum rho_status update_height_separately(struct rho_kalman *kalman,
-                                                const struct rho_measurement *seen,
-                                                float velocity_variance)
+static enum rho_status update_xy_and_height_separately(struct rho_kalman *kalman,
+                                                       const struct rho_measurement *seen,
+                                                       float velocity_variance)
 {
     struct rho_measurement level = *seen;
     float covariance[6];
@@ -383,12 +383,13 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
         return open_or_update_axes(kalman, num_axes, measurement->place_m, measurement->variance_m2,
                                    velocity_variance);
     }
-    if (rho_kalman_is_axis_open(kalman, RHO_X) != rho_kalman_is_axis_open(kalman, RHO_Y)) {
+    if (rho_kalman_has_estimate_on_axis(kalman, RHO_X) !=
+        rho_kalman_has_estimate_on_axis(kalman, RHO_Y)) {
         return RHO_ERROR_VALUE;
     }
-    if (measurement->has_z &&
-        rho_kalman_is_axis_open(kalman, RHO_X) != rho_kalman_is_axis_open(kalman, RHO_Z)) {
-        return update_height_separately(kalman, measurement, velocity_variance);
+    if (measurement->has_z && rho_kalman_has_estimate_on_axis(kalman, RHO_X) !=
+                                  rho_kalman_has_estimate_on_axis(kalman, RHO_Z)) {
+        return update_xy_and_height_separately(kalman, measurement, velocity_variance);
     }
     return update_in_noise_frame(kalman, num_axes, measurement, velocity_variance);
 }
@@ -406,7 +407,7 @@ static float range_rate_nonlinearity_variance(const struct rho_kalman *kalman,
     const float place_m[NUM_AXES] = {sensor ? sensor->x_m : 0.0f, sensor ? sensor->y_m : 0.0f,
                                      sensor ? sensor->z_m : 0.0f};
     for (int axis = 0; axis < NUM_AXES; axis++) {
-        if (rho_kalman_is_axis_open(kalman, axis)) {
+        if (rho_kalman_has_estimate_on_axis(kalman, axis)) {
             float off_m = state[axis] - place_m[axis];
             range2_m2 += off_m * off_m;
             spread_m2 += kalman->covariance[DIAGONAL(axis)];
@@ -424,8 +425,8 @@ int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
     float predicted_mps;
 
     if (!rho_measurement_predict_range_rate(kalman->state, sensor,
-                                            rho_kalman_is_axis_open(kalman, RHO_Z), seen->row,
-                                            &predicted_mps)) {
+                                            rho_kalman_has_estimate_on_axis(kalman, RHO_Z),
+                                            seen->row, &predicted_mps)) {
         return 0;
     }
     const float nonlinearity = range_rate_nonlinearity_variance(kalman, sensor);
@@ -512,7 +513,7 @@ enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m, 
     return rho_kalman_update_row(kalman, seen.row, seen.off_m, seen.variance_m2, NULL);
 }
 
-int rho_kalman_is_axis_open(const struct rho_kalman *kalman, int axis)
+int rho_kalman_has_estimate_on_axis(const struct rho_kalman *kalman, int axis)
 {
     return kalman != NULL && axis >= 0 && axis < NUM_AXES &&
            kalman->covariance[DIAGONAL(axis)] > 0.0f;

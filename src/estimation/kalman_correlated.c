@@ -79,7 +79,7 @@ static int decorrelate_open_elements(const struct rho_kalman *kalman, int num, c
 
     *decorrelated = (struct decorrelated_rows){.num = 0};
     for (int i = 0; i < num; i++) {
-        if (rho_kalman_is_axis_open(kalman, elements[i] % 3)) {
+        if (rho_kalman_has_estimate_on_axis(kalman, elements[i] % 3)) {
             const int n = decorrelated->num++;
             source[n] = i;
             decorrelated->row[n][elements[i]] = 1.0f;

@@ -226,7 +226,7 @@ static int solve_unknowns(struct regression *of)
  * Sets the number of unknowns, the origin and the units of a regression. Returns the number of
  * solutions to make: 2 with range rates, 1 without, 0 where all plots have one time.
  */
-static int set_up_and_count_solutions(struct regression *of)
+static int set_up_and_count_solve_rounds(struct regression *of)
 {
     const struct search *search = of->search;
     float first_s = 0.0f, last_s = 0.0f;
@@ -364,8 +364,9 @@ static int is_within_speed_limit(const struct regression *of)
  * Moves the fit of the positions by the gain times this innovation of a range rate, and solves with
  * all range rates linearised there.
  */
-static int solve_with_range_rate_alias(struct regression *of, const float *position_fit,
-                                       const struct first_rate *first, float alias_innovation_mps)
+static int solve_with_given_range_rate_alias(struct regression *of, const float *position_fit,
+                                             const struct first_rate *first,
+                                             float alias_innovation_mps)
 {
     for (int k = 0; k < of->unknowns; k++) {
         of->unknown[k] =
@@ -399,7 +400,7 @@ static int solve_with_best_alias(struct regression *of, unsigned widest_scan)
         if (i != 0 && !(error_mps <= reach_mps && error_mps >= -reach_mps)) {
             continue;
         }
-        if (solve_with_range_rate_alias(of, places, &first, error_mps) &&
+        if (solve_with_given_range_rate_alias(of, places, &first, error_mps) &&
             is_within_speed_limit(of)) {
             float chi2 = chi2_of_fit(of);
             if (chi2 < least) {
@@ -409,7 +410,7 @@ static int solve_with_best_alias(struct regression *of, unsigned widest_scan)
         }
     }
     /* the best fit is solved again: keeping the fit of each alias would take half of the stack */
-    return least < FLT_MAX && solve_with_range_rate_alias(of, places, &first, best_mps);
+    return least < FLT_MAX && solve_with_given_range_rate_alias(of, places, &first, best_mps);
 }
 
 /*
@@ -418,7 +419,7 @@ static int solve_with_best_alias(struct regression *of, unsigned widest_scan)
  */
 static int run_regression(struct regression *of)
 {
-    int rounds = set_up_and_count_solutions(of);
+    int rounds = set_up_and_count_solve_rounds(of);
     const unsigned widest = RHO_AMBIGUOUS_RANGE_RATES && rounds > 1
                                 ? scan_with_widest_ambiguity_span(of)
                                 : RHO_MAX_SCANS;
@@ -512,8 +513,9 @@ int rho_initiator_log_likelihood_anisotropic(const struct search *search,
     float log_fisher =
         rho_linalg_log_determinant(of.unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
     score->dimensions = rows - unknowns;
-    *nat = -0.5f * ((float)score->dimensions * LOG_TWO_PI + log_noise + log_fisher + score->chi2) +
-           rho_initiator_log_height_rate_volume(search, of.axes == 3, heights, range_rates) -
-           log_aliases;
+    *nat =
+        -0.5f * ((float)score->dimensions * LOG_TWO_PI + log_noise + log_fisher + score->chi2) +
+        rho_initiator_log_height_and_range_rate_volume(search, of.axes == 3, heights, range_rates) -
+        log_aliases;
     return 1;
 }

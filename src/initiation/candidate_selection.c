@@ -79,13 +79,13 @@ static int remake_candidate_from_untaken_plots(struct search *search,
     struct line_fit fit;
     struct plot_set set;
     uint16_t skip = search->skip_flags;
-    if (!rho_initiator_unpack_and_set_turning(search, candidate, &set, &fit)) {
+    if (!rho_initiator_unpack_and_assume_its_turning(search, candidate, &set, &fit)) {
         return 0;
     }
     search->skip_flags = (uint16_t)(skip | RHO_WINDOW_TAKEN);
     rho_initiator_associate_plots(search, &fit, SECOND_GATE_FACTOR, &set);
     int found = set.hits >= search->min_scans &&
-                rho_initiator_make_unlisted_candidate(search, &set, candidate);
+                rho_initiator_make_candidate_not_yet_listed(search, &set, candidate);
     search->skip_flags = skip;
     return found;
 }
@@ -123,7 +123,7 @@ static void sort_candidates_by_score(struct rho_initiator *initiator)
  * Charges the least work of the next choice. Where the work is spent, drops all candidates that are
  * not accepted yet and returns 0.
  */
-static int charge_choice_or_drop_rest(struct search *search, unsigned num_accepted)
+static int charge_work_or_drop_unaccepted(struct search *search, unsigned num_accepted)
 {
     struct rho_initiator *initiator = search->initiator;
     if (rho_initiator_is_work_limit_exceeded(search)) {
@@ -147,7 +147,8 @@ void rho_initiator_select_candidates(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     unsigned accepted = 0;
-    while (accepted < initiator->num_candidates && charge_choice_or_drop_rest(search, accepted)) {
+    while (accepted < initiator->num_candidates &&
+           charge_work_or_drop_unaccepted(search, accepted)) {
         move_best_remaining_first(initiator, accepted);
         struct rho_candidate candidate = initiator->candidates[accepted];
         if (!conflicts_with_accepted(initiator, accepted, &candidate)) {
@@ -163,7 +164,7 @@ void rho_initiator_select_candidates(struct search *search)
     clear_taken_marks(search);
     /* association with the plots left may have raised a score */
     sort_candidates_by_score(initiator);
-    rho_initiator_assume_turns(search, 0);
+    rho_initiator_assume_turning_targets(search, 0);
 }
 
 /* ---- judgement ------------------------------------------------------------------------------- */
@@ -172,7 +173,7 @@ void rho_initiator_select_candidates(struct search *search)
  * Marks the plots of likely targets as taken, as they are not clutter. Returns the mean number of
  * plots of a likely target: one of these targets may be clutter nevertheless, and its plots count.
  */
-static float mark_plots_mean_hits_per_target(struct search *search)
+static float mark_likely_target_plots_mean_hits(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     unsigned likely = 0, hits = 0;
@@ -192,8 +193,9 @@ static int rescore_candidate(struct search *search, struct rho_candidate *candid
     struct line_fit fit;
     struct set_score score;
     search->is_left_out = candidate->score_mnat >= LIKELY_MNAT;
-    if (!rho_initiator_unpack_and_set_turning(search, candidate, &set, &fit) ||
-        set.hits < search->min_scans || !rho_initiator_score_set(search, &set, &fit, &score)) {
+    if (!rho_initiator_unpack_and_assume_its_turning(search, candidate, &set, &fit) ||
+        set.hits < search->min_scans ||
+        !rho_initiator_score_set_if_determined(search, &set, &fit, &score)) {
         return 0;
     }
     candidate->score_mnat = score.mnat;
@@ -207,7 +209,7 @@ static int rescore_candidate(struct search *search, struct rho_candidate *candid
 void rho_initiator_rescore_and_drop_weak(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
-    float more_plots = mark_plots_mean_hits_per_target(search);
+    float more_plots = mark_likely_target_plots_mean_hits(search);
     if (more_plots <= 0.0f) {
         return; /* without likely targets every plot counts as clutter already: the scores stand */
     }

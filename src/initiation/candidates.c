@@ -39,13 +39,13 @@ int rho_initiator_passes_thresholds(const struct search *search, const struct se
  * Makes a candidate of a set of plots: fits, associates and scores it. Returns 0 where its score or
  * its fit is not good enough, or where a listed candidate has the same plots.
  */
-int rho_initiator_make_unlisted_candidate(struct search *search, struct plot_set *set,
-                                          struct rho_candidate *candidate)
+int rho_initiator_make_candidate_not_yet_listed(struct search *search, struct plot_set *set,
+                                                struct rho_candidate *candidate)
 {
     struct line_fit fit;
     struct set_score score;
     if (!rho_initiator_refine_set(search, set, &fit) ||
-        !rho_initiator_score_set(search, set, &fit, &score) ||
+        !rho_initiator_score_set_if_determined(search, set, &fit, &score) ||
         !rho_initiator_passes_thresholds(search, &score)) {
         return 0;
     }
@@ -83,7 +83,7 @@ void rho_initiator_add_set_as_candidate(struct search *search, struct plot_set *
 {
     struct rho_initiator *initiator = search->initiator;
     struct rho_candidate candidate;
-    if (!rho_initiator_make_unlisted_candidate(search, set, &candidate)) {
+    if (!rho_initiator_make_candidate_not_yet_listed(search, set, &candidate)) {
         return;
     }
     if (initiator->num_candidates < RHO_MAX_CANDIDATES) {
@@ -102,9 +102,9 @@ void rho_initiator_add_set_as_candidate(struct search *search, struct plot_set *
  * Unpacks the plots and the track of a candidate. The search then assumes turning targets where the
  * candidate turns, and straight ones where not. Returns 0 where the plots do not determine a track.
  */
-int rho_initiator_unpack_and_set_turning(struct search *search,
-                                         const struct rho_candidate *candidate,
-                                         struct plot_set *set, struct line_fit *fit)
+int rho_initiator_unpack_and_assume_its_turning(struct search *search,
+                                                const struct rho_candidate *candidate,
+                                                struct plot_set *set, struct line_fit *fit)
 {
     *set = (struct plot_set){.mask = candidate->mask, .hits = candidate->hits};
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -117,6 +117,6 @@ int rho_initiator_unpack_and_set_turning(struct search *search,
                              .has_z = candidate->has_z,
                              .z_m = candidate->z_m,
                              .vz_mps = candidate->vz_mps};
-    rho_initiator_assume_turns(search, candidate->is_turning);
-    return !candidate->is_turning || rho_initiator_fit_track(search, set, fit);
+    rho_initiator_assume_turning_targets(search, candidate->is_turning);
+    return !candidate->is_turning || rho_initiator_fit_track_if_determined(search, set, fit);
 }

@@ -93,8 +93,8 @@ static int has_map_per_radar(const struct rho_initiator *initiator)
 }
 
 /* The density map that counts a sensor's plots: its own, or the common one. */
-static const struct rho_density_map *map_of_sensor(const struct rho_initiator *initiator,
-                                                   int32_t sensor_id)
+static const struct rho_density_map *
+map_of_sensor_or_common_map(const struct rho_initiator *initiator, int32_t sensor_id)
 {
     for (unsigned i = 1; has_map_per_radar(initiator) && i < initiator->num_maps; i++) {
         if (initiator->density[i].sensor_id == sensor_id) {
@@ -118,7 +118,7 @@ struct radars {
     unsigned count;
 };
 
-static int add_fixed_radar(struct radars *radars, const struct rho_sensor *sensor)
+static int add_radar_unless_moved_or_full(struct radars *radars, const struct rho_sensor *sensor)
 {
     for (unsigned i = 0; i < radars->count; i++) {
         if (radars->of[i]->sensor_id == sensor->sensor_id) {
@@ -145,7 +145,7 @@ static int list_radars_for_polar_maps(const struct search *search, struct radars
          m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
         is_radar |= !scan->is_isotropic;
-        if (!add_fixed_radar(radars, &scan->sensor)) {
+        if (!add_radar_unless_moved_or_full(radars, &scan->sensor)) {
             return 0;
         }
     }
@@ -272,7 +272,7 @@ static void lay_out_cartesian_map(const struct rho_initiator *initiator,
  * clutter is even in range and azimuth have a map each; otherwise all sensors share one map over
  * the area.
  */
-static void lay_out_maps(struct search *search)
+static void lay_out_density_maps(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     struct radars radars = {.count = 0};
@@ -394,8 +394,8 @@ static void fill_density_map(struct search *search, struct rho_density_map *map,
     float scans = 0.0f, all = (float)search->num_scans;
     uint32_t plots = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        if (map_of_sensor(initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) ==
-            map) {
+        if (map_of_sensor_or_common_map(
+                initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) == map) {
             plots += by_scan[m];
             scans += 1.0f;
         }
@@ -405,8 +405,8 @@ static void fill_density_map(struct search *search, struct rho_density_map *map,
     map->mean =
         mean_density(search, (float)plots + more_plots * scans / all, map->scans, map->content);
     for (unsigned m = 0; m < search->num_scans; m++) {
-        if (map_of_sensor(initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) ==
-            map) {
+        if (map_of_sensor_or_common_map(
+                initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) == map) {
             (void)count_plots_of_scan(initiator, m, skip_flags, map);
         }
     }
@@ -442,7 +442,7 @@ void rho_initiator_measure_or_keep_density(struct search *search)
         }
         return;
     }
-    lay_out_maps(search);
+    lay_out_density_maps(search);
     rho_initiator_measure_density(search, RHO_WINDOW_INITIATED, 0.0f);
 }
 
@@ -511,7 +511,7 @@ static float map_density_with_memory(const struct rho_initiator *initiator, floa
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
                             float y_m)
 {
-    const struct rho_density_map *map = map_of_sensor(initiator, sensor_id);
+    const struct rho_density_map *map = map_of_sensor_or_common_map(initiator, sensor_id);
     float ratio = 1.0f;
     if (initiator->num_maps == 0) {
         return 0.0f;
@@ -545,7 +545,7 @@ static unsigned count_set_plots_in_cell(const struct search *search, const struc
     for (unsigned k = 0; k < search->num_scans && !search->is_left_out; k++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, k);
         if ((set->mask >> k & 1u) && does_map_count_scan(search, k) &&
-            map_of_sensor(search->initiator, scan->sensor.sensor_id) == map) {
+            map_of_sensor_or_common_map(search->initiator, scan->sensor.sensor_id) == map) {
             const struct rho_window_plot *other = rho_initiator_plot_of_set(search, set, k);
             float per_m2;
             own += map_cell_at(map, other->x_m, other->y_m, &per_m2) == cell;
@@ -559,12 +559,13 @@ static unsigned count_set_plots_in_cell(const struct search *search, const struc
  * of the cell, and the clutter map's echoes are added.
  */
 float rho_initiator_log_density_of_hit(const struct search *search, const struct plot_set *set,
-                                       unsigned m)
+                                       unsigned scan_index)
 {
     struct rho_initiator *initiator = search->initiator;
-    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
-    const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, m);
-    const struct rho_density_map *map = map_of_sensor(initiator, scan->sensor.sensor_id);
+    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, scan_index);
+    const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, scan_index);
+    const struct rho_density_map *map =
+        map_of_sensor_or_common_map(initiator, scan->sensor.sensor_id);
     float per_m2;
     unsigned cell = map_cell_at(map, plot->x_m, plot->y_m, &per_m2), count = map->count[cell];
     unsigned own = count_set_plots_in_cell(search, set, map, cell);
@@ -572,9 +573,9 @@ float rho_initiator_log_density_of_hit(const struct search *search, const struct
     density = has_map_per_radar(initiator)
                   ? map_density_with_memory(initiator, plot->x_m, plot->y_m, density)
                   : rho_initiator_density_with_memory(initiator, plot->x_m, plot->y_m, density);
-    float log_density = rho_log(density) + search->log_ratio[m];
+    float log_density = rho_log(density) + search->log_ratio[scan_index];
     if (RHO_MAX_ECHOES > 0) {
-        log_density += (float)scan->repeats[set->plot[m]] / RHO_WINDOW_REPEATS_PER_NAT;
+        log_density += (float)scan->repeats[set->plot[scan_index]] / RHO_WINDOW_REPEATS_PER_NAT;
     }
     return log_density;
 }

@@ -51,7 +51,7 @@ static void lay_out_empty_cells(struct rho_clutter_memory *memory, const struct 
     memory->rows_per_m = (float)RHO_MAX_CLUTTER_CELLS / ((1.0f + 2.0f * MARGIN_SHARE) * height_m);
 }
 
-static int row_or_column_index(float cells)
+static int row_or_column_index_or_minus_1(float cells)
 {
     return cells >= 0.0f && cells < (float)RHO_MAX_CLUTTER_CELLS ? (int)cells : -1;
 }
@@ -59,8 +59,9 @@ static int row_or_column_index(float cells)
 /* Index of the memory's cell at a place; -1 outside of the cells. */
 static int cell_of_place(const struct rho_clutter_memory *memory, float x_m, float y_m)
 {
-    const int column = row_or_column_index((x_m - memory->x_min_m) * memory->columns_per_m);
-    const int row = row_or_column_index((y_m - memory->y_min_m) * memory->rows_per_m);
+    const int column =
+        row_or_column_index_or_minus_1((x_m - memory->x_min_m) * memory->columns_per_m);
+    const int row = row_or_column_index_or_minus_1((y_m - memory->y_min_m) * memory->rows_per_m);
     return column < 0 || row < 0 ? -1 : row * RHO_MAX_CLUTTER_CELLS + column;
 }
 

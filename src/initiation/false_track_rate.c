@@ -33,8 +33,9 @@ static float log_of_sigma_code(uint16_t code)
     return rho_log(rho_window_decode_sigma(code));
 }
 
-static struct place_class place_class_of_plot(const struct false_tracks *model,
-                                              const struct rho_window_scan *scan, unsigned index)
+static struct place_class clutter_and_noise_class_of_plot(const struct false_tracks *model,
+                                                          const struct rho_window_scan *scan,
+                                                          unsigned index)
 {
     const struct search *search = model->search;
     const struct rho_window_plot *plot = &scan->plots[index];
@@ -84,7 +85,7 @@ static void add_or_merge_place_class(struct false_tracks *model, const struct pl
  * Samples evenly spaced held plots into at most CLASSES_MAX classes of clutter and noise, each with
  * its share of the area.
  */
-static void sample_place_classes(struct false_tracks *model)
+static void sample_held_plots_into_place_classes(struct false_tracks *model)
 {
     struct rho_window *window = &model->search->initiator->window;
     unsigned total = 0, passed = 0;
@@ -100,7 +101,7 @@ static void sample_place_classes(struct false_tracks *model)
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
         for (unsigned i = 0; i < scan->num_plots; i++, passed++) {
             if (passed % stride == stride / 2u) {
-                struct place_class place = place_class_of_plot(model, scan, i);
+                struct place_class place = clutter_and_noise_class_of_plot(model, scan, i);
                 add_or_merge_place_class(model, &place);
             }
         }
@@ -130,7 +131,8 @@ static float log_gamma_of_k_plus_1(float k)
  * Mean, over all choices of h = `hits` scans that include `first` and the newest, of h sum (t -
  * mean)^2 = sum over pairs of (t_i - t_j)^2.
  */
-static float mean_time_spread_s2(const struct search *search, unsigned first, unsigned hits)
+static float mean_sum_of_squared_hit_time_gaps_s2(const struct search *search, unsigned first,
+                                                  unsigned hits)
 {
     unsigned last = search->num_scans - 1u, between = last - first - 1u, inner = hits - 2u;
     float both = search->time_s[last] - search->time_s[first];
@@ -241,7 +243,10 @@ static float half_residual_dimensions(const struct false_tracks *model, unsigned
     return 0.5f * ((float)hits * dimensions_of_hit(model) - (model->has_z ? 6.0f : 4.0f));
 }
 
-/* Score of a perfect fit to the hits of a pattern: rho_initiator_score_set with chi-square 0. */
+/*
+ * Score of a perfect fit to the hits of a pattern: rho_initiator_score_set_if_determined with
+ * chi-square 0.
+ */
 static float best_score_of_pattern(const struct false_tracks *model,
                                    const struct place_class *place, unsigned first, unsigned hits,
                                    float spread_s2)
@@ -252,15 +257,15 @@ static float best_score_of_pattern(const struct false_tracks *model,
     return search->log_prior + log_hit_pattern_probability(search, first, hits) -
            h * place->log_density - half_residual_dimensions(model, hits) * LOG_TWO_PI -
            h * half_log_det_of_hit_noise(model, place) - 0.5f * fisher +
-           rho_initiator_log_height_rate_volume(search, model->has_z, model->has_z ? hits : 0u,
-                                                model->has_range_rate ? hits : 0u) -
+           rho_initiator_log_height_and_range_rate_volume(
+               search, model->has_z, model->has_z ? hits : 0u, model->has_range_rate ? hits : 0u) -
            log_aliases_of_hits(model, h);
 }
 
 /* Half of the 99.9 % quantile of chi-square with 2 `half` dimensions. */
-static float half_chi2_limit(float half)
+static float half_chi2_limit(float half_dimensions)
 {
-    return 0.5f * rho_initiator_chi2_limit((unsigned)(2.0f * half + 0.5f), SIGMAS_99_9);
+    return 0.5f * rho_initiator_chi2_limit((unsigned)(2.0f * half_dimensions + 0.5f), SIGMAS_99_9);
 }
 
 static void add_pattern(struct false_tracks *model, unsigned first, unsigned hits)
@@ -274,7 +279,7 @@ static void add_pattern(struct false_tracks *model, unsigned first, unsigned hit
         .log_choices = rho_initiator_log_factorial(between) -
                        rho_initiator_log_factorial(hits - 2u) -
                        rho_initiator_log_factorial(between + 2u - hits),
-        .spread_s2 = mean_time_spread_s2(search, first, hits),
+        .spread_s2 = mean_sum_of_squared_hit_time_gaps_s2(search, first, hits),
         .inside =
             share_of_tracks_inside_after(search, search->time_s[newest] - search->time_s[first]),
         .half_dimensions = half,
@@ -408,7 +413,7 @@ void rho_initiator_model_false_tracks(const struct search *search, struct false_
     model->has_range_rate = (measures & RHO_MEASURES_RANGE_RATE) != 0;
     model->log_aliases = model->has_range_rate ? mean_log_aliases(search) : 0.0f;
     model->num_classes = 0;
-    sample_place_classes(model);
+    sample_held_plots_into_place_classes(model);
     list_and_score_patterns(model);
 }
 
@@ -442,8 +447,9 @@ static float score_margin_a_scan_ago(const struct false_tracks *model, unsigned 
  * one hit fewer, that share is 1 - k q^(k - 1) + (k - 1) q^k, q = before / y. Powers are multiplied
  * out rather than taken by logarithms, as the function is called often: k is a multiple of a half.
  */
-static float false_sets_in_class(const struct false_tracks *model, unsigned class_index,
-                                 unsigned pattern_index, float score_nat, float start_nat)
+static float false_sets_newly_above_in_class(const struct false_tracks *model, unsigned class_index,
+                                             unsigned pattern_index, float score_nat,
+                                             float start_nat)
 {
     const struct pattern *pattern = &model->patterns[pattern_index];
     const struct pattern_score *score = &model->scores[class_index][pattern_index];
@@ -467,30 +473,32 @@ static float false_sets_in_class(const struct false_tracks *model, unsigned clas
     return score->weight * (content * y) * share;
 }
 
-static float false_sets_of_pattern(const struct false_tracks *model, unsigned pattern_index,
-                                   float score_nat, float start_nat)
+static float false_sets_newly_above_of_pattern(const struct false_tracks *model,
+                                               unsigned pattern_index, float score_nat,
+                                               float start_nat)
 {
     float sum = 0.0f;
     if (model->patterns[pattern_index].hits < model->least_hits) {
         return 0.0f;
     }
     for (unsigned i = 0; i < model->num_classes; i++) {
-        sum += false_sets_in_class(model, i, pattern_index, score_nat, start_nat);
+        sum += false_sets_newly_above_in_class(model, i, pattern_index, score_nat, start_nat);
     }
     return sum;
 }
 
 float rho_initiator_false_sets_newly_above(const struct false_tracks *model, float score_nat,
-                                           float start_nat, float stop_above)
+                                           float start_nat, float stop_at_sum)
 {
     float sum = 0.0f;
-    for (unsigned k = 0; k < model->num_patterns && sum <= stop_above; k++) {
-        sum += false_sets_of_pattern(model, k, score_nat, start_nat);
+    for (unsigned k = 0; k < model->num_patterns && sum <= stop_at_sum; k++) {
+        sum += false_sets_newly_above_of_pattern(model, k, score_nat, start_nat);
     }
     return sum;
 }
 
-float rho_initiator_share_of_false_tracks_staying(const struct false_tracks *model, float start_nat)
+float rho_initiator_false_track_share_staying_in_area(const struct false_tracks *model,
+                                                      float start_nat)
 {
     const struct search *search = model->search;
     unsigned newest = search->num_scans - 1u;
@@ -501,7 +509,7 @@ float rho_initiator_share_of_false_tracks_staying(const struct false_tracks *mod
                       share_of_tracks_inside_after(search, span_s);
     }
     for (unsigned k = 0; k < model->num_patterns; k++) {
-        float sets = false_sets_of_pattern(model, k, start_nat, start_nat);
+        float sets = false_sets_newly_above_of_pattern(model, k, start_nat, start_nat);
         sum += sets * stay[model->patterns[k].first];
         all += sets;
     }
@@ -515,12 +523,12 @@ float rho_initiator_least_gain_of_hit(const struct false_tracks *model)
     for (unsigned i = 0; i < model->num_classes; i++) {
         const struct place_class wide =
             noise_widened_by_bend(model, &model->classes[i], search->num_scans - 3u, 3);
-        float gain =
-            search->log_pd[search->num_scans - 1u] - wide.log_density -
-            0.5f * dimensions_of_hit(model) * LOG_TWO_PI - half_log_det_of_hit_noise(model, &wide) -
-            rho_log(PREDICTION_SPREAD) +
-            rho_initiator_log_height_rate_volume(search, 0, 0, model->has_range_rate ? 1u : 0u) -
-            log_aliases_of_hits(model, 1.0f);
+        float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
+                     0.5f * dimensions_of_hit(model) * LOG_TWO_PI -
+                     half_log_det_of_hit_noise(model, &wide) - rho_log(PREDICTION_SPREAD) +
+                     rho_initiator_log_height_and_range_rate_volume(
+                         search, 0, 0, model->has_range_rate ? 1u : 0u) -
+                     log_aliases_of_hits(model, 1.0f);
         least = gain < least ? gain : least;
     }
     return least;
@@ -553,8 +561,8 @@ int rho_initiator_lets_half_of_targets_start(const struct false_tracks *model, f
     return 0;
 }
 
-unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigned first,
-                                       float start_nat)
+unsigned rho_initiator_least_hits_reaching_start_from(const struct false_tracks *model,
+                                                      unsigned first, float start_nat)
 {
     for (unsigned k = 0; k < model->num_patterns; k++) {
         const struct pattern *pattern = &model->patterns[k];
@@ -566,7 +574,7 @@ unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigne
     return model->search->num_scans + 1u;
 }
 
-float rho_initiator_least_clutter_within_noise(const struct false_tracks *model)
+float rho_initiator_least_clutter_plots_in_noise(const struct false_tracks *model)
 {
     float least = 0.0f;
     for (unsigned i = 0; i < model->num_classes; i++) {

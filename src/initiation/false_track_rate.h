@@ -36,7 +36,7 @@ struct place_class {
 struct pattern {
     uint16_t first, hits;
     float log_choices; /* ln of the number of choices of the scans between */
-    float spread_s2;   /* mean spread of the hits' times, by mean_time_spread_s2 */
+    float spread_s2;   /* mean spread of the hits' times, by mean_sum_of_squared_hit_time_gaps_s2 */
     float inside;      /* share of tracks of this duration that stay in the area */
     float half_dimensions;
     float most; /* largest chi2 / 2 of a fit that is accepted */
@@ -80,8 +80,8 @@ float rho_initiator_false_sets_newly_above(const struct false_tracks *model, flo
                                            float start_nat, float stop_above);
 
 /* Share of the false tracks started at start_nat that are still in the area at the next scan. */
-float rho_initiator_share_of_false_tracks_staying(const struct false_tracks *model,
-                                                  float start_nat);
+float rho_initiator_false_track_share_staying_in_area(const struct false_tracks *model,
+                                                      float start_nat);
 
 /*
  * Score that one more perfect hit adds to a tentative track, in the class of places where that is
@@ -93,11 +93,11 @@ float rho_initiator_least_gain_of_hit(const struct false_tracks *model);
  * Fewest hits, at least the model's least_hits, with which sets from scan `first` to the newest
  * reach start_nat in any class; N + 1 where none do.
  */
-unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigned first,
-                                       float start_nat);
+unsigned rho_initiator_least_hits_reaching_start_from(const struct false_tracks *model,
+                                                      unsigned first, float start_nat);
 
 /* Clutter plots within the noise of a plot, in the class of places with the fewest; at most 1. */
-float rho_initiator_least_clutter_within_noise(const struct false_tracks *model);
+float rho_initiator_least_clutter_plots_in_noise(const struct false_tracks *model);
 
 /* True where at least half of the targets with the least number of hits reach start_nat. */
 int rho_initiator_lets_half_of_targets_start(const struct false_tracks *model, float start_nat);

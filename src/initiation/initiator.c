@@ -139,7 +139,7 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
      */
     if (RHO_MAX_CLUTTER_CELLS > 0 && initiator->window.num_scans == initiator->config.scans &&
         rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK &&
-        !rho_window_is_continued_by_scan(&initiator->window, scan, sensor)) {
+        !rho_window_is_next_sector_of_newest_scan(&initiator->window, scan, sensor)) {
         rho_initiator_remember_oldest_scan(initiator);
     }
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);
@@ -208,7 +208,7 @@ static float usual_scan_interval_s(const struct search *search)
  * Sets the scans' times relative to the newest, and the usual interval. The sides of an area that
  * is not given become at least as long as the travel of the fastest target within the window.
  */
-static void set_times_and_area_side(struct search *search)
+static void set_scan_times_interval_and_least_area_side(struct search *search)
 {
     struct rho_window *window = &search->initiator->window;
     int64_t newest_us = rho_window_scan_at(window, search->num_scans - 1u)->time_us;
@@ -238,7 +238,7 @@ static float revolution_share_of_newest(struct search *search)
  * Sets whether the newest input is a sector, and whether an earlier sector of the same revolution
  * was searched, whose density map and thresholds then hold.
  */
-static void set_up_newest_sector(struct search *search)
+static void set_whether_sector_continues_revolution(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     const int is_newest = search->kind == RHO_SEARCH_NEWEST;
@@ -250,18 +250,18 @@ static void set_up_newest_sector(struct search *search)
     }
 }
 
-static void set_up_search(struct search *search)
+static void set_up_search_gate_sector_and_times(struct search *search)
 {
     search->wanted_mask = search->kind == RHO_SEARCH_NEWEST ? 1u << (search->num_scans - 1u) : 0u;
     search->scans_seen = (float)search->num_scans;
     search->has_more = measures_heights_or_rates(search);
     search->gate_chi2 = search->has_more ? RHO_GATE_CHI2_4D : RHO_GATE_CHI2_2D;
     search->has_one_noise = has_only_isotropic_positions(search);
-    rho_initiator_assume_turns(search, 0);
+    rho_initiator_assume_turning_targets(search, 0);
     if (RHO_SECTORS) {
-        set_up_newest_sector(search);
+        set_whether_sector_continues_revolution(search);
     }
-    set_times_and_area_side(search);
+    set_scan_times_interval_and_least_area_side(search);
 }
 
 /* ---- search ---------------------------------------------------------------------------------- */
@@ -278,10 +278,10 @@ static void try_turning_targets(struct search *search)
     search->min_scans++;
     if (search->min_scans <= search->num_scans) {
         search->log_turning = rho_initiator_log_turn_prior(search);
-        rho_initiator_assume_turns(search, 1);
+        rho_initiator_assume_turning_targets(search, 1);
         /* turns widen the gates beyond the bound that noise gives */
         search->sigma_least_m = 0.0f;
-        rho_initiator_try_turning_kernels(search);
+        rho_initiator_try_turning_kernels_with_work_left(search);
     }
     search->min_scans = min_scans;
 }
@@ -314,12 +314,12 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
     if (search.num_scans == 0) {
         return RHO_OK;
     }
-    set_up_search(&search);
+    set_up_search_gate_sector_and_times(&search);
     rho_initiator_set_process_noise(&search);
     rho_initiator_measure_or_keep_density(&search);
-    rho_initiator_bound_noise_by_range(&search);
+    rho_initiator_bound_noise_per_metre_of_range(&search);
     rho_initiator_set_pd_and_birth_prior(&search);
-    rho_initiator_set_thresholds(&search);
+    rho_initiator_set_min_scans_and_thresholds(&search);
     if (search.num_scans >= 3 && search.num_scans >= search.min_scans) {
         rho_initiator_try_straight_kernels(&search);
         try_turning_targets(&search);
@@ -328,7 +328,7 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
             rho_initiator_rescore_and_drop_weak(&search);
         }
     }
-    rho_initiator_record_work(&search);
+    rho_initiator_record_work_and_resume_place(&search);
     return RHO_OK;
 }
 

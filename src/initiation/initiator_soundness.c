@@ -75,7 +75,7 @@ static int is_sound_candidate(const struct rho_initiator *initiator,
  * True where an initiator with a revolution begun has the density map and M that the first sector
  * has set.
  */
-static int has_sound_revolution(const struct rho_initiator *initiator)
+static int has_density_map_and_min_hits_of_revolution(const struct rho_initiator *initiator)
 {
     const unsigned num_scans = initiator->window.num_scans;
     const unsigned least = num_scans < 3 ? num_scans : 3u;
@@ -95,7 +95,8 @@ int rho_initiator_is_sound(const struct rho_initiator *initiator)
     if (initiator->num_candidates > RHO_MAX_CANDIDATES || initiator->min_scans > RHO_MAX_SCANS ||
         !is_sound_score(initiator->start_mnat) || !is_sound_score(initiator->confirm_mnat) ||
         !rho_are_finite(&initiator->density_per_m2, 1) || !has_sound_density_maps(initiator) ||
-        !has_sound_clutter_memory(initiator) || !has_sound_revolution(initiator) ||
+        !has_sound_clutter_memory(initiator) ||
+        !has_density_map_and_min_hits_of_revolution(initiator) ||
         initiator->budget.resume.cost_class >= RHO_INITIATOR_CLASSES ||
         initiator->budget.resume.plot >= RHO_MAX_PLOTS) {
         return 0;

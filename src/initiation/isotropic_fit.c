@@ -84,7 +84,8 @@ int rho_initiator_nearest_plot_isotropic(struct search *search, const struct lin
             RHO_GATE_CHI2_2D * (bend_m2 + variance_factor * scan->sigma_max_m * scan->sigma_max_m)),
         .skip_flags = search->skip_flags,
     };
-    return rho_window_nearest_plot_isotropic(scan, &query, &search->initiator->work.window);
+    return rho_window_nearest_plot_in_sigmas_isotropic(scan, &query,
+                                                       &search->initiator->work.window);
 }
 
 /* ---- likelihood ------------------------------------------------------------------------------ */

@@ -16,8 +16,8 @@
  * ln of the volume of heights and range rates over which clutter and births are spread, apart from
  * positions and velocities in the plane.
  */
-float rho_initiator_log_height_rate_volume(const struct search *search, int has_z, unsigned heights,
-                                           unsigned range_rates)
+float rho_initiator_log_height_and_range_rate_volume(const struct search *search, int has_z,
+                                                     unsigned heights, unsigned range_rates)
 {
     float v_max_mps = search->initiator->config.v_max_mps;
     float room = (float)range_rates * rho_log(2.0f * v_max_mps);

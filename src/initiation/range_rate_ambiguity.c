@@ -41,10 +41,11 @@ int rho_initiator_find_aliases_if_ambiguous(const struct rho_window_scan *scan,
 }
 
 /* Kalman update of the velocity by alias i of the range rate: V - V u u^T V / s^2. */
-void rho_initiator_apply_alias(const struct aliases *aliases, int i,
-                               const struct rho_window_place *place, struct rho_window_place *known)
+void rho_initiator_update_kernel_velocity_by_alias(const struct aliases *aliases, int i,
+                                                   const struct rho_window_place *place,
+                                                   struct rho_window_place *known)
 {
-    const struct rho_window_noise *noise = &place->velocity_noise;
+    const struct rho_window_plot_noise_covariance *noise = &place->velocity_noise;
     const float *u = aliases->seen.along;
     const float toward[3] = {noise->xx_m2 * u[0] + noise->xy_m2 * u[1],
                              noise->xy_m2 * u[0] + noise->yy_m2 * u[1], noise->zz_m2 * u[2]};

@@ -127,9 +127,10 @@ rho_initiator_plot_of_set(const struct search *search, const struct plot_set *se
 }
 
 static inline float rho_initiator_plot_time_s(const struct search *search,
-                                              const struct plot_set *set, unsigned m)
+                                              const struct plot_set *set, unsigned scan_index)
 {
-    return search->time_s[m] + rho_initiator_plot_of_set(search, set, m)->offset_s;
+    return search->time_s[scan_index] +
+           rho_initiator_plot_of_set(search, set, scan_index)->offset_s;
 }
 
 /* ---- before the search ----------------------------------------------------------------------- */
@@ -160,7 +161,7 @@ void rho_initiator_remember_oldest_scan(struct rho_initiator *initiator);
 float rho_initiator_density_with_memory(const struct rho_initiator *initiator, float x_m, float y_m,
                                         float density_per_m2);
 
-/* Sets the covariance of displacements by process noise (process_noise.c). */
+/* Sets the covariance of displacements by process noise (straight_line_process_noise.c). */
 void rho_initiator_set_process_noise(struct search *search);
 float rho_initiator_largest_bend_variance_m2(const struct search *search, unsigned first,
                                              float *sum_m2);
@@ -173,8 +174,8 @@ float rho_initiator_process_variance_off_line_m2(const struct search *search, un
 
 /* Sets the detection probabilities and the density of births (prior.c). */
 void rho_initiator_set_pd_and_birth_prior(struct search *search);
-float rho_initiator_log_height_rate_volume(const struct search *search, int has_z, unsigned heights,
-                                           unsigned range_rates);
+float rho_initiator_log_height_and_range_rate_volume(const struct search *search, int has_z,
+                                                     unsigned heights, unsigned range_rates);
 
 /* Quantile of chi-square at a normal deviate of `sigmas` (chi_square_and_log_factorial.c). */
 float rho_initiator_chi2_limit(unsigned dimensions, float sigmas);
@@ -182,12 +183,12 @@ float rho_initiator_chi2_limit(unsigned dimensions, float sigmas);
 float rho_initiator_log_factorial(unsigned n);
 
 /* Sets M, and the scores that start and confirm a track (start_thresholds.c). */
-void rho_initiator_set_thresholds(struct search *search);
+void rho_initiator_set_min_scans_and_thresholds(struct search *search);
 /* Finds the thresholds anew, for the clutter density measured last. */
 void rho_initiator_update_thresholds(struct search *search);
 float rho_initiator_log_turn_prior(const struct search *search);
 /* Takes sets as those of turning targets from here on, or of straight ones. */
-void rho_initiator_assume_turns(struct search *search, int turns);
+void rho_initiator_assume_turning_targets(struct search *search, int turns);
 
 /* ---- work ------------------------------------------------------------------------------------ */
 
@@ -197,7 +198,7 @@ uint32_t rho_initiator_work_spent(const struct search *search);
 int rho_initiator_is_work_limit_exceeded(const struct search *search);
 /* Adds units to the work done. */
 void rho_initiator_charge_work(const struct search *search, uint32_t units);
-void rho_initiator_record_work(struct search *search);
+void rho_initiator_record_work_and_resume_place(struct search *search);
 
 /* ---- kernels --------------------------------------------------------------------------------- */
 
@@ -241,7 +242,8 @@ struct ending {
     float along_x, along_y; /* unit vector of the line of sight; 0, 0: not used */
     float rounding_m;       /* rounding error of places extrapolated from this plot, in float32 */
     int is_clear;           /* clutter here is thin: M votes suffice in all spans */
-    struct rho_window_noise noise; /* covariance of the plot; not set with isotropic noise */
+    struct rho_window_plot_noise_covariance
+        noise; /* covariance of the plot; not set with isotropic noise */
 };
 
 /*
@@ -271,10 +273,10 @@ struct span_list {
     struct voter voters[SPANS_MAX * (SPANS_MAX + 1) / 2]; /* voters of all spans, span by span */
 };
 
-/* Bounds the noise of a single radar by range, for narrower gates (vote_gate_narrowing.c). */
-void rho_initiator_bound_noise_by_range(struct search *search);
-void rho_initiator_set_vote_gate_shares(const struct search *search, float far_m,
-                                        struct ending *ending);
+/* Bounds the noise of a single radar by range, for narrower gates (vote_gates_by_range.c). */
+void rho_initiator_bound_noise_per_metre_of_range(struct search *search);
+void rho_initiator_set_gate_shares_of_ending_plot(const struct search *search, float far_m,
+                                                  struct ending *ending);
 
 /*
  * Aliases of an ambiguous range rate: its error is seen.error_mps + i span_mps, i from first to
@@ -295,20 +297,21 @@ int rho_initiator_find_aliases_if_ambiguous(const struct rho_window_scan *scan,
                                             const struct rho_window_place *place,
                                             struct aliases *aliases);
 /* Sets *known to the place with its velocity corrected by alias i of the range rate. */
-void rho_initiator_apply_alias(const struct aliases *aliases, int i,
-                               const struct rho_window_place *place,
-                               struct rho_window_place *known);
+void rho_initiator_update_kernel_velocity_by_alias(const struct aliases *aliases, int i,
+                                                   const struct rho_window_place *place,
+                                                   struct rho_window_place *known);
 
 /*
  * Collects the votes for the kernel from plot i of the span's first scan to `ending`. Returns 0
  * where they are too few. An ambiguous range rate makes several kernels of one pair: *next_alias, 0
- * at first, tells with which alias to continue, and is 0 after the last (kernel_votes.c).
+ * at first, tells with which alias to continue, and is 0 after the last (plot_pair_votes.c).
  */
-int rho_initiator_collect_kernel_votes(struct search *search, const struct span *span,
-                                       const struct ending *ending, const struct first_vote *first,
-                                       unsigned i, int *next_alias, struct plot_set *set);
+int rho_initiator_collect_votes_of_plot_pair(struct search *search, const struct span *span,
+                                             const struct ending *ending,
+                                             const struct first_vote *first, unsigned i,
+                                             int *next_alias, struct plot_set *set);
 
-/* Lists the spans of kernels that end in scan b (kernel_enumeration.c). */
+/* Lists the spans of kernels that end in scan b (plot_pair_enumeration.c). */
 void rho_initiator_list_spans_ending_at(struct search *search, unsigned b, struct span_list *list);
 /*
  * Number of plots, in the scan before the last, that a target in plot j may have come from: a
@@ -317,25 +320,25 @@ void rho_initiator_list_spans_ending_at(struct search *search, unsigned b, struc
 unsigned rho_initiator_count_previous_plots_near(struct search *search,
                                                  const struct span_list *list, unsigned j);
 /* Tries all kernels that end in plot j. Returns 0 where the work is spent. */
-int rho_initiator_try_kernels_ending_at(struct search *search, const struct span_list *list,
-                                        unsigned j);
+int rho_initiator_finish_kernels_ending_at_plot(struct search *search, const struct span_list *list,
+                                                unsigned j);
 
-/* Tries all kernels of straight targets within the limit of work (kernel_schedule.c). */
+/* Tries all kernels of straight targets within the limit of work (plot_pair_search_order.c). */
 void rho_initiator_try_straight_kernels(struct search *search);
 /* Tries kernels of turning targets that end in the newest scan, with the work that is left. */
-void rho_initiator_try_turning_kernels(struct search *search);
+void rho_initiator_try_turning_kernels_with_work_left(struct search *search);
 
 /* ---- candidates ------------------------------------------------------------------------------ */
 
 /* Converts nats to integer thousandths, limited to a million nats (track_fit.c). */
 int32_t rho_initiator_nat_to_mnat(float nat);
-int rho_initiator_fit_track(const struct search *search, const struct plot_set *set,
-                            struct line_fit *fit);
+int rho_initiator_fit_track_if_determined(const struct search *search, const struct plot_set *set,
+                                          struct line_fit *fit);
 void rho_initiator_associate_plots(struct search *search, const struct line_fit *fit,
                                    float variance_factor, struct plot_set *set);
 int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct line_fit *fit);
-int rho_initiator_score_set(const struct search *search, const struct plot_set *set,
-                            const struct line_fit *fit, struct set_score *score);
+int rho_initiator_score_set_if_determined(const struct search *search, const struct plot_set *set,
+                                          const struct line_fit *fit, struct set_score *score);
 
 /*
  * Arithmetic of track_fit.c for isotropic noise (isotropic_fit.c) and for all other plots
@@ -362,15 +365,15 @@ int rho_initiator_log_likelihood_anisotropic(const struct search *search,
 #define PASSED_IN_UNIT 8u
 #define COMPARED_IN_UNIT 2u
 
-int rho_initiator_make_unlisted_candidate(struct search *search, struct plot_set *set,
-                                          struct rho_candidate *candidate);
+int rho_initiator_make_candidate_not_yet_listed(struct search *search, struct plot_set *set,
+                                                struct rho_candidate *candidate);
 /* Makes a candidate of a set and lists it; a full list drops the lowest score (candidates.c). */
 void rho_initiator_add_set_as_candidate(struct search *search, struct plot_set *set);
 /* True where a score reaches the start threshold and, if a rate is kept, chi-square is small. */
 int rho_initiator_passes_thresholds(const struct search *search, const struct set_score *score);
-int rho_initiator_unpack_and_set_turning(struct search *search,
-                                         const struct rho_candidate *candidate,
-                                         struct plot_set *set, struct line_fit *fit);
+int rho_initiator_unpack_and_assume_its_turning(struct search *search,
+                                                const struct rho_candidate *candidate,
+                                                struct plot_set *set, struct line_fit *fit);
 
 /* Keeps candidates by score so that no two share more than one plot (candidate_selection.c). */
 void rho_initiator_select_candidates(struct search *search);

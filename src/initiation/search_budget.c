@@ -30,7 +30,7 @@ void rho_initiator_charge_work(const struct search *search, uint32_t units)
 }
 
 /* Records the work of a search, whether it was partial, and where the next search begins. */
-void rho_initiator_record_work(struct search *search)
+void rho_initiator_record_work_and_resume_place(struct search *search)
 {
     struct rho_initiator_budget *budget = &search->initiator->budget;
     budget->work = rho_initiator_work_spent(search);

@@ -77,7 +77,7 @@ static float log_false_tracks_in_scans(const struct search *search, unsigned h, 
            rho_log((float)h * spread_s2);
 }
 
-static float largest_sigma_m(const struct search *search)
+static float largest_sigma_with_process_noise_m(const struct search *search)
 {
     float sigma_m = RHO_LIMIT_SIGMA_MIN;
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -99,7 +99,8 @@ static float expected_false_tracks(const struct search *search, unsigned h)
                         rho_initiator_log_factorial(h) -
                         rho_initiator_log_factorial(search->num_scans - h);
     return rho_exp(log_subsets +
-                   log_false_tracks_in_scans(search, h, largest_sigma_m(search), spread_s2));
+                   log_false_tracks_in_scans(search, h, largest_sigma_with_process_noise_m(search),
+                                             spread_s2));
 }
 
 static unsigned choose_min_votes(const struct search *search)
@@ -149,14 +150,15 @@ struct clutter_gain {
     float miss_nat; /* score lost by a miss, positive */
 };
 
-static struct clutter_gain gain_by_clutter(const struct false_tracks *model, float start_nat)
+static struct clutter_gain model_score_gain_per_scan_by_clutter(const struct false_tracks *model,
+                                                                float start_nat)
 {
     const struct search *search = model->search;
     unsigned newest = search->num_scans - 1u;
     struct clutter_gain gain = {.gain_nat = rho_initiator_least_gain_of_hit(model),
                                 .gains = (unsigned)(0.5f * RHO_GATE_CHI2_2D / CLIMB_STEP),
                                 .miss_nat = -search->log_miss[newest]};
-    gain.each = rho_initiator_share_of_false_tracks_staying(model, start_nat) * CLIMB_STEP *
+    gain.each = rho_initiator_false_track_share_staying_in_area(model, start_nat) * CLIMB_STEP *
                 rho_exp(search->log_pd[newest] - gain.gain_nat);
     if (gain.each * (float)gain.gains > 1.0f) {
         /* clutter in every gate: the track takes only one of several plots */
@@ -168,7 +170,7 @@ static struct clutter_gain gain_by_clutter(const struct false_tracks *model, flo
 static void solve_climb_probabilities(struct climb_table *climbs, const struct false_tracks *model,
                                       float start_nat)
 {
-    struct clutter_gain gain = gain_by_clutter(model, start_nat);
+    struct clutter_gain gain = model_score_gain_per_scan_by_clutter(model, start_nat);
     float missed = 1.0f - gain.each * (float)gain.gains;
     for (int u = 0; u < CLIMBS; u++) {
         climbs->of[u] = 0.0f;
@@ -219,7 +221,7 @@ static int clutter_confirms_more_than(const struct climb_table *climbs,
 /*
  * The lowest start threshold at which no more than FALSE_STARTS_MAX sets of clutter start a track.
  */
-static float find_start_threshold(const struct false_tracks *model)
+static float find_threshold_limiting_false_starts(const struct false_tracks *model)
 {
     float low = THRESHOLD_MIN_NAT, high = THRESHOLD_MAX_NAT;
     if (rho_initiator_false_sets_newly_above(model, low, low, FALSE_STARTS_MAX) <=
@@ -263,13 +265,14 @@ static float find_confirm_threshold(const struct false_tracks *model, float want
  * Where there is none, a full window starts sets with hits in all scans; a window that still fills
  * starts none: M is then beyond the number of scans held.
  */
-static unsigned choose_least_hits_and_start(struct false_tracks *model, float *start_nat)
+static unsigned choose_least_hits_that_let_targets_start(struct false_tracks *model,
+                                                         float *start_nat)
 {
     unsigned num_scans = model->search->num_scans;
     unsigned wanted = model->search->initiator->config.min_scans;
     for (model->least_hits = wanted > 3u ? wanted : 3u; model->least_hits <= num_scans;
          model->least_hits++) {
-        *start_nat = find_start_threshold(model);
+        *start_nat = find_threshold_limiting_false_starts(model);
         if (model->num_classes == 0 ||
             rho_initiator_lets_half_of_targets_start(model, *start_nat)) {
             return model->least_hits;
@@ -283,32 +286,35 @@ static unsigned choose_least_hits_and_start(struct false_tracks *model, float *s
  * Sets the hits that each span needs, and the limit of thin clutter. Long spans have room for more
  * misses, each of which lowers the score, so they need more hits than M.
  */
-static void set_span_hits(struct rho_initiator *initiator, const struct false_tracks *model,
-                          float start_nat)
+static void set_span_hits_and_thin_clutter_limit(struct rho_initiator *initiator,
+                                                 const struct false_tracks *model, float start_nat)
 {
-    initiator->thin_clutter = THIN_SHARE * rho_initiator_least_clutter_within_noise(model);
+    initiator->thin_clutter = THIN_SHARE * rho_initiator_least_clutter_plots_in_noise(model);
     for (unsigned first = 0; first < RHO_MAX_SCANS; first++) {
         initiator->span_hits[first] =
-            (uint8_t)rho_initiator_least_hits_from(model, first, start_nat);
+            (uint8_t)rho_initiator_least_hits_reaching_start_from(model, first, start_nat);
     }
 }
 
-static void find_thresholds(const struct search *search, struct thresholds *thresholds)
+static void find_min_hits_and_score_thresholds(const struct search *search,
+                                               struct thresholds *thresholds)
 {
     const struct rho_initiator_config *config = &search->initiator->config;
     struct false_tracks model;
     thresholds->start_nat = THRESHOLD_MAX_NAT;
     rho_initiator_model_false_tracks(search, &model);
-    thresholds->min_scans = choose_least_hits_and_start(&model, &thresholds->start_nat);
+    thresholds->min_scans =
+        choose_least_hits_that_let_targets_start(&model, &thresholds->start_nat);
     if (HAS_SPAN_HITS) {
-        set_span_hits(search->initiator, &model, thresholds->start_nat);
+        set_span_hits_and_thin_clutter_limit(search->initiator, &model, thresholds->start_nat);
     }
     thresholds->confirm_nat =
         find_confirm_threshold(&model, config->false_tracks_per_hour * search->interval_s / 3600.0f,
                                thresholds->start_nat);
 }
 
-static void use_thresholds(struct search *search, const struct thresholds *thresholds)
+static void store_min_scans_and_thresholds(struct search *search,
+                                           const struct thresholds *thresholds)
 {
     struct rho_initiator *initiator = search->initiator;
     search->min_scans = thresholds->min_scans;
@@ -321,7 +327,7 @@ static void use_thresholds(struct search *search, const struct thresholds *thres
  * Sets M and the thresholds of a search. Without a false-track rate to keep, one threshold starts
  * and confirms tracks. A further sector of a revolution keeps those of the first sector.
  */
-void rho_initiator_set_thresholds(struct search *search)
+void rho_initiator_set_min_scans_and_thresholds(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     const struct rho_initiator_config *config = &initiator->config;
@@ -333,11 +339,11 @@ void rho_initiator_set_thresholds(struct search *search)
     struct thresholds thresholds = {config->score_min_nat, config->score_min_nat,
                                     config->min_scans};
     if (search->keeps_rate && search->num_scans >= 3) {
-        find_thresholds(search, &thresholds);
+        find_min_hits_and_score_thresholds(search, &thresholds);
     } else if (thresholds.min_scans == 0) {
         thresholds.min_scans = search->keeps_rate ? 3u : choose_min_votes(search);
     }
-    use_thresholds(search, &thresholds);
+    store_min_scans_and_thresholds(search, &thresholds);
     initiator->min_scans = (uint16_t)search->min_scans;
 }
 
@@ -345,8 +351,8 @@ void rho_initiator_set_thresholds(struct search *search)
 void rho_initiator_update_thresholds(struct search *search)
 {
     struct thresholds thresholds;
-    find_thresholds(search, &thresholds);
-    use_thresholds(search, &thresholds);
+    find_min_hits_and_score_thresholds(search, &thresholds);
+    store_min_scans_and_thresholds(search, &thresholds);
 }
 
 /* ---- turns ----------------------------------------------------------------------------------- */
@@ -371,7 +377,7 @@ float rho_initiator_log_turn_prior(const struct search *search)
     return rho_log(TURNING_SHARE) - (more_nat > 0.0f ? more_nat : 0.0f);
 }
 
-void rho_initiator_assume_turns(struct search *search, int turns)
+void rho_initiator_assume_turning_targets(struct search *search, int turns)
 {
     search->turn_mps2 = turns ? search->initiator->config.turn_mps2 : 0.0f;
     search->log_turn = turns ? search->log_turning : 0.0f;

@@ -26,8 +26,8 @@
 /* ---- fit ------------------------------------------------------------------------------------- */
 
 /* Fits a track to a set of plots. Returns 0 where the plots do not determine a track. */
-int rho_initiator_fit_track(const struct search *search, const struct plot_set *set,
-                            struct line_fit *fit)
+int rho_initiator_fit_track_if_determined(const struct search *search, const struct plot_set *set,
+                                          struct line_fit *fit)
 {
     return rho_initiator_takes_isotropic_path(search)
                ? rho_initiator_fit_isotropic(search, set, fit)
@@ -68,7 +68,8 @@ static int is_same_set(const struct search *search, const struct plot_set *a,
     return 1;
 }
 
-static int has_enough_votes(const struct search *search, const struct plot_set *set)
+static int has_enough_votes_and_wanted_scans(const struct search *search,
+                                             const struct plot_set *set)
 {
     return set->hits >= search->min_scans &&
            (set->mask & search->wanted_mask) == search->wanted_mask;
@@ -91,19 +92,19 @@ int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct
 {
     const float factor = search->turn_mps2 > 0.0f ? TURN_GATE_FACTOR : FIT_GATE_FACTOR;
     search->initiator->work.fits = rho_count(search->initiator->work.fits, 1);
-    if (!rho_initiator_fit_track(search, set, fit)) {
+    if (!rho_initiator_fit_track_if_determined(search, set, fit)) {
         return 0;
     }
     for (int round = 0; round < FIT_ROUNDS; round++) {
         struct plot_set before = *set;
         rho_initiator_associate_plots(search, fit, factor, set);
-        if (!has_enough_votes(search, set)) {
+        if (!has_enough_votes_and_wanted_scans(search, set)) {
             return 0;
         }
         if (is_same_set(search, &before, set)) {
             break;
         }
-        if (!rho_initiator_fit_track(search, set, fit)) {
+        if (!rho_initiator_fit_track_if_determined(search, set, fit)) {
             return 0;
         }
     }
@@ -157,8 +158,8 @@ static float log_detection_ratio(const struct search *search, const struct plot_
  * Sets the score ln [ P(plots | one target) / P(plots | clutter) ] of a set of plots. Returns 0
  * where the plots do not determine a track.
  */
-int rho_initiator_score_set(const struct search *search, const struct plot_set *set,
-                            const struct line_fit *fit, struct set_score *score)
+int rho_initiator_score_set_if_determined(const struct search *search, const struct plot_set *set,
+                                          const struct line_fit *fit, struct set_score *score)
 {
     float nat;
     const int is_line = rho_initiator_takes_isotropic_path(search)

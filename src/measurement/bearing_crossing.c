@@ -71,7 +71,8 @@ static struct base_angles crossing_angles(const struct rho_crossing_base *base, 
  * B sin(beta), as the distance of one sensor from the other one's line of sight: the rounding of
  * the base's direction does not enter.
  */
-static float sensor_to_ray_distance_m(const struct rho_crossing_base *base, float bearing_rad)
+static float perpendicular_from_sensor_to_ray_m(const struct rho_crossing_base *base,
+                                                float bearing_rad)
 {
     float dx_m = base->x_b_m - base->x_a_m, dy_m = base->y_b_m - base->y_a_m;
     return without_sign(dx_m * rho_sin(bearing_rad) - dy_m * rho_cos(bearing_rad));
@@ -111,8 +112,8 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
         return RHO_CROSSING_APART;
     }
     float sine = rho_sin(angles.delta_rad);
-    float over_a_m = sensor_to_ray_distance_m(base, bearing_b_rad);
-    float over_b_m = sensor_to_ray_distance_m(base, bearing_a_rad);
+    float over_a_m = perpendicular_from_sensor_to_ray_m(base, bearing_b_rad);
+    float over_b_m = perpendicular_from_sensor_to_ray_m(base, bearing_a_rad);
     if (!(over_a_m <= range_max_m * sine && over_b_m <= range_max_m * sine)) {
         return RHO_CROSSING_RANGE;
     }

@@ -178,8 +178,8 @@ static void impose_component_moments(const struct component *view, float mean_sh
  * Measures the speed across the line of sight as 0, with the notch's width as its sigma, if the
  * estimate allows that the target stands: a standing target has no speed across, either.
  */
-static void assume_no_cross_speed_if_possible(const struct component *rate, float notch_mps,
-                                              int num_states, float *state, float *covariance)
+static void impose_no_cross_speed_if_may_stand(const struct component *rate, float notch_mps,
+                                               int num_states, float *state, float *covariance)
 {
     struct component across = {.row = {0.0f, 0.0f, 0.0f, -rate->row[4], rate->row[3], 0.0f}};
     float projected[6];
@@ -213,7 +213,7 @@ float rho_notch_update_by_miss(const struct rho_sensor *sensor, const struct rho
                                  covariance);
     }
     if (look->may_stand && blind.share > STAND_SHARE * missed) {
-        assume_no_cross_speed_if_possible(&rate, sensor->notch_mps, num_states, state, covariance);
+        impose_no_cross_speed_if_may_stand(&rate, sensor->notch_mps, num_states, state, covariance);
     }
     return missed;
 }

@@ -40,7 +40,7 @@ static void sink_peak(struct rho_accumulator_peak *heap, uint32_t n, uint32_t pl
     heap[place] = peak;
 }
 
-static void raise_peak(struct rho_accumulator_peak *heap, uint32_t place)
+static void sift_peak_up_heap(struct rho_accumulator_peak *heap, uint32_t place)
 {
     struct rho_accumulator_peak peak = heap[place];
     while (place > 0 && is_better_peak(&heap[(place - 1u) / 2u], &peak)) {
@@ -80,7 +80,7 @@ void rho_peak_list_offer(struct rho_peak_list *list, struct rho_accumulator_peak
     }
     if (list->num_peaks < list->max_peaks) {
         list->peaks[list->num_peaks] = peak;
-        raise_peak(list->peaks, list->num_peaks++);
+        sift_peak_up_heap(list->peaks, list->num_peaks++);
         return;
     }
     list->peaks_dropped = rho_count(list->peaks_dropped, 1);
@@ -93,7 +93,7 @@ void rho_peak_list_offer(struct rho_peak_list *list, struct rho_accumulator_peak
 /*
  * Removes the peaks with fewer than the final min_votes. Returns the number left, no longer a heap.
  */
-static uint32_t drop_below_threshold(const struct rho_peak_list *list)
+static uint32_t drop_below_threshold_and_count_left(const struct rho_peak_list *list)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < list->num_peaks; i++) {
@@ -117,7 +117,7 @@ static void sort_peaks(struct rho_accumulator_peak *heap, uint32_t n)
 
 void rho_peak_list_drop_weak_and_sort(struct rho_peak_list *list)
 {
-    uint32_t n = drop_below_threshold(list);
+    uint32_t n = drop_below_threshold_and_count_left(list);
     if (n < list->num_peaks) {
         list->num_peaks = n;
         /* peaks dropped for lack of room were worse, and so below the threshold too */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * accumulator_row_loops: votes and peaks in rows of accumulator cells. A template:
- * accumulator_rows.c includes it twice, with CELL an unsigned type and NAME(f) adding its suffix to
- * f. These hot loops are written so that gcc -O3 vectorises them.
+ * accumulator_row_votes_and_peaks.c includes it twice, with CELL an unsigned type and NAME(f)
+ * adding its suffix to f. These hot loops are written so that gcc -O3 vectorises them.
  */
 
 /*

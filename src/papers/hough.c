@@ -53,7 +53,7 @@ static struct rho_accumulator_config accumulator_config_of(const struct rho_houg
 }
 
 /* Cells within 2 eps, with 1/100 of a cell for rounding. */
-static float reach_in_cells(float eps, float cell)
+static float twice_eps_in_cells(float eps, float cell)
 {
     return 2.0f * eps / cell + 0.01f;
 }
@@ -71,8 +71,8 @@ static int is_usable(const struct rho_hough_config *config)
     return (unsigned)config->method <= RHO_HOUGH_NHT_C && are_thresholds_usable(config) &&
            rho_is_within(config->eps_rho_m, EPS_RHO_MIN_M, RHO_LIMIT_POSITION_M) &&
            rho_is_within(config->eps_theta_rad, EPS_THETA_MIN_RAD, EPS_THETA_MAX_RAD) &&
-           reach_in_cells(config->eps_rho_m, config->rho_cell_m) < RHO_HOUGH_REACH_MAX + 1.0f &&
-           reach_in_cells(config->eps_theta_rad, config->theta_cell_rad) <
+           twice_eps_in_cells(config->eps_rho_m, config->rho_cell_m) < RHO_HOUGH_REACH_MAX + 1.0f &&
+           twice_eps_in_cells(config->eps_theta_rad, config->theta_cell_rad) <
                RHO_HOUGH_REACH_MAX + 1.0f &&
            rho_is_within(config->v_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
@@ -97,8 +97,9 @@ enum rho_status rho_hough_init(struct rho_hough *hough, size_t object_size,
     hough->config = *config;
     hough->theta_cells = theta_cells;
     hough->rho_cells = rho_cells;
-    hough->theta_reach = (uint16_t)reach_in_cells(config->eps_theta_rad, config->theta_cell_rad);
-    hough->rho_reach = (uint16_t)reach_in_cells(config->eps_rho_m, config->rho_cell_m);
+    hough->theta_reach =
+        (uint16_t)twice_eps_in_cells(config->eps_theta_rad, config->theta_cell_rad);
+    hough->rho_reach = (uint16_t)twice_eps_in_cells(config->eps_rho_m, config->rho_cell_m);
     hough->magic = HOUGH_MAGIC;
     return RHO_OK;
 }
@@ -140,7 +141,7 @@ static enum rho_status check_points(const struct rho_hough *hough,
     return RHO_OK;
 }
 
-static uint32_t count_all_pairs(const struct rho_hough_points *points)
+static uint32_t count_pairs_of_successive_scans(const struct rho_hough_points *points)
 {
     uint64_t pairs = 0;
     for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
@@ -154,7 +155,7 @@ static uint32_t count_all_pairs(const struct rho_hough_points *points)
 void rho_hough_count_pairs(const struct rho_hough *hough, const struct rho_hough_points *points,
                            uint32_t *pairs, uint32_t *candidates)
 {
-    *pairs = count_all_pairs(points);
+    *pairs = count_pairs_of_successive_scans(points);
     *candidates = 0;
     for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
         uint32_t from = rho_hough_scan_start(points, scan), end = points->at.scan_end[scan];
@@ -223,7 +224,7 @@ static struct rho_hough_rows widened_rows(const struct rho_hough *hough, struct 
 }
 
 /* Sets the normals of lines at the borders of the held rows, widened by one row at either end. */
-static void set_border_normals(struct rho_hough_pass *pass)
+static void set_normals_at_borders_of_held_rows(struct rho_hough_pass *pass)
 {
     float cell_rad = pass->hough->config.theta_cell_rad;
     float from_rad = (float)(pass->held.first - 1) * cell_rad;
@@ -261,14 +262,15 @@ static struct rho_hough_pass make_pass_over_rows(struct rho_hough *hough,
                                   .points = points,
                                   .wanted = {first, count},
                                   .component = component,
-                                  .table_size = hash_size_for(count_all_pairs(points)),
+                                  .table_size =
+                                      hash_size_for(count_pairs_of_successive_scans(points)),
                                   .stops_when_full = count > 1};
     int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
     pass.voting = widened_rows(hough, pass.wanted, is_spread ? hough->theta_reach : 0);
     /* two rows more: one for the part of a cell in 2 eps, one as the last row may be narrower */
     pass.held = widened_rows(hough, pass.voting,
                              rho_hough_uses_kernels(hough) ? hough->theta_reach + 2 : 0);
-    set_border_normals(&pass);
+    set_normals_at_borders_of_held_rows(&pass);
     return pass;
 }
 
@@ -298,12 +300,12 @@ static void run_all_passes(struct rho_hough *hough, const struct rho_hough_point
                            struct rho_peak_list *list, struct rho_hough_result *result)
 {
     int32_t all = hough->theta_cells, rows = all;
-    *result = (struct rho_hough_result){.pairs = count_all_pairs(points)};
+    *result = (struct rho_hough_result){.pairs = count_pairs_of_successive_scans(points)};
     for (int32_t first = 0; first < all;) {
         int32_t count = all - first < rows ? all - first : rows;
         struct rho_hough_pass pass = make_pass_over_rows(hough, points, component, first, count);
         pass.plane = plane;
-        rho_hough_vote_pairs(&pass);
+        rho_hough_vote_successive_scan_pairs(&pass);
         if (pass.is_full && count > 1) {
             rows = count / 2;
             continue;
@@ -449,8 +451,8 @@ enum rho_status rho_hough_vote(const struct rho_hough *hough, const struct rho_h
     if (scan == points->at.num_scans || scan_of_plot(points, first) + 1u != scan) {
         return RHO_ERROR_VALUE;
     }
-    *memberships =
-        rho_hough_pair_memberships(hough, points, scan, (struct rho_hough_pair){first, second});
+    *memberships = rho_hough_truth_indeterminacy_falsity_of_pair(
+        hough, points, scan, (struct rho_hough_pair){first, second});
     return RHO_OK;
 }
 

@@ -75,9 +75,9 @@ static int is_nearer_pair(float distance2, struct rho_hough_pair pair, float oth
     return pair.first != other.first ? pair.first < other.first : pair.second < other.second;
 }
 
-void rho_hough_update_nearest(const struct rho_hough *hough, struct rho_line line,
-                              struct rho_line kernel, struct rho_hough_pair pair,
-                              struct rho_hough_nearest *nearest)
+void rho_hough_update_two_nearest_kernels(const struct rho_hough *hough, struct rho_line line,
+                                          struct rho_line kernel, struct rho_hough_pair pair,
+                                          struct rho_hough_nearest *nearest)
 {
     float distance2 = line_distance2_or_negative(hough, line, kernel);
     if (distance2 < 0.0f) {
@@ -103,8 +103,10 @@ void rho_hough_update_nearest(const struct rho_hough *hough, struct rho_line lin
  * Indeterminacy of a line: Gaussian of its distance from the line midway between the two nearest
  * kernels; 0 where there are not two kernels or they are farther than 2 eps.
  */
-static float indeterminacy(const struct rho_hough *hough, const struct rho_hough_points *points,
-                           struct rho_line line, const struct rho_hough_nearest *nearest)
+static float indeterminacy_from_middle_of_two_kernels(const struct rho_hough *hough,
+                                                      const struct rho_hough_points *points,
+                                                      struct rho_line line,
+                                                      const struct rho_hough_nearest *nearest)
 {
     const struct rho_hough_pair *a = &nearest->pair[0], *b = &nearest->pair[1];
     const float *x_m = points->at.x_m, *y_m = points->at.y_m;
@@ -126,25 +128,27 @@ static uint32_t to_vote_parts(float membership)
 }
 
 /* Falsity of every vote: lambda times the squared probability of a false plot. */
-static float falsity(const struct rho_hough *hough)
+static float falsity_by_false_plot_probability(const struct rho_hough *hough)
 {
     return hough->config.lambda_k * hough->config.p_false * hough->config.p_false;
 }
 
-struct rho_hough_memberships rho_hough_memberships_of_line(const struct rho_hough *hough,
-                                                           const struct rho_hough_points *points,
-                                                           struct rho_line line,
-                                                           const struct rho_hough_nearest *nearest)
+struct rho_hough_memberships rho_hough_truth_indeterminacy_falsity_of_line(
+    const struct rho_hough *hough, const struct rho_hough_points *points, struct rho_line line,
+    const struct rho_hough_nearest *nearest)
 {
-    const float f = falsity(hough);
+    const float f = falsity_by_false_plot_probability(hough);
     return (struct rho_hough_memberships){
         .truth = nearest->count > 0 ? to_vote_parts(rho_exp(-0.5f * nearest->distance2[0])) : 0,
-        .indeterminacy = to_vote_parts(indeterminacy(hough, points, line, nearest)),
+        .indeterminacy =
+            to_vote_parts(indeterminacy_from_middle_of_two_kernels(hough, points, line, nearest)),
         .falsity = to_vote_parts(f < 1.0f ? f : 1.0f)};
 }
 
-uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
-                               struct rho_line line, const struct rho_hough_nearest *nearest)
+uint32_t rho_hough_vote_weight_by_nearest_kernels(const struct rho_hough *hough,
+                                                  const struct rho_hough_points *points,
+                                                  struct rho_line line,
+                                                  const struct rho_hough_nearest *nearest)
 {
     const struct rho_hough_config *config = &hough->config;
     if (nearest->count == 0) {
@@ -152,10 +156,10 @@ uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_h
     }
     float vote = rho_exp(-0.5f * nearest->distance2[0]);
     if (config->uses_indeterminacy) {
-        float i = indeterminacy(hough, points, line, nearest);
+        float i = indeterminacy_from_middle_of_two_kernels(hough, points, line, nearest);
         vote = i > vote ? i : vote;
     }
-    return falsity(hough) > vote ? 0 : to_vote_parts(vote);
+    return falsity_by_false_plot_probability(hough) > vote ? 0 : to_vote_parts(vote);
 }
 
 /* ---- kernels --------------------------------------------------------------------------------- */
@@ -169,7 +173,7 @@ struct bin {
     int32_t theta, rho;
 };
 
-static int32_t count_theta_bins(const struct rho_hough *hough)
+static int32_t count_theta_bins_of_kernel_lookup(const struct rho_hough *hough)
 {
     return (int32_t)(RHO_PI / (2.0f * hough->config.eps_theta_rad));
 }
@@ -181,13 +185,14 @@ static int32_t bin_of_rho(const struct rho_hough *hough, float rho_m)
     return (float)bin > place ? bin - 1 : bin;
 }
 
-static struct bin bin_of_line(const struct rho_hough *hough, struct rho_line line)
+static struct bin kernel_lookup_bin_of_line(const struct rho_hough *hough, struct rho_line line)
 {
-    return (struct bin){rho_angle_clamped_theta_cell(line.theta_rad, count_theta_bins(hough)),
-                        bin_of_rho(hough, line.rho_m)};
+    return (struct bin){
+        rho_angle_clamped_theta_cell(line.theta_rad, count_theta_bins_of_kernel_lookup(hough)),
+        bin_of_rho(hough, line.rho_m)};
 }
 
-static uint16_t *chain_head_of_bin(struct rho_hough *hough, struct bin bin)
+static uint16_t *kernel_chain_head_of_bin(struct rho_hough *hough, struct bin bin)
 {
     uint32_t key = (uint32_t)bin.theta * 0x9e3779b1u ^ (uint32_t)bin.rho * 0x85ebca77u;
     return &hough->work.sparse.step.kernels.heads[(key ^ key >> 16) % RHO_HOUGH_CHAINS];
@@ -217,7 +222,7 @@ static void store_kernel(struct rho_hough_pass *pass, unsigned scan, struct rho_
  * Makes the pairs of the two scans before into kernels, in hash chains by bin. They are chained
  * from last to first, so that each chain is in the order of the plots.
  */
-static void chain_previous_kernels(struct rho_hough_pass *pass, unsigned scan)
+static void hash_previous_kernels_into_bin_chains(struct rho_hough_pass *pass, unsigned scan)
 {
     struct rho_hough *hough = pass->hough;
     struct rho_hough_kernel *list = hough->work.sparse.step.kernels.list[(scan - 1u) & 1u];
@@ -227,7 +232,7 @@ static void chain_previous_kernels(struct rho_hough_pass *pass, unsigned scan)
     memset(hough->work.sparse.step.kernels.heads, 0, sizeof hough->work.sparse.step.kernels.heads);
     for (uint32_t i = count; i > 0; i--) {
         struct rho_line line = {list[i - 1u].rho_m, list[i - 1u].theta_rad};
-        uint16_t *head = chain_head_of_bin(hough, bin_of_line(hough, line));
+        uint16_t *head = kernel_chain_head_of_bin(hough, kernel_lookup_bin_of_line(hough, line));
         list[i - 1u].next = *head;
         *head = (uint16_t)i;
     }
@@ -242,23 +247,23 @@ static void compare_kernels_in_bin(const struct rho_hough_pass *pass, unsigned s
     const struct rho_hough_kernel *list = hough->work.sparse.step.kernels.list[(scan - 1u) & 1u];
     uint32_t first = rho_hough_scan_start(pass->points, scan - 2u);
     uint32_t second = rho_hough_scan_start(pass->points, scan - 1u);
-    for (uint16_t i = *chain_head_of_bin(hough, bin); i > 0; i = list[i - 1u].next) {
+    for (uint16_t i = *kernel_chain_head_of_bin(hough, bin); i > 0; i = list[i - 1u].next) {
         const struct rho_hough_kernel *kernel = &list[i - 1u];
         struct rho_line at = {kernel->rho_m, kernel->theta_rad};
-        struct bin in = bin_of_line(hough, at);
+        struct bin in = kernel_lookup_bin_of_line(hough, at);
         if (in.theta == bin.theta && in.rho == bin.rho) {
             struct rho_hough_pair pair = {first + kernel->first, second + kernel->second};
-            rho_hough_update_nearest(hough, line, at, pair, nearest);
+            rho_hough_update_two_nearest_kernels(hough, line, at, pair, nearest);
         }
     }
 }
 
 /* Finds the two kernels nearest to a line, in the bins around the line's own. */
-static struct rho_hough_nearest find_nearest_kernels(const struct rho_hough_pass *pass,
-                                                     unsigned scan, struct rho_line line)
+static struct rho_hough_nearest find_nearest_stored_kernels(const struct rho_hough_pass *pass,
+                                                            unsigned scan, struct rho_line line)
 {
     struct rho_hough_nearest nearest = {.count = 0};
-    int32_t bins = count_theta_bins(pass->hough);
+    int32_t bins = count_theta_bins_of_kernel_lookup(pass->hough);
     int32_t middle = rho_angle_clamped_theta_cell(line.theta_rad, bins);
     for (int32_t theta = middle - 1; theta <= middle + 1; theta++) {
         int is_turned = theta < 0 || theta >= bins;
@@ -290,14 +295,15 @@ static uint32_t larger(uint32_t a, uint32_t b)
  * The amount that a pair adds to the sum of the pass' component in its cell: its vote, or one of
  * its memberships.
  */
-static uint32_t component_of_vote(const struct rho_hough_pass *pass, struct rho_line line,
-                                  const struct rho_hough_nearest *nearest)
+static uint32_t vote_or_membership_of_pass_component(const struct rho_hough_pass *pass,
+                                                     struct rho_line line,
+                                                     const struct rho_hough_nearest *nearest)
 {
     if (pass->component == RHO_HOUGH_VOTES) {
-        return rho_hough_vote_weight(pass->hough, pass->points, line, nearest);
+        return rho_hough_vote_weight_by_nearest_kernels(pass->hough, pass->points, line, nearest);
     }
     const struct rho_hough_memberships of =
-        rho_hough_memberships_of_line(pass->hough, pass->points, line, nearest);
+        rho_hough_truth_indeterminacy_falsity_of_line(pass->hough, pass->points, line, nearest);
     return pass->component == RHO_HOUGH_TRUTH           ? of.truth
            : pass->component == RHO_HOUGH_INDETERMINACY ? of.indeterminacy
            : pass->component == RHO_HOUGH_FALSITY
@@ -312,8 +318,8 @@ static void vote_pair_and_store_kernel(struct rho_hough_pass *pass, unsigned sca
     const struct rho_hough *hough = pass->hough;
     int32_t row = rho_hough_row_of_theta(hough, line.theta_rad);
     if (scan > 1 && rho_hough_has_row(hough, pass->voting, row)) {
-        struct rho_hough_nearest nearest = find_nearest_kernels(pass, scan, line);
-        uint32_t votes = component_of_vote(pass, line, &nearest);
+        struct rho_hough_nearest nearest = find_nearest_stored_kernels(pass, scan, line);
+        uint32_t votes = vote_or_membership_of_pass_component(pass, line, &nearest);
         if (votes > 0) {
             rho_hough_add_votes(pass, line, votes);
         }
@@ -344,7 +350,8 @@ static void vote_pair(struct rho_hough_pass *pass, unsigned scan, struct rho_hou
  * Lets one plot of the scan before vote with each plot of this scan, where the method takes the
  * pair.
  */
-static void vote_pairs_of_plot(struct rho_hough_pass *pass, unsigned scan, uint32_t first)
+static void vote_pairs_of_plot_with_plots_of_scan(struct rho_hough_pass *pass, unsigned scan,
+                                                  uint32_t first)
 {
     const struct rho_hough *hough = pass->hough;
     uint32_t start = rho_hough_scan_start(pass->points, scan);
@@ -360,17 +367,17 @@ static void vote_pairs_of_plot(struct rho_hough_pass *pass, unsigned scan, uint3
     }
 }
 
-void rho_hough_vote_pairs(struct rho_hough_pass *pass)
+void rho_hough_vote_successive_scan_pairs(struct rho_hough_pass *pass)
 {
     const struct rho_hough_points *points = pass->points;
     rho_hough_clear_cells(pass);
     for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
         uint32_t end = points->at.scan_end[scan - 1u];
         if (rho_hough_uses_kernels(pass->hough)) {
-            chain_previous_kernels(pass, scan);
+            hash_previous_kernels_into_bin_chains(pass, scan);
         }
         for (uint32_t i = rho_hough_scan_start(points, scan - 1u); i < end; i++) {
-            vote_pairs_of_plot(pass, scan, i);
+            vote_pairs_of_plot_with_plots_of_scan(pass, scan, i);
             if (pass->is_full && pass->stops_when_full) {
                 return;
             }

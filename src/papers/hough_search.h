@@ -3,12 +3,12 @@
  * hough_search: state and functions that the files of the Hough methods (HT, MHT, IHT, NHT) share.
  * Each file calls only files above it in this list:
  *
- *   hough_geometry.c    rows and columns of the plane
- *   hough_voted_cells.c    the hash of cells with votes; the spread of NHT_C over their neighbours
- *   hough_pairs.c    pairs of plots, their lines, and the votes that the kernels of NHT give them
- *   hough_track.c    the plots that voted for a cell, and the track fitted through them; the
- *                    memberships of a vote
- *   hough.c          configuration, passes over theta, thresholds and suppression
+ * - hough_geometry.c: rows and columns of the plane
+ * - hough_voted_cells.c: the hash of cells with votes; the spread of NHT_C over their neighbours
+ * - hough_pairs.c: pairs of plots, their lines, and the votes that the kernels of NHT give them
+ * - hough_fit_track_to_voters.c: the plots that voted for a cell, and the track fitted through
+ *   them; the memberships of a vote
+ * - hough.c: configuration, passes over theta, thresholds and suppression
  */
 #ifndef RHOTRACK_HOUGH_SEARCH_H
 #define RHOTRACK_HOUGH_SEARCH_H
@@ -83,23 +83,24 @@ struct rho_hough_nearest {
  * Enters a kernel into the two nearest of a line if it is within 2 eps and nearer. Among equally
  * near kernels the one with the lower plots counts.
  */
-void rho_hough_update_nearest(const struct rho_hough *hough, struct rho_line line,
-                              struct rho_line kernel, struct rho_hough_pair pair,
-                              struct rho_hough_nearest *nearest);
+void rho_hough_update_two_nearest_kernels(const struct rho_hough *hough, struct rho_line line,
+                                          struct rho_line kernel, struct rho_hough_pair pair,
+                                          struct rho_hough_nearest *nearest);
 
 /*
  * Vote of a pair with the given nearest kernels, in units of 1 / RHO_HOUGH_VOTE; 0: it does not
  * vote.
  */
-uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
-                               struct rho_line line, const struct rho_hough_nearest *nearest);
-struct rho_hough_memberships rho_hough_memberships_of_line(const struct rho_hough *hough,
-                                                           const struct rho_hough_points *points,
-                                                           struct rho_line line,
-                                                           const struct rho_hough_nearest *nearest);
+uint32_t rho_hough_vote_weight_by_nearest_kernels(const struct rho_hough *hough,
+                                                  const struct rho_hough_points *points,
+                                                  struct rho_line line,
+                                                  const struct rho_hough_nearest *nearest);
+struct rho_hough_memberships rho_hough_truth_indeterminacy_falsity_of_line(
+    const struct rho_hough *hough, const struct rho_hough_points *points, struct rho_line line,
+    const struct rho_hough_nearest *nearest);
 
 /* Lets all pairs of plots vote, for the rows of a pass. */
-void rho_hough_vote_pairs(struct rho_hough_pass *pass);
+void rho_hough_vote_successive_scan_pairs(struct rho_hough_pass *pass);
 
 /* ---- cells ---- */
 
@@ -123,9 +124,10 @@ void rho_hough_collect_cells(struct rho_hough_pass *pass, struct rho_peak_list *
 /* ---- voters ---- */
 
 /* Memberships of the vote of a pair whose second plot is of scan `scan`. */
-struct rho_hough_memberships rho_hough_pair_memberships(const struct rho_hough *hough,
-                                                        const struct rho_hough_points *points,
-                                                        unsigned scan, struct rho_hough_pair pair);
+struct rho_hough_memberships
+rho_hough_truth_indeterminacy_falsity_of_pair(const struct rho_hough *hough,
+                                              const struct rho_hough_points *points, unsigned scan,
+                                              struct rho_hough_pair pair);
 
 /*
  * Fits *track through the plots that voted for a cell: rho_hough_track with checked arguments; with

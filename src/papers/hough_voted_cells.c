@@ -178,7 +178,7 @@ uint32_t rho_hough_scale_votes(uint32_t votes, uint32_t share)
 }
 
 /* Moves the band, the window of sorted cells within reach, to a row of theta. */
-static void move_band_to_row(struct band *band, int32_t row)
+static void advance_band_window_of_cells_to_row(struct band *band, int32_t row)
 {
     int32_t reach = band->pass->hough->theta_reach;
     while (band->end < 2 * band->length && band_cell_at(band, band->end).row <= row + reach) {
@@ -193,7 +193,7 @@ struct columns {
     int32_t from, to;
 };
 
-static struct columns reached_columns(const struct band *band, struct band_cell cell)
+static struct columns columns_that_votes_spread_to(const struct band *band, struct band_cell cell)
 {
     int32_t reach = band->pass->hough->rho_reach, last = band->pass->hough->rho_cells - 1;
     return (struct columns){cell.column > reach ? cell.column - reach : 0,
@@ -204,7 +204,7 @@ static struct columns reached_columns(const struct band *band, struct band_cell 
 static void spread_cell_over_row(const struct band *band, int32_t row, struct band_cell cell,
                                  uint32_t *sums)
 {
-    struct columns columns = reached_columns(band, cell);
+    struct columns columns = columns_that_votes_spread_to(band, cell);
     int32_t away = row < cell.row ? cell.row - row : row - cell.row;
     uint32_t votes = rho_hough_scale_votes(cell.votes, band->theta_shares[away]);
     for (int32_t i = columns.from; i <= columns.to; i++) {
@@ -215,8 +215,9 @@ static void spread_cell_over_row(const struct band *band, int32_t row, struct ba
 }
 
 /* Adds a cell to the list of peaks, or to the plane of the pass where there is no list. */
-static void list_or_note_cell(const struct rho_hough_pass *pass, struct rho_peak_list *list,
-                              int32_t row, int32_t column, uint32_t votes)
+static void add_cell_to_peaks_or_picture(const struct rho_hough_pass *pass,
+                                         struct rho_peak_list *list, int32_t row, int32_t column,
+                                         uint32_t votes)
 {
     if (!list) {
         rho_votes_picture_enter_cell(pass->plane, (unsigned)row, (unsigned)column, votes);
@@ -231,11 +232,11 @@ static void list_or_note_cell(const struct rho_hough_pass *pass, struct rho_peak
 static void collect_and_clear_sums(const struct band *band, int32_t row, struct band_cell cell,
                                    uint32_t *sums, struct rho_peak_list *list)
 {
-    struct columns columns = reached_columns(band, cell);
+    struct columns columns = columns_that_votes_spread_to(band, cell);
     for (int32_t i = columns.from; i <= columns.to; i++) {
         if (sums[i] > 0) {
             band->pass->found.cells = rho_count(band->pass->found.cells, 1);
-            list_or_note_cell(band->pass, list, row, i, sums[i]);
+            add_cell_to_peaks_or_picture(band->pass, list, row, i, sums[i]);
             sums[i] = 0;
         }
     }
@@ -244,7 +245,7 @@ static void collect_and_clear_sums(const struct band *band, int32_t row, struct 
 static void spread_and_collect_row(struct band *band, int32_t row, struct rho_peak_list *list)
 {
     uint32_t *sums = band->pass->hough->work.sparse.step.row;
-    move_band_to_row(band, row);
+    advance_band_window_of_cells_to_row(band, row);
     for (int32_t place = band->first; place < band->end; place++) {
         spread_cell_over_row(band, row, band_cell_at(band, place), sums);
     }
@@ -286,8 +287,8 @@ void rho_hough_collect_cells(struct rho_hough_pass *pass, struct rho_peak_list *
         return;
     }
     for (uint32_t i = 0; i < num_cells; i++) {
-        list_or_note_cell(pass, list, row_of_key(cells[i].key), column_of_key(cells[i].key),
-                          cells[i].votes);
+        add_cell_to_peaks_or_picture(pass, list, row_of_key(cells[i].key),
+                                     column_of_key(cells[i].key), cells[i].votes);
     }
     pass->found.cells = num_cells;
 }

@@ -30,7 +30,7 @@ void rho_passive_paper_config_default(struct rho_passive_paper_config *config)
                                                 .rule = RHO_GHOST_LITERAL};
 }
 
-unsigned rho_passive_paper_count_rows(const struct rho_passive_paper_config *config)
+unsigned rho_passive_paper_count_theta_rows(const struct rho_passive_paper_config *config)
 {
     return (unsigned)(RHO_PI / config->theta_cell_rad + 0.5f);
 }
@@ -43,14 +43,14 @@ static int is_usable(const struct rho_passive_paper_config *config)
            rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) &&
            2.0f * config->range_max_m <= config->rho_cell_m * (float)RHO_PAPER_RHO_CELLS &&
            rho_is_within(config->theta_cell_rad, 1.0e-4f, 0.5f) &&
-           rho_passive_paper_count_rows(config) <= RHO_PAPER_THETA_CELLS &&
+           rho_passive_paper_count_theta_rows(config) <= RHO_PAPER_THETA_CELLS &&
            (unsigned)config->votes <= RHO_VOTES_POINTS && (unsigned)config->rule <= RHO_GHOST_SAFE;
 }
 
 /*
  * Largest distance of two sensors at which all lines through crossings lie within the cells of rho.
  */
-static float max_sensor_distance_m(const struct rho_passive_paper_config *config)
+static float allowed_sensor_distance_m(const struct rho_passive_paper_config *config)
 {
     float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PAPER_RHO_CELLS - config->range_max_m;
     float apart_m = reach_m / APART_SHARE;
@@ -75,7 +75,7 @@ enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t o
     memset(paper, 0, sizeof *paper);
     paper->config = kept;
     paper->magic = RHO_PASSIVE_PAPER_MAGIC;
-    return rho_batch_init(&paper->batch, kept.scans, max_sensor_distance_m(&kept));
+    return rho_batch_init(&paper->batch, kept.scans, allowed_sensor_distance_m(&kept));
 }
 
 /* ---- frames ---------------------------------------------------------------------------------- */
@@ -107,8 +107,8 @@ static int has_scan_in_batch(const struct rho_batch *batch, unsigned sensor)
     return looks > 0;
 }
 
-void rho_passive_paper_set_reporting_sensors(const struct rho_batch *batch,
-                                             struct rho_passive_paper_search *search)
+void rho_passive_paper_list_sensors_and_middle(const struct rho_batch *batch,
+                                               struct rho_passive_paper_search *search)
 {
     for (unsigned s = 0; s < batch->num_sensors; s++) {
         if (has_scan_in_batch(batch, s)) {
@@ -133,10 +133,10 @@ static void set_scan_times(struct rho_passive_paper_search *search)
     }
 }
 
-int rho_passive_paper_set_cells_if_searchable(struct rho_passive_paper_search *search)
+int rho_passive_paper_set_cells_if_enough_scans(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
-    search->rows = (int)rho_passive_paper_count_rows(&paper->config);
+    search->rows = (int)rho_passive_paper_count_theta_rows(&paper->config);
     search->columns = RHO_PAPER_RHO_CELLS;
     paper->votes_min = paper->config.votes_min > 0
                            ? paper->config.votes_min
@@ -155,14 +155,14 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
     struct rho_passive_paper_search search = {.paper = paper};
     memset(&paper->work, 0, sizeof paper->work);
     paper->num_lines = 0;
-    rho_batch_compact_bearings(&paper->batch);
-    rho_passive_paper_set_reporting_sensors(&paper->batch, &search);
-    if (!rho_passive_paper_set_cells_if_searchable(&search)) {
+    rho_batch_drop_bearings_marked_removed(&paper->batch);
+    rho_passive_paper_list_sensors_and_middle(&paper->batch, &search);
+    if (!rho_passive_paper_set_cells_if_enough_scans(&search)) {
         return RHO_OK;
     }
     set_scan_times(&search);
-    rho_passive_paper_vote_and_confirm_cells(&search);
-    rho_passive_paper_choose_lines(&search);
+    rho_passive_paper_vote_with_all_sensor_pairs(&search);
+    rho_passive_paper_pick_peaks_as_lines(&search);
     rho_passive_paper_fit_lines(&search);
     return RHO_OK;
 }

@@ -119,7 +119,7 @@ static void add_line(struct rho_passive_paper_search *search, struct cell at,
         .votes_sum = (uint16_t)(votes_plus_one - 1u)};
 }
 
-static void count_confirmed_cells(struct rho_passive_paper_search *search)
+static void count_cells_confirmed_by_all_pairs(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
     for (int row = 0; row < search->rows; row++) {
@@ -129,11 +129,11 @@ static void count_confirmed_cells(struct rho_passive_paper_search *search)
     }
 }
 
-void rho_passive_paper_choose_lines(struct rho_passive_paper_search *search)
+void rho_passive_paper_pick_peaks_as_lines(struct rho_passive_paper_search *search)
 {
     struct cell at = {0, 0};
     unsigned height;
-    count_confirmed_cells(search);
+    count_cells_confirmed_by_all_pairs(search);
     while ((height = find_peak(search, &at)) > 0) {
         at = find_plateau_middle(search, at, height);
         clear_cells_around(search, at);
@@ -174,10 +174,10 @@ static unsigned find_most_voted_cell_near_line(const struct rho_passive_paper_se
 {
     uint8_t *counts = search->paper->rows[0];
     *best = (struct cell){fit->row, fit->column};
-    rho_passive_paper_count_row_votes(search, fit->row, counts);
+    rho_passive_paper_count_row_votes_of_pair(search, fit->row, counts);
     unsigned most = counts[fit->column];
     for (int row = fit->row - search->near; row <= fit->row + search->near; row++) {
-        rho_passive_paper_count_row_votes(search, row, counts);
+        rho_passive_paper_count_row_votes_of_pair(search, row, counts);
         for (int column = fit->column - search->near; column <= fit->column + search->near;
              column++) {
             if (column >= 0 && column < search->columns && counts[column] > most) {
@@ -218,9 +218,9 @@ static float cell_variance_m2(const struct rho_passive_paper *paper)
  * Solves the least-squares fit of position = p + u d, u the time of the scan, and fills the line's
  * position, velocity and covariance at the newest scan.
  */
-static void fit_line_position_and_velocity(const struct rho_passive_paper_search *search,
-                                           const struct rho_passive_paper_fit *fit,
-                                           struct rho_passive_paper_line *line)
+static void fit_line_motion_to_crossings(const struct rho_passive_paper_search *search,
+                                         const struct rho_passive_paper_fit *fit,
+                                         struct rho_passive_paper_line *line)
 {
     float n = (float)fit->count, spread = fit->uu - fit->u * fit->u / n;
     line->crossings = (uint16_t)(fit->count < UINT16_MAX ? fit->count : UINT16_MAX);
@@ -256,6 +256,6 @@ void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search)
         }
     }
     for (unsigned line = 0; line < paper->num_lines; line++) {
-        fit_line_position_and_velocity(search, &paper->fits[line], &paper->lines[line]);
+        fit_line_motion_to_crossings(search, &paper->fits[line], &paper->lines[line]);
     }
 }

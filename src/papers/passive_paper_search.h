@@ -3,10 +3,11 @@
  * passive_paper_search: state of one search by the paper's passive Hough transform, and the
  * functions that its files share.
  *
- *   passive_paper_votes.c  crossings, votes in rows of theta, confirmation by all pairs
- *   passive_paper_line_choice_and_fit.c  the choice of the lines, and the fits through their
- * crossings passive_paper.c        configuration, frames, the sequence of steps of a search
- *   passive_paper_view.c   intermediate results of a search: ghost matrices, planes of votes
+ * - passive_paper_votes.c: crossings, votes in rows of theta, confirmation by all pairs
+ * - passive_paper_line_choice_and_fit.c: the choice of the lines, and the fits through their
+ *   crossings
+ * - passive_paper.c: configuration, frames, the sequence of steps of a search
+ * - passive_paper_view.c: intermediate results of a search: ghost matrices, planes of votes
  */
 #ifndef RHOTRACK_PASSIVE_PAPER_SEARCH_H
 #define RHOTRACK_PASSIVE_PAPER_SEARCH_H
@@ -45,15 +46,15 @@ struct rho_passive_paper_direction
 rho_passive_paper_direction(const struct rho_passive_paper_search *search, int row);
 
 /* Sets the search's sensors, those with scans in the batch, and their centroid. */
-void rho_passive_paper_set_reporting_sensors(const struct rho_batch *batch,
-                                             struct rho_passive_paper_search *search);
+void rho_passive_paper_list_sensors_and_middle(const struct rho_batch *batch,
+                                               struct rho_passive_paper_search *search);
 
 /*
  * Sets the number of cells, and T, the votes that a cell needs. Returns 0 where the batch has too
  * few scans or sensors to search.
  */
-int rho_passive_paper_set_cells_if_searchable(struct rho_passive_paper_search *search);
-unsigned rho_passive_paper_count_rows(const struct rho_passive_paper_config *config);
+int rho_passive_paper_set_cells_if_enough_scans(struct rho_passive_paper_search *search);
+unsigned rho_passive_paper_count_theta_rows(const struct rho_passive_paper_config *config);
 
 /* Sets the baseline of two sensors, relative to the centroid. Returns 0 where they are too near. */
 int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
@@ -88,19 +89,19 @@ int rho_passive_paper_column_of_point(const struct rho_passive_paper_search *sea
                                       const struct rho_passive_paper_point *point);
 
 /* Counts the votes of the stored crossings for each cell of a row of theta. */
-void rho_passive_paper_count_row_votes(const struct rho_passive_paper_search *search, int row,
-                                       uint8_t counts[RHO_PAPER_RHO_CELLS]);
+void rho_passive_paper_count_row_votes_of_pair(const struct rho_passive_paper_search *search,
+                                               int row, uint8_t counts[RHO_PAPER_RHO_CELLS]);
 
 /*
  * Crosses and votes with all pairs of sensors: sums of votes into paper->cells, 0 where not all
  * pairs confirm the cell.
  */
-void rho_passive_paper_vote_and_confirm_cells(struct rho_passive_paper_search *search);
+void rho_passive_paper_vote_with_all_sensor_pairs(struct rho_passive_paper_search *search);
 
 /*
  * Chooses lines from the cells, most votes first; then fits a position and velocity to each line.
  */
-void rho_passive_paper_choose_lines(struct rho_passive_paper_search *search);
+void rho_passive_paper_pick_peaks_as_lines(struct rho_passive_paper_search *search);
 void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search);
 
 #endif

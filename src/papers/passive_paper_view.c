@@ -20,7 +20,7 @@ int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned numbe
     if (!paper || !pair || !is_initialised(paper)) {
         return 0;
     }
-    rho_passive_paper_set_reporting_sensors(&paper->batch, &search);
+    rho_passive_paper_list_sensors_and_middle(&paper->batch, &search);
     for (unsigned i = 0; i + 1u < search.num_sensors; i++) {
         const unsigned behind = search.num_sensors - 1u - i;
         if (number < behind) {
@@ -63,7 +63,7 @@ enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
     if (scan >= paper->batch.num_scans || !is_pair_of_search(paper, pair)) {
         return RHO_ERROR_VALUE;
     }
-    rho_passive_paper_set_reporting_sensors(&paper->batch, &search);
+    rho_passive_paper_list_sensors_and_middle(&paper->batch, &search);
     return rho_passive_paper_set_base(&search, &paper->batch, pair->a, pair->b, &base) &&
                    rho_passive_paper_make_ghost_matrix(&paper->config, &paper->batch, &base, scan,
                                                        *pair, &bearings, matrix)
@@ -81,7 +81,7 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
         return RHO_ERROR_NULL;
     }
     if (is_initialised(paper)) {
-        rho_passive_paper_set_reporting_sensors(&paper->batch, &search);
+        rho_passive_paper_list_sensors_and_middle(&paper->batch, &search);
     }
     if (search.num_sensors == 0) {
         return RHO_ERROR_STATE;
@@ -90,7 +90,7 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
         .origin_x_m = search.middle_x_m,
         .origin_y_m = search.middle_y_m,
         .rho_max_m = 0.5f * paper->config.rho_cell_m * (float)RHO_PAPER_RHO_CELLS,
-        .theta_cells = (uint16_t)rho_passive_paper_count_rows(&paper->config),
+        .theta_cells = (uint16_t)rho_passive_paper_count_theta_rows(&paper->config),
         .rho_cells = RHO_PAPER_RHO_CELLS};
     return RHO_OK;
 }
@@ -111,23 +111,23 @@ static void note_row_votes(const struct rho_passive_paper_search *search, int ro
     }
 }
 
-static void note_pair_votes(struct rho_passive_paper_search *search,
-                            const struct rho_passive_paper_pair *pair,
-                            struct rho_votes_picture *plane)
+static void note_votes_of_sensor_pair(struct rho_passive_paper_search *search,
+                                      const struct rho_passive_paper_pair *pair,
+                                      struct rho_votes_picture *plane)
 {
     uint8_t *counts = search->paper->rows[0];
     rho_passive_paper_cross_sensors(search, pair->a, pair->b);
     for (int row = 0; row < search->rows; row++) {
-        rho_passive_paper_count_row_votes(search, row, counts);
+        rho_passive_paper_count_row_votes_of_pair(search, row, counts);
         note_row_votes(search, row, counts, 0, plane);
     }
 }
 
-static void note_votes_of_all_pairs(struct rho_passive_paper_search *search,
-                                    struct rho_votes_picture *plane)
+static void note_votes_of_all_sensor_pairs(struct rho_passive_paper_search *search,
+                                           struct rho_votes_picture *plane)
 {
     const struct rho_passive_paper_work work = search->paper->work;
-    rho_passive_paper_vote_and_confirm_cells(search);
+    rho_passive_paper_vote_with_all_sensor_pairs(search);
     search->paper->work = work;
     for (int row = 0; row < search->rows; row++) {
         note_row_votes(search, row, search->paper->cells[row], 1, plane);
@@ -146,8 +146,8 @@ static enum rho_status prepare_search(struct rho_passive_paper *paper,
     if (!is_initialised(paper)) {
         return RHO_ERROR_STATE;
     }
-    rho_passive_paper_set_reporting_sensors(&paper->batch, search);
-    if (!rho_passive_paper_set_cells_if_searchable(search)) {
+    rho_passive_paper_list_sensors_and_middle(&paper->batch, search);
+    if (!rho_passive_paper_set_cells_if_enough_scans(search)) {
         return RHO_ERROR_STATE;
     }
     return !pair || is_pair_of_search(paper, pair) ? RHO_OK : RHO_ERROR_VALUE;
@@ -166,9 +166,9 @@ enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
         status = rho_votes_picture_init(plane, (unsigned)search.rows, (unsigned)search.columns);
     }
     if (status == RHO_OK && pair) {
-        note_pair_votes(&search, pair, plane);
+        note_votes_of_sensor_pair(&search, pair, plane);
     } else if (status == RHO_OK) {
-        note_votes_of_all_pairs(&search, plane);
+        note_votes_of_all_sensor_pairs(&search, plane);
     }
     return status;
 }
@@ -176,8 +176,8 @@ enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
 /* ---- cells of a pair ------------------------------------------------------------------------- */
 
 /* Mask of the scans whose crossings voted for a cell. */
-static uint32_t scans_voting_for_cell(const struct rho_passive_paper_search *search, int row,
-                                      int column)
+static uint32_t mask_of_scans_voting_for_cell(const struct rho_passive_paper_search *search,
+                                              int row, int column)
 {
     const struct rho_passive_paper *paper = search->paper;
     const struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, row);
@@ -193,12 +193,12 @@ static uint32_t scans_voting_for_cell(const struct rho_passive_paper_search *sea
 }
 
 /* Lists the cells with votes_min votes of the pair crossed last, best first. */
-static void list_pair_cells(const struct rho_passive_paper_search *search,
-                            struct rho_peak_list *list)
+static void list_voted_cells_of_sensor_pair(const struct rho_passive_paper_search *search,
+                                            struct rho_peak_list *list)
 {
     uint8_t *counts = search->paper->rows[0];
     for (int row = 0; row < search->rows; row++) {
-        rho_passive_paper_count_row_votes(search, row, counts);
+        rho_passive_paper_count_row_votes_of_pair(search, row, counts);
         for (int column = 0; column < search->columns; column++) {
             rho_peak_list_offer(list, (struct rho_accumulator_peak){.votes = counts[column],
                                                                     .theta_cell = (uint16_t)row,
@@ -228,10 +228,11 @@ enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
                                            .theta = RHO_PASSIVE_PAPER_NEAR_ROWS,
                                            .rho = RHO_PASSIVE_PAPER_NEAR_COLUMNS};
     rho_passive_paper_cross_sensors(&search, pair->a, pair->b);
-    list_pair_cells(&search, &list);
+    list_voted_cells_of_sensor_pair(&search, &list);
     *num_peaks = rho_peak_list_suppress(peaks, list.num_peaks, &near, NULL, 0);
     for (uint32_t i = 0; i < *num_peaks; i++) {
-        peaks[i].mask = scans_voting_for_cell(&search, peaks[i].theta_cell, peaks[i].rho_cell);
+        peaks[i].mask =
+            mask_of_scans_voting_for_cell(&search, peaks[i].theta_cell, peaks[i].rho_cell);
     }
     return RHO_OK;
 }

@@ -48,14 +48,15 @@ int rho_passive_paper_make_ghost_matrix(const struct rho_passive_paper_config *c
                        config->range_max_m) != RHO_OK) {
         return 0; /* cannot fail: sensor positions were checked when the frame was pushed */
     }
-    rho_ghost_prune(matrix, config->rule);
+    rho_ghost_prune_and_count_removed(matrix, config->rule);
     return 1;
 }
 
 /* Stores the crossings of a pair of sensors in one scan that are no ghosts, and counts both. */
-static void cross_pair_in_scan(struct rho_passive_paper_search *search,
-                               const struct rho_crossing_base *base, unsigned scan,
-                               struct rho_passive_paper_pair pair)
+static void store_crossings_of_sensor_pair_in_scan(struct rho_passive_paper_search *search,
+                                                   const struct rho_crossing_base *base,
+                                                   unsigned scan,
+                                                   struct rho_passive_paper_pair pair)
 {
     const struct rho_passive_paper *paper = search->paper;
     struct rho_ghost_matrix matrix;
@@ -104,7 +105,7 @@ void rho_passive_paper_cross_sensors(struct rho_passive_paper_search *search, un
     }
     for (unsigned scan = 0; scan < paper->batch.num_scans; scan++) {
         paper->scan_end[scan] = scan > 0 ? paper->scan_end[scan - 1u] : 0;
-        cross_pair_in_scan(search, &base, scan, pair);
+        store_crossings_of_sensor_pair_in_scan(search, &base, scan, pair);
     }
 }
 
@@ -139,8 +140,8 @@ int rho_passive_paper_column_of_point(const struct rho_passive_paper_search *sea
 
 /* ---- votes ----------------------------------------------------------------------------------- */
 
-void rho_passive_paper_count_row_votes(const struct rho_passive_paper_search *search, int row,
-                                       uint8_t counts[RHO_PAPER_RHO_CELLS])
+void rho_passive_paper_count_row_votes_of_pair(const struct rho_passive_paper_search *search,
+                                               int row, uint8_t counts[RHO_PAPER_RHO_CELLS])
 {
     const struct rho_passive_paper *paper = search->paper;
     struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, row);
@@ -176,8 +177,9 @@ static unsigned max_votes_near(const uint8_t *const rows[3], int column, int col
  * Adds the votes of a pair of sensors to each cell of a row, plus 1 with the first pair; cells that
  * the pair does not confirm become 0, and stay 0.
  */
-static void add_votes_of_confirmed_cells(struct rho_passive_paper_search *search, int row,
-                                         const uint8_t *const rows[3], int is_first)
+static void add_pair_votes_and_clear_unconfirmed_cells(struct rho_passive_paper_search *search,
+                                                       int row, const uint8_t *const rows[3],
+                                                       int is_first)
 {
     uint8_t *cells = search->paper->cells[row];
     for (int column = 0; column < search->columns; column++) {
@@ -191,19 +193,20 @@ static void add_votes_of_confirmed_cells(struct rho_passive_paper_search *search
 }
 
 /* Adds the votes of the pair crossed last to the cells that it confirms, and clears the others. */
-static void add_pair_votes_to_cells(struct rho_passive_paper_search *search, int is_first)
+static void add_votes_of_last_crossed_pair_to_cells(struct rho_passive_paper_search *search,
+                                                    int is_first)
 {
     uint8_t(*kept)[RHO_PAPER_RHO_CELLS] = search->paper->rows;
-    rho_passive_paper_count_row_votes(search, -1, kept[0]);
-    rho_passive_paper_count_row_votes(search, 0, kept[1]);
+    rho_passive_paper_count_row_votes_of_pair(search, -1, kept[0]);
+    rho_passive_paper_count_row_votes_of_pair(search, 0, kept[1]);
     for (int row = 0; row < search->rows; row++) {
         const uint8_t *const rows[3] = {kept[row % 3], kept[(row + 1) % 3], kept[(row + 2) % 3]};
-        rho_passive_paper_count_row_votes(search, row + 1, kept[(row + 2) % 3]);
-        add_votes_of_confirmed_cells(search, row, rows, is_first);
+        rho_passive_paper_count_row_votes_of_pair(search, row + 1, kept[(row + 2) % 3]);
+        add_pair_votes_and_clear_unconfirmed_cells(search, row, rows, is_first);
     }
 }
 
-static void add_pair_counters(struct rho_passive_paper_search *search)
+static void add_counters_of_last_crossed_pair(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper_work *work = &search->paper->work;
     const struct rho_passive_paper_work *more = &search->per_pair;
@@ -214,14 +217,14 @@ static void add_pair_counters(struct rho_passive_paper_search *search)
                                              (unsigned)search->rows);
 }
 
-void rho_passive_paper_vote_and_confirm_cells(struct rho_passive_paper_search *search)
+void rho_passive_paper_vote_with_all_sensor_pairs(struct rho_passive_paper_search *search)
 {
     int is_first = 1;
     for (unsigned i = 0; i + 1u < search->num_sensors; i++) {
         for (unsigned j = i + 1u; j < search->num_sensors; j++) {
             rho_passive_paper_cross_sensors(search, search->sensors[i], search->sensors[j]);
-            add_pair_counters(search);
-            add_pair_votes_to_cells(search, is_first);
+            add_counters_of_last_crossed_pair(search);
+            add_votes_of_last_crossed_pair_to_cells(search, is_first);
             is_first = 0;
         }
     }

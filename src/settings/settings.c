@@ -86,7 +86,8 @@ static int has_usable_targets(const struct rho_settings *settings, struct rho_se
            is_within_noting_fault(fault, "accel_max_mps2", settings->accel_max_mps2, 0.0f, 1000.0f);
 }
 
-static int has_usable_sensor(const struct rho_settings *settings, struct rho_settings_fault *fault)
+static int has_usable_sensor_values(const struct rho_settings *settings,
+                                    struct rho_settings_fault *fault)
 {
     return is_within_noting_fault(fault, "pd", settings->pd, 0.01f, 0.999f) &&
            is_within_noting_fault(fault, "scan_interval_s", settings->scan_interval_s, 1e-3f,
@@ -141,7 +142,7 @@ enum rho_status rho_settings_check(const struct rho_settings *settings,
     if (!settings) {
         return RHO_ERROR_NULL;
     }
-    if (has_usable_targets(settings, &first) && has_usable_sensor(settings, &first) &&
+    if (has_usable_targets(settings, &first) && has_usable_sensor_values(settings, &first) &&
         has_usable_area(settings, &first) && has_usable_rates_and_limits(settings, &first)) {
         return RHO_OK;
     }

@@ -169,7 +169,7 @@ static uint32_t layout_hash(void)
 /* ---- kinds ----------------------------------------------------------------------------------- */
 
 /* Size of the object of a snapshot kind; 0: there is no such kind in this build. */
-static size_t size_of_kind(uint32_t kind)
+static size_t object_size_of_snapshot_kind(uint32_t kind)
 {
     switch (kind) {
     case RHO_SNAPSHOT_TRACKER:
@@ -189,7 +189,7 @@ static size_t size_of_kind(uint32_t kind)
     }
 }
 
-static int is_sound_object(uint32_t kind, const void *object)
+static int is_snapshot_object_sound(uint32_t kind, const void *object)
 {
     switch (kind) {
     case RHO_SNAPSHOT_TRACKER:
@@ -225,10 +225,10 @@ static enum rho_status check_parts(const struct rho_snapshot_part *parts, unsign
         if (!parts[i].object) {
             return RHO_ERROR_NULL;
         }
-        if (size_of_kind((uint32_t)parts[i].kind) == 0) {
+        if (object_size_of_snapshot_kind((uint32_t)parts[i].kind) == 0) {
             return RHO_ERROR_VALUE;
         }
-        if (size_of_kind((uint32_t)parts[i].kind) != parts[i].size) {
+        if (object_size_of_snapshot_kind((uint32_t)parts[i].kind) != parts[i].size) {
             return RHO_ERROR_SIZE;
         }
     }
@@ -297,7 +297,7 @@ static void put_header_and_table(struct writer *writer, const struct rho_snapsho
     }
 }
 
-static void put_checksum(struct writer *writer)
+static void put_snapshot_checksum(struct writer *writer)
 {
     uint8_t bytes[4] = {0};
     put_bytes_in_requested_range(writer, bytes, sizeof bytes);
@@ -308,7 +308,7 @@ static void put_checksum(struct writer *writer)
 static int are_all_objects_sound(const struct rho_snapshot_part *parts, unsigned num_parts)
 {
     for (unsigned i = 0; i < num_parts; i++) {
-        if (!is_sound_object((uint32_t)parts[i].kind, parts[i].object)) {
+        if (!is_snapshot_object_sound((uint32_t)parts[i].kind, parts[i].object)) {
             return 0;
         }
     }
@@ -339,13 +339,13 @@ enum rho_status rho_snapshot_save(const struct rho_snapshot_part *parts, unsigne
         put_bytes_in_requested_range(&writer, parts[i].object, parts[i].size);
         put_bytes_in_requested_range(&writer, zeros, padding_to_alignment(parts[i].size));
     }
-    put_checksum(&writer);
+    put_snapshot_checksum(&writer);
     return RHO_OK;
 }
 
 /* ---- load ------------------------------------------------------------------------------------ */
 
-static uint32_t part_field(const uint8_t *image, unsigned part, unsigned field)
+static uint32_t part_field_of_snapshot_image(const uint8_t *image, unsigned part, unsigned field)
 {
     return get_little_endian_u32(image + HEADER_BYTES + (size_t)part * PART_BYTES + 4u * field);
 }
@@ -359,8 +359,9 @@ static int is_filled_by_parts(const uint8_t *image, uint32_t size, uint32_t num_
     }
     left -= num_parts * PART_BYTES;
     for (unsigned i = 0; i < num_parts; i++) {
-        const size_t bytes = size_of_kind(part_field(image, i, 0));
-        if (bytes == 0 || part_field(image, i, 2) != bytes ||
+        const size_t bytes =
+            object_size_of_snapshot_kind(part_field_of_snapshot_image(image, i, 0));
+        if (bytes == 0 || part_field_of_snapshot_image(image, i, 2) != bytes ||
             bytes + padding_to_alignment(bytes) > left) {
             return 0;
         }
@@ -413,9 +414,9 @@ enum rho_status rho_snapshot_list(const void *image, size_t size, struct rho_sna
     }
     *num_parts = get_little_endian_u32(bytes + NUM_PARTS_AT);
     for (unsigned i = 0; i < *num_parts && i < max_parts; i++) {
-        parts[i].kind = (enum rho_snapshot_kind)part_field(bytes, i, 0);
-        parts[i].id = (int32_t)part_field(bytes, i, 1);
-        parts[i].size = part_field(bytes, i, 2);
+        parts[i].kind = (enum rho_snapshot_kind)part_field_of_snapshot_image(bytes, i, 0);
+        parts[i].id = (int32_t)part_field_of_snapshot_image(bytes, i, 1);
+        parts[i].size = part_field_of_snapshot_image(bytes, i, 2);
     }
     return RHO_OK;
 }
@@ -427,8 +428,8 @@ static int are_parts_of_image(const struct rho_snapshot_part *parts, unsigned nu
         return 0;
     }
     for (unsigned i = 0; i < num_parts; i++) {
-        if (part_field(image, i, 0) != (uint32_t)parts[i].kind ||
-            part_field(image, i, 1) != (uint32_t)parts[i].id) {
+        if (part_field_of_snapshot_image(image, i, 0) != (uint32_t)parts[i].kind ||
+            part_field_of_snapshot_image(image, i, 1) != (uint32_t)parts[i].id) {
             return 0;
         }
     }
@@ -443,7 +444,7 @@ static int check_or_copy_objects(const struct rho_snapshot_part *parts, unsigned
     for (unsigned i = 0; i < num_parts; i++) {
         if (is_copy) {
             memcpy(parts[i].object, object, parts[i].size);
-        } else if (!is_sound_object((uint32_t)parts[i].kind, object)) {
+        } else if (!is_snapshot_object_sound((uint32_t)parts[i].kind, object)) {
             return 0;
         }
         object += parts[i].size + padding_to_alignment(parts[i].size);

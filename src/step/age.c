@@ -25,7 +25,8 @@ static int is_too_slow(const struct step *step, const struct rho_track *track)
 }
 
 /* Counts successive updates that leave a track faster than any target. 1: enough to end it. */
-static int count_fast_updates_are_enough(const struct step *step, struct rho_track *track)
+static int count_too_fast_updates_are_enough_to_end(const struct step *step,
+                                                    struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float v_max_mps = step->tracker->config.v_max_mps;
@@ -49,7 +50,7 @@ void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track
     struct rho_tracker_counters *counters = &step->tracker->counters;
     const int is_unseen = rho_tracker_update_and_test_unobserved(step, track, is_missed, limits) ||
                           rho_tracker_is_place_too_uncertain(step, track);
-    const int is_fast = count_fast_updates_are_enough(step, track);
+    const int is_fast = count_too_fast_updates_are_enough_to_end(step, track);
     rho_tracker_apply_thresholds(step, track, limits);
     if (track->status != RHO_TRACK_FREE && (is_unseen || is_fast || is_too_slow(step, track))) {
         counters->tracks_unseen = rho_count(counters->tracks_unseen, is_unseen ? 1 : 0);
@@ -62,10 +63,11 @@ void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track
 /* Counts a miss and lowers the score; hypotheses have taken the miss from their score already. */
 static void apply_miss_to_track(const struct step *step, struct rho_track *track)
 {
-    rho_track_count_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
-                                    ? 0
-                                    : rho_tracker_nat_to_mnat(
-                                          -rho_tracker_detection_of_track(step, track).log_miss));
+    rho_track_count_miss(
+        track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
+                   ? 0
+                   : rho_tracker_nat_to_mnat(
+                         -rho_tracker_log_pd_and_log_miss_of_track(step, track).log_miss));
 }
 
 void rho_tracker_age(struct step *step)
@@ -75,7 +77,7 @@ void rho_tracker_age(struct step *step)
         rho_tracker_learn_second_plots_and_end_duplicates(step);
     }
     const struct rho_track_limits limits = rho_tracker_track_limits(step);
-    rho_tracker_fade_counts_and_set_evidence_needed(step);
+    rho_tracker_fade_track_counts_set_evidence_need(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || rho_tracker_is_track_frozen(track)) {
@@ -83,9 +85,9 @@ void rho_tracker_age(struct step *step)
         }
         int is_missed = track->plot < 0 && rho_tracker_is_track_in_view(step, row) &&
                         rho_tracker_may_count_miss(step, track);
-        if (is_missed && rho_tracker_is_sensor_mostly_blind_to(track) && track->was_confirmed) {
+        if (is_missed && rho_tracker_is_track_mostly_in_notch(track) && track->was_confirmed) {
             is_missed = 0;
-            rho_tracker_coast_blind_track(step, track);
+            rho_tracker_set_blind_track_coasting(step, track);
         }
         if (is_missed) {
             apply_miss_to_track(step, track);

@@ -6,7 +6,7 @@
  * bearings of a sensor before those of the next sensor are gated, which then meet a narrower gate.
  * The bearings that no track claimed go to bearing_initiation.
  */
-#include "bearing_scans_for_batch.h"
+#include "bearing_frame_for_batch.h"
 
 #include <string.h>
 
@@ -62,7 +62,8 @@ static float log_false_bearing_density(const struct step *step, const struct rho
 }
 
 /* 1 where a bearing is in its sensor's sector; others are counted in plots_outside. */
-static int is_covered_else_count(struct step *step, const struct look *look, uint32_t i)
+static int is_bearing_covered_else_count_outside(struct step *step, const struct look *look,
+                                                 uint32_t i)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     const struct rho_bearing *bearing = &look->scan->bearings[i];
@@ -77,17 +78,18 @@ static int is_covered_else_count(struct step *step, const struct look *look, uin
 static void validate_bearings(struct step *step, uint32_t first, struct look *look)
 {
     look->fates = step->report->fates + (first < RHO_MAX_PLOTS ? first : 0);
-    look->num = num_bearings_with_fate(step, look->scan, first);
+    look->num = num_bearings_with_room_in_fates(step, look->scan, first);
     for (uint32_t i = 0; i < look->num; i++) {
         look->fates[i] = (uint8_t)(is_usable_bearing(&look->scan->bearings[i]) &&
-                                           is_covered_else_count(step, look, i)
+                                           is_bearing_covered_else_count_outside(step, look, i)
                                        ? RHO_FATE_HELD
                                        : RHO_FATE_INVALID);
     }
 }
 
-static struct look prepare_look(struct step *step, const struct rho_bearing_scan *scan,
-                                uint32_t first)
+static struct look validate_bearings_and_make_look(struct step *step,
+                                                   const struct rho_bearing_scan *scan,
+                                                   uint32_t first)
 {
     struct look look = {.scan = scan, .sensor = sensor_of_bearing_scan(step, scan)};
     look.log_density = log_false_bearing_density(step, scan);
@@ -96,7 +98,7 @@ static struct look prepare_look(struct step *step, const struct rho_bearing_scan
 }
 
 /* 1 for a live track; 0 for a frozen one, which bearings do not change. */
-static int may_be_updated(const struct rho_track *track)
+static int is_live_and_not_frozen(const struct rho_track *track)
 {
     return track->status != RHO_TRACK_FREE && !rho_tracker_is_track_frozen(track);
 }
@@ -147,7 +149,7 @@ static void assign_bearings_of_look(struct step *step, const struct look *look)
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (may_be_updated(&tracker->tracks[row])) {
+        if (is_live_and_not_frozen(&tracker->tracks[row])) {
             offer_gated_bearings(step, look, row);
         }
     }
@@ -189,13 +191,13 @@ static void update_or_penalise_tracks(struct step *step, const struct look *look
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         int bearing = rho_assignment_column(&tracker->assignment, row);
-        if (!may_be_updated(track) ||
+        if (!is_live_and_not_frozen(track) ||
             (bearing != RHO_ASSIGNMENT_NONE &&
              update_track_by_bearing(step, look, track, (uint32_t)bearing))) {
             continue;
         }
-        if (rho_tracker_sector_covers_track(step, look->scan->sector_from_rad,
-                                            look->scan->sector_to_rad, track)) {
+        if (rho_tracker_sector_covers_track_place(step, look->scan->sector_from_rad,
+                                                  look->scan->sector_to_rad, track)) {
             rho_track_lower_score(track, rho_tracker_nat_to_mnat(-step->log_miss));
         }
     }
@@ -222,13 +224,13 @@ static void merge_estimates_per_track(struct step *step)
     }
 }
 
-static void predict_tracks(struct step *step)
+static void predict_unfrozen_tracks_to_frame_time(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         tracker->tracks[i].plot = -1;
         if (RHO_SECTORS) {
-            rho_tracker_store_track_time(&tracker->tracks[i]);
+            rho_tracker_store_track_time_before_late_scan(&tracker->tracks[i]);
         }
         if (!rho_tracker_is_track_frozen(&tracker->tracks[i])) {
             rho_tracker_predict_or_end_track(step, &tracker->tracks[i]);
@@ -243,7 +245,7 @@ static void claim_and_update_look_by_look(struct step *step)
     uint32_t first = 0;
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &frame->scans[i];
-        struct look look = prepare_look(step, scan, first);
+        struct look look = validate_bearings_and_make_look(step, scan, first);
         rho_tracker_update_scan_interval(step->tracker, scan->sensor_id, &look.sensor,
                                          step->time_us, scan->sector_from_rad, scan->sector_to_rad);
         step->sensor = &look.sensor;
@@ -263,8 +265,8 @@ static int is_looked_at_by_any_sensor(struct step *step, const struct rho_track 
         const struct rho_bearing_scan *scan = &step->frame->scans[i];
         struct rho_sensor sensor = sensor_of_bearing_scan(step, scan);
         step->sensor = &sensor;
-        is_seen = rho_tracker_sector_covers_track(step, scan->sector_from_rad, scan->sector_to_rad,
-                                                  track);
+        is_seen = rho_tracker_sector_covers_track_place(step, scan->sector_from_rad,
+                                                        scan->sector_to_rad, track);
     }
     step->sensor = 0;
     return is_seen;
@@ -279,15 +281,16 @@ static void count_misses_and_end_tracks(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (may_be_updated(track) && track->plot < 0 && is_looked_at_by_any_sensor(step, track)) {
+        if (is_live_and_not_frozen(track) && track->plot < 0 &&
+            is_looked_at_by_any_sensor(step, track)) {
             rho_track_count_miss(track, 0);
         }
     }
     const struct rho_track_limits limits = rho_tracker_track_limits(step);
-    rho_tracker_fade_counts_and_set_evidence_needed(step);
+    rho_tracker_fade_track_counts_set_evidence_need(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (may_be_updated(track)) {
+        if (is_live_and_not_frozen(track)) {
             rho_tracker_confirm_or_end_track(step, track,
                                              track->plot < 0 && track->misses_in_row > 0, &limits);
         }
@@ -335,7 +338,7 @@ static uint32_t count_bearings_of_frame(const struct rho_frame *frame)
     return count;
 }
 
-static void init_fates_and_pd(struct step *step)
+static void init_bearing_fates_and_default_pd(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     const uint32_t looks =
@@ -374,9 +377,9 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
         .time_us = frame->time_us,
         .num_inputs = count_bearings_of_frame(frame),
     };
-    if (rho_tracker_begin_step(&step)) {
-        init_fates_and_pd(&step);
-        predict_tracks(&step);
+    if (rho_tracker_begin_step_unless_late(&step)) {
+        init_bearing_fates_and_default_pd(&step);
+        predict_unfrozen_tracks_to_frame_time(&step);
         claim_and_update_look_by_look(&step);
         count_misses_and_end_tracks(&step);
         rho_tracker_initiate_passive(&step);

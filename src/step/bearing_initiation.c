@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "bearing_scans_for_batch.h"
+#include "bearing_frame_for_batch.h"
 #include "rhotrack/detail/bearing_crossing.h"
 
 /* Least margin of a found track over rival tracks of its bearings: ln of odds of 100 to 1. */
@@ -58,7 +58,7 @@ static void mark_ghost_bearings(struct step *step)
     uint32_t first = 0;
     for (uint32_t k = 0; k < step->frame->num_scans; k++) {
         const struct rho_bearing_scan *scan = &step->frame->scans[k];
-        uint32_t num = num_bearings_with_fate(step, scan, first);
+        uint32_t num = num_bearings_with_room_in_fates(step, scan, first);
         for (uint32_t i = 0; i < num; i++) {
             uint8_t *fate = &step->report->fates[first + i];
             if (*fate == RHO_FATE_HELD && is_ghost_bearing(step, scan, i)) {
@@ -72,7 +72,8 @@ static void mark_ghost_bearings(struct step *step)
 /* ---- initiate -------------------------------------------------------------------------------- */
 
 /* Copies fates from the report to the batch's frame; to_report: from the frame to the report. */
-static void copy_fates(const struct step *step, struct batch_frame *held, int to_report)
+static void copy_fates_between_report_and_batch(const struct step *step, struct batch_frame *held,
+                                                int to_report)
 {
     uint8_t *packed = held->fates;
     uint32_t first = 0;
@@ -92,15 +93,15 @@ void rho_tracker_copy_frame_for_batch(const struct step *step, struct batch_fram
     held->frame.scans = held->scans;
     for (uint32_t i = 0; i < held->frame.num_scans; i++) {
         held->scans[i] = step->frame->scans[i];
-        held->scans[i].num_bearings = num_bearings_with_fate(step, &held->scans[i], first);
+        held->scans[i].num_bearings = num_bearings_with_room_in_fates(step, &held->scans[i], first);
         first = rho_count(first, step->frame->scans[i].num_bearings);
     }
-    copy_fates(step, held, 0);
+    copy_fates_between_report_and_batch(step, held, 0);
 }
 
-void rho_tracker_copy_fates_from_batch(const struct step *step, struct batch_frame *held)
+void rho_tracker_copy_fates_to_report_from_batch(const struct step *step, struct batch_frame *held)
 {
-    copy_fates(step, held, 1);
+    copy_fates_between_report_and_batch(step, held, 1);
 }
 
 static void push_frame_into_batch(struct step *step)
@@ -109,7 +110,7 @@ static void push_frame_into_batch(struct step *step)
     rho_tracker_copy_frame_for_batch(step, &held);
     /* cannot fail: rho_tracker_step_frame has asked whether the batch accepts the frame */
     (void)!rho_passive_push(step->passive, &held.frame, held.fates);
-    rho_tracker_copy_fates_from_batch(step, &held);
+    rho_tracker_copy_fates_to_report_from_batch(step, &held);
 }
 
 /* Copies a found track's x, y, vx and vy, and their covariance, into an estimate of three axes. */

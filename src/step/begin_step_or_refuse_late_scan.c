@@ -52,7 +52,7 @@ static void refuse_late_scan(struct step *step)
     step->tracker->counters.scans_late = rho_count(step->tracker->counters.scans_late, 1);
 }
 
-int rho_tracker_begin_step(struct step *step)
+int rho_tracker_begin_step_unless_late(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_report *report = step->report;

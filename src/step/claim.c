@@ -53,12 +53,13 @@ static void validate_plots(struct step *step)
 /* ---- tracks with a Kalman filter ------------------------------------------------------------- */
 
 /* Opens the Hough gate by the velocities of the track's last two estimates. 0: it has no gate. */
-static int open_hough_gate(const struct step *step, const struct rho_track *track,
-                           struct rho_gate_hough *hough)
+static int open_hough_gate_by_last_two_velocities(const struct step *step,
+                                                  const struct rho_track *track,
+                                                  struct rho_gate_hough *hough)
 {
     const struct rho_tracker_config *config = &step->tracker->config;
     uint8_t planes = config->planes;
-    if (!rho_kalman_is_axis_open(&track->kalman, 2)) {
+    if (!rho_kalman_has_estimate_on_axis(&track->kalman, 2)) {
         planes = RHO_GATE_PLANE_XY;
     }
     return RHO_HAS_FILTER(RHO_TRACK_INPUT) && config->gate == RHO_TRACKER_HOUGH &&
@@ -102,7 +103,8 @@ static float gain_by_hough_residual(const struct step *step, const struct rho_tr
     velocity_implied_by_plot(step, track, plot, velocity_mps);
     return (track->status == RHO_TRACK_TENTATIVE ? HOUGH_TENTATIVE_NAT : HOUGH_CONFIRMED_NAT) *
            (HOUGH_GAIN_MAX -
-            rho_log(HOUGH_RESIDUAL_MIN_MPS + rho_gate_hough_residual_mps(hough, velocity_mps)));
+            rho_log(HOUGH_RESIDUAL_MIN_MPS +
+                    rho_gate_hough_velocity_distance_from_lines_mps(hough, velocity_mps)));
 }
 
 static int is_held_plot_in_box(const struct step *step, const struct rho_gate *gate,
@@ -139,9 +141,9 @@ static void offer_gated_plots(struct step *step, unsigned row)
     struct rho_gate_hough hough;
     struct rho_gate_result result;
     float half_m[2];
-    const float log_miss = rho_tracker_detection_of_track(step, track).log_miss;
+    const float log_miss = rho_tracker_log_pd_and_log_miss_of_track(step, track).log_miss;
     const float log_density = rho_tracker_log_clutter_density_at_track(step, track);
-    const int by_hough = open_hough_gate(step, track, &hough);
+    const int by_hough = open_hough_gate_by_last_two_velocities(step, track, &hough);
     const int has_window = by_hough && (step->scan->measures & RHO_MEASURES_VELOCITY);
     rho_tracker_open_track_gate(step, track, step->scan->measures, &gate);
     rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
@@ -152,18 +154,18 @@ static void offer_gated_plots(struct step *step, unsigned row)
         step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
         gate.predicted.state[1] - half_m[1], gate.predicted.state[1] + half_m[1]);
     struct plots_near counted = near;
-    struct plot_choice choice = rho_tracker_begin_plot_choice(step, track);
+    struct plot_choice choice = rho_tracker_begin_choice_of_plots_to_score(step, track);
     for (uint32_t i; choice.most < rho_tracker_max_num_plots_near(step, &near) &&
                      rho_tracker_next_plot_near(step, &counted, &i);) {
         if (is_held_plot_in_box(step, &gate, half_m, i)) {
-            rho_tracker_count_plot_for_choice(&choice, track, &step->scan->plots[i]);
+            rho_tracker_count_plot_in_distance_octave(&choice, track, &step->scan->plots[i]);
         }
     }
-    rho_tracker_end_plot_choice(step, &choice);
+    rho_tracker_limit_choice_to_nearest_plots(step, &choice);
     for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         if (is_held_plot_in_box(step, &gate, half_m, i) &&
-            rho_tracker_spend_if_plot_chosen(step, &choice, track, plot) &&
+            rho_tracker_spend_score_work_if_plot_chosen(step, &choice, track, plot) &&
             (has_window || rho_gate_test(&gate, plot, &result))) {
             rho_tracker_add_assignment_pair(
                 step, row, i,
@@ -197,13 +199,13 @@ void rho_tracker_claim(struct step *step)
     validate_plots(step);
     rho_tracker_index_plots(step);
     if (RHO_CLAIMS_BEYOND && step->first_row > 0) {
-        rho_tracker_measure_clutter_of_part(step);
+        rho_tracker_measure_density_of_held_plots(step);
     } else if (RHO_MAX_ECHOES > 0) {
         rho_tracker_predict_clutter_at_plots(step);
     }
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
-    rho_tracker_begin_work_per_track(step);
+    rho_tracker_begin_phase_with_share_per_track(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         if (tracker->tracks[row].status == RHO_TRACK_FREE ||
             !rho_tracker_is_track_in_view(step, row)) {

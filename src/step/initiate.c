@@ -38,7 +38,7 @@ static void start_track_from_candidate(struct step *step, const struct rho_candi
         tracker->counters.plots_initiated = rho_count(
             tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
         if (RHO_MAX_ECHOES > 0) {
-            rho_tracker_raise_clutter_near_start_plots(step, candidate);
+            rho_tracker_raise_window_clutter_near_start(step, candidate);
         }
     }
 }

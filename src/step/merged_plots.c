@@ -49,7 +49,7 @@ struct track_pair {
     float near_m2[2]; /* variances of unresolved distances, along and across the line of sight */
 };
 
-static int may_share_plot(const struct rho_track *track)
+static int was_confirmed_and_is_not_yet_updated(const struct rho_track *track)
 {
     /* tentative tracks that were confirmed share, too: they may have missed merged plots alone */
     return track->was_confirmed && track->hits >= HITS_MIN && track->plot < 0;
@@ -64,8 +64,9 @@ static void rotate_to_line_of_sight(const struct rho_measurement *seen, const fl
 }
 
 /* Variances of a track's place on the ground, along the line of sight and across it. */
-static void rotate_variances_to_line_of_sight(const struct rho_measurement *seen,
-                                              const struct rho_track *track, float turned_m2[2])
+static void rotate_track_variances_to_line_of_sight(const struct rho_measurement *seen,
+                                                    const struct rho_track *track,
+                                                    float turned_m2[2])
 {
     const float *covariance = track->kalman.covariance;
     const float c = seen->cos_azimuth, s = seen->sin_azimuth;
@@ -85,7 +86,8 @@ static int find_track_to_share_with(const struct step *step, unsigned row, struc
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
         const struct rho_assignment_pair *offer = &assignment->pairs[row][i];
         const int owner = assignment->column_row[offer->column];
-        if (offer->cost < least && owner >= 0 && may_share_plot(&tracker->tracks[owner])) {
+        if (offer->cost < least && owner >= 0 &&
+            was_confirmed_and_is_not_yet_updated(&tracker->tracks[owner])) {
             least = offer->cost;
             pair->plot = offer->column;
             pair->first = &tracker->tracks[owner];
@@ -106,7 +108,8 @@ static int find_track_to_share_with(const struct step *step, unsigned row, struc
 }
 
 /* Range rate of the second track less that of the first; 0 where the scan measures none. */
-static float range_rate_difference_mps(const struct step *step, const struct track_pair *pair)
+static float predicted_range_rate_of_second_less_first_mps(const struct step *step,
+                                                           const struct track_pair *pair)
 {
     const int use_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
     float row[6], first_mps, second_mps;
@@ -148,8 +151,9 @@ static float unresolved_probability_by_range_rate(const struct step *step,
     const float first_mps = rho_track_sigma_mps(pair->first),
                 second_mps = rho_track_sigma_mps(pair->second);
     return near_mps2 > 0.0f
-               ? unresolved_probability_on_axis(near_mps2, range_rate_difference_mps(step, pair),
-                                                first_mps * first_mps + second_mps * second_mps)
+               ? unresolved_probability_on_axis(
+                     near_mps2, predicted_range_rate_of_second_less_first_mps(step, pair),
+                     first_mps * first_mps + second_mps * second_mps)
                : 1.0f;
 }
 
@@ -179,8 +183,8 @@ static int test_merged_plot_and_learn_cell(struct step *step, const struct track
     float from_m[2], first_m2[2], second_m2[2], both_m2[2];
     float merged = unresolved_probability_by_range_rate(step, pair), ratio_nat = 0.0f;
     plot_offset_from_track(step, pair, pair->first, from_m);
-    rotate_variances_to_line_of_sight(&pair->seen, pair->first, first_m2);
-    rotate_variances_to_line_of_sight(&pair->seen, pair->second, second_m2);
+    rotate_track_variances_to_line_of_sight(&pair->seen, pair->first, first_m2);
+    rotate_track_variances_to_line_of_sight(&pair->seen, pair->second, second_m2);
     for (int axis = 0; axis < 2; axis++) {
         const float half_m = pair->half_m[axis];
         both_m2[axis] = first_m2[axis] + second_m2[axis];
@@ -189,7 +193,7 @@ static int test_merged_plot_and_learn_cell(struct step *step, const struct track
         ratio_nat += half_m * (from_m[axis] - 0.5f * half_m) /
                      (pair->seen.variance_m2[axis] + first_m2[axis]);
     }
-    const float log_miss = rho_tracker_detection_of_track(step, pair->second).log_miss;
+    const float log_miss = rho_tracker_log_pd_and_log_miss_of_track(step, pair->second).log_miss;
     *gain_nat = rho_larger(log_miss, rho_smaller(ratio_nat, GAIN_MAX_NAT));
     const float one = merged * rho_exp(ratio_nat), two = (1.0f - merged) * rho_exp(log_miss);
     learn_resolution_cell_from_pair(step, pair, both_m2, one / (one + two));
@@ -203,10 +207,10 @@ static struct rho_track_plot own_plot_from_merged(const struct step *step,
 {
     struct rho_track_plot part = rho_tracker_make_track_plot(step, pair->plot);
     const float c = pair->seen.cos_azimuth, s = pair->seen.sin_azimuth;
-    const float half_mps = 0.5f * range_rate_difference_mps(step, pair);
+    const float half_mps = 0.5f * predicted_range_rate_of_second_less_first_mps(step, pair);
     float from_m[2], other_m2[2], farther_m[2], wider[2];
     plot_offset_from_track(step, pair, other, from_m);
-    rotate_variances_to_line_of_sight(&pair->seen, other, other_m2);
+    rotate_track_variances_to_line_of_sight(&pair->seen, other, other_m2);
     for (int axis = 0; axis < 2; axis++) {
         const float noise_m2 =
             pair->seen.variance_m2[axis] + BETWEEN * pair->half_m[axis] * pair->half_m[axis];
@@ -225,10 +229,11 @@ static struct rho_track_plot own_plot_from_merged(const struct step *step,
     return part;
 }
 
-static int update_by_own_plot(struct step *step, struct rho_track *track,
-                              const struct rho_track_plot *part, float gain_nat)
+static int update_track_by_part_of_merged_plot(struct step *step, struct rho_track *track,
+                                               const struct rho_track_plot *part, float gain_nat)
 {
-    if (rho_track_update(track, part, &step->model, rho_tracker_nat_to_mnat(gain_nat)) != RHO_OK) {
+    if (rho_track_update_by_plot(track, part, &step->model, rho_tracker_nat_to_mnat(gain_nat)) !=
+        RHO_OK) {
         return 0;
     }
     /* hypotheses are at the plot's own time: bring the track's estimate to the step's */
@@ -244,11 +249,11 @@ static void update_pair_by_merged_plot(struct step *step, const struct track_pai
     const struct rho_track_plot of_first = own_plot_from_merged(step, pair, pair->second),
                                 of_second = own_plot_from_merged(step, pair, pair->first);
     /* where the second track refuses, the first goes on to take its plot alone */
-    if (update_by_own_plot(step, pair->second, &of_second,
-                           second_is_older ? pair->gain_nat : gain_nat)) {
+    if (update_track_by_part_of_merged_plot(step, pair->second, &of_second,
+                                            second_is_older ? pair->gain_nat : gain_nat)) {
         step->report->fates[pair->plot] = RHO_FATE_CLAIMED;
-        (void)!update_by_own_plot(step, pair->first, &of_first,
-                                  second_is_older ? gain_nat : pair->gain_nat);
+        (void)!update_track_by_part_of_merged_plot(step, pair->first, &of_first,
+                                                   second_is_older ? gain_nat : pair->gain_nat);
     }
 }
 
@@ -261,7 +266,8 @@ static void learn_cell_from_resolved_pairs(struct step *step, unsigned row)
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
         const int column = assignment->pairs[row][i].column;
         const int other = assignment->column_row[column];
-        if (column == own || other <= (int)row || !may_share_plot(&tracker->tracks[other])) {
+        if (column == own || other <= (int)row ||
+            !was_confirmed_and_is_not_yet_updated(&tracker->tracks[other])) {
             continue;
         }
         const struct rho_plot *from = &step->scan->plots[own], *to = &step->scan->plots[column];
@@ -288,7 +294,7 @@ void rho_tracker_share_merged_plots(struct step *step)
         const int has_own = rho_assignment_column(&tracker->assignment, row) != RHO_ASSIGNMENT_NONE;
         /* the track needs an offer besides the plot that it was assigned */
         if (tracker->assignment.num_pairs[row] <= (unsigned)has_own ||
-            !may_share_plot(&tracker->tracks[row])) {
+            !was_confirmed_and_is_not_yet_updated(&tracker->tracks[row])) {
             continue;
         }
         if (has_own) {

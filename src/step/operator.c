@@ -24,7 +24,7 @@ static enum rho_status find_track_and_resume_step(struct rho_tracker *tracker, u
     if (!tracker || !report) {
         return RHO_ERROR_NULL;
     }
-    const enum rho_status status = rho_tracker_resume_step(tracker, report, step);
+    const enum rho_status status = rho_tracker_reopen_finished_step(tracker, report, step);
     if (status != RHO_OK) {
         return status;
     }

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#include "bearing_scans_for_batch.h"
+#include "bearing_frame_for_batch.h"
 #include "phases.h"
 #include "rhotrack/detail/approx.h"
 
@@ -178,7 +178,7 @@ static unsigned find_plots_of_line(struct rho_paper_starts *starts,
             .gate_radius_m = GATE_SIGMAS * (cell_m + scan->sigma_max_m),
             .skip_flags = RHO_WINDOW_INITIATED,
         };
-        const int nearest = rho_window_nearest_plot_isotropic(scan, &query, &work);
+        const int nearest = rho_window_nearest_plot_in_sigmas_isotropic(scan, &query, &work);
         if (nearest >= 0) {
             candidate->plot[m] = (uint16_t)nearest;
             candidate->mask = (uint16_t)(candidate->mask | 1u << m);
@@ -236,7 +236,7 @@ static void start_track_from_line(struct rho_paper_starts *starts, struct rho_tr
     }
 }
 
-static unsigned num_scans_needed(unsigned scans_min, unsigned scans)
+static unsigned num_scans_needed_or_four_fifths(unsigned scans_min, unsigned scans)
 {
     return scans_min > 0 ? scans_min : (4u * scans + 4u) / 5u;
 }
@@ -258,7 +258,8 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
         return RHO_OK;
     }
     enum rho_status status = push_plots_into_window(starts, &step, scan);
-    const unsigned scans_min = num_scans_needed(starts->config.scans_min, starts->config.scans);
+    const unsigned scans_min =
+        num_scans_needed_or_four_fifths(starts->config.scans_min, starts->config.scans);
     if (status != RHO_OK || starts->window.num_scans < scans_min) {
         return status;
     }
@@ -344,7 +345,7 @@ enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct r
     if (status != RHO_OK) {
         return status;
     }
-    rho_tracker_copy_fates_from_batch(&step, &held);
+    rho_tracker_copy_fates_to_report_from_batch(&step, &held);
     recount_no_room_as_held(&step,
                             before - count_inputs_with_fate(held.fates, num, RHO_FATE_NO_ROOM));
     if (paper->batch.num_scans == paper->batch.scans_max) {

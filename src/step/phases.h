@@ -14,7 +14,7 @@
  * inputs are too old for the tracker: their fates are then STALE, and of the later phases only
  * rho_tracker_report follows.
  */
-int rho_tracker_begin_step(struct step *step);
+int rho_tracker_begin_step_unless_late(struct step *step);
 /* Sets the step's motion model, the filter of new tracks, and the volumes of clutter densities. */
 void rho_tracker_set_motion_model(struct step *step);
 /* Sets step->log_pd and step->log_miss by step->sensor, or by the tracker's default pd. */
@@ -55,18 +55,22 @@ void rho_tracker_merge_estimates_per_track(struct step *step);
 void rho_tracker_report(struct step *step);
 void rho_tracker_report_tracks(const struct step *step);
 
-/* scan_overflow.c: claims and updates by a scan of more than RHO_MAX_PLOTS plots, in parts */
-void rho_tracker_claim_and_update_parts(struct step *step);
+/*
+ * claim_large_scan_in_parts.c: claims and updates by a scan of more than RHO_MAX_PLOTS plots, in
+ * parts
+ */
+void rho_tracker_claim_and_update_in_plot_parts(struct step *step);
 
 /* merged_plots.c: pairs of tracks share merged plots, before other tracks take their plots */
 void rho_tracker_share_merged_plots(struct step *step);
 
 /* split_bodies.c: a track whose body is surely two targets becomes two tracks */
-void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan);
+void rho_tracker_split_tracks_of_two_targets(struct step *step, const struct rho_scan *scan);
 
 /*
- * track_starts.c: adds a started track to the tracker's; returns 0 where there is no room, and the
- * track has ended. A full tracker ends its lowest tentative track for a track of a higher score.
+ * admit_started_track.c: adds a started track to the tracker's; returns 0 where there is no room,
+ * and the track has ended. A full tracker ends its lowest tentative track for a track of a higher
+ * score.
  */
 int rho_tracker_admit_track(struct step *step, struct rho_track *track,
                             const struct rho_track_limits *limits);
@@ -74,8 +78,8 @@ int rho_tracker_admit_track(struct step *step, struct rho_track *track,
  * Makes *step from the newest step and its report, for changes of tracks between two steps. STATE:
  * the tracker has made no step, or the report is of another one.
  */
-enum rho_status rho_tracker_resume_step(struct rho_tracker *tracker, struct rho_report *report,
-                                        struct step *step);
+enum rho_status rho_tracker_reopen_finished_step(struct rho_tracker *tracker,
+                                                 struct rho_report *report, struct step *step);
 /* Copies a candidate's plots from the window in the order of their scans; returns their number. */
 unsigned rho_tracker_copy_candidate_plots(struct rho_window *window,
                                           const struct rho_candidate *candidate,

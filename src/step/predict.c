@@ -22,7 +22,7 @@ void rho_tracker_predict(struct step *step)
         struct rho_track *track = &tracker->tracks[i];
         track->plot = -1;
         if (RHO_SECTORS) {
-            rho_tracker_store_track_time(track);
+            rho_tracker_store_track_time_before_late_scan(track);
         }
         if (!rho_tracker_is_track_frozen(track) && rho_tracker_may_scan_see_track(step, track) &&
             !(RHO_SECTORS && rho_tracker_was_seen_in_last_sector(step, track)) &&

@@ -69,7 +69,7 @@ static int find_dividing_value(const struct step *step, const struct rho_scan *s
     for (unsigned i = rho_tracker_first_uncontested_plot(
              groups, groups->first[step->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
-        (void)!rho_tracker_locate_plot_on_body(step, scan, row, i, &at);
+        (void)!rho_tracker_locate_on_body_is_rate_usable(step, scan, row, i, &at);
         least = rho_smaller(least, separating_value(why, &at));
         most = rho_larger(most, separating_value(why, &at));
         rate_m2ps2 = rho_larger(rate_m2ps2, at.rate.variance_m2ps2);
@@ -91,7 +91,7 @@ static int divide_plots_into_sides(const struct step *step, const struct rho_sca
     for (unsigned i = rho_tracker_first_uncontested_plot(
              groups, groups->first[step->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
-        (void)!rho_tracker_locate_plot_on_body(step, scan, row, i, &at);
+        (void)!rho_tracker_locate_on_body_is_rate_usable(step, scan, row, i, &at);
         struct body_side *side = &sides[separating_value(why, &at) < middle];
         side->plots++;
         side->x_m += at.dx_m;
@@ -114,7 +114,8 @@ static enum rho_status start_track_from_side(const struct step *step, const stru
                                              uint32_t track_id, const struct body_side *side,
                                              struct rho_track *out)
 {
-    const float mean_m2 = rho_tracker_body_prior_variance_m2(step->tracker) / (float)side->plots;
+    const float mean_m2 =
+        rho_tracker_prior_place_variance_on_body_m2(step->tracker) / (float)side->plots;
     struct rho_kalman there = track->kalman;
     there.state[RHO_X] += side->x_m;
     there.state[RHO_Y] += side->y_m;
@@ -128,12 +129,12 @@ static enum rho_status start_track_from_side(const struct step *step, const stru
                                     track->hits, &step->model, track->score_mnat);
 }
 
-static void start_body_of_track(const struct step *step, unsigned row)
+static void restart_body_filter_at_prior(const struct step *step, unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_body_filter *body = &tracker->bodies.of[row];
     rho_body_filter_init(body, tracker->tracks[row].track_id,
-                         rho_tracker_body_prior_variance_m2(tracker));
+                         rho_tracker_prior_place_variance_on_body_m2(tracker));
     rho_tracker_set_body_heading(tracker, row);
 }
 
@@ -166,7 +167,7 @@ static int split_track_in_two(struct step *step, unsigned row, const struct body
     return 1;
 }
 
-void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan)
+void rho_tracker_split_tracks_of_two_targets(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = 0; !step->is_late && row < tracker->bodies.count; row++) {
@@ -181,10 +182,10 @@ void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan)
                                             : rho_tracker_find_body_split_reason(step, row);
         if (why != RHO_BODY_ONE && divide_plots_into_sides(step, scan, row, why, sides) &&
             split_track_in_two(step, row, sides)) {
-            start_body_of_track(step, row);
+            restart_body_filter_at_prior(step, row);
             if (tracker->num_tracks > num_tracks) {
                 rho_tracker_align_bodies_with_tracks(step);
-                start_body_of_track(step, num_tracks);
+                restart_body_filter_at_prior(step, num_tracks);
             }
         }
     }

@@ -44,7 +44,7 @@ static void apply_sensor_to_step(struct step *step)
     }
     rho_tracker_set_log_pd_of_step(step);
     if (RHO_SECTORS) {
-        rho_tracker_record_scan_and_turning(step);
+        rho_tracker_record_look_and_antenna_turning(step);
     }
     if (!step->is_late) {
         rho_tracker_update_scan_interval(step->tracker, step->scan->sensor_id, step->sensor,
@@ -84,18 +84,19 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
                         .report = report,
                         .time_us = scan->time_us,
                         .num_inputs = scan->num_plots};
-    if (rho_tracker_begin_step(&step)) {
+    if (rho_tracker_begin_step_unless_late(&step)) {
         apply_sensor_to_step(&step);
         rho_tracker_predict(&step);
         if (rho_notch_sensor_has_notch(step.sensor)) {
-            rho_tracker_set_blind_percents(&step);
+            rho_tracker_set_notch_blind_percents(&step);
         }
         struct rho_scan grouped;
         if (rho_tracker_has_bodies(tracker)) {
             rho_tracker_group_plots(&step, &grouped);
         }
         if (RHO_CLAIMS_BEYOND && step.num_inputs > RHO_MAX_PLOTS) {
-            rho_tracker_claim_and_update_parts(&step); /* claims and updates, part by part */
+            rho_tracker_claim_and_update_in_plot_parts(
+                &step); /* claims and updates, part by part */
         } else {
             rho_tracker_claim(&step);
             rho_tracker_update(&step);
@@ -114,7 +115,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         if (may_start_tracks(&step)) {
             rho_tracker_initiate(&step);
         } else if (RHO_SECTORS) {
-            rho_tracker_mark_held_plots_stale(&step);
+            rho_tracker_mark_unused_late_plots_stale(&step);
         }
         if (has_images && !step.is_late) {
             rho_tracker_end_image_tracks(&step);
@@ -126,7 +127,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         }
         if (rho_tracker_has_bodies(tracker)) {
             rho_tracker_update_bodies(&step, scan);
-            rho_tracker_split_bodies(&step, scan);
+            rho_tracker_split_tracks_of_two_targets(&step, scan);
             rho_tracker_ungroup_plots(&step, scan);
         }
         rho_tracker_record_work(&step);

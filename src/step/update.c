@@ -21,12 +21,13 @@ static int32_t score_plot_in_gate(const struct step *step, const struct rho_trac
         step, track, &result, rho_tracker_log_clutter_density_at_track(step, track), plot));
 }
 
-static void update_track_by_plot(struct step *step, struct rho_track *track, int plot)
+static void update_track_by_plot_or_count_refusal(struct step *step, struct rho_track *track,
+                                                  int plot)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     const int32_t gain = score_plot_in_gate(step, track, (uint32_t)plot);
     const struct rho_track_plot seen = rho_tracker_make_track_plot(step, plot);
-    if (rho_track_update(track, &seen, &step->model, gain) == RHO_OK) {
+    if (rho_track_update_by_plot(track, &seen, &step->model, gain) == RHO_OK) {
         step->report->fates[plot] = RHO_FATE_CLAIMED;
     } else {
         counters->updates_refused = rho_count(counters->updates_refused, 1);
@@ -39,7 +40,7 @@ static void update_track_by_plot(struct step *step, struct rho_track *track, int
  * 1 where another track was assigned a plot that a hypothesis of this track has in its full list of
  * best plots. A plot that is not on the list may then be better than the remaining ones.
  */
-static int were_listed_plots_taken(const struct step *step, unsigned row)
+static int was_any_plot_of_full_list_taken(const struct step *step, unsigned row)
 {
     const struct rho_hypotheses *pool = &step->tracker->hypotheses;
     const int16_t *claims = step->tracker->assignment.column_row;
@@ -93,10 +94,10 @@ static void update_hypotheses_of_track(struct step *step, unsigned row)
     if (!(log_miss < 0.0f) && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
         return;
     }
-    if (were_listed_plots_taken(step, row)) {
+    if (was_any_plot_of_full_list_taken(step, row)) {
         rescore_unassigned_plots(step, row);
     } else {
-        rho_tracker_release_reserved_work(step);
+        rho_tracker_release_work_share_of_one_track(step);
     }
     /* cannot fail: the track has hypotheses */
     (void)!rho_track_commit_hypotheses_to_scan(track, &scan, step->scan->sensor_id, &step->model);
@@ -121,7 +122,7 @@ void rho_tracker_update(struct step *step)
         rho_tracker_update_sensor_health(step);
     }
     rho_tracker_learn_sensor(step);
-    rho_tracker_begin_work_per_track(step);
+    rho_tracker_begin_phase_with_share_per_track(step);
     if (RHO_SHARES_PLOTS) {
         rho_tracker_share_merged_plots(step);
     }
@@ -137,7 +138,7 @@ void rho_tracker_update(struct step *step)
         if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
             update_hypotheses_of_track(step, row);
         } else if (plot != RHO_ASSIGNMENT_NONE) {
-            update_track_by_plot(step, track, plot);
+            update_track_by_plot_or_count_refusal(step, track, plot);
         }
     }
 }

@@ -60,7 +60,7 @@ static uint8_t blind_percent_if_may_coast(const struct step *step, const struct 
     return (uint8_t)(percent < BLIND_PERCENT_MOST ? percent : BLIND_PERCENT_MOST);
 }
 
-void rho_tracker_set_blind_percents(struct step *step)
+void rho_tracker_set_notch_blind_percents(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     step->notch_look = (struct rho_notch_look){
@@ -82,11 +82,11 @@ void rho_tracker_clear_blind_percents(struct step *step)
     }
 }
 
-static int may_stand_in_notch(const struct step *step, const struct rho_track *track)
+static int may_target_stand_still_in_notch(const struct step *step, const struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float most_mps = RHO_NOTCH_STAND_WIDTHS * step->sensor->notch_mps;
-    return rho_tracker_is_sensor_mostly_blind_to(track) &&
+    return rho_tracker_is_track_mostly_in_notch(track) &&
            velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] <=
                most_mps * most_mps;
 }
@@ -97,12 +97,12 @@ struct detection rho_tracker_detection_with_notch(const struct step *step,
     const float blind = 0.01f * (float)track->blind_percent;
     const float seen =
         rho_exp(rho_tracker_detection_without_notch(step, track).log_pd) * (1.0f - blind);
-    return (struct detection){rho_log(seen + NOTCH_PD * blind), may_stand_in_notch(step, track)
-                                                                    ? STAND_MISS_NAT
-                                                                    : rho_log(1.0f - seen)};
+    return (struct detection){rho_log(seen + NOTCH_PD * blind),
+                              may_target_stand_still_in_notch(step, track) ? STAND_MISS_NAT
+                                                                           : rho_log(1.0f - seen)};
 }
 
-void rho_tracker_coast_blind_track(const struct step *step, struct rho_track *track)
+void rho_tracker_set_blind_track_coasting(const struct step *step, struct rho_track *track)
 {
     track->status =
         (uint8_t)rho_track_next_status((enum rho_track_status)track->status, RHO_TRACK_MISS);

@@ -17,8 +17,8 @@
 
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/clutter_map_update.h"
 #include "rhotrack/detail/measurement.h"
+#include "rhotrack/detail/recurring_clutter_map_operations.h"
 #include "step.h"
 
 /* Fewest hits of a track that is taken to be of a target; it must also move as targets do. */
@@ -80,7 +80,7 @@ static float range_max_of_sensor(const struct step *step)
  * Likelihood ratios of a plot's range rate, from the echo against clutter that is spread over all
  * rates. exact: the rate is that of the echo's own speed, as of a mast; other: it is not.
  */
-struct echo_rate_likelihood_ratios {
+struct exact_and_other_range_rate_ratios {
     float exact, other;
 };
 
@@ -100,15 +100,14 @@ float rho_tracker_range_rate_likelihood_ratio(const struct step *step, float off
                normal_over_uniform_rate(step, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
 }
 
-static struct echo_rate_likelihood_ratios echo_rate_likelihood_ratios(const struct step *step,
-                                                                      const struct rho_echo *echo,
-                                                                      const struct echo_view *view,
-                                                                      const struct rho_plot *plot)
+static struct exact_and_other_range_rate_ratios
+exact_and_other_range_rate_ratios(const struct step *step, const struct rho_echo *echo,
+                                  const struct echo_view *view, const struct rho_plot *plot)
 {
     const float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + echo->along[2];
     const float off_mps =
         plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
-    return (struct echo_rate_likelihood_ratios){
+    return (struct exact_and_other_range_rate_ratios){
         normal_over_uniform_rate(step, off_mps, variance),
         rho_tracker_range_rate_likelihood_ratio(step, off_mps, variance)};
 }
@@ -127,8 +126,8 @@ static float echo_rate_likelihood_ratio(const struct step *step, const struct rh
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
     }
-    const struct echo_rate_likelihood_ratios ratios =
-        echo_rate_likelihood_ratios(step, echo, view, plot);
+    const struct exact_and_other_range_rate_ratios ratios =
+        exact_and_other_range_rate_ratios(step, echo, view, plot);
     const float share = share_of_exact_rates(&step->tracker->clutter_map);
     return share * ratios.exact + (1.0f - share) * ratios.other;
 }
@@ -143,8 +142,8 @@ static void learn_exact_rate_share(struct step *step, const struct rho_echo *ech
     }
     const struct echo_view view =
         rho_clutter_map_view_from_sensor(step->sensor, echo->x_m, echo->y_m);
-    const struct echo_rate_likelihood_ratios ratios =
-        echo_rate_likelihood_ratios(step, echo, &view, plot);
+    const struct exact_and_other_range_rate_ratios ratios =
+        exact_and_other_range_rate_ratios(step, echo, &view, plot);
     const float share = share_of_exact_rates(map);
     const float exact = share * ratios.exact;
     if (map->rate_plots >= RATE_PLOTS_REMEMBERED) {
@@ -213,7 +212,7 @@ static void add_echo_density_at_plots(struct step *step, unsigned place)
 }
 
 /* Clears the echo's results of the last scan. Returns 1 where the new scan covers the echo. */
-static int clear_results_of_echo(const struct step *step, struct rho_echo *echo)
+static int clear_echo_results_and_test_coverage(const struct step *step, struct rho_echo *echo)
 {
     const struct rho_scan *scan = step->scan;
     echo->was_looked_at = 0;
@@ -225,7 +224,7 @@ static int clear_results_of_echo(const struct step *step, struct rho_echo *echo)
 }
 
 /* Predicts the echo to the scan's time. Returns 0 where it is lost: its place becomes free. */
-static int predict_or_drop_echo(struct step *step, struct rho_echo *echo, float range_max_m)
+static int predict_echo_or_drop_if_lost(struct step *step, struct rho_echo *echo, float range_max_m)
 {
     echo->was_looked_at = 1;
     echo->unseen = (uint8_t)(echo->unseen < UINT8_MAX ? echo->unseen + 1 : UINT8_MAX);
@@ -255,13 +254,13 @@ static void predict_echoes_and_add_densities(struct step *step, float range_max_
     unsigned place = map->first_echo, left_out = 0;
     rho_tracker_begin_work_phase(step, RHO_WORK_ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
-        if (!clear_results_of_echo(step, &map->echoes[place])) {
+        if (!clear_echo_results_and_test_coverage(step, &map->echoes[place])) {
             continue;
         }
         if (rho_tracker_is_phase_work_spent(step)) {
             map->first_echo = (uint16_t)(left_out == 0 ? place : map->first_echo);
             left_out++;
-        } else if (predict_or_drop_echo(step, &map->echoes[place], range_max_m)) {
+        } else if (predict_echo_or_drop_if_lost(step, &map->echoes[place], range_max_m)) {
             add_echo_density_at_plots(step, place);
         }
     }
@@ -277,7 +276,7 @@ struct direction {
     float range_m;
 };
 
-static struct direction direction_of_plot(const struct step *step, uint32_t row)
+static struct direction azimuth_bin_and_range_of_plot(const struct step *step, uint32_t row)
 {
     const struct rho_plot *plot = &step->scan->plots[row];
     const struct echo_view view =
@@ -295,7 +294,7 @@ static unsigned eighth_of_range(float range_m, float range_max_m)
 }
 
 /* Counts held plots by direction, and marks the ranges that have any. Returns their number. */
-static float count_plots_by_direction(struct step *step, float range_max_m)
+static float count_plots_by_direction_and_in_all(struct step *step, float range_max_m)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     float plots = 0.0f;
@@ -305,7 +304,7 @@ static float count_plots_by_direction(struct step *step, float range_max_m)
         if (step->report->fates[i] != RHO_FATE_HELD) {
             continue;
         }
-        const struct direction at = direction_of_plot(step, i);
+        const struct direction at = azimuth_bin_and_range_of_plot(step, i);
         map->strobe_count[at.bin]++;
         map->strobe_ranges[at.bin] |= (uint8_t)(1u << eighth_of_range(at.range_m, range_max_m));
         plots += 1.0f;
@@ -328,7 +327,8 @@ static float covered_sector_width(const struct step *step)
  * Plots per radian and metre of range that a strobe in this direction and the two beside it adds; 0
  * where there is no strobe.
  */
-static float strobe_density(const struct step *step, unsigned bin, float plots, float range_max_m)
+static float jammer_strobe_excess_density_or_zero(const struct step *step, unsigned bin,
+                                                  float plots, float range_max_m)
 {
     const struct rho_clutter_map *map = &step->tracker->clutter_map;
     const unsigned bins[3] = {bin == 0 ? RHO_ECHO_STROBES - 1u : bin - 1u, bin,
@@ -377,15 +377,15 @@ static void add_strobe_densities(struct step *step, float range_max_m)
     if (!may_have_strobes(step, range_max_m)) {
         return;
     }
-    const float plots = count_plots_by_direction(step, range_max_m);
+    const float plots = count_plots_by_direction_and_in_all(step, range_max_m);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] != RHO_FATE_HELD) {
             continue;
         }
-        const struct direction at = direction_of_plot(step, i);
+        const struct direction at = azimuth_bin_and_range_of_plot(step, i);
         float density = 0.0f;
         for (unsigned k = 0; k < 3; k++) { /* a plot at a strobe's edge may be one bin beside it */
-            const float beside = strobe_density(
+            const float beside = jammer_strobe_excess_density_or_zero(
                 step, (at.bin + RHO_ECHO_STROBES + k - 1u) % RHO_ECHO_STROBES, plots, range_max_m);
             density = beside > density ? beside : density;
         }
@@ -438,7 +438,7 @@ void rho_tracker_predict_clutter_at_plots(struct step *step)
     match_echoes_and_take_log_ratios(step);
 }
 
-float rho_tracker_log_echo_density_ratio(const struct step *step, uint32_t row)
+float rho_tracker_log_echo_over_background_density(const struct step *step, uint32_t row)
 {
     const struct rho_clutter_map *map = &step->tracker->clutter_map;
     return map->is_looked && step->first_row == 0 ? map->denser[row] : 0.0f;
@@ -453,8 +453,7 @@ void rho_tracker_store_echo_ratios_in_window(struct step *step)
     struct rho_window_scan *scan = rho_window_scan_at(window, window->num_scans - 1u);
     for (unsigned i = 0; i < scan->num_plots && map->is_looked; i++) {
         const unsigned row = scan->marks[i] & RHO_WINDOW_ROW;
-        if (row >= step->num_gated ||
-            (RHO_SECTORS && rho_tracker_is_plot_of_earlier_sector(window, scan, i))) {
+        if (row >= step->num_gated) {
             continue; /* a plot of an earlier sector has its density ratio already */
         }
         const float repeats = RHO_WINDOW_REPEATS_PER_NAT * map->denser[row] + 0.5f;
@@ -516,7 +515,7 @@ static int moves_as_target(const struct step *step, struct rho_track *track)
                : track->has_moved != 0;
 }
 
-static void remove_track_returns_from_map(struct step *step, struct rho_track *track)
+static void subtract_track_returns_from_map_counts(struct step *step, struct rho_track *track)
 {
     if (track->has_taken_back) {
         return;
@@ -551,8 +550,8 @@ static void add_echo_return_to_track(const struct rho_clutter_map *map, struct r
  * Sets the bits of plots of targets. The returns of such a track are removed from the map once;
  * other tracks fade theirs as the map does, and add the newest.
  */
-static void update_returns_and_find_target_plots(struct step *step, uint32_t *targets,
-                                                 float turn_share)
+static void fade_track_returns_and_mark_target_plots(struct step *step, uint32_t *targets,
+                                                     float turn_share)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -565,7 +564,7 @@ static void update_returns_and_find_target_plots(struct step *step, uint32_t *ta
             continue;
         }
         if (moves_as_target(step, track)) {
-            remove_track_returns_from_map(step, track);
+            subtract_track_returns_from_map_counts(step, track);
             targets[track->plot / 32] |= 1u << track->plot % 32;
         } else {
             add_echo_return_to_track(&tracker->clutter_map, track);
@@ -578,7 +577,8 @@ static void update_returns_and_find_target_plots(struct step *step, uint32_t *ta
  * targets may stand still, no echo is updated with a plot of a target. An echo faster than v_min is
  * dropped.
  */
-static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *taken)
+static void update_map_echoes_and_mark_taken_plots(struct step *step, const uint32_t *targets,
+                                                   uint32_t *taken)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     const float v_min2 = map->v_min_mps * map->v_min_mps;
@@ -616,7 +616,8 @@ static int plot_becomes_echo(const struct step *step, const uint32_t *targets,
            !(may_stand && is_row_in_set(targets, row));
 }
 
-static void add_echoes(struct step *step, const uint32_t *targets, const uint32_t *taken)
+static void start_echoes_at_plots_not_taken(struct step *step, const uint32_t *targets,
+                                            const uint32_t *taken)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     const float range_max_m = range_max_of_sensor(step);
@@ -647,7 +648,7 @@ static void add_echoes(struct step *step, const uint32_t *targets, const uint32_
 }
 
 /* Share of this scan in one turn of all sensors that are not silent. */
-static float turn_share_of_scan(const struct step *step)
+static float scan_share_of_turn_of_all_sensors(const struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     float sensors = 0.0f;
@@ -665,10 +666,10 @@ void rho_tracker_update_clutter_map(struct step *step)
     if (!step->tracker->clutter_map.is_looked) {
         return;
     }
-    const float share = turn_share_of_scan(step);
-    update_returns_and_find_target_plots(step, targets, share);
-    update_echoes(step, targets, taken);
-    add_echoes(step, targets, taken);
+    const float share = scan_share_of_turn_of_all_sensors(step);
+    fade_track_returns_and_mark_target_plots(step, targets, share);
+    update_map_echoes_and_mark_taken_plots(step, targets, taken);
+    start_echoes_at_plots_not_taken(step, targets, taken);
     rho_clutter_map_age_counts(&step->tracker->clutter_map, share);
 }
 

@@ -82,7 +82,7 @@ struct rho_track_limits rho_tracker_track_limits(const struct step *step)
 
 static int may_be_hidden_target(const struct step *step, const struct rho_track *track)
 {
-    return rho_tracker_is_established(track) &&
+    return rho_tracker_has_hits_to_be_established(track) &&
            (RHO_MAX_ECHOES == 0 || rho_tracker_is_known_moving_target(track)) &&
            rho_tracker_expected_clutter_in_gate(step, track) <= HIDE_CLUTTER_MAX;
 }
@@ -91,7 +91,7 @@ static int may_be_hidden_target(const struct step *step, const struct rho_track 
  * Lets a track of a hidden target end later, and holds its score within twice doubt_mnat of its
  * highest: misses of a hidden target are no evidence, and two plots should confirm its return.
  */
-static void widen_limits_and_raise_score(struct rho_track *track, struct rho_track_limits *limits)
+static void keep_hidden_target_longer(struct rho_track *track, struct rho_track_limits *limits)
 {
     const float misses = HIDE_SHARE * (float)limits->misses_in_row_max;
     const int32_t most_mnat = 2 * limits->doubt_mnat;
@@ -109,7 +109,7 @@ void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
     const int is_late = track->misses_in_row >= limits->misses_in_row_max;
     struct rho_track_limits own = *limits;
     if ((is_low || is_late) && may_be_hidden_target(step, track)) {
-        widen_limits_and_raise_score(track, &own);
+        keep_hidden_target_longer(track, &own);
     }
     if (is_late || rho_tracker_lacks_evidence(step, track)) {
         own.doubt_mnat = 0;

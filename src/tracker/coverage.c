@@ -65,7 +65,8 @@ static int covers_less_than_full_circle(const struct step *step)
            (sensor && !rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad));
 }
 
-static int is_near_both_sectors(const struct step *step, float azimuth_rad, float margin_rad)
+static int is_near_scan_and_sensor_sectors(const struct step *step, float azimuth_rad,
+                                           float margin_rad)
 {
     const struct rho_scan *scan = step->scan;
     const struct rho_sensor *sensor = step->sensor;
@@ -109,7 +110,8 @@ int rho_tracker_may_scan_see_track(const struct step *step, const struct rho_tra
         return 1; /* plots of a track within the margin of the sensor may be in any direction */
     }
     /* upper bound of the angle that the margin subtends: asin(x) <= x pi / 2 for x in 0 .. 1 */
-    return is_near_both_sectors(step, rho_atan2(dy_m, dx_m), margin_m / range_m * (0.5f * RHO_PI));
+    return is_near_scan_and_sensor_sectors(step, rho_atan2(dy_m, dx_m),
+                                           margin_m / range_m * (0.5f * RHO_PI));
 }
 
 int rho_tracker_is_track_in_view(const struct step *step, unsigned row)
@@ -117,8 +119,8 @@ int rho_tracker_is_track_in_view(const struct step *step, unsigned row)
     return (step->in_view[row / 32] >> row % 32 & 1u) != 0;
 }
 
-int rho_tracker_sector_covers_track(const struct step *step, float sector_from_rad,
-                                    float sector_to_rad, const struct rho_track *track)
+int rho_tracker_sector_covers_track_place(const struct step *step, float sector_from_rad,
+                                          float sector_to_rad, const struct rho_track *track)
 {
     return rho_measurement_covers(step->sensor, sector_from_rad, sector_to_rad,
                                   track->kalman.state[0], track->kalman.state[1]);
@@ -129,6 +131,6 @@ int rho_tracker_may_count_miss(const struct step *step, const struct rho_track *
     if (RHO_SECTORS) {
         return !step->is_suspect && rho_tracker_has_antenna_passed_gate(step, track);
     }
-    return rho_tracker_sector_covers_track(step, step->scan->sector_from_rad,
-                                           step->scan->sector_to_rad, track);
+    return rho_tracker_sector_covers_track_place(step, step->scan->sector_from_rad,
+                                                 step->scan->sector_to_rad, track);
 }

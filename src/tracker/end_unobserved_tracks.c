@@ -156,8 +156,8 @@ static int is_among_last_seeing_sensors(const struct rho_track *track, int32_t s
            (RHO_SECTORS && rho_tracker_is_among_last_two_sensors(track, sensor_id));
 }
 
-static struct expected_looks expect_looks_at_track(const struct step *step,
-                                                   const struct rho_track *track)
+static struct expected_looks expected_look_interval_and_rate_at_track(const struct step *step,
+                                                                      const struct rho_track *track)
 {
     const struct rho_tracker *tracker = step->tracker;
     const float *state = track->kalman.state;
@@ -226,7 +226,7 @@ int rho_tracker_update_and_test_unobserved(const struct step *step, struct rho_t
         }
         return 0;
     }
-    const struct expected_looks wait = expect_looks_at_track(step, track);
+    const struct expected_looks wait = expected_look_interval_and_rate_at_track(step, track);
     const float coast = (float)step->tracker->config.coast_scans_max;
     const float unseen_s = rho_seconds_between(track->seen_us, step->time_us);
     const int is_overdue =

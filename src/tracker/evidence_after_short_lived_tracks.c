@@ -58,12 +58,12 @@ static float evidence_of_target(const struct step *step, const struct rho_track 
 }
 
 /* Evidence that a miss takes from a track, by the hits and misses of the established tracks. */
-static float evidence_of_miss(const struct rho_tracker *tracker)
+static float learned_evidence_lost_per_miss_nat(const struct rho_tracker *tracker)
 {
     float hits = PRIOR_HITS, misses = PRIOR_MISSES;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (rho_tracker_is_established(track) &&
+        if (rho_tracker_has_hits_to_be_established(track) &&
             track->hits < UINT16_MAX) { /* no saturated counts */
             hits += (float)track->hits;
             misses += (float)track->misses;
@@ -78,7 +78,7 @@ static float count_almost_established_tracks(const struct step *step)
     float count = 0.0f;
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         const struct rho_track *track = &step->tracker->tracks[i];
-        count += !rho_tracker_is_established(track) &&
+        count += !rho_tracker_has_hits_to_be_established(track) &&
                          evidence_of_target(step, track) >= ALMOST_ESTABLISHED_NAT
                      ? 1.0f
                      : 0.0f;
@@ -86,7 +86,7 @@ static float count_almost_established_tracks(const struct step *step)
     return count;
 }
 
-void rho_tracker_fade_counts_and_set_evidence_needed(struct step *step)
+void rho_tracker_fade_track_counts_set_evidence_need(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (!(tracker->ended_early + tracker->established > 0.0f)) {
@@ -109,7 +109,7 @@ void rho_tracker_fade_counts_and_set_evidence_needed(struct step *step)
     const float wanted = tracker->wanted_per_hour * sensors * (MEMORY_S / 3600.0f);
     const float excess =
         tracker->ended_early - wanted - EXCESS_SIGMAS * rho_sqrt(tracker->ended_early);
-    step->miss_nat = evidence_of_miss(tracker);
+    step->miss_nat = learned_evidence_lost_per_miss_nat(tracker);
     const float odds =
         TRUE_PER_FALSE * excess /
         (tracker->established + count_almost_established_tracks(step) + ESTABLISHED_PRIOR);
@@ -120,7 +120,7 @@ void rho_tracker_fade_counts_and_set_evidence_needed(struct step *step)
 
 int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track)
 {
-    return step->needed_nat > 0.0f && !rho_tracker_is_established(track) &&
+    return step->needed_nat > 0.0f && !rho_tracker_has_hits_to_be_established(track) &&
            evidence_of_target(step, track) < step->needed_nat;
 }
 
@@ -133,7 +133,7 @@ void rho_tracker_count_if_newly_established(struct step *step, const struct rho_
 
 void rho_tracker_count_if_ended_early(struct step *step, const struct rho_track *track)
 {
-    if (!rho_tracker_is_established(track) && evidence_of_target(step, track) < 0.0f &&
+    if (!rho_tracker_has_hits_to_be_established(track) && evidence_of_target(step, track) < 0.0f &&
         track->score_max_mnat >= step->tracker->confirm_mnat) {
         step->tracker->ended_early += 1.0f;
     }

@@ -37,7 +37,7 @@ float rho_tracker_background_density_at_plot(const struct step *step, const stru
     return density > DENSITY_MIN ? density : DENSITY_MIN;
 }
 
-static float background_density_in_part(const struct step *step, float x_m, float y_m)
+static float background_density_for_plots_part(const struct step *step, float x_m, float y_m)
 {
     float density = rho_tracker_background_density(step, x_m, y_m);
     if (RHO_CLAIMS_BEYOND && step->part_share > 0.0f) {
@@ -51,7 +51,7 @@ float rho_tracker_log_clutter_density_at_track(const struct step *step,
                                                const struct rho_track *track)
 {
     return rho_log(
-        background_density_in_part(step, track->kalman.state[0], track->kalman.state[1]));
+        background_density_for_plots_part(step, track->kalman.state[0], track->kalman.state[1]));
 }
 
 float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct rho_track *track)
@@ -61,7 +61,7 @@ float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct
     }
     const float sigma_m = rho_track_sigma_m(track);
     return 0.5f * RHO_TWO_PI * GATE_SIGMAS * GATE_SIGMAS * sigma_m * sigma_m *
-           background_density_in_part(step, track->kalman.state[0], track->kalman.state[1]);
+           background_density_for_plots_part(step, track->kalman.state[0], track->kalman.state[1]);
 }
 
 /*
@@ -69,7 +69,7 @@ float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct
  * a later part is that of its held plots over their extent, or that of the first part times the
  * scan's plots over RHO_MAX_PLOTS, whichever is larger.
  */
-void rho_tracker_measure_clutter_of_part(struct step *step)
+void rho_tracker_measure_density_of_held_plots(struct step *step)
 {
     struct rho_extent extent = {0.0f, 0.0f, 0.0f, 0.0f};
     float num = 0.0f;

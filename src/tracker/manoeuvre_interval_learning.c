@@ -47,7 +47,7 @@ void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s)
     }
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (rho_tracker_is_established(track) && track->status == RHO_TRACK_CONFIRMED) {
+        if (rho_tracker_has_hits_to_be_established(track) && track->status == RHO_TRACK_CONFIRMED) {
             *(track->maneuver_probability > SURELY ? &tracker->turning_s : &tracker->straight_s) +=
                 dt_s;
         }

@@ -41,7 +41,8 @@ int rho_tracker_find_pair_gain(const struct step *step, unsigned row, int column
     const struct rho_assignment *assignment = &step->tracker->assignment;
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
         if (assignment->pairs[row][i].column == column) {
-            *gain_nat = rho_tracker_detection_of_track(step, &step->tracker->tracks[row]).log_miss -
+            *gain_nat = rho_tracker_log_pd_and_log_miss_of_track(step, &step->tracker->tracks[row])
+                            .log_miss -
                         0.001f * (float)assignment->pairs[row][i].cost;
             return 1;
         }
@@ -78,35 +79,35 @@ static float log_likelihood_ratio(const struct step *step, const struct rho_gate
     return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - log_density;
 }
 
-static float log_echo_density_ratio(const struct step *step, uint32_t row)
+static float log_echo_density_ratio(const struct step *step, uint32_t plot_row)
 {
-    return RHO_MAX_ECHOES > 0 ? rho_tracker_log_echo_density_ratio(step, row) : 0.0f;
+    return RHO_MAX_ECHOES > 0 ? rho_tracker_log_echo_over_background_density(step, plot_row) : 0.0f;
 }
 
 float rho_tracker_score_plot(const struct step *step, const struct rho_track *track,
                              const struct rho_gate_result *result, float log_density, uint32_t row)
 {
-    return rho_tracker_detection_of_track(step, track).log_pd +
+    return rho_tracker_log_pd_and_log_miss_of_track(step, track).log_pd +
            log_likelihood_ratio(step, result, log_density + log_echo_density_ratio(step, row));
 }
 
 float rho_tracker_log_miss_probability(const struct step *step, const struct rho_track *track)
 {
     return rho_tracker_may_count_miss(step, track)
-               ? rho_tracker_detection_of_track(step, track).log_miss
+               ? rho_tracker_log_pd_and_log_miss_of_track(step, track).log_miss
                : 0.0f;
 }
 
-struct rho_track_plot rho_tracker_make_track_plot(const struct step *step, int row)
+struct rho_track_plot rho_tracker_make_track_plot(const struct step *step, int plot_row)
 {
-    const struct rho_plot *plot = &step->scan->plots[row];
+    const struct rho_plot *plot = &step->scan->plots[plot_row];
     return (struct rho_track_plot){
         .time_us = step->scan->time_us + plot->offset_us,
         .measures = step->scan->measures,
         .sensor_id = step->scan->sensor_id,
         .sensor = step->sensor,
         .plot = *plot,
-        .row = (int16_t)row,
+        .row = (int16_t)plot_row,
     };
 }
 
@@ -126,7 +127,7 @@ static struct plots_near plots_near_track(const struct step *step, const struct 
 }
 
 /* True where each box of the plot index holds one plot, so that the box decides on the plot. */
-static int has_box_per_plot(const struct step *step)
+static int is_one_plot_per_index_box(const struct step *step)
 {
     return RHO_PLOT_STRIPS <= 1 && step->plots_of_box == 1u;
 }
@@ -140,7 +141,7 @@ static int is_unassigned_and_near(const struct step *step, struct plot_scores *s
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_plot *plot = &step->scan->plots[i];
     const int owner = tracker->assignment.column_row[i];
-    return (has_box_per_plot(step) || rho_tracker_is_plot_within(&scores->near, plot)) &&
+    return (is_one_plot_per_index_box(step) || rho_tracker_is_plot_within(&scores->near, plot)) &&
            step->report->fates[i] == RHO_FATE_HELD &&
            !(owner >= 0 && owner != (int)scores->track_row) &&
            rho_hypotheses_is_in_box(&tracker->hypotheses, tracker->tracks[scores->track_row].slot,
@@ -151,14 +152,15 @@ static void choose_plots_to_score(struct step *step, const struct rho_track *tra
                                   struct plot_scores *scores)
 {
     struct plots_near counted = scores->near;
-    scores->choice = rho_tracker_begin_plot_choice(step, track);
+    scores->choice = rho_tracker_begin_choice_of_plots_to_score(step, track);
     for (uint32_t i; scores->choice.most < rho_tracker_max_num_plots_near(step, &scores->near) &&
                      rho_tracker_next_plot_near(step, &counted, &i);) {
         if (is_unassigned_and_near(step, scores, i)) {
-            rho_tracker_count_plot_for_choice(&scores->choice, track, &step->scan->plots[i]);
+            rho_tracker_count_plot_in_distance_octave(&scores->choice, track,
+                                                      &step->scan->plots[i]);
         }
     }
-    rho_tracker_end_plot_choice(step, &scores->choice);
+    rho_tracker_limit_choice_to_nearest_plots(step, &scores->choice);
 }
 
 void rho_tracker_begin_plot_scores(struct step *step, unsigned row, struct plot_scores *scores)
@@ -166,14 +168,14 @@ void rho_tracker_begin_plot_scores(struct step *step, unsigned row, struct plot_
     struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
     scores->track_row = row;
-    scores->log_pd = rho_tracker_detection_of_track(step, track).log_pd;
+    scores->log_pd = rho_tracker_log_pd_and_log_miss_of_track(step, track).log_pd;
     scores->clutter = (struct rho_hypotheses_clutter){
         .log_per_m2 = rho_tracker_log_clutter_density_at_track(step, track),
         .log_per_m = -step->log_height,
         .log_per_mps = -step->log_rates,
         .log_per_range_rate = -step->log_range_rates,
     };
-    rho_hypotheses_begin_scan(&tracker->hypotheses, track->slot, &scores->box);
+    rho_hypotheses_clear_candidates_get_gate_box(&tracker->hypotheses, track->slot, &scores->box);
     scores->box.sigma_factor = rho_measurement_sigma_factor_at_least_one(step->sensor);
     scores->near = plots_near_track(step, track, &scores->box);
     choose_plots_to_score(step, track, scores);
@@ -188,7 +190,7 @@ int rho_tracker_next_plot_score(struct step *step, struct plot_scores *scores, u
     while (rho_tracker_next_plot_near(step, &scores->near, plot)) {
         const struct rho_plot *at = &step->scan->plots[*plot];
         if (!is_unassigned_and_near(step, scores, *plot) ||
-            !rho_tracker_spend_if_plot_chosen(step, &scores->choice, track, at)) {
+            !rho_tracker_spend_score_work_if_plot_chosen(step, &scores->choice, track, at)) {
             continue;
         }
         rho_imm_prepare_plot(&seen, at, step->scan->measures, step->sensor);

@@ -235,7 +235,8 @@ static int may_be_image_track(const struct step *step, const struct rho_track *t
 {
     const float looks = (float)track->hits + (float)track->misses;
     return track->status != RHO_TRACK_FREE && track->time_us == step->time_us &&
-           (!rho_tracker_is_established(track) || (float)track->hits < IMAGE_SHARE * looks);
+           (!rho_tracker_has_hits_to_be_established(track) ||
+            (float)track->hits < IMAGE_SHARE * looks);
 }
 
 /* True where a track agrees with an image in horizontal place and velocity. */

@@ -33,7 +33,7 @@
 /* Least probability 1 - p that two targets are resolved: rounding may leave 0, a divisor. */
 #define RESOLVED_EPSILON 1e-3f
 
-static float learned_log_cell(const struct step *step, int axis)
+static float learned_log_cell_over_plot_variance(const struct step *step, int axis)
 {
     return step->learned ? step->learned->log_cell[axis] : 0.0f;
 }
@@ -59,7 +59,8 @@ void rho_tracker_unresolved_variances_at_plot(const struct step *step, const str
             const float cell_m = stated_cell_m(step->sensor, plot, axis);
             near_m2[axis] = NEAR_OF_CELL * cell_m * cell_m;
         } else {
-            near_m2[axis] = 4.0f * seen->variance_m2[axis] * rho_exp(learned_log_cell(step, axis));
+            near_m2[axis] = 4.0f * seen->variance_m2[axis] *
+                            rho_exp(learned_log_cell_over_plot_variance(step, axis));
         }
     }
 }

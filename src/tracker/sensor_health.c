@@ -64,8 +64,8 @@ static float nis_per_dimension_of_plot(const struct step *step, const struct rho
            (2.0f + (result.has_z ? 1.0f : 0.0f) + (result.has_range_rate ? 1.0f : 0.0f));
 }
 
-static void add_track_to_sensor_means(const struct step *step, struct rho_tracker_look *look,
-                                      unsigned row)
+static void add_track_to_seen_share_and_mean_nis(const struct step *step,
+                                                 struct rho_tracker_look *look, unsigned row)
 {
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
@@ -75,7 +75,7 @@ static void add_track_to_sensor_means(const struct step *step, struct rho_tracke
         look->sigma_m = rho_plot_sigma_m(&step->scan->plots[plot]);
         add_to_running_mean(&look->distance2, nis_per_dimension_of_plot(step, track, plot),
                             &look->watched_hits);
-    } else if (!step->has_more_parts && !rho_tracker_is_sensor_mostly_blind_to(track) &&
+    } else if (!step->has_more_parts && !rho_tracker_is_track_mostly_in_notch(track) &&
                rho_tracker_has_antenna_passed_gate(step, track)) {
         add_to_running_mean(&look->seen_share, 0.0f, &look->watched);
     }
@@ -88,21 +88,21 @@ static float stated_pd_of_sensor(const struct rho_tracker *tracker, int32_t sens
 }
 
 /* True where the sensor sees too few of the tracks that other sensors have seen. */
-static int sees_too_few_tracks(const struct rho_tracker *tracker,
-                               const struct rho_tracker_look *look)
+static int has_low_seen_share(const struct rho_tracker *tracker,
+                              const struct rho_tracker_look *look)
 {
     return look->watched >= COMPARED_MIN &&
            look->seen_share < SHARE_LOW * stated_pd_of_sensor(tracker, look->sensor_id);
 }
 
 /* True where the sensor's plots are on average too far from the tracks' predictions. */
-static int is_sensor_biased(const struct rho_tracker_look *look)
+static int are_sensor_plots_too_far_from_tracks(const struct rho_tracker_look *look)
 {
     return look->watched_hits >= COMPARED_MIN && look->distance2 > CHI2_HIGH;
 }
 
-static int sees_enough_tracks(const struct rho_tracker *tracker,
-                              const struct rho_tracker_look *look)
+static int has_good_seen_share(const struct rho_tracker *tracker,
+                               const struct rho_tracker_look *look)
 {
     return look->watched >= COMPARED_MIN &&
            look->seen_share > SHARE_GOOD * stated_pd_of_sensor(tracker, look->sensor_id);
@@ -111,7 +111,7 @@ static int sees_enough_tracks(const struct rho_tracker *tracker,
 static int agrees_with_tracks(const struct rho_tracker *tracker,
                               const struct rho_tracker_look *look)
 {
-    return sees_enough_tracks(tracker, look) && look->distance2 < CHI2_GOOD;
+    return has_good_seen_share(tracker, look) && look->distance2 < CHI2_GOOD;
 }
 
 /*
@@ -145,14 +145,14 @@ static void count_witness(struct witnesses *witnesses, const struct rho_tracker_
     }
 }
 
-static struct witnesses count_witnesses(const struct step *step,
-                                        const struct rho_tracker_look *look)
+static struct witnesses count_sensors_witnessing_bias(const struct step *step,
+                                                      const struct rho_tracker_look *look)
 {
     const struct rho_tracker *tracker = step->tracker;
     struct witnesses witnesses = {0, 0, 0, 0};
     for (unsigned i = 0; i < tracker->num_looks; i++) {
         const struct rho_tracker_look *other = &tracker->looks[i];
-        if (other == look || other->is_suspect || !sees_enough_tracks(tracker, other) ||
+        if (other == look || other->is_suspect || !has_good_seen_share(tracker, other) ||
             step->time_us - other->time_us > RHO_TRACKER_SILENT_US) {
             continue;
         }
@@ -181,12 +181,12 @@ static int are_enough_witnesses(const struct witnesses *witnesses)
 static void suspect_or_trust_sensor(struct step *step, struct rho_tracker_look *look)
 {
     struct rho_tracker *tracker = step->tracker;
-    const struct witnesses witnesses = count_witnesses(step, look);
+    const struct witnesses witnesses = count_sensors_witnessing_bias(step, look);
     if (look->is_suspect && (agrees_with_tracks(tracker, look) || witnesses.num == 0)) {
         look->is_suspect = 0;
     } else if (!look->is_suspect &&
-               ((sees_too_few_tracks(tracker, look) && witnesses.num >= 1) ||
-                (is_sensor_biased(look) && are_enough_witnesses(&witnesses)))) {
+               ((has_low_seen_share(tracker, look) && witnesses.num >= 1) ||
+                (are_sensor_plots_too_far_from_tracks(look) && are_enough_witnesses(&witnesses)))) {
         look->is_suspect = 1;
         tracker->counters.sensors_suspected = rho_count(tracker->counters.sensors_suspected, 1);
     }
@@ -208,13 +208,13 @@ static int can_track_show_bias(const struct step *step, unsigned row)
 void rho_tracker_update_sensor_health(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_tracker_look *look = rho_tracker_look_of_scan_sensor(step);
+    struct rho_tracker_look *look = rho_tracker_find_look_of_scan_sensor(step);
     if (!look) {
         return;
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         if (can_track_show_bias(step, row)) {
-            add_track_to_sensor_means(step, look, row);
+            add_track_to_seen_share_and_mean_nis(step, look, row);
         }
     }
     if (!step->has_more_parts) {
@@ -225,7 +225,7 @@ void rho_tracker_update_sensor_health(struct step *step)
 
 float rho_tracker_update_suspect_and_sigma_factor(struct step *step)
 {
-    struct rho_tracker_look *look = rho_tracker_look_of_scan_sensor(step);
+    struct rho_tracker_look *look = rho_tracker_find_look_of_scan_sensor(step);
     if (look) {
         suspect_or_trust_sensor(step, look); /* the witnesses may be silent by now */
     }

@@ -315,7 +315,7 @@ static float usable_pd_in_ring(const struct rho_tracker_config *config,
 /* ---- pd by range rate ------------------------------------------------------------------------ */
 
 /* Upper limit of the first num_rates intervals of range rates, m/s. */
-static float upper_rate_of_intervals(unsigned num_rates)
+static float upper_range_rate_of_intervals_mps(unsigned num_rates)
 {
     float end2 = RATE_MIN2;
     for (unsigned i = 1; i < num_rates; i++) {
@@ -325,11 +325,11 @@ static float upper_rate_of_intervals(unsigned num_rates)
 }
 
 /* True where the sensor's description states no notch: it has none, or the learned one. */
-static int is_notch_unstated(const struct rho_sensor *sensor,
-                             const struct rho_tracker_learned *learned)
+static int is_notch_unstated_or_learned(const struct rho_sensor *sensor,
+                                        const struct rho_tracker_learned *learned)
 {
     const float learned_mps =
-        learned->used_rates > 0 ? upper_rate_of_intervals(learned->used_rates) : 0.0f;
+        learned->used_rates > 0 ? upper_range_rate_of_intervals_mps(learned->used_rates) : 0.0f;
     return !(sensor->notch_mps > 0.0f) ||
            (sensor->notch_mps >= learned_mps && sensor->notch_mps <= learned_mps);
 }
@@ -337,7 +337,7 @@ static int is_notch_unstated(const struct rho_sensor *sensor,
 static int is_notch_learning_on(const struct step *step)
 {
     return RHO_DOPPLER_NOTCH && is_pd_learning_on(&step->tracker->config) &&
-           is_notch_unstated(step->sensor, step->learned);
+           is_notch_unstated_or_learned(step->sensor, step->learned);
 }
 
 void rho_tracker_apply_learned_notch(struct step *step)
@@ -346,13 +346,13 @@ void rho_tracker_apply_learned_notch(struct step *step)
     if (learned && is_sensor_learning_on(&step->tracker->config) && is_notch_learning_on(step)) {
         learned->used_rates = learned->blind_rates;
         step->tracker->sensors[learned - step->tracker->learned].notch_mps =
-            learned->used_rates > 0 ? upper_rate_of_intervals(learned->used_rates) : 0.0f;
+            learned->used_rates > 0 ? upper_range_rate_of_intervals_mps(learned->used_rates) : 0.0f;
     }
 }
 
 /* Index of the interval of a track's range rate; the last one where the rate is not defined. */
-static unsigned range_rate_interval_of_track(const struct rho_sensor *sensor,
-                                             const struct rho_track *track)
+static unsigned notch_learning_interval_of_range_rate(const struct rho_sensor *sensor,
+                                                      const struct rho_track *track)
 {
     float row[6], rate_mps;
     if (!rho_measurement_predict_range_rate(track->kalman.state, sensor,
@@ -436,11 +436,12 @@ static void update_learned_notch(struct rho_tracker_learned *learned)
  * Counts a look in the interval of the track's range rate, and looks for a notch now and then.
  * Returns 1 where the interval is outside of the notch.
  */
-static int count_look_by_rate_outside_notch(struct step *step, const struct rho_track *track,
-                                            unsigned is_seen)
+static int count_look_by_rate_and_test_outside_notch(struct step *step,
+                                                     const struct rho_track *track,
+                                                     unsigned is_seen)
 {
     struct rho_tracker_learned *learned = step->learned;
-    const unsigned rate = range_rate_interval_of_track(step->sensor, track);
+    const unsigned rate = notch_learning_interval_of_range_rate(step->sensor, track);
     learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] + 1u);
     learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] + is_seen);
     if (learned->rate_looks[rate] >= RATE_LOOKS_MAX) {
@@ -492,7 +493,8 @@ static void count_look_by_range_and_rate(struct step *step, const struct rho_tra
 {
     struct rho_tracker_learned *learned = step->learned;
     const unsigned ring = range_ring_of_track(step->sensor, track);
-    if (is_notch_learning_on(step) && !count_look_by_rate_outside_notch(step, track, is_seen)) {
+    if (is_notch_learning_on(step) &&
+        !count_look_by_rate_and_test_outside_notch(step, track, is_seen)) {
         return;
     }
     learned->looks[ring] = (uint16_t)(learned->looks[ring] + 1u);
@@ -515,7 +517,7 @@ static void learn_pd_from_look(struct step *step, struct rho_track *track, int i
     }
     if (RHO_DOPPLER_NOTCH && track->blind_percent > BLIND_PERCENT_MAX) {
         if (is_own && is_notch_learning_on(step)) {
-            (void)count_look_by_rate_outside_notch(step, track, is_seen != 0);
+            (void)count_look_by_rate_and_test_outside_notch(step, track, is_seen != 0);
         }
         return;
     }
@@ -543,7 +545,7 @@ static int can_teach_sensor(const struct step *step, unsigned row)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
     return track->status != RHO_TRACK_FREE && track->was_confirmed &&
-           rho_tracker_is_established(track) && rho_tracker_is_track_in_view(step, row);
+           rho_tracker_has_hits_to_be_established(track) && rho_tracker_is_track_in_view(step, row);
 }
 
 static int can_teach_noise(const struct rho_track *track)
@@ -624,10 +626,10 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
         return RHO_ERROR_STATE;
     }
     const struct rho_tracker_learned *learned = &tracker->learned[sensor - tracker->sensors];
-    const int is_blind =
-        RHO_DOPPLER_NOTCH && learned->blind_rates > 0 && is_notch_unstated(sensor, learned);
+    const int is_blind = RHO_DOPPLER_NOTCH && learned->blind_rates > 0 &&
+                         is_notch_unstated_or_learned(sensor, learned);
     *known = (struct rho_tracker_known){
-        .notch_mps = is_blind ? upper_rate_of_intervals(learned->blind_rates) : 0.0f,
+        .notch_mps = is_blind ? upper_range_rate_of_intervals_mps(learned->blind_rates) : 0.0f,
         .range_factor = usable_sigma_factor(tracker, learned, 0),
         .cross_factor = usable_sigma_factor(tracker, learned, 1),
         .innovations = learned->innovations,

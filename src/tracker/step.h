@@ -97,7 +97,10 @@ static inline int rho_tracker_is_score_in_range(int32_t mnat)
 
 /* ---- scans ----------------------------------------------------------------------------------- */
 
-/* out_of_sequence.c (RHO_SECTORS): scans older than the newest step that may still update tracks */
+/*
+ * out_of_sequence_by_retrodiction.c (RHO_SECTORS): scans older than the newest step that may still
+ * update tracks
+ */
 void rho_tracker_set_late_max_default(struct rho_tracker_config *config);
 int rho_tracker_is_late_max_usable(const struct rho_tracker_config *config);
 /* True of an out-of-sequence scan within late_max_s that is not its sensor's newest one again. */
@@ -105,10 +108,10 @@ int rho_tracker_accepts_late_scan(const struct step *step);
 /* Counts an out-of-sequence scan that still updates tracks. */
 void rho_tracker_count_late_scan(struct step *step);
 /* Stores the track's time before an out-of-sequence scan moves the track back. */
-void rho_tracker_store_track_time(struct rho_track *track);
+void rho_tracker_store_track_time_before_late_scan(struct rho_track *track);
 int rho_tracker_is_sound_stored_track_time(const struct rho_track *track);
 /* Gives the held plots of an out-of-sequence scan the fate STALE. */
-void rho_tracker_mark_held_plots_stale(struct step *step);
+void rho_tracker_mark_unused_late_plots_stale(struct step *step);
 /* After an out-of-sequence scan: tracks, step and report return to the newest time. */
 void rho_tracker_return_tracks_to_newest_time(struct step *step);
 
@@ -178,19 +181,21 @@ int rho_tracker_may_scan_see_track(const struct step *step, const struct rho_tra
 /* True where the scan may see the track of this row, as found when tracks were predicted. */
 int rho_tracker_is_track_in_view(const struct step *step, unsigned row);
 /* True where the sensor, looking at this sector, covers the track's place. */
-int rho_tracker_sector_covers_track(const struct step *step, float sector_from_rad,
-                                    float sector_to_rad, const struct rho_track *track);
+int rho_tracker_sector_covers_track_place(const struct step *step, float sector_from_rad,
+                                          float sector_to_rad, const struct rho_track *track);
 /* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
 int rho_tracker_may_count_miss(const struct step *step, const struct rho_track *track);
 
-/* sectors.c (RHO_SECTORS): how the sectors of one turn follow each other */
+/*
+ * one_look_per_turn_across_sectors.c (RHO_SECTORS): how the sectors of one turn follow each other
+ */
 #define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
 /* The record (tracker->looks) of the scan's sensor; NULL where there is none. */
-struct rho_tracker_look *rho_tracker_look_of_scan_sensor(struct step *step);
+struct rho_tracker_look *rho_tracker_find_look_of_scan_sensor(struct step *step);
 void rho_tracker_remove_look_of_sensor(struct rho_tracker *tracker, int32_t sensor_id);
 int rho_tracker_has_sound_looks(const struct rho_tracker *tracker);
 /* Records the scan's sector and time for its sensor, and finds which way the antenna turns. */
-void rho_tracker_record_scan_and_turning(struct step *step);
+void rho_tracker_record_look_and_antenna_turning(struct step *step);
 /* Stores in a track with a plot of this scan that the scan's sensor saw it last. */
 void rho_tracker_record_seeing_sensor(const struct step *step, struct rho_track *track);
 /* True of the two sensors that saw the track last. */
@@ -206,9 +211,6 @@ int rho_tracker_was_seen_in_last_sector(const struct step *step, const struct rh
 int rho_tracker_has_antenna_passed_gate(const struct step *step, const struct rho_track *track);
 /* Number of scans of this sector's width in one turn of the antenna; 1 where it does not turn. */
 float rho_tracker_scans_per_turn(const struct step *step);
-/* True of a plot of the window's newest scan that came with an earlier sector of the same turn. */
-int rho_tracker_is_plot_of_earlier_sector(const struct rho_window *window,
-                                          const struct rho_window_scan *scan, unsigned plot);
 
 /* sensor_health.c (RHO_SECTORS): finds sensors that contradict the others */
 /* Decides whether the scan's sensor is suspect. Returns the factor on its plots' sigmas. */
@@ -252,26 +254,26 @@ struct detection rho_tracker_detection_without_notch(const struct step *step,
  * blind_looks.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Sets blind_percent of the
  * tracks in view, before plots are scored
  */
-void rho_tracker_set_blind_percents(struct step *step);
+void rho_tracker_set_notch_blind_percents(struct step *step);
 /* Sets blind_percent of all tracks to 0, at the end of a step. */
 void rho_tracker_clear_blind_percents(struct step *step);
 /* Probabilities, ln, of detection and miss of a track that may be in the sensor's notch. */
 struct detection rho_tracker_detection_with_notch(const struct step *step,
                                                   const struct rho_track *track);
-static inline struct detection rho_tracker_detection_of_track(const struct step *step,
-                                                              const struct rho_track *track)
+static inline struct detection
+rho_tracker_log_pd_and_log_miss_of_track(const struct step *step, const struct rho_track *track)
 {
     return RHO_DOPPLER_NOTCH && track->blind_percent > 0
                ? rho_tracker_detection_with_notch(step, track)
                : rho_tracker_detection_without_notch(step, track);
 }
 /* True where at least half of the looks at the track are blind: no plot is no miss then. */
-static inline int rho_tracker_is_sensor_mostly_blind_to(const struct rho_track *track)
+static inline int rho_tracker_is_track_mostly_in_notch(const struct rho_track *track)
 {
     return RHO_DOPPLER_NOTCH && track->blind_percent >= 50;
 }
 /* After a blind look without a plot: the track coasts, and counts as seen, not as missed. */
-void rho_tracker_coast_blind_track(const struct step *step, struct rho_track *track);
+void rho_tracker_set_blind_track_coasting(const struct step *step, struct rho_track *track);
 
 /* ---- images ---------------------------------------------------------------------------------- */
 
@@ -361,19 +363,20 @@ int rho_tracker_range_rate_residual(const struct step *step, const struct rho_sc
                                     struct range_rate_residual *rate);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
- * rate by rho_tracker_range_rate_residual, whose result rho_tracker_locate_plot_on_body
+ * rate by rho_tracker_range_rate_residual, whose result rho_tracker_locate_on_body_is_rate_usable
  * returns.
  */
 struct body_plot {
     float dx_m, dy_m, along_m, across_m;
     struct range_rate_residual rate;
 };
-int rho_tracker_locate_plot_on_body(const struct step *step, const struct rho_scan *scan,
-                                    unsigned row, unsigned plot, struct body_plot *at);
+int rho_tracker_locate_on_body_is_rate_usable(const struct step *step, const struct rho_scan *scan,
+                                              unsigned row, unsigned plot, struct body_plot *at);
 
 /* Variances of a plot's own noise in the axes of a body: along, cross, across. */
-void rho_tracker_plot_noise_on_body(const struct step *step, const struct rho_body_filter *body,
-                                    const struct rho_plot *plot, float axes[3]);
+void rho_tracker_rotate_plot_noise_to_body_axes(const struct step *step,
+                                                const struct rho_body_filter *body,
+                                                const struct rho_plot *plot, float axes[3]);
 /* The first plot, from this one of a group on, that no other track contends for; or RHO_NO_ROW. */
 static inline unsigned rho_tracker_first_uncontested_plot(const struct rho_groups *groups,
                                                           unsigned plot)
@@ -397,7 +400,7 @@ void rho_tracker_add_body_split_evidence(const struct step *step, const struct r
 /* The reason, by that evidence, for which a track's body is two targets; or RHO_BODY_ONE. */
 enum rho_body_split rho_tracker_find_body_split_reason(const struct step *step, unsigned row);
 /* True of a live track in view within RHO_BODY_TRACKS: plots may be grouped for it. */
-static inline int rho_tracker_may_own_plots(const struct step *step, unsigned row)
+static inline int rho_tracker_may_own_group_of_plots(const struct step *step, unsigned row)
 {
     return RHO_BODIES && row < RHO_BODY_TRACKS &&
            step->tracker->tracks[row].status != RHO_TRACK_FREE &&
@@ -406,7 +409,7 @@ static inline int rho_tracker_may_own_plots(const struct step *step, unsigned ro
 /* duplicate_tracks.c: ends one of two tracks of one target; the other track gets its plots */
 void rho_tracker_end_duplicate_tracks(struct step *step);
 /* Prior variance of a place on a body, on each axis. */
-float rho_tracker_body_prior_variance_m2(const struct rho_tracker *tracker);
+float rho_tracker_prior_place_variance_on_body_m2(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker);
 
 /* ---- work ------------------------------------------------------------------------------------ */
@@ -439,7 +442,7 @@ struct plot_choice {
     uint16_t in_octave[RHO_WORK_OCTAVES]; /* plots counted in each octave */
 };
 /* Begins a phase in which tracks score plots, with a reserved share for each track in view. */
-void rho_tracker_begin_work_per_track(struct step *step);
+void rho_tracker_begin_phase_with_share_per_track(struct step *step);
 /* Begins a phase that may do work_max / divisor units of work. */
 void rho_tracker_begin_work_phase(struct step *step, uint32_t divisor);
 static inline void rho_tracker_spend_work(struct step *step, uint32_t units)
@@ -448,7 +451,7 @@ static inline void rho_tracker_spend_work(struct step *step, uint32_t units)
 }
 
 /* Releases the reserved share of one waiting track. */
-static inline void rho_tracker_release_reserved_work(struct step *step)
+static inline void rho_tracker_release_work_share_of_one_track(struct step *step)
 {
     step->share.waiting -= step->share.waiting > 0 ? 1u : 0u;
 }
@@ -458,13 +461,16 @@ static inline int rho_tracker_is_phase_work_spent(const struct step *step)
     return step->work > step->share.end;
 }
 
-struct plot_choice rho_tracker_begin_plot_choice(struct step *step, const struct rho_track *track);
-void rho_tracker_count_plot_for_choice(struct plot_choice *choice, const struct rho_track *track,
-                                       const struct rho_plot *plot);
-void rho_tracker_end_plot_choice(struct step *step, struct plot_choice *choice);
+struct plot_choice rho_tracker_begin_choice_of_plots_to_score(struct step *step,
+                                                              const struct rho_track *track);
+void rho_tracker_count_plot_in_distance_octave(struct plot_choice *choice,
+                                               const struct rho_track *track,
+                                               const struct rho_plot *plot);
+void rho_tracker_limit_choice_to_nearest_plots(struct step *step, struct plot_choice *choice);
 /* True where a plot is chosen; its units of work are spent. */
-int rho_tracker_spend_if_plot_chosen(struct step *step, struct plot_choice *choice,
-                                     const struct rho_track *track, const struct rho_plot *plot);
+int rho_tracker_spend_score_work_if_plot_chosen(struct step *step, struct plot_choice *choice,
+                                                const struct rho_track *track,
+                                                const struct rho_plot *plot);
 /* Units of work that are left for the initiator's search; 0: no limit. */
 uint32_t rho_tracker_work_left_for_search(const struct step *step);
 void rho_tracker_record_work(struct step *step);
@@ -481,7 +487,7 @@ float rho_tracker_log_clutter_density_at_track(const struct step *step,
 /* Clutter plots expected within three standard deviations of the track's place; 0 in a frame. */
 float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct rho_track *track);
 /* Measures the clutter density of a later part of the scan, from its held plots. */
-void rho_tracker_measure_clutter_of_part(struct step *step);
+void rho_tracker_measure_density_of_held_plots(struct step *step);
 /* Smooths the number of unclaimed plots, after new tracks have started. */
 void rho_tracker_smooth_unclaimed_count(struct step *step);
 /* Moves a mean of ten scans by a tenth of its difference to the newest value. */
@@ -497,9 +503,10 @@ void rho_tracker_predict_clutter_at_plots(struct step *step);
  * ln of the clutter density at a plot with echoes, strobes and second plots, over that without; 0
  * in later parts of a scan.
  */
-float rho_tracker_log_echo_density_ratio(const struct step *step, uint32_t row);
+float rho_tracker_log_echo_over_background_density(const struct step *step, uint32_t row);
 /*
- * Stores rho_tracker_log_echo_density_ratio of the scan's plots with the held plots in the window.
+ * Stores rho_tracker_log_echo_over_background_density of the scan's plots with the held plots in
+ * the window.
  */
 void rho_tracker_store_echo_ratios_in_window(struct step *step);
 /* Updates the clutter map with the scan's plots, after new tracks have started. */
@@ -520,20 +527,20 @@ void rho_tracker_sum_echo_returns_at_start(struct step *step, const struct rho_c
 int rho_tracker_is_known_moving_target(const struct rho_track *track);
 
 /*
- * split_plots.c (RHO_MAX_ECHOES): near claimed plots, before tracks age, learns how often second
- * plots of a target come, raises the clutter density there, and ends the younger of two tracks of
- * one target
+ * second_plots_of_one_target.c (RHO_MAX_ECHOES): near claimed plots, before tracks age, learns how
+ * often second plots of a target come, raises the clutter density there, and ends the younger of
+ * two tracks of one target
  */
 void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step);
 void rho_tracker_remove_second_plots_of_sensor(struct rho_tracker *tracker, int32_t sensor_id);
-int rho_tracker_has_sound_second_plots(const struct rho_tracker *tracker);
+int rho_tracker_has_sound_second_plot_tables(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_track_second_plots(const struct rho_track *track);
 /*
  * After a start: raises the clutter density at the window's plots near the candidate's plots, as
  * they may be second plots of the same target.
  */
-void rho_tracker_raise_clutter_near_start_plots(struct step *step,
-                                                const struct rho_candidate *candidate);
+void rho_tracker_raise_window_clutter_near_start(struct step *step,
+                                                 const struct rho_candidate *candidate);
 
 /* ---- plots and tracks ------------------------------------------------------------------------ */
 
@@ -582,7 +589,7 @@ struct plot_scores {
 void rho_tracker_begin_plot_scores(struct step *step, unsigned row, struct plot_scores *scores);
 int rho_tracker_next_plot_score(struct step *step, struct plot_scores *scores, uint32_t *plot,
                                 float *gain_nat);
-/* A plot of the scan with its time, sensor and row, as rho_track_update takes it. */
+/* A plot of the scan with its time, sensor and row, as rho_track_update_by_plot takes it. */
 struct rho_track_plot rho_tracker_make_track_plot(const struct step *step, int row);
 
 /* ---- life cycle ------------------------------------------------------------------------------ */
@@ -599,12 +606,12 @@ void rho_tracker_remove_ended_tracks(struct rho_tracker *tracker);
 
 /* evidence_after_short_lived_tracks.c: more evidence for new tracks where many end early */
 #define RHO_ESTABLISHED_HITS 16
-static inline int rho_tracker_is_established(const struct rho_track *track)
+static inline int rho_tracker_has_hits_to_be_established(const struct rho_track *track)
 {
     return track->hits >= RHO_ESTABLISHED_HITS;
 }
 /* Fades the counts of tracks, learns the manoeuvre interval, and sets needed_nat and miss_nat. */
-void rho_tracker_fade_counts_and_set_evidence_needed(struct step *step);
+void rho_tracker_fade_track_counts_set_evidence_need(struct step *step);
 /* True of a track that is not established and has less evidence than needed_nat. */
 int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track);
 /* Counts a track that becomes established in this step. */

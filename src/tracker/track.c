@@ -48,7 +48,7 @@ enum rho_track_status rho_track_next_status(enum rho_track_status status,
     return (enum rho_track_status)next[status][event];
 }
 
-static void apply_event(struct rho_track *track, enum rho_track_event event)
+static void apply_event_to_status(struct rho_track *track, enum rho_track_event event)
 {
     track->status = (uint8_t)rho_track_next_status((enum rho_track_status)track->status, event);
 }
@@ -79,7 +79,7 @@ void rho_track_count_miss(struct rho_track *track, int32_t loss_mnat)
         (uint8_t)(track->misses_in_row < UINT8_MAX ? track->misses_in_row + 1 : UINT8_MAX);
     track->plot = -1;
     add_score(track, -loss_mnat);
-    apply_event(track, RHO_TRACK_MISS);
+    apply_event_to_status(track, RHO_TRACK_MISS);
 }
 
 void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat)
@@ -93,7 +93,8 @@ static int32_t fall_of_score(const struct rho_track *track)
     return track->score_max_mnat - track->score_mnat;
 }
 
-static int must_be_dropped(const struct rho_track *track, const struct rho_track_limits *limits)
+static int is_missed_too_often_or_score_too_low(const struct rho_track *track,
+                                                const struct rho_track_limits *limits)
 {
     if (track->misses_in_row >= limits->misses_in_row_max) {
         return 1;
@@ -111,7 +112,8 @@ enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
         event = RHO_TRACK_CONFIRM;
         track->was_confirmed = 1;
     }
-    apply_event(track, must_be_dropped(track, limits) ? RHO_TRACK_DROP : event);
+    apply_event_to_status(
+        track, is_missed_too_often_or_score_too_low(track, limits) ? RHO_TRACK_DROP : event);
     return (enum rho_track_status)track->status;
 }
 
@@ -122,7 +124,7 @@ static float root_mean_variance(const struct rho_kalman *kalman, int first)
     float sum = 0.0f;
     int axes = 0;
     for (int axis = 0; axis < 3; axis++) {
-        if (rho_kalman_is_axis_open(kalman, axis)) {
+        if (rho_kalman_has_estimate_on_axis(kalman, axis)) {
             sum += kalman->covariance[RHO_AT(first + axis, first + axis)];
             axes++;
         }
@@ -220,8 +222,8 @@ static enum rho_status update_input_by_plot(struct rho_input *input,
     enum rho_status status = rho_input_update_position(input, config, &measurement);
     int num_velocities = !(seen->measures & RHO_MEASURES_VELOCITY) ? 0 : measurement.has_z ? 3 : 2;
     for (int axis = 0; axis < num_velocities && status == RHO_OK; axis++) {
-        status = rho_input_update(input, config, 3 + axis, velocity_mps[axis],
-                                  plot->sigma_mps * plot->sigma_mps);
+        status = rho_input_update_filter_by_element(input, config, 3 + axis, velocity_mps[axis],
+                                                    plot->sigma_mps * plot->sigma_mps);
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
         status =
@@ -298,7 +300,7 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
 void rho_track_estimate_for_gate(const struct rho_track *track, struct rho_kalman *expected)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
-        rho_input_estimate_for_gate(&track->input, expected);
+        rho_input_estimate_with_all_inputs(&track->input, expected);
     } else {
         *expected = track->kalman;
     }
@@ -306,9 +308,8 @@ void rho_track_estimate_for_gate(const struct rho_track *track, struct rho_kalma
 
 /* ---- start and end --------------------------------------------------------------------------- */
 
-static enum rho_status update_filter_by_plot(struct rho_track *track,
-                                             const struct rho_track_plot *seen,
-                                             const struct rho_track_model *model)
+static enum rho_status update_hypotheses_input_or_kalman_by_plot(
+    struct rho_track *track, const struct rho_track_plot *seen, const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         return predict_and_update_hypotheses(track, seen, model);
@@ -364,7 +365,7 @@ static enum rho_status run_filter_over_plots(struct rho_track *track,
     enum rho_status status = RHO_OK;
     store_velocity_after_hit(track, 1);
     for (unsigned i = 1; i < num_plots && status == RHO_OK; i++) {
-        status = update_filter_by_plot(track, &plots[i], model);
+        status = update_hypotheses_input_or_kalman_by_plot(track, &plots[i], model);
         track->time_us = plots[i].time_us;
         store_velocity_after_hit(track, 1);
     }
@@ -430,7 +431,7 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
     for (unsigned i = 0; RHO_SECTORS && i + 1 < num_plots; i++) {
         start.is_shared |= (uint8_t)(plots[i].sensor_id != last->sensor_id);
     }
-    apply_event(&start, RHO_TRACK_START);
+    apply_event_to_status(&start, RHO_TRACK_START);
     *track = start;
     return RHO_OK;
 }
@@ -443,8 +444,8 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     if (!track || !estimate || !model) {
         return RHO_ERROR_NULL;
     }
-    if (hits < 1 || !rho_kalman_is_axis_open(estimate, 0) ||
-        !rho_kalman_is_axis_open(estimate, 1)) {
+    if (hits < 1 || !rho_kalman_has_estimate_on_axis(estimate, 0) ||
+        !rho_kalman_has_estimate_on_axis(estimate, 1)) {
         return RHO_ERROR_VALUE;
     }
     struct rho_track start;
@@ -464,7 +465,7 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     }
     rho_track_merge_estimates(&start, time_us, model);
     store_velocity_after_hit(&start, 1);
-    apply_event(&start, RHO_TRACK_START);
+    apply_event_to_status(&start, RHO_TRACK_START);
     *track = start;
     return RHO_OK;
 }
@@ -514,8 +515,8 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     return status;
 }
 
-enum rho_status rho_track_return_to_time(struct rho_track *track, int64_t time_us,
-                                         const struct rho_track_model *model)
+enum rho_status rho_track_return_to_time_it_was_moved_from(struct rho_track *track, int64_t time_us,
+                                                           const struct rho_track_model *model)
 {
     if (!track || !model) {
         return RHO_ERROR_NULL;
@@ -551,13 +552,13 @@ static void store_claimed_plot(struct rho_track *track, int64_t time_us, int32_t
     track->plot = row;
 }
 
-enum rho_status rho_track_update(struct rho_track *track, const struct rho_track_plot *plot,
-                                 const struct rho_track_model *model, int32_t gain_mnat)
+enum rho_status rho_track_update_by_plot(struct rho_track *track, const struct rho_track_plot *plot,
+                                         const struct rho_track_model *model, int32_t gain_mnat)
 {
     if (!track || !plot || !model) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = update_filter_by_plot(track, plot, model);
+    enum rho_status status = update_hypotheses_input_or_kalman_by_plot(track, plot, model);
     if (status != RHO_OK) {
         return status;
     }
@@ -569,7 +570,7 @@ enum rho_status rho_track_update(struct rho_track *track, const struct rho_track
                        plot->row);
     count_hit(track);
     add_score(track, gain_mnat);
-    apply_event(track, RHO_TRACK_UPDATE);
+    apply_event_to_status(track, RHO_TRACK_UPDATE);
     return RHO_OK;
 }
 
@@ -599,7 +600,7 @@ enum rho_status rho_track_commit_hypotheses_to_scan(struct rho_track *track,
             track, later_update_time_us(track, scan->time_us + scan->plots[outcome.row].offset_us),
             sensor_id, outcome.row);
         count_hit(track);
-        apply_event(track, RHO_TRACK_UPDATE);
+        apply_event_to_status(track, RHO_TRACK_UPDATE);
     }
     return RHO_OK;
 }
@@ -680,6 +681,6 @@ enum rho_status rho_track_update_bearing(struct rho_track *track,
     }
     store_claimed_plot(track, bearing->time_us, bearing->sensor_id, bearing->row);
     add_score(track, gain_mnat);
-    apply_event(track, RHO_TRACK_UPDATE);
+    apply_event_to_status(track, RHO_TRACK_UPDATE);
     return RHO_OK;
 }

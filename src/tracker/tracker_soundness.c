@@ -14,7 +14,7 @@
 /*
  * True of the filter that tracks of plots are configured with, and of the Kalman filter (bearings).
  */
-static int is_sound_filter(const struct rho_tracker *tracker, const struct rho_track *track)
+static int is_sound_filter_kind(const struct rho_tracker *tracker, const struct rho_track *track)
 {
     const unsigned own = (unsigned)rho_tracker_filter_of_config(&tracker->config);
     return (track->filter == own || track->filter == RHO_TRACK_KALMAN) &&
@@ -52,7 +52,7 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
            rho_tracker_is_score_in_range(track->score_max_mnat) &&
            rho_is_stored_time(track->time_us) && rho_is_stored_time(track->updated_us) &&
            rho_is_stored_time(track->seen_us) && rho_is_within(track->seen_every_s, 0.0f, 1e13f) &&
-           is_sound_filter(tracker, track) && is_sound_input(track) &&
+           is_sound_filter_kind(tracker, track) && is_sound_input(track) &&
            rho_are_finite(track->kalman.state, RHO_KALMAN_STATES) &&
            rho_are_finite(track->kalman.covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)) &&
            rho_are_finite(track->accel_mps2, 3) && rho_are_finite(track->newest_mps, 3) &&
@@ -127,7 +127,7 @@ static int has_sound_paces(const struct rho_tracker *tracker)
 
 /* ---- all ------------------------------------------------------------------------------------- */
 
-static int is_sound_extent(const struct rho_extent *extent)
+static int are_corners_within_coordinate_limits(const struct rho_extent *extent)
 {
     return rho_is_coordinate(extent->x_min_m) && rho_is_coordinate(extent->x_max_m) &&
            rho_is_coordinate(extent->y_min_m) && rho_is_coordinate(extent->y_max_m);
@@ -147,13 +147,13 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_is_within(tracker->turning_s, 0.0f, 1e9f) &&
            rho_is_within(tracker->wanted_per_hour, 0.0f, 1e9f) &&
            rho_is_within(tracker->established, 0.0f, 1e9f) &&
-           rho_is_stored_time(tracker->counted_us) && is_sound_extent(&tracker->extent) &&
-           has_sound_sensors(tracker) && has_sound_paces(tracker) &&
-           (!RHO_SECTORS || rho_tracker_has_sound_looks(tracker)) &&
+           rho_is_stored_time(tracker->counted_us) &&
+           are_corners_within_coordinate_limits(&tracker->extent) && has_sound_sensors(tracker) &&
+           has_sound_paces(tracker) && (!RHO_SECTORS || rho_tracker_has_sound_looks(tracker)) &&
            (RHO_MAX_REFLECTORS == 0 || rho_tracker_has_sound_reflectors(tracker)) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || rho_tracker_has_sound_excluded_areas(tracker)) &&
            (!RHO_BODIES || rho_tracker_has_sound_bodies(tracker)) &&
            (RHO_MAX_ECHOES == 0 || (rho_tracker_has_sound_clutter_map(tracker) &&
-                                    rho_tracker_has_sound_second_plots(tracker))) &&
+                                    rho_tracker_has_sound_second_plot_tables(tracker))) &&
            has_sound_tracks(tracker);
 }

@@ -29,7 +29,7 @@
 #define GATE_UNITS 12u
 
 /* Number of parts of RHO_MAX_PLOTS plots in which a large scan is claimed, one phase each. */
-static uint32_t num_parts_of_scan(const struct step *step)
+static uint32_t num_parts_to_claim_large_scan(const struct step *step)
 {
     const uint32_t parts = (step->num_inputs + RHO_MAX_PLOTS - 1u) / RHO_MAX_PLOTS;
     return !RHO_CLAIMS_BEYOND || parts < 1u ? 1u
@@ -43,10 +43,10 @@ void rho_tracker_begin_work_phase(struct step *step, uint32_t divisor)
     step->share.end = work_max > 0 ? rho_count(step->work, work_max / divisor) : UINT32_MAX;
 }
 
-void rho_tracker_begin_work_per_track(struct step *step)
+void rho_tracker_begin_phase_with_share_per_track(struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
-    const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts_of_scan(step);
+    const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts_to_claim_large_scan(step);
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         waiting += tracker->tracks[row].status != RHO_TRACK_FREE &&
@@ -78,13 +78,14 @@ static uint32_t take_share_of_next_track(struct step *step)
     if (share->end == UINT32_MAX) {
         return UINT32_MAX;
     }
-    rho_tracker_release_reserved_work(step);
+    rho_tracker_release_work_share_of_one_track(step);
     const uint32_t used = step->work + share->kept * (share->waiting + 1u);
     const unsigned others = share->waiting < FREE_PARTS - 1u ? share->waiting : FREE_PARTS - 1u;
     return share->kept + (used < share->end ? (share->end - used) / (others + 1u) : 0u);
 }
 
-struct plot_choice rho_tracker_begin_plot_choice(struct step *step, const struct rho_track *track)
+struct plot_choice rho_tracker_begin_choice_of_plots_to_score(struct step *step,
+                                                              const struct rho_track *track)
 {
     struct plot_choice choice = {.units = units_to_score_plot(step, track)};
     choice.most = take_share_of_next_track(step) / choice.units;
@@ -105,14 +106,15 @@ static unsigned distance_octave_of_plot(const struct rho_track *track, const str
     return octave;
 }
 
-void rho_tracker_count_plot_for_choice(struct plot_choice *choice, const struct rho_track *track,
-                                       const struct rho_plot *plot)
+void rho_tracker_count_plot_in_distance_octave(struct plot_choice *choice,
+                                               const struct rho_track *track,
+                                               const struct rho_plot *plot)
 {
     choice->in_octave[distance_octave_of_plot(track, plot)]++;
     choice->num_near++;
 }
 
-void rho_tracker_end_plot_choice(struct step *step, struct plot_choice *choice)
+void rho_tracker_limit_choice_to_nearest_plots(struct step *step, struct plot_choice *choice)
 {
     uint32_t left = choice->most;
     if (choice->num_near <= choice->most) {
@@ -127,8 +129,9 @@ void rho_tracker_end_plot_choice(struct step *step, struct plot_choice *choice)
     step->plots_not_tried = rho_count(step->plots_not_tried, choice->num_near - choice->most);
 }
 
-int rho_tracker_spend_if_plot_chosen(struct step *step, struct plot_choice *choice,
-                                     const struct rho_track *track, const struct rho_plot *plot)
+int rho_tracker_spend_score_work_if_plot_chosen(struct step *step, struct plot_choice *choice,
+                                                const struct rho_track *track,
+                                                const struct rho_plot *plot)
 {
     if (choice->is_partial) {
         const unsigned octave = distance_octave_of_plot(track, plot);

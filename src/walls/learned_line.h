@@ -96,7 +96,7 @@ static inline float variance_along(const float *covariance, int first, float cos
 
 /*
  * Compares at most 256 pairs of tracks. Of pairs that move as a target and its image, the line half
- * way between them refines a learned line, or begins one (image_pairs.c).
+ * way between them refines a learned line, or begins one (wall_line_from_track_pairs.c).
  *   sensor  of the scan; NULL: at the origin
  */
 void rho_reflector_learning_update_by_pairs(struct rho_reflector_learning *learning,

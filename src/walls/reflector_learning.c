@@ -122,8 +122,8 @@ static int did_scan_cover_image(const struct observation *observation,
 }
 
 /* True where a plot is the target's own, or another one of the target's body. */
-static int is_plot_of_target(const struct observation *observation,
-                             const struct rho_track_report *target, uint32_t plot)
+static int is_own_or_body_plot_of_target(const struct observation *observation,
+                                         const struct rho_track_report *target, uint32_t plot)
 {
     const struct rho_groups *groups = &observation->tracker->bodies.groups;
     return (int32_t)plot == target->plot ||
@@ -144,7 +144,7 @@ static int32_t nearest_other_plot_in_gate(const struct observation *observation,
                   observation->scan->measures);
     for (uint32_t i = 0; i < observation->scan->num_plots; i++) {
         const struct rho_plot *plot = &observation->scan->plots[i];
-        if (!is_plot_of_target(observation, target, i) &&
+        if (!is_own_or_body_plot_of_target(observation, target, i) &&
             rho_measurement_is_valid_plot(plot, observation->scan->measures) &&
             rho_gate_test(&gate, plot, &result) && (nearest < 0 || result.distance2 < least)) {
             least = result.distance2;
@@ -172,10 +172,10 @@ static void widen_image_by_line_error(const struct rho_learned_reflector *line, 
  * Refines and lengthens a line by the plot of a target's image: the line is half way between both.
  * Returns the distance of that place from the line as it was before.
  */
-static float refine_line_by_image(struct rho_learned_reflector *line,
-                                  const struct observation *observation,
-                                  const struct rho_track_report *target,
-                                  const struct rho_plot *plot, float crossing_m)
+static float refine_line_by_image_and_return_offset_m(struct rho_learned_reflector *line,
+                                                      const struct observation *observation,
+                                                      const struct rho_track_report *target,
+                                                      const struct rho_plot *plot, float crossing_m)
 {
     struct rho_measurement seen;
     float noise[6], along_m, across_m;
@@ -306,9 +306,9 @@ static void forget_ended_witnesses(struct rho_learned_reflector *line,
  * Size of an image's gate, its half sides in x and y added, for a plot as uncertain as the
  * target's.
  */
-static float sum_of_gate_half_sides_m(const struct observation *observation,
-                                      const struct rho_track_report *target,
-                                      const struct rho_kalman *image)
+static float image_gate_half_sides_x_plus_y_m(const struct observation *observation,
+                                              const struct rho_track_report *target,
+                                              const struct rho_kalman *image)
 {
     const float sigma_m = rho_plot_sigma_m(&observation->scan->plots[target->plot]);
     struct rho_gate gate;
@@ -347,10 +347,10 @@ static int is_image_outside_body(const struct observation *observation,
  * the gate does not reach. Counts both for the track's witness, and the verdict after JUDGED_LOOKS
  * looks.
  */
-static void look_for_image_and_count(struct rho_reflector_learning *learning,
-                                     struct rho_learned_reflector *line,
-                                     struct observation *observation,
-                                     const struct rho_track_report *target)
+static void look_for_image_plot_and_count(struct rho_reflector_learning *learning,
+                                          struct rho_learned_reflector *line,
+                                          struct observation *observation,
+                                          const struct rho_track_report *target)
 {
     const struct rho_reflector wall = wall_of_line(line);
     struct rho_kalman of, image;
@@ -375,14 +375,14 @@ static void look_for_image_and_count(struct rho_reflector_learning *learning,
     }
     observation->images_left--;
     const int32_t nearest = nearest_other_plot_in_gate(observation, &image, target);
-    const float off_m = nearest >= 0
-                            ? refine_line_by_image(line, observation, target,
-                                                   &observation->scan->plots[nearest], crossing_m)
-                            : 0.0f;
+    const float off_m = nearest >= 0 ? refine_line_by_image_and_return_offset_m(
+                                           line, observation, target,
+                                           &observation->scan->plots[nearest], crossing_m)
+                                     : 0.0f;
     if (witness->looks >= JUDGED_LOOKS || crossing_m < line->from_m || crossing_m > line->to_m) {
         return;
     }
-    const float reach_m = sum_of_gate_half_sides_m(observation, target, &image);
+    const float reach_m = image_gate_half_sides_x_plus_y_m(observation, target, &image);
     const float beside_m = witness->looks % 2u ? 2.0f * reach_m : -2.0f * reach_m;
     image.state[RHO_X] += beside_m * line->cos_along;
     image.state[RHO_Y] += beside_m * line->sin_along;
@@ -411,7 +411,7 @@ static void look_for_images_in_lines(struct rho_reflector_learning *learning,
         for (unsigned i = 0; i < report->num_tracks && observation->images_left > 0; i++) {
             const struct rho_track_report *target = &report->tracks[i];
             if (may_have_image(target, observation->scan)) {
-                look_for_image_and_count(learning, line, observation, target);
+                look_for_image_plot_and_count(learning, line, observation, target);
             }
         }
     }
@@ -460,7 +460,7 @@ static int is_line_precise(const struct rho_learned_reflector *line)
  * True where the distances at which witnesses passed spread more than errors explain. Two lanes
  * mirror one another at one distance, but for errors and for the cars' places in their lanes.
  */
-static int are_witness_distances_spread(const struct rho_learned_reflector *line)
+static int do_witness_distances_vary_beyond_errors(const struct rho_learned_reflector *line)
 {
     return line->distance_m2 >=
            WALL_SPREAD * WALL_SPREAD * (line->off_m2 + line->sigma_m * line->sigma_m);
@@ -470,7 +470,7 @@ static int does_line_pass_as_wall(const struct rho_learned_reflector *line)
 {
     return line->witnesses_for >= WALL_WITNESSES &&
            line->witnesses_for >= WALL_RATIO * line->witnesses_against &&
-           line->late_ones >= WALL_LATE_ONES && are_witness_distances_spread(line) &&
+           line->late_ones >= WALL_LATE_ONES && do_witness_distances_vary_beyond_errors(line) &&
            is_line_precise(line);
 }
 
@@ -621,7 +621,7 @@ static int has_sound_witnesses(const struct rho_learned_reflector *line)
 }
 
 /* True where the places of a line that is in use can be a wall of the tracker. */
-static int has_sound_places(const struct rho_learned_reflector *line)
+static int has_sound_direction_and_wall_ends(const struct rho_learned_reflector *line)
 {
     const float one = line->cos_along * line->cos_along + line->sin_along * line->sin_along;
     if (!rho_is_within(one, 0.999f, 1.001f) || !(line->from_m <= line->to_m)) {
@@ -638,8 +638,9 @@ static int is_sound_line(const struct rho_learned_reflector *line)
            rho_is_coordinate(line->y_m) && rho_is_coordinate(line->offset_m) &&
            rho_is_within(line->slope, -10.0f, 10.0f) && has_sound_variance(line) &&
            rho_is_coordinate(line->from_m) && rho_is_coordinate(line->to_m) &&
-           (!line->is_taken || has_sound_places(line)) && has_sound_witnesses(line) &&
-           rho_is_within(line->pairs, -1.0f, 1e9f) && rho_is_within(line->sigma_m, 0.0f, 1e6f);
+           (!line->is_taken || has_sound_direction_and_wall_ends(line)) &&
+           has_sound_witnesses(line) && rho_is_within(line->pairs, -1.0f, 1e9f) &&
+           rho_is_within(line->sigma_m, 0.0f, 1e6f);
 }
 
 int rho_reflector_learning_is_sound(const struct rho_reflector_learning *learning)

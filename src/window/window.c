@@ -12,8 +12,6 @@
 
 #define WINDOW_MAGIC 0x57494e44u /* "WIND" */
 
-#define ROW_MAX RHO_WINDOW_ROW
-
 /*
  * Largest angle of missing sectors (lost, or out of sequence) that does not end a revolution.
  * Places in the gap count as not covered.
@@ -72,7 +70,7 @@ static unsigned refuse_excess_plots_count_held(const struct rho_scan *scan, unsi
         if (fates[i] != RHO_FATE_HELD) {
             continue;
         }
-        if (held == RHO_MAX_PLOTS || i > ROW_MAX) {
+        if (held == RHO_MAX_PLOTS || i >= RHO_WINDOW_ROW) {
             fates[i] = RHO_FATE_NO_ROOM;
             continue;
         }
@@ -113,7 +111,7 @@ static float clamp_sigma(float sigma)
     return least < RHO_LIMIT_SIGMA_MAX ? least : RHO_LIMIT_SIGMA_MAX;
 }
 
-static struct rho_window_plot make_window_plot(const struct entry *entry, uint32_t row)
+static struct rho_window_plot make_window_plot_of_scan_plot(const struct entry *entry, uint32_t row)
 {
     const struct rho_scan *scan = entry->scan;
     const struct rho_plot *plot = &scan->plots[row];
@@ -135,8 +133,9 @@ static struct rho_window_plot make_window_plot(const struct entry *entry, uint32
     return held;
 }
 
-static void widen_scan_bounds(struct rho_window *window, struct rho_window_scan *slot,
-                              const struct rho_window_plot *plot)
+static void widen_noise_and_time_bounds_of_scan(struct rho_window *window,
+                                                struct rho_window_scan *slot,
+                                                const struct rho_window_plot *plot)
 {
     slot->sigma_max_m = rho_larger(slot->sigma_max_m, sigma_of_code(larger_sigma_code(plot)));
     if (plot->sigma_up) {
@@ -178,9 +177,10 @@ static void set_bin_starts_by_counts(const struct entry *entry)
 
 /*
  * Moves the plots of earlier sectors to the new starts of their bins, the last bin first.
- * Afterwards each bin's start lies behind the plots that were moved there.
+ * Afterwards each bin's start lies behind the plots that were moved there. Their rows were those of
+ * another scan.
  */
-static void move_held_plots_to_bins(struct rho_window_scan *slot)
+static void move_earlier_plots_to_new_bin_starts(struct rho_window_scan *slot)
 {
     unsigned end = slot->num_plots;
     while (end > 0) {
@@ -195,6 +195,9 @@ static void move_held_plots_to_bins(struct rho_window_scan *slot)
         memmove(&slot->marks[to], &slot->marks[first], (end - first) * sizeof slot->marks[0]);
         if (RHO_MAX_ECHOES > 0) {
             memmove(&slot->repeats[to], &slot->repeats[first], end - first);
+        }
+        for (unsigned i = to; i < to + end - first; i++) {
+            slot->marks[i] |= RHO_WINDOW_ROW;
         }
         slot->bin_start[bin] = (uint16_t)(to + end - first);
         end = first;
@@ -212,18 +215,18 @@ static void copy_plots_into_bins(struct rho_window *window, const struct entry *
     uint16_t *start = slot->bin_start;
     set_bin_starts_by_counts(entry);
     if (RHO_SECTORS) {
-        move_held_plots_to_bins(slot);
+        move_earlier_plots_to_new_bin_starts(slot);
     }
     for (uint32_t i = 0; i < entry->scan->num_plots; i++) {
         if (entry->fates[i] == RHO_FATE_HELD) {
-            struct rho_window_plot plot = make_window_plot(entry, i);
+            struct rho_window_plot plot = make_window_plot_of_scan_plot(entry, i);
             unsigned place = start[rho_window_bin_at(slot, plot.x_m, plot.y_m)]++;
             slot->plots[place] = plot;
             slot->marks[place] = (uint16_t)i;
             if (RHO_MAX_ECHOES > 0) {
                 slot->repeats[place] = 0;
             }
-            widen_scan_bounds(window, slot, &plot);
+            widen_noise_and_time_bounds_of_scan(window, slot, &plot);
         }
     }
     memmove(start + 1, start, bins * sizeof start[0]);
@@ -271,8 +274,9 @@ static int is_sensor_changed(const struct rho_window_scan *held, const struct rh
            !is_equal(was->z_m, sensor->z_m);
 }
 
-int rho_window_is_continued_by_scan(const struct rho_window *window, const struct rho_scan *scan,
-                                    const struct rho_sensor *sensor)
+int rho_window_is_next_sector_of_newest_scan(const struct rho_window *window,
+                                             const struct rho_scan *scan,
+                                             const struct rho_sensor *sensor)
 {
     if (!RHO_SECTORS || window->magic != WINDOW_MAGIC || window->num_scans == 0) {
         return 0;
@@ -329,8 +333,8 @@ static void widen_covered_sector(struct rho_window_scan *slot, const struct rho_
  * Keeps the quantities that all sectors with plots of a revolution measure. Records whether that
  * changes what the held scan measures.
  */
-static void intersect_measures(struct rho_window *window, struct rho_window_scan *slot,
-                               const struct rho_scan *scan, unsigned held)
+static void keep_measures_common_to_sectors(struct rho_window *window, struct rho_window_scan *slot,
+                                            const struct rho_scan *scan, unsigned held)
 {
     const uint32_t before = slot->measures;
     if (slot->num_plots == 0) {
@@ -352,7 +356,7 @@ static void add_sector_to_newest(struct rho_window *window, const struct rho_sca
         set_first_extent(window, scan, fates);
         lay_out_bins(slot, window, expected_plots_of_revolution(window, scan, held));
     }
-    intersect_measures(window, slot, scan, held);
+    keep_measures_common_to_sectors(window, slot, scan, held);
     widen_covered_sector(slot, scan);
     begin_newest_sector(window, scan);
     copy_plots_into_bins(window, &entry);
@@ -443,7 +447,7 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     if (status != RHO_OK) {
         return status;
     }
-    window->is_continued = rho_window_is_continued_by_scan(window, scan, sensor) != 0;
+    window->is_continued = rho_window_is_next_sector_of_newest_scan(window, scan, sensor) != 0;
     window->is_remeasured = 0;
     if (window->is_continued) {
         add_sector_to_newest(window, scan, sensor, fates);

@@ -85,8 +85,9 @@ static void add_plot_unless_outlier(struct plot_spread *spread, const struct plo
     rho_extent_add(&spread->extent, x_m, y_m);
 }
 
-static void gather_plot_spread(struct plot_spread *spread, const struct plot_spread *before,
-                               struct rho_window *window)
+static void gather_spread_without_outliers(struct plot_spread *spread,
+                                           const struct plot_spread *before,
+                                           struct rho_window *window)
 {
     *spread = (struct plot_spread){.extent = {1.0f, 0.0f, 1.0f, 0.0f}};
     for (unsigned m = 0; m < window->num_scans; m++) {
@@ -97,7 +98,7 @@ static void gather_plot_spread(struct plot_spread *spread, const struct plot_spr
     }
 }
 
-static float bound_shrinking_slowly(float was, float is, int is_wider)
+static float extent_side_shrinking_slowly_m(float was, float is, int is_wider)
 {
     return is_wider ? is : was + EXTENT_DECAY * (is - was);
 }
@@ -111,7 +112,7 @@ void rho_window_update_extent(struct rho_window *window)
     struct plot_spread spread = {0}, before;
     for (int round = 0; round < OUTLIER_ROUNDS; round++) {
         before = spread;
-        gather_plot_spread(&spread, &before, window);
+        gather_spread_without_outliers(&spread, &before, window);
     }
     struct rho_extent *was = &window->extent, is = spread.extent;
     if (spread.plots < 1.0f) {
@@ -120,8 +121,12 @@ void rho_window_update_extent(struct rho_window *window)
     if (window->num_scans == 1) {
         *was = is;
     }
-    was->x_min_m = bound_shrinking_slowly(was->x_min_m, is.x_min_m, is.x_min_m < was->x_min_m);
-    was->x_max_m = bound_shrinking_slowly(was->x_max_m, is.x_max_m, is.x_max_m > was->x_max_m);
-    was->y_min_m = bound_shrinking_slowly(was->y_min_m, is.y_min_m, is.y_min_m < was->y_min_m);
-    was->y_max_m = bound_shrinking_slowly(was->y_max_m, is.y_max_m, is.y_max_m > was->y_max_m);
+    was->x_min_m =
+        extent_side_shrinking_slowly_m(was->x_min_m, is.x_min_m, is.x_min_m < was->x_min_m);
+    was->x_max_m =
+        extent_side_shrinking_slowly_m(was->x_max_m, is.x_max_m, is.x_max_m > was->x_max_m);
+    was->y_min_m =
+        extent_side_shrinking_slowly_m(was->y_min_m, is.y_min_m, is.y_min_m < was->y_min_m);
+    was->y_max_m =
+        extent_side_shrinking_slowly_m(was->y_max_m, is.y_max_m, is.y_max_m > was->y_max_m);
 }

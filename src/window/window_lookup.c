@@ -112,9 +112,9 @@ static struct rho_window_bins bins_around_gate(const struct rho_window_scan *sca
                                  y_m + gate_radius_m + largest_shift_m(scan, vy_mps));
 }
 
-int rho_window_nearest_plot_isotropic(const struct rho_window_scan *scan,
-                                      const struct rho_window_query *query,
-                                      struct rho_window_work *work)
+int rho_window_nearest_plot_in_sigmas_isotropic(const struct rho_window_scan *scan,
+                                                const struct rho_window_query *query,
+                                                struct rho_window_work *work)
 {
     struct rho_window_bins bins = bins_around_gate(scan, query->x_m, query->y_m, query->vx_mps,
                                                    query->vy_mps, query->gate_radius_m);
@@ -166,14 +166,16 @@ static float squared_sigma_of_code(uint16_t code)
     return sigma * sigma;
 }
 
-struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
-                                         const struct rho_window_plot *plot)
+struct rho_window_plot_noise_covariance
+rho_window_plot_noise_covariance(const struct rho_window_scan *scan,
+                                 const struct rho_window_plot *plot)
 {
     float dx_m = plot->x_m - scan->sensor.x_m, dy_m = plot->y_m - scan->sensor.y_m;
     float ground2_m2 = dx_m * dx_m + dy_m * dy_m;
     float along_m2 = squared_sigma_of_code(plot->sigma_range),
           cross_m2 = squared_sigma_of_code(plot->sigma_cross);
-    struct rho_window_noise noise = {.zz_m2 = squared_sigma_of_code(plot->sigma_up)};
+    struct rho_window_plot_noise_covariance noise = {.zz_m2 =
+                                                         squared_sigma_of_code(plot->sigma_up)};
     if (!(ground2_m2 >= RANGE_LEAST_M2)) {
         noise.xx_m2 = noise.yy_m2 = along_m2 > cross_m2 ? along_m2 : cross_m2;
         return noise;
@@ -208,7 +210,7 @@ int rho_window_compare_range_rate(const struct rho_window_scan *scan,
                       place->vx_mps + place->ax_mps2 * plot->offset_s,
                       place->vy_mps + place->ay_mps2 * plot->offset_s,
                       place->vz_mps};
-    const struct rho_window_noise *noise = &place->velocity_noise;
+    const struct rho_window_plot_noise_covariance *noise = &place->velocity_noise;
     float row[6], rate_mps;
     for (int i = 0; i < 3 && RHO_AMBIGUOUS_RANGE_RATES; i++) {
         state[i + 3] += place->more_mps[i];
@@ -255,7 +257,7 @@ static float nis_of_plot(const struct rho_window_scan *scan, const struct rho_wi
     if (dx_m * dx_m + dy_m * dy_m > place->gate_radius_m * place->gate_radius_m) {
         return limit;
     }
-    struct rho_window_noise noise = rho_window_noise(scan, plot);
+    struct rho_window_plot_noise_covariance noise = rho_window_plot_noise_covariance(scan, plot);
     float xx = place->noise.xx_m2 + place->factor * noise.xx_m2;
     float xy = place->noise.xy_m2 + place->factor * noise.xy_m2;
     float yy = place->noise.yy_m2 + place->factor * noise.yy_m2;

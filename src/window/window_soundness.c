@@ -4,7 +4,7 @@
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
 
-static int is_sound_extent(const struct rho_extent *extent)
+static int are_extent_corners_in_limits(const struct rho_extent *extent)
 {
     return rho_is_coordinate(extent->x_min_m) && rho_is_coordinate(extent->x_max_m) &&
            rho_is_coordinate(extent->y_min_m) && rho_is_coordinate(extent->y_max_m);
@@ -88,7 +88,8 @@ int rho_window_is_sound(const struct rho_window *window)
     int64_t before_us = INT64_MIN;
     if (window->scans_max < 1 || window->scans_max > RHO_MAX_SCANS ||
         window->num_scans > window->scans_max || window->first >= window->scans_max ||
-        !rho_is_within(window->side_min_m, 0.0f, 1e30f) || !is_sound_extent(&window->extent)) {
+        !rho_is_within(window->side_min_m, 0.0f, 1e30f) ||
+        !are_extent_corners_in_limits(&window->extent)) {
         return 0;
     }
     for (unsigned m = 0; m < window->num_scans; m++) {

@@ -157,7 +157,8 @@ static void decode_list(const uint8_t *from, uint8_t *list, const struct message
     }
 }
 
-static int16_t read_list_count(const struct message_format *format, const uint8_t *message)
+static int16_t list_count_of_message_struct(const struct message_format *format,
+                                            const uint8_t *message)
 {
     int16_t count = 0;
 
@@ -192,10 +193,11 @@ enum rho_status rho_message_encode(const struct message_format *format, const vo
     if (!message || !buffer || !size) {
         return RHO_ERROR_NULL;
     }
-    if (read_list_count(format, bytes) < 0 || read_list_count(format, bytes) > format->max) {
+    if (list_count_of_message_struct(format, bytes) < 0 ||
+        list_count_of_message_struct(format, bytes) > format->max) {
         return RHO_ERROR_COUNT;
     }
-    count = (size_t)read_list_count(format, bytes);
+    count = (size_t)list_count_of_message_struct(format, bytes);
     total = encoded_head_bytes(format) + count * format->element.wire_bytes;
     if (total > capacity) {
         return RHO_ERROR_CAPACITY;
@@ -420,7 +422,7 @@ enum rho_status rho_message_validate(const struct message_rules *rules, const vo
     if (!message) {
         return RHO_ERROR_NULL;
     }
-    count = read_list_count(format, bytes);
+    count = list_count_of_message_struct(format, bytes);
     if (count < 0 || count > format->max) {
         return set_bad_place(RHO_ERROR_COUNT, place, format->count_offset, -1);
     }

@@ -94,7 +94,7 @@ static int is_sensor_heard_lately(const struct rho_node *node, int32_t sensor_id
     return 0;
 }
 
-static void forget_silent_sensors(struct rho_node *node)
+static void make_tracker_forget_silent_sensors(struct rho_node *node)
 {
     struct rho_tracker *tracker = node->config.tracker;
 
@@ -113,7 +113,7 @@ static int describe_sensor_to_tracker(struct rho_node *node, const struct rho_se
     enum rho_status status = rho_tracker_set_sensor(node->config.tracker, sensor);
 
     if (status == RHO_ERROR_CAPACITY) {
-        forget_silent_sensors(node);
+        make_tracker_forget_silent_sensors(node);
         status = rho_tracker_set_sensor(node->config.tracker, sensor);
     }
     node->counters.sensors_refused = rho_count(node->counters.sensors_refused, status != RHO_OK);
@@ -132,7 +132,7 @@ static const struct rho_frames_slot *find_open_frame(const struct rho_node *node
 }
 
 /* Closes the open frame; returns 0 where no frame was open. */
-static int close_open_frame(struct rho_node *node)
+static int close_open_bearing_frame_to_be_stepped_later(struct rho_node *node)
 {
     node->frame_due_us = INT64_MAX;
     if (!find_open_frame(node) || rho_frames_close(frames_or_null(node)) != RHO_OK) {
@@ -172,7 +172,8 @@ static void reset_frames(struct rho_node *node)
  * 1 where a scan's sensor is within apart_max_m of all sensors of the frames: a search refuses
  * frames whose sensors are farther apart than its cells reach.
  */
-static int is_near_other_sensors(const struct rho_node *node, const struct rho_bearing_scan *scan)
+static int is_sensor_within_apart_max_of_others(const struct rho_node *node,
+                                                const struct rho_bearing_scan *scan)
 {
     const struct rho_frames *frames = frames_or_null(node);
     const struct rho_passive *passive = node->config.passive;
@@ -189,11 +190,13 @@ static int is_near_other_sensors(const struct rho_node *node, const struct rho_b
 }
 
 /* Adds a scan to the open frame or the next one; returns 0 where it is refused. */
-static int push_bearings_into_frame(struct rho_node *node, const struct rho_bearing_scan *scan)
+static int add_bearings_to_frame_unless_refused(struct rho_node *node,
+                                                const struct rho_bearing_scan *scan)
 {
     struct rho_frames *frames = frames_or_null(node);
 
-    if (!frames || !is_near_other_sensors(node, scan) || rho_frames_push(frames, scan) != RHO_OK) {
+    if (!frames || !is_sensor_within_apart_max_of_others(node, scan) ||
+        rho_frames_push(frames, scan) != RHO_OK) {
         return 0;
     }
     for (unsigned i = 0; i < frames->num_sensors; i++) {
@@ -225,7 +228,7 @@ static int count_refusal_and_must_reset_frames(struct rho_node *node,
     return 0;
 }
 
-static void describe_passive_sensor(struct rho_node *node)
+static void describe_bearing_sensor_to_tracker(struct rho_node *node)
 {
     struct rho_sensor sensor = node->item.sensor;
 
@@ -249,7 +252,7 @@ static void set_frame_due_time(struct rho_node *node, int64_t now_us)
 }
 
 /* Adds the item to a frame; where frames must begin anew, keeps it until the open frame's step. */
-static void push_bearings_or_await_reset(struct rho_node *node, int64_t now_us)
+static void push_bearings_into_frame_or_await_reset(struct rho_node *node, int64_t now_us)
 {
     const struct rho_bearing_scan *scan = &node->item.bearings;
     int is_again = node->is_forgetting;
@@ -259,14 +262,14 @@ static void push_bearings_or_await_reset(struct rho_node *node, int64_t now_us)
         reset_frames(node);
         reset_passive_search(node);
     }
-    if (push_bearings_into_frame(node, scan)) {
-        describe_passive_sensor(node);
+    if (add_bearings_to_frame_unless_refused(node, scan)) {
+        describe_bearing_sensor_to_tracker(node);
         set_frame_due_time(node, now_us);
     } else if (!is_again) {
         node->counters.bearings_refused = rho_count(node->counters.bearings_refused, 1);
         if (count_refusal_and_must_reset_frames(node, scan)) {
             node->is_forgetting = 1;
-            (void)close_open_frame(node);
+            (void)close_open_bearing_frame_to_be_stepped_later(node);
         }
     }
     node->has_item = node->is_forgetting;
@@ -296,7 +299,7 @@ static struct rho_node_waiting *waiting_scan_at(const struct rho_node *node, uns
                 .waiting[at < node->config.waiting_max ? at : at - node->config.waiting_max];
 }
 
-static void copy_item_to_waiting(struct rho_node *node)
+static void copy_fetched_scan_to_waiting_queue(struct rho_node *node)
 {
     struct rho_node_waiting *waiting = waiting_scan_at(node, node->num_waiting++);
 
@@ -333,10 +336,10 @@ static enum rho_node_due give_scan_or_let_wait(struct rho_node *node)
                                              item->has_sensor ? &item->sensor : NULL);
     }
     if (node->num_waiting < node->config.waiting_max) {
-        copy_item_to_waiting(node);
+        copy_fetched_scan_to_waiting_queue(node);
         node->has_item = 0;
     } else {
-        (void)close_open_frame(node);
+        (void)close_open_bearing_frame_to_be_stepped_later(node);
     }
     return RHO_NODE_NOTHING;
 }
@@ -351,7 +354,7 @@ static enum rho_node_due reset_search_and_tell_restart(struct rho_node *node)
     return RHO_NODE_RESTART;
 }
 
-static enum rho_node_due give_closed_frame_or_restart(struct rho_node *node)
+static enum rho_node_due give_closed_frame_or_tell_restart(struct rho_node *node)
 {
     struct rho_frames *frames = frames_or_null(node);
 
@@ -376,7 +379,7 @@ static enum rho_node_due give_frame_or_waiting_scan(struct rho_node *node)
 
     while (frames_or_null(node) && due == RHO_NODE_NOTHING) {
         if (node->has_closed) {
-            return give_closed_frame_or_restart(node);
+            return give_closed_frame_or_tell_restart(node);
         }
         if (node->num_waiting == 0) {
             break;
@@ -387,7 +390,7 @@ static enum rho_node_due give_frame_or_waiting_scan(struct rho_node *node)
             due = give_first_waiting_scan(node);
         } else if (node->num_waiting == node->config.waiting_max ||
                    time_us > frame->time_us + frames_or_null(node)->config.tolerance_us) {
-            (void)close_open_frame(node);
+            (void)close_open_bearing_frame_to_be_stepped_later(node);
         } else {
             break;
         }
@@ -399,7 +402,7 @@ static enum rho_node_due give_frame_or_waiting_scan(struct rho_node *node)
 static enum rho_node_due take_fetched_item(struct rho_node *node, int64_t now_us)
 {
     if (node->item.is_restart) {
-        if (close_open_frame(node)) {
+        if (close_open_bearing_frame_to_be_stepped_later(node)) {
             return RHO_NODE_NOTHING;
         }
         node->item.is_restart = 0;
@@ -407,7 +410,7 @@ static enum rho_node_due take_fetched_item(struct rho_node *node, int64_t now_us
         return reset_search_and_tell_restart(node);
     }
     if (RHO_SCAN_ASSEMBLER_IS(node->item.kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
-        push_bearings_or_await_reset(node, now_us);
+        push_bearings_into_frame_or_await_reset(node, now_us);
         return RHO_NODE_NOTHING;
     }
     return give_scan_or_let_wait(node);
@@ -445,7 +448,8 @@ static int fetch_item_or_close_frame(struct rho_node *node, int64_t now_us)
         node->has_item = 1;
         return 1;
     }
-    return room == ROOM_ENOUGH && now_us >= node->frame_due_us && close_open_frame(node);
+    return room == ROOM_ENOUGH && now_us >= node->frame_due_us &&
+           close_open_bearing_frame_to_be_stepped_later(node);
 }
 
 enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us)

@@ -39,7 +39,7 @@ static void fill_live_track(const struct rho_track_report *track, struct rho_mes
         .status = message_status_of(track->status),
         .hits = rho_clamp_to_int16(track->hits),
         .misses = rho_clamp_to_int16(track->misses),
-        .sensor_id = rho_clamp_sensor_id(track->sensor_id),
+        .sensor_id = rho_int16_sensor_id_or_minus_1(track->sensor_id),
         .plot = (int16_t)(track->plot <= INT16_MAX ? track->plot : INT16_MAX),
         .update_age_us = track->update_age_us,
         .x_m = track->state[0],

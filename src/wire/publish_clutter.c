@@ -2,7 +2,7 @@
 /* publish_clutter: messages of the echoes in the tracker's clutter map. */
 #include "message_clamps.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/detail/clutter_map.h"
+#include "rhotrack/detail/recurring_clutter_map.h"
 #include "rhotrack/publish.h"
 
 #define PART_ECHOES RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES
@@ -19,7 +19,7 @@ static struct rho_message_echo echo_message_of(const struct rho_clutter_map *map
                                                const struct rho_echo *echo)
 {
     return (struct rho_message_echo){
-        .sensor_id = rho_clamp_sensor_id(echo->sensor_id),
+        .sensor_id = rho_int16_sensor_id_or_minus_1(echo->sensor_id),
         .hits = rho_clamp_to_int16(echo->hits),
         .unseen = echo->unseen,
         .x_m = clamp_magnitude(echo->x_m, RHO_LIMIT_POSITION_M),

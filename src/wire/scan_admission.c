@@ -67,7 +67,7 @@ static int may_be_next_scan(const struct rho_scan_assembler_config *config,
 }
 
 /* 1 where took_us is above 3/2 of longest_us; computed so that 64 bits do not overflow. */
-static int is_much_longer(uint64_t took_us, uint64_t longest_us)
+static int is_over_3_halves_of_longest_us(uint64_t took_us, uint64_t longest_us)
 {
     return took_us > longest_us && took_us - longest_us > longest_us / 2;
 }
@@ -94,7 +94,7 @@ static enum scan_verdict classify_newer_scan_by_pace(const struct rho_scan_assem
     if (source->interval_us == 0) {
         return SCAN_NEXT;
     }
-    if (took_us > JITTER_US && is_much_longer(took_us - JITTER_US, longest_us)) {
+    if (took_us > JITTER_US && is_over_3_halves_of_longest_us(took_us - JITTER_US, longest_us)) {
         return SCAN_WRONG_TIME;
     }
     return ahead > 1 && took_us + JITTER_US < usual_us - usual_us / 4 ? SCAN_WRONG_NUMBER
@@ -202,7 +202,8 @@ static int is_usable_out_of_sequence(const struct rho_scan_assembler *assembler,
 
     return source->off_clock == 0 && ((source->skipped >> behind & 1u) || was_refused) &&
            before_us > 0 && before_us + JITTER_US >= usual_us - usual_us / 4 &&
-           !(before_us > JITTER_US && is_much_longer(before_us - JITTER_US, usual_us)) &&
+           !(before_us > JITTER_US &&
+             is_over_3_halves_of_longest_us(before_us - JITTER_US, usual_us)) &&
            rho_scan_assembler_is_not_too_late(assembler, (enum rho_scan_assembler_kind)source->kind,
                                               place->time_us);
 }
@@ -234,7 +235,7 @@ enum scan_verdict rho_scan_assembler_classify_scan(const struct rho_scan_assembl
 }
 
 /* Index of the series of refused scans that a new one replaces: the shortest, and then oldest. */
-static unsigned refused_series_to_replace(const struct rho_scan_assembler_source *source)
+static unsigned index_of_refused_series_to_overwrite(const struct rho_scan_assembler_source *source)
 {
     unsigned least = 0;
 
@@ -250,7 +251,8 @@ void rho_scan_assembler_remember_refused_scan(const struct rho_scan_assembler_co
 {
     const struct rho_scan_assembler_stray *agrees =
         find_refused_series_to_continue(config, source, place);
-    unsigned at = agrees ? (unsigned)(agrees - source->strays) : refused_series_to_replace(source);
+    unsigned at =
+        agrees ? (unsigned)(agrees - source->strays) : index_of_refused_series_to_overwrite(source);
     /* stays below follow_scans: the scan that reaches it is accepted */
     uint32_t scans = agrees ? agrees->scans + 1 : 1;
 
@@ -370,8 +372,9 @@ static int is_live_source(const struct rho_scan_assembler *assembler,
  * 1 where a sensor still sends: its next scan is not overdue, or it was heard not long ago. Silent
  * sensors must make no other one a newcomer: their clocks would hold its scans for ever.
  */
-static int is_still_sending(const struct rho_scan_assembler *assembler,
-                            const struct rho_scan_assembler_source *source, int64_t now_us)
+static int is_sensor_still_sending_scans(const struct rho_scan_assembler *assembler,
+                                         const struct rho_scan_assembler_source *source,
+                                         int64_t now_us)
 {
     uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
     uint64_t jump_max_us = (uint64_t)assembler->config.jump_max_us;
@@ -393,7 +396,7 @@ uint32_t rho_scan_assembler_eldest_sensor_known_us(const struct rho_scan_assembl
 
         if (source->known_us > eldest_us &&
             rho_scan_assembler_is_proven(&assembler->config, source) &&
-            is_still_sending(assembler, source, now_us)) {
+            is_sensor_still_sending_scans(assembler, source, now_us)) {
             eldest_us = source->known_us;
         }
     }
@@ -416,9 +419,9 @@ static int may_vote_on_clock(const struct rho_scan_assembler *assembler,
 }
 
 /* Reception time by which a sensor's own scan of time_us would have come, hold_us included. */
-static int64_t when_own_scan_would_come_us(const struct rho_scan_assembler *assembler,
-                                           const struct rho_scan_assembler_source *source,
-                                           int64_t time_us)
+static int64_t reception_us_of_own_scan_at_time(const struct rho_scan_assembler *assembler,
+                                                const struct rho_scan_assembler_source *source,
+                                                int64_t time_us)
 {
     uint64_t ahead_us = rho_elapsed_us(time_us, source->place.time_us);
     int64_t wait_us =
@@ -430,8 +433,9 @@ static int64_t when_own_scan_would_come_us(const struct rho_scan_assembler *asse
     return source->heard_us > INT64_MAX - wait_us ? INT64_MAX : source->heard_us + wait_us;
 }
 
-int64_t rho_scan_assembler_newcomer_held_until_us(const struct rho_scan_assembler *assembler,
-                                                  const struct rho_scan_assembler_slot *slot)
+int64_t
+rho_scan_assembler_scan_of_new_sensor_held_until_us(const struct rho_scan_assembler *assembler,
+                                                    const struct rho_scan_assembler_slot *slot)
 {
     uint32_t eldest_us =
         HAS_OTHERS ? rho_scan_assembler_eldest_sensor_known_us(assembler, slot->heard_us) : 0u;
@@ -444,8 +448,8 @@ int64_t rho_scan_assembler_newcomer_held_until_us(const struct rho_scan_assemble
     }
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         if (may_vote_on_clock(assembler, &assembler->sources[i], eldest_us, slot->heard_us)) {
-            until_us =
-                when_own_scan_would_come_us(assembler, &assembler->sources[i], slot->place.time_us);
+            until_us = reception_us_of_own_scan_at_time(assembler, &assembler->sources[i],
+                                                        slot->place.time_us);
             first_us = until_us < first_us ? until_us : first_us;
             is_asked = 1;
         }
@@ -469,19 +473,19 @@ int64_t rho_scan_assembler_newcomer_held_until_us(const struct rho_scan_assemble
  * the age of that scan, or far before it. After a sensor's first scan the tolerance is jump_max_us:
  * its interval, and the speed at which a record is played, are still unknown.
  */
-static int is_time_off_sensor_clock(const struct rho_scan_assembler_config *config,
-                                    const struct rho_scan_assembler_source *other, int64_t time_us,
-                                    int64_t now_us)
+static int is_time_off_sensors_own_newest_scan(const struct rho_scan_assembler_config *config,
+                                               const struct rho_scan_assembler_source *source,
+                                               int64_t time_us, int64_t now_us)
 {
     int64_t share_us =
-        other->interval_us > 0 ? config->jump_max_us / CLOCK_OFFSET_SHARE : config->jump_max_us;
+        source->interval_us > 0 ? config->jump_max_us / CLOCK_OFFSET_SHARE : config->jump_max_us;
     uint64_t offset_max_us = (uint64_t)(config->hold_us + share_us);
-    uint64_t ahead_us = rho_elapsed_us(time_us, other->place.time_us);
-    uint64_t old_us = rho_elapsed_us(now_us, other->heard_us);
+    uint64_t ahead_us = rho_elapsed_us(time_us, source->place.time_us);
+    uint64_t old_us = rho_elapsed_us(now_us, source->heard_us);
 
-    old_us = old_us > 2ull * other->interval_us ? old_us : 2ull * other->interval_us;
+    old_us = old_us > 2ull * source->interval_us ? old_us : 2ull * source->interval_us;
     return (ahead_us > offset_max_us && ahead_us - offset_max_us > old_us) ||
-           rho_elapsed_us(other->place.time_us, time_us) > offset_max_us;
+           rho_elapsed_us(source->place.time_us, time_us) > offset_max_us;
 }
 
 /*
@@ -502,7 +506,9 @@ static int is_time_off_most_clocks(const struct rho_scan_assembler *assembler,
             counts = may_vote_on_clock(assembler, other, eldest_us, now_us);
             votes[counts]++;
             balance[counts] +=
-                is_time_off_sensor_clock(&assembler->config, other, time_us, now_us) ? 1 : -1;
+                is_time_off_sensors_own_newest_scan(&assembler->config, other, time_us, now_us)
+                    ? 1
+                    : -1;
         }
     }
     return balance[votes[1] > 0] > 0;
@@ -534,7 +540,8 @@ static int has_new_time_majority(const struct rho_scan_assembler *assembler,
         if (other->off_clock == 0) {
             against += (unsigned)rho_scan_assembler_is_proven(&assembler->config, other);
         } else if (other->off_clock >= assembler->config.follow_scans) {
-            with += !is_time_off_sensor_clock(&assembler->config, other, time_us, now_us);
+            with +=
+                !is_time_off_sensors_own_newest_scan(&assembler->config, other, time_us, now_us);
         }
     }
     return with > against || (with == against && are_near_times(time_us, now_us, offset_max_us) &&
@@ -566,7 +573,7 @@ static void restart_common_clock(struct rho_scan_assembler *assembler, int64_t t
     for (unsigned i = 0; HAS_OTHERS && i < RHO_MAX_SENSORS; i++) {
         struct rho_scan_assembler_source *source = &assembler->sources[i];
 
-        if (!is_time_off_sensor_clock(&assembler->config, source, time_us, now_us)) {
+        if (!is_time_off_sensors_own_newest_scan(&assembler->config, source, time_us, now_us)) {
             source->off_clock = 0;
         } else if (source->off_clock == 0) {
             source->off_clock = 1;

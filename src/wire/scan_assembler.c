@@ -198,8 +198,9 @@ static struct rho_scan_assembler_source *find_source(struct rho_scan_assembler *
     return NULL;
 }
 
-static int may_source_be_replaced(const struct rho_scan_assembler *assembler,
-                                  const struct rho_scan_assembler_source *source, int64_t now_us)
+static int is_source_unproven_off_clock_or_silent(const struct rho_scan_assembler *assembler,
+                                                  const struct rho_scan_assembler_source *source,
+                                                  int64_t now_us)
 {
     return !rho_scan_assembler_is_proven(&assembler->config, source) || source->off_clock > 0 ||
            rho_elapsed_us(now_us, source->heard_us) > (uint64_t)assembler->config.jump_max_us;
@@ -217,7 +218,7 @@ find_free_or_replaceable_source(struct rho_scan_assembler *assembler, int64_t no
         if (!source->is_used) {
             return source;
         }
-        if (may_source_be_replaced(assembler, source, now_us) &&
+        if (is_source_unproven_off_clock_or_silent(assembler, source, now_us) &&
             (!oldest || source->heard_us < oldest->heard_us)) {
             oldest = source;
         }
@@ -290,7 +291,7 @@ static int is_sensor_named_in_config(const struct rho_scan_assembler *assembler,
                                      const struct scan_heading *heading, int64_t now_us)
 {
     return (assembler->config.num_allowed > 0 ||
-            rho_scan_assembler_description_of_sensor(assembler, heading->sensor_id) !=
+            rho_scan_assembler_sensor_or_default(assembler, heading->sensor_id) !=
                 &assembler->config.other) &&
            !has_live_sensor_of_other_kind(assembler, heading, now_us);
 }
@@ -347,11 +348,11 @@ static void begin_newest_scan(struct rho_scan_assembler *assembler,
  * Begins a scan whose number was skipped before. One such scan of a sensor at a time may wait for
  * its parts, where there is room.
  */
-static void begin_out_of_sequence_scan(struct rho_scan_assembler *assembler,
-                                       struct rho_scan_assembler_source *source,
-                                       const struct scan_heading *heading,
-                                       const union scan_message *message, int is_newcomer,
-                                       int64_t now_us)
+static void open_out_of_sequence_scan_of_skipped_number(struct rho_scan_assembler *assembler,
+                                                        struct rho_scan_assembler_source *source,
+                                                        const struct scan_heading *heading,
+                                                        const union scan_message *message,
+                                                        int is_newcomer, int64_t now_us)
 {
     if (!admit_newcomer_in_turn(assembler, heading, is_newcomer)) {
         return;
@@ -390,7 +391,7 @@ static int may_release_scan_for_room(struct rho_scan_assembler *assembler,
 {
     return (source && rho_scan_assembler_is_proven(&assembler->config, source) && !is_newcomer) ||
            rho_scan_assembler_find_slot_in_state(assembler, SLOT_GIVEN) ||
-           rho_scan_assembler_find_releasable_scan(assembler, now_us);
+           rho_scan_assembler_find_scan_to_release_early(assembler, now_us);
 }
 
 /* Takes a decoded part of a scan. CAPACITY: a waiting scan must go out to make room for it. */
@@ -418,11 +419,13 @@ static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
         return RHO_OK;
     }
     if (verdict == SCAN_OUT_OF_SEQUENCE) {
-        begin_out_of_sequence_scan(assembler, source, heading, message, is_newcomer, now_us);
+        open_out_of_sequence_scan_of_skipped_number(assembler, source, heading, message,
+                                                    is_newcomer, now_us);
         return RHO_OK;
     }
     place = source ? source : find_free_or_replaceable_source(assembler, now_us);
-    is_free = place && rho_scan_assembler_find_or_free_slot(assembler, is_newcomer, now_us);
+    is_free =
+        place && rho_scan_assembler_find_free_slot_or_drop_scan(assembler, is_newcomer, now_us);
     if (!place ||
         (!is_free && !may_release_scan_for_room(assembler, source, is_newcomer, now_us))) {
         rho_scan_assembler_increment(&assembler->counters.sensors_no_room);
@@ -549,7 +552,7 @@ int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us
     slot->state = SLOT_GIVEN;
     assembler->out_us =
         assembler->out_us > slot->place.time_us ? assembler->out_us : slot->place.time_us;
-    rho_scan_assembler_fill_item(slot, item);
+    rho_scan_assembler_fill_item_with_scan(slot, item);
     item->is_restart = assembler->is_restart;
     assembler->is_restart = 0;
     return 1;
@@ -569,9 +572,10 @@ int64_t rho_scan_assembler_due_us(const struct rho_scan_assembler *assembler)
 
         if (waits && slot->heard_us <= INT64_MAX - assembler->config.hold_us) {
             int64_t held_us = slot->heard_us + assembler->config.hold_us;
-            int64_t early_us = slot->state == SLOT_COMPLETE
-                                   ? rho_scan_assembler_newcomer_held_until_us(assembler, slot)
-                                   : INT64_MIN;
+            int64_t early_us =
+                slot->state == SLOT_COMPLETE
+                    ? rho_scan_assembler_scan_of_new_sensor_held_until_us(assembler, slot)
+                    : INT64_MIN;
 
             held_us = early_us > held_us ? early_us : held_us;
             due_us = held_us < due_us ? held_us : due_us;

@@ -113,8 +113,9 @@ int rho_scan_assembler_is_newcomer(uint32_t known_us, uint32_t eldest_us);
  * Reception time until which a newcomer's scan is held. INT64_MIN: it may go out at once;
  * INT64_MAX: a part of an older scan of an established sensor is missing.
  */
-int64_t rho_scan_assembler_newcomer_held_until_us(const struct rho_scan_assembler *assembler,
-                                                  const struct rho_scan_assembler_slot *slot);
+int64_t
+rho_scan_assembler_scan_of_new_sensor_held_until_us(const struct rho_scan_assembler *assembler,
+                                                    const struct rho_scan_assembler_slot *slot);
 
 /* 1 where a sensor has sent at least follow_scans accepted scans. */
 int rho_scan_assembler_is_proven(const struct rho_scan_assembler_config *config,
@@ -174,7 +175,7 @@ int rho_scan_assembler_has_open_out_of_sequence(const struct rho_scan_assembler 
  * established sensor's scan whose parts are still coming, nor makes it out of sequence. NULL: none.
  */
 struct rho_scan_assembler_slot *
-rho_scan_assembler_find_releasable_scan(struct rho_scan_assembler *assembler, int64_t now_us);
+rho_scan_assembler_find_scan_to_release_early(struct rho_scan_assembler *assembler, int64_t now_us);
 
 /* Begins a scan in a free slot, without any of its parts. */
 void rho_scan_assembler_open_scan(struct rho_scan_assembler *assembler,
@@ -197,8 +198,8 @@ void rho_scan_assembler_complete_open_scans(struct rho_scan_assembler *assembler
  *   for_newcomer  1: the slot is for a newcomer's scan
  */
 struct rho_scan_assembler_slot *
-rho_scan_assembler_find_or_free_slot(struct rho_scan_assembler *assembler, int for_newcomer,
-                                     int64_t now_us);
+rho_scan_assembler_find_free_slot_or_drop_scan(struct rho_scan_assembler *assembler,
+                                               int for_newcomer, int64_t now_us);
 
 /* Drops all waiting scans: the common clock was set anew, and they are of the old one. */
 void rho_scan_assembler_drop_waiting_scans(struct rho_scan_assembler *assembler);
@@ -219,8 +220,8 @@ struct rho_scan_assembler_slot *
 rho_scan_assembler_complete_and_find_due(struct rho_scan_assembler *assembler, int64_t now_us);
 
 /* Describes a slot's scan to the caller; the item points into the slot. */
-void rho_scan_assembler_fill_item(const struct rho_scan_assembler_slot *slot,
-                                  struct rho_scan_assembler_item *item);
+void rho_scan_assembler_fill_item_with_scan(const struct rho_scan_assembler_slot *slot,
+                                            struct rho_scan_assembler_item *item);
 
 /* ---- scan_decoding.c: decoding of messages ---- */
 
@@ -245,7 +246,6 @@ void rho_scan_assembler_add_measurements(struct rho_scan_assembler *assembler,
 
 /* The description of a sensor, or the config's `other` for one that was not described. */
 const struct rho_scan_assembler_sensor *
-rho_scan_assembler_description_of_sensor(const struct rho_scan_assembler *assembler,
-                                         int32_t sensor_id);
+rho_scan_assembler_sensor_or_default(const struct rho_scan_assembler *assembler, int32_t sensor_id);
 
 #endif

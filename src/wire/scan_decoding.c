@@ -105,26 +105,26 @@ static float sigma_or_default(float stated, float fallback, int is_newcomer)
 
 static void convert_plots(struct rho_plot *to, unsigned count,
                           const struct rho_message_plot_scan *scan,
-                          const struct rho_scan_assembler_noise *noise, int is_newcomer)
+                          const struct rho_scan_assembler_noise *noise, int keeps_default_as_least)
 {
     for (unsigned i = 0; i < count; i++) {
         const struct rho_message_plot *plot = &scan->plots[i];
-        float sigma_m = sigma_or_default(plot->sigma_m, noise->sigma_m, is_newcomer);
+        float sigma_m = sigma_or_default(plot->sigma_m, noise->sigma_m, keeps_default_as_least);
 
-        to[i] = (struct rho_plot){
-            .offset_us = plot->dt_us,
-            .x_m = plot->x_m,
-            .y_m = plot->y_m,
-            .z_m = plot->z_m,
-            .vx_mps = plot->vx_mps,
-            .vy_mps = plot->vy_mps,
-            .vz_mps = plot->vz_mps,
-            .sigma_range_m = sigma_m,
-            .sigma_cross_m = sigma_m,
-            .sigma_up_m = sigma_m,
-            .sigma_mps = sigma_or_default(plot->sigma_mps, noise->sigma_mps, is_newcomer),
-            .sigma_range_rate_mps = noise->sigma_range_rate_mps,
-            .snr_db = plot->snr_db};
+        to[i] = (struct rho_plot){.offset_us = plot->dt_us,
+                                  .x_m = plot->x_m,
+                                  .y_m = plot->y_m,
+                                  .z_m = plot->z_m,
+                                  .vx_mps = plot->vx_mps,
+                                  .vy_mps = plot->vy_mps,
+                                  .vz_mps = plot->vz_mps,
+                                  .sigma_range_m = sigma_m,
+                                  .sigma_cross_m = sigma_m,
+                                  .sigma_up_m = sigma_m,
+                                  .sigma_mps = sigma_or_default(plot->sigma_mps, noise->sigma_mps,
+                                                                keeps_default_as_least),
+                                  .sigma_range_rate_mps = noise->sigma_range_rate_mps,
+                                  .snr_db = plot->snr_db};
     }
 }
 
@@ -177,8 +177,7 @@ static void convert_bearings(struct rho_bearing *to, unsigned count,
 }
 
 const struct rho_scan_assembler_sensor *
-rho_scan_assembler_description_of_sensor(const struct rho_scan_assembler *assembler,
-                                         int32_t sensor_id)
+rho_scan_assembler_sensor_or_default(const struct rho_scan_assembler *assembler, int32_t sensor_id)
 {
     for (unsigned i = 0; i < assembler->num_known; i++) {
         if (assembler->known[i].sensor.sensor_id == sensor_id) {
@@ -195,7 +194,7 @@ int rho_scan_assembler_subtract_time_bias(const struct rho_scan_assembler *assem
     int64_t *time_us = &heading->place.time_us;
 
     *time_us -= rho_measurement_time_bias_us(
-        &rho_scan_assembler_description_of_sensor(assembler, heading->sensor_id)->sensor);
+        &rho_scan_assembler_sensor_or_default(assembler, heading->sensor_id)->sensor);
     return *time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US;
 }
 
@@ -219,7 +218,7 @@ void rho_scan_assembler_add_measurements(struct rho_scan_assembler *assembler,
                                          const union scan_message *message)
 {
     const struct rho_scan_assembler_sensor *known =
-        rho_scan_assembler_description_of_sensor(assembler, heading->sensor_id);
+        rho_scan_assembler_sensor_or_default(assembler, heading->sensor_id);
     unsigned room = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)
                         ? RHO_MAX_BEARINGS
                         : RHO_MAX_PLOTS;

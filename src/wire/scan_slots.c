@@ -56,7 +56,7 @@ int rho_scan_assembler_has_open_out_of_sequence(const struct rho_scan_assembler 
 }
 
 /* 1 where a slot's scan waits for parts, or to go out. */
-static int is_slot_waiting(const struct rho_scan_assembler_slot *slot)
+static int is_slot_open_or_complete(const struct rho_scan_assembler_slot *slot)
 {
     return slot->state == SLOT_OPEN || slot->state == SLOT_COMPLETE;
 }
@@ -90,7 +90,7 @@ void rho_scan_assembler_complete_open_scans(struct rho_scan_assembler *assembler
 static int is_newcomer_scan_held(const struct rho_scan_assembler *assembler,
                                  const struct rho_scan_assembler_slot *slot, int64_t now_us)
 {
-    return now_us < rho_scan_assembler_newcomer_held_until_us(assembler, slot);
+    return now_us < rho_scan_assembler_scan_of_new_sensor_held_until_us(assembler, slot);
 }
 
 static int is_of_established_sensor(const struct rho_scan_assembler *assembler,
@@ -102,8 +102,8 @@ static int is_of_established_sensor(const struct rho_scan_assembler *assembler,
 }
 
 struct rho_scan_assembler_slot *
-rho_scan_assembler_find_or_free_slot(struct rho_scan_assembler *assembler, int for_newcomer,
-                                     int64_t now_us)
+rho_scan_assembler_find_free_slot_or_drop_scan(struct rho_scan_assembler *assembler,
+                                               int for_newcomer, int64_t now_us)
 {
     struct rho_scan_assembler_slot *room =
         rho_scan_assembler_find_slot_in_state(assembler, SLOT_FREE);
@@ -111,12 +111,12 @@ rho_scan_assembler_find_or_free_slot(struct rho_scan_assembler *assembler, int f
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && !room; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
 
-        if (is_slot_waiting(slot) && !for_newcomer &&
+        if (is_slot_open_or_complete(slot) && !for_newcomer &&
             is_newcomer_scan_held(assembler, slot, now_us)) {
             rho_scan_assembler_increment(&assembler->counters.sensors_no_room);
             slot->state = SLOT_FREE;
             room = slot;
-        } else if (is_slot_waiting(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
+        } else if (is_slot_open_or_complete(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
                    !(for_newcomer && is_of_established_sensor(assembler, slot, now_us))) {
             slot->state = SLOT_FREE; /* scans_late has counted it before */
             room = slot;
@@ -130,7 +130,7 @@ void rho_scan_assembler_drop_waiting_scans(struct rho_scan_assembler *assembler)
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
 
-        if (is_slot_waiting(slot)) {
+        if (is_slot_open_or_complete(slot)) {
             /* an out-of-sequence scan was counted in scans_late when it came */
             assembler->counters.scans_late =
                 rho_count(assembler->counters.scans_late, slot->order != ORDER_OUT_OF_SEQUENCE);
@@ -144,7 +144,7 @@ static void set_sensor_of_slot(const struct rho_scan_assembler *assembler,
                                const struct scan_heading *heading)
 {
     const struct rho_scan_assembler_sensor *known =
-        rho_scan_assembler_description_of_sensor(assembler, heading->sensor_id);
+        rho_scan_assembler_sensor_or_default(assembler, heading->sensor_id);
     int has_place = heading->x_m < 0.0f || heading->x_m > 0.0f || heading->y_m < 0.0f ||
                     heading->y_m > 0.0f || heading->z_m < 0.0f || heading->z_m > 0.0f;
 
@@ -189,8 +189,8 @@ static int is_equal_float(float a, float b)
 }
 
 /* 1 where a part agrees with its scan on time, number of parts, measures, sector and position. */
-static int part_matches_slot(const struct rho_scan_assembler_slot *slot,
-                             const struct scan_heading *heading)
+static int do_time_parts_sector_and_place_match_slot(const struct rho_scan_assembler_slot *slot,
+                                                     const struct scan_heading *heading)
 {
     int has_place = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_POLAR);
 
@@ -230,7 +230,7 @@ void rho_scan_assembler_add_part(struct rho_scan_assembler *assembler,
         rho_scan_assembler_count_duplicate(assembler, source, heading);
         return;
     }
-    if (slot->parts_here > 0 && !part_matches_slot(slot, heading)) {
+    if (slot->parts_here > 0 && !do_time_parts_sector_and_place_match_slot(slot, heading)) {
         rho_scan_assembler_increment(&assembler->counters.scans_bad);
         return;
     }
@@ -252,7 +252,7 @@ static int awaits_skipped_older_scan(const struct rho_scan_assembler *assembler,
 {
     const struct rho_scan_assembler_source *source = &assembler->sources[slot->source];
 
-    return is_slot_waiting(slot) && slot->order == ORDER_NEXT &&
+    return is_slot_open_or_complete(slot) && slot->order == ORDER_NEXT &&
            rho_elapsed_us(slot->place.time_us, time_us) < source->interval_us &&
            rho_scan_assembler_awaits_previous_number(source, slot->place.scan);
 }
@@ -356,8 +356,8 @@ find_first_scan_in_state(struct rho_scan_assembler *assembler, enum slot_state s
  * would be out of sequence.
  */
 static struct rho_scan_assembler_slot *
-older_open_scan_completed_or_slot(struct rho_scan_assembler *assembler,
-                                  struct rho_scan_assembler_slot *slot, int64_t now_us)
+complete_older_open_scan_of_any_sensor(struct rho_scan_assembler *assembler,
+                                       struct rho_scan_assembler_slot *slot, int64_t now_us)
 {
     struct rho_scan_assembler_slot *open = find_first_scan_in_state(assembler, SLOT_OPEN, now_us);
 
@@ -369,7 +369,7 @@ older_open_scan_completed_or_slot(struct rho_scan_assembler *assembler,
 }
 
 struct rho_scan_assembler_slot *
-rho_scan_assembler_find_releasable_scan(struct rho_scan_assembler *assembler, int64_t now_us)
+rho_scan_assembler_find_scan_to_release_early(struct rho_scan_assembler *assembler, int64_t now_us)
 {
     struct rho_scan_assembler_slot *spare =
                                        find_first_scan_in_state(assembler, SLOT_COMPLETE, now_us),
@@ -397,7 +397,7 @@ static struct rho_scan_assembler_slot *choose_scan_for_room(struct rho_scan_asse
                                                             int64_t now_us)
 {
     struct rho_scan_assembler_slot *slot =
-        rho_scan_assembler_find_releasable_scan(assembler, now_us);
+        rho_scan_assembler_find_scan_to_release_early(assembler, now_us);
 
     slot = slot ? slot : find_first_scan_in_state(assembler, SLOT_COMPLETE, now_us);
     slot = slot ? slot : find_first_scan_in_state(assembler, SLOT_OPEN, now_us);
@@ -413,7 +413,7 @@ static void drop_too_late_scans(struct rho_scan_assembler *assembler)
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
 
-        if (is_slot_waiting(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
+        if (is_slot_open_or_complete(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
             !rho_scan_assembler_is_not_too_late(assembler, (enum rho_scan_assembler_kind)slot->kind,
                                                 slot->place.time_us)) {
             slot->state = SLOT_FREE; /* scans_late has counted the scan before */
@@ -437,14 +437,14 @@ rho_scan_assembler_complete_and_find_due(struct rho_scan_assembler *assembler, i
     }
     if (has_any_scan_waited_hold_us(assembler, now_us)) {
         return assembler->config.hold_us > 0
-                   ? older_open_scan_completed_or_slot(assembler, slot, now_us)
+                   ? complete_older_open_scan_of_any_sensor(assembler, slot, now_us)
                    : slot;
     }
     return is_next_in_time(assembler, slot, now_us) ? slot : NULL;
 }
 
-void rho_scan_assembler_fill_item(const struct rho_scan_assembler_slot *slot,
-                                  struct rho_scan_assembler_item *item)
+void rho_scan_assembler_fill_item_with_scan(const struct rho_scan_assembler_slot *slot,
+                                            struct rho_scan_assembler_item *item)
 {
     *item = (struct rho_scan_assembler_item){
         .kind = (enum rho_scan_assembler_kind)slot->kind,

@@ -232,9 +232,9 @@ static enum rho_status add_peaks_of_plots(const struct shown_accumulator *accumu
 }
 
 /* Adds the found lines, with rho from the accumulator's origin, not that of the local frame. */
-static enum rho_status add_lines_of_bearings(const struct shown_accumulator *accumulator,
-                                             const struct rho_passive_paper_space *space,
-                                             struct rho_message_writer *writer)
+static enum rho_status add_found_lines_as_cells(const struct shown_accumulator *accumulator,
+                                                const struct rho_passive_paper_space *space,
+                                                struct rho_message_writer *writer)
 {
     const struct rho_passive_paper *paper = accumulator->source->paper;
     enum rho_status status = RHO_OK;
@@ -273,11 +273,10 @@ static enum rho_status add_cells_of_pair(const struct shown_accumulator *accumul
 }
 
 /* Writes an accumulator of bearings. A pair's cells are found first: the head has their number. */
-static enum rho_status write_bearing_accumulator(const struct rho_show *show,
-                                                 const struct shown_accumulator *accumulator,
-                                                 struct rho_message_accumulator_head *head,
-                                                 const struct rho_show_output *output,
-                                                 struct rho_message_writer *writer)
+static enum rho_status write_accumulator_message_of_bearings(
+    const struct rho_show *show, const struct shown_accumulator *accumulator,
+    struct rho_message_accumulator_head *head, const struct rho_show_output *output,
+    struct rho_message_writer *writer)
 {
     struct rho_accumulator_peak peaks[CELLS_MAX];
     struct rho_passive_paper_space space;
@@ -299,12 +298,13 @@ static enum rho_status write_bearing_accumulator(const struct rho_show *show,
         return status;
     }
     return accumulator->has_pair ? add_cells_of_pair(accumulator, &space, peaks, num_peaks, writer)
-                                 : add_lines_of_bearings(accumulator, &space, writer);
+                                 : add_found_lines_as_cells(accumulator, &space, writer);
 }
 
-static const char *write_accumulator_message(const struct rho_show *show,
-                                             const struct shown_accumulator *accumulator,
-                                             const struct rho_show_output *output)
+static const char *
+write_accumulator_message_and_give_channel(const struct rho_show *show,
+                                           const struct shown_accumulator *accumulator,
+                                           const struct rho_show_output *output)
 {
     const struct rho_show_source *source = accumulator->source;
     struct rho_message_writer writer;
@@ -317,11 +317,11 @@ static const char *write_accumulator_message(const struct rho_show *show,
     enum rho_status status;
     if (accumulator->has_pair) {
         const struct rho_batch_sensor *sensors = source->paper->batch.sensors;
-        head.sensor_a_id = rho_clamp_sensor_id(sensors[accumulator->pair.a].sensor_id);
-        head.sensor_b_id = rho_clamp_sensor_id(sensors[accumulator->pair.b].sensor_id);
+        head.sensor_a_id = rho_int16_sensor_id_or_minus_1(sensors[accumulator->pair.a].sensor_id);
+        head.sensor_b_id = rho_int16_sensor_id_or_minus_1(sensors[accumulator->pair.b].sensor_id);
     }
     if (accumulator->is_of_bearings) {
-        status = write_bearing_accumulator(show, accumulator, &head, output, &writer);
+        status = write_accumulator_message_of_bearings(show, accumulator, &head, output, &writer);
     } else {
         set_head_of_plots(accumulator, &head);
         status = rho_message_accumulator_begin(&writer, output->buffer, output->capacity, &head);
@@ -368,8 +368,8 @@ static const char *write_picture_rows(const struct rho_show *show,
         .num_parts = (int16_t)((height + PART_ROWS - 1u) / PART_ROWS)};
     if (accumulator->has_pair) {
         const struct rho_batch_sensor *sensors = source->paper->batch.sensors;
-        head.sensor_a_id = rho_clamp_sensor_id(sensors[accumulator->pair.a].sensor_id);
-        head.sensor_b_id = rho_clamp_sensor_id(sensors[accumulator->pair.b].sensor_id);
+        head.sensor_a_id = rho_int16_sensor_id_or_minus_1(sensors[accumulator->pair.a].sensor_id);
+        head.sensor_b_id = rho_int16_sensor_id_or_minus_1(sensors[accumulator->pair.b].sensor_id);
     }
     enum rho_status status =
         rho_message_plane_begin(&writer, output->buffer, output->capacity, &head);
@@ -395,5 +395,5 @@ const char *rho_show_write_accumulator_or_picture(struct rho_show *show,
         return write_picture_rows(show, &accumulator, number % messages - 1u, output);
     }
     make_picture_and_votes_max(show, &accumulator);
-    return write_accumulator_message(show, &accumulator, output);
+    return write_accumulator_message_and_give_channel(show, &accumulator, output);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * show_writers: number and writing of the messages of each kind, for show_messages.c. Messages of a
- * step are numbered from 0.
+ * show_writers: number and writing of the messages of each kind, for
+ * show_intermediate_results_at_rates.c. Messages of a step are numbered from 0.
  */
 #ifndef RHOTRACK_SHOW_WRITERS_H
 #define RHOTRACK_SHOW_WRITERS_H
@@ -16,7 +16,7 @@ struct rho_show_output {
     int32_t not_sent;
 };
 
-/* show_ghost_matrices.c: messages of the ghost matrices of the newest frame */
+/* show_ghosts_among_bearing_crossings.c: messages of the ghost matrices of the newest frame */
 uint32_t rho_show_count_ghost_matrix_messages(const struct rho_show_source *source);
 const char *rho_show_write_ghost_matrix_part(const struct rho_show_source *source, uint32_t number,
                                              const struct rho_show_output *output);

@@ -3,13 +3,13 @@
 # Records give the same bytes everywhere: tracks (identities, states, covariances), peaks (votes,
 # scores), fates. Compared are Cortex-M4F and M7 (QEMU), x86-64 by gcc and clang at -O0 to -O3,
 # armhf, and big-endian s390x and powerpc (qemu-user).
-# shellcheck source=tests/firmware/records.bash
-. "$(dirname "$0")/records.bash"
+# shellcheck source=tests/firmware/record_and_replay_logs.bash
+. "$(dirname "$0")/record_and_replay_logs.bash"
 . "$(dirname "$0")/../integration/checks.bash"
 
 check 'the records are made' record_all
 
-sources=("$root"/src/*/*.c "$root"/tools/firmware/{node,track_starts_best,replay}.c \
+sources=("$root"/src/*/*.c "$root"/tools/firmware/{lcm_datagram_node,node_initiation_by_library,replay}.c \
     "$root"/tools/firmware/board/host/files_host.c)
 build_replay() { # file, compiler, flags...
     local file=$1

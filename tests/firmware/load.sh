@@ -4,8 +4,8 @@
 # worst, on records of scans with 100 clutter plots and 8 targets; and the stack that was used. What
 # must hold is stated for the turning radar. LOAD=update writes the rows, flash and RAM into
 # tools/lab/MEASUREMENTS.md.
-# shellcheck source=tests/firmware/records.bash
-. "$(dirname "$0")/records.bash"
+# shellcheck source=tests/firmware/record_and_replay_logs.bash
+. "$(dirname "$0")/record_and_replay_logs.bash"
 . "$(dirname "$0")/../integration/checks.bash"
 
 mean_most=6000000 worst_most=20000000 stack_most=4096
@@ -33,7 +33,7 @@ section() {
     printf '| Cortex-M4F | mean | worst | ms at %s MHz |\n|---|---|---|---|\n' $((cpu_hz / 1000000))
     printf '%s\n' "${rows[@]}"
     printf '\nThe image takes %s,\nstart-up, Ethernet, IP and stack included.\n\n' \
-        "$(BUILD=$build "$root/tools/firmware/budget.sh" | tail -1)"
+        "$(BUILD=$build "$root/tools/firmware/check_flash_and_ram.sh" | tail -1)"
 }
 
 # scene traffic with eight targets and 100 clutter plots a scan: half a side of its area in m,
@@ -72,7 +72,7 @@ check "its worst is at most $worst_most" test "$worst" -gt 0 -a "$worst" -le "$w
 check 'no step of these was partial' test "$partial_steps" -eq 0
 section >section
 check 'tools/lab/MEASUREMENTS.md says so' says_the_page load section
-check 'flash and RAM are within the budget' env BUILD="$build" "$root/tools/firmware/budget.sh"
+check 'flash and RAM are within the budget' env BUILD="$build" "$root/tools/firmware/check_flash_and_ram.sh"
 check "the stack ($stack bytes) is at most $stack_most" test "$stack" -gt 0 -a "$stack" -le \
     "$stack_most"
 finish

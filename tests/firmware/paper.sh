@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # The papers' system as a node (tools/firmware/nodes/paper.h) on a Cortex-M4F: the bytes of the same
 # node on this machine, the tracks of `rhotrack track --pipeline paper`.
-# shellcheck source=tests/firmware/records.bash
-. "$(dirname "$0")/records.bash"
+# shellcheck source=tests/firmware/record_and_replay_logs.bash
+. "$(dirname "$0")/record_and_replay_logs.bash"
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/../integration/checks.bash"
 

@@ -4,8 +4,8 @@
 # holds for the worst scans that were found (worst_skies.txt), and for a few that are drawn now; the
 # limit on work is why. The smallest node also runs here on a record, and fits. LOAD=update writes
 # the worst steps into tools/lab/MEASUREMENTS.md.
-# shellcheck source=tests/firmware/records.bash
-. "$(dirname "$0")/records.bash"
+# shellcheck source=tests/firmware/record_and_replay_logs.bash
+. "$(dirname "$0")/record_and_replay_logs.bash"
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/../integration/checks.bash"
 # shellcheck source=tools/firmware/step_cost_limits.bash

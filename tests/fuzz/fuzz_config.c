@@ -11,9 +11,9 @@
 #include <string.h>
 
 #include "base/common.h"
+#include "catch_reader_fail.h"
 #include "check.h"
 #include "io/csv/local_frame.h"
-#include "refusal.h"
 #include "settings/parameters.h"
 
 #define SETS_MAX 8
@@ -94,7 +94,7 @@ static void read_config(void *context)
     parameters_locate_sensors(&parameters);
     parameters_check_together(&parameters);
     check_all_parameter_limits();
-    parameters_print(&parameters, nowhere);
+    parameters_print_table(&parameters, nowhere);
     if (reading->asks_library) {
         check_library_takes_configs();
     }

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/common.h"
+#include "catch_reader_fail.h"
 #include "check.h"
-#include "refusal.h"
 #include "scene/scene.h"
 
 #define SETS_MAX 8

@@ -8,12 +8,12 @@
 #include <stdlib.h>
 
 #include "base/common.h"
+#include "catch_reader_fail.h"
 #include "io/csv/local_frame.h"
 #include "io/csv/table.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/plot_scan_reader.h"
 #include "picture/picture_data.h"
-#include "refusal.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 
@@ -115,7 +115,7 @@ static void read_frames(char *path, const struct parameters *parameters, bool ke
         num_frames++;
         check_frame(frame);
     }
-    abort_unless(num_frames == bearing_frame_reader_num_frames(reader));
+    abort_unless(num_frames == bearing_frame_reader_frames_in_files(reader));
     bearing_frame_reader_close(reader);
 }
 

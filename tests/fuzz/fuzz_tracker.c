@@ -5,8 +5,8 @@
  * a few moving targets, points or bodies of several plots, among clutter, with any number in any
  * field, time that stands still, jumps and goes back, sectors, full capacities, many plots at one
  * place, walls told and learned, an operator's commands, images saved and loaded. It uses the
- * public headers alone. After each call the guarantees of these headers are checked; the
- * first one broken is named. Built twice: with the embedded profile (fuzz_tracker), and with
+ * public headers alone. After each call the guarantees of these headers are checked; the first one
+ * broken is named. Built twice: with the embedded profile and bodies (fuzz_tracker), and with
  * capacities that a short script exhausts (fuzz_tracker_small).
  */
 #include <float.h>
@@ -262,8 +262,7 @@ static struct pipeline {
 } chain, before, first_run;
 
 /* all but the padding at the end */
-#define OBJECTS_BYTES                                                                              \
-    (offsetof(struct pipeline, learning) + sizeof(struct rho_reflector_learning))
+#define OBJECTS_BYTES (offsetof(struct pipeline, learning) + sizeof(struct rho_reflector_learning))
 
 /*
  * Bits for the objects that a call may change; `before` holds all objects as they were before the
@@ -300,9 +299,9 @@ static struct known {
     unsigned num;
     uint32_t track_id[RHO_MAX_TRACKS];
     uint8_t was_confirmed[RHO_MAX_TRACKS];
-    uint32_t highest; /* highest identity ever reported */
+    uint32_t highest;   /* highest identity ever reported */
     int was_renumbered; /* by the operator: identities need not be in their order */
-    int was_batch;    /* the largest search of initiator 2 may have been a batch */
+    int was_batch;      /* the largest search of initiator 2 may have been a batch */
 } known, known_first;
 
 static _Alignas(RHO_SNAPSHOT_ALIGNMENT) uint8_t image[IMAGE_MAX];
@@ -427,9 +426,9 @@ static void check_answers(unsigned track)
     struct rho_body body;
 
     if (rho_tracker_body_of(&chain.tracker, track, &body)) {
-        const float sizes[] = {body.length_m,       body.width_m,         body.sigma_length_m,
-                               body.sigma_width_m,  body.sigma_heading_rad, body.sigma_along_m,
-                               body.sigma_across_m, body.plots};
+        const float sizes[] = {
+            body.length_m,          body.width_m,       body.sigma_length_m, body.sigma_width_m,
+            body.sigma_heading_rad, body.sigma_along_m, body.sigma_across_m, body.plots};
 
         HOLDS("a body is of this build", RHO_BODIES);
         HOLDS("a heading is finite", isfinite(body.heading_rad));
@@ -980,8 +979,7 @@ static struct rho_scan make_scan(struct script *script, unsigned how, struct rho
             plots[scan.num_plots++] = plot_at(x_m, y_m);
         }
         for (int more = world.has_bodies ? (int)uniform(0, 4) : 0; more > 0; more--) {
-            plots[scan.num_plots++] =
-                plot_at(x_m + uniform(-150, 150), y_m + uniform(-30, 30));
+            plots[scan.num_plots++] = plot_at(x_m + uniform(-150, 150), y_m + uniform(-30, 30));
         }
     }
     if (how & 32) {
@@ -1581,6 +1579,8 @@ static void change_by_hand(struct script *script)
         status = reconfigure_initiator(script);
     }
     if (what <= 2 && status == RHO_ERROR_CAPACITY) {
+        HOLDS("a start without room is counted once",
+              chain.tracker.counters.tracks_no_room - before.tracker.counters.tracks_no_room <= 1);
         before.tracker.counters.tracks_no_room = chain.tracker.counters.tracks_no_room;
     }
     if (status != RHO_OK) {

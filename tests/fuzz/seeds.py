@@ -22,7 +22,7 @@ def main():
         data = bytes.fromhex("".join(re.findall(r'"([0-9a-f]+)"', lines)))
         (folder / f"{name}-{golden.lower()}").write_bytes(data)
     write_logs(pathlib.Path(sys.argv[1]) / "fuzz_log")
-    write_frames(pathlib.Path(sys.argv[1]) / "fuzz_frame")
+    write_frames(pathlib.Path(sys.argv[1]) / "fuzz_ethernet_frame")
     write_asterix(pathlib.Path(sys.argv[1]))
     write_configs(pathlib.Path(sys.argv[1]))
     write_scenes(pathlib.Path(sys.argv[1]))
@@ -92,7 +92,7 @@ def write_scenes(folder):
 
 
 def write_scripts(folder):
-    """Scripts of fuzz_tracker: scans, frames, sectors, piles, images, by each gate."""
+    """Scripts of fuzz_tracker: scans, frames, sectors, piles, bodies, walls, images, by each gate."""
     def world(targets=3, turns=0, gate=0, start=8, passive=1):
         return bytes((targets, turns, 7, gate, start, start, start, passive, passive))
 
@@ -102,7 +102,7 @@ def write_scripts(folder):
     def frame(how=3, after=19):
         return bytes((128, how, after))
 
-    describe, forget, image, push, search, passive = 182, 184, 185, 186, 189, 191
+    describe, forget, image, push, search, passive, by_hand = 182, 184, 185, 186, 189, 191, 232
     radar = scan(clutter=(0, 6)) * 24
     scripts = {f"radar-{gate}": world(gate=gate) + radar for gate in (0, 1, 2, 5, 6, 14)}
     scripts |= {f"measures-{how}": world(targets=8 * how + 2, start=0) + radar for how in range(4)}
@@ -123,6 +123,13 @@ def write_scripts(folder):
         bytes((describe, 16 + i % 3, i, number)) + scan() for i in range(13)
         for number in (4, 24, 27))
     scripts["spans"] = world(targets=8 + 2) + bytes((describe, 64, 40)) + radar
+    scripts |= {
+        f"bodies-{how}": world(targets=128 + 8 * how + 2, turns=turns, start=0) + radar
+        for how, turns in ((0, 0), (1, 128))
+    }
+    scripts["walls"] = world(turns=128) + bytes((by_hand, 12, 1, 101)) + radar
+    scripts["by-hand"] = world(targets=128 + 3) + scan() * 8 + b"".join(
+        bytes((by_hand, what, 0, 1, 0)) + scan() for what in range(16))
     scripts["lone"] = world() + (bytes((push, 32, 3, 0, 6)) * 5 + bytes((search, 1, search, 4))) * 3
     scripts["lone-passive"] = world() + (bytes((passive, 3, 19)) * 5 + bytes(
         (passive, 128, passive, 129))) * 3

@@ -15,12 +15,12 @@ fresh() {
     mkdir -p "$copy/tree/include/rhotrack" "$copy/tree/src/wire"
     cp -r lcm_types "$copy/tree"
     cp include/rhotrack/message.h "$copy/tree/include/rhotrack"
-    cp src/wire/message.c src/wire/message_names.c "$copy/tree/src/wire"
+    cp src/wire/message_types.c src/wire/message_and_member_names.c "$copy/tree/src/wire"
 }
 
 codegen() { # arguments
     status=0
-    "$top/tools/codegen/codegen.py" "$@" "$copy/tree" >"$copy/output" 2>&1 || status=$?
+    "$top/tools/codegen/generate_lcm_codec.py" "$@" "$copy/tree" >"$copy/output" 2>&1 || status=$?
 }
 
 says() { # text; none: no output at all
@@ -57,8 +57,8 @@ stale() { # file
     expect '... as it was' 0
 }
 stale include/rhotrack/message.h
-stale src/wire/message.c
-stale src/wire/message_names.c
+stale src/wire/message_types.c
+stale src/wire/message_and_member_names.c
 
 changed() { # what, sed expression for plot_t.lcm, file that it changes
     fresh
@@ -67,15 +67,15 @@ changed() { # what, sed expression for plot_t.lcm, file that it changes
     expect "$1 changes $3" 1 "$3: not what lcm_types/ says"
 }
 changed "a member's name" 's/snr_db/snr_dB/' lcm_types/README.md
-changed "a member's name" 's/snr_db/snr_dB/' src/wire/message_names.c
+changed "a member's name" 's/snr_db/snr_dB/' src/wire/message_and_member_names.c
 changed "a member's type" 's/float   snr_db/int32_t snr_db/' include/rhotrack/message.h
-changed "a member's range" 's/-1000 \.\. 1000/-1000 .. 1001/' src/wire/message.c
+changed "a member's range" 's/-1000 \.\. 1000/-1000 .. 1001/' src/wire/message_types.c
 changed 'a comment' 's/east, m/eastwards, m/' include/rhotrack/message.h
 
 fresh
-rm "$copy/tree/src/wire/message.c"
+rm "$copy/tree/src/wire/message_types.c"
 codegen --check
-expect 'a generated file that is not there' 1 'src/wire/message.c: not what'
+expect 'a generated file that is not there' 1 'src/wire/message_types.c: not what'
 fresh
 rm "$copy"/tree/lcm_types/*.lcm
 codegen --check
@@ -182,9 +182,9 @@ sed -i \
     's/POSITION_2D = 2/POSITION = 1, POSITION_2D = 2/; s/{POSITION_2D,/{POSITION, POSITION_2D,/' \
     "$copy/tree/lcm_types/plot_scan_t.lcm"
 codegen
-expect 'a constant that begins as another one does' 0 'codegen: src/wire/message.c'
+expect 'a constant that begins as another one does' 0 'codegen: src/wire/message_types.c'
 status=0
-grep -F 'plot_scan, kind), 1, 1, MESSAGE_ONE_OF' "$copy/tree/src/wire/message.c" >"$copy/output" \
+grep -F 'plot_scan, kind), 1, 1, MESSAGE_ONE_OF' "$copy/tree/src/wire/message_types.c" >"$copy/output" \
     || status=$?
 expect '... has its own value' 0 '1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6'
 echo "$passed passed, $failed failed"

@@ -24,17 +24,17 @@ flags='-std=c11 -D_GNU_SOURCE -O1 -g -Iinclude -Isrc/wire -Itests -Itools/rhotra
 # shellcheck disable=SC2086 # words on purpose
 build_message() { # codec
     clang $flags -fsanitize=integer -fno-sanitize=unsigned-shift-base -o "$folder/fuzz_message" \
-        tests/fuzz/fuzz_message.c "$1" src/wire/message.c src/wire/message_names.c src/base/status.c
+        tests/fuzz/fuzz_message.c "$1" src/wire/message_types.c src/wire/message_and_member_names.c src/base/status.c
 }
 
-wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/refusal.c | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
+wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/catch_reader_fail.c | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
 
 # The other parts are the program's own objects.
 # shellcheck disable=SC2086
 build_of_program() { # target, file of the program
     clang $flags -Itools/rhotrack/scene -DRHO_PROFILE_WORKSTATION $wraps -o "$folder/$1" \
         "tests/fuzz/$1.c" \
-        tests/fuzz/refusal.c "$2" "$folder/program.a" "$build/workstation/librhotrack.a" \
+        tests/fuzz/catch_reader_fail.c "$2" "$folder/program.a" "$build/workstation/librhotrack.a" \
         -lcsv -linih -lcjson -lproj -lpcap -pthread -lm
 }
 build_tables() { build_of_program fuzz_tables "$1"; }
@@ -137,16 +137,16 @@ tracker_must_find src/step/begin_step_or_refuse_late_scan.c 'a scan that is too 
     's/(counters.scans_late = rho_count.*)/\1 step->tracker->unclaimed_plots += 1.0f;/'
 tracker_must_find src/tracker/confirm_and_end_track.c 'an end that is not told' \
     's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
-tracker_must_find src/step/track_starts.c 'an identity that comes again' \
+tracker_must_find src/step/admit_started_track.c 'an identity that comes again' \
     's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
 tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
     's/return rho_initiator_work_spent\(search\) > search->limit_units;/return 0;/'
-tracker_must_find src/bearings/bearing_frame_batch_soundness.c 'a batch that is unsound for its times' \
+tracker_must_find src/bearings/recent_bearing_frames_soundness.c 'a batch that is unsound for its times' \
     's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
 tracker_must_find src/step/operator.c 'an identity given to two tracks' \
     's/row_of_track\(tracker, new_id\) < tracker->num_tracks/0/'
-tracker_must_find src/step/operator.c 'a body that goes to another track' \
-    's/rho_tracker_align_bodies_with_tracks\(&step\);//'
+tracker_must_find src/estimation/body_extent_filter.c 'a body of negative width' \
+    's/(shape->width_m =) (side_length_m)/\1 -\2/'
 must_pass fuzz_tracker_small src/step/report.c
 
 objects=$(find "$build/program/tools/rhotrack" -name '*.o' ! -name main.o 2>/dev/null)

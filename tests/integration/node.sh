@@ -240,7 +240,7 @@ hang_up() { # COMMAND...: $status is its exit code, or 'gone' where the hang-up 
     wait "$process" || status=$?
 }
 hang_up "$program" node
-check 'SIGHUP of an operator ends no node (log_files.sh: its log)' matches "$status" 0
+check 'SIGHUP of an operator ends no node (node_log_rotation.sh: its log)' matches "$status" 0
 hang_up "$program" publish scene/plots.csv
 check 'a hang-up ends publish' matches "$status" gone
 hang_up nohup "$program" publish scene/plots.csv

@@ -46,11 +46,11 @@ all_state() { # folder, version
 }
 mkdir other
 (cd "$root" && cp -r --parents include src tools/packaging tools/install CMakeLists.txt LICENSE \
-    CHANGELOG.md tools/rhotrack/picture/html_page "$folder/other")
+    CHANGELOG.md tools/rhotrack/picture/interactive_map_page "$folder/other")
 sed -i 's/\(VERSION_MAJOR\) .*/\1 7/; s/\(VERSION_MINOR\) .*/\1 8/; s/\(VERSION_PATCH\) .*/\1 9/' \
     other/include/rhotrack/rhotrack.h
 echo 'int rho_another;' >other/src/base/another.c
-check 'packages of another version' go other/tools/packaging/package.py others
+check 'packages of another version' go other/tools/packaging/write_source_packages.py others
 check '... all state it' all_state others 7.8.9
 says_no_other() { ! grep -lF "$version" $(descriptions others); }
 check '... and none the one of this one' says_no_other
@@ -62,12 +62,12 @@ check 'the Python package has this version' grep -qx "version = \"$version\"" \
 check '... and says so' grep -qx "__version__ = \"$version\"" \
     "$root/tools/python/rhotrack/__init__.py"
 
-check 'packages' go "$root/tools/packaging/package.py" "$packages"
+check 'packages' go "$root/tools/packaging/write_source_packages.py" "$packages"
 check '... of this version' all_state "$packages" "$version"
 check 'made again, they are the same' eval 'mv "$packages" first && sleep 2 && go \
-    "$root/tools/packaging/package.py" "$packages" && diff -r -x described first "$packages"'
+    "$root/tools/packaging/write_source_packages.py" "$packages" && diff -r -x described first "$packages"'
 refused() { # words of the message, options
-    ! go "$root/tools/packaging/package.py" "${@:2}" none && [ ! -e none ] \
+    ! go "$root/tools/packaging/write_source_packages.py" "${@:2}" none && [ ! -e none ] \
         && grep -qF -e "$1" stderr
 }
 check 'a packager without an address is refused' refused 'NAME <MAIL>' --packager nobody

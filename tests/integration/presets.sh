@@ -32,8 +32,8 @@ loses() { # program, sed command on the file, file
     [ $? -eq 1 ]
 }
 check 'seen: a radar whose north mark is not taken off' \
-    loses en_route 's/scan.measures, &radar,/scan.measures, NULL,/' radar.h
-cp "$root/tools/examples/presets/radar.h" presets/
+    loses en_route 's/scan.measures, &radar,/scan.measures, NULL,/' preset_example_helpers.h
+cp "$root/tools/examples/presets/preset_example_helpers.h" presets/
 check 'seen: a sector on the wrong side' loses harbour 's/90.0f - 110.0f/-90.0f/' harbour.c
 check 'seen: settings that cannot be' loses drones 's/pd = 0.7f/pd = 7.0f/' drones.c
 check '... and which one' grep -q '^pd is 7, not 0.01 .. 0.999' stdout

@@ -26,7 +26,7 @@ install() { # environment, packages...
 check 'pip installs the sources' install first "$root/tools/python"
 check 'and what the tests import' install first pytest pandas polars matplotlib scipy mcap \
     mcap-ros2-support mcap-protobuf-support foxglove-schemas-protobuf
-check 'the package does what it says' pytest first "$root/tests/python/test_package.py"
+check 'the package does what it says' pytest first "$root/tests/python/test_python_interface.py"
 check 'its bytes are the programs' pytest first "$root/tests/python/test_golden.py"
 quick() { # the machine may be busy with something else for a while
     first/bin/python "$root/tests/bench/python_steps.py" || first/bin/python \

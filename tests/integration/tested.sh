@@ -23,7 +23,7 @@ forget() { # function, room, files whose tests forget it
     cp -R tests "$copy"
 }
 forget rho_angle_are_sector_ends_valid base tests/unit/base/test_angle.c
-forget rho_window_is_continued_by_scan window tests/unit/window/test_window.c
+forget rho_window_is_next_sector_of_newest_scan window tests/unit/window/test_window.c
 forget rho_tracker_step step tests/unit/*/*.[ch] tests/unit/*.h
 grep -q rho_measurement_is_valid_bearing tests/unit/estimation/*.c # another room's
 forget rho_measurement_is_valid_bearing measurement tests/unit/measurement/*.c

@@ -65,6 +65,27 @@ same 'no end of the last line' form.csv
 status=$?
 check 'a pipe' writes_same_as tracks.csv
 
+# ---- as many sensors as a file names ----
+# Radars, each with a target of its own, 10 turns: below 256 each starts its tracks; memory for 257
+# windows, not for 900.
+many_radars() {
+    awk -v radars="$1" 'BEGIN { print "t_s,sensor_id,x_m,y_m"
+        for (k = 0; k < 10; k++)
+            for (s = 1; s <= radars; s++)
+                printf "%.3f,%d,%d,%d\n", 4 * k + 0.004 * s, s, 2000 * s, 2000 + 400 * k
+    }'
+}
+many_radars 100 >many.csv
+run track many.csv --set v_max_mps=150
+check 'a hundred radars: each has a track of its target' \
+    matches "$(awk -F, 'NR > 1 { seen[$17] = 1 } END { for (id in seen) n++; print n }' stdout)" 100
+many_radars 900 >many.csv
+(ulimit -v 2000000 && "$program" track many.csv --set v_max_mps=150 >stdout 2>stderr)
+check 'radars beyond 256 share a window' matches "$?" 0
+check 'which is told' matches "$(head -n 1 stderr)" \
+    'rhotrack: 256 initiation windows are in use: sensor 257 and further ones share another, *'
+check 'once' matches "$(grep -c 'windows are in use' stderr)" 1
+
 # ---- outputs ----
 run track plots.csv -o out.csv
 check 'tracks to a file' cmp tracks.csv out.csv
@@ -76,6 +97,27 @@ check 'an output that is a link stays one' test -L link.csv
 check 'an output keeps its mode' matches "$(stat -c %a out.csv)" 640
 run track plots.csv -o /dev/stdout
 check 'an output that is no plain file' writes_same_as tracks.csv
+echo first >all.csv
+"$program" track plots.csv -o /dev/stdout >>all.csv 2>stderr
+check 'standard output is appended to' matches "$(head -n 1 all.csv)" first
+tail -n +2 all.csv >stdout
+check 'all of it' writes_same_as tracks.csv
+# A name that leads to a file without one, as a caller's temporary file is.
+ln -s "/proc/$$/fd/5" nameless.csv
+exec 5>gone.csv
+rm gone.csv
+run track plots.csv -o nameless.csv
+check 'an output without a name' matches "$status" 0
+check 'is written itself' cmp tracks.csv "/proc/$$/fd/5"
+check 'and the link to it stays' test -L nameless.csv
+printf 'sensor_id,x_m,y_m\n1,5000,5000\n' >map.csv
+exec 5<>map.csv
+rm map.csv
+run track plots.csv --clutter-map nameless.csv
+check 'no clutter map is written to it' matches "$status $(tail -n 1 stderr)" \
+    '1 *nameless.csv: cannot be written: *'
+check 'nor is the link to it replaced' test -L nameless.csv
+exec 5>&-
 cp plots.csv both.csv
 run track both.csv -o both.csv
 check 'an output that is the input' cmp tracks.csv both.csv

@@ -7,16 +7,16 @@ import subprocess
 import types
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
 
 import air_traffic
-from parts import air_traffic_runs as runs
+from parts import simulated_air_traffic_runs as runs
 from common import lab
-from common import scene_runs
+from common import simulate_scene_in_memory
 from common import stonesoup_tracker
 
 SEED = 7
@@ -58,9 +58,9 @@ class Traffic(unittest.TestCase):
         self.assertLessEqual(dense["limit"][0]["gospa_m"], dense["tracks"][0]["gospa_m"] + 1)
 
     def test_the_limit_starts_at_so_many_hits(self):
-        run = scene_runs.simulate("air-traffic", SEED, "targets.0.flights=20",
+        run = simulate_scene_in_memory.simulate("air-traffic", SEED, "targets.0.flights=20",
                                   "clutter.0.plots=0", "duration_s=400")
-        rows = scene_runs.with_fields(run.plots, ("t_s", "sensor_id", "x_m", "y_m", "scan"))
+        rows = simulate_scene_in_memory.with_fields(run.plots, ("t_s", "sensor_id", "x_m", "y_m", "scan"))
         for min_scans in (3, 4, 5):
             counts = [len(tracks) for tracks in runs.limit_of(run, rows, min_scans)]
             self.assertEqual((len(counts), max(counts[:min_scans - 1])), (40, 0))
@@ -114,9 +114,9 @@ class Others(unittest.TestCase):
                 self.assertLess(off_m.min(), 200)
 
     def test_a_part_from_end_to_end(self):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             done = subprocess.run([
-                harness.ROOT / "tools/lab/air_traffic.py", "--part", "pairs", "--runs", "1",
+                lab_test_setup.ROOT / "tools/lab/air_traffic.py", "--part", "pairs", "--runs", "1",
                 "--json", "-o", folder], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("two aircraft", (folder / "index.html").read_text())
@@ -163,4 +163,4 @@ class Bars(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

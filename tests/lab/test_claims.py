@@ -7,16 +7,16 @@ import pathlib
 import subprocess
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
 import claims
-from parts import claims_own_figures
-from parts import claims_table as table
+from parts import claims_numbers_without_experiment
+from parts import read_papers_claims_tables as table
 import numpy as np
 
-SCRIPT = harness.ROOT / "tools" / "lab" / "claims.py"
+SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "claims.py"
 PAPER = "[paper]\ntitle = A paper\nby = Someone\nrows = equation 1-2\n"
 SEE = "[see A]\nwhat = it\ncommand = rhotrack --version\ncode = src/papers/hough\n"
 CODE = "code = src/papers/hough.c rho_hough_find\n"
@@ -37,7 +37,7 @@ FIGURES = {"lab": {
 
 class Tables(unittest.TestCase):
     def read(self, text, with_numbers=PAPER):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             (folder / "paper.ini").write_text(with_numbers + text)
             return table.read_all(folder)[0]
 
@@ -93,7 +93,7 @@ class Tables(unittest.TestCase):
 
 class Verdicts(unittest.TestCase):
     def judged(self, text, figures=FIGURES, passed=True):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             (folder / "paper.ini").write_text(PAPER + SET + text)
             row = table.read_all(folder)[0].rows[1]
         return claims.judged_row(row, figures, {test: passed for test in row.test})
@@ -128,11 +128,11 @@ class Own(unittest.TestCase):
     def test_crossings_are_counted(self):
         paths = np.array([[[0, 0], [0, 4], [0, 9]], [[2, 2], [2, 1], [2, 9]],
                           [[4, 4], [4, 0], [4, 9]]], float)
-        self.assertEqual(claims_own_figures.crossings(paths), 1)
+        self.assertEqual(claims_numbers_without_experiment.crossings(paths), 1)
 
     def test_printed_lines_are_as_wrong_as_they_are_told(self):
         """A pair on x = y: alpha is 1, theta printed -pi/4; the line's normal has 3 pi/4."""
-        told = claims_own_figures.equation_9()
+        told = claims_numbers_without_experiment.equation_9()
         self.assertEqual(told["printed_in_range"], 0)
         self.assertAlmostEqual(told["printed_right"] + told["absolute_right"], 1, places=3)
 
@@ -143,19 +143,19 @@ class EndToEnd(unittest.TestCase):
                               check=False)
 
     def test_a_bad_table_ends_it(self):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             (folder / "paper.ini").write_text(PAPER + SET + "[equation 2]\nsays = so\n")
             done = self.run_it("--tables", folder, "-o", folder / "out")
             self.assertEqual(done.returncode, 1)
             self.assertIn("paper.ini: [equation 2]: has neither", done.stderr)
 
     def test_the_whole_register(self):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             done = self.run_it("--runs", 2, "--json", "-o", folder)
             self.assertEqual(done.returncode, 0, done.stderr)
             told = json.loads(done.stdout)
             page = (folder / "CLAIMS.md").read_text()
-            kept = (harness.ROOT / "tools/lab/CLAIMS.md").read_text()
+            kept = (lab_test_setup.ROOT / "tools/lab/CLAIMS.md").read_text()
             rows = [line.split(" | ")[0] for line in page.splitlines() if line.startswith("| ")]
             self.assertEqual(rows, [line.split(" | ")[0] for line in kept.splitlines()
                                     if line.startswith("| ")])
@@ -169,4 +169,4 @@ class EndToEnd(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

@@ -9,14 +9,14 @@ import subprocess
 import tempfile
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages()
+lab_test_setup.need_packages()
 
 import dense_windows
 
-PROGRAM = os.environ.get("RHOTRACK", str(harness.ROOT / "build" / "rhotrack"))
-SCRIPT = harness.ROOT / "tools" / "lab" / "dense_windows.py"
+PROGRAM = os.environ.get("RHOTRACK", str(lab_test_setup.ROOT / "build" / "rhotrack"))
+SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "dense_windows.py"
 HERE = {"t_s": 12.0, "x_m": 100.0, "y_m": 200.0}
 
 
@@ -47,4 +47,4 @@ class DenseWindows(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

@@ -7,17 +7,17 @@ import subprocess
 import types
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
 
 import extended_rivals as rivals
 from common import lab
 from common import stonesoup_tracker
-from parts import clustered_stonesoup
-from parts import group_tracker
+from parts import stonesoup_on_clustered_plots
+from parts import texas_instruments_group_tracker
 
 STEP_S, VELOCITY_MPS = 0.05, np.array([-20.0, 0.0])
 
@@ -69,19 +69,19 @@ class Followed:
 
 class Groups(Followed, unittest.TestCase):
     def track(self, scans):
-        return group_tracker.track(scans, rivals.ROAD_GROUPS)[0]
+        return texas_instruments_group_tracker.track(scans, rivals.ROAD_GROUPS)[0]
 
     def test_derivatives_are_those_of_what_is_seen(self):
         state = np.array([80.0, -30.0, -12.0, 5.0, 0.5, 0.1])
-        _, derivatives = group_tracker.seen_from(state, 3)
+        _, derivatives = texas_instruments_group_tracker.seen_from(state, 3)
         for i in range(6):
             step = 1e-4 * np.eye(6)[i]
-            up, down = (group_tracker.seen_from(state + sign * step, 3)[0] for sign in (1, -1))
+            up, down = (texas_instruments_group_tracker.seen_from(state + sign * step, 3)[0] for sign in (1, -1))
             np.testing.assert_allclose((up - down) / 2e-4, derivatives[:, i], atol=1e-6)
 
     def test_plots_belong_to_their_own_times(self):
         """Plots of half a scan's time ago move a group as if it had been seen then."""
-        tracker = group_tracker.GroupTracker(rivals.SHIP_GROUPS)
+        tracker = texas_instruments_group_tracker.GroupTracker(rivals.SHIP_GROUPS)
         for k in range(40):
             x_m = 5000 + 10.0 * (2.5 * k - 1.25)
             plots = np.array([[x_m - 50, 0.0], [x_m, 0.0], [x_m + 50, 0.0]])
@@ -95,7 +95,7 @@ class Groups(Followed, unittest.TestCase):
         self.assertEqual(tracker.associate(then, np.array([0.0])), [-1])
 
     def test_one_plot_alone_begins_nothing(self):
-        tracker = group_tracker.GroupTracker(rivals.ROAD_GROUPS)
+        tracker = texas_instruments_group_tracker.GroupTracker(rivals.ROAD_GROUPS)
         tracker.step(0.0, np.array([[100.0, 0.0, -20.0]]), np.zeros(1))
         self.assertEqual(tracker.groups, [])
         pair = np.array([[100.0, 0.0, -20.0], [102.0, 0.0, -20.1]])
@@ -110,12 +110,12 @@ class Clusters(unittest.TestCase):
         points = np.array([[0.0], [0.8], [1.6], [5.0], [5.9], [9.0]])
         for least, wanted in ((1, [0, 0, 0, 1, 1, 2]), (2, [0, 0, 0, 1, 1, -1]),
                               (3, [0, 0, 0, -1, -1, -1]), (4, [-1] * 6)):
-            np.testing.assert_array_equal(clustered_stonesoup.dbscan(points, 1.0, least), wanted)
-        self.assertEqual(len(clustered_stonesoup.dbscan(points[:0], 1.0, 1)), 0)
+            np.testing.assert_array_equal(stonesoup_on_clustered_plots.dbscan(points, 1.0, least), wanted)
+        self.assertEqual(len(stonesoup_on_clustered_plots.dbscan(points[:0], 1.0, 1)), 0)
 
     def test_a_cluster_is_of_one_range_rate(self):
         plots = np.array([[100.0, 0.0, -20.0], [101.0, 0.0, -20.2], [100.5, 0.0, 10.0]])
-        found = clustered_stonesoup.clusters(plots, np.array([1.0, 2.0, 4.0]), rivals.ROAD_GNN)
+        found = stonesoup_on_clustered_plots.clusters(plots, np.array([1.0, 2.0, 4.0]), rivals.ROAD_GNN)
         self.assertEqual([count for _, _, count in found], [2, 1])
         np.testing.assert_allclose(found[0][0], [100.5, 0, -20.1])
         self.assertEqual(found[0][1], 1.5)
@@ -127,13 +127,13 @@ NO_STONE_SOUP = "no stonesoup (make bench-stonesoup)"
 @unittest.skipUnless(stonesoup_tracker.is_installed(), NO_STONE_SOUP)
 class Gnn(Followed, unittest.TestCase):
     def track(self, scans):
-        return clustered_stonesoup.track(scans, rivals.ROAD_GNN, "gnn")[0]
+        return stonesoup_on_clustered_plots.track(scans, rivals.ROAD_GNN, "gnn")[0]
 
 
 @unittest.skipUnless(stonesoup_tracker.is_installed(), NO_STONE_SOUP)
 class Jpda(Followed, unittest.TestCase):
     def track(self, scans):
-        return clustered_stonesoup.track(scans, rivals.ROAD_JPDA, "jpda")[0]
+        return stonesoup_on_clustered_plots.track(scans, rivals.ROAD_JPDA, "jpda")[0]
 
 
 class Figures(unittest.TestCase):
@@ -160,9 +160,9 @@ class Figures(unittest.TestCase):
         np.testing.assert_allclose(truth["vy_mps"], [-3, 0, -1e-3, 0])
 
     def test_a_scene_from_end_to_end(self):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             done = subprocess.run([
-                harness.ROOT / "tools/lab/extended_rivals.py", "--scene", "bodies-apart", "--runs",
+                lab_test_setup.ROOT / "tools/lab/extended_rivals.py", "--scene", "bodies-apart", "--runs",
                 "1", "--json", "-o", folder], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             is_told = "make bench-stonesoup" in (folder / "index.html").read_text()
@@ -193,4 +193,4 @@ class Figures(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

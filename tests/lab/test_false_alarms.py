@@ -7,16 +7,16 @@ import json
 import subprocess
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
 import false_alarms as alarms
 import numpy as np
-from common import paper_targets as paper
+from common import initiation_paper_aircraft as paper
 
 SEED = 4711
-SCRIPT = harness.ROOT / "tools" / "lab" / "false_alarms.py"
+SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "false_alarms.py"
 
 
 def delays(per_km2, runs):
@@ -86,7 +86,7 @@ class Delay(unittest.TestCase):
 
 class EndToEnd(unittest.TestCase):
     def test_tables_pictures_and_json(self):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             done = subprocess.run([str(SCRIPT), "--runs", "1", "--scans", "40", "--json", "-o",
                                    folder], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -104,4 +104,4 @@ class EndToEnd(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

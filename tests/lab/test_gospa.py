@@ -5,9 +5,9 @@ import itertools
 import math
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages()
+lab_test_setup.need_packages()
 
 import numpy as np
 
@@ -100,4 +100,4 @@ class Figures(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

@@ -9,17 +9,17 @@ import re
 import subprocess
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
 import initiation
 import numpy as np
-from common import paper_targets as paper
+from common import initiation_paper_aircraft as paper
 from common import straight_fit
 
 RUNS, SEED = 40, 4711
-SCRIPT = harness.ROOT / "tools" / "lab" / "initiation.py"
+SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "initiation.py"
 MODEL = straight_fit.Model(7, 2.0, 10.0, 0.9, 1e7, 100.0, 400.0)
 
 
@@ -145,7 +145,7 @@ class Matching(unittest.TestCase):
 
 class EndToEnd(unittest.TestCase):
     def test_tables_pictures_and_json(self):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             def run(*arguments):
                 done = subprocess.run([str(SCRIPT), "--runs", "1", "-o", folder, *arguments],
                                       capture_output=True, text=True, check=False)
@@ -170,4 +170,4 @@ class EndToEnd(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

@@ -11,19 +11,19 @@ import types
 import unittest
 from dataclasses import replace
 
-import harness
+import lab_test_setup
 
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
 
 from common import lab
 import maneuver
 from parts import maneuver_scene
-from parts import maneuver_track
+from parts import follow_maneuver_by_method
 from common import reference_imm
 from parts.maneuver_scene import INTERVAL_S, SCANS, START, Scene, Setting
-from parts.maneuver_track import Method, follow, outcome_of, summary_of
+from parts.follow_maneuver_by_method import Method, follow, outcome_of, summary_of
 
 SEED, RUNS = 4711, 20
 G_MPS2 = maneuver_scene.G_MPS2
@@ -342,7 +342,7 @@ class Tracks(unittest.TestCase):
                                  ("polar 2-D, 10 g, no clutter, .9", 2),
                                  ("polar 3-D, 10 g, no clutter, .9", 3)):
             found = summarise(CASES[name].setting, maneuver.CLAIRVOYANT)
-            looks = RUNS * 0.9 * (SCANS - maneuver_track.JUDGED_SCAN)
+            looks = RUNS * 0.9 * (SCANS - follow_maneuver_by_method.JUDGED_SCAN)
             self.assertLess(abs(found["nis_per_dimension"] - 1),
                             4 * math.sqrt(2 / (dimensions * looks)), name)
             self.assertEqual(found["lost"], 0, name)
@@ -429,7 +429,7 @@ class Figures(unittest.TestCase):
     def test_a_trace_becomes_an_outcome(self):
         scene = draw()
         scene.radius_m[:] = 100
-        trace = maneuver_track.Trace(scene)
+        trace = follow_maneuver_by_method.Trace(scene)
         trace.off[0, 2, 0], trace.is_wrong[0, 2] = 1e3, True  # before losses count
         found = outcome_of(trace)
         self.assertEqual((found["is_inside"], found["is_lost"], found["wrong"]), (True, False, 0))
@@ -509,9 +509,9 @@ class Figures(unittest.TestCase):
 
 class Script(unittest.TestCase):
     def test_tables_pictures_and_page(self):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             done = subprocess.run(
-                [str(harness.ROOT / "tools/lab/maneuver.py"), "--runs", "1", "--json", "-o",
+                [str(lab_test_setup.ROOT / "tools/lab/maneuver.py"), "--runs", "1", "--json", "-o",
                  str(folder)], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             found = json.loads(done.stdout)
@@ -531,4 +531,4 @@ class Script(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

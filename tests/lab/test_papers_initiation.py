@@ -8,18 +8,18 @@ import json
 import subprocess
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
-from common import paper_targets as paper
+from common import initiation_paper_aircraft as paper
 import papers_initiation as papers
-from parts import papers_initiation_figures as known
+from parts import papers_initiation_reference_values as known
 from parts import papers_initiation_tracks as tracks
 
 RUNS, SEED = 10, 4711
-SCRIPT = harness.ROOT / "tools" / "lab" / "papers_initiation.py"
+SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "papers_initiation.py"
 
 
 class Figures(unittest.TestCase):
@@ -207,7 +207,7 @@ class EndToEnd(unittest.TestCase):
         return done.stdout
 
     def test_one_method_alone(self):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             report = json.loads(self.run_it(folder, "--json", "--method", "nht"))
             self.assertEqual({case["method"] for case in report["cases"]}, {"NHT A", "NHT C"})
             self.assertEqual((len(report["cases"]), report["table3_nht_a_votes"]), (14, 1))
@@ -221,11 +221,11 @@ class EndToEnd(unittest.TestCase):
             self.assertNotIn("what was found", page)
 
     def test_the_default_alone_has_no_plane(self):
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             text = self.run_it(folder, "--method", "kernel")
             self.assertNotIn("Table 2", text)
             self.assertIn("real 100 default: met", text)
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

@@ -14,21 +14,21 @@ import tempfile
 import unittest
 from unittest import mock
 
-import harness
+import lab_test_setup
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy: the matrices are small
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
-from parts import bearings
+from parts import passive_scenes_and_references as bearings
 from common import lab
 import numpy as np
 import passive
 from parts import passive_chain
-from parts import passive_claims
-from parts import passive_figures
-from parts.bearings import Scene, Setting
+from parts import passive_paper_further_claims
+from parts import passive_paper_figures
+from parts.passive_scenes_and_references import Scene, Setting
 
-SCRIPT = harness.ROOT / "tools" / "lab" / "passive.py"
+SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "passive.py"
 
 
 def draw(*setting, run=0, **others):
@@ -228,7 +228,7 @@ class Bars(unittest.TestCase):
         report = lab.Report("made up", options)
         with mock.patch.object(passive, "runs_of", lambda *_: runs), \
                 mock.patch.object(passive_chain, "runs_of", lambda *_: runs), \
-                mock.patch.object(passive_figures, "tell"):
+                mock.patch.object(passive_paper_figures, "tell"):
             passive.PARTS[part](report)
         return [bar["what"] for bar in report.bars if not bar["held"]]
 
@@ -344,7 +344,7 @@ class Script(unittest.TestCase):
             self.assertGreater((self.folder / "out" / f"{name}.svg").stat().st_size, 15000)
 
     def test_the_figures_scenes_show_what_the_papers_do(self):
-        two, pruned, *pairs, confirmed = passive_figures.figures()
+        two, pruned, *pairs, confirmed = passive_paper_figures.figures()
         self.assertEqual((two[:3], pruned), ((16, 8, 2), (16, 0, 2, 0)))
         self.assertGreaterEqual(two[3], 1)
         self.assertTrue(all(pair[0] == 16 and pair[2] == 2 and pair[3] > 0 for pair in pairs))
@@ -369,7 +369,7 @@ class Assignment(unittest.TestCase):
         force."""
         scene = bearings.Scene(bearings.Setting(3, 2, 0.1), np.random.default_rng(11))
         looks = [scene.looks()[0, s]["bearing_rad"].astype(float) for s in range(3)]
-        costs, members = passive_claims.tuples_of(looks, 3, np.radians(0.1))
+        costs, members = passive_paper_further_claims.tuples_of(looks, 3, np.radians(0.1))
         self.assertEqual(len(costs), 3**3 - 1 - 3 * 2)
         least = 0.0
         for count in (1, 2, 3):
@@ -377,16 +377,16 @@ class Assignment(unittest.TestCase):
                 used = [(s, members[i][s]) for i in chosen for s in range(3) if members[i][s] >= 0]
                 if len(set(used)) == len(used):
                     least = min(least, costs[list(chosen)].sum())
-        chosen = passive_claims.assign(costs, members, looks)
+        chosen = passive_paper_further_claims.assign(costs, members, looks)
         self.assertAlmostEqual(costs[chosen].sum(), least, places=6)
 
     def test_a_tuple_of_one_target_fits(self):
         scene = bearings.Scene(bearings.Setting(3, 1, 0.001), np.random.default_rng(5))
         looks = [scene.looks()[0, s]["bearing_rad"].astype(float) for s in range(3)]
         near = scene.start[0, :2] + 500
-        self.assertLess(passive_claims.cost_of(np.concatenate(looks), bearings.PLACES_M[:3],
+        self.assertLess(passive_paper_further_claims.cost_of(np.concatenate(looks), bearings.PLACES_M[:3],
                                                np.radians(0.001), near), 12)
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

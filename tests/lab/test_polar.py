@@ -9,9 +9,9 @@ import subprocess
 import types
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
 
@@ -21,7 +21,7 @@ import polar
 from parts import polar_runs
 from parts import polar_references as references
 import rhotrack
-from common import scene_runs
+from common import simulate_scene_in_memory
 
 RADAR = references.Radar(15.0, 0.003, range_min_m=1000, range_max_m=65000)
 WITH = references.Radar(15.0, 0.003, 1.0, 1000, 65000)
@@ -112,7 +112,7 @@ class Filter(unittest.TestCase):
             for k, plot in enumerate(plots):
                 names = [name for name in ("range_m", "azimuth_rad", "range_rate_mps")
                          if name != "range_rate_mps" or radar.has_range_rate]
-                row = scene_runs.with_fields(
+                row = simulate_scene_in_memory.with_fields(
                     plots[k:k + 1], ["t_s", *names], sensor_id=1, sigma_range_m=15,
                     sigma_azimuth_rad=0.003, sigma_range_rate_mps=1)
                 if k == 0:
@@ -193,8 +193,8 @@ class Fit(unittest.TestCase):
 class Polar(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        with harness.folder() as folder:
-            done = subprocess.run([harness.ROOT / "tools/lab/polar.py", "--runs", "3", "--seed",
+        with lab_test_setup.folder() as folder:
+            done = subprocess.run([lab_test_setup.ROOT / "tools/lab/polar.py", "--runs", "3", "--seed",
                                    "4711", "--json", "-o", folder], capture_output=True, text=True,
                                   check=False)
             assert done.returncode == 0, done.stderr
@@ -228,7 +228,7 @@ class Polar(unittest.TestCase):
                          {"index.html", "map.svg", "gates.svg", "errors.svg", "figures.json"})
 
     def test_a_case_tells_the_library_what_it_says(self):
-        sky = polar_runs.Sky(scene_runs.simulate("doppler", 7, "clutter.0.plots=300"), 300)
+        sky = polar_runs.Sky(simulate_scene_in_memory.simulate("doppler", 7, "clutter.0.plots=300"), 300)
         for case in (*polar.CASES, *doppler.CASES):
             rows = sky.told(case)[sky.is_plot]
             self.assertEqual("range_rate_mps" in rows.dtype.names, case.has_range_rate)
@@ -266,7 +266,7 @@ class Doppler(unittest.TestCase):
         """.97 have a track after five turns without range rates and with ten times the clutter and
         them, .95 with a span; 18 targets: four standard deviations are .19. Errors of 178, 145 and
         153 m."""
-        with harness.folder() as folder:
+        with lab_test_setup.folder() as folder:
             options = types.SimpleNamespace(runs=6, seed=4711, json=True, jobs=2, output=folder)
             report = lab.Report("test", options)
             found = [*doppler.measure(report, doppler.CASES[:1], 6, 100),
@@ -286,4 +286,4 @@ class Doppler(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

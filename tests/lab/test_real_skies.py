@@ -8,12 +8,12 @@ import subprocess
 import tempfile
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages()
+lab_test_setup.need_packages()
 
-PROGRAM = os.environ.get("RHOTRACK", str(harness.ROOT / "build" / "rhotrack"))
-SCRIPT = harness.ROOT / "tools" / "lab" / "real_skies.py"
+PROGRAM = os.environ.get("RHOTRACK", str(lab_test_setup.ROOT / "build" / "rhotrack"))
+SCRIPT = lab_test_setup.ROOT / "tools" / "lab" / "real_skies.py"
 SCENE = {
     "version": 1,
     "text": "three targets & some clutter",
@@ -193,4 +193,4 @@ class RealSkies(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

@@ -6,21 +6,21 @@ import subprocess
 import types
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
 
 from common import lab
 import rotating
-from common import scene_runs
+from common import simulate_scene_in_memory
 
 
 class Rotating(unittest.TestCase):
     def test_figures_bars_and_page(self):
-        with harness.folder() as folder:
-            done = subprocess.run([harness.ROOT / "tools/lab/rotating.py", "--runs", "4", "--seed",
+        with lab_test_setup.folder() as folder:
+            done = subprocess.run([lab_test_setup.ROOT / "tools/lab/rotating.py", "--runs", "4", "--seed",
                                    "4711", "--json", "-o", folder], capture_output=True, text=True,
                                   check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -43,10 +43,10 @@ class Rotating(unittest.TestCase):
         self.assertLess(at_once["latency_max_ms"], 100)
 
     def test_all_cases_see_the_same_plots(self):
-        run = scene_runs.simulate("rotating", 3)
+        run = simulate_scene_in_memory.simulate("rotating", 3)
         sectors, turns, at_once = (rotating.scans_of(case, run, 3) for case in rotating.CASES)
         self.assertEqual((len(sectors), len(turns), len(at_once)), (480, 15, 15))
-        count = int(scene_runs.has_plot(run.plots).sum())
+        count = int(simulate_scene_in_memory.has_plot(run.plots).sum())
         for scans in (sectors, turns, at_once):
             self.assertEqual(sum(len(scan) for scan in scans), count + len(scans))
             for scan in scans:  # the first row is the scan's own
@@ -73,4 +73,4 @@ class Rotating(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

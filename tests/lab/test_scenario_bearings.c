@@ -11,7 +11,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "scenario_plan.h"
+#include "scenario_truth_to_plots.h"
 
 #define SEED 4711
 #define PI 3.141592653589793

@@ -6,21 +6,21 @@ import subprocess
 import types
 import unittest
 
-import harness
+import lab_test_setup
 
-harness.need_packages("rhotrack")
+lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
 
 from common import lab
-from common import scene_runs
+from common import simulate_scene_in_memory
 import two_radars
 
 
 class TwoRadars(unittest.TestCase):
     def test_figures_bars_and_page(self):
-        with harness.folder() as folder:
-            done = subprocess.run([harness.ROOT / "tools/lab/two_radars.py", "--runs", "2",
+        with lab_test_setup.folder() as folder:
+            done = subprocess.run([lab_test_setup.ROOT / "tools/lab/two_radars.py", "--runs", "2",
                                    "--json", "-o", folder], capture_output=True, text=True,
                                   check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -46,7 +46,7 @@ class TwoRadars(unittest.TestCase):
         self.assertTrue(0 < told["azimuth_bias_rad"]["worst"] < np.radians(0.016))
 
     def test_a_case_tells_what_it_says(self):
-        run = scene_runs.simulate("two-radars", 5, "duration_s=60", also=lambda folder: {
+        run = simulate_scene_in_memory.simulate("two-radars", 5, "duration_s=60", also=lambda folder: {
             1: {"range_bias_m": 40.0, "azimuth_bias_rad": 0.001},
             2: {"range_bias_m": None, "azimuth_bias_rad": -0.002, "time_bias_s": 0.25}})
         by_case = [two_radars.scans_of(case, run) for case in two_radars.CASES]
@@ -91,4 +91,4 @@ class TwoRadars(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    harness.main()
+    lab_test_setup.main()

@@ -12,7 +12,8 @@
 #include "scene/scene.h"
 #include "scene/scene_observe.h"
 
-static inline void suggest_settings_of_scene(const struct scene *scene, struct parameters *parameters)
+static inline void suggest_settings_of_scene(const struct scene *scene,
+                                             struct parameters *parameters)
 {
     char key[80], value[80], reason[PARAMETER_REASON_BYTES];
 
@@ -23,7 +24,7 @@ static inline void suggest_settings_of_scene(const struct scene *scene, struct p
 }
 
 static inline void suggest_parameters_of_radar(const struct scene_sensor *sensor,
-                                        struct parameters *parameters)
+                                               struct parameters *parameters)
 {
     const struct scene_stated *told = &sensor->told;
 
@@ -83,8 +84,10 @@ static inline struct rho_sensor scene_sensor_without_biases(const struct scene_s
  * Converts a scan of the scene for a tracker, as files have it, with the radar's known place; its
  * plots go into `plots`.
  */
-static inline struct rho_scan scene_scan_for_tracker(const struct scene_run *run, const struct scene_scan *scan,
-                                       const struct rho_sensor *known, struct rho_plot *plots)
+static inline struct rho_scan scene_scan_for_tracker(const struct scene_run *run,
+                                                     const struct scene_scan *scan,
+                                                     const struct rho_sensor *known,
+                                                     struct rho_plot *plots)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[scan->sensor];
     struct rho_scan out = {.time_us = scene_scan_time_us(run, scan),

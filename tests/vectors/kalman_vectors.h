@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Made by tests/vectors/make_vectors.py; do not edit. */
+/* Made by tests/vectors/make_linalg_angle_kalman_vectors.py; do not edit. */
 /* clang-format off */
 #ifndef RHOTRACK_TESTS_KALMAN_VECTORS_H
 #define RHOTRACK_TESTS_KALMAN_VECTORS_H

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Sphinx's configuration; `make docs` has laid out the pages (pages.py)."""
+"""Sphinx's configuration; `make docs` has laid out the pages (lay_out_sphinx_sources.py)."""
 import re
 from pathlib import Path
 
@@ -31,7 +31,7 @@ autodoc_member_order = "bysource"
 autodoc_default_options = {"members": True, "undoc-members": True}
 
 ORDER = ["getting_started", "your_own_data", "your_radar", "paper_initiation", "paper_maintenance",
-         "paper_passive", "matlab"]
+         "paper_passive", "matlab_example_redone"]
 
 
 class Order:

@@ -16,7 +16,7 @@ static struct rho_report report;
 static struct rho_plot plots[NUM_PLOTS];
 
 /* Prints the status unless it is RHO_OK; returns whether it is. */
-static int print_if_failed(const char *what, enum rho_status status)
+static int is_ok_else_print_failure(const char *what, enum rho_status status)
 {
     if (status != RHO_OK) {
         printf("%s: %s\n", what, rho_status_name(status));
@@ -30,9 +30,10 @@ static int init_objects(void)
     struct rho_initiator_config initiate;
     rho_tracker_config_default(&maintain);
     rho_initiator_config_default(&initiate);
-    return print_if_failed("tracker", rho_tracker_init(&tracker, sizeof tracker, &maintain)) &&
-           print_if_failed("initiator",
-                           rho_initiator_init(&initiator, sizeof initiator, &initiate));
+    return is_ok_else_print_failure("tracker",
+                                    rho_tracker_init(&tracker, sizeof tracker, &maintain)) &&
+           is_ok_else_print_failure("initiator",
+                                    rho_initiator_init(&initiator, sizeof initiator, &initiate));
 }
 
 /* A random coordinate, 0 to 20 km, by a linear congruential generator. */
@@ -54,7 +55,7 @@ static int step_scan(int k)
         plots[i].sigma_range_m = 10.0f;
         plots[i].sigma_cross_m = 10.0f;
     }
-    return print_if_failed("step", rho_tracker_step(&tracker, &initiator, &scan, &report));
+    return is_ok_else_print_failure("step", rho_tracker_step(&tracker, &initiator, &scan, &report));
 }
 
 int main(void)

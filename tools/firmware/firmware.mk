@@ -27,8 +27,8 @@ memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 # What any compiler can look at: all but what is the board's.
 firmware_portable := $(wildcard $(firmware_folder)/*.c $(board)/*.c $(board)/host/*.c)
 firmware_scripts := $(wildcard $(board)/mps2/*.ld) $(firmware_folder)/firmware.mk
-firmware_node := $(firmware_folder)/node.c $(firmware_folder)/track_starts_best.c
-radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/main.c $(board)/udp_frame.c \
+firmware_node := $(firmware_folder)/lcm_datagram_node.c $(firmware_folder)/node_initiation_by_library.c
+radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/radar_node_main.c $(board)/udp_frame.c \
                  $(board)/memory.c \
                  $(addprefix $(board)/mps2/,startup.c board_mps2.c lan9118.c)
 replay_sources := $(library_sources) $(firmware_node) $(firmware_folder)/replay.c $(board)/memory.c \
@@ -49,7 +49,7 @@ firmware_images := $(foreach core,m4 m7,$(firmware)/$(core)/radar.elf $(firmware
 
 ## Build the firmware example for Cortex-M4F and M7: a radar node, and the node on records (build/firmware)
 firmware: $(firmware_images) $(node_images)
-	@BUILD=$(BUILD) $(firmware_folder)/budget.sh
+	@BUILD=$(BUILD) $(firmware_folder)/check_flash_and_ram.sh
 
 ## Run these images in QEMU: the same bytes as everywhere, LCM over their Ethernet, load; ends with `N passed, N failed`
 firmware-test:
@@ -59,8 +59,8 @@ firmware-test:
 	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(node_images) $(replays) $(worst_images) $(replay) $(replay_radar) $(replay_paper) $(firmware_tests)
 	@BUILD=$(BUILD) tests/run.sh $(firmware_tests) $(sort $(wildcard tests/firmware/*.sh))
 
-firmware_tests := $(addprefix $(BUILD)/tests/firmware/,test_udp_frame test_node_guard)
-$(BUILD)/tests/firmware/test_node_guard: $(firmware_node) $(library)
+firmware_tests := $(addprefix $(BUILD)/tests/firmware/,test_udp_frame test_node_sender_filter)
+$(BUILD)/tests/firmware/test_node_sender_filter: $(firmware_node) $(library)
 $(BUILD)/tests/firmware/%: tests/firmware/%.c $(board)/udp_frame.c Makefile
 	$(call compile,$(test_flags)) -MF $@.d $(LDFLAGS) -o $@ $(filter %.c %.a,$^) -lcmocka -lm
 
@@ -83,12 +83,12 @@ $(foreach core,m4 m7,$(eval $(call firmware_core,$(core))))
 
 # --- configurations of nodes/: build/firmware/CORE/nodes/NAME.elf; their worst scans: worst/ ------
 
-worst_sources := $(library_sources) tools/instructions/worst.c \
-                 $(addprefix $(board)/mps2/,startup.c semihosting.c library_console.c)
+worst_sources := $(library_sources) tools/instructions/worst_step_search.c \
+                 $(addprefix $(board)/mps2/,startup.c semihosting.c newlib_stdout_to_debugger.c)
 
-# How tracks of a node start (track_starts.h).
-starts_of = $(firmware_folder)/track_starts_$(if $(filter paper,$(1)),paper,best).c
-sources_of = $(filter-out $(firmware_folder)/track_starts_%.c,$(2)) $(call starts_of,$(1))
+# How tracks of a node start (node_initiation.h).
+starts_of = $(firmware_folder)/node_initiation_by_$(if $(filter paper,$(1)),papers,library).c
+sources_of = $(filter-out $(firmware_folder)/node_initiation_by_%.c,$(2)) $(call starts_of,$(1))
 
 define node_of # core, name
 $(firmware)/$(1)/nodes/$(2).elf: $(patsubst %.c,$(firmware)/$(1)/nodes/$(2)/%.o,$(call sources_of,$(2),$(radar_sources))) $(firmware_scripts)
@@ -118,8 +118,8 @@ worst: $(worst_images)
 # --- jobs of tools/instructions: build/firmware/CORE/jobs/NAME.elf ---------------------------
 
 job_sources := $(sort $(wildcard tools/instructions/*.c))
-job_parts := $(addprefix $(board)/mps2/,startup.c semihosting.c library_console.c)
-job_names := $(filter-out hough worst,$(basename $(notdir $(job_sources))))
+job_parts := $(addprefix $(board)/mps2/,startup.c semihosting.c newlib_stdout_to_debugger.c)
+job_names := $(filter-out hough worst_step_search,$(basename $(notdir $(job_sources))))
 job_images := $(foreach core,m4 m7,$(job_names:%=$(firmware)/$(core)/jobs/%.elf))
 job_flags := $(firmware_flags) -DCOUNT_ON_TARGET -O2
 

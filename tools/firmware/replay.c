@@ -3,7 +3,7 @@
  * replay: runs the firmware's node on a recorded log instead of a network, on any machine: `replay
  * IN.lcm OUT.lcm [NAME=VALUE ...]`. Names are gate (best, hough, nearest; the latter two with input
  * estimation), v_min_mps, v_max_mps and accel_mps2 in whole numbers, and radars=1 for those of
- * radars.h.
+ * known_radars.h.
  *
  * IN.lcm is an LCM log of scans; each message is given to the node as a datagram at the time at
  * which it was recorded. OUT.lcm gets the messages that the node sends, and on the channel FATES
@@ -14,8 +14,8 @@
 #include <string.h>
 
 #include "board/files.h"
-#include "node.h"
-#include "radars.h"
+#include "known_radars.h"
+#include "lcm_datagram_node.h"
 #include "rhotrack/udpm.h"
 
 #define LOG_SYNC 0xEDA1DA01u
@@ -97,7 +97,7 @@ static size_t read_event_as_datagram(int input, uint8_t datagram[RHO_UDPM_MAX_DA
 
 /* ---- Callbacks of the node: not counted as its instructions ---- */
 
-static void send_datagram(void *context, const uint8_t *bytes, size_t size)
+static void write_sent_datagram_to_log(void *context, const uint8_t *bytes, size_t size)
 {
     struct rho_udpm_datagram datagram;
     uint32_t from = files_read_instruction_counter();
@@ -110,7 +110,7 @@ static void send_datagram(void *context, const uint8_t *bytes, size_t size)
     tally.instructions_aside += files_instructions_elapsed(from, files_read_instruction_counter());
 }
 
-static void tally_step(void *context, const struct rho_report *report)
+static void tally_step_and_log_plot_fates(void *context, const struct rho_report *report)
 {
     uint32_t from = files_read_instruction_counter();
     (void)context;
@@ -187,8 +187,8 @@ static int try_to_start_node_with_options(int count, char **arguments)
             return 0;
         }
     }
-    config.send = send_datagram;
-    config.stepped = tally_step;
+    config.send = write_sent_datagram_to_log;
+    config.stepped = tally_step_and_log_plot_fates;
     config.clock_us = zero_clock_us;
     return node_start(&config) == RHO_OK;
 }
@@ -197,7 +197,7 @@ static int try_to_start_node_with_options(int count, char **arguments)
  * Gives a datagram to the node and counts instructions a step; those of a scan's earlier parts
  * count with the step that its last part causes.
  */
-static void receive_and_measure(const uint8_t *datagram, size_t size)
+static void receive_and_count_instructions(const uint8_t *datagram, size_t size)
 {
     static uint32_t since_step;
     const uint32_t before = tally.steps;
@@ -264,9 +264,9 @@ int main(int argc, char **argv)
         return 2;
     }
     while ((size = read_event_as_datagram(input, datagram)) > 0) {
-        receive_and_measure(datagram, size);
+        receive_and_count_instructions(datagram, size);
     }
-    node_flush();
+    node_step_waiting_scans_and_publish();
     has_failed |= !files_try_to_close(output);
     print_tally();
     return has_failed;

@@ -13,7 +13,7 @@ import sys
 
 HOME = pathlib.Path(__file__).resolve().parent.parent.parent
 # Documents that are not checked: CHANGELOG names former files; measurements and the register of
-# claims are generated, and tools/gates/claims.py checks the latter.
+# claims are generated, and tools/gates/papers_claims_register.py checks the latter.
 NOT_WRITTEN = {"CHANGELOG.md", "tools/lab/CLAIMS.md", "tools/lab/MEASUREMENTS.md"}
 # Most words of README.md (outside code and tables), of DESIGN.md, of all documents; most columns.
 README_MOST, DESIGN_MOST, ALL_MOST, COLUMNS = 1200, 14000, 26000, 100

@@ -4,9 +4,9 @@
 for circular dependencies of files.
 
 A room is a folder of src/. A public header (include/rhotrack/, include/rhotrack/detail/) belongs to
-the room that has the source of its name, or of the longest name that it begins with, or that bears
-this name; else to the first room. A file may include the headers of its own room, those of the rooms that the table lists
-for it (`all above`: every earlier row), a public header that declares a function which it defines,
+the room of the source, or the room itself, whose name is the header's or the longest with which the
+header's begins; else to the one room whose sources' names begin with the header's; else to the first
+room. A file may include the headers of its own room, those of the rooms that the table lists for it (`all above`: every earlier row), a public header that declares a function which it defines,
 private headers of its own folder, and the system headers below. A function must not contain an #if:
 an option is an `if` on a constant, or a file that the build chooses.
 
@@ -175,9 +175,12 @@ def faults_between_objects(root, build):
 
 def room_of_header(stem, sources):
     """Room of the source with the header's name, or with the longest name that the header's begins
-    with."""
+    with, or of the sources whose names begin with the header's, where these are of one room."""
     names = [name for name in sources if stem == name or stem.startswith(name + "_")]
-    return sources[max(names, key=len)] if names else None
+    if names:
+        return sources[max(names, key=len)]
+    rooms = {room for name, room in sources.items() if name.startswith(stem + "_")}
+    return rooms.pop() if len(rooms) == 1 else None
 
 
 def main():

@@ -42,12 +42,12 @@ GUARD_MIN = 1e12
 ALIKE = {
     "src/association/hypotheses_soundness.c": r"PASS_NODES$",
     "src/tracker/tracker_soundness.c": r"PASS_SLOTS$",
-    "src/papers/accumulator.c": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$",
-    "src/papers/accumulator_rows.c": r"BLOCKS$|CROWDED$",
-    "src/papers/accumulator_prune.c": r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|(SHRINK|GROW)_KEPT$",
+    "src/papers/accumulator_peak_search.c": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$",
+    "src/papers/accumulator_row_votes_and_peaks.c": r"BLOCKS$|CROWDED$",
+    "src/papers/accumulator_branch_and_bound.c": r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|(SHRINK|GROW)_KEPT$",
 }
 NO_POLICY_FILES = {
-    "src/base/approx.c", "src/base/angle.c", "src/wire/message.c", "src/wire/message_names.c"
+    "src/base/approx.c", "src/base/angle.c", "src/wire/message_types.c", "src/wire/message_and_member_names.c"
 }
 ROW = re.compile(r"\b(?P<name>(?:plot|row|claim|opened|claims\[\w+\])) >= (?P<number>0)\b")
 NOTICED_MIN = 0.9

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Searches for the most expensive step of each shipped node configuration
-# (tools/instructions/worst.c, in QEMU) and compares it with the promised upper bound
+# (tools/instructions/worst_step_search.c, in QEMU) and compares it with the promised upper bound
 # (tools/firmware/step_cost_limits.bash). Prints a table with the sky (generated traffic) of each; a worse
 # sky than those kept in tests/firmware/worst_skies.txt is to be added there. Exit 1 where a bound
 # is exceeded. Environment: BUILD, WORST_SEED (default 1), WORST_SKIES (300), WORST_NODES (all).

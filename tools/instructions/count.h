@@ -2,8 +2,8 @@
 /*
  * count: counts the instructions between count_begin and count_end for the programs in this folder.
  * On a workstation valgrind counts them (callgrind, started with --collect-atstart=no). On a
- * Cortex-M in QEMU (COUNT_ON_TARGET) a timer counts them, and count_report prints the calls, their
- * sum and their maximum; a program prints its own results before that.
+ * Cortex-M in QEMU (COUNT_ON_TARGET) a timer counts them, and count_print_totals prints the calls,
+ * their sum and their maximum; a program prints its own results before that.
  */
 #ifndef COUNT_H
 #define COUNT_H
@@ -51,7 +51,7 @@ static inline uint32_t count_instructions_between(uint32_t from, uint32_t to)
     return files_instructions_elapsed(from, to);
 }
 
-static inline void count_report(void)
+static inline void count_print_totals(void)
 {
     printf("calls %lu sum %llu max %lu\n", (unsigned long)count_calls,
            (unsigned long long)count_sum, (unsigned long)count_max);
@@ -82,7 +82,7 @@ static inline uint32_t count_instructions_between(uint32_t from, uint32_t to)
     return to - from;
 }
 
-static inline void count_report(void)
+static inline void count_print_totals(void)
 {
     printf("calls %lu\n", (unsigned long)count_calls);
 }

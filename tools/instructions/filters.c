@@ -70,7 +70,7 @@ static struct rho_input input;
 static float before_mps[3], newest_mps[3];
 static float seen[PLOTS][RHO_KALMAN_STATES];
 
-static void estimate_input_and_keep_velocity(void)
+static void estimate_state_and_keep_last_two_velocities(void)
 {
     struct rho_kalman estimate;
     rho_input_test_and_end_inputs(&input, &config);
@@ -82,7 +82,8 @@ static void estimate_input_and_keep_velocity(void)
 static void update_input_filter_by_plot(const float plot[RHO_KALMAN_STATES])
 {
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        note_failure_unless_ok(rho_input_update(&input, &config, i, plot[i], 1.0f));
+        note_failure_unless_ok(
+            rho_input_update_filter_by_element(&input, &config, i, plot[i], 1.0f));
     }
 }
 
@@ -94,20 +95,20 @@ static void step_input_filter_by_hough_gate(void)
     note_failure_unless_ok(
         rho_gate_hough_init(&hough, RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
                             0.0872664626f, before_mps, newest_mps));
-    float least = rho_gate_hough_residual_mps(&hough, &seen[0][3]);
+    float least = rho_gate_hough_velocity_distance_from_lines_mps(&hough, &seen[0][3]);
     for (int i = 1; i < PLOTS; i++) {
-        float off = rho_gate_hough_residual_mps(&hough, &seen[i][3]);
+        float off = rho_gate_hough_velocity_distance_from_lines_mps(&hough, &seen[i][3]);
         if (off < least) {
             least = off;
             best = i;
         }
     }
     update_input_filter_by_plot(seen[best]);
-    estimate_input_and_keep_velocity();
+    estimate_state_and_keep_last_two_velocities();
 }
 
 /* Starts the filter with three scans; the last begins a turn, so that all axes have an input. */
-static void start_input_filter_in_turn(void)
+static void start_input_filter_of_turning_target(void)
 {
     rho_input_config_default(&config);
     rho_kalman_init(&kalman);
@@ -126,7 +127,7 @@ static void start_input_filter_in_turn(void)
         if (scan < 4) {
             note_failure_unless_ok(rho_input_predict(&input, &config, 0.25f));
             update_input_filter_by_plot(seen[0]);
-            estimate_input_and_keep_velocity();
+            estimate_state_and_keep_last_two_velocities();
         }
     }
     failed |= input.present != 7;
@@ -137,7 +138,7 @@ static void start_input_filter_in_turn(void)
 static void prepare_filter_of_job(const char *job)
 {
     if (strcmp(job, "input+hough") == 0) {
-        start_input_filter_in_turn();
+        start_input_filter_of_turning_target();
         return;
     }
     prepare_filter_and_measurement(100.0f);
@@ -170,7 +171,7 @@ int main(int argc, char **argv)
                 count_end();
             }
             printf("\n");
-            count_report();
+            count_print_totals();
             return failed;
         }
     }

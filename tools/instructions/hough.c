@@ -59,6 +59,6 @@ int main(int argc, char **argv)
         return 1;
     }
     printf("%u votes\n", (unsigned)result.votes);
-    count_report();
+    count_print_totals();
     return 0;
 }

@@ -101,6 +101,6 @@ int main(int argc, char **argv)
     printf("%lu seeds, %lu look-ups, %lu distances, %u candidates\n",
            (unsigned long)initiator.work.seeds, (unsigned long)initiator.work.window.lookups,
            (unsigned long)initiator.work.window.distances, (unsigned)initiator.num_candidates);
-    count_report();
+    count_print_totals();
     return failed;
 }

@@ -37,22 +37,23 @@ static struct target target_at(int target, float t_s)
 }
 
 /* Normal for the target's own plot; for clutter 1.3 to 2.2 sigma to either side. */
-static float draw_noise(int is_clutter, float sigma)
+static float draw_normal_or_clutter_offset(int is_clutter, float sigma)
 {
     float size = is_clutter ? draw_uniform(1.3f, 2.2f) : 0.0f;
     return is_clutter ? (draw_uniform(-1.0f, 1.0f) < 0.0f ? -size : size) * sigma
                       : draw_normal(sigma);
 }
 
-static struct rho_plot draw_polar_plot(const struct target *target, int is_clutter)
+static struct rho_plot draw_polar_plot_of_or_beside_target(const struct target *target,
+                                                           int is_clutter)
 {
     float range_m = rho_sqrt(target->x_m * target->x_m + target->y_m * target->y_m);
     struct rho_polar_plot polar = {
-        .range_m = range_m + draw_noise(is_clutter, SIGMA_RANGE_M),
-        .azimuth_rad =
-            rho_angle_wrap(rho_atan2(target->y_m, target->x_m) + draw_noise(is_clutter, SIGMA_RAD)),
+        .range_m = range_m + draw_normal_or_clutter_offset(is_clutter, SIGMA_RANGE_M),
+        .azimuth_rad = rho_angle_wrap(rho_atan2(target->y_m, target->x_m) +
+                                      draw_normal_or_clutter_offset(is_clutter, SIGMA_RAD)),
         .range_rate_mps = (target->x_m * target->vx_mps + target->y_m * target->vy_mps) / range_m +
-                          draw_noise(is_clutter, SIGMA_RATE_MPS),
+                          draw_normal_or_clutter_offset(is_clutter, SIGMA_RATE_MPS),
         .sigma_range_m = SIGMA_RANGE_M,
         .sigma_azimuth_rad = SIGMA_RAD,
         .sigma_range_rate_mps = SIGMA_RATE_MPS};
@@ -63,24 +64,26 @@ static struct rho_plot draw_polar_plot(const struct target *target, int is_clutt
 
 static struct rho_plot draw_cartesian_plot(const struct target *target, int is_clutter)
 {
-    return (struct rho_plot){.x_m = target->x_m + draw_noise(is_clutter, SIGMA_M),
-                             .y_m = target->y_m + draw_noise(is_clutter, SIGMA_M),
-                             .z_m = 3000.0f + draw_noise(is_clutter, SIGMA_M),
-                             .vx_mps = target->vx_mps + draw_noise(is_clutter, SIGMA_MPS),
-                             .vy_mps = target->vy_mps + draw_noise(is_clutter, SIGMA_MPS),
-                             .vz_mps = draw_noise(is_clutter, SIGMA_MPS),
-                             .sigma_range_m = SIGMA_M,
-                             .sigma_cross_m = SIGMA_M,
-                             .sigma_up_m = SIGMA_M,
-                             .sigma_mps = SIGMA_MPS};
+    return (struct rho_plot){
+        .x_m = target->x_m + draw_normal_or_clutter_offset(is_clutter, SIGMA_M),
+        .y_m = target->y_m + draw_normal_or_clutter_offset(is_clutter, SIGMA_M),
+        .z_m = 3000.0f + draw_normal_or_clutter_offset(is_clutter, SIGMA_M),
+        .vx_mps = target->vx_mps + draw_normal_or_clutter_offset(is_clutter, SIGMA_MPS),
+        .vy_mps = target->vy_mps + draw_normal_or_clutter_offset(is_clutter, SIGMA_MPS),
+        .vz_mps = draw_normal_or_clutter_offset(is_clutter, SIGMA_MPS),
+        .sigma_range_m = SIGMA_M,
+        .sigma_cross_m = SIGMA_M,
+        .sigma_up_m = SIGMA_M,
+        .sigma_mps = SIGMA_MPS};
 }
 
 static struct rho_plot draw_plot(const struct target *target, int is_polar, int is_clutter)
 {
-    return is_polar ? draw_polar_plot(target, is_clutter) : draw_cartesian_plot(target, is_clutter);
+    return is_polar ? draw_polar_plot_of_or_beside_target(target, is_clutter)
+                    : draw_cartesian_plot(target, is_clutter);
 }
 
-static uint32_t measured_quantities(int is_polar)
+static uint32_t quantities_measured_besides_position(int is_polar)
 {
     return is_polar ? RHO_MEASURES_RANGE_RATE : RHO_MEASURES_Z | RHO_MEASURES_VELOCITY;
 }

@@ -88,7 +88,7 @@ int main(int argc, char **argv)
             jobs[i].work();
             count_end();
             printf("%lu bytes\n", (unsigned long)size);
-            count_report();
+            count_print_totals();
             return status == RHO_OK ? EXIT_SUCCESS : EXIT_FAILURE;
         }
     }

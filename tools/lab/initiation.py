@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from common import lab
-from common import paper_targets as paper
+from common import initiation_paper_aircraft as paper
 import rhotrack
 from common import straight_fit
 

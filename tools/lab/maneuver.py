@@ -18,7 +18,7 @@ import numpy as np
 
 from common import lab
 from parts.maneuver_scene import CLEAN_SCANS, INTERVAL_S, SCANS, Scene, Setting
-from parts.maneuver_track import FIRST_RUNS, Method, follow, outcome_of, summary_of
+from parts.follow_maneuver_by_method import FIRST_RUNS, Method, follow, outcome_of, summary_of
 
 NAN = math.nan
 CHUNK = 100  # runs side by side

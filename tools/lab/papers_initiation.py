@@ -21,8 +21,8 @@ from typing import NamedTuple
 import numpy as np
 
 from common import lab
-from common import paper_targets as paper
-from parts import papers_initiation_figures as known
+from common import initiation_paper_aircraft as paper
+from parts import papers_initiation_reference_values as known
 from parts import papers_initiation_pictures as pictures
 from parts import papers_initiation_tracks as tracks
 import rhotrack

@@ -17,13 +17,13 @@ from common import lab  # before numpy, whose threads it limits
 import numpy as np
 
 from parts import passive_chain
-from parts import passive_claims
-from parts import passive_figures
+from parts import passive_paper_further_claims
+from parts import passive_paper_figures
 from parts import passive_variants
 import rhotrack
-from parts.bearings import PLACES_M, Setting, fit, moved, nees
+from parts.passive_scenes_and_references import PLACES_M, Setting, fit, moved, nees
 from common.lab import ratio_of, root_of
-from parts.passive_figures import RANGE_MAX_M, line_of, line_off, lines_matched, search_paper
+from parts.passive_paper_figures import RANGE_MAX_M, line_of, line_off, lines_matched, search_paper
 from parts.passive_runs import (RULES, beside, facts_of, found_facts, found_of, judge_rate, runs_of,
                           text_of)
 
@@ -181,7 +181,7 @@ def tell_paper(report):
                          beside(exact[0], reference[2], 2)])
             facts.append(facts_of(name, setting, rule=RULES[rule], votes_min=votes_min,
                                   **found_facts(shares, reference)))
-    passive_figures.tell(report)
+    passive_paper_figures.tell(report)
     report.heading("The paper's method")
     report.text(
         f"s sensors, t targets, degrees; {len(found)} runs, measured/reference. Pd: share of the "
@@ -359,7 +359,7 @@ def tell_default(report):
 
 PARTS = {"pruning": tell_pruning, "paper": tell_paper, "default": tell_default,
          "chain": passive_chain.tell, "further": passive_variants.tell,
-         "claims": passive_claims.tell}
+         "claims": passive_paper_further_claims.tell}
 
 
 def main():

@@ -27,7 +27,7 @@ import numpy as np
 
 from common import oracle
 from common import scoring
-from common import scene_files
+from common import read_truth_plots_tracks
 
 HERE = pathlib.Path(__file__).resolve()
 ROOT = HERE.parents[2]
@@ -74,13 +74,13 @@ def simulated(job, folder):
     """Simulates, and reads what is known of the run: settings, sensors, plots (None without
     radars), truth."""
     run_program(job["simulator"], ["simulate", job["scene"], "--seed", job["seed"], "-o", folder])
-    settings = scene_files.Settings(folder / "scenario.ini")
+    settings = read_truth_plots_tracks.Settings(folder / "scenario.ini")
     sensors = settings.sensors()
     plots = None
     if (folder / "plots.csv").exists():
-        plots = scene_files.read_plots(folder / "plots.csv", sensors,
+        plots = read_truth_plots_tracks.read_plots(folder / "plots.csv", sensors,
                                        settings.get("scan_interval_s", 0.0))
-    return settings, sensors, plots, scene_files.read_truth(
+    return settings, sensors, plots, read_truth_plots_tracks.read_truth(
         folder, () if plots is None else plots.scan_times_us)
 
 
@@ -109,7 +109,7 @@ def run(job):
             folder / "tracks.csv"
         ])
         gate, forgiven = scoring.gate_m(sensors), job["forgiven"]
-        tracks = scene_files.read_tracks(folder / "tracks.csv", truth)
+        tracks = read_truth_plots_tracks.read_tracks(folder / "tracks.csv", truth)
         result = {"seed": job["seed"]}
         result["today"], false_rows = scoring.score(truth, tracks, gate, forgiven)
         if job["noise"] is not None and plots is not None:
@@ -118,7 +118,7 @@ def run(job):
             result["oracle"], _ = scoring.score(truth, oracle.as_tracks(truth, followed), gate,
                                                 forgiven)
         if job["picture"]:
-            from common import pictures
+            from common import plan_view_picture as pictures
             pictures.plan(job["picture"], job["name"], sensors, plots, truth, tracks, false_rows)
         return job["name"], result
     finally:
@@ -269,7 +269,7 @@ def consistency_rows(result):
     within its limits or None)."""
     rows = []
     for label, figures in (("today", result["figures"]), ("oracle", result["oracle"])):
-        for motion in ("", *scene_files.MOTIONS) if figures else ():
+        for motion in ("", *read_truth_plots_tracks.MOTIONS) if figures else ():
             end = motion and "_" + motion
             cells = [(figure_cell(figures, key + end, form, False), None) for key, form in
                      (("pairs", "{:.0f}"), ("rms_m", "{:.1f}"), ("rms_mps", "{:.2f}"))]
@@ -333,7 +333,7 @@ def find_scenes(options):
     """{name: (path, scene)}: those named, or all with a goal, in the order of their names."""
     if options.scene:
         paths = [
-            pathlib.Path(name) if name.endswith(".json") else scene_files.path_of(
+            pathlib.Path(name) if name.endswith(".json") else read_truth_plots_tracks.path_of(
                 options.scenes, name) for name in options.scene
         ]
     else:
@@ -439,7 +439,7 @@ def main():
             results = measure(options, find_scenes(options))
         report = as_json(results, options, alarms, longs)
         if not options.no_pages:
-            from common import page
+            from common import real_skies_page as page
             page.write(options.output / "index.html", results, alarms, longs, options, COLUMNS,
                        rows_of, (CONSISTENCY_HEADINGS, consistency_rows))
     except (Failed, OSError, ValueError) as error:

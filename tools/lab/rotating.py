@@ -14,7 +14,7 @@ import numpy as np
 
 from common import lab
 import rhotrack
-from common import scene_runs
+from common import simulate_scene_in_memory
 
 RUNS = 200
 CASES = ("sectors", "whole turns", "all at once")
@@ -29,11 +29,11 @@ STEP_MAX_MS = 1.0  # beside the sector's own time
 def scans_of(case, run, seed):
     """Rows of each scan; a scan's own row is its first."""
     if case == "sectors":
-        rows = scene_runs.with_fields(run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad",
+        rows = simulate_scene_in_memory.with_fields(run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad",
                                                   "sector_from_rad", "sector_to_rad", "scan"))
         return np.split(rows, np.flatnonzero(np.diff(rows["scan"])) + 1)
-    is_plot = scene_runs.has_plot(run.plots)
-    rows = scene_runs.with_fields(run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad"))
+    is_plot = simulate_scene_in_memory.has_plot(run.plots)
+    rows = simulate_scene_in_memory.with_fields(run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad"))
     turn = ((run.plots["scan"] - 1) // SECTORS).astype(int)
     end_s = TURN_S * (turn + 1)
     if case == "all at once":
@@ -59,7 +59,7 @@ def follow(case, run, seed):
     tracks = rhotrack.Tracker(run.settings).run(rhotrack.Scans(scans_of(case, run, seed),
                                                                run.settings))
     tracks = tracks[tracks["status"] != "tentative"]
-    scan = run.truth.scan_of(scene_runs.scene_files.microseconds(tracks["t_s"]))
+    scan = run.truth.scan_of(simulate_scene_in_memory.read_truth_plots_tracks.microseconds(tracks["t_s"]))
     off_m = np.column_stack([tracks["x_m"], tracks["y_m"]])[:, None] - run.truth.place_m[scan]
     distance_m = np.linalg.norm(off_m, axis=2)
     target = distance_m.argmin(axis=1)
@@ -79,7 +79,7 @@ def follow(case, run, seed):
 
 
 def measure(seed):
-    run = scene_runs.simulate("rotating", seed)
+    run = simulate_scene_in_memory.simulate("rotating", seed)
     return [follow(case, run, seed) for case in CASES]
 
 
@@ -88,7 +88,7 @@ def time_steps(case, seeds):
     the end of the scan. Of each step the least of some rounds, of the processor's time."""
     longest_us, latency_us, shown = 0.0, 0.0, None
     for seed in seeds:
-        run = scene_runs.simulate("rotating", seed)
+        run = simulate_scene_in_memory.simulate("rotating", seed)
         scans = scans_of(case, run, seed)
         ready = [rhotrack.Scans([scan], run.settings) for scan in scans]
         step_us = np.full(len(scans), np.inf)

@@ -8,14 +8,14 @@
 #include "calibration/calibrate_output.h"
 #include "command_line.h"
 #include "commands.h"
-#include "io/scans/merged_inputs.h"
-#include "registration/register_data.h"
+#include "io/scans/merge_plots_and_bearings.h"
+#include "registration/register_shared_data.h"
 
 static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                              struct register_data *data)
 {
-    struct merged_inputs *inputs = merged_inputs_open(line->arguments, line->num_arguments,
-                                                      &line->parameters, line->keep_going);
+    struct merged_inputs *inputs = merged_inputs_open_plots_and_bearings(
+        line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     struct progress progress = progress_start("scans", 0);
     uint64_t done = 0, skipped;
 
@@ -36,7 +36,7 @@ static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                merged_inputs_total_bytes(inputs));
     }
     progress_end(&progress);
-    skipped = merged_inputs_counts(inputs).rows_skipped;
+    skipped = merged_inputs_step_and_plot_counts(inputs).rows_skipped;
     merged_inputs_close(inputs);
     return skipped;
 }
@@ -75,7 +75,8 @@ int command_calibrate(struct command_line *line)
     result = calibrate(data, &pipeline);
     print_calibration(line, &result, rows_skipped);
     if (!calibrate_knows_noise_or_pd(&result)) {
-        fail(EXIT_RUNTIME, "calibrate: too few tracks to estimate noise or pd of any radar");
+        fail(EXIT_RUNTIME, "calibrate: too few tracks to estimate noise "
+                           "or pd of any radar");
     }
     if (line->output) {
         calibrate_write_ini(&result, line->output);

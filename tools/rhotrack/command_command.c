@@ -188,7 +188,7 @@ static const char *setting_name_at(size_t index)
     return rho_command_setting_name((int)index + 1);
 }
 
-static struct rho_message_setting parse_setting(char **arguments, int num_arguments)
+static struct rho_message_setting parse_set_name_and_value(char **arguments, int num_arguments)
 {
     struct rho_message_setting setting = {0};
     const char *name, *hint;
@@ -276,7 +276,7 @@ static bool await_answer(struct transport *transport, int32_t number, int64_t en
     struct pollfd here = {.fd = transport_descriptor(transport), .events = POLLIN};
     struct transport_message message;
 
-    for (int64_t left_us; (left_us = end_us - clock_us()) > 0;) {
+    for (int64_t left_us; (left_us = end_us - monotonic_clock_us()) > 0;) {
         switch (transport_receive(transport, &message)) {
         case TRANSPORT_MESSAGE:
             if (decode_matching_answer(&message, number, answer)) {
@@ -316,7 +316,7 @@ static void send_and_await_answer_or_fail(struct transport *transport, const cha
         fail(EXIT_RUNTIME, "%s: the command is not sent: %s", transport_url(transport),
              strerror(errno));
     }
-    if (!await_answer(transport, number, clock_us() + (int64_t)(wait_s * 1e6), answer)) {
+    if (!await_answer(transport, number, monotonic_clock_us() + (int64_t)(wait_s * 1e6), answer)) {
         fail(EXIT_RUNTIME, "no answer in %g s: no node with --commands has made a step", wait_s);
     }
 }
@@ -344,7 +344,7 @@ int command_command(struct command_line *line)
     size_t size;
 
     if (answer.is_setting) {
-        setting = parse_setting(line->arguments, line->num_arguments);
+        setting = parse_set_name_and_value(line->arguments, line->num_arguments);
     } else {
         command = parse_command(line->arguments, line->num_arguments);
     }

@@ -115,7 +115,7 @@ int command_config(struct command_line *line)
         return 0;
     }
     output = output_open(NULL);
-    parameters_print(&line->parameters, output.file);
+    parameters_print_table(&line->parameters, output.file);
     output_close(&output);
     return 0;
 }

@@ -13,13 +13,13 @@
 #include "commands.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
-#include "io/asterix/asterix_track_table.h"
 #include "io/asterix/asterix_track_writer.h"
+#include "io/asterix/asterix_tracks_to_table.h"
 #include "io/csv/table.h"
+#include "io/log/files_to_message_stream.h"
 #include "io/log/lcm_log.h"
-#include "io/log/message_source.h"
 #include "io/output/geojson.h"
-#include "io/output/geojson_rows.h"
+#include "io/output/track_rows_to_geojson.h"
 #include "io/rows/rows_from_csv.h"
 #include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_to_csv.h"
@@ -35,7 +35,7 @@ static bool may_be_regular_file(const char *path)
 }
 
 /* An input that cannot be looked into (a pipe) is taken for a log where the output is NAME.csv. */
-static bool is_input_taken_for_log(const char *input, const char *output)
+static bool is_lcm_log_or_pipe_to_csv(const char *input, const char *output)
 {
     return lcm_log_is_log(input) ||
            (!may_be_regular_file(input) && !path_ends_with(input, ".csv") &&
@@ -86,7 +86,7 @@ static void write_messages_to_log(struct message_source *source, const struct co
 static void convert_table_to_log(const struct command_line *line)
 {
     struct message_source *source =
-        message_source_open(line->arguments, 1, &line->parameters, line->keep_going);
+        message_source_open_logs_or_csv(line->arguments, 1, &line->parameters, line->keep_going);
 
     if (line->kind) {
         fail(EXIT_USAGE, "convert: --kind chooses messages of a log, and %s is a CSV file",
@@ -142,7 +142,7 @@ static void convert_tracks_to_asterix(const struct command_line *line)
 {
     const char *input = line->arguments[0];
     struct message_source *source =
-        message_source_open(line->arguments, 1, &line->parameters, line->keep_going);
+        message_source_open_logs_or_csv(line->arguments, 1, &line->parameters, line->keep_going);
     struct output output = output_open(line->arguments[1]);
     struct asterix_track_writer *tracks = asterix_track_writer_open(output.file, &line->parameters);
     struct message_event event;
@@ -161,7 +161,7 @@ static void convert_tracks_to_asterix(const struct command_line *line)
     if (lists == 0) {
         fail(EXIT_USAGE, "%s: contains no tracks, and CAT062 holds only tracks", input);
     }
-    asterix_track_writer_close(tracks);
+    asterix_track_writer_free(tracks);
     output_close(&output);
     if (others > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " other messages left out\n", input, others);
@@ -300,7 +300,7 @@ static void convert_log_to_csv(const struct command_line *line)
         fail(EXIT_USAGE, "%s: contains no event of an LCM log", reading.path);
     }
     check_one_kind_and_count_others(&reading);
-    rows_from_messages_finish(&reading.collection);
+    rows_from_messages_sort_and_drop_repeats(&reading.collection);
     if (reading.collection.rows.count == 0) {
         fail(EXIT_USAGE, "%s: its messages of %s have no rows", reading.path, reading.kind->name);
     }
@@ -323,7 +323,7 @@ static void convert_tracks_to_geojson(const struct command_line *line)
     struct rows_file file;
     struct output output;
 
-    rows_read_csv(&file, line->arguments[0], &line->parameters, line->keep_going);
+    rows_read_csv_or_asterix(&file, line->arguments[0], &line->parameters, line->keep_going);
     if (file.rows.kind != &rows_kind_tracks) {
         fail(EXIT_USAGE, "%s: these are %s; GeoJSON is made of tracks", line->arguments[0],
              file.rows.kind->name);
@@ -336,7 +336,7 @@ static void convert_tracks_to_geojson(const struct command_line *line)
 }
 
 /* Only tracks can be written as GeoJSON: other kinds and --covariance exit 2; selects the kind. */
-static void select_tracks_for_geojson_or_fail(struct command_line *line)
+static void set_kind_to_tracks_for_geojson_or_fail(struct command_line *line)
 {
     if (line->covariance) {
         fail(EXIT_USAGE, "convert: GeoJSON cannot hold covariances (--covariance)");
@@ -362,7 +362,7 @@ void command_convert_refuse_radar_as_tracks(const struct command_line *line)
 
 int command_convert(struct command_line *line)
 {
-    bool from_log = is_input_taken_for_log(line->arguments[0], line->arguments[1]);
+    bool from_log = is_lcm_log_or_pipe_to_csv(line->arguments[0], line->arguments[1]);
     bool to_map = geojson_path_is_geojson(line->arguments[1]);
 
     parameters_check_together(&line->parameters);
@@ -388,7 +388,7 @@ int command_convert(struct command_line *line)
     }
     check_output_format_differs(line->arguments[0], line->arguments[1], from_log);
     if (to_map) {
-        select_tracks_for_geojson_or_fail(line);
+        set_kind_to_tracks_for_geojson_or_fail(line);
     }
     if (to_map && !from_log) {
         convert_tracks_to_geojson(line);

@@ -9,7 +9,7 @@
 #include "evaluation/evaluation_input.h"
 #include "evaluation/evaluation_report.h"
 #include "io/csv/table.h"
-#include "io/log/log_table.h"
+#include "io/log/log_messages_to_table.h"
 #include "suggested_next_command.h"
 
 static void check_output_ending(const char *path)
@@ -49,7 +49,7 @@ static struct evaluation *evaluate_files(const struct command_line *line)
 }
 
 /* Suggests an HTML page of the truth, the tracks, and the plots.csv beside the truth, if any. */
-static void suggest_next_command(const struct command_line *line)
+static void suggest_page_of_truth_and_tracks(const struct command_line *line)
 {
     char *files[2] = {line->arguments[0],
                       suggested_next_command_find_file_beside(line->arguments[0], "plots.csv")};
@@ -66,9 +66,9 @@ int command_evaluate(struct command_line *line)
     refuse_output_that_is_an_input(line);
     struct evaluation *e = evaluate_files(line);
     if (line->output != NULL && path_ends_with(line->output, ".svg")) {
-        evaluation_draw(e, line->output);
+        evaluation_draw_gospa_and_counts_over_time(e, line->output);
     } else if (line->output != NULL) {
-        evaluation_write_csv(e, line->output);
+        evaluation_write_csv_over_time(e, line->output);
     }
     if (line->json) {
         evaluation_print_json(e);
@@ -76,6 +76,6 @@ int command_evaluate(struct command_line *line)
         evaluation_print(e, line->by_target);
     }
     evaluation_free(e);
-    suggest_next_command(line);
+    suggest_page_of_truth_and_tracks(line);
     return 0;
 }

@@ -13,7 +13,7 @@
 #include "io/output/initiated_tracks_output.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/plot_scan_reader.h"
-#include "io/turns/revolutions.h"
+#include "io/turns/sectors_merged_to_turns.h"
 #include "rhotrack/tracker.h"
 
 struct initiation_run {
@@ -37,10 +37,10 @@ static void push_scan_to_initiator(struct initiation_run *batch, const struct rh
         held.num_plots = RHO_MAX_PLOTS;
     }
     memset(fates, RHO_FATE_HELD, sizeof fates);
-    start_us = clock_us();
+    start_us = monotonic_clock_us();
     must_succeed(rho_initiator_push(batch->initiator, &held, sensor, fates, &left_unused),
                  "initiator");
-    batch->wall_us += clock_us() - start_us;
+    batch->wall_us += monotonic_clock_us() - start_us;
     batch->time_us = scan->time_us;
     batch->scans++;
     batch->plots += scan->num_plots;
@@ -62,7 +62,8 @@ static void push_last_scans(struct initiation_run *batch, struct plot_scan_reade
     revolutions_free(&revolutions);
 }
 
-static void read_and_search_batch(struct initiation_run *batch, const struct command_line *line)
+static void read_and_search_batch_by_kernel(struct initiation_run *batch,
+                                            const struct command_line *line)
 {
     struct rho_initiator_config config;
     struct plot_scan_reader *reader;
@@ -75,9 +76,9 @@ static void read_and_search_batch(struct initiation_run *batch, const struct com
     reader = plot_scan_reader_open(line->arguments, line->num_arguments, &line->parameters,
                                    line->keep_going);
     push_last_scans(batch, reader);
-    start_us = clock_us();
+    start_us = monotonic_clock_us();
     must_succeed(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH), "initiator");
-    batch->wall_us += clock_us() - start_us;
+    batch->wall_us += monotonic_clock_us() - start_us;
     plot_scan_reader_report_skipped(reader);
     if (batch->plots_no_room) {
         fprintf(stderr, "rhotrack: %" PRIu64 " plots beyond %d a scan are left out\n",
@@ -153,7 +154,7 @@ static void initiate_kernel(const struct command_line *line)
 {
     struct initiation_run batch = {.wall_us = 0};
 
-    read_and_search_batch(&batch, line);
+    read_and_search_batch_by_kernel(&batch, line);
     if (line->output || !line->json) {
         write_found_tracks(&batch, line->output);
     }

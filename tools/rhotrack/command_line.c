@@ -284,7 +284,7 @@ static const char *option_name_of_letter(int letter)
     return NULL;
 }
 
-static _Noreturn void refuse_option(const struct command *command, char **argv)
+static _Noreturn void refuse_unknown_option_with_hint(const struct command *command, char **argv)
 {
     const char *typed = argv[optind - 1], *hint;
     char name[64];
@@ -317,7 +317,7 @@ static void read_options(struct command_line *line, const struct command *comman
     opterr = 0;
     while ((letter = getopt_long(argc, argv, ":o:h", table, NULL)) != -1) {
         if (letter == '?') {
-            refuse_option(command, argv);
+            refuse_unknown_option_with_hint(command, argv);
         }
         if (letter == ':') {
             fail(EXIT_USAGE, "%s: --%s needs a value", command->name,
@@ -345,19 +345,20 @@ static void read_options(struct command_line *line, const struct command *comman
  * Suggests the origin of the local frame where none is set: the place of a recording's first radar,
  * or the first place of a CSV file.
  */
-static void suggest_origin_if_lacking(struct command_line *line, const char *path,
-                                      struct asterix_place place)
+static void set_default_origin_if_lacking(struct command_line *line, const char *path,
+                                          struct asterix_place place)
 {
     if (place.is_given && !parameters_has_origin(&line->parameters)) {
         asterix_set_and_report_default_origin(path, &place, &line->parameters);
     }
 }
 
-static void suggest_origin_and_warn_of_compass(struct command_line *line, const char *path)
+static void set_csv_origin_and_warn_of_clockwise_azimuths(struct command_line *line,
+                                                          const char *path)
 {
-    const struct origin_and_azimuth_sense look = origin_and_azimuth_sense_of(path);
+    const struct origin_and_azimuth_sense look = guess_origin_and_azimuth_sense_from_rows(path);
 
-    suggest_origin_if_lacking(
+    set_default_origin_if_lacking(
         line, path, (struct asterix_place){look.has_place, look.lat_deg, look.lon_deg, look.alt_m});
     if (look.has_compass_azimuths) {
         fprintf(stderr,
@@ -371,7 +372,8 @@ static void suggest_origin_and_warn_of_compass(struct command_line *line, const 
 /*
  * Selects the arguments that may hold plots, from which an origin can be taken: none of evaluate.
  */
-static void select_plot_files(struct command_line *line, const struct command *command)
+static void note_which_arguments_are_plot_files(struct command_line *line,
+                                                const struct command *command)
 {
     /* the first argument of plot is the kind of picture */
     const int skipped = strcmp(command->name, "plot") == 0;
@@ -400,7 +402,7 @@ void command_line_read(struct command_line *line, const struct command *command,
         fail(EXIT_USAGE, "%s: '%s' is one argument too many; usage: rhotrack %s %s", command->name,
              line->arguments[command->max_arguments], command->name, command->usage);
     }
-    select_plot_files(line, command);
+    note_which_arguments_are_plot_files(line, command);
 }
 
 void refuse_output_that_is_an_input(const struct command_line *line)
@@ -412,7 +414,7 @@ void refuse_output_that_is_an_input(const struct command_line *line)
     }
 }
 
-static void refuse_inputs_given_twice(const struct command_line *line, const char *command)
+static void refuse_same_input_file_twice(const struct command_line *line, const char *command)
 {
     for (int i = 0; i < line->num_arguments; i++) {
         for (int other = 0; other < i; other++) {
@@ -445,7 +447,7 @@ bool is_output_explicitly_stdout(const struct command_line *line)
 void command_line_check_ini_output(const struct command_line *line, const char *command)
 {
     refuse_output_that_is_an_input(line);
-    refuse_inputs_given_twice(line, command);
+    refuse_same_input_file_twice(line, command);
     refuse_ending_of_other_format(line, command);
     if (line->json && is_output_explicitly_stdout(line)) {
         fail(EXIT_USAGE, "%s: --json and -o - both write on standard output", command);
@@ -466,14 +468,14 @@ static bool are_plot_files_regular(const struct command_line *line)
 void command_line_set_origin_and_places(struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments && !parameters_has_origin(&line->parameters); i++) {
-        suggest_origin_if_lacking(line, line->arguments[i],
-                                  asterix_file_radar_place(line->arguments[i]));
+        set_default_origin_if_lacking(line, line->arguments[i],
+                                      asterix_file_radar_place(line->arguments[i]));
     }
     for (int i = 0; i < line->num_plot_files; i++) {
-        suggest_origin_and_warn_of_compass(line, line->plot_files[i]);
+        set_csv_origin_and_warn_of_clockwise_azimuths(line, line->plot_files[i]);
     }
     if (line->num_plot_files > 0 && are_plot_files_regular(line)) {
-        table_dialect_check_columns_option();
+        table_dialect_fail_if_columns_option_unused();
     }
     parameters_locate_sensors(&line->parameters);
 }

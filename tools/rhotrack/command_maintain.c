@@ -33,8 +33,8 @@ static enum maintainer_gate apply_gate_option(struct command_line *line)
     return (enum maintainer_gate)line->parameters.value[PARAMETER_GATE];
 }
 
-static void warn_of_unused_input_estimation(const struct command_line *line,
-                                            enum maintainer_gate gate)
+static void warn_that_no_input_estimation_option_is_unused(const struct command_line *line,
+                                                           enum maintainer_gate gate)
 {
     if (gate == MAINTAIN_BEST && line->no_input_estimation) {
         fputs("rhotrack: --no-input-estimation has no effect with --gate best\n", stderr);
@@ -59,12 +59,13 @@ static void warn_of_unobservable_inputs(const struct command_line *line, enum ma
 
 /* ---- Steps ---- */
 
-static void count_plot_fates(struct maintaining *maintaining, const struct rho_scan *scan, int row)
+static void count_plot_fates(struct maintaining *maintaining, const struct rho_scan *scan,
+                             int claimed_plot)
 {
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         bool is_valid = rho_measurement_is_valid_plot(&scan->plots[i], scan->measures);
-        enum rho_fate fate = (int64_t)i == row ? RHO_FATE_CLAIMED
-                             : !is_valid       ? RHO_FATE_INVALID
+        enum rho_fate fate = (int64_t)i == claimed_plot ? RHO_FATE_CLAIMED
+                             : !is_valid                ? RHO_FATE_INVALID
                              : i > MAINTAINER_ROW_MAX && maintaining->gate == MAINTAIN_BEST
                                  ? RHO_FATE_NO_ROOM
                                  : RHO_FATE_HELD;
@@ -76,19 +77,21 @@ static void count_plot_fates(struct maintaining *maintaining, const struct rho_s
 static void step_and_time_scan(struct maintaining *maintaining, const struct rho_scan *scan,
                                const struct rho_sensor *sensor)
 {
-    int64_t start_us = clock_us(), took_us;
-    int row = maintainer_step(maintaining->maintainer, scan, sensor, NAN, &maintaining->random);
+    int64_t start_us = monotonic_clock_us(), took_us;
+    int row = maintainer_step_and_get_row(maintaining->maintainer, scan, sensor, NAN,
+                                          &maintaining->random);
 
-    took_us = clock_us() - start_us;
+    took_us = monotonic_clock_us() - start_us;
     maintaining->scans++;
     maintaining->sum_us += took_us;
     maintaining->max_us = took_us > maintaining->max_us ? took_us : maintaining->max_us;
     count_plot_fates(maintaining, scan, row);
 }
 
-static void step_and_write_all_scans(struct maintaining *maintaining,
-                                     struct plot_scan_reader *reader,
-                                     const struct command_line *line, struct tracks_output *tracks)
+static void step_maintainer_and_write_all_scans(struct maintaining *maintaining,
+                                                struct plot_scan_reader *reader,
+                                                const struct command_line *line,
+                                                struct tracks_output *tracks)
 {
     struct progress progress = progress_start("scans", 0);
     uint64_t bytes = regular_file_size_or_zero(line->arguments[0]);
@@ -128,7 +131,7 @@ static void print_summary(const struct maintaining *maintaining,
             "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots: %u claimed, %u misses, %lu updates "
             "refused",
             maintaining->scans, counts->plots, (unsigned)track->hits, (unsigned)track->misses,
-            maintainer_num_refused(maintaining->maintainer));
+            maintainer_num_filter_refusals(maintaining->maintainer));
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
@@ -136,7 +139,7 @@ static void print_summary(const struct maintaining *maintaining,
             maintaining->max_us);
 }
 
-static cJSON *plot_fates_json(const struct maintaining *maintaining)
+static cJSON *num_plots_by_fate_json(const struct maintaining *maintaining)
 {
     cJSON *object = cJSON_CreateObject();
 
@@ -162,13 +165,13 @@ static void print_run_json(const struct maintaining *maintaining, const struct c
     cJSON_AddNumberToObject(object, "rows_skipped", (double)counts->rows_skipped);
     cJSON_AddNumberToObject(object, "tracks_confirmed", 1);
     cJSON_AddNumberToObject(object, "misses", maintainer_report(maintaining->maintainer)->misses);
-    cJSON_AddItemToObject(object, "fates", plot_fates_json(maintaining));
+    cJSON_AddItemToObject(object, "fates", num_plots_by_fate_json(maintaining));
     cJSON_AddNumberToObject(object, "mean_us", mean_step_us(maintaining));
     cJSON_AddNumberToObject(object, "max_us", (double)maintaining->max_us);
     cJSON_AddNumberToObject(object, "state_bytes",
                             (double)maintainer_state_bytes(maintaining->maintainer));
     cJSON_AddNumberToObject(object, "updates_refused",
-                            (double)maintainer_num_refused(maintaining->maintainer));
+                            (double)maintainer_num_filter_refusals(maintaining->maintainer));
     json_print_and_delete(object);
 }
 
@@ -190,13 +193,13 @@ int command_maintain(struct command_line *line)
     struct plot_scan_reader_counts counts;
     struct tracks_output *tracks;
 
-    warn_of_unused_input_estimation(line, maintaining.gate);
+    warn_that_no_input_estimation_option_is_unused(line, maintaining.gate);
     maintaining.maintainer =
         maintainer_new(maintaining.gate, !line->no_input_estimation, &line->parameters);
     reader = open_plot_reader(line);
     tracks =
         has_file ? tracks_output_open(line->output, &line->parameters, line->covariance) : NULL;
-    step_and_write_all_scans(&maintaining, reader, line, tracks);
+    step_maintainer_and_write_all_scans(&maintaining, reader, line, tracks);
     counts = plot_scan_reader_counts(reader);
     if (counts.plots == 0) {
         fail(EXIT_USAGE, "%s: no plot to start the track from", line->arguments[0]);

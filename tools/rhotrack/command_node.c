@@ -16,17 +16,17 @@
 
 #include "base/common.h"
 #include "commands.h"
-#include "io/output/clutter_map_file.h"
+#include "io/output/clutter_map_load_and_save.h"
 #include "io/scans/scan_interval_hint.h"
 #include "live/duplicate_senders.h"
-#include "live/error_lines.h"
+#include "live/metrics_page_server.h"
 #include "live/node_core.h"
 #include "live/node_log.h"
 #include "live/node_loss_counts.h"
 #include "live/node_print.h"
 #include "live/node_sensor_warnings.h"
-#include "live/page_server.h"
 #include "live/prometheus_metrics.h"
+#include "live/stderr_time_stamps.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
 #include "transport/transport.h"
@@ -99,8 +99,9 @@ static bool is_printable_channel(const char *channel)
     return *channel == '\0';
 }
 
-static void log_message_if_printable(struct node *node, int64_t time_us, const char *channel,
-                                     const uint8_t *data, size_t size)
+static void log_message_if_channel_is_printable(struct node *node, int64_t time_us,
+                                                const char *channel, const uint8_t *data,
+                                                size_t size)
 {
     if (node->log && is_printable_channel(channel)) {
         node_log_put_event(node->log, time_us, channel, data, size);
@@ -196,7 +197,7 @@ static bool reap_clutter_writer(struct node *node, int options)
 static void save_clutter_map_when_due(struct node *node)
 {
     if (clutter_map_file_is_save_due(&node->clutter) && reap_clutter_writer(node, WNOHANG)) {
-        node->clutter.saved_us = clock_us();
+        node->clutter.saved_us = monotonic_clock_us();
         node->clutter_writer = fork();
         if (node->clutter_writer == 0) {
             _exit(clutter_map_file_save(&node->clutter, node_core_clutter_map(node->core))
@@ -225,7 +226,8 @@ static void send_and_log_message(void *context, const char *channel, const uint8
     /* failures are counted by the transport */
     (void)transport_send(node->transport, channel, data, size);
     if (node->log) {
-        log_message_if_printable(node, transport_now_us(node->transport), channel, data, size);
+        log_message_if_channel_is_printable(node, transport_now_us(node->transport), channel, data,
+                                            size);
     }
 }
 
@@ -235,7 +237,8 @@ static void send_and_log_message(void *context, const char *channel, const uint8
  */
 static void print_sensor_changes(struct node *node)
 {
-    node_sensors_print_changes(&node->sensors, node->core, node->print.is_terminal ? NULL : stderr);
+    node_sensors_print_suspicion_and_silence_changes(&node->sensors, node->core,
+                                                     node->print.is_terminal ? NULL : stderr);
 }
 
 /* Prints each wall (reflector) once when it is learned, and once when it is forgotten. */
@@ -257,11 +260,11 @@ static void print_wall_changes(struct node *node)
     }
 }
 
-static void print_step_and_changes(void *context, const struct rho_report *report)
+static void print_step_sensor_and_wall_changes(void *context, const struct rho_report *report)
 {
     struct node *node = context;
 
-    node_print_report_or_mark_changed(&node->print, report);
+    node_print_rows_or_mark_table_changed(&node->print, report);
     print_sensor_changes(node);
     if (!node->print.is_terminal) {
         print_wall_changes(node);
@@ -272,7 +275,7 @@ static void print_step_and_changes(void *context, const struct rho_report *repor
 static void print_sensor_restart(void *context, int16_t sensor_id)
 {
     struct node *node = context;
-    const int64_t now_us = clock_us();
+    const int64_t now_us = monotonic_clock_us();
 
     if (now_us >= node->restarts_us + WARNING_US) {
         node->restarts_us = now_us;
@@ -357,7 +360,7 @@ static void attribute_losses_to_sensor(struct node *node, const char *channel)
 static void warn_of_losses(struct node *node)
 {
     struct node_loss_counts tallies[NODE_TALLIES];
-    int64_t now_us = clock_us();
+    int64_t now_us = monotonic_clock_us();
 
     if (node->print.is_terminal) {
         return;
@@ -399,7 +402,7 @@ static void print_summary(const struct node *node)
     if (events_left_out > 0) {
         fprintf(stderr, "rhotrack: events not logged: %" PRIu64 "\n", events_left_out);
     }
-    node_sensors_print_bad(node->core, stderr);
+    node_sensors_print_suspect_and_silent(node->core, stderr);
     if (error_lines_were_lost()) {
         fputs("rhotrack: standard error was blocked for a while: lines are missing\n", stderr);
     }
@@ -434,7 +437,7 @@ static int block_signals_to_descriptor(const sigset_t *set)
  * signals stay blocked: the handler that removes unfinished outputs (common.c) is not needed, as
  * the log is written under its own name.
  */
-static void block_signals_and_open_descriptors(struct node *node)
+static void block_signals_and_open_signal_descriptors(struct node *node)
 {
     sigset_t ends, hang_ups;
 
@@ -453,7 +456,7 @@ static void block_signals_and_open_descriptors(struct node *node)
 /*
  * SIGHUP: a log rotation asks to reopen the log, or the terminal was closed, which ends the node.
  */
-static void reopen_log_or_end_on_hangup(struct node *node)
+static void end_if_terminal_closed_else_reopen_log(struct node *node)
 {
     struct signalfd_siginfo info;
 
@@ -503,11 +506,11 @@ static void wait_and_serve_descriptors(struct node *node)
 {
     struct pollfd here[4] = {{.fd = node->signals, .events = POLLIN},
                              {.fd = node->hang_ups, .events = POLLIN},
-                             {.fd = page_server_descriptor(node->pages), .events = POLLIN},
+                             {.fd = page_server_poll_descriptor(node->pages), .events = POLLIN},
                              {.fd = transport_descriptor(node->transport), .events = POLLIN}};
     int64_t due_us =
         earlier_us(earlier_us(node->status_us, node->end_us), node_print_due_us(&node->print));
-    int64_t core_due_us = node_core_due_us(node->core), wait_us = due_us - clock_us();
+    int64_t core_due_us = node_core_due_us(node->core), wait_us = due_us - monotonic_clock_us();
 
     if (core_due_us != INT64_MAX) {
         wait_us = earlier_us(wait_us, core_due_us - transport_now_us(node->transport));
@@ -519,7 +522,7 @@ static void wait_and_serve_descriptors(struct node *node)
     if (ppoll(here, 4, &wait, NULL) > 0) {
         node->is_over |= here[0].revents != 0;
         if (here[1].revents) {
-            reopen_log_or_end_on_hangup(node);
+            end_if_terminal_closed_else_reopen_log(node);
         }
         if (here[2].revents) {
             page_server_serve(node->pages);
@@ -560,10 +563,10 @@ static bool is_output_channel(const char *channel)
 static void update_scan_interval_hint(struct node *node, const struct transport_message *message)
 {
     if (node->plots.scans < HINT_SCANS && !node->print.is_terminal) {
-        scan_interval_hint_add_message(
+        scan_interval_hint_count_lone_plots(
             &node->plots, &(struct message_event){message->received_us, message->channel,
                                                   message->data, message->size});
-        scan_interval_hint_report_live(&node->plots);
+        scan_interval_hint_report_lone_plot_sensors(&node->plots);
     }
 }
 
@@ -573,7 +576,7 @@ static void update_scan_interval_hint(struct node *node, const struct transport_
  */
 static void pass_message_to_core_and_log(struct node *node, const struct transport_message *message)
 {
-    duplicate_senders_note_message(&node->senders, message, clock_us(),
+    duplicate_senders_note_message(&node->senders, message, monotonic_clock_us(),
                                    node->print.is_terminal ? NULL : stderr);
     if (is_output_channel(message->channel)) {
         return;
@@ -582,8 +585,8 @@ static void pass_message_to_core_and_log(struct node *node, const struct transpo
     node->taken++;
     update_scan_interval_hint(node, message);
     if (strncmp(message->channel, "RHO_", 4) == 0) {
-        log_message_if_printable(node, message->received_us, message->channel, message->data,
-                                 message->size);
+        log_message_if_channel_is_printable(node, message->received_us, message->channel,
+                                            message->data, message->size);
     }
     node_core_take_message(node->core, message->channel, message->data, message->size,
                            message->received_us);
@@ -641,7 +644,7 @@ static void send_status_and_clutter(struct node *node)
 {
     const struct node_core_losses losses = collect_losses(node);
 
-    node_core_send_status(node->core, &losses);
+    node_core_send_all_status_messages(node->core, &losses);
     if (node->statuses++ % CLUTTER_STATUSES == 0) {
         node_core_send_clutter_map(node->core);
     }
@@ -649,8 +652,8 @@ static void send_status_and_clutter(struct node *node)
 
 static void refresh_track_table(struct node *node, bool is_end)
 {
-    if (!node_print_refresh_table(&node->print, node->core, transport_url(node->transport),
-                                  is_end)) {
+    if (!node_print_refresh_table_and_has_no_error(&node->print, node->core,
+                                                   transport_url(node->transport), is_end)) {
         if (errno != EPIPE) {
             fprintf(stderr, "rhotrack: standard output: %s\n", strerror(errno));
             node->exit_code = EXIT_RUNTIME;
@@ -666,7 +669,7 @@ static void refresh_track_table(struct node *node, bool is_end)
  */
 static void report_save_and_end_when_due(struct node *node)
 {
-    int64_t now_us = clock_us();
+    int64_t now_us = monotonic_clock_us();
 
     if (now_us >= node->status_us) {
         node->status_us += STATUS_US;
@@ -692,7 +695,7 @@ static void run_node_until_over(struct node *node)
         wait_and_serve_descriptors(node);
         receive_and_process_messages(node);
     }
-    node->finish_us = clock_us() + END_US;
+    node->finish_us = monotonic_clock_us() + END_US;
     node_core_flush(node->core);
     node->statuses = 0;
     send_status_and_clutter(node);
@@ -723,8 +726,9 @@ static struct node_log_limits log_limits_of_parameters(const struct parameters *
 int command_node(struct command_line *line)
 {
     struct node node = {
-        .status_us = clock_us(), .end_us = INT64_MAX, .parameters = &line->parameters};
-    const struct node_core_events events = {&node, send_and_log_message, print_step_and_changes,
+        .status_us = monotonic_clock_us(), .end_us = INT64_MAX, .parameters = &line->parameters};
+    const struct node_core_events events = {&node, send_and_log_message,
+                                            print_step_sensor_and_wall_changes,
                                             print_sensor_restart, print_clock_change};
     const bool is_live = transport_url_is_live(line->lcm);
     const struct node_log_limits limits = log_limits_of_parameters(&line->parameters);
@@ -742,7 +746,7 @@ int command_node(struct command_line *line)
     }
     struct pipeline_show *show = pipeline_show_open(line->show, &line->parameters);
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
-    error_lines_redirect_stderr(&line->parameters, is_live);
+    error_lines_stamp_and_name_on_stderr(&line->parameters, is_live);
     node_core_set_show(node.core, show);
     if (line->commands) {
         node_core_allow_commands(node.core);
@@ -756,13 +760,13 @@ int command_node(struct command_line *line)
     }
     node.clutter = clutter_map_file_open(line->clutter_map, &line->parameters,
                                          is_restored ? NULL : node_core_clutter_map(node.core));
-    block_signals_and_open_descriptors(&node);
+    block_signals_and_open_signal_descriptors(&node);
     start_end_watchdog(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
     node.pages = page_server_open(line->metrics, "/metrics",
                                   "text/plain; version=0.0.4; charset=utf-8", write_metrics, &node);
     node.log = node_log_open(line->log, is_live, &limits);
-    node.print = node_print_start(line->print, is_live);
+    node.print = node_print_start_rows_or_table(line->print, is_live);
     if (line->seconds > 0) {
         node.end_us = node.status_us + llround(line->seconds * 1e6);
     }
@@ -772,7 +776,7 @@ int command_node(struct command_line *line)
     page_server_close(node.pages);
     transport_close(node.transport);
     node_core_close(node.core);
-    node_log_close(node.log);
+    node_log_free_if_written(node.log);
     scan_interval_hint_free(&node.plots);
     close(node.signals);
     close(node.hang_ups);

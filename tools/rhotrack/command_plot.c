@@ -7,9 +7,9 @@
 #include "base/common.h"
 #include "command_line.h"
 #include "commands.h"
-#include "io/output/clutter_map_file.h"
-#include "picture/html_page.h"
-#include "picture/picture.h"
+#include "io/output/clutter_map_load_and_save.h"
+#include "picture/gnuplot_picture_file.h"
+#include "picture/interactive_map_page.h"
 #include "picture/picture_data.h"
 #include "picture/plot_bearings.h"
 #include "picture/plot_clutter_map.h"
@@ -28,7 +28,7 @@ static void require_points(const struct plot_points *points, const char *kind, c
 /*
  * Exit 2 where the data have no times but the truth's, at which the slider of an HTML page stops.
  */
-static void require_times_besides_truth(const struct picture_data *data)
+static void require_data_besides_truth_for_page(const struct picture_data *data)
 {
     if (data->plots.count + data->tracks.count + data->bearings.count == 0) {
         fail(EXIT_USAGE, "plot: a page needs plots, tracks or bearings beside the truth; "
@@ -83,23 +83,23 @@ static void compute_votes_of_method(struct drawn_results *results, const struct 
              method_name(method));
     }
     method_suggest_parameters(method, &line->parameters);
-    results->revolutions = plot_parameter_space_read(
+    results->revolutions = plot_parameter_space_read_last_scans(
         data, &line->parameters, (size_t)line->parameters.value[PARAMETER_SCANS]);
-    results->votes = plot_votes_find(method, &results->revolutions, &line->parameters);
+    results->votes = plot_votes_compute_pictures(method, &results->revolutions, &line->parameters);
 }
 
-static struct drawn_results compute_results_to_draw(const char *kind,
-                                                    const struct picture_data *data,
-                                                    struct command_line *line)
+static struct drawn_results compute_errors_or_votes_to_draw(const char *kind,
+                                                            const struct picture_data *data,
+                                                            struct command_line *line)
 {
     const struct parameters *parameters = &line->parameters;
     struct drawn_results results = {.revolutions = {.count = 0}};
     if (strcmp(kind, "errors") == 0) {
-        results.errors = plot_errors_find(data, parameters);
+        results.errors = plot_errors_find_track_position_errors(data, parameters);
     } else if (strcmp(kind, "parameter-space") == 0 && line->method) {
         compute_votes_of_method(&results, data, line);
     } else if (strcmp(kind, "parameter-space") == 0) {
-        results.revolutions = plot_parameter_space_read(data, parameters, RHO_MAX_SCANS);
+        results.revolutions = plot_parameter_space_read_last_scans(data, parameters, RHO_MAX_SCANS);
     }
     return results;
 }
@@ -111,7 +111,7 @@ static void draw_picture_of_kind(const char *kind, struct picture *picture,
     if (strcmp(kind, "scans") == 0 && data->bearings.num_sensors) {
         plot_bearings(picture, data);
     } else if (strcmp(kind, "scans") == 0) {
-        plot_scans(picture, data);
+        plot_scans_coloured_by_time(picture, data);
     } else if (strcmp(kind, "tracks") == 0) {
         plot_tracks(picture, data);
     } else if (strcmp(kind, "errors") == 0) {
@@ -119,7 +119,7 @@ static void draw_picture_of_kind(const char *kind, struct picture *picture,
     } else if (results->votes) {
         plot_votes(picture, results->votes);
     } else {
-        plot_parameter_space(picture, data, &results->revolutions);
+        plot_hough_votes_and_track_lines(picture, data, &results->revolutions);
     }
 }
 
@@ -136,7 +136,7 @@ static int plot_clutter_map(const struct command_line *line)
     }
     struct picture picture = picture_open(line->output, 1000, 900);
     plot_clutter(&picture, echoes, count, &data, &line->parameters);
-    picture_close(&picture);
+    picture_draw_and_close(&picture);
     free(echoes);
     picture_data_free(&data);
     return 0;
@@ -167,15 +167,15 @@ int command_plot(struct command_line *line)
         picture_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_data_for_kind(kind, &data);
     if (html_page_path_is_html(line->output)) {
-        require_times_besides_truth(&data);
+        require_data_besides_truth_for_page(&data);
         html_page_write(line->output, &data, &line->parameters);
         picture_data_free(&data);
         return 0;
     }
-    struct drawn_results results = compute_results_to_draw(kind, &data, line);
+    struct drawn_results results = compute_errors_or_votes_to_draw(kind, &data, line);
     struct picture picture = picture_open(line->output, 1100, 680);
     draw_picture_of_kind(kind, &picture, &data, &results);
-    picture_close(&picture);
+    picture_draw_and_close(&picture);
     revolutions_free(&results.revolutions);
     plot_errors_free(&results.errors);
     plot_votes_free(results.votes);

@@ -10,9 +10,9 @@
 #include "base/common.h"
 #include "commands.h"
 #include "io/asterix/asterix_udp_receiver.h"
+#include "io/log/files_to_message_stream.h"
 #include "io/log/lcm_log.h"
 #include "io/log/message_shift.h"
-#include "io/log/message_source.h"
 #include "io/scans/scan_interval_hint.h"
 #include "live/publish_common.h"
 #include "rhotrack/udpm.h"
@@ -50,7 +50,7 @@ struct player {
 
 /* ---- Time ---- */
 
-static bool is_playback_over(const struct player *player)
+static bool is_playback_stopped_by_time_or_signal(const struct player *player)
 {
     return player->is_over || publish_is_stopped();
 }
@@ -73,7 +73,7 @@ static void sleep_until(struct player *player, uint64_t deadline_ns)
                           ? player->start_ns + (uint64_t)(player->line->seconds * 1e9)
                           : UINT64_MAX;
 
-    while (!is_playback_over(player) && now_ns < deadline_ns) {
+    while (!is_playback_stopped_by_time_or_signal(player) && now_ns < deadline_ns) {
         uint64_t next_ns = deadline_ns - now_ns > PIECE_NS ? now_ns + PIECE_NS : deadline_ns;
         struct timespec next = {(time_t)(next_ns / NS_PER_S), (long)(next_ns % NS_PER_S)};
 
@@ -96,7 +96,7 @@ static void wait_for_event_time(struct player *player, int64_t utime)
     uint64_t deadline_ns =
         player->start_ns + (uint64_t)(fmin(fmax(after_s, 0), LATEST_S) * NS_PER_S);
     sleep_until(player, deadline_ns);
-    if (player->line->speed > 0 && !is_playback_over(player)) {
+    if (player->line->speed > 0 && !is_playback_stopped_by_time_or_signal(player)) {
         player->lag_max_s =
             fmax(player->lag_max_s, (double)(monotonic_ns() - deadline_ns) / NS_PER_S);
     }
@@ -130,7 +130,7 @@ static void record_first_pass_event(struct player *player, const struct message_
     if (player->passes > 0) {
         return;
     }
-    scan_interval_hint_add_message(&player->plots, event);
+    scan_interval_hint_count_lone_plots(&player->plots, event);
     player->times += player->times == 0 || event->utime != player->last_us;
     player->last_us = event->utime;
     if (message_scan_number(event->data, event->size, &scan)) {
@@ -173,7 +173,8 @@ static const uint8_t *adapt_message_to_pass(struct player *player,
     }
     memcpy(player->buffer, event->data, event->size);
     if (player->epoch) {
-        message_replace_epoch(player->buffer, event->size, PUBLISH_EPOCH_OF_CSV, player->epoch);
+        message_replace_epoch_number(player->buffer, event->size, PUBLISH_EPOCH_OF_CSV,
+                                     player->epoch);
     }
     if (player->passes > 0) {
         message_shift_in_time(player->buffer, event->size, (int64_t)player->shift_us,
@@ -190,10 +191,10 @@ static void send_event(struct player *player, const struct message_event *event)
                                              adapt_message_to_pass(player, event), event->size);
 }
 
-static struct message_source *open_message_source(const struct command_line *line)
+static struct message_source *open_input_files_as_messages(const struct command_line *line)
 {
-    return message_source_open(line->arguments, line->num_arguments, &line->parameters,
-                               line->keep_going);
+    return message_source_open_logs_or_csv(line->arguments, line->num_arguments, &line->parameters,
+                                           line->keep_going);
 }
 
 /* Sends all messages of the source once at their times, and closes the source. */
@@ -201,14 +202,14 @@ static void play_pass(struct player *player, struct message_source *source)
 {
     struct message_event event;
 
-    while (!is_playback_over(player) && message_source_next(source, &event)) {
+    while (!is_playback_stopped_by_time_or_signal(player) && message_source_next(source, &event)) {
         if (!player->start_ns) {
             player->start_ns = monotonic_ns();
             player->first_us = event.utime;
         }
         record_first_pass_event(player, &event);
         wait_for_event_time(player, event.utime);
-        if (!is_playback_over(player)) {
+        if (!is_playback_stopped_by_time_or_signal(player)) {
             send_event(player, &event);
         }
     }
@@ -249,7 +250,7 @@ static bool has_epoch_column(const char *path)
  * The epoch by which messages of CSV files show that their sensors restarted. 0 where a log or a
  * column epoch already gives one.
  */
-static int32_t epoch_for_csv_inputs(const struct command_line *line)
+static int32_t restart_epoch_of_csv_messages_or_zero(const struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments; i++) {
         if (lcm_log_is_log(line->arguments[i]) || has_epoch_column(line->arguments[i])) {
@@ -277,7 +278,7 @@ static void print_summary(const struct player *player)
 
 int command_publish(struct command_line *line)
 {
-    struct player player = {.line = line, .epoch = epoch_for_csv_inputs(line)};
+    struct player player = {.line = line, .epoch = restart_epoch_of_csv_messages_or_zero(line)};
     struct message_source *source;
 
     if (asterix_udp_receiver_is_url(line->arguments[0])) {
@@ -289,12 +290,12 @@ int command_publish(struct command_line *line)
         }
     }
     publish_watch_signals();
-    source = open_message_source(
+    source = open_input_files_as_messages(
         line); /* input errors are reported before the output log is truncated */
     player.transport = transport_open(line->lcm, TRANSPORT_SEND);
     play_pass(&player, source);
-    while (line->loop && !is_playback_over(&player)) {
-        play_pass(&player, open_message_source(line));
+    while (line->loop && !is_playback_stopped_by_time_or_signal(&player)) {
+        play_pass(&player, open_input_files_as_messages(line));
     }
     print_summary(&player);
     transport_close(player.transport);

@@ -60,7 +60,7 @@ static void refuse_config_option(const struct command_line *line)
 }
 
 /* Suggests tracking the simulated plots and bearings with the scenario.ini of the scene. */
-static void suggest_next_command(const struct command_line *line)
+static void suggest_track_command(const struct command_line *line)
 {
     char *folder =
         line->runs > 1 ? path_join(line->output, "run-0000") : must_copy_text(line->output);
@@ -107,6 +107,6 @@ int command_simulate(struct command_line *line)
         scene_simulate(scene, line->arguments[0], line->output, line->seed, 0);
     }
     scene_free(scene);
-    suggest_next_command(line);
+    suggest_track_command(line);
     return 0;
 }

@@ -12,17 +12,17 @@
 #include "base/common.h"
 #include "command_line.h"
 #include "commands.h"
-#include "initiation/last_bearings.h"
-#include "io/output/clutter_map_file.h"
+#include "initiation/search_last_bearing_frames.h"
+#include "io/output/clutter_map_load_and_save.h"
 #include "io/output/tracks_output.h"
 #include "io/output/zone_events_output.h"
 #include "io/scans/bearing_frame_reader.h"
-#include "io/scans/merged_inputs.h"
+#include "io/scans/merge_plots_and_bearings.h"
 #include "io/scans/plot_scan_reader.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/pipeline_show_messages.h"
+#include "pipeline/pipeline_show_ghosts_votes_hypotheses.h"
 #include "settings/initiation_method.h"
 #include "suggested_next_command.h"
 
@@ -64,7 +64,8 @@ static void check_and_set_passive_sensors(struct tracking *tracking,
         struct parameters customary = *parameters;
 
         method_suggest_parameters(METHOD_PASSIVE, &customary);
-        bearing_sensors_check(sensors, count, &tracking->pipeline.passive->batch, &customary);
+        bearing_sensors_fail_if_too_many_or_far(sensors, count, &tracking->pipeline.passive->batch,
+                                                &customary);
     }
     for (size_t i = 0; i < count; i++) {
         struct rho_sensor sensor;
@@ -85,14 +86,14 @@ static void step_and_time_input(struct tracking *tracking, const struct input *i
     if (input->sensor) {
         set_sensor_of_tracker(tracking, input->sensor);
     }
-    start_us = clock_us();
+    start_us = monotonic_clock_us();
     if (input->scan) {
         no_tracks_reason_add_scan(&tracking->seen, input->scan);
         pipeline_step(&tracking->pipeline, input->scan);
     } else {
         pipeline_step_frame(&tracking->pipeline, input->frame);
     }
-    took_us = clock_us() - start_us;
+    took_us = monotonic_clock_us() - start_us;
     tracking->sum_us += took_us;
     if (took_us > tracking->max_us) {
         tracking->max_us = took_us;
@@ -109,7 +110,7 @@ static void write_show_message(void *context, const char *channel, const uint8_t
 {
     const struct shown *shown = context;
 
-    tracks_output_write_message(shown->tracks, shown->time_us, channel, data, size);
+    tracks_output_write_message_to_log(shown->tracks, shown->time_us, channel, data, size);
 }
 
 static void step_and_write_input(struct tracking *tracking, const struct input *input,
@@ -191,30 +192,32 @@ static bool step_complete_scans(struct tracking *tracking, struct merged_inputs 
  * Steps scans as the file grows, until a signal, the end of a pipe, or the end of the file. Returns
  * why the file ended ("has become shorter"), or NULL.
  */
-static const char *follow_growing_file(struct tracking *tracking, struct merged_inputs *inputs,
-                                       struct tracks_output *tracks, int64_t quiet_us)
+static const char *track_growing_file_until_signal_or_end(struct tracking *tracking,
+                                                          struct merged_inputs *inputs,
+                                                          struct tracks_output *tracks,
+                                                          int64_t quiet_us)
 {
     const struct timespec pause = {.tv_nsec = 100000000};
     struct plot_scan_reader *reader = merged_inputs_scan_reader(inputs);
     uint64_t position = 0;
-    int64_t since_us = clock_us();
+    int64_t since_us = monotonic_clock_us();
     const char *why = NULL;
 
     while (!is_stopped) {
         (void)clutter_map_file_save_if_due(&tracking->clutter,
                                            &tracking->pipeline.tracker->clutter_map);
-        why = plot_scan_reader_why_ended(
+        why = plot_scan_reader_why_cannot_be_followed(
             reader); /* rows added before the file ended are still read */
         if (step_complete_scans(tracking, inputs, tracks) ||
             position != merged_inputs_bytes_read(inputs) || plot_scan_reader_is_mid_row(reader)) {
-            since_us = clock_us();
+            since_us = monotonic_clock_us();
             position = merged_inputs_bytes_read(inputs);
         }
         if (why || !plot_scan_reader_waits_for_rows(reader)) {
             break;
         }
-        if (clock_us() - since_us >= quiet_us) {
-            plot_scan_reader_complete_scans(reader);
+        if (monotonic_clock_us() - since_us >= quiet_us) {
+            plot_scan_reader_complete_scans_so_far(reader);
         }
         nanosleep(&pause, NULL);
     }
@@ -235,9 +238,10 @@ static int64_t follow_quiet_us(const struct parameters *parameters)
 }
 
 /* Tracks a growing input to its end; scans still incomplete at the end are stepped as they are. */
-static const char *follow_input_to_end(struct tracking *tracking, struct merged_inputs *inputs,
-                                       struct tracks_output *tracks,
-                                       const struct parameters *parameters)
+static const char *follow_input_and_return_why_it_ended(struct tracking *tracking,
+                                                        struct merged_inputs *inputs,
+                                                        struct tracks_output *tracks,
+                                                        const struct parameters *parameters)
 {
     struct input input;
     const char *why;
@@ -247,7 +251,8 @@ static const char *follow_input_to_end(struct tracking *tracking, struct merged_
     if (tracks) {
         tracks_output_flush(tracks);
     }
-    why = follow_growing_file(tracking, inputs, tracks, follow_quiet_us(parameters));
+    why = track_growing_file_until_signal_or_end(tracking, inputs, tracks,
+                                                 follow_quiet_us(parameters));
     plot_scan_reader_end_reading(merged_inputs_scan_reader(inputs));
     while ((input = merged_inputs_next(inputs)).scan) {
         step_and_write_input(tracking, &input, tracks);
@@ -258,7 +263,7 @@ static const char *follow_input_to_end(struct tracking *tracking, struct merged_
 /* ---- What it comes to ---- */
 
 static double mean_step_us(const struct tracking *tracking,
-                           const struct merged_inputs_counts *counts)
+                           const struct merged_inputs_step_and_plot_counts *counts)
 {
     return counts->steps ? (double)tracking->sum_us / (double)counts->steps : 0;
 }
@@ -276,7 +281,7 @@ static const char *advice_on_late_scans(const struct parameters *parameters, uin
 }
 
 static void print_summary(const struct tracking *tracking,
-                          const struct merged_inputs_counts *counts,
+                          const struct merged_inputs_step_and_plot_counts *counts,
                           const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
@@ -409,7 +414,7 @@ static double count_known_echoes(const struct rho_clutter_map *map)
 }
 
 static void print_run_json(const struct tracking *tracking, const struct merged_inputs *inputs,
-                           const struct merged_inputs_counts *counts,
+                           const struct merged_inputs_step_and_plot_counts *counts,
                            const struct parameters *parameters)
 {
     const struct rho_tracker_counters *counters = &tracking->pipeline.tracker->counters;
@@ -476,14 +481,14 @@ static void check_clutter_map_is_separate(const struct command_line *line)
 static struct merged_inputs *open_inputs(const struct command_line *line)
 {
     if (!line->follow) {
-        return merged_inputs_open(line->arguments, line->num_arguments, &line->parameters,
-                                  line->keep_going);
+        return merged_inputs_open_plots_and_bearings(line->arguments, line->num_arguments,
+                                                     &line->parameters, line->keep_going);
     }
     if (line->num_arguments > 1) {
         fail(EXIT_USAGE, "--follow takes one input");
     }
     refuse_output_that_is_an_input(line); /* --follow writes the output in place */
-    return merged_inputs_follow(line->arguments[0], &line->parameters, line->keep_going);
+    return merged_inputs_follow_plots(line->arguments[0], &line->parameters, line->keep_going);
 }
 
 static struct tracks_output *open_tracks_output(const struct command_line *line)
@@ -509,7 +514,7 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
                                          const struct merged_inputs *inputs,
                                          const struct command_line *line)
 {
-    struct merged_inputs_counts counts = merged_inputs_counts(inputs);
+    struct merged_inputs_step_and_plot_counts counts = merged_inputs_step_and_plot_counts(inputs);
 
     print_summary(tracking, &counts, &line->parameters);
     if (tracking->pipeline.tracker->counters.tracks_confirmed == 0 && counts.frames == 0) {
@@ -528,7 +533,7 @@ static void print_summary_zones_and_json(const struct tracking *tracking,
  * Suggests evaluate where a truth.csv stands beside the plots, else a page of the tracks. Notes a
  * scenario.ini beside the plots that was not used.
  */
-static void suggest_next_command(const struct command_line *line)
+static void suggest_evaluate_or_page_command(const struct command_line *line)
 {
     const char *plots = line->arguments[0];
     char *truth = suggested_next_command_find_file_beside(plots, "truth.csv");
@@ -573,7 +578,7 @@ int command_track(struct command_line *line)
     }
     tracking.zones = open_zone_events_output(line);
     if (line->follow) {
-        why = follow_input_to_end(&tracking, inputs, tracks, &line->parameters);
+        why = follow_input_and_return_why_it_ended(&tracking, inputs, tracks, &line->parameters);
     } else {
         step_and_write_all_inputs(&tracking, inputs, tracks,
                                   !line->output && isatty(STDOUT_FILENO));
@@ -590,7 +595,7 @@ int command_track(struct command_line *line)
         fail(EXIT_RUNTIME, "%s %s: --follow ends", line->arguments[0], why);
     }
     if (has_tracks) {
-        suggest_next_command(line);
+        suggest_evaluate_or_page_command(line);
     }
     return is_saved ? 0 : EXIT_RUNTIME;
 }

@@ -288,6 +288,6 @@ int main(int argc, char **argv)
     command_line_set_origin_and_places(&line);
     const int exit_code = command->run(&line);
 
-    table_dialect_check_columns_option();
+    table_dialect_fail_if_columns_option_unused();
     return exit_code;
 }

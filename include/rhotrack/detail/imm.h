@@ -170,8 +170,8 @@ void rho_imm_prepare_plot(struct rho_imm_plot *seen, const struct rho_plot *plot
  * model, else 0. Height, velocity and range rate are scored if plot and estimate have them.
  * Cost: about 250 instructions, coupled or with own covariance 500. Stack: 710 bytes.
  */
-int rho_imm_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *seen,
-                       struct rho_imm_match *match);
+int rho_imm_predict_rates_and_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *seen,
+                                         struct rho_imm_match *match);
 
 /*
  * Range rates that both models predict for a sensor; they hold for all plots at the estimate's
@@ -196,8 +196,8 @@ void rho_imm_predict_range_rates(struct rho_imm_rates *rates, const struct rho_i
                                  const struct rho_sensor *sensor);
 
 /*
- * Scores a plot as rho_imm_score_plot does, with range rates that were predicted for its sensor;
- * they are not read for a plot without a range rate. Stack: 620 bytes.
+ * Scores a plot as rho_imm_predict_rates_and_score_plot does, with range rates that were predicted
+ * for its sensor; they are not read for a plot without a range rate. Stack: 620 bytes.
  */
 int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_imm_rates *rates,
                                   const struct rho_imm_plot *seen, struct rho_imm_match *match);

@@ -86,7 +86,7 @@ struct rho_input {
  * Two-sided threshold of a standard normal: 0.95 gives 1.96. Absolute error <= 1e-3 for 0 .. .9999;
  * NaN outside 0 .. 1, exclusive of 1. Cost: a logarithm, a square root. Stack: 32 bytes.
  */
-float rho_input_threshold(float confidence);
+float rho_input_threshold_sigmas(float confidence);
 
 /*
  * Fills *config as in the paper: literal D, sigma 22.36 m/s^2, confidence .95, gamma 1, noise 1 m
@@ -119,25 +119,24 @@ RHO_MUST_CHECK enum rho_status rho_input_predict(struct rho_input *input,
  * estimated input would exceed 1e12 m/s^2. Cost: about 460 instructions, 880 coupled. Stack: 550
  * bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_input_update(struct rho_input *input,
-                                                const struct rho_input_config *config, int element,
-                                                float value, float variance);
+RHO_MUST_CHECK enum rho_status
+rho_input_update_filter_by_element(struct rho_input *input, const struct rho_input_config *config,
+                                   int element, float value, float variance);
 
 /*
  * One scalar update: row . state was measured, `innovation` is its measured value minus that of the
- * bare filter.
- * Errors: as rho_kalman_update_row and rho_input_update. Cost: about 1500 instructions. Stack: 520
- * bytes.
+ * bare filter. Errors: as rho_kalman_update_row and rho_input_update_filter_by_element. Cost: about
+ * 1500 instructions. Stack: 520 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_input_update_row(struct rho_input *input,
-                                                    const struct rho_input_config *config,
-                                                    const float row[6], float innovation,
-                                                    float variance);
+RHO_MUST_CHECK enum rho_status rho_input_update_filter_by_row(struct rho_input *input,
+                                                              const struct rho_input_config *config,
+                                                              const float row[6], float innovation,
+                                                              float variance);
 
 /*
  * Updates with a position, in the frame of its noise. Opens axes and has errors as
- * rho_kalman_update_position. Cost: rho_input_update an axis; where the noise is not isotropic,
- * rho_input_update_row. Stack: 1050 bytes.
+ * rho_kalman_update_position. Cost: rho_input_update_filter_by_element an axis; where the noise is
+ * not isotropic, rho_input_update_filter_by_row. Stack: 1050 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_update_position(struct rho_input *input,
                                                          const struct rho_input_config *config,
@@ -146,7 +145,7 @@ RHO_MUST_CHECK enum rho_status rho_input_update_position(struct rho_input *input
 /*
  * Updates with a range rate, linearised at the corrected estimate. Errors: as
  * rho_kalman_update_range_rate.
- * Cost: rho_input_estimate and rho_input_update_row. Stack: 740 bytes.
+ * Cost: rho_input_estimate and rho_input_update_filter_by_row. Stack: 740 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_update_range_rate(struct rho_input *input,
                                                            const struct rho_input_config *config,
@@ -184,7 +183,7 @@ void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estima
  * since the last plot, so that an input of 0 with variance V(0) is included. Cost as
  * rho_input_estimate, stack as above.
  */
-void rho_input_estimate_for_gate(const struct rho_input *input, struct rho_kalman *estimate);
+void rho_input_estimate_with_all_inputs(const struct rho_input *input, struct rho_kalman *estimate);
 
 #ifdef __cplusplus
 }

@@ -195,7 +195,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalm
                                                          float sigma_rad);
 
 /* True if axis 0 (x), 1 (y) or 2 (z) was opened. */
-int rho_kalman_is_axis_open(const struct rho_kalman *kalman, int axis);
+int rho_kalman_has_estimate_on_axis(const struct rho_kalman *kalman, int axis);
 
 #ifdef __cplusplus
 }

@@ -23,11 +23,11 @@
 
 #include <stdint.h>
 
-#include "rhotrack/detail/clutter_map.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/detail/input_estimation.h"
 #include "rhotrack/detail/kalman.h"
+#include "rhotrack/detail/recurring_clutter_map.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus
@@ -207,8 +207,9 @@ RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_
  * time_us without process noise.
  * Errors and costs as rho_track_predict. Stack: 570 bytes.
  */
-RHO_MUST_CHECK enum rho_status rho_track_return_to_time(struct rho_track *track, int64_t time_us,
-                                                        const struct rho_track_model *model);
+RHO_MUST_CHECK enum rho_status
+rho_track_return_to_time_it_was_moved_from(struct rho_track *track, int64_t time_us,
+                                           const struct rho_track_model *model);
 
 /*
  * Updates a track with a plot: predicts to the plot's time, and updates with its position, velocity
@@ -218,10 +219,10 @@ RHO_MUST_CHECK enum rho_status rho_track_return_to_time(struct rho_track *track,
  * time, or are lost where that was refused. Cost: a prediction where the plot has its own time, and
  * 2 to 7 scalar updates. Stack: 1.4 KB.
  */
-RHO_MUST_CHECK enum rho_status rho_track_update(struct rho_track *track,
-                                                const struct rho_track_plot *plot,
-                                                const struct rho_track_model *model,
-                                                int32_t gain_mnat);
+RHO_MUST_CHECK enum rho_status rho_track_update_by_plot(struct rho_track *track,
+                                                        const struct rho_track_plot *plot,
+                                                        const struct rho_track_model *model,
+                                                        int32_t gain_mnat);
 
 /*
  * Ends a scan for a track with hypotheses whose plots were scored (rho_hypotheses_commit): the plot

@@ -302,7 +302,7 @@ static void keep_last_skips_all_but_the_last_frames(void **state)
     (void)state;
 
     bearing_frame_reader_keep_last(given.reader, 4);
-    assert_int_equal(bearing_frame_reader_num_frames(given.reader), 4);
+    assert_int_equal(bearing_frame_reader_frames_in_files(given.reader), 4);
     bearing_frame_reader_keep_last(given.reader, 2);
     assert_frames(&given, (const char *[]){"20000: 1(1)", "30000: 2(1)", "end"});
     close_and_delete_files(&given);

@@ -3,7 +3,7 @@
  * The gate of bearings: distance, determinant, limit and own times, compared with the linearised
  * filter in double precision.
  */
-#include "dense_bearing.h"
+#include "dense_filter_bearing_measurement.h"
 #include "kalman_checks.h"
 #include "rhotrack/detail/gate.h"
 

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "rhotrack/detail/bearing_frame_batch.h"
+#include "rhotrack/detail/recent_bearing_frames.h"
 #include "rhotrack/frames.h"
 
 #define SENSORS RHO_MAX_PASSIVE_SENSORS

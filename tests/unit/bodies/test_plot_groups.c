@@ -195,7 +195,8 @@ static void the_gate_of_an_unknown_body_is_half_the_longest(void **state)
 {
     (void)state;
     start_tracker_with_bodies(0);
-    assert_float_equal(rho_tracker_body_prior_variance_m2(&tracker), 5.0 * 5.0 / 12.0, 1e-6);
+    assert_float_equal(rho_tracker_prior_place_variance_on_body_m2(&tracker), 5.0 * 5.0 / 12.0,
+                       1e-6);
 }
 
 /* Work units: six for a plot and a body, two for a pair of plots, one for each skipped plot. */

@@ -525,7 +525,7 @@ static void update_pair_with_plot(struct pair *pair, const struct rho_plot *plot
 
     rho_imm_prepare_plot(&seen, plot, measures, sensor);
     pair->num_plots++;
-    if (!rho_imm_score_plot(&pair->imm, &seen, &match)) {
+    if (!rho_imm_predict_rates_and_score_plot(&pair->imm, &seen, &match)) {
         assert_true(here.nearest2 > 0.99 * RHO_IMM_GATE);
         return;
     }
@@ -726,7 +726,7 @@ static void compare_coupled_and_decoupled(struct rho_imm both[2], const struct r
         rho_imm_prepare_plot(&seen, &plot, num_axes == 3 ? RHO_MEASURES_Z : 0, NULL);
         for (int i = 0; i < 2; ++i) {
             assert_int_equal(rho_imm_predict(&both[i], &step), RHO_OK);
-            assert_true(rho_imm_score_plot(&both[i], &seen, &match[i]));
+            assert_true(rho_imm_predict_rates_and_score_plot(&both[i], &seen, &match[i]));
             assert_int_equal(rho_imm_update(&both[i], model, &seen, &match[i]), RHO_OK);
             rho_imm_estimate(&both[i], &estimate[i], NULL);
         }
@@ -830,7 +830,7 @@ static void a_prepared_gate_scores_as_a_single_plot_does(void **state)
 
             rho_imm_prepare_plot(&seen, &plot, measures, NULL);
             const float *place_m = seen.position.place_m;
-            const int is_near = rho_imm_score_plot(&imm, &seen, &one);
+            const int is_near = rho_imm_predict_rates_and_score_plot(&imm, &seen, &one);
             assert_int_equal(rho_imm_score_position_in_gate(&gate, place_m, -FLT_MAX,
                                                             &log_likelihood, &probability),
                              is_near);
@@ -1001,7 +1001,7 @@ static void scores_with_prepared_range_rates_equal_scores_without(void **state)
         rho_imm_start(&imm, &model, &at);
         rho_imm_predict_range_rates(&rates, &imm, &sensor);
         rho_imm_prepare_plot(&seen, &plot, RHO_MEASURES_RANGE_RATE, &sensor);
-        const int is_near = rho_imm_score_plot(&imm, &seen, &one);
+        const int is_near = rho_imm_predict_rates_and_score_plot(&imm, &seen, &one);
         assert_int_equal(rho_imm_score_plot_with_rates(&imm, &rates, &seen, &other), is_near);
         if (is_near) {
             assert_float_equal(one.log_likelihood, other.log_likelihood, 1e-3);

@@ -192,9 +192,9 @@ static void update_input(struct pair *pair, const struct look *look)
                          RHO_OK);
     }
     for (int i = 0; i < look->num_elements; ++i) {
-        assert_int_equal(
-            rho_input_update(&pair->input, &pair->config, i, look->values[i], look->variance),
-            RHO_OK);
+        assert_int_equal(rho_input_update_filter_by_element(&pair->input, &pair->config, i,
+                                                            look->values[i], look->variance),
+                         RHO_OK);
     }
 }
 
@@ -243,7 +243,7 @@ static void predict_pair(struct pair *pair, const struct scene *scene)
     assert_int_equal(rho_input_predict(&pair->input, &pair->config, (float)scene->setting.dt),
                      RHO_OK);
     ref_augmented_predict(&pair->augmented, &scene->setting);
-    rho_input_estimate_for_gate(&pair->input, &estimate);
+    rho_input_estimate_with_all_inputs(&pair->input, &estimate);
     assert_estimate_near_reference(&estimate, &pair->augmented, tolerance_of(scene));
 }
 

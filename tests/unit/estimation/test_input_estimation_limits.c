@@ -46,7 +46,8 @@ static void follow_pushed_target(struct rho_input *input, const struct rho_input
         const float truth[STATES] = {100.0f, 200.0f, z, 0.0f, 0.0f, speed};
         assert_int_equal(rho_input_predict(input, config, DT_S), RHO_OK);
         for (int i = 0; i < STATES; ++i) {
-            assert_int_equal(rho_input_update(input, config, i, truth[i], 1.0f), RHO_OK);
+            assert_int_equal(rho_input_update_filter_by_element(input, config, i, truth[i], 1.0f),
+                             RHO_OK);
         }
         rho_input_test_and_end_inputs(input, config);
     }
@@ -64,9 +65,9 @@ static void filter_and_input_fit_their_memory_budget(void **state)
 static void thresholds_follow_from_the_confidence(void **state)
 {
     (void)state;
-    assert_float_equal(rho_input_threshold(0.95f), 1.95996, 1e-3);
+    assert_float_equal(rho_input_threshold_sigmas(0.95f), 1.95996, 1e-3);
     for (int n = 0; n <= 9999; ++n) {
-        const float confidence = (float)n / 10000.0f, t = rho_input_threshold(confidence);
+        const float confidence = (float)n / 10000.0f, t = rho_input_threshold_sigmas(confidence);
         double low = 0.0, high = 5.0;
 
         for (int k = 0; k < 60; ++k) { /* expected threshold, by bisection */
@@ -80,8 +81,10 @@ static void thresholds_follow_from_the_confidence(void **state)
         }
         assert_float_equal(t, low, 1e-3);
     }
-    assert_true(isnan(rho_input_threshold(1.0f)) && isnan(rho_input_threshold(-0.01f)));
-    assert_true(isnan(rho_input_threshold(NAN)) && isnan(rho_input_threshold(INFINITY)));
+    assert_true(isnan(rho_input_threshold_sigmas(1.0f)) &&
+                isnan(rho_input_threshold_sigmas(-0.01f)));
+    assert_true(isnan(rho_input_threshold_sigmas(NAN)) &&
+                isnan(rho_input_threshold_sigmas(INFINITY)));
 }
 
 static void the_default_configuration_is_the_papers(void **state)
@@ -197,9 +200,9 @@ static void the_literal_model_sees_no_input_in_positions(void **state)
         for (int k = 1; k <= 20; ++k) {
             assert_int_equal(rho_input_predict(&input, &config, DT_S), RHO_OK);
             for (int axis = 0; axis < 3; ++axis) {
-                assert_int_equal(
-                    rho_input_update(&input, &config, axis, 100.0f + 40.0f * (float)(k * k), 1.0f),
-                    RHO_OK);
+                assert_int_equal(rho_input_update_filter_by_element(
+                                     &input, &config, axis, 100.0f + 40.0f * (float)(k * k), 1.0f),
+                                 RHO_OK);
             }
             rho_input_test_and_end_inputs(&input, &config);
             seen |= input.present;
@@ -257,7 +260,8 @@ static void without_input_estimation_it_equals_the_kalman_filter(void **state)
         assert_int_equal(rho_input_update_position(&input, &config, &seen), RHO_OK);
         assert_int_equal(rho_kalman_update_position(&kalman, &seen, config.velocity_variance),
                          RHO_OK);
-        assert_int_equal(rho_input_update(&input, &config, k % 6, 50.0f, 30.0f), RHO_OK);
+        assert_int_equal(rho_input_update_filter_by_element(&input, &config, k % 6, 50.0f, 30.0f),
+                         RHO_OK);
         assert_int_equal(rho_kalman_update(&kalman, k % 6, 50.0f, 30.0f, NULL), RHO_OK);
         assert_int_equal(rho_input_update_range_rate(&input, &config, NULL, 20.0f, 4.0f), RHO_OK);
         assert_int_equal(rho_kalman_update_range_rate(&kalman, NULL, 20.0f, 4.0f), RHO_OK);
@@ -337,11 +341,12 @@ static void an_axis_opened_later_can_have_an_input(void **state)
     for (int k = 0; k < 10; ++k) {
         assert_int_equal(rho_input_predict(&input, &config, DT_S), RHO_OK);
         assert_true(input.sensitivity[2][5] == 0.0f && input.bare.covariance[RHO_AT(2, 2)] == 0.0f);
-        assert_int_equal(rho_input_update(&input, &config, 0, 100.0f, 1.0f), RHO_OK);
+        assert_int_equal(rho_input_update_filter_by_element(&input, &config, 0, 100.0f, 1.0f),
+                         RHO_OK);
         rho_input_test_and_end_inputs(&input, &config);
     }
     assert_int_equal(rho_input_update_position(&input, &config, &seen), RHO_OK);
-    assert_true(rho_kalman_is_axis_open(&input.bare, 2));
+    assert_true(rho_kalman_has_estimate_on_axis(&input.bare, 2));
     rho_input_test_and_end_inputs(&input, &config);
     follow_pushed_target(&input, &config, 21, 21, 98.0f);
     assert_int_equal(input.present, 4);
@@ -401,11 +406,15 @@ static void null_is_refused(void **state)
     (void)state;
     assert_int_equal(rho_input_predict(NULL, &config, 1.0f), RHO_ERROR_NULL);
     assert_int_equal(rho_input_predict(&input, NULL, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_input_update(NULL, &config, 0, 1.0f, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_input_update(&input, NULL, 0, 1.0f, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_input_update_row(NULL, &config, row, 1.0f, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_input_update_row(&input, NULL, row, 1.0f, 1.0f), RHO_ERROR_NULL);
-    assert_int_equal(rho_input_update_row(&input, &config, NULL, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_input_update_filter_by_element(NULL, &config, 0, 1.0f, 1.0f),
+                     RHO_ERROR_NULL);
+    assert_int_equal(rho_input_update_filter_by_element(&input, NULL, 0, 1.0f, 1.0f),
+                     RHO_ERROR_NULL);
+    assert_int_equal(rho_input_update_filter_by_row(NULL, &config, row, 1.0f, 1.0f),
+                     RHO_ERROR_NULL);
+    assert_int_equal(rho_input_update_filter_by_row(&input, NULL, row, 1.0f, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_input_update_filter_by_row(&input, &config, NULL, 1.0f, 1.0f),
+                     RHO_ERROR_NULL);
     assert_int_equal(rho_input_update_position(NULL, &config, &seen), RHO_ERROR_NULL);
     assert_int_equal(rho_input_update_position(&input, NULL, &seen), RHO_ERROR_NULL);
     assert_int_equal(rho_input_update_position(&input, &config, NULL), RHO_ERROR_NULL);
@@ -434,11 +443,15 @@ static void bad_numbers_change_nothing(void **state)
         for (int i = 0; i < STATES; ++i) {
             float row[STATES] = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
 
-            assert_int_not_equal(rho_input_update(&input, &config, i, bad[k], 1.0f), RHO_OK);
-            assert_int_not_equal(rho_input_update(&input, &config, i, 1.0f, bad[k]), RHO_OK);
+            assert_int_not_equal(
+                rho_input_update_filter_by_element(&input, &config, i, bad[k], 1.0f), RHO_OK);
+            assert_int_not_equal(
+                rho_input_update_filter_by_element(&input, &config, i, 1.0f, bad[k]), RHO_OK);
             row[i] = bad[k];
-            assert_int_not_equal(rho_input_update_row(&input, &config, row, 1.0f, 1.0f), RHO_OK);
-            assert_int_not_equal(rho_input_update_row(&input, &config, row, bad[k], 1.0f), RHO_OK);
+            assert_int_not_equal(rho_input_update_filter_by_row(&input, &config, row, 1.0f, 1.0f),
+                                 RHO_OK);
+            assert_int_not_equal(rho_input_update_filter_by_row(&input, &config, row, bad[k], 1.0f),
+                                 RHO_OK);
         }
         for (int i = 0; i < 6; ++i) {
             struct rho_measurement seen = {.place_m = {100.0f, 200.0f, 900.0f},
@@ -461,10 +474,14 @@ static void bad_numbers_change_nothing(void **state)
         assert_int_not_equal(rho_input_update_bearing(&input, &config, 0.0f, 0.0f, 1.0f, bad[k]),
                              RHO_OK);
     }
-    assert_int_equal(rho_input_update(&input, &config, 6, 1.0f, 1.0f), RHO_ERROR_VALUE);
-    assert_int_equal(rho_input_update(&input, &config, -1, 1.0f, 1.0f), RHO_ERROR_VALUE);
-    assert_int_equal(rho_input_update(&input, &config, 0, 1.0f, 0.0f), RHO_ERROR_VALUE);
-    assert_int_equal(rho_input_update(&input, &config, 0, FLT_MAX, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(rho_input_update_filter_by_element(&input, &config, 6, 1.0f, 1.0f),
+                     RHO_ERROR_VALUE);
+    assert_int_equal(rho_input_update_filter_by_element(&input, &config, -1, 1.0f, 1.0f),
+                     RHO_ERROR_VALUE);
+    assert_int_equal(rho_input_update_filter_by_element(&input, &config, 0, 1.0f, 0.0f),
+                     RHO_ERROR_VALUE);
+    assert_int_equal(rho_input_update_filter_by_element(&input, &config, 0, FLT_MAX, 1.0f),
+                     RHO_ERROR_VALUE);
     assert_int_equal(rho_input_predict(&input, &config, 1.1e5f), RHO_ERROR_VALUE);
     assert_memory_equal(&input, &before, sizeof input);
 }
@@ -510,7 +527,7 @@ static void assert_valid_filter(const struct rho_input *input)
             assert_true(isfinite(input->sensitivity[axis][i]));
         }
     }
-    rho_input_estimate_for_gate(input, &estimate);
+    rho_input_estimate_with_all_inputs(input, &estimate);
     assert_true(is_positive_definite(&estimate));
     rho_input_estimate(input, &estimate);
     assert_true(is_positive_definite(&estimate));
@@ -564,7 +581,7 @@ static enum rho_status make_random_call(struct rho_input *input,
     case 4:
         return update_with_random_position(input, config);
     case 5:
-        return rho_input_update_row(input, config, row, first, second);
+        return rho_input_update_filter_by_row(input, config, row, first, second);
     case 6:
         return rho_input_update_range_rate(input, config, NULL, first, second);
     case 7:
@@ -574,7 +591,7 @@ static enum rho_status make_random_call(struct rho_input *input,
         rho_input_test_and_end_inputs(input, config);
         return RHO_OK;
     default:
-        return rho_input_update(input, config, element, first, second);
+        return rho_input_update_filter_by_element(input, config, element, first, second);
     }
 }
 
@@ -624,9 +641,10 @@ static void a_vague_input_with_a_sharp_sensor_stays_positive_definite(void **sta
 
         assert_int_equal(rho_input_predict(&input, &config, 10.0f), RHO_OK);
         for (int axis = 0; axis < 3; ++axis) {
-            assert_int_equal(rho_input_update(&input, &config, axis,
-                                              100.0f * (float)(axis + 1) + 20.0f * t_s * t_s, 1.0f),
-                             RHO_OK);
+            assert_int_equal(
+                rho_input_update_filter_by_element(
+                    &input, &config, axis, 100.0f * (float)(axis + 1) + 20.0f * t_s * t_s, 1.0f),
+                RHO_OK);
         }
         rho_input_test_and_end_inputs(&input, &config);
         assert_valid_filter(&input);
@@ -658,9 +676,10 @@ static void an_onset_seen_by_a_sharp_sensor_is_estimated(void **state)
             const double s = input.sensitivity[axis][axis], v = 4e6;
             const float onset_m = k == 25 ? 500.0f : 0.0f;
 
-            assert_int_equal(rho_input_update(&input, &config, axis,
-                                              100.0f * (float)(axis + 1) + onset_m, 1e-4f),
-                             RHO_OK);
+            assert_int_equal(
+                rho_input_update_filter_by_element(&input, &config, axis,
+                                                   100.0f * (float)(axis + 1) + onset_m, 1e-4f),
+                RHO_OK);
             assert_float_equal(input.variance[RHO_AT(axis, axis)],
                                v * variance / (v * s * s + variance),
                                1e-4 * v * variance / (v * s * s + variance));
@@ -691,7 +710,7 @@ static void a_gate_widened_by_an_input_stays_positive_definite(void **state)
 
         assert_int_equal(rho_input_start(&input, &config, &sharp), RHO_OK);
         assert_int_equal(rho_input_predict(&input, &config, (float)uniform(0.1, 3.0)), RHO_OK);
-        rho_input_estimate_for_gate(&input, &estimate);
+        rho_input_estimate_with_all_inputs(&input, &estimate);
         assert_true(is_positive_definite(&estimate));
     }
 }

@@ -5,7 +5,7 @@
  */
 #include <float.h>
 
-#include "dense_bearing.h"
+#include "dense_filter_bearing_measurement.h"
 #include "kalman_checks.h"
 
 #define NUM_CASES 3000

@@ -3,7 +3,7 @@
  * Initiation from plots with a covariance, a height and a range rate of their own: votes, fits and
  * scores.
  */
-#include "initiator_east.h"
+#include "initiator_single_track_config.h"
 #include "straight_fit.h"
 
 #define Z RHO_MEASURES_Z

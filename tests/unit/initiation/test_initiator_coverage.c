@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Effect of a sensor's coverage and detection probability on the score of hits and misses. */
-#include "initiator_east.h"
+#include "initiator_single_track_config.h"
 
 /*
  * Score of a target at 20 km range and azimuth 0 that scan 2 misses. Each scan has one plot, so

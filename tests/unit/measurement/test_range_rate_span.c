@@ -244,8 +244,8 @@ static void the_imm_scores_and_updates_with_ambiguous_range_rates(void **state)
     twin = imm;
     rho_imm_prepare_plot(&seen, &plot, RHO_MEASURES_RANGE_RATE, &sensor);
     rho_imm_prepare_plot(&whole_seen, &whole_plot, RHO_MEASURES_RANGE_RATE, &whole);
-    assert_true(rho_imm_score_plot(&imm, &seen, &match));
-    assert_true(rho_imm_score_plot(&twin, &whole_seen, &expected));
+    assert_true(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match));
+    assert_true(rho_imm_predict_rates_and_score_plot(&twin, &whole_seen, &expected));
     assert_float_equal(match.log_likelihood, expected.log_likelihood, 2e-3);
     assert_int_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);
     assert_int_equal(rho_imm_update(&twin, &model, &whole_seen, &expected), RHO_OK);
@@ -254,8 +254,8 @@ static void the_imm_scores_and_updates_with_ambiguous_range_rates(void **state)
     rho_imm_start(&imm, &model, &unclear);
     twin = imm;
     rho_imm_prepare_plot(&place_seen, &plot, 0, &sensor);
-    assert_true(rho_imm_score_plot(&imm, &seen, &match));
-    assert_true(rho_imm_score_plot(&twin, &place_seen, &expected));
+    assert_true(rho_imm_predict_rates_and_score_plot(&imm, &seen, &match));
+    assert_true(rho_imm_predict_rates_and_score_plot(&twin, &place_seen, &expected));
     assert_float_equal(match.log_likelihood, (double)expected.log_likelihood - log((double)SPAN),
                        1e-3);
     assert_int_equal(rho_imm_update(&imm, &model, &seen, &match), RHO_OK);

@@ -17,7 +17,7 @@
 
 #include <cmocka.h>
 
-#include "passive_paper_scene.h"
+#include "search_by_passive_paper.h"
 
 static struct scene scene; /* the scene that is searched */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The streamed accumulator has the same peaks as one that holds the whole plane
- * (accumulator_plane.h).
+ * (accumulator_reference.h).
  */
 #include <float.h>
 #include <math.h>
@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "accumulator_plane.h"
+#include "accumulator_reference.h"
 #include "rhotrack/detail/accumulator.h"
 #include "rhotrack/types.h"
 

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "accumulator_plane.h"
+#include "accumulator_reference.h"
 #include "rhotrack/detail/accumulator.h"
 
 static struct rho_accumulator_result plain;

@@ -4,7 +4,7 @@
  * The Hough transform compared with double precision, the plots that voted for a cell, and the fit
  * through them.
  */
-#include "hough_cells.h"
+#include "expect_hough_cells_and_peaks.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 

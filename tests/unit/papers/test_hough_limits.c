@@ -6,7 +6,7 @@
  */
 #include <float.h>
 
-#include "hough_cells.h"
+#include "expect_hough_cells_and_peaks.h"
 #include "rhotrack/types.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))

@@ -4,7 +4,7 @@
  * with double precision, the matrices C_T, C_I and C_F as their sums, eq. (19) compared with eq.
  * (24), and planes of votes compared with the cells of a search.
  */
-#include "hough_cells.h"
+#include "expect_hough_cells_and_peaks.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 #define ROWS_MAX 400u

@@ -4,7 +4,7 @@
  * with other parameters, and near the ends of theta, where the embedded build searches theta in
  * parts and the workstation's at once.
  */
-#include "hough_cells.h"
+#include "expect_hough_cells_and_peaks.h"
 
 #define PARTS 4.0 /* largest rounding error of a voter, 2^-14 of a vote */
 

@@ -3,7 +3,7 @@
  * Weights of the neutrosophic vote: T, I and F compared with double precision, and votes in 1 /
  * 65536 with exact ones.
  */
-#include "hough_cells.h"
+#include "expect_hough_cells_and_peaks.h"
 
 #define PARTS                                                                                      \
     16.0 /* largest rounding error of a voter, 2^-12 of a vote; a quarter of that without I */

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "passive_paper_scene.h"
+#include "search_by_passive_paper.h"
 
 static struct rho_passive_paper paper, before;
 static struct scene scene;

@@ -345,7 +345,32 @@ static void bad_estimates_start_no_track(void **state)
     assert_int_equal(rho_tracker_start_estimate(&tracker, NULL, 1, 4, 0, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, 0, NULL),
                      RHO_ERROR_NULL);
+    const struct {
+        int is_of_state, at;
+        float number;
+    } bad[] = {{1, RHO_X, NAN},
+               {1, RHO_Y, 2.1e6f},
+               {1, RHO_VX, -2.1e4f},
+               {1, RHO_Z, INFINITY},
+               {0, RHO_AT(RHO_X, RHO_X), INFINITY},
+               {0, RHO_AT(RHO_VY, RHO_VY), -1.0f},
+               {0, RHO_AT(RHO_VY, RHO_VY), NAN},
+               {0, RHO_AT(RHO_X, RHO_X), 2.0f * RHO_KALMAN_VARIANCE_MAX},
+               {0, RHO_AT(RHO_VX, RHO_VX), 0.5f * RHO_KALMAN_VARIANCE_MIN},
+               {0, RHO_AT(RHO_VX, RHO_X), 2001.0f}, /* variances 1e4 and 400: 2000 at most */
+               {0, RHO_AT(RHO_Y, RHO_X), 1.1e4f},   /* a correlation above 1 */
+               {0, RHO_AT(RHO_VX, RHO_X), NAN},
+               {0, RHO_AT(RHO_Z, RHO_X), 1.0f}, /* the axis is closed */
+               {0, RHO_AT(RHO_VZ, RHO_VZ), 1.0f}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        struct rho_kalman none = estimate;
+        *(bad[i].is_of_state ? &none.state[bad[i].at] : &none.covariance[bad[i].at]) =
+            bad[i].number;
+        assert_int_equal(rho_tracker_start_estimate(&tracker, &none, 1, 4, 0, &report),
+                         RHO_ERROR_VALUE);
+    }
     assert_int_equal(report.num_tracks, 0);
+    estimate.covariance[RHO_AT(RHO_VX, RHO_X)] = 2000.0f; /* a correlation of 1 is none too much */
     assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, 0, &report), RHO_OK);
     assert_int_equal(report.num_tracks, 1);
     assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);

@@ -178,7 +178,7 @@ static const struct rho_track_report *believed_track_near(const struct target *t
 }
 
 /* Rows near a target that left do not count as false for six more turns. */
-static void count_track_rows(double range_m, double turn_s)
+static void tally_false_and_missing_tracks_of_report(double range_m, double turn_s)
 {
     tally.scans++;
     tally.most_tracks =
@@ -224,7 +224,7 @@ static void step_all_until(double until_s)
                 step_radar_scan(i, -PI + width_rad * sector, -PI + width_rad * (sector + 1));
             }
         }
-        count_track_rows(radars[0].range_m, radars[0].turn_s);
+        tally_false_and_missing_tracks_of_report(radars[0].range_m, radars[0].turn_s);
         now_s = begin_s + radars[0].turn_s * (turn + 1);
     }
 }

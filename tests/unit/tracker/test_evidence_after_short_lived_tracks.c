@@ -160,7 +160,7 @@ static void the_evidence_needed_equals_its_formula(void **state)
     tracker.established = 4.0f;
     tracker.counted_us = 0;
     at.time_us = 400000000;
-    rho_tracker_fade_counts_and_set_evidence_needed(&at);
+    rho_tracker_fade_track_counts_set_evidence_need(&at);
     const double kept = exp(-400.0 / 1600.0), ended = 20.0 * kept, established = 4.0 * kept;
     const double pd = (9.0 + 100.0 + 16.0) / (10.0 + 120.0 + 21.0);
     expect_close((double)tracker.ended_early, ended);

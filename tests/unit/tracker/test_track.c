@@ -106,7 +106,7 @@ static void a_single_plot_may_start_a_track(void **state)
     assert_float_equal(rho_track_sigma_mps(&track), 300.0f, 1e-2f);
     assert_float_equal(track.kalman.state[3], 0.0f, 0.0f);
     assert_int_equal(rho_track_predict(&track, plots[1].time_us, &model), RHO_OK);
-    assert_int_equal(rho_track_update(&track, &plots[1], &model, 0), RHO_OK);
+    assert_int_equal(rho_track_update_by_plot(&track, &plots[1], &model, 0), RHO_OK);
     /* 14 m of noise over 2 s; the prior of 300 m/s weighs a thousandth */
     assert_float_equal(track.kalman.state[3], 250.0f, 1.0f);
     assert_float_equal(track.kalman.state[4], -50.0f, 1.0f);
@@ -143,7 +143,7 @@ static void an_update_moves_the_estimate_and_the_score(void **state)
     struct rho_track_plot seen = seen_at(10000000, &plot);
     assert_int_equal(rho_track_predict(&track, 10000000, &model), RHO_OK);
     float before_m = rho_track_sigma_m(&track);
-    assert_int_equal(rho_track_update(&track, &seen, &model, 2500), RHO_OK);
+    assert_int_equal(rho_track_update_by_plot(&track, &seen, &model, 2500), RHO_OK);
     assert_true(rho_track_sigma_m(&track) < before_m);
     assert_int_equal(track.score_mnat, 3500);
     assert_int_equal(track.score_max_mnat, 3500);
@@ -166,8 +166,8 @@ static void a_plot_updates_at_its_own_time(void **state)
     struct rho_track_plot seen = seen_at(10000000, &now), later = seen_at(10000000, &then);
     assert_int_equal(rho_track_predict(&on_time, 10000000, &model), RHO_OK);
     assert_int_equal(rho_track_predict(&late, 10000000, &model), RHO_OK);
-    assert_int_equal(rho_track_update(&on_time, &seen, &model, 0), RHO_OK);
-    assert_int_equal(rho_track_update(&late, &later, &model, 0), RHO_OK);
+    assert_int_equal(rho_track_update_by_plot(&on_time, &seen, &model, 0), RHO_OK);
+    assert_int_equal(rho_track_update_by_plot(&late, &later, &model, 0), RHO_OK);
     assert_int_equal(late.time_us, 11000000);
     assert_int_equal(late.updated_us, 11000000);
     /* predicts back in time */
@@ -195,7 +195,7 @@ static void scan_times_do_not_change_the_estimate(void **state)
                                 .sigma_cross_m = 10.0f};
         struct rho_track_plot seen = seen_at(scan_us, &plot);
         assert_int_equal(rho_track_predict(&track, scan_us, &model), RHO_OK);
-        assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_OK);
+        assert_int_equal(rho_track_update_by_plot(&track, &seen, &model, 0), RHO_OK);
         assert_int_equal(rho_kalman_predict(&direct, (float)(seen.time_us - at_us) * 1e-6f, 1.0f),
                          RHO_OK);
         assert_int_equal(rho_kalman_update(&direct, 0, plot.x_m, 100.0f, NULL), RHO_OK);
@@ -217,16 +217,16 @@ static void refused_updates_change_nothing(void **state)
     struct rho_track track = start_track(0), before = track;
     struct rho_plot plot = {.x_m = NAN, .sigma_range_m = 10.0f, .sigma_cross_m = 10.0f};
     struct rho_track_plot seen = seen_at(8000000, &plot);
-    assert_int_equal(rho_track_update(NULL, &seen, &model, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_update(&track, NULL, &model, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_update(&track, &seen, NULL, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_ERROR_VALUE);
+    assert_int_equal(rho_track_update_by_plot(NULL, &seen, &model, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_update_by_plot(&track, NULL, &model, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_update_by_plot(&track, &seen, NULL, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_update_by_plot(&track, &seen, &model, 0), RHO_ERROR_VALUE);
     seen.plot.x_m = 2000.0f;
     seen.plot.y_m = INFINITY; /* of the two scalar updates only the second one fails */
-    assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_ERROR_VALUE);
+    assert_int_equal(rho_track_update_by_plot(&track, &seen, &model, 0), RHO_ERROR_VALUE);
     seen.plot.y_m = -400.0f;
     seen.measures = RHO_MEASURES_RANGE_RATE; /* no sigma of the range rate is given */
-    assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_ERROR_VALUE);
+    assert_int_equal(rho_track_update_by_plot(&track, &seen, &model, 0), RHO_ERROR_VALUE);
     assert_int_equal(rho_track_predict(&track, INT64_MAX, &model), RHO_ERROR_VALUE);
     assert_memory_equal(&track, &before, sizeof track);
 }
@@ -247,9 +247,9 @@ static void a_first_height_opens_the_third_axis(void **state)
                             .sigma_mps = 1.0f};
     struct rho_track_plot seen = seen_at(8000000, &plot);
     seen.measures = RHO_MEASURES_Z | RHO_MEASURES_VELOCITY;
-    assert_false(rho_kalman_is_axis_open(&track.kalman, 2));
-    assert_int_equal(rho_track_update(&track, &seen, &model, 0), RHO_OK);
-    assert_true(rho_kalman_is_axis_open(&track.kalman, 2));
+    assert_false(rho_kalman_has_estimate_on_axis(&track.kalman, 2));
+    assert_int_equal(rho_track_update_by_plot(&track, &seen, &model, 0), RHO_OK);
+    assert_true(rho_kalman_has_estimate_on_axis(&track.kalman, 2));
     assert_float_equal(track.kalman.state[2], 3000.0f, 0.1f);
     assert_float_equal(track.kalman.state[5], 5.0f, 0.5f);
     /* at 56 degrees of elevation the variance of z is se^2 100 + ce^2 400, of both sigmas */
@@ -328,18 +328,18 @@ static void going_back_in_time_restores_the_estimate(void **state)
     struct rho_track track = start_track(9000);
     assert_int_equal(rho_track_predict(&track, 12000000, &model), RHO_OK);
     const struct rho_track was = track;
-    assert_int_equal(rho_track_return_to_time(&track, 9000000, &model), RHO_OK);
+    assert_int_equal(rho_track_return_to_time_it_was_moved_from(&track, 9000000, &model), RHO_OK);
     assert_int_equal(track.time_us, 9000000);
     assert_true(fabsf(track.kalman.state[0] - was.kalman.state[0] + 3.0f * was.kalman.state[3]) <
                 0.01f);
-    assert_int_equal(rho_track_return_to_time(&track, 12000000, &model), RHO_OK);
+    assert_int_equal(rho_track_return_to_time_it_was_moved_from(&track, 12000000, &model), RHO_OK);
     assert_int_equal(track.time_us, 12000000);
     for (int i = 0; i < 6; i++) {
         assert_true(fabsf(track.kalman.state[i] - was.kalman.state[i]) < 0.01f);
     }
     assert_true(fabsf(track.kalman.covariance[0] - was.kalman.covariance[0]) <
                 0.01f * was.kalman.covariance[0]);
-    assert_int_equal(rho_track_return_to_time(NULL, 0, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_return_to_time_it_was_moved_from(NULL, 0, &model), RHO_ERROR_NULL);
 }
 
 int main(void)

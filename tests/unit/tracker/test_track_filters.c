@@ -106,7 +106,7 @@ static void a_start_from_an_estimate_uses_the_models_filter(void **state)
         assert_float_equal(track.kalman.state[0], plain.kalman.state[0], 0.01f);
         struct rho_track_plot next = plot_of_scan(4);
         assert_int_equal(rho_track_predict(&track, next.time_us, &model), RHO_OK);
-        assert_int_equal(rho_track_update(&track, &next, &model, 0), RHO_OK);
+        assert_int_equal(rho_track_update_by_plot(&track, &next, &model, 0), RHO_OK);
         assert_int_equal(count_hypotheses_in_use() > 0, filter == RHO_TRACK_HYPOTHESES);
         rho_track_free_hypotheses(&track, &model);
         assert_int_equal(count_hypotheses_in_use(), 0);
@@ -227,7 +227,7 @@ static void step_hypotheses(struct rho_track *track, int k, const struct rho_plo
     float gain_nat;
     track->plot = -1;
     assert_int_equal(rho_track_predict(track, (int64_t)SCAN_US * k, &model), RHO_OK);
-    rho_hypotheses_begin_scan(&pool, track->slot, &reach);
+    rho_hypotheses_clear_candidates_get_gate_box(&pool, track->slot, &reach);
     for (int i = 0; i < num_plots; i++) {
         rho_imm_prepare_plot(&opened, &plots[i], 0, NULL);
         (void)rho_hypotheses_score_plot(&pool, track->slot, &opened, (int64_t)SCAN_US * k,
@@ -316,7 +316,7 @@ static void every_filter_is_updated_by_a_caller_plot_by_plot(void **state)
         for (int k = 4; k < 14; k++) {
             struct rho_track_plot plot = plot_of_scan(k);
             assert_int_equal(rho_track_predict(&track, plot.time_us, &model), RHO_OK);
-            assert_int_equal(rho_track_update(&track, &plot, &model, 10), RHO_OK);
+            assert_int_equal(rho_track_update_by_plot(&track, &plot, &model, 10), RHO_OK);
             assert_int_equal(track.time_us, plot.time_us);
             rho_track_merge_estimates(&track, plot.time_us, &model);
             assert_float_equal(track.kalman.state[0], plot.plot.x_m, 10.0f);
@@ -349,7 +349,7 @@ static void every_filter_uses_velocity_and_range_rate(void **state)
             plot.plot.vx_mps = plot.plot.range_rate_mps = 200.0f;
             plot.plot.sigma_mps = plot.plot.sigma_range_rate_mps = 1.0f;
             assert_int_equal(rho_track_predict(&track, plot.time_us, &model), RHO_OK);
-            assert_int_equal(rho_track_update(&track, &plot, &model, 0), RHO_OK);
+            assert_int_equal(rho_track_update_by_plot(&track, &plot, &model, 0), RHO_OK);
             rho_track_merge_estimates(&track, plot.time_us, &model);
             assert_int_equal(track.kalman.covariance[RHO_AT(3, 3)]<1.5f, kind> 0);
             assert_int_equal(track.kalman.covariance[RHO_AT(4, 4)] < 1.5f, kind == 1);
@@ -365,11 +365,11 @@ static void refused_updates_leave_every_filter_unchanged(void **state)
         struct rho_track track = start_track(), before = track;
         struct rho_track_plot bad = plot_of_scan(4);
         bad.plot.y_m = NAN;
-        assert_int_not_equal(rho_track_update(&track, &bad, &model, 10), RHO_OK);
+        assert_int_not_equal(rho_track_update_by_plot(&track, &bad, &model, 10), RHO_OK);
         assert_memory_equal(&track, &before, sizeof track);
         struct rho_track_plot good = plot_of_scan(4);
         assert_int_equal(rho_track_predict(&track, good.time_us, &model), RHO_OK);
-        assert_int_equal(rho_track_update(&track, &good, &model, 10), RHO_OK);
+        assert_int_equal(rho_track_update_by_plot(&track, &good, &model, 10), RHO_OK);
         rho_track_merge_estimates(&track, good.time_us, &model);
         assert_float_equal(track.kalman.state[0], 800.0f, 10.0f);
         assert_float_equal(track.kalman.state[3], 200.0f, 10.0f);
@@ -387,7 +387,7 @@ static void only_input_estimation_widens_the_gate(void **state)
         assert_int_equal(rho_track_predict(&track, 4 * SCAN_US, &model), RHO_OK);
         rho_track_estimate_for_gate(&track, &expected);
         if (filter == RHO_TRACK_INPUT) {
-            rho_input_estimate_for_gate(&track.input, &of_input);
+            rho_input_estimate_with_all_inputs(&track.input, &of_input);
             assert_memory_equal(&expected, &of_input, sizeof expected);
             /* 22 m/s^2 for a second: 11 m */
             assert_true(expected.covariance[RHO_AT(0, 0)] >

@@ -206,7 +206,7 @@ static void the_nearest_plot_agrees_with_an_exhaustive_search(void **state)
         for (int i = 0; i < 50; i++) {
             struct rho_window_work work = {0};
             struct rho_window_query query = random_query(scan);
-            int nearest = rho_window_nearest_plot_isotropic(scan, &query, &work);
+            int nearest = rho_window_nearest_plot_in_sigmas_isotropic(scan, &query, &work);
             assert_int_equal(nearest, nearest_without_bins(scan, &query));
             assert_int_equal(work.lookups, 1);
             found += nearest >= 0;
@@ -230,7 +230,8 @@ static void bins_reduce_the_number_of_distance_tests(void **state)
                                          .sigma_factor = 1.0f,
                                          .gate_chi2 = 13.8f,
                                          .gate_radius_m = 40.0f};
-        (void)rho_window_nearest_plot_isotropic(rho_window_scan_at(&window, 0), &query, &work);
+        (void)rho_window_nearest_plot_in_sigmas_isotropic(rho_window_scan_at(&window, 0), &query,
+                                                          &work);
     }
     assert_in_range(work.distances, 1, 200 * 100 / 50);
 }
@@ -428,7 +429,8 @@ static void stored_covariances_follow_the_line_of_sight(void **state)
         const struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
         for (int i = 0; i < scan->num_plots; i++) {
             struct rho_plot plot = rho_window_unpack_plot(scan, (unsigned)i);
-            struct rho_window_noise noise = rho_window_noise(scan, &scan->plots[i]);
+            struct rho_window_plot_noise_covariance noise =
+                rho_window_plot_noise_covariance(scan, &scan->plots[i]);
             double r[3][3];
             plot_covariance(&plot, round, r);
             double scale = r[0][0] + r[1][1];
@@ -518,21 +520,48 @@ static void the_next_sector_of_a_turn_continues_its_scan(void **state)
     (void)state;
     init_window(3);
     struct rho_scan scan = quarter_turn_scan(0, 0.0f);
-    assert_false(
-        rho_window_is_continued_by_scan(&window, &scan, &turning)); /* the window is empty */
+    assert_false(rho_window_is_next_sector_of_newest_scan(&window, &scan,
+                                                          &turning)); /* the window is empty */
     assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
     scan = quarter_turn_scan(1000000, 90.0f);
-    assert_int_equal(rho_window_is_continued_by_scan(&window, &scan, &turning) != 0, RHO_SECTORS);
-    assert_false(rho_window_is_continued_by_scan(&window, &scan, &moved));
+    assert_int_equal(rho_window_is_next_sector_of_newest_scan(&window, &scan, &turning) != 0,
+                     RHO_SECTORS);
+    assert_false(rho_window_is_next_sector_of_newest_scan(&window, &scan, &moved));
     scan.sensor_id = 6;
-    assert_false(rho_window_is_continued_by_scan(&window, &scan,
-                                                 &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
+    assert_false(rho_window_is_next_sector_of_newest_scan(
+        &window, &scan, &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
     scan = quarter_turn_scan(1000000, 90.0f + 40.0f); /* a gap of an eighth of a turn */
-    assert_int_equal(rho_window_is_continued_by_scan(&window, &scan, &turning) != 0, RHO_SECTORS);
+    assert_int_equal(rho_window_is_next_sector_of_newest_scan(&window, &scan, &turning) != 0,
+                     RHO_SECTORS);
     scan = quarter_turn_scan(1000000, 90.0f + 50.0f);
-    assert_false(rho_window_is_continued_by_scan(&window, &scan, &turning));
+    assert_false(rho_window_is_next_sector_of_newest_scan(&window, &scan, &turning));
     scan = quarter_turn_scan(RHO_LIMIT_OFFSET_US + INT64_C(1), 90.0f);
-    assert_false(rho_window_is_continued_by_scan(&window, &scan, &turning));
+    assert_false(rho_window_is_next_sector_of_newest_scan(&window, &scan, &turning));
+}
+
+/* Two sectors of one time: their plots' times do not tell them apart. */
+static void plots_of_an_earlier_sector_have_no_row(void **state)
+{
+    const struct rho_sensor turning = {.sensor_id = 5, .pd = 0.9f};
+    uint32_t unused = 0;
+
+    (void)state;
+    init_window(3);
+    struct rho_scan scan = quarter_turn_scan(0, 0.0f);
+    assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
+    assert_int_equal(rho_window_scan_at(&window, 0)->marks[0] & RHO_WINDOW_ROW, 0);
+    if (!RHO_SECTORS) {
+        skip();
+    }
+    scan = quarter_turn_scan(0, 90.0f);
+    assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
+    const struct rho_window_scan *turn = rho_window_scan_at(&window, 0);
+    assert_int_equal(turn->num_plots, 2);
+    for (unsigned i = 0; i < 2; i++) {
+        assert_int_equal(turn->marks[i] & RHO_WINDOW_ROW,
+                         turn->plots[i].x_m > 0.0f ? RHO_WINDOW_ROW : 0);
+    }
+    assert_true(rho_window_is_sound(&window));
 }
 
 static void a_damaged_window_is_not_sound(void **state)
@@ -619,6 +648,7 @@ int main(void)
         cmocka_unit_test(an_extent_grows_with_its_points),
         cmocka_unit_test(each_plot_is_stored_in_the_bin_of_its_place),
         cmocka_unit_test(the_next_sector_of_a_turn_continues_its_scan),
+        cmocka_unit_test(plots_of_an_earlier_sector_have_no_row),
         cmocka_unit_test(a_damaged_window_is_not_sound),
         cmocka_unit_test(range_rates_are_compared_along_the_line_of_sight),
     };

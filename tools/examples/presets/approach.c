@@ -10,7 +10,7 @@
  *   blind speed 160 m/s            blind_speed_mps of the sensor
  *   Doppler filters 2 m/s wide     sigma_range_rate_mps: width / 3.5; RHO_MEASURES_RANGE_RATE
  */
-#include "radar.h"
+#include "preset_example_helpers.h"
 
 int main(void)
 {
@@ -40,5 +40,5 @@ int main(void)
             return 2;
         }
     }
-    return check_tracks(&departure, time_s);
+    return print_tracks_and_give_exit_code(&departure, time_s);
 }

@@ -11,7 +11,7 @@
  *   an alarm a day may be false    false_tracks_per_hour: 1 / 24
  *   P_D 70 %                       pd
  */
-#include "radar.h"
+#include "preset_example_helpers.h"
 
 int main(void)
 {
@@ -43,5 +43,5 @@ int main(void)
             return 2;
         }
     }
-    return check_tracks(&drone, time_s);
+    return print_tracks_and_give_exit_code(&drone, time_s);
 }

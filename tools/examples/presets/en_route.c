@@ -10,7 +10,7 @@
  *   P_D 80 % at 1 m^2              pd
  *   north is shown as 0.4 deg      azimuth_bias_rad of the sensor; clockwise is negative
  */
-#include "radar.h"
+#include "preset_example_helpers.h"
 
 int main(void)
 {
@@ -37,5 +37,5 @@ int main(void)
             return 2;
         }
     }
-    return check_tracks(&airliner, time_s);
+    return print_tracks_and_give_exit_code(&airliner, time_s);
 }

@@ -11,7 +11,7 @@
  *   survey of the radar's mast     x_m, y_m of the sensor
  *   basin of the chart             area, area_is_fixed: clutter is expected there alone
  */
-#include "radar.h"
+#include "preset_example_helpers.h"
 
 int main(void)
 {
@@ -41,5 +41,5 @@ int main(void)
             return 2;
         }
     }
-    return check_tracks(&tug, time_s);
+    return print_tracks_and_give_exit_code(&tug, time_s);
 }

@@ -9,7 +9,7 @@
  *   compass heading                is added to the bearing: plots are over ground
  *   own place (GPS)                x_m, y_m of the sensor, set anew at each turn
  */
-#include "radar.h"
+#include "preset_example_helpers.h"
 
 int main(void)
 {
@@ -39,5 +39,5 @@ int main(void)
             return 2;
         }
     }
-    return check_tracks(&ferry, time_s);
+    return print_tracks_and_give_exit_code(&ferry, time_s);
 }

@@ -11,7 +11,7 @@
  *   120 m                          range_max_m
  *   speed limit                    v_max_mps: what is driven, not what is allowed
  */
-#include "radar.h"
+#include "preset_example_helpers.h"
 
 int main(void)
 {
@@ -40,5 +40,5 @@ int main(void)
             return 2;
         }
     }
-    return check_tracks(&car, time_s);
+    return print_tracks_and_give_exit_code(&car, time_s);
 }

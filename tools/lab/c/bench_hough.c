@@ -14,8 +14,8 @@
 #include "base/random.h"
 #include "base/text_table.h"
 #include "bench.h"
+#include "limits_held_or_missed.h"
 #include "pipeline/pipeline.h"
-#include "verdicts.h"
 
 #define PEAKS_MAX 1024
 #define ROUND_US 500 /* shortest round; the clock counts microseconds */
@@ -98,12 +98,12 @@ static double total_us_of_searches(struct rho_accumulator *accumulator,
     const struct rho_accumulator_points points = {cloud->x_m, cloud->y_m, HOUGH_SCANS,
                                                   cloud->scan_end};
     struct rho_accumulator_result result;
-    int64_t start_us = clock_us();
+    int64_t start_us = monotonic_clock_us();
     for (int call = 0; call < calls; call++) {
         must_succeed(rho_accumulator_find_peaks(accumulator, &points, peaks, PEAKS_MAX, &result),
                      "find");
     }
-    return (double)(clock_us() - start_us);
+    return (double)(monotonic_clock_us() - start_us);
 }
 
 static double fastest_search_us(struct rho_accumulator *accumulator,
@@ -120,8 +120,8 @@ static double fastest_search_us(struct rho_accumulator *accumulator,
     return best_us;
 }
 
-static void init_accumulator_of_kind(struct rho_accumulator *accumulator, enum kind kind,
-                                     int no_pruning)
+static void init_accumulator_of_cell_size(struct rho_accumulator *accumulator, enum kind kind,
+                                          int no_pruning)
 {
     struct rho_accumulator_config config = {.rho_max_m = HOUGH_RHO_MAX_M,
                                             .rho_cell_m = kinds[kind].rho_cell_m,
@@ -139,9 +139,9 @@ static struct figures measure_job_and_rivals(struct rho_accumulator *accumulator
     struct figures figures;
     scatter_points_over_scans(&cloud, job->points, seed);
     replace_points_by_targets(&cloud, job->targets, seed);
-    init_accumulator_of_kind(accumulator, job->kind, 1);
+    init_accumulator_of_cell_size(accumulator, job->kind, 1);
     figures.plain_us = fastest_search_us(accumulator, &cloud);
-    init_accumulator_of_kind(accumulator, job->kind, 0);
+    init_accumulator_of_cell_size(accumulator, job->kind, 0);
     figures.us = fastest_search_us(accumulator, &cloud);
     figures.votes = (double)job->points * accumulator->theta_cells;
     figures.dense_us = hough_dense_fastest_us(accumulator, &cloud, kinds[job->kind].dense_rounds);

@@ -12,10 +12,10 @@
 #include "base/random.h"
 #include "base/text_table.h"
 #include "bench.h"
+#include "limits_held_or_missed.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/passive.h"
-#include "scenario_plan.h"
-#include "verdicts.h"
+#include "scenario_truth_to_plots.h"
 
 #define PI 3.141592653589793
 #define SIGMA_RAD (0.1 * PI / 180.0)
@@ -84,8 +84,8 @@ static void add_bearing_unless_full(struct recording *recording, unsigned k, siz
     }
 }
 
-static void record_simulated_batch(struct recording *recording, const struct job *job,
-                                   uint64_t seed, uint64_t run)
+static void record_simulated_bearing_frames(struct recording *recording, const struct job *job,
+                                            uint64_t seed, uint64_t run)
 {
     struct parameters parameters;
     parameters_set_defaults(&parameters);
@@ -109,7 +109,8 @@ static void record_simulated_batch(struct recording *recording, const struct job
     simulation_free(simulation);
 }
 
-static void record_full_batch(struct recording *recording, double sigma_rad, uint64_t seed)
+static void fill_recording_with_random_bearings(struct recording *recording, double sigma_rad,
+                                                uint64_t seed)
 {
     struct random random = random_start(seed, 79, 0);
     *recording = (struct recording){.num_frames = RHO_MAX_PASSIVE_SCANS};
@@ -151,9 +152,9 @@ static double fastest_search_ms(struct rho_passive *passive)
 {
     double best_us = INFINITY;
     for (int round = 0; round < BENCH_ROUNDS; round++) {
-        int64_t start_us = clock_us();
+        int64_t start_us = monotonic_clock_us();
         must_succeed(rho_passive_search(passive), "passive");
-        best_us = fmin(best_us, (double)(clock_us() - start_us));
+        best_us = fmin(best_us, (double)(monotonic_clock_us() - start_us));
     }
     return best_us / 1e3;
 }
@@ -164,13 +165,13 @@ static double fastest_push_us(struct rho_passive *passive, const struct recordin
     double best_us = INFINITY;
     int64_t time_us = passive->batch.time_us[recording->num_frames - 1];
     for (int round = 0; round < BENCH_ROUNDS; round++) {
-        int64_t start_us = clock_us();
+        int64_t start_us = monotonic_clock_us();
         for (unsigned i = 0; i < PUSHES; i++) {
             struct rho_frame frame = recording->frames[i % recording->num_frames];
             frame.time_us = time_us += SCAN_US;
             push_frame(passive, &frame);
         }
-        best_us = fmin(best_us, (double)(clock_us() - start_us) / PUSHES);
+        best_us = fmin(best_us, (double)(monotonic_clock_us() - start_us) / PUSHES);
     }
     return best_us;
 }
@@ -182,9 +183,9 @@ static struct figures measure_batches_of_job(struct rho_passive *passive, const 
     struct figures figures = {.push_us = INFINITY};
     for (int run = 0; run < job->batches; run++) {
         if (job->sensors > 0) {
-            record_simulated_batch(&recording, job, seed, (uint64_t)run);
+            record_simulated_bearing_frames(&recording, job, seed, (uint64_t)run);
         } else {
-            record_full_batch(&recording, job->sigma_rad, seed);
+            fill_recording_with_random_bearings(&recording, job->sigma_rad, seed);
         }
         fill_batch_from_recording(passive, &recording);
         double ms = fastest_search_ms(passive);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bench_work: the time of the slowest scan of 5000 plots of several shapes, divided by the median
- * of uniform clutter; and how the time of uniform clutter grows from 1000 to 5000 plots.
+ * bench_work: the time of the slowest scan of 5000 plots of several shapes,
+ * divided by the median of uniform clutter; and how the time of uniform clutter grows from 1000 to
+ * 5000 plots.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -49,8 +50,8 @@ static double random_within_side(struct random *random, double side_m)
     return random_between(random, -0.5 * side_m, 0.5 * side_m);
 }
 
-static void draw_plot_of_shape(const struct sky *sky, struct random *random, size_t i, size_t scan,
-                               struct rho_plot *plot)
+static void draw_plot_by_arrangement_of_sky(const struct sky *sky, struct random *random, size_t i,
+                                            size_t scan, struct rho_plot *plot)
 {
     const size_t heap = i % HEAPS, heap_row = heap / 5, target = i % TARGETS, row = target / 40;
     const double heap_m = 100e3 * (double)(heap % 5) - 200e3;
@@ -96,7 +97,7 @@ static struct rho_plot *draw_plots_of_all_scans(const struct sky *sky, uint64_t 
                 plot->x_m += (float)(SIGMA_M * random_normal(&random));
                 plot->y_m += (float)(SIGMA_M * random_normal(&random));
             } else {
-                draw_plot_of_shape(sky, &random, i, scan, plot);
+                draw_plot_by_arrangement_of_sky(sky, &random, i, scan, plot);
             }
         }
     }
@@ -144,9 +145,9 @@ static struct times time_scans_of_sky(const struct sky *sky, struct pipeline *ch
                 .num_plots = (uint32_t)sky->plots,
                 .plots = &plots[i * sky->plots],
             };
-            const int64_t start_us = clock_us();
+            const int64_t start_us = monotonic_clock_us();
             pipeline_step(chain, &scan);
-            us[i] = fmin(us[i], (double)(clock_us() - start_us));
+            us[i] = fmin(us[i], (double)(monotonic_clock_us() - start_us));
         }
     }
     struct times times = {.partial = chain->tracker->work.partial_steps};
@@ -158,7 +159,7 @@ static struct times time_scans_of_sky(const struct sky *sky, struct pipeline *ch
     return times;
 }
 
-void bench_work(const struct bench *bench)
+void bench_scan_time_by_arrangement_of_plots(const struct bench *bench)
 {
     struct pipeline chain = pipeline_allocate();
     struct text_table table =

@@ -14,7 +14,7 @@ static const struct command commands[] = {
      "Measures speed and memory; without a name everything there is.\n"},
 };
 
-static const struct command *find_command(const char *name)
+static const struct command *must_find_lab_command(const char *name)
 {
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
         if (strcmp(commands[i].name, name) == 0) {
@@ -31,7 +31,7 @@ int main(int argc, char **argv)
     const struct command *command;
 
     cJSON_InitHooks(&hooks);
-    command = find_command(argc > 1 ? argv[1] : "");
+    command = must_find_lab_command(argc > 1 ? argv[1] : "");
     command_line_read(&line, command, argc - 1, argv + 1);
     command_line_set_origin_and_places(&line);
     return command->run(&line);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "scenario_plan.h"
+#include "scenario_truth_to_plots.h"
 
 /* ---- names and customary parameters of scenarios --------------------------------------------- */
 
@@ -64,7 +64,7 @@ static const struct scenario {
 } scenarios[] = {
     {.name = "crossing", .stream = 0, .customs = &paper_targets, .plan = plan_crossing},
     {.name = "parallel", .stream = 2, .customs = &pair, .plan = plan_parallel},
-    {.name = "crossing-angle", .stream = 3, .customs = &pair, .plan = plan_crossing_angle},
+    {.name = "crossing-angle", .stream = 3, .customs = &pair, .plan = plan_pair_crossing_at_origin},
     {.name = "traffic", .stream = 7, .customs = &wide_traffic, .plan = plan_traffic},
     {.name = "formation", .stream = 16, .customs = &formation, .plan = plan_formation},
 };
@@ -139,13 +139,13 @@ struct simulation *scenario_simulate(const char *name, const struct parameters *
     struct random random = random_start(seed, scenario->stream, run);
     struct scenario_plan plan = scenario->plan(parameters, &random);
     enum parameter_id pd =
-        parameters_is_set(parameters, PARAMETER_TRUE_PD) ? PARAMETER_TRUE_PD : PARAMETER_PD;
+        parameters_has_value(parameters, PARAMETER_TRUE_PD) ? PARAMETER_TRUE_PD : PARAMETER_PD;
 
     plan.pd = parameters->value[pd];
     plan.sigma_m = plan.noise_m = parameters->value[PARAMETER_SIGMA_M];
     plan.merge_m = parameters->value[PARAMETER_MERGE_M];
     plan.box = plan_box_of_parameters(parameters);
-    plan_grow_box_around_truth(&plan, parameters);
+    plan_grow_clutter_box_unless_area_is_set(&plan, parameters);
     plan.clutter_mean = plan_clutter_mean(parameters, &plan.box);
     struct simulation *simulation = plan_simulate(&plan, &random);
     plan_free(&plan);

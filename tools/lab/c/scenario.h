@@ -4,7 +4,7 @@
  * parameters and a seed. The command `simulate` uses scenes (scene/scene.h) instead.
  *
  * Scenarios: crossing, parallel, crossing-angle, traffic, formation; the passive ones are in
- * scenario_plan.h. The same seed gives the same data on every machine.
+ * scenario_truth_to_plots.h. The same seed gives the same data on every machine.
  */
 #ifndef RHOTRACK_TOOL_SCENARIO_H
 #define RHOTRACK_TOOL_SCENARIO_H

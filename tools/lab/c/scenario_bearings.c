@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "base/common.h"
-#include "scenario_plan.h"
+#include "scenario_truth_to_plots.h"
 
 #define PI 3.141592653589793
 #define START_FAR_M 78000.0

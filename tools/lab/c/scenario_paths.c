@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/common.h"
-#include "scenario_plan.h"
+#include "scenario_truth_to_plots.h"
 
 #define DEG_RAD 0.017453292519943295
 #define PAIR_MPS 250.0
@@ -43,7 +43,8 @@ struct scenario_plan plan_parallel(const struct parameters *parameters, struct r
 }
 
 /* Two targets that meet in the origin at half time. */
-struct scenario_plan plan_crossing_angle(const struct parameters *parameters, struct random *random)
+struct scenario_plan plan_pair_crossing_at_origin(const struct parameters *parameters,
+                                                  struct random *random)
 {
     (void)random;
     struct scenario_plan plan = start_plan_by_parameters(parameters, 2);

@@ -15,7 +15,7 @@ import time
 
 import numpy as np
 
-from common import scene_files
+from common import read_truth_plots_tracks
 from common import scoring
 
 SCENES = ["births-and-deaths"]
@@ -76,7 +76,7 @@ def by_hour(path, count):
         header, rows = next(file), list(file)
     hours = [[] for _ in range(count)]
     times_us = np.maximum.accumulate(
-        scene_files.microseconds([row.split(",", 1)[0] for row in rows]))  # the file's order stays
+        read_truth_plots_tracks.microseconds([row.split(",", 1)[0] for row in rows]))  # the file's order stays
     for row, hour in zip(rows, hours_of(times_us, count)):
         hours[hour].append(row)
     return header, hours
@@ -112,9 +112,9 @@ def tracked(job, folder):
 
 def newest_identities(path, count):
     """The largest track_id, of any status, until each hour's end."""
-    table = scene_files.columns(path, ("t_s", "track_id"))
+    table = read_truth_plots_tracks.columns(path, ("t_s", "track_id"))
     newest = np.zeros(count, dtype=np.int64)
-    np.maximum.at(newest, hours_of(scene_files.microseconds(table["t_s"]), count),
+    np.maximum.at(newest, hours_of(read_truth_plots_tracks.microseconds(table["t_s"]), count),
                   np.array(table["track_id"], dtype=np.int64))
     return np.maximum.accumulate(newest)
 
@@ -127,12 +127,12 @@ def run(job):
         job["run_program"](job["simulator"],
                            ["simulate", folder / "scene.json", "--seed", job["seed"], "-o", folder])
         used = tracked(job, folder)
-        settings = scene_files.Settings(folder / "scenario.ini")
+        settings = read_truth_plots_tracks.Settings(folder / "scenario.ini")
         sensors = settings.sensors()
-        plots = scene_files.read_plots(folder / "plots.csv", sensors,
+        plots = read_truth_plots_tracks.read_plots(folder / "plots.csv", sensors,
                                        settings.get("scan_interval_s", 0.0))
-        truth = scene_files.read_truth(folder, plots.scan_times_us)
-        tracks = scene_files.read_tracks(folder / "tracks.csv", truth)
+        truth = read_truth_plots_tracks.read_truth(folder, plots.scan_times_us)
+        tracks = read_truth_plots_tracks.read_tracks(folder / "tracks.csv", truth)
         newest = newest_identities(folder / "tracks.csv", len(used))
     walk = scoring.follow(truth, tracks, scoring.gate_m(sensors), job["forgiven"])
     hour = hours_of(truth.times_us, len(used))
@@ -188,7 +188,7 @@ def judged(name, goal, runs):
 def measure(options, run_program):
     work, goals = [], {}
     for name in options.scene or SCENES:
-        scene = json.loads(scene_files.path_of(options.scenes, name).read_text(encoding="utf-8"))
+        scene = json.loads(read_truth_plots_tracks.path_of(options.scenes, name).read_text(encoding="utf-8"))
         goals[name] = scene.get("goal") or {}
         scene["duration_s"] = 3600 * options.hours
         hours = math.ceil(options.hours)

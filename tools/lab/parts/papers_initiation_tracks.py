@@ -10,7 +10,7 @@ the initiator ends with; the filter adds the places in between.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from common import paper_targets as paper
+from common import initiation_paper_aircraft as paper
 
 NEAR_SIGMAS = 5  # a plot of a track: the nearest to its place, within so many sigma
 FIGURES = {"simulated": 4, "simulated, 0.5 m": 4, "real": 12}  # the first of three of the paper

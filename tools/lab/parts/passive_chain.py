@@ -9,7 +9,7 @@ from common import lab  # before numpy, whose threads it limits
 import numpy as np
 
 import rhotrack
-from parts.bearings import Setting, fit, predict, update
+from parts.passive_scenes_and_references import Setting, fit, predict, update
 from common.lab import ratio_of, root_of
 from parts.passive_runs import facts_of, judge_rate, runs_of, text_of
 

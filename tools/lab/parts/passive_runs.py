@@ -6,7 +6,7 @@ from common import lab  # before numpy, whose threads it limits
 
 import numpy as np
 
-from parts.bearings import Scene
+from parts.passive_scenes_and_references import Scene
 
 SHARE = {"pruning": 3 / 4, "paper": 1 / 2, "default": 1, "chain": 1 / 2, "further": 1 / 8,
          "claims": 1 / 4}  # of --runs

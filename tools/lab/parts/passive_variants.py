@@ -10,8 +10,8 @@ from common import lab  # before numpy, whose threads it limits
 import numpy as np
 
 import rhotrack
-from parts.bearings import PLACES_M, Setting
-from parts.passive_figures import RANGE_MAX_M, lines_matched
+from parts.passive_scenes_and_references import PLACES_M, Setting
+from parts.passive_paper_figures import RANGE_MAX_M, lines_matched
 from parts.passive_runs import runs_of
 
 THETA_CELLS, RHO_CELLS, RHO_CELL_M = 90, 256, 1000  # of the paper's accumulator

@@ -189,13 +189,23 @@ static mode_t new_file_mode(void)
     return 0666 & ~mask;
 }
 
+/* Whether the path is a link, such as /dev/stdout, to standard output's own file. */
+static bool is_link_to_standard_output(const char *path)
+{
+    struct stat link, file, own;
+
+    return lstat(path, &link) == 0 && S_ISLNK(link.st_mode) && stat(path, &file) == 0 &&
+           fstat(STDOUT_FILENO, &own) == 0 && own.st_dev == file.st_dev &&
+           own.st_ino == file.st_ino;
+}
+
 struct output output_open(const char *path)
 {
     struct output output = {stdout, NULL, NULL};
     struct stat status;
     char *real_path;
 
-    if (!path || !strcmp(path, "-")) {
+    if (!path || !strcmp(path, "-") || is_link_to_standard_output(path)) {
         return output;
     }
     if (stat(path, &status)) {
@@ -206,15 +216,18 @@ struct output output_open(const char *path)
     if (S_ISDIR(status.st_mode)) {
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(EISDIR));
     }
-    /* a symbolic link is kept: the file that it points to is replaced */
+    /*
+     * a symbolic link is kept: the file that it points to is replaced; a file without a name, such
+     * as /dev/fd/3 to a deleted one, is written itself
+     */
     real_path = realpath(path, NULL);
     output.path = must_copy_text(real_path ? real_path : path);
-    free(real_path);
-    if (S_ISREG(status.st_mode)) {
+    if (S_ISREG(status.st_mode) && real_path) {
         open_temporary_beside(&output, status.st_mode & 07777);
     } else {
         output.file = open_output_directly(path);
     }
+    free(real_path);
     return output;
 }
 
@@ -222,7 +235,7 @@ struct output output_open_in_place(const char *path)
 {
     struct output output = {stdout, NULL, NULL};
 
-    if (path && strcmp(path, "-") != 0) {
+    if (path && strcmp(path, "-") != 0 && !is_link_to_standard_output(path)) {
         output.path = must_copy_text(path);
         output.file = open_output_directly(path);
     }
@@ -346,7 +359,7 @@ const char *shortest_float_text(float value, char text[FLOAT_TEXT_BYTES])
     return text;
 }
 
-const char *time_text(int64_t time_us, char text[TIME_TEXT_BYTES])
+const char *decimal_seconds_text(int64_t time_us, char text[TIME_TEXT_BYTES])
 {
     uint64_t magnitude = time_us < 0 ? 0 - (uint64_t)time_us : (uint64_t)time_us;
 
@@ -424,7 +437,7 @@ void print_count_unless_zero(const char *path, uint64_t count, const char *what)
     }
 }
 
-int64_t clock_us(void)
+int64_t monotonic_clock_us(void)
 {
     struct timespec now;
 
@@ -434,7 +447,7 @@ int64_t clock_us(void)
 
 struct progress progress_start(const char *what, uint64_t total)
 {
-    struct progress progress = {what, clock_us(), 0, total};
+    struct progress progress = {what, monotonic_clock_us(), 0, total};
 
     if (!isatty(STDERR_FILENO)) {
         progress.shown_us = INT64_MAX; /* not a terminal: progress is never due */
@@ -466,7 +479,7 @@ static void print_time_left(double seconds)
 }
 
 /* True at most once per PERIOD_US, after QUIET_US of work; then notes the time as shown. */
-static bool mark_progress_if_due(struct progress *progress)
+static bool note_progress_time_if_due(struct progress *progress)
 {
     enum { QUIET_US = 2000000, PERIOD_US = 200000 };
     int64_t now_us;
@@ -474,7 +487,7 @@ static bool mark_progress_if_due(struct progress *progress)
     if (progress->shown_us == INT64_MAX) {
         return false;
     }
-    now_us = clock_us();
+    now_us = monotonic_clock_us();
     if (now_us - progress->start_us < QUIET_US || now_us - progress->shown_us < PERIOD_US) {
         return false;
     }
@@ -503,23 +516,23 @@ static void print_progress(const struct progress *progress, uint64_t done, doubl
     }
 }
 
-static double fraction_done(uint64_t done, uint64_t total)
+static double fraction_done_or_0_if_unknown(uint64_t done, uint64_t total)
 {
     return total > 0 && done <= total ? (double)done / (double)total : 0;
 }
 
 void progress_show(struct progress *progress, uint64_t done)
 {
-    if (mark_progress_if_due(progress)) {
-        print_progress(progress, done, fraction_done(done, progress->total));
+    if (note_progress_time_if_due(progress)) {
+        print_progress(progress, done, fraction_done_or_0_if_unknown(done, progress->total));
     }
 }
 
 void progress_show_by_bytes(struct progress *progress, uint64_t done, uint64_t bytes,
                             uint64_t total_bytes)
 {
-    if (mark_progress_if_due(progress)) {
-        print_progress(progress, done, fraction_done(bytes, total_bytes));
+    if (note_progress_time_if_due(progress)) {
+        print_progress(progress, done, fraction_done_or_0_if_unknown(bytes, total_bytes));
     }
 }
 

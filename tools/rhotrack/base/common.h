@@ -42,7 +42,9 @@ char *must_copy_text(const char *text);
 
 /*
  * Output file that appears under its name only when it is complete: a temporary file beside it is
- * renamed at the end. path NULL or "-": standard output. Devices and pipes are written directly.
+ * renamed at the end. path NULL, "-", or a link to its file, as /dev/stdout is: standard output.
+ * Devices, pipes and files without a name, as /dev/fd/3 may be, are written directly. A link to
+ * another file is kept.
  * fail(), SIGINT and SIGTERM remove unfinished temporary files; OUTPUTS_MAX can be open at a time.
  */
 #define OUTPUTS_MAX 64
@@ -90,7 +92,7 @@ const char *shortest_float_text(float value, char text[FLOAT_TEXT_BYTES]);
 
 /* Writes a time in seconds with six decimals. */
 #define TIME_TEXT_BYTES 24
-const char *time_text(int64_t time_us, char text[TIME_TEXT_BYTES]);
+const char *decimal_seconds_text(int64_t time_us, char text[TIME_TEXT_BYTES]);
 
 bool text_begins_with(const char *text, const char *prefix);
 
@@ -117,7 +119,7 @@ void print_rows_skipped(uint64_t rows);
 void print_count_unless_zero(const char *path, uint64_t count, const char *what);
 
 /* Monotonic clock, in microseconds. */
-int64_t clock_us(void);
+int64_t monotonic_clock_us(void);
 
 /*
  * Progress line on standard error, only on a terminal and only for work of more than two seconds.

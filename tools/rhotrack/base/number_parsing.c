@@ -37,7 +37,7 @@ static bool is_decimal(const char *cell)
     return has_digits && !*c;
 }
 
-static const char *why_not_decimal(const char *cell)
+static const char *fault_of_non_decimal_cell(const char *cell)
 {
     const char *word = cell + (*cell == '+' || *cell == '-');
 
@@ -55,7 +55,7 @@ const char *parse_number_or_give_reason(const char *cell, double *value)
     double number;
 
     if (!is_decimal(cell)) {
-        return why_not_decimal(cell);
+        return fault_of_non_decimal_cell(cell);
     }
     number = strtod(cell, NULL);
     if (!(fabs(number) <= (double)FLT_MAX)) {

@@ -63,16 +63,17 @@ static double median(double *values, size_t count)
 /* ---- noise ---- */
 
 /* Magnitude of a residual: metres, or radians across the line of sight of a polar plot. */
-static double residual_magnitude(const struct residual *residual, bool is_isotropic)
+static double absolute_residual_m_or_rad(const struct residual *residual, bool is_isotropic)
 {
     return fabs(residual->axis == 1 && !is_isotropic ? residual->off_m / residual->range_m
                                                      : residual->off_m);
 }
 
 static bool is_residual_counted(const struct residual *residual, int axis, bool is_isotropic,
-                                int part)
+                                int left_out_part)
 {
-    return (is_isotropic || residual->axis == axis) && (int)(residual->segment % PARTS) != part;
+    return (is_isotropic || residual->axis == axis) &&
+           (int)(residual->segment % PARTS) != left_out_part;
 }
 
 /*
@@ -91,7 +92,7 @@ static double noise_without_part(const struct calibrate_segments *segments, int 
         for (size_t k = 0; k < segments->num_residuals; k++) {
             if (is_residual_counted(&segments->residuals[k], axis, is_isotropic, part)) {
                 const double sigmas =
-                    residual_magnitude(&segments->residuals[k], is_isotropic) / sigma;
+                    absolute_residual_m_or_rad(&segments->residuals[k], is_isotropic) / sigma;
 
                 sum += sigmas < CUT ? sigmas * sigmas : CUT * CUT;
                 count += 1.0;
@@ -167,7 +168,7 @@ static struct calibrate_segments track_and_cut_segments(struct register_data *da
 {
     remove_all_tracks(data);
     register_track_one_radar(data, radar, pipeline);
-    return calibrate_cut_segments(data, radar, is_isotropic);
+    return calibrate_cut_tracks_into_segments(data, radar, is_isotropic);
 }
 
 /* Score of a noise factor: fitted segments minus segments that fit no parabola. */
@@ -181,10 +182,10 @@ static double segments_minus_left_out(const struct calibrate_segments *segments)
  * plots the factor that gives most segments, and returns these: with sigmas far from the true noise
  * the tracker finds no tracks.
  */
-static struct calibrate_segments track_with_best_noise_factor(struct register_data *data,
-                                                              size_t radar_number,
-                                                              bool is_isotropic,
-                                                              struct pipeline *pipeline)
+static struct calibrate_segments track_with_best_plot_sigma_factor(struct register_data *data,
+                                                                   size_t radar_number,
+                                                                   bool is_isotropic,
+                                                                   struct pipeline *pipeline)
 {
     static const double factors[] = {4.0, 16.0, 0.25};
     struct radar_data *radar = &data->radars[radar_number];
@@ -236,7 +237,7 @@ static struct calibrate_segments estimate_noise_and_cut_segments(struct register
 {
     struct calibrate_figure *noise = out->figures;
     struct calibrate_segments segments =
-        track_with_best_noise_factor(data, radar_number, out->is_isotropic, pipeline);
+        track_with_best_plot_sigma_factor(data, radar_number, out->is_isotropic, pipeline);
 
     for (int round = 0; round < ROUNDS_MAX && segments.num_segments >= SEGMENTS_MIN; round++) {
         const struct calibrate_figure before[2] = {noise[0], noise[1]};
@@ -273,7 +274,7 @@ static struct turns group_scans_into_turns(const struct register_data *data,
                           .plots = must_calloc(radar->num_scans + 1, sizeof(double))};
 
     for (size_t first = 0, end; first < radar->num_scans; first = end) {
-        end = register_find_turn_end(radar, first);
+        end = register_find_scan_after_turn(radar, first);
         for (size_t i = first; i < end; i++) {
             turns.plots[turns.count] += (double)radar->scans[i].count;
         }
@@ -417,8 +418,8 @@ static struct calibrate_figure estimate_pd(const struct register_data *data, siz
  * Median speed, with its error, of the track whose segments begin at *next, and moves *next to the
  * following track. False, not reliable, where the track has fewer than two segments.
  */
-static bool next_track_speed_if_reliable(const struct calibrate_segments *segments, size_t *next,
-                                         struct calibrate_figure *speed)
+static bool median_speed_of_next_track_if_reliable(const struct calibrate_segments *segments,
+                                                   size_t *next, struct calibrate_figure *speed)
 {
     const size_t first = *next;
     double *speeds, square = 0.0;
@@ -451,7 +452,7 @@ static void find_speed_extremes(const struct calibrate_segments *segments,
     struct calibrate_figure speed;
 
     for (size_t next = 0; next < segments->num_segments;) {
-        if (!next_track_speed_if_reliable(segments, &next, &speed) ||
+        if (!median_speed_of_next_track_if_reliable(segments, &next, &speed) ||
             speed.value < MOVING_SIGMAS * speed.sigma) {
             continue;
         }
@@ -492,8 +493,10 @@ static void restore_noise_and_find_innovations(struct register_data *data, size_
     out->innovations = out->num_innovations ? sum / CUT_MEAN / (double)out->num_innovations : NAN;
 }
 
-static void calibrate_one_radar(struct register_data *data, size_t radar_number,
-                                struct pipeline *pipeline, struct calibrate_radar *out)
+static void estimate_noise_pd_clutter_and_turn_of_radar(struct register_data *data,
+                                                        size_t radar_number,
+                                                        struct pipeline *pipeline,
+                                                        struct calibrate_radar *out)
 {
     struct radar_data *radar = &data->radars[radar_number];
     double *stated = must_calloc(2 * radar->num_plots + 1, sizeof *stated);
@@ -536,7 +539,7 @@ struct calibrate_result calibrate(struct register_data *data, struct pipeline *p
 
     result.radars = must_calloc(data->num_radars + 1, sizeof *result.radars);
     for (size_t i = 0; i < data->num_radars; i++) {
-        calibrate_one_radar(data, i, pipeline, &result.radars[i]);
+        estimate_noise_pd_clutter_and_turn_of_radar(data, i, pipeline, &result.radars[i]);
     }
     return result;
 }

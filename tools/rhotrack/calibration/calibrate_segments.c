@@ -78,7 +78,8 @@ static struct axes noise_axes(const struct radar_plot *plot, bool is_isotropic)
         .x = {c, -s}, .y = {s, c}, .sigma_m = {plot->sigma_range_m, plot->sigma_cross_m}};
 }
 
-static double plot_time_s(const struct register_data *data, const struct radar_plot *plot)
+static double plot_time_since_start_s(const struct register_data *data,
+                                      const struct radar_plot *plot)
 {
     return (double)(plot->time_us - data->start_us) * 1e-6;
 }
@@ -101,8 +102,8 @@ static bool fit_path(const struct register_data *data, const struct radar_track 
 
     memset(path->factor, 0, sizeof path->factor);
     memset(path->solution, 0, sizeof path->solution);
-    path->middle_s = 0.5 * (plot_time_s(data, &plots[track->plots[first]]) +
-                            plot_time_s(data, &plots[track->plots[first + count - 1]]));
+    path->middle_s = 0.5 * (plot_time_since_start_s(data, &plots[track->plots[first]]) +
+                            plot_time_since_start_s(data, &plots[track->plots[first + count - 1]]));
     for (size_t k = 0; k < 2 * count; k++) {
         const struct radar_plot *plot = &plots[track->plots[first + k / 2]];
         const struct axes axes = noise_axes(plot, is_isotropic);
@@ -110,7 +111,7 @@ static bool fit_path(const struct register_data *data, const struct radar_track 
         const double weight = 1.0 / (axes.sigma_m[axis] * axes.sigma_m[axis]);
         double row[MAX_UNKNOWN];
 
-        fill_design_row(path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
+        fill_design_row(path, plot_time_since_start_s(data, plot), axes.x[axis], axes.y[axis], row);
         for (size_t i = 0; i < n; i++) {
             path->solution[i] += weight * row[i] * plot_coordinate_along(plot, &axes, axis);
             for (size_t j = 0; j < n; j++) {
@@ -141,7 +142,7 @@ static void add_segment_residuals(const struct register_data *data, const struct
         const int axis = (int)(k % 2);
         double row[MAX_UNKNOWN], leverage;
 
-        fill_design_row(path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
+        fill_design_row(path, plot_time_since_start_s(data, plot), axes.x[axis], axes.y[axis], row);
         leverage = path_variance(path, row) / (axes.sigma_m[axis] * axes.sigma_m[axis]);
         if (leverage > LEVERAGE_MAX) {
             /*
@@ -182,7 +183,8 @@ static bool residuals_look_like_noise(const struct residual *residuals, size_t c
 }
 
 /* The segment's speed in its middle, and the standard error of the speed. */
-static struct calibrate_segment segment_from_path(const struct path *path, size_t track)
+static struct calibrate_segment segment_with_speed_in_path_middle(const struct path *path,
+                                                                  size_t track)
 {
     double vx = path->solution[1], vy = path->solution[path->powers + 1];
     double speed_mps = hypot(vx, vy), row[MAX_UNKNOWN] = {0.0};
@@ -198,9 +200,10 @@ static struct calibrate_segment segment_from_path(const struct path *path, size_
  * Fits a line, or where its residuals do not look like noise a parabola, and adds the residuals of
  * the fit to segments. False, without residuals, where neither fits.
  */
-static bool fit_segment(const struct register_data *data, const struct radar_track *track,
-                        size_t first, bool is_isotropic, struct path *path,
-                        struct calibrate_segments *segments)
+static bool fit_segment_and_add_residuals(const struct register_data *data,
+                                          const struct radar_track *track, size_t first,
+                                          bool is_isotropic, struct path *path,
+                                          struct calibrate_segments *segments)
 {
     const size_t before = segments->num_residuals;
 
@@ -226,26 +229,27 @@ static void cut_track_into_segments(const struct register_data *data, size_t tra
 
     for (size_t first = 0; first + SEGMENT_PLOTS <= track->count; first += SEGMENT_PLOTS) {
         const double duration_s =
-            plot_time_s(data, &plots[track->plots[first + SEGMENT_PLOTS - 1]]) -
-            plot_time_s(data, &plots[track->plots[first]]);
+            plot_time_since_start_s(data, &plots[track->plots[first + SEGMENT_PLOTS - 1]]) -
+            plot_time_since_start_s(data, &plots[track->plots[first]]);
         struct path path;
 
         if (duration_s > SEGMENT_S) {
             continue;
         }
-        if (!fit_segment(data, track, first, is_isotropic, &path, segments)) {
+        if (!fit_segment_and_add_residuals(data, track, first, is_isotropic, &path, segments)) {
             segments->num_left_out++;
             continue;
         }
         segments->segments =
             must_make_room_for_one(segments->segments, segments->num_segments,
                                    &segments->segments_room, sizeof *segments->segments);
-        segments->segments[segments->num_segments++] = segment_from_path(&path, track_number);
+        segments->segments[segments->num_segments++] =
+            segment_with_speed_in_path_middle(&path, track_number);
     }
 }
 
-struct calibrate_segments calibrate_cut_segments(const struct register_data *data, size_t radar,
-                                                 bool is_isotropic)
+struct calibrate_segments calibrate_cut_tracks_into_segments(const struct register_data *data,
+                                                             size_t radar, bool is_isotropic)
 {
     struct calibrate_segments segments = {.num_segments = 0};
 
@@ -282,7 +286,8 @@ double calibrate_sum_squared_innovations(const struct register_data *data, size_
                  axis++) {
                 double row[MAX_UNKNOWN] = {0.0}, off_m, square;
 
-                fill_design_row(&path, plot_time_s(data, plot), axes.x[axis], axes.y[axis], row);
+                fill_design_row(&path, plot_time_since_start_s(data, plot), axes.x[axis],
+                                axes.y[axis], row);
                 off_m =
                     plot_coordinate_along(plot, &axes, axis) - dot_product(row, path.solution, 4);
                 square = off_m * off_m /

@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_TOOL_CALIBRATE_SEGMENTS_H
 #define RHOTRACK_TOOL_CALIBRATE_SEGMENTS_H
 
-#include "registration/register_data.h"
+#include "registration/register_shared_data.h"
 
 /*
  * Residual of a plot along one axis of its noise, scaled to the distance from a path fitted without
@@ -35,8 +35,8 @@ struct calibrate_segments {
  * Cuts the tracks of the radar into segments, with weights by the plots' sigmas. is_isotropic:
  * residuals are along x and y instead of along and across the line of sight.
  */
-struct calibrate_segments calibrate_cut_segments(const struct register_data *data, size_t radar,
-                                                 bool is_isotropic);
+struct calibrate_segments calibrate_cut_tracks_into_segments(const struct register_data *data,
+                                                             size_t radar, bool is_isotropic);
 void calibrate_segments_free(struct calibrate_segments *segments);
 
 /*

@@ -80,8 +80,10 @@ static struct pair_error error_of_pair(size_t target_index, enum evaluation_moti
  * Classifies the target as straight or turning by the change of its velocity since its previous
  * time, and stores its time and velocity for the next call.
  */
-static void update_target_motion(const struct evaluation *e, struct target_life *life,
-                                 const struct evaluation_point *target, int64_t time_us)
+static void classify_target_straight_or_turning(const struct evaluation *e,
+                                                struct target_life *life,
+                                                const struct evaluation_point *target,
+                                                int64_t time_us)
 {
     double *last = life->velocity_mps, passed_s = (double)(time_us - life->last_us) * 1e-6;
     double change_mps =
@@ -181,7 +183,7 @@ static void record_targets_at_time(struct evaluation *e, const struct evaluation
         size_t number = find_or_add_target(e, targets[i].id, scan->time_us);
         struct target_life *life = &e->targets[number];
         life->scans++;
-        update_target_motion(e, life, &targets[i], scan->time_us);
+        classify_target_straight_or_turning(e, life, &targets[i], scan->time_us);
         if (track_of[i] >= 0) {
             const struct evaluation_point *track = &tracks[track_of[i]];
             struct pair_error error = error_of_pair(number, life->motion, &targets[i], track);
@@ -192,10 +194,10 @@ static void record_targets_at_time(struct evaluation *e, const struct evaluation
         }
         life->is_tracked = track_of[i] >= 0;
     }
-    scan->rmse_mps = sqrt(evaluation_mean(sums.error2_m2ps2, sums.velocities));
-    scan->nees = evaluation_mean(sums.nees, sums.covariances);
+    scan->rmse_mps = sqrt(evaluation_mean_or_nan(sums.error2_m2ps2, sums.velocities));
+    scan->nees = evaluation_mean_or_nan(sums.nees, sums.covariances);
     scan->velocity_ratio =
-        evaluation_mean(sums.velocity_nees, sums.velocity_covariances) / EVALUATION_AXES;
+        evaluation_mean_or_nan(sums.velocity_nees, sums.velocity_covariances) / EVALUATION_AXES;
 }
 
 void evaluation_add_time(struct evaluation *e, int64_t time_us,
@@ -216,7 +218,7 @@ void evaluation_add_time(struct evaluation *e, int64_t time_us,
         .localisation_m2 = gospa.localisation_m2,
         .missed_m2 = half_m2 * (double)gospa.missed,
         .false_m2 = half_m2 * (double)gospa.false_tracks,
-        .rmse_m = sqrt(evaluation_mean(gospa.localisation_m2, gospa.pairs)),
+        .rmse_m = sqrt(evaluation_mean_or_nan(gospa.localisation_m2, gospa.pairs)),
     };
     for (size_t i = 0; i < num_tracks; i++) {
         size_t number = find_or_add_track(e, tracks[i].id);

@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/identity_numbers.h"
+#include "base/identity_to_index_map.h"
 #include "evaluation/time_alignment.h"
-#include "io/rows/trajectory_row.h"
+#include "io/rows/read_truth_or_track_row.h"
 #include "rhotrack/message.h"
 
 struct timed_point {
@@ -47,7 +47,7 @@ static struct evaluation_point point_from_row(const struct trajectory_row *path)
     };
 }
 
-static int by_time(const void *a, const void *b)
+static int compare_points_by_time_and_row(const void *a, const void *b)
 {
     const struct timed_point *one = a, *other = b;
     if (one->time_us != other->time_us) {
@@ -57,8 +57,8 @@ static int by_time(const void *a, const void *b)
 }
 
 /* Reads the confirmed and coasting rows of a truth or tracks table, sorted by time. */
-static struct points read_confirmed_points(const struct table *table,
-                                           const struct parameters *parameters)
+static struct points read_confirmed_and_coasting_points(const struct table *table,
+                                                        const struct parameters *parameters)
 {
     struct trajectory_columns columns = trajectory_columns_find(table, parameters);
     struct points points = {.table = table,
@@ -74,7 +74,7 @@ static struct points read_confirmed_points(const struct table *table,
         }
     }
     trajectory_columns_free(&columns);
-    qsort(points.list, points.count, sizeof points.list[0], by_time);
+    qsort(points.list, points.count, sizeof points.list[0], compare_points_by_time_and_row);
     return points;
 }
 
@@ -110,7 +110,7 @@ static struct timed_point extrapolated_to_time(const struct timed_point *timed, 
     return at;
 }
 
-static struct alignment_times times_of_points(const struct points *points)
+static struct alignment_times view_of_point_times(const struct points *points)
 {
     return (struct alignment_times){
         .first_us = &points->list->time_us, .stride = sizeof *points->list, .count = points->count};
@@ -120,16 +120,17 @@ static struct alignment_times times_of_points(const struct points *points)
  * Replaces the tracks' points by their points at the truth's times (see time_alignment.h). Exits
  * with an error where a track time is further than most_us from every truth time.
  */
-static void align_tracks_to_truth(struct points *tracks, const struct points *truth,
-                                  int64_t most_us)
+static void extrapolate_tracks_to_truth_times(struct points *tracks, const struct points *truth,
+                                              int64_t most_us)
 {
-    struct alignment_times track_times = times_of_points(tracks),
-                           truth_times = times_of_points(truth);
-    size_t unmatched = alignment_find_unmatched(track_times, truth_times, most_us);
+    struct alignment_times track_times = view_of_point_times(tracks),
+                           truth_times = view_of_point_times(truth);
+    size_t unmatched = alignment_find_first_track_without_truth(track_times, truth_times, most_us);
     if (unmatched < tracks->count) {
         alignment_fail_unmatched(tracks->table, tracks->list[unmatched].row, most_us);
     }
-    struct alignment alignment = alignment_list_rows_for_truth(track_times, truth_times, most_us);
+    struct alignment alignment =
+        alignment_list_track_rows_at_truth_times(track_times, truth_times, most_us);
     struct points aligned = *tracks;
     aligned.list = must_calloc(alignment.count + 1, sizeof *aligned.list);
     aligned.count = alignment.count;
@@ -145,7 +146,8 @@ static void align_tracks_to_truth(struct points *tracks, const struct points *tr
 /* ---- time by time ---- */
 
 /* Index one past the last point from `from` on whose time is at most time_us plus 1 ms. */
-static size_t end_of_points_at_time(const struct points *points, size_t first, int64_t time_us)
+static size_t index_past_points_up_to_time(const struct points *points, size_t first,
+                                           int64_t time_us)
 {
     while (first < points->count && points->list[first].time_us <= time_us + ALIGNMENT_LEAST_US) {
         first++;
@@ -212,8 +214,8 @@ static void evaluate_all_times(struct evaluation *e, const struct points *truth,
     while (target < truth->count) {
         int64_t time_us = truth->list[target].time_us;
         check_truth_has_time(tracks, track, time_us);
-        size_t target_end = end_of_points_at_time(truth, target, time_us);
-        size_t track_end = end_of_points_at_time(tracks, track, time_us);
+        size_t target_end = index_past_points_up_to_time(truth, target, time_us);
+        size_t track_end = index_past_points_up_to_time(tracks, track, time_us);
         size_t num_targets =
             keep_last_point_of_each_id(&last_target, truth, target, target_end, targets_now);
         size_t num_tracks =
@@ -237,13 +239,13 @@ struct evaluation *evaluation_of_tables(const struct table *truth_table,
 {
     struct evaluation *e = evaluation_start(cutoff_m);
     evaluation_set_turning_limit(e, parameters->value[PARAMETER_TURNING_MPS2]);
-    struct points truth = read_confirmed_points(truth_table, parameters);
-    struct points tracks = read_confirmed_points(tracks_table, parameters);
+    struct points truth = read_confirmed_and_coasting_points(truth_table, parameters);
+    struct points tracks = read_confirmed_and_coasting_points(tracks_table, parameters);
     zero_uncompared_heights(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     zero_uncompared_heights(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     int64_t tolerance_us = alignment_tolerance_us(parameters);
     if (tolerance_us > ALIGNMENT_LEAST_US) {
-        align_tracks_to_truth(&tracks, &truth, tolerance_us);
+        extrapolate_tracks_to_truth_times(&tracks, &truth, tolerance_us);
     }
     evaluate_all_times(e, &truth, &tracks);
     free(truth.list);

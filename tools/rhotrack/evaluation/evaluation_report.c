@@ -8,7 +8,7 @@
 
 #include "base/common.h"
 #include "base/text_table.h"
-#include "evaluation/evaluation_figures.h"
+#include "evaluation/evaluation_results_by_name.h"
 #include "evaluation/evaluation_state.h"
 #include "io/csv/tracks_writer.h"
 
@@ -25,17 +25,18 @@ static void print_targets(const struct evaluation *e, FILE *file)
         const struct evaluation_target *t = &targets[i];
         char found_s[TEXT_TABLE_NUMBER], until_s[TEXT_TABLE_NUMBER], texts[5][TEXT_TABLE_NUMBER];
         bool is_found = t->paired > 0;
-        text_table_add_row(
-            &table, "%d|%.1f|%.1f|%s|%s|%.3f|%zu|%zu|%s|%s|%s|%s|%s", t->id,
-            (double)t->first_us * 1e-6, (double)t->last_us * 1e-6,
-            text_table_number_or_dash(found_s, 1, is_found ? (double)t->found_us * 1e-6 : NAN),
-            text_table_number_or_dash(until_s, 1, is_found ? (double)t->kept_until_us * 1e-6 : NAN),
-            (double)t->paired / (double)t->scans, t->switches, t->fragments,
-            text_table_number_or_dash(texts[0], 1, t->errors.rmse_m),
-            text_table_number_or_dash(texts[1], 1, t->errors.median_m),
-            text_table_number_or_dash(texts[2], 1, t->errors.p95_m),
-            text_table_number_or_dash(texts[3], 2, t->errors.rmse_mps),
-            text_table_number_or_dash(texts[4], 2, t->errors.nees));
+        text_table_add_row(&table, "%d|%.1f|%.1f|%s|%s|%.3f|%zu|%zu|%s|%s|%s|%s|%s", t->id,
+                           (double)t->first_us * 1e-6, (double)t->last_us * 1e-6,
+                           text_table_number_or_dash_for_nan(
+                               found_s, 1, is_found ? (double)t->found_us * 1e-6 : NAN),
+                           text_table_number_or_dash_for_nan(
+                               until_s, 1, is_found ? (double)t->kept_until_us * 1e-6 : NAN),
+                           (double)t->paired / (double)t->scans, t->switches, t->fragments,
+                           text_table_number_or_dash_for_nan(texts[0], 1, t->errors.rmse_m),
+                           text_table_number_or_dash_for_nan(texts[1], 1, t->errors.median_m),
+                           text_table_number_or_dash_for_nan(texts[2], 1, t->errors.p95_m),
+                           text_table_number_or_dash_for_nan(texts[3], 2, t->errors.rmse_mps),
+                           text_table_number_or_dash_for_nan(texts[4], 2, t->errors.nees));
     }
     fputc('\n', file);
     text_table_print(&table, file);
@@ -50,17 +51,17 @@ static const char *const motion_names[EVALUATION_MOTIONS] = {
 };
 
 /* Adds a row with the errors of one motion to the table. */
-static void add_motion_row(struct text_table *table, const char *name,
-                           const struct evaluation_errors *of)
+static void add_errors_row_of_motion_kind(struct text_table *table, const char *name,
+                                          const struct evaluation_errors *of)
 {
     char texts[6][TEXT_TABLE_NUMBER];
     text_table_add_row(table, "%s|%zu|%s|%s|%s|%s|%s|%s", name, of->pairs,
-                       text_table_number_or_dash(texts[0], 1, of->rmse_m),
-                       text_table_number_or_dash(texts[1], 2, of->rmse_mps),
-                       text_table_number_or_dash(texts[2], 2, of->nees / EVALUATION_AXES),
-                       text_table_number_or_dash(texts[3], 3, of->nees_inside),
-                       text_table_number_or_dash(texts[4], 2, of->velocity_ratio),
-                       text_table_number_or_dash(texts[5], 3, of->velocity_inside));
+                       text_table_number_or_dash_for_nan(texts[0], 1, of->rmse_m),
+                       text_table_number_or_dash_for_nan(texts[1], 2, of->rmse_mps),
+                       text_table_number_or_dash_for_nan(texts[2], 2, of->nees / EVALUATION_AXES),
+                       text_table_number_or_dash_for_nan(texts[3], 3, of->nees_inside),
+                       text_table_number_or_dash_for_nan(texts[4], 2, of->velocity_ratio),
+                       text_table_number_or_dash_for_nan(texts[5], 3, of->velocity_inside));
 }
 
 /*
@@ -72,9 +73,9 @@ static void print_errors_by_motion(const struct evaluation_result *result, FILE 
     struct text_table table = text_table_start(
         1, "pairs|number|rmse m|rmse m/s|place ratio|inside|velocity ratio|inside");
     for (int i = 0; i < EVALUATION_MOTIONS; i++) {
-        add_motion_row(&table, motion_names[i], &result->by_motion[i]);
+        add_errors_row_of_motion_kind(&table, motion_names[i], &result->by_motion[i]);
     }
-    add_motion_row(&table, "all", &result->errors);
+    add_errors_row_of_motion_kind(&table, "all", &result->errors);
     fputc('\n', file);
     text_table_print(&table, file);
     text_table_free(&table);
@@ -116,7 +117,8 @@ static cJSON *motions_json(const struct evaluation_result *result)
 {
     cJSON *object = cJSON_CreateObject();
     for (int i = 0; i < EVALUATION_MOTIONS; i++) {
-        struct evaluation_figures figures = evaluation_figures_motion(&result->by_motion[i]);
+        struct evaluation_figures figures =
+            evaluation_figures_of_motion_kind(&result->by_motion[i]);
         cJSON_AddItemToObject(object, motion_names[i], figures_json(&figures));
     }
     return object;
@@ -135,7 +137,7 @@ static cJSON *targets_json(const struct evaluation *e)
     return list;
 }
 
-static cJSON *times_json(const struct evaluation *e)
+static cJSON *figures_over_time_json(const struct evaluation *e)
 {
     size_t count;
     const struct evaluation_scan *scans = evaluation_results_over_time(e, &count);
@@ -154,7 +156,7 @@ void evaluation_print_json(const struct evaluation *e)
     cJSON *object = figures_json(&figures);
     cJSON_AddItemToObject(object, "by_motion", motions_json(&result));
     cJSON_AddItemToObject(object, "by_target", targets_json(e));
-    cJSON_AddItemToObject(object, "over_time", times_json(e));
+    cJSON_AddItemToObject(object, "over_time", figures_over_time_json(e));
     json_print_and_delete(object);
 }
 
@@ -174,7 +176,7 @@ static void write_time_row(FILE *file, const struct evaluation_scan *scan)
     fputc('\n', file);
 }
 
-void evaluation_write_csv(const struct evaluation *e, const char *path)
+void evaluation_write_csv_over_time(const struct evaluation *e, const char *path)
 {
     const struct evaluation_scan none = {0};
     struct evaluation_figures head = evaluation_figures_scan(&none);

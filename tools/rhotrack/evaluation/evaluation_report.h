@@ -20,9 +20,9 @@ void evaluation_print(const struct evaluation *e, bool by_target);
 void evaluation_print_json(const struct evaluation *e);
 
 /* Writes a CSV file with a row of figures for each evaluated time. */
-void evaluation_write_csv(const struct evaluation *e, const char *path);
+void evaluation_write_csv_over_time(const struct evaluation *e, const char *path);
 
 /* Draws GOSPA, its parts, and the numbers of targets and tracks over time as an SVG file. */
-void evaluation_draw(const struct evaluation *e, const char *path);
+void evaluation_draw_gospa_and_counts_over_time(const struct evaluation *e, const char *path);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "base/identity_numbers.h"
+#include "base/identity_to_index_map.h"
 #include "evaluation/evaluation.h"
 
 #define NO_TRACK SIZE_MAX
@@ -47,6 +47,6 @@ struct evaluation {
 };
 
 /* sum / count; NAN where count is 0. */
-double evaluation_mean(double sum, size_t count);
+double evaluation_mean_or_nan(double sum, size_t count);
 
 #endif

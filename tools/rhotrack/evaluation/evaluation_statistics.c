@@ -14,7 +14,7 @@
 /* 95 % quantile of chi-square with two degrees of freedom: -2 ln 0.05 */
 #define NEES_95 5.991464547107979
 
-double evaluation_mean(double sum, size_t count)
+double evaluation_mean_or_nan(double sum, size_t count)
 {
     return count == 0 ? NAN : sum / (double)count;
 }
@@ -47,7 +47,7 @@ static double root_mean_square(const double *values, size_t count)
     for (size_t i = 0; i < count; i++) {
         sum += values[i] * values[i];
     }
-    return sqrt(evaluation_mean(sum, count));
+    return sqrt(evaluation_mean_or_nan(sum, count));
 }
 
 struct nees_sum {
@@ -72,10 +72,10 @@ static void fill_nees_figures(struct evaluation_errors *errors, const struct pai
         add_nees(&place, pairs[i].nees);
         add_nees(&velocity, pairs[i].velocity_nees);
     }
-    errors->nees = evaluation_mean(place.sum, place.known);
-    errors->nees_inside = evaluation_mean((double)place.inside, place.known);
-    errors->velocity_ratio = evaluation_mean(velocity.sum, velocity.known) / EVALUATION_AXES;
-    errors->velocity_inside = evaluation_mean((double)velocity.inside, velocity.known);
+    errors->nees = evaluation_mean_or_nan(place.sum, place.known);
+    errors->nees_inside = evaluation_mean_or_nan((double)place.inside, place.known);
+    errors->velocity_ratio = evaluation_mean_or_nan(velocity.sum, velocity.known) / EVALUATION_AXES;
+    errors->velocity_inside = evaluation_mean_or_nan((double)velocity.inside, velocity.known);
 }
 
 static struct evaluation_errors errors_of_pairs(const struct pair_error *pairs, size_t count)
@@ -106,7 +106,8 @@ static struct evaluation_errors errors_of_pairs(const struct pair_error *pairs, 
 
 /* ---- all in all ---- */
 
-static void fill_target_figures(const struct evaluation *e, struct evaluation_result *result)
+static void fill_figures_over_all_targets(const struct evaluation *e,
+                                          struct evaluation_result *result)
 {
     double delay_scans = 0.0, delay_s = 0.0, points = 0.0, points_after = 0.0;
     for (size_t i = 0; i < e->target_ids.count; i++) {
@@ -126,8 +127,8 @@ static void fill_target_figures(const struct evaluation *e, struct evaluation_re
     result->completeness = points > 0.0 ? (double)e->num_pairs / points : NAN;
     result->completeness_once_found =
         points_after > 0.0 ? (double)e->num_pairs / points_after : NAN;
-    result->delay_scans = evaluation_mean(delay_scans, result->targets_found);
-    result->delay_s = evaluation_mean(delay_s, result->targets_found);
+    result->delay_scans = evaluation_mean_or_nan(delay_scans, result->targets_found);
+    result->delay_s = evaluation_mean_or_nan(delay_s, result->targets_found);
 }
 
 static void fill_track_figures(const struct evaluation *e, struct evaluation_result *result)
@@ -154,11 +155,11 @@ static void fill_scan_figures(const struct evaluation *e, struct evaluation_resu
     result->scans = e->num_scans;
     result->first_us = e->num_scans ? e->scans[0].time_us : 0;
     result->last_us = e->num_scans ? e->scans[e->num_scans - 1].time_us : 0;
-    result->gospa_m = sqrt(evaluation_mean(squared_m2, e->num_scans));
-    result->gospa_localisation_m = sqrt(evaluation_mean(localisation_m2, e->num_scans));
-    result->gospa_missed = evaluation_mean(missed, e->num_scans);
-    result->gospa_false = result->false_per_scan = evaluation_mean(false_rows, e->num_scans);
-    result->ospa_m = evaluation_mean(ospa_m, e->num_scans);
+    result->gospa_m = sqrt(evaluation_mean_or_nan(squared_m2, e->num_scans));
+    result->gospa_localisation_m = sqrt(evaluation_mean_or_nan(localisation_m2, e->num_scans));
+    result->gospa_missed = evaluation_mean_or_nan(missed, e->num_scans);
+    result->gospa_false = result->false_per_scan = evaluation_mean_or_nan(false_rows, e->num_scans);
+    result->ospa_m = evaluation_mean_or_nan(ospa_m, e->num_scans);
 }
 
 static void fill_errors_by_motion(const struct evaluation *e, struct evaluation_result *result)
@@ -180,7 +181,7 @@ struct evaluation_result evaluation_result(const struct evaluation *e)
 {
     struct evaluation_result result = {0};
     fill_scan_figures(e, &result);
-    fill_target_figures(e, &result);
+    fill_figures_over_all_targets(e, &result);
     fill_track_figures(e, &result);
     result.errors = errors_of_pairs(e->pairs, e->num_pairs);
     fill_errors_by_motion(e, &result);

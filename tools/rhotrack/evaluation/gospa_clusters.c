@@ -47,7 +47,7 @@ static int by_x(const void *a, const void *b)
     return one->x_m < other->x_m ? -1 : one->x_m > other->x_m;
 }
 
-static struct sorted *sort_places(const struct gospa_place *places, size_t count)
+static struct sorted *sort_places_by_x(const struct gospa_place *places, size_t count)
 {
     struct sorted *sorted = must_calloc(count, sizeof *sorted);
     for (size_t i = 0; i < count; i++) {
@@ -61,8 +61,8 @@ static struct sorted *sort_places(const struct gospa_place *places, size_t count
 static void join_near_pairs(size_t *parent, const struct gospa_place *targets, size_t num_targets,
                             const struct gospa_place *tracks, size_t num_tracks, double cutoff_m)
 {
-    struct sorted *target = sort_places(targets, num_targets);
-    struct sorted *track = sort_places(tracks, num_tracks);
+    struct sorted *target = sort_places_by_x(targets, num_targets);
+    struct sorted *track = sort_places_by_x(tracks, num_tracks);
     size_t first = 0;
     for (size_t i = 0; i < num_targets; i++) {
         while (first < num_tracks && target[i].x_m - track[first].x_m >= cutoff_m) {

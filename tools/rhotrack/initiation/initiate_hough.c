@@ -8,9 +8,9 @@
 
 #include "base/common.h"
 #include "io/output/initiated_tracks_output.h"
-#include "io/scans/hough_batch.h"
 #include "io/scans/plot_scan_reader.h"
-#include "io/turns/revolutions.h"
+#include "io/scans/scans_to_hough_arrays.h"
+#include "io/turns/sectors_merged_to_turns.h"
 #include "pipeline/pipeline.h"
 
 #define CELLS_MAX (UINT32_C(1) << 20)
@@ -25,7 +25,8 @@ struct hough_search {
 
 /* ---- The batch ---- */
 
-static void read_batch(struct hough_batch *batch, const struct command_line *line)
+static void read_last_revolutions_into_batch(struct hough_batch *batch,
+                                             const struct command_line *line)
 {
     struct plot_scan_reader *reader = plot_scan_reader_open(line->arguments, line->num_arguments,
                                                             &line->parameters, line->keep_going);
@@ -35,7 +36,7 @@ static void read_batch(struct hough_batch *batch, const struct command_line *lin
     *batch = hough_batch_from_revolutions(&revolutions);
     revolutions_free(&revolutions);
     plot_scan_reader_report_skipped(reader);
-    hough_batch_report_left_out(batch);
+    hough_batch_report_plots_beyond_range(batch);
     plot_scan_reader_close(reader);
 }
 
@@ -90,10 +91,10 @@ static void search_batch_for_peaks(struct hough_search *search, const struct com
     config = method_hough_config(method, &fitted, search->batch.range_m);
     must_succeed(rho_hough_init(search->hough, sizeof *search->hough, &config), "hough");
     warn_of_long_search(search->hough, &points);
-    int64_t start_us = clock_us();
+    int64_t start_us = monotonic_clock_us();
     must_succeed(rho_hough_find(search->hough, &points, search->peaks, CELLS_MAX, &search->result),
                  "hough");
-    search->wall_us = clock_us() - start_us;
+    search->wall_us = monotonic_clock_us() - start_us;
     if (method == METHOD_HT) {
         rho_hough_count_pairs(search->hough, &points, &search->result.pairs,
                               &search->result.candidates);
@@ -187,7 +188,7 @@ void initiate_hough(const struct command_line *line, enum method method)
     struct hough_search search = {.hough = must_alloc(sizeof *search.hough),
                                   .peaks = must_calloc(CELLS_MAX, sizeof *search.peaks)};
 
-    read_batch(&search.batch, line);
+    read_last_revolutions_into_batch(&search.batch, line);
     search_batch_for_peaks(&search, line, method);
     if (line->output || !line->json) {
         write_found_tracks(&search, line->output);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "initiation/last_bearings.h"
+#include "initiation/search_last_bearing_frames.h"
 #include "io/output/initiated_tracks_output.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/angle.h"
@@ -50,7 +50,7 @@ static void write_found_tracks(const struct rho_passive *passive, int64_t time_u
 }
 
 /* Adds the number of bearings of each track, in descending order, and their sum. */
-static void add_track_hits_json(cJSON *object, const struct rho_passive *passive)
+static void add_sorted_track_hit_counts_json(cJSON *object, const struct rho_passive *passive)
 {
     int hits[RHO_MAX_PASSIVE_TRACKS], sum = 0;
 
@@ -63,7 +63,7 @@ static void add_track_hits_json(cJSON *object, const struct rho_passive *passive
                           sort_descending_into_json_list(hits, passive->num_tracks));
 }
 
-static void add_track_margins_json(cJSON *object, const struct rho_passive *passive)
+static void add_score_margins_without_track_json(cJSON *object, const struct rho_passive *passive)
 {
     cJSON *list = cJSON_AddArrayToObject(object, "margins_nat");
 
@@ -82,9 +82,9 @@ static void print_search_json(const struct rho_passive *passive, const struct la
     cJSON_AddNumberToObject(object, "plots", (double)batch->bearings);
     cJSON_AddNumberToObject(object, "pairs", work->crossings);
     cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
-    add_track_hits_json(object, passive);
+    add_sorted_track_hit_counts_json(object, passive);
     cJSON_AddNumberToObject(object, "tracks", passive->num_tracks);
-    add_track_margins_json(object, passive);
+    add_score_margins_without_track_json(object, passive);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *passive);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
     cJSON_AddNumberToObject(object, "sensors", passive->batch.num_sensors);
@@ -102,7 +102,8 @@ void initiate_passive(const struct command_line *line)
 {
     struct rho_passive *passive = must_alloc(sizeof *passive);
     struct parameters parameters = line->parameters;
-    struct bearing_frame_reader *reader = last_bearings_open_reader(line, &parameters);
+    struct bearing_frame_reader *reader =
+        last_bearings_open_reader_and_note_distance(line, &parameters);
     struct rho_passive_config config = method_passive_config(&parameters);
     struct bearings_search with = {passive, &passive->batch, push_passive_frame,
                                    search_passive_batch};

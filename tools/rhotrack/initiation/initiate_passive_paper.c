@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "initiation/last_bearings.h"
+#include "initiation/search_last_bearing_frames.h"
 #include "io/output/initiated_tracks_output.h"
 #include "pipeline/pipeline.h"
 #include "settings/initiation_method.h"
@@ -48,7 +48,7 @@ static void write_found_tracks(const struct rho_passive_paper *paper, int64_t ti
     initiated_tracks_output_close(found);
 }
 
-static void add_votes_json(cJSON *object, const struct rho_passive_paper *paper)
+static void add_line_votes_json(cJSON *object, const struct rho_passive_paper *paper)
 {
     int votes[RHO_MAX_PASSIVE_LINES];
 
@@ -71,7 +71,7 @@ static void print_search_json(const struct rho_passive_paper *paper,
     cJSON_AddNumberToObject(object, "plots", (double)batch->bearings);
     cJSON_AddNumberToObject(object, "pairs", work->crossings);
     cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
-    add_votes_json(object, paper);
+    add_line_votes_json(object, paper);
     cJSON_AddNumberToObject(object, "tracks", paper->num_lines);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *paper);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
@@ -102,7 +102,8 @@ void initiate_passive_paper(const struct command_line *line)
 {
     struct rho_passive_paper *paper = must_alloc(sizeof *paper);
     struct parameters parameters = line->parameters;
-    struct bearing_frame_reader *reader = last_bearings_open_reader(line, &parameters);
+    struct bearing_frame_reader *reader =
+        last_bearings_open_reader_and_note_distance(line, &parameters);
     struct rho_passive_paper_config config = method_passive_paper_config(&parameters);
     struct bearings_search with = {paper, &paper->batch, push_paper_frame, search_paper_batch};
 

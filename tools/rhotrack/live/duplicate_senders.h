@@ -46,7 +46,7 @@ bool duplicate_senders_sensor_id_of_channel(const char *channel, int16_t *sensor
  * Takes note of a message's sender. Prints a line once per pair where a second sender of a sensor
  * is certain, once a minute where it is possible, and once per other node that publishes; at most
  * SENDERS_LINES lines a second.
- *   now_us  monotonic time (clock_us), above 0
+ *   now_us  monotonic time (monotonic_clock_us), above 0
  *   to      NULL: prints nothing
  */
 void duplicate_senders_note_message(struct duplicate_senders *senders,

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/output/clutter_map_file.h"
-#include "live/refused_message_buffer.h"
+#include "io/output/clutter_map_load_and_save.h"
+#include "live/refused_messages_to_retry.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/command.h"
@@ -330,7 +330,7 @@ static void refuse_command(struct node_core *core, const struct waiting_command 
 }
 
 /* Refuses queued commands received before that time, as what the operator saw has changed. */
-static void refuse_commands_before(struct node_core *core, int64_t before_us)
+static void refuse_queued_commands_received_before(struct node_core *core, int64_t before_us)
 {
     unsigned kept = 0;
 
@@ -413,10 +413,10 @@ static int64_t scan_waiting_time_us(const struct node_core *core, enum rho_node_
 
 static void step_due_input(struct node_core *core, enum rho_node_due due)
 {
-    const int64_t start_us = clock_us();
+    const int64_t start_us = monotonic_clock_us();
     struct rho_initiator *initiator =
         due == RHO_NODE_SCAN && !core->pipeline.starts
-            ? pipeline_initiator_of_scan(&core->pipeline, &core->node.scan)
+            ? pipeline_initiator_of_sensor_or_radar_pair(&core->pipeline, &core->node.scan)
             : NULL;
     int64_t took_us;
 
@@ -428,8 +428,8 @@ static void step_due_input(struct node_core *core, enum rho_node_due due)
         pipeline_learn_walls(&core->pipeline, &core->node.scan);
     }
     run_queued_commands(core);
-    pipeline_update_zones(&core->pipeline);
-    took_us = clock_us() - start_us;
+    pipeline_count_tracks_in_zones(&core->pipeline);
+    took_us = monotonic_clock_us() - start_us;
     rho_node_count_time(&core->node, took_us);
     add_time_sample(&core->step_times, took_us);
     add_time_sample(&core->latencies, took_us + scan_waiting_time_us(core, due));
@@ -445,10 +445,10 @@ static void step_all_due(struct node_core *core, int64_t now_us)
 {
     enum rho_node_due due;
 
-    refuse_commands_before(core, now_us - COMMAND_WAIT_US);
+    refuse_queued_commands_received_before(core, now_us - COMMAND_WAIT_US);
     while ((due = rho_node_next(&core->node, now_us)) != RHO_NODE_NOTHING) {
         if (due == RHO_NODE_RESTART) {
-            refuse_commands_before(core, INT64_MAX);
+            refuse_queued_commands_received_before(core, INT64_MAX);
             reset_tracking(core);
             if (core->events.began_anew) {
                 core->events.began_anew(core->events.context);
@@ -480,25 +480,25 @@ static void report_sensor_restarts(const struct node_core *core,
  * Updates counts after the assembler took a message: keeps it if it was refused, and where it
  * completes a sensor's restart feeds the refused messages again.
  */
-static void count_message_and_retry_refused(struct node_core *core, const char *channel,
-                                            const uint8_t *data, size_t size,
-                                            const struct rho_scan_assembler_counters *before,
-                                            const struct newest_scan_positions *places,
-                                            int64_t now_us)
+static void note_message_and_retry_refused_after_restart(
+    struct node_core *core, const char *channel, const uint8_t *data, size_t size,
+    const struct rho_scan_assembler_counters *before, const struct newest_scan_positions *places,
+    int64_t now_us)
 {
     const struct rho_scan_assembler_counters *after = &core->assembler.counters;
 
     out_of_sequence_counts_note_message(&core->order, before, &core->assembler);
     if (after->sensor_restarts == before->sensor_restarts) {
-        refused_message_buffer_note(&core->refused, channel, data, size, before, after);
+        refused_message_buffer_keep_or_drop_message(&core->refused, channel, data, size, before,
+                                                    after);
     } else {
         report_sensor_restarts(core, places);
         if (core->assembler.is_restart) { /* no scan since the restart has been stepped yet */
-            refused_message_buffer_feed_again(&core->refused, channel, &core->assembler, now_us,
-                                              &core->taken);
+            refused_message_buffer_feed_channel_again(&core->refused, channel, &core->assembler,
+                                                      now_us, &core->taken);
         }
     }
-    core->shown = refused_message_buffer_remaining_counters(after, &core->taken);
+    core->shown = refused_message_buffer_less_undone_refusals(after, &core->taken);
 }
 
 void node_core_take_message(struct node_core *core, const char *channel, const uint8_t *data,
@@ -515,7 +515,8 @@ void node_core_take_message(struct node_core *core, const char *channel, const u
         }
         has_room = rho_node_take(&core->node, channel, data, size, now_us) != RHO_ERROR_CAPACITY;
         if (has_room) {
-            count_message_and_retry_refused(core, channel, data, size, &before, &places, now_us);
+            note_message_and_retry_refused_after_restart(core, channel, data, size, &before,
+                                                         &places, now_us);
         }
         step_all_due(core, now_us);
     }
@@ -541,7 +542,8 @@ void node_core_flush(struct node_core *core)
 static int32_t scaled_origin_coordinate(const struct parameters *parameters, enum parameter_id id,
                                         double scale)
 {
-    return parameters_is_set(parameters, id) ? (int32_t)lround(parameters->value[id] * scale) : 0;
+    return parameters_has_value(parameters, id) ? (int32_t)lround(parameters->value[id] * scale)
+                                                : 0;
 }
 
 static void send_sensor_states(const struct node_core *core)
@@ -612,7 +614,8 @@ static void send_zone_counts(const struct node_core *core)
     }
 }
 
-void node_core_send_status(struct node_core *core, const struct node_core_losses *losses)
+void node_core_send_all_status_messages(struct node_core *core,
+                                        const struct node_core_losses *losses)
 {
     const uint64_t refused = losses->datagrams_refused;
     struct rho_message_status status;
@@ -677,7 +680,7 @@ bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id)
     return false;
 }
 
-int node_core_scans_to_establish(const struct node_core *core)
+int node_core_scans_to_establish_sensor(const struct node_core *core)
 {
     return (int)core->assembler.config.follow_scans;
 }
@@ -728,7 +731,7 @@ const struct out_of_sequence_counts *node_core_used_out_of_sequence(const struct
     return &core->order;
 }
 
-const struct node_core_times *node_core_step_times(const struct node_core *core)
+const struct node_core_times *node_core_step_duration_histogram(const struct node_core *core)
 {
     return &core->step_times;
 }

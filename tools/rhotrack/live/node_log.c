@@ -158,7 +158,7 @@ static void write_piece(struct node_log *log, const struct file *file, size_t by
  * Closes the file, and first truncates an incomplete event at its end; in a pipe it stays, and
  * readers skip it.
  */
-static void close_file(struct node_log *log, struct file *file)
+static void close_file_without_torn_event(struct node_log *log, struct file *file)
 {
     const bool is_torn = log->written > log->whole;
     const off_t length = (off_t)(log->whole - file->begin);
@@ -211,12 +211,12 @@ static void open_file(struct node_log *log, struct file *file, int flags)
     pthread_cond_broadcast(&log->changed);
 }
 
-static void rotate_file(struct node_log *log, int64_t begin_us)
+static void stamp_file_and_remove_oldest(struct node_log *log, int64_t begin_us)
 {
     int refused;
 
     pthread_mutex_unlock(&log->mutex);
-    refused = node_log_files_rotate(log->path, begin_us, log->limits.files_max);
+    refused = node_log_files_stamp_and_remove_oldest(log->path, begin_us, log->limits.files_max);
     pthread_mutex_lock(&log->mutex);
     log->refusal = refused;
 }
@@ -224,9 +224,9 @@ static void rotate_file(struct node_log *log, int64_t begin_us)
 /* Closes the file at the cut, renames it if it is rotated, and opens the next one. */
 static void switch_to_next_file(struct node_log *log, struct file *file)
 {
-    close_file(log, file);
+    close_file_without_torn_event(log, file);
     if (log->is_put_away) {
-        rotate_file(log, log->cut_begin_us);
+        stamp_file_and_remove_oldest(log, log->cut_begin_us);
     }
     log->cut = NO_CUT;
     open_file(log, file, O_APPEND);
@@ -239,7 +239,7 @@ static void *run_writer_thread(void *object)
 
     pthread_mutex_lock(&log->mutex);
     if (node_log_has_rotation_limit(&log->limits)) { /* keeps the log of an earlier run */
-        rotate_file(log, node_log_files_last_write_us(log->path));
+        stamp_file_and_remove_oldest(log, node_log_files_write_time_of_one_file_us(log->path));
     }
     open_file(log, &file, log->refusal ? O_APPEND : O_TRUNC);
     while (!log->is_ended || log->written < log->put) {
@@ -253,10 +253,10 @@ static void *run_writer_thread(void *object)
             pthread_cond_wait(&log->changed, &log->mutex);
         }
         if (log->error && file.descriptor >= 0) {
-            close_file(log, &file);
+            close_file_without_torn_event(log, &file);
         }
     }
-    close_file(log, &file);
+    close_file_without_torn_event(log, &file);
     log->is_done = true;
     pthread_cond_broadcast(&log->changed);
     pthread_mutex_unlock(&log->mutex);
@@ -274,7 +274,7 @@ static void wait_for_change_until(struct node_log *log, int64_t until_us)
 
 struct node_log *node_log_open(const char *path, bool is_live, const struct node_log_limits *limits)
 {
-    const int64_t until_us = clock_us() + OPEN_US;
+    const int64_t until_us = monotonic_clock_us() + OPEN_US;
     struct node_log *log;
     pthread_condattr_t attributes;
 
@@ -296,7 +296,7 @@ struct node_log *node_log_open(const char *path, bool is_live, const struct node
         fail(EXIT_RUNTIME, "%s: the thread that writes it cannot be started", path);
     }
     pthread_mutex_lock(&log->mutex);
-    while (!log->is_open && !log->error && clock_us() < until_us) {
+    while (!log->is_open && !log->error && monotonic_clock_us() < until_us) {
         wait_for_change_until(log, until_us);
     }
     if (log->error) {
@@ -331,7 +331,7 @@ static bool queue_has_room(const struct node_log *log, uint64_t bytes)
 }
 
 /* Ends the file behind the event that was queued last, unless a cut is already pending. */
-static void end_file_at_queue_end(struct node_log *log, bool is_put_away)
+static void set_file_cut_behind_newest_event(struct node_log *log, bool is_put_away)
 {
     if (log->cut == NO_CUT) {
         log->cut = log->put;
@@ -346,7 +346,7 @@ static void end_file_if_limits_reached(struct node_log *log, uint64_t bytes, int
 {
     if (node_log_limits_reached(&log->limits, log->put - log->begin, log->begin_us, bytes,
                                 time_us)) {
-        end_file_at_queue_end(log, true);
+        set_file_cut_behind_newest_event(log, true);
     }
     if (log->put == log->begin) {
         log->begin_us = time_us;
@@ -366,7 +366,7 @@ void node_log_put_event(struct node_log *log, int64_t time_us, const char *chann
     pthread_mutex_lock(&log->mutex);
     while (!log->is_live && !log->error && bytes <= QUEUE_BYTES && !queue_has_room(log, bytes) &&
            !is_end_signal_pending()) {
-        wait_for_change_until(log, clock_us() + LOOK_US);
+        wait_for_change_until(log, monotonic_clock_us() + LOOK_US);
     }
     if (log->error || !queue_has_room(log, bytes)) {
         log->events_left_out++;
@@ -406,7 +406,7 @@ void node_log_reopen(struct node_log *log)
     }
     pthread_mutex_lock(&log->mutex);
     log->whole_then = log->events_whole;
-    end_file_at_queue_end(log, false);
+    set_file_cut_behind_newest_event(log, false);
     pthread_mutex_unlock(&log->mutex);
 }
 
@@ -435,7 +435,7 @@ static void print_rotation_error(struct node_log *log, int refusal)
     log->refusal_said = refusal;
 }
 
-static void print_queue_full_once(struct node_log *log)
+static void print_log_leaves_out_events_once(struct node_log *log)
 {
     if (!log->is_full_said) {
         log->is_full_said = true;
@@ -448,7 +448,7 @@ static void print_queue_full_once(struct node_log *log)
 
 static void reopen_if_removed_or_due(struct node_log *log, bool is_removed, int error)
 {
-    const int64_t now_us = clock_us();
+    const int64_t now_us = monotonic_clock_us();
 
     if (is_removed) {
         fprintf(stderr, "rhotrack: %s: was removed; the log begins anew\n", log->path);
@@ -480,7 +480,7 @@ bool node_log_report_and_retry(struct node_log *log)
     print_disk_error_change(log, error, whole);
     print_rotation_error(log, refusal);
     if (!error && left_out > 0) {
-        print_queue_full_once(log);
+        print_log_leaves_out_events_once(log);
     }
     reopen_if_removed_or_due(log, is_removed, error);
     return !error;
@@ -494,13 +494,13 @@ void node_log_finish_queue(struct node_log *log, int64_t until_us)
     pthread_mutex_lock(&log->mutex);
     log->is_ended = true;
     pthread_cond_broadcast(&log->changed);
-    while (!log->is_done && clock_us() < until_us) {
+    while (!log->is_done && monotonic_clock_us() < until_us) {
         wait_for_change_until(log, until_us);
     }
     pthread_mutex_unlock(&log->mutex);
 }
 
-void node_log_close(struct node_log *log)
+void node_log_free_if_written(struct node_log *log)
 {
     bool is_done;
 

@@ -56,6 +56,6 @@ bool node_log_report_and_retry(struct node_log *log);
 void node_log_finish_queue(struct node_log *log, int64_t until_us);
 
 /* Frees the log. Where a write still blocks, its memory is left to the writer thread. */
-void node_log_close(struct node_log *log);
+void node_log_free_if_written(struct node_log *log);
 
 #endif

@@ -24,7 +24,7 @@ enum { PERIOD_US = 100000, HEAD_LINES = 4, ROWS_DEFAULT = 24 };
 enum { PIECE_BYTES = 4096, LOOK_MS = 100 };
 
 /* Opens a memory stream for the next output text, which close_and_write_text then writes. */
-static FILE *open_output_text(struct node_print *print)
+static FILE *open_memory_stream_for_text(struct node_print *print)
 {
     FILE *text = open_memstream(&print->text, &print->size);
 
@@ -78,7 +78,7 @@ static void close_and_write_text(struct node_print *print, FILE *text)
  * True where the previous text is completely written. Else counts the new report as left out, and
  * prints so at the first one.
  */
-static bool make_room_or_count_left_out(struct node_print *print)
+static bool is_last_text_written_or_count_left_out(struct node_print *print)
 {
     write_pending_text(print, 0);
     if (is_text_pending(print)) {
@@ -96,14 +96,14 @@ static bool make_room_or_count_left_out(struct node_print *print)
 
 /* ---- Steps ---- */
 
-struct node_print node_print_start(bool is_on, bool is_live)
+struct node_print node_print_start_rows_or_table(bool is_on, bool is_live)
 {
     struct node_print print = {
         .is_on = is_on, .is_live = is_live, .is_terminal = is_on && isatty(STDOUT_FILENO)};
     FILE *text;
 
     if (is_on) {
-        text = open_output_text(&print);
+        text = open_memory_stream_for_text(&print);
         if (print.is_terminal) {
             print.is_changed = true; /* shows the table's head before the first step */
             fputs("\033[2J", text);
@@ -115,11 +115,12 @@ struct node_print node_print_start(bool is_on, bool is_live)
     return print;
 }
 
-void node_print_report_or_mark_changed(struct node_print *print, const struct rho_report *report)
+void node_print_rows_or_mark_table_changed(struct node_print *print,
+                                           const struct rho_report *report)
 {
     print->is_changed = print->is_on;
-    if (print->is_on && !print->is_terminal && make_room_or_count_left_out(print)) {
-        FILE *text = open_output_text(print);
+    if (print->is_on && !print->is_terminal && is_last_text_written_or_count_left_out(print)) {
+        FILE *text = open_memory_stream_for_text(print);
 
         tracks_write_report(text, report, (struct tracks_columns){.covariance = false});
         close_and_write_text(print, text);
@@ -133,7 +134,7 @@ int64_t node_print_due_us(const struct node_print *print)
 
 void node_print_finish(struct node_print *print, int64_t until_us)
 {
-    const int64_t left_us = until_us - clock_us();
+    const int64_t left_us = until_us - monotonic_clock_us();
 
     write_pending_text(print, left_us > 0 ? (int)(left_us / 1000) : 0);
     print->left_out += is_text_pending(print);
@@ -167,7 +168,7 @@ static int count_tracks_with_status(const struct rho_report *report, enum rho_tr
 static void print_bad_sensors(const struct node_core *core, FILE *out)
 {
     struct rho_message_sensor sensors[RHO_MAX_SENSORS];
-    const unsigned count = node_sensors_list_established(core, sensors);
+    const unsigned count = node_sensors_list_heard_enough_scans(core, sensors);
 
     for (unsigned i = 0; i < count; i++) {
         if (sensors[i].is_doubted) {
@@ -183,7 +184,7 @@ static void print_node_and_table_head(const struct node_core *core, const char *
     const struct rho_report *report = node_core_last_report(core);
     const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
     const struct scan_losses losses =
-        out_of_sequence_counts_losses(node_core_used_out_of_sequence(core), assembler);
+        out_of_sequence_counts_to_scan_losses(node_core_used_out_of_sequence(core), assembler);
 
     fprintf(out, "\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
     fprintf(out,
@@ -242,15 +243,16 @@ static void print_track_table(const struct node_core *core, const char *url, FIL
     fputs("\033[J\033[?7h", out); /* erase the rest of the screen, and wrap long lines again */
 }
 
-bool node_print_refresh_table(struct node_print *print, const struct node_core *core,
-                              const char *url, bool is_end)
+bool node_print_refresh_table_and_has_no_error(struct node_print *print,
+                                               const struct node_core *core, const char *url,
+                                               bool is_end)
 {
-    int64_t now_us = clock_us();
+    int64_t now_us = monotonic_clock_us();
 
     if (print->is_on &&
         (is_end || (print->is_changed && (!print->is_terminal || now_us >= print->due_us)))) {
-        if (print->is_terminal && make_room_or_count_left_out(print)) {
-            FILE *text = open_output_text(print);
+        if (print->is_terminal && is_last_text_written_or_count_left_out(print)) {
+            FILE *text = open_memory_stream_for_text(print);
 
             print_track_table(core, url, text);
             fputs(is_end ? "\r\033[K" : "", text); /* overwrites the terminal's ^C */

@@ -27,17 +27,19 @@ struct node_print {
  * Starts printing. is_on false: the other functions do nothing. is_live false: printing waits for a
  * slow reader, as a replay can wait.
  */
-struct node_print node_print_start(bool is_on, bool is_live);
+struct node_print node_print_start_rows_or_table(bool is_on, bool is_live);
 
 /* Takes the report of a step: prints its rows, or marks the table as changed. */
-void node_print_report_or_mark_changed(struct node_print *print, const struct rho_report *report);
+void node_print_rows_or_mark_table_changed(struct node_print *print,
+                                           const struct rho_report *report);
 
 /*
  * Refreshes the table where it is due or at the end, and writes pending text. Returns false with
  * errno where standard output failed.
  */
-bool node_print_refresh_table(struct node_print *print, const struct node_core *core,
-                              const char *url, bool is_end);
+bool node_print_refresh_table_and_has_no_error(struct node_print *print,
+                                               const struct node_core *core, const char *url,
+                                               bool is_end);
 
 /*
  * Writes pending text until the monotonic time until_us; a report that remains counts as left out.
@@ -45,7 +47,8 @@ bool node_print_refresh_table(struct node_print *print, const struct node_core *
 void node_print_finish(struct node_print *print, int64_t until_us);
 
 /*
- * Monotonic time at which node_print_refresh_table has work; INT64_MAX: not before the next step.
+ * Monotonic time at which node_print_refresh_table_and_has_no_error has work; INT64_MAX: not before
+ * the next step.
  */
 int64_t node_print_due_us(const struct node_print *print);
 

@@ -32,7 +32,7 @@ static void write_counter(FILE *out, const char *name, const char *help, uint64_
  * Writes a tally's name as a label: "scans late, dropped" becomes scans_late_dropped; stops at
  * brackets and colons, as the rest is an explanation.
  */
-static void write_cause_label(FILE *out, const char *name)
+static void write_name_as_label_value(FILE *out, const char *name)
 {
     for (bool is_between = false; *name && *name != '(' && *name != ':'; name++) {
         if (isalnum((unsigned char)*name)) {
@@ -48,13 +48,13 @@ static void write_tallies_of_kind(FILE *out, const char *family,
     for (int i = 0; i < NODE_TALLIES; i++) {
         if (tallies[i].kind == kind) {
             fprintf(out, "rhotrack_%s{cause=\"", family);
-            write_cause_label(out, tallies[i].name);
+            write_name_as_label_value(out, tallies[i].name);
             fprintf(out, "\"} %" PRIu64 "\n", tallies[i].count);
         }
     }
 }
 
-static void write_tallies(FILE *out, const struct prometheus_metrics_source *source)
+static void write_loss_tallies(FILE *out, const struct prometheus_metrics_source *source)
 {
     struct node_loss_counts tallies[NODE_TALLIES];
 
@@ -153,7 +153,7 @@ static void write_tracker_counters(FILE *out, const struct prometheus_metrics_so
     write_family_head(out, "plots_by_fate_total", "counter", "What became of plots and bearings.");
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
         fprintf(out, "rhotrack_plots_by_fate_total{fate=\"");
-        write_cause_label(out, rho_fate_name((enum rho_fate)fate));
+        write_name_as_label_value(out, rho_fate_name((enum rho_fate)fate));
         fprintf(out, "\"} %" PRIu32 "\n", tracker->fates[fate]);
     }
 }
@@ -196,7 +196,7 @@ static void write_time_histogram(FILE *out, const char *name, const char *help,
 static void write_times_and_work(FILE *out, const struct prometheus_metrics_source *source)
 {
     const struct rho_tracker *tracker = node_core_tracker_state(source->core);
-    const struct node_core_times *steps = node_core_step_times(source->core);
+    const struct node_core_times *steps = node_core_step_duration_histogram(source->core);
     const struct node_core_times *latencies = node_core_latencies(source->core);
 
     write_time_histogram(out, "step_seconds", "Time of a step.", steps);
@@ -309,9 +309,11 @@ static void write_learned_pd(FILE *out, const struct prometheus_metrics_source *
 }
 
 /* Writes each sensor's sample size: of its looks where is_looks, else of its innovations. */
-static void write_learned_sample_size(FILE *out, const struct prometheus_metrics_source *source,
-                                      const char *name, const char *help,
-                                      const struct learned *learned, unsigned count, bool is_looks)
+static void write_number_of_looks_or_innovations(FILE *out,
+                                                 const struct prometheus_metrics_source *source,
+                                                 const char *name, const char *help,
+                                                 const struct learned *learned, unsigned count,
+                                                 bool is_looks)
 {
     write_family_head(out, name, "gauge", help);
     for (unsigned i = 0; i < count; i++) {
@@ -335,11 +337,12 @@ static void write_learned(FILE *out, const struct prometheus_metrics_source *sou
     }
     write_learned_noise(out, source, learned, count);
     write_learned_pd(out, source, learned, count);
-    write_learned_sample_size(out, source, "sensor_innovations",
-                              "Innovations that the noise is learned of.", learned, count, false);
-    write_learned_sample_size(out, source, "sensor_looks",
-                              "Looks that the probability of detection is learned of.", learned,
-                              count, true);
+    write_number_of_looks_or_innovations(out, source, "sensor_innovations",
+                                         "Innovations that the noise is learned of.", learned,
+                                         count, false);
+    write_number_of_looks_or_innovations(out, source, "sensor_looks",
+                                         "Looks that the probability of detection is learned of.",
+                                         learned, count, true);
 }
 
 /* ---- Zones ---- */
@@ -375,7 +378,7 @@ static void write_zones(FILE *out, const struct rho_zones *zones)
 void prometheus_metrics_write(FILE *out, const struct prometheus_metrics_source *source)
 {
     write_input_counters(out, source);
-    write_tallies(out, source);
+    write_loss_tallies(out, source);
     write_tracker_counters(out, source);
     write_track_counts(out, source);
     write_times_and_work(out, source);

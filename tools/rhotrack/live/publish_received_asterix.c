@@ -45,7 +45,8 @@ struct forwarding {
 /* ---- Places ---- */
 
 /* True within WAIT_S of a radar's first scan, whose time is recorded. */
-static bool is_radar_newly_heard(struct forwarding *forwarding, const struct asterix_scan *scan)
+static bool note_radar_first_scan_and_test_within_wait(struct forwarding *forwarding,
+                                                       const struct asterix_scan *scan)
 {
     size_t i = 0;
 
@@ -65,13 +66,13 @@ static bool is_radar_newly_heard(struct forwarding *forwarding, const struct ast
  */
 static bool is_radar_place_awaited(struct forwarding *forwarding, const struct asterix_scan *scan)
 {
-    return is_radar_newly_heard(forwarding, scan) && !scan->place.is_given &&
+    return note_radar_first_scan_and_test_within_wait(forwarding, scan) && !scan->place.is_given &&
            isnan(parameters_value_of_sensor(&forwarding->parameters, scan->sensor_id, SENSOR_X_M,
                                             NAN));
 }
 
-static void suggest_origin_if_lacking(struct forwarding *forwarding,
-                                      const struct asterix_place *place)
+static void set_and_report_origin_if_lacking(struct forwarding *forwarding,
+                                             const struct asterix_place *place)
 {
     struct parameters *parameters = &forwarding->parameters;
 
@@ -98,21 +99,23 @@ static void send_rows_as_messages(struct forwarding *forwarding, struct rows_fil
     struct rows_at at = {.scan = 0};
     struct rows_output output;
 
-    rows_to_messages_make(&scans, file, 0);
+    rows_to_messages_group_into_scans(&scans, file, 0);
     while (rows_to_messages_next_message(&scans, &at, &output)) {
-        message_replace_epoch(output.data, output.size, PUBLISH_EPOCH_OF_CSV, forwarding->epoch);
+        message_replace_epoch_number(output.data, output.size, PUBLISH_EPOCH_OF_CSV,
+                                     forwarding->epoch);
         publish_send_message(forwarding->transport, output.channel, output.data, output.size);
     }
     rows_to_messages_free(&scans);
     forwarding->scans_sent++;
 }
 
-static void send_scan_unless_early(struct forwarding *forwarding, const struct asterix_scan *scan)
+static void send_scan_unless_place_awaited(struct forwarding *forwarding,
+                                           const struct asterix_scan *scan)
 {
     struct rows_file file;
     struct table *table;
 
-    suggest_origin_if_lacking(forwarding, &scan->place);
+    set_and_report_origin_if_lacking(forwarding, &scan->place);
     if (!scan->is_numbered) {
         forwarding->scans_free++;
         return;
@@ -122,7 +125,7 @@ static void send_scan_unless_early(struct forwarding *forwarding, const struct a
         return;
     }
     table = make_table_of_scan(forwarding, scan);
-    if (rows_read_table(&file, forwarding->url, table, &forwarding->parameters, true)) {
+    if (rows_read_table_and_has_any(&file, forwarding->url, table, &forwarding->parameters, true)) {
         send_rows_as_messages(forwarding, &file);
     }
     forwarding->rows_skipped += file.rows_skipped;
@@ -135,7 +138,7 @@ static void send_complete_scans(struct forwarding *forwarding)
     struct asterix_scan scan;
 
     while (asterix_scans_next(forwarding->scans, &scan)) {
-        send_scan_unless_early(forwarding, &scan);
+        send_scan_unless_place_awaited(forwarding, &scan);
     }
 }
 
@@ -145,11 +148,11 @@ static void receive_and_publish_until_end(struct forwarding *forwarding, int rec
 {
     uint8_t *datagram = must_alloc(DATAGRAM_MAX);
     struct pollfd ready = {.fd = receiver, .events = POLLIN};
-    int64_t start_us = clock_us();
+    int64_t start_us = monotonic_clock_us();
 
     while (!publish_is_stopped() &&
            (forwarding->line->seconds <= 0 ||
-            (double)(clock_us() - start_us) < forwarding->line->seconds * 1e6)) {
+            (double)(monotonic_clock_us() - start_us) < forwarding->line->seconds * 1e6)) {
         ssize_t got;
 
         if (poll(&ready, 1, POLL_MS) <= 0) {
@@ -169,7 +172,7 @@ static void receive_and_publish_until_end(struct forwarding *forwarding, int rec
     free(datagram);
 }
 
-static void print_counts(const struct forwarding *forwarding)
+static void print_datagram_plot_and_scan_counts(const struct forwarding *forwarding)
 {
     const struct asterix_counts *counts = asterix_scans_counts(forwarding->scans);
 
@@ -228,7 +231,7 @@ int publish_asterix(const struct command_line *line)
     receiver = asterix_udp_receiver_open(forwarding->url);
     forwarding->transport = transport_open(line->lcm, TRANSPORT_SEND);
     receive_and_publish_until_end(forwarding, receiver);
-    print_counts(forwarding);
+    print_datagram_plot_and_scan_counts(forwarding);
     close(receiver);
     transport_close(forwarding->transport);
     asterix_scans_close(forwarding->scans);

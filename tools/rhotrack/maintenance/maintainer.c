@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "maintenance/maintainer_hypotheses.h"
+#include "maintenance/maintainer_by_multiple_hypotheses.h"
 #include "maintenance/plot_distance.h"
 #include "maintenance/scan_clutter_density.h"
 #include "pipeline/pipeline.h"
@@ -44,7 +44,7 @@ struct maintainer {
     bool has_sensor; /* `sensor` describes the sensor of the last scan */
     struct rho_sensor sensor;
     double pd;       /* detection probability of sensors without a description */
-    bool is_started; /* set by maintainer_step at the first plot */
+    bool is_started; /* set by maintainer_step_and_get_row at the first plot */
     struct rho_track_report track;
 };
 
@@ -61,7 +61,7 @@ static struct rho_input_config input_config_of(const struct parameters *paramete
     config.is_estimated = has_input_estimation;
     config.model = value[PARAMETER_INPUT_MODEL] > 0.0 ? RHO_INPUT_PHYSICAL : RHO_INPUT_LITERAL;
     config.sigma_mps2 = (float)value[PARAMETER_INPUT_SIGMA_MPS2];
-    config.threshold = rho_input_threshold((float)value[PARAMETER_ONSET_CONFIDENCE]);
+    config.threshold = rho_input_threshold_sigmas((float)value[PARAMETER_ONSET_CONFIDENCE]);
     config.gamma = (float)value[PARAMETER_GAMMA];
     config.noise_m = (float)value[PARAMETER_FILTER_NOISE_M];
     config.noise_mps = (float)value[PARAMETER_FILTER_NOISE_MPS];
@@ -126,7 +126,7 @@ size_t maintainer_state_bytes(const struct maintainer *maintainer)
                 : 0);
 }
 
-static void store_sensor(struct maintainer *maintainer, const struct rho_sensor *sensor)
+static void store_latest_sensor(struct maintainer *maintainer, const struct rho_sensor *sensor)
 {
     maintainer->has_sensor = sensor;
     if (sensor) {
@@ -137,12 +137,13 @@ static void store_sensor(struct maintainer *maintainer, const struct rho_sensor 
 /* ---- Start ---- */
 
 /* Replaces unknown velocity components by the measured ones. */
-static void set_measured_start_velocity(struct rho_kalman *kalman, const struct rho_plot *plot)
+static void set_start_velocity_from_measured_vector(struct rho_kalman *kalman,
+                                                    const struct rho_plot *plot)
 {
     const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
 
     for (int i = 0; i < AXES; i++) {
-        if (rho_kalman_is_axis_open(kalman, i)) {
+        if (rho_kalman_has_estimate_on_axis(kalman, i)) {
             kalman->state[i + 3] = velocity_mps[i];
             kalman->covariance[RHO_AT(i + 3, i + 3)] = plot->sigma_mps * plot->sigma_mps;
         }
@@ -168,14 +169,14 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
     struct rho_measurement seen;
     struct rho_kalman kalman;
 
-    store_sensor(maintainer, sensor);
+    store_latest_sensor(maintainer, sensor);
     maintainer->is_predicted = false;
     rho_kalman_init(&kalman);
     rho_measurement_from_plot(plot, measures, sensor, &seen);
     must_succeed(rho_kalman_update_position(&kalman, &seen, maintainer->config.velocity_variance),
                  "start");
     if (measures & RHO_MEASURES_VELOCITY) {
-        set_measured_start_velocity(&kalman, plot);
+        set_start_velocity_from_measured_vector(&kalman, plot);
     }
     if (maintainer->best) {
         maintainer_hypotheses_start(maintainer->best, time_us + plot->offset_us, time_us, &kalman,
@@ -258,7 +259,7 @@ static double squared_distance_to_plot(const struct maintainer *maintainer,
     double distance2 = NAN;
 
     if (predict_to_plot_time(maintainer, plot, &at)) {
-        rho_input_estimate_for_gate(&at, &expected);
+        rho_input_estimate_with_all_inputs(&at, &expected);
         distance2 = plot_squared_mahalanobis(&expected, plot, measures, sensor, dimensions);
     }
     return isfinite(distance2) ? distance2 : INFINITY;
@@ -271,7 +272,7 @@ double maintainer_nis_per_dimension(const struct maintainer *maintainer,
     double distance2;
 
     if (maintainer->best) {
-        return maintainer_hypotheses_nis_per_dimension(maintainer->best, plot, measures);
+        return maintainer_hypotheses_nis_of_mean_per_dimension(maintainer->best, plot, measures);
     }
     distance2 =
         squared_distance_to_plot(maintainer, plot, measures,
@@ -298,8 +299,9 @@ static int choose_random_plot(const struct rho_scan *scan, struct random *random
     return -1;
 }
 
-static int choose_nearest_plot(const struct maintainer *maintainer, const struct rho_scan *scan,
-                               const struct rho_sensor *sensor)
+static int choose_nearest_plot_without_limit(const struct maintainer *maintainer,
+                                             const struct rho_scan *scan,
+                                             const struct rho_sensor *sensor)
 {
     double least = INFINITY;
     int chosen = -1;
@@ -320,13 +322,14 @@ static int choose_nearest_plot(const struct maintainer *maintainer, const struct
 }
 
 /* Planes that the Hough gate uses: without measured heights only xy; 0 if xy was not chosen. */
-static uint8_t usable_gate_planes(const struct maintainer *maintainer, uint32_t measures)
+static uint8_t usable_hough_gate_planes(const struct maintainer *maintainer, uint32_t measures)
 {
     return measures & RHO_MEASURES_Z ? maintainer->planes
                                      : (uint8_t)(maintainer->planes & RHO_GATE_PLANE_XY);
 }
 
-static int choose_straightest_plot(const struct rho_gate_hough *hough, const struct rho_scan *scan)
+static int choose_plot_nearest_to_velocity_line(const struct rho_gate_hough *hough,
+                                                const struct rho_scan *scan)
 {
     float least_mps = INFINITY;
     int chosen = -1;
@@ -336,7 +339,7 @@ static int choose_straightest_plot(const struct rho_gate_hough *hough, const str
         const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps,
                                           scan->measures & RHO_MEASURES_Z ? plot->vz_mps : 0.0f};
         float off_mps = rho_measurement_is_valid_plot(plot, scan->measures)
-                            ? rho_gate_hough_residual_mps(hough, velocity_mps)
+                            ? rho_gate_hough_velocity_distance_from_lines_mps(hough, velocity_mps)
                             : INFINITY;
 
         if (off_mps < least_mps) {
@@ -357,12 +360,12 @@ static int choose_plot(const struct maintainer *maintainer, const struct rho_sca
     }
     if (maintainer->gate == MAINTAIN_HOUGH && maintainer->measurements >= FIRST_ELIMINATION &&
         (scan->measures & RHO_MEASURES_VELOCITY) &&
-        rho_gate_hough_init(&hough, usable_gate_planes(maintainer, scan->measures),
+        rho_gate_hough_init(&hough, usable_hough_gate_planes(maintainer, scan->measures),
                             maintainer->theta_cell_rad, maintainer->before_mps,
                             maintainer->newest_mps) == RHO_OK) {
-        return choose_straightest_plot(&hough, scan);
+        return choose_plot_nearest_to_velocity_line(&hough, scan);
     }
-    return choose_nearest_plot(maintainer, scan, sensor);
+    return choose_nearest_plot_without_limit(maintainer, scan, sensor);
 }
 
 /* ---- Updates ---- */
@@ -375,8 +378,9 @@ static bool update_by_measured_velocity(struct rho_input *input,
     float variance = plot->sigma_mps * plot->sigma_mps;
 
     for (int i = 0; i < axes && i < AXES; i++) {
-        if (rho_kalman_is_axis_open(&input->bare, i) &&
-            rho_input_update(input, config, i + 3, velocity_mps[i], variance) != RHO_OK) {
+        if (rho_kalman_has_estimate_on_axis(&input->bare, i) &&
+            rho_input_update_filter_by_element(input, config, i + 3, velocity_mps[i], variance) !=
+                RHO_OK) {
             return false;
         }
     }
@@ -458,13 +462,13 @@ static int restart_at_nearest_plot(struct maintainer *maintainer, const struct r
     return chosen;
 }
 
-int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan,
-                      const struct rho_sensor *sensor, double log_density, double pd,
-                      struct random *random)
+int maintainer_update_and_get_row(struct maintainer *maintainer, const struct rho_scan *scan,
+                                  const struct rho_sensor *sensor, double log_density, double pd,
+                                  struct random *random)
 {
     double place_m[AXES];
 
-    store_sensor(maintainer, sensor);
+    store_latest_sensor(maintainer, sensor);
     if (maintainer->is_lost) {
         return restart_at_nearest_plot(maintainer, scan, sensor);
     }
@@ -475,7 +479,7 @@ int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan
     maintainer_predicted_place(maintainer, place_m);
     maintainer->is_predicted = false;
     if (isnan(log_density)) {
-        log_density = scan_clutter_density_add_and_estimate(maintainer->density, scan, place_m, pd);
+        log_density = scan_clutter_density_add_and_get_log(maintainer->density, scan, place_m, pd);
     }
     return maintainer_hypotheses_update(maintainer->best, scan, sensor, log_density, pd);
 }
@@ -487,7 +491,7 @@ void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_
     struct rho_input now = maintainer->predicted;
 
     if (maintainer->best) {
-        maintainer_hypotheses_estimate(maintainer->best, estimate);
+        maintainer_hypotheses_mean_estimate(maintainer->best, estimate);
         return;
     }
     if (!maintainer->is_predicted) {
@@ -517,7 +521,7 @@ static void check_scan_fits_gate(const struct maintainer *maintainer, const stru
              "and 'vy_mps'",
              (double)scan->time_us * 1e-6);
     }
-    if (usable_gate_planes(maintainer, scan->measures) == 0) {
+    if (usable_hough_gate_planes(maintainer, scan->measures) == 0) {
         fail(EXIT_USAGE, "gate hough: the scan at %.6f s has no heights, so planes must contain xy",
              (double)scan->time_us * 1e-6);
     }
@@ -534,9 +538,9 @@ static void count_hit_or_miss(struct rho_track_report *track, const struct rho_s
     }
 }
 
-static int update_if_covered(struct maintainer *maintainer, const struct rho_scan *scan,
-                             const struct rho_sensor *sensor, double log_density,
-                             struct random *random)
+static int update_if_covered_and_get_row(struct maintainer *maintainer, const struct rho_scan *scan,
+                                         const struct rho_sensor *sensor, double log_density,
+                                         struct random *random)
 {
     double place_m[AXES];
     int row;
@@ -549,20 +553,21 @@ static int update_if_covered(struct maintainer *maintainer, const struct rho_sca
                                 (float)place_m[0], (float)place_m[1])) {
         return -1;
     }
-    row = maintainer_update(maintainer, scan, sensor, log_density,
-                            sensor ? (double)sensor->pd : maintainer->pd, random);
+    row = maintainer_update_and_get_row(maintainer, scan, sensor, log_density,
+                                        sensor ? (double)sensor->pd : maintainer->pd, random);
     count_hit_or_miss(&maintainer->track, scan, row);
     return row;
 }
 
-int maintainer_step(struct maintainer *maintainer, const struct rho_scan *scan,
-                    const struct rho_sensor *sensor, double log_density, struct random *random)
+int maintainer_step_and_get_row(struct maintainer *maintainer, const struct rho_scan *scan,
+                                const struct rho_sensor *sensor, double log_density,
+                                struct random *random)
 {
     int row = -1;
 
     check_scan_fits_gate(maintainer, scan);
     if (maintainer->is_started) {
-        row = update_if_covered(maintainer, scan, sensor, log_density, random);
+        row = update_if_covered_and_get_row(maintainer, scan, sensor, log_density, random);
     } else if (scan->num_plots > 0) {
         row = 0;
         maintainer->is_started = true;
@@ -594,8 +599,8 @@ const struct rho_track_report *maintainer_report(struct maintainer *maintainer)
     return track;
 }
 
-unsigned long maintainer_num_refused(const struct maintainer *maintainer)
+unsigned long maintainer_num_filter_refusals(const struct maintainer *maintainer)
 {
     return maintainer->refused +
-           (maintainer->best ? maintainer_hypotheses_num_refused(maintainer->best) : 0);
+           (maintainer->best ? maintainer_hypotheses_num_updates_refused(maintainer->best) : 0);
 }

@@ -55,10 +55,11 @@ size_t maintainer_state_bytes(const struct maintainer *maintainer);
  * Steps one scan. The first plot of all scans starts the track; a scan that does not cover the
  * predicted place neither updates the track nor counts as a miss. Returns the row of the plot
  * taken, -1 for none. Exit 2 for a scan that the gate cannot use; other arguments as in
- * maintainer_update.
+ * maintainer_update_and_get_row.
  */
-int maintainer_step(struct maintainer *maintainer, const struct rho_scan *scan,
-                    const struct rho_sensor *sensor, double log_density, struct random *random);
+int maintainer_step_and_get_row(struct maintainer *maintainer, const struct rho_scan *scan,
+                                const struct rho_sensor *sensor, double log_density,
+                                struct random *random);
 
 /* The track after the last step: state, hits, misses, last row; undefined before it started. */
 bool maintainer_is_started(const struct maintainer *maintainer);
@@ -85,9 +86,9 @@ void maintainer_predicted_place(const struct maintainer *maintainer, double plac
  *   pd           detection probability of the target
  *   random       used by the gate none alone
  */
-int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan,
-                      const struct rho_sensor *sensor, double log_density, double pd,
-                      struct random *random);
+int maintainer_update_and_get_row(struct maintainer *maintainer, const struct rho_scan *scan,
+                                  const struct rho_sensor *sensor, double log_density, double pd,
+                                  struct random *random);
 
 void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_estimate *estimate);
 
@@ -102,6 +103,6 @@ double maintainer_nis_per_dimension(const struct maintainer *maintainer,
  * Number of updates that were refused, where the track coasted, and of predictions that were
  * refused, where the track restarted.
  */
-unsigned long maintainer_num_refused(const struct maintainer *maintainer);
+unsigned long maintainer_num_filter_refusals(const struct maintainer *maintainer);
 
 #endif

@@ -124,7 +124,7 @@ double plot_squared_mahalanobis(const struct rho_kalman *predicted, const struct
     int axes;
 
     rho_measurement_from_plot(plot, measures, sensor, &seen);
-    axes = seen.has_z && rho_kalman_is_axis_open(predicted, 2) ? 3 : 2;
+    axes = seen.has_z && rho_kalman_has_estimate_on_axis(predicted, 2) ? 3 : 2;
     add_place_innovation(&innovation, predicted, &seen, axes);
     if (measures & RHO_MEASURES_VELOCITY) {
         add_velocity_innovation(&innovation, predicted, plot, axes);

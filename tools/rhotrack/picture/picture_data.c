@@ -9,9 +9,9 @@
 #include "io/csv/measurement_row.h"
 #include "io/csv/table.h"
 #include "io/log/lcm_log.h"
+#include "io/log/log_messages_to_table.h"
 #include "io/log/log_scans.h"
-#include "io/log/log_table.h"
-#include "io/rows/trajectory_row.h"
+#include "io/rows/read_truth_or_track_row.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "rhotrack/message.h"
 
@@ -156,8 +156,7 @@ static void add_points_of_file(struct picture_data *data, const char *path,
     size_t found = 0;
     unsigned scans;
     if (!lcm_log_is_log(path)) {
-        add_and_consume_table(data, table_read_with_parameters(path, parameters, false),
-                              parameters);
+        add_and_consume_table(data, table_read_csv_or_asterix(path, parameters, false), parameters);
         return;
     }
     scans = log_scans_kinds(path);
@@ -330,7 +329,8 @@ struct picture_data picture_data_read(char *const *paths, int num_paths,
 }
 
 /* The earliest time of the points, or otherwise_us if that is earlier. */
-static int64_t earliest_time_us(const struct plot_points *points, int64_t otherwise_us)
+static int64_t earliest_of_points_and_given_time_us(const struct plot_points *points,
+                                                    int64_t otherwise_us)
 {
     for (size_t i = 0; i < points->count; i++) {
         otherwise_us =
@@ -339,10 +339,11 @@ static int64_t earliest_time_us(const struct plot_points *points, int64_t otherw
     return otherwise_us;
 }
 
-int64_t picture_data_time_origin_us(const struct picture_data *data)
+int64_t picture_data_late_time_origin_or_0_us(const struct picture_data *data)
 {
-    int64_t zero_us = earliest_time_us(&data->truth, INT64_MAX);
-    zero_us = earliest_time_us(&data->plots, earliest_time_us(&data->tracks, zero_us));
+    int64_t zero_us = earliest_of_points_and_given_time_us(&data->truth, INT64_MAX);
+    zero_us = earliest_of_points_and_given_time_us(
+        &data->plots, earliest_of_points_and_given_time_us(&data->tracks, zero_us));
     for (size_t i = 0; i < data->bearings.count; i++) {
         const int64_t time_us = data->bearings.list[i].time_us;
         zero_us = time_us < zero_us ? time_us : zero_us;
@@ -350,9 +351,9 @@ int64_t picture_data_time_origin_us(const struct picture_data *data)
     return zero_us == INT64_MAX || llabs(zero_us) < LATE_US ? 0 : zero_us;
 }
 
-void picture_data_time_label(const struct picture_data *data, char *text, size_t size)
+void picture_data_write_time_axis_label(const struct picture_data *data, char *text, size_t size)
 {
-    const int64_t zero_us = picture_data_time_origin_us(data);
+    const int64_t zero_us = picture_data_late_time_origin_or_0_us(data);
     if (zero_us == 0) {
         snprintf(text, size, "time (s)");
     } else {

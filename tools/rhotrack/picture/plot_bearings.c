@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "picture/map.h"
+#include "picture/plan_view_map.h"
 
 #define RAYS_MAX 6000       /* most rays drawn; more are sampled */
 #define RAYS_CROWDED 2000.0 /* number of rays from which they are drawn most transparent */
@@ -61,7 +61,7 @@ static void put_sensors(const struct map *map, const struct plot_rays *rays)
 }
 
 /* Draws an arrow head at the end of each target's path. */
-static void put_path_arrows(const struct map *map, const struct plot_points *truth)
+static void put_arrow_at_end_of_each_path(const struct map *map, const struct plot_points *truth)
 {
     struct plot_points one;
     size_t at = 0;
@@ -80,7 +80,7 @@ static void put_path_arrows(const struct map *map, const struct plot_points *tru
 /* ---- the picture ---- */
 
 /* Alpha of the rays' colour, larger for more rays; 0 is opaque, 255 invisible. */
-static int ray_alpha(const struct plot_rays *rays)
+static int ray_transparency_0_to_255(const struct plot_rays *rays)
 {
     return (int)(90.0 + 130.0 * fmin(1.0, sqrt((double)rays->count / RAYS_CROWDED)));
 }
@@ -89,7 +89,7 @@ void plot_bearings_draw_rays(const struct map *map, const struct plot_rays *rays
 {
     for (size_t i = 0; i < rays->num_sensors; i++) {
         fprintf(map->script, ", \\\n $rays%zu using 1:2 with lines lw 0.6 lc rgb '#%02x%s' notitle",
-                i, (unsigned)ray_alpha(rays), picture_colour(i) + 1);
+                i, (unsigned)ray_transparency_0_to_255(rays), picture_colour(i) + 1);
         /* the sample in the legend is opaque */
         fprintf(map->script, ", \\\n NaN with lines lw 2 lc rgb '%s' title 'sensor %d'",
                 picture_colour(i), rays->sensors[i].id);
@@ -125,9 +125,9 @@ void plot_bearings(struct picture *picture, const struct picture_data *data)
     const struct map map = map_start(picture, map_box_of_data(data));
     picture_set_title(picture, "%zu bearings of %zu sensors", rays->count, rays->num_sensors);
     plot_bearings_write_data(&map, rays);
-    map_write_plots(&map, &data->plots, 0);
+    map_write_sampled_plots(&map, &data->plots, 0);
     map_write_points(&map, "truth", &data->truth);
-    put_path_arrows(&map, &data->truth);
+    put_arrow_at_end_of_each_path(&map, &data->truth);
     fprintf(map.script, "plot NaN notitle");
     plot_bearings_draw_rays(&map, rays);
     map_draw_plots(&map, &data->plots);

@@ -6,9 +6,9 @@
 #ifndef RHOTRACK_TOOL_PLOT_BEARINGS_H
 #define RHOTRACK_TOOL_PLOT_BEARINGS_H
 
-#include "picture/map.h"
-#include "picture/picture.h"
+#include "picture/gnuplot_picture_file.h"
 #include "picture/picture_data.h"
+#include "picture/plan_view_map.h"
 
 /*
  * Draws the map. With truth or plots it shows these and the sensors, and cuts the rays at its edge;

@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_TOOL_PLOT_ERRORS_H
 #define RHOTRACK_TOOL_PLOT_ERRORS_H
 
-#include "picture/picture.h"
+#include "picture/gnuplot_picture_file.h"
 #include "picture/picture_data.h"
 #include "settings/parameters.h"
 
@@ -19,8 +19,8 @@ struct plot_errors {
  * targets within gospa_cutoff_m. Exits with 2 where a track time is no truth time, or no target has
  * a track. Time: number of truth times multiplied by the number of rows.
  */
-struct plot_errors plot_errors_find(const struct picture_data *data,
-                                    const struct parameters *parameters);
+struct plot_errors plot_errors_find_track_position_errors(const struct picture_data *data,
+                                                          const struct parameters *parameters);
 void plot_errors_free(struct plot_errors *errors);
 
 void plot_errors(struct picture *picture, const struct picture_data *data,

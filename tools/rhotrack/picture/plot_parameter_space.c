@@ -6,7 +6,7 @@
 
 #include "base/common.h"
 #include "io/scans/plot_scan_reader.h"
-#include "picture/map.h"
+#include "picture/plan_view_map.h"
 #include "rhotrack/config.h"
 #include "rhotrack/detail/angle.h"
 
@@ -81,7 +81,8 @@ static void put_votes(FILE *script, const struct votes *votes, double unit_m)
     fprintf(script, "EOD\n");
 }
 
-static void put_lines_of_tracks(FILE *script, const struct plot_points *tracks, double unit_m)
+static void put_theta_and_rho_of_track_lines(FILE *script, const struct plot_points *tracks,
+                                             double unit_m)
 {
     struct plot_points one;
     size_t at = 0;
@@ -100,8 +101,9 @@ static void put_lines_of_tracks(FILE *script, const struct plot_points *tracks, 
  * Reads the plots again as scans and returns the last ones: the table of plots does not show which
  * belong to one scan.
  */
-struct revolutions plot_parameter_space_read(const struct picture_data *data,
-                                             const struct parameters *parameters, size_t scans)
+struct revolutions plot_parameter_space_read_last_scans(const struct picture_data *data,
+                                                        const struct parameters *parameters,
+                                                        size_t scans)
 {
     uint32_t num_plots = 0;
     for (int i = 0; i < data->num_plot_paths; i++) {
@@ -125,14 +127,14 @@ struct revolutions plot_parameter_space_read(const struct picture_data *data,
     return revolutions;
 }
 
-void plot_parameter_space(struct picture *picture, const struct picture_data *data,
-                          const struct revolutions *revolutions)
+void plot_hough_votes_and_track_lines(struct picture *picture, const struct picture_data *data,
+                                      const struct revolutions *revolutions)
 {
     struct votes *votes = must_calloc(1, sizeof *votes);
     cast_all_votes(votes, revolutions);
     double unit_m = votes->rho_max_m - votes->rho_min_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
-    put_lines_of_tracks(picture->script, &data->tracks, unit_m);
+    put_theta_and_rho_of_track_lines(picture->script, &data->tracks, unit_m);
     picture_set_title(picture, "Parameter space: the lines through the plots of the last %zu scans",
                       revolutions->count);
     fprintf(

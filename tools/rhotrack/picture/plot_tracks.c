@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "picture/map.h"
+#include "picture/plan_view_map.h"
 #include "picture/plot_bearings.h"
 
 #define TRACKS_MARKED 30 /* most tracks that are drawn with markers on their lines */
@@ -75,21 +75,21 @@ static const char *format_plot_count(const struct picture_data *data, char text[
     return text;
 }
 
-void plot_scans(struct picture *picture, const struct picture_data *data)
+void plot_scans_coloured_by_time(struct picture *picture, const struct picture_data *data)
 {
     const struct map map = start_map_of_all_data(picture, data);
     const size_t drawn = map_num_plots_drawn(data->plots.count);
     char plots[WORDS_BYTES], times[WORDS_BYTES], time[WORDS_BYTES];
-    picture_data_time_label(data, time, sizeof time);
+    picture_data_write_time_axis_label(data, time, sizeof time);
     picture_set_title(picture, "%s%s", format_plot_count(data, plots),
                       format_time_span(data, times));
-    map_write_plots(&map, &data->plots, picture_data_time_origin_us(data));
-    map_write_radars(&map, data->radars, data->num_radars);
+    map_write_sampled_plots(&map, &data->plots, picture_data_late_time_origin_or_0_us(data));
+    map_write_range_rings_and_coverage(&map, data->radars, data->num_radars);
     fprintf(map.script,
             "set cblabel '%s'\nset palette defined (0 '#00204d', 0.5 '#7c7b78', 1 '#ffd940')\n"
             "plot NaN notitle",
             time);
-    map_draw_radars(&map, data->radars, data->num_radars);
+    map_draw_range_rings_and_coverage(&map, data->radars, data->num_radars);
     fprintf(map.script, ", \\\n $plots using 1:2:3 with points pt 7 ps %.2f lc palette notitle\n",
             0.45 - 0.25 * fmin(1.0, sqrt((double)drawn / MAP_PLOTS_MAX)));
 }
@@ -98,7 +98,8 @@ void plot_scans(struct picture *picture, const struct picture_data *data)
  * Writes the line that started each track: back from its first row with its first velocity, to the
  * time of the first plot or for at most six scans.
  */
-static void put_start_lines(const struct map *map, const struct picture_data *data)
+static void put_tracks_extrapolated_back_from_start(const struct map *map,
+                                                    const struct picture_data *data)
 {
     struct plot_points one;
     size_t at = 0;
@@ -218,7 +219,7 @@ static void draw_track_lines(const struct map *map, const struct plot_points *tr
         fprintf(map->script, ", \\\n $tracks index %zu using 1:2 with ", index);
         if (ids <= TRACKS_MARKED) {
             fprintf(map->script, "linespoints pt %d ps 0.55 pi %zu", picture_marker(index),
-                    map_marker_interval(map, &one));
+                    map_points_between_markers(map, &one));
         } else {
             fprintf(map->script, "lines");
         }
@@ -254,18 +255,18 @@ void plot_tracks(struct picture *picture, const struct picture_data *data)
     const struct map map = start_map_of_all_data(picture, data);
     const bool has_bearings = data->bearings.num_sensors > 0;
     set_tracks_title(picture, &map, data);
-    map_write_plots(&map, &data->plots, 0);
+    map_write_sampled_plots(&map, &data->plots, 0);
     map_write_points(&map, "truth", &data->truth);
     map_write_points(&map, "tracks", &data->tracks);
-    map_write_radars(&map, data->radars, data->num_radars);
-    put_start_lines(&map, data);
+    map_write_range_rings_and_coverage(&map, data->radars, data->num_radars);
+    put_tracks_extrapolated_back_from_start(&map, data);
     put_track_labels(&map, &data->tracks);
     put_arrows_and_ellipses(&map, &data->tracks);
     if (has_bearings) {
         plot_bearings_write_data(&map, &data->bearings);
     }
     fprintf(map.script, "plot NaN notitle");
-    map_draw_radars(&map, data->radars, data->num_radars);
+    map_draw_range_rings_and_coverage(&map, data->radars, data->num_radars);
     if (has_bearings) {
         plot_bearings_draw_rays(&map, &data->bearings);
         plot_bearings_draw_sensors(&map, &data->bearings);

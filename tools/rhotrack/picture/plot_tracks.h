@@ -5,11 +5,11 @@
 #ifndef RHOTRACK_TOOL_PLOT_TRACKS_H
 #define RHOTRACK_TOOL_PLOT_TRACKS_H
 
-#include "picture/picture.h"
+#include "picture/gnuplot_picture_file.h"
 #include "picture/picture_data.h"
 
 /* Draws a map of plots coloured by time. */
-void plot_scans(struct picture *picture, const struct picture_data *data);
+void plot_scans_coloured_by_time(struct picture *picture, const struct picture_data *data);
 
 /*
  * Draws tracks with ids, arrows of the last velocity, two-sigma ellipses about the last position

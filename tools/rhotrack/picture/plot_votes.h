@@ -6,8 +6,8 @@
 #ifndef RHOTRACK_TOOL_PLOT_VOTES_H
 #define RHOTRACK_TOOL_PLOT_VOTES_H
 
-#include "io/turns/revolutions.h"
-#include "picture/picture.h"
+#include "io/turns/sectors_merged_to_turns.h"
+#include "picture/gnuplot_picture_file.h"
 #include "settings/initiation_method.h"
 
 /* The votes to be drawn, computed before the picture is begun so that errors leave no file. */
@@ -17,8 +17,9 @@ struct plot_votes;
  * Computes the votes. Exits with 2 where the method has no accumulator of plots, or its cells
  * cannot hold the plots.
  */
-struct plot_votes *plot_votes_find(enum method method, const struct revolutions *revolutions,
-                                   const struct parameters *parameters);
+struct plot_votes *plot_votes_compute_pictures(enum method method,
+                                               const struct revolutions *revolutions,
+                                               const struct parameters *parameters);
 void plot_votes(struct picture *picture, const struct plot_votes *votes);
 void plot_votes_free(struct plot_votes *votes);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "pipeline/pipeline.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +9,9 @@
 #include "base/common.h"
 #include "settings/initiation_method.h"
 
-static void allocate_initiator(struct pipeline *pipeline)
+#define WINDOWS_MAX 256 /* windows of a sensor, or of two that share one */
+
+static void allocate_one_more_initiator(struct pipeline *pipeline)
 {
     pipeline->initiators =
         must_make_room_for_one(pipeline->initiators, pipeline->num_allocated, &pipeline->capacity,
@@ -23,7 +26,7 @@ struct pipeline pipeline_allocate(void)
                                 .report = must_alloc(sizeof(struct rho_report)),
                                 .plots = must_calloc(RHO_MAX_PLOTS, sizeof(struct rho_plot))};
 
-    allocate_initiator(&pipeline);
+    allocate_one_more_initiator(&pipeline);
     pipeline.initiator = pipeline.initiators[0].initiator;
     return pipeline;
 }
@@ -72,12 +75,12 @@ void pipeline_options_to_parameters(struct parameters *parameters,
         fail(EXIT_USAGE, "gate none, which draws plots at random, is only for `maintain`; use "
                          "best, hough or nearest");
     }
-    if (method_of_plots(parameters) != METHOD_KERNEL) {
+    if (method_of_starting_tracks_from_plots(parameters) != METHOD_KERNEL) {
         struct rho_paper_starts_config customary;
 
         rho_paper_starts_config_default(&customary, RHO_HOUGH_NHT_C);
         parameters_suggest(parameters, PARAMETER_SCANS, customary.scans);
-        method_suggest_parameters(method_of_plots(parameters), parameters);
+        method_suggest_parameters(method_of_starting_tracks_from_plots(parameters), parameters);
     }
 }
 
@@ -87,7 +90,7 @@ static struct pipeline_initiator *add_initiator(struct pipeline *pipeline, int32
     struct pipeline_initiator *added;
 
     if (pipeline->num_initiators == pipeline->num_allocated) {
-        allocate_initiator(pipeline);
+        allocate_one_more_initiator(pipeline);
     }
     added = &pipeline->initiators[pipeline->num_initiators++];
     added->sensor_id = sensor_id;
@@ -146,6 +149,29 @@ static void copy_scans_from_shared_windows(struct pipeline *pipeline,
 }
 
 /*
+ * Adds the initiator of a sensor's window, or gives the one that all sensors beyond the windows
+ * share: each takes megabytes, and a file may name any number of sensors.
+ */
+static struct pipeline_initiator *add_or_share_initiator(struct pipeline *pipeline,
+                                                         int32_t sensor_id)
+{
+    struct pipeline_initiator *of;
+
+    if (pipeline->num_initiators > WINDOWS_MAX) {
+        return &pipeline->initiators[WINDOWS_MAX];
+    }
+    if (pipeline->num_initiators == WINDOWS_MAX) {
+        fprintf(stderr,
+                "rhotrack: %d initiation windows are in use: sensor %" PRId32 " and further ones "
+                "share another, from which hardly any track starts\n",
+                WINDOWS_MAX, sensor_id);
+    }
+    of = add_initiator(pipeline, sensor_id);
+    copy_scans_from_shared_windows(pipeline, of);
+    return of;
+}
+
+/*
  * Finds or adds the initiator of a window. The first initiator exists before its sensor is known.
  */
 struct rho_initiator *pipeline_find_or_add_initiator(struct pipeline *pipeline, int32_t sensor_id)
@@ -163,15 +189,14 @@ struct rho_initiator *pipeline_find_or_add_initiator(struct pipeline *pipeline, 
         of = pipeline->initiators[i].sensor_id == sensor_id ? &pipeline->initiators[i] : NULL;
     }
     if (!of) {
-        of = add_initiator(pipeline, sensor_id);
-        copy_scans_from_shared_windows(pipeline, of);
+        of = add_or_share_initiator(pipeline, sensor_id);
     }
     pipeline->initiator = of->initiator;
     return pipeline->initiator;
 }
 
-struct rho_initiator *pipeline_initiator_of_scan(struct pipeline *pipeline,
-                                                 const struct rho_scan *scan)
+struct rho_initiator *pipeline_initiator_of_sensor_or_radar_pair(struct pipeline *pipeline,
+                                                                 const struct rho_scan *scan)
 {
     return pipeline_find_or_add_initiator(pipeline, pipeline->has_pairs
                                                         ? pipeline_window_sensor_id(pipeline, scan)
@@ -186,12 +211,13 @@ static void open_paper_starts_if_chosen(struct pipeline *pipeline,
     struct rho_paper_starts_config config;
     const double range_m = parameters->value[PARAMETER_RANGE_MAX_M];
 
-    if (method_of_plots(parameters) == METHOD_KERNEL) {
+    if (method_of_starting_tracks_from_plots(parameters) == METHOD_KERNEL) {
         return;
     }
     method_widen_cells_to_range(&fitted, range_m);
     config = (struct rho_paper_starts_config){
-        .hough = method_hough_config(method_of_plots(parameters), &fitted, range_m),
+        .hough =
+            method_hough_config(method_of_starting_tracks_from_plots(parameters), &fitted, range_m),
         .scans = (uint16_t)parameters->value[PARAMETER_SCANS],
         .scans_min = (uint16_t)parameters->value[PARAMETER_MIN_SCANS]};
     if (!pipeline->starts) {
@@ -220,7 +246,8 @@ static void open_wall_learning_once(struct pipeline *pipeline, const struct para
     }
 }
 
-static void record_settings(struct pipeline *pipeline, const struct parameters *parameters)
+static void keep_settings_for_snapshot(struct pipeline *pipeline,
+                                       const struct parameters *parameters)
 {
     pipeline->settings = parameters_to_settings(parameters);
     if (!pipeline->is_told) {
@@ -233,7 +260,7 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
 {
     struct rho_tracker_config maintain;
 
-    record_settings(pipeline, parameters);
+    keep_settings_for_snapshot(pipeline, parameters);
     parameters_to_initiator(parameters, &pipeline->start);
     parameters_to_tracker(parameters, &maintain);
     pipeline->has_pairs = parameters->value[PARAMETER_INITIATORS] == INITIATORS_PAIRS;
@@ -262,7 +289,7 @@ void pipeline_reconfigure(struct pipeline *pipeline, const struct parameters *pa
 {
     struct rho_tracker_config maintain;
 
-    record_settings(pipeline, parameters);
+    keep_settings_for_snapshot(pipeline, parameters);
     parameters_to_initiator(parameters, &pipeline->start);
     parameters_to_tracker(parameters, &maintain);
     must_succeed(rho_tracker_reconfigure(pipeline->tracker, &maintain), "tracker");
@@ -335,7 +362,7 @@ void pipeline_learn_walls(struct pipeline *pipeline, const struct rho_scan *scan
     }
 }
 
-void pipeline_update_zones(struct pipeline *pipeline)
+void pipeline_count_tracks_in_zones(struct pipeline *pipeline)
 {
     if (pipeline->zones) {
         must_succeed(rho_zones_step(pipeline->zones, pipeline->report), "zones");
@@ -345,12 +372,12 @@ void pipeline_update_zones(struct pipeline *pipeline)
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan)
 {
     struct rho_initiator *initiator =
-        pipeline->starts ? NULL : pipeline_initiator_of_scan(pipeline, scan);
+        pipeline->starts ? NULL : pipeline_initiator_of_sensor_or_radar_pair(pipeline, scan);
 
     must_succeed(rho_tracker_step(pipeline->tracker, initiator, scan, pipeline->report), "step");
     pipeline_start_paper_tracks(pipeline, scan, NULL);
     pipeline_learn_walls(pipeline, scan);
-    pipeline_update_zones(pipeline);
+    pipeline_count_tracks_in_zones(pipeline);
 }
 
 void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame)
@@ -360,5 +387,5 @@ void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *fram
     must_succeed(rho_tracker_step_frame(pipeline->tracker, passive, frame, pipeline->report),
                  "step");
     pipeline_start_paper_tracks(pipeline, NULL, frame);
-    pipeline_update_zones(pipeline);
+    pipeline_count_tracks_in_zones(pipeline);
 }

@@ -22,7 +22,10 @@ struct pipeline_initiator {
 
 struct pipeline {
     struct rho_initiator *initiator; /* initiator of the newest scan */
-    /* one initiator a window, in order of first use; a single one for INITIATORS_ONE */
+    /*
+     * one initiator a window, in order of first use; the last of 257 is of all further sensors; a
+     * single one for INITIATORS_ONE
+     */
     struct pipeline_initiator *initiators;
     size_t num_initiators, num_allocated, capacity;
     bool has_one_initiator, has_pairs, has_sensor;
@@ -69,7 +72,10 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
 /* Initialises the initiation of tracks from bearings; after pipeline_open. */
 void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *parameters);
 
-/* The initiator of a window, added where it is new; it becomes pipeline->initiator. */
+/*
+ * The initiator of a window, added where it is new and not one of too many; it becomes
+ * pipeline->initiator.
+ */
 struct rho_initiator *pipeline_find_or_add_initiator(struct pipeline *pipeline, int32_t sensor_id);
 
 /*
@@ -79,8 +85,8 @@ struct rho_initiator *pipeline_find_or_add_initiator(struct pipeline *pipeline, 
 int32_t pipeline_window_sensor_id(const struct pipeline *pipeline, const struct rho_scan *scan);
 
 /* The initiator for a scan's plots; call after the sensor was described, before the scan's step. */
-struct rho_initiator *pipeline_initiator_of_scan(struct pipeline *pipeline,
-                                                 const struct rho_scan *scan);
+struct rho_initiator *pipeline_initiator_of_sensor_or_radar_pair(struct pipeline *pipeline,
+                                                                 const struct rho_scan *scan);
 
 /* Drops the batch of bearings of passive-paper, after a change of the clock. */
 void pipeline_reopen_passive_paper(struct pipeline *pipeline);
@@ -102,7 +108,7 @@ void pipeline_reconfigure(struct pipeline *pipeline, const struct parameters *pa
 void pipeline_learn_walls(struct pipeline *pipeline, const struct rho_scan *scan);
 
 /* Updates the zones' counts by the tracks, after a step and its track starts. */
-void pipeline_update_zones(struct pipeline *pipeline);
+void pipeline_count_tracks_in_zones(struct pipeline *pipeline);
 
 /* Steps a scan, or a frame of bearings, completely; the result is in pipeline->report. */
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan);

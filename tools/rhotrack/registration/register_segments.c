@@ -28,8 +28,9 @@ static int by_time(const void *a, const void *b)
     return (one->plot > other->plot) - (one->plot < other->plot);
 }
 
-static void add_track_plots(const struct register_data *data, const struct radar_track *track,
-                            struct segments *segments)
+static void append_bias_corrected_plots_of_track(const struct register_data *data,
+                                                 const struct radar_track *track,
+                                                 struct segments *segments)
 {
     const struct radar_data *radar = &data->radars[track->radar];
 
@@ -96,7 +97,7 @@ struct segments segments_cut_paths(const struct register_data *data)
 
         for (size_t i = target; i < data->num_tracks; i++) {
             if (data->tracks[i].target == target) {
-                add_track_plots(data, &data->tracks[i], &segments);
+                append_bias_corrected_plots_of_track(data, &data->tracks[i], &segments);
             }
         }
         if (segments.num_plots > first) {
@@ -163,14 +164,15 @@ static void fill_coefficient_row(const struct plot_terms *plot_terms, int row,
     }
 }
 
-static double measured_coordinate(const struct plot_terms *plot_terms, int row)
+static double place_along_row_direction_sigmas(const struct plot_terms *plot_terms, int row)
 {
     return plot_terms->unit[row][0] * plot_terms->at.x_m +
            plot_terms->unit[row][1] * plot_terms->at.y_m;
 }
 
 /* Subtracts `from`, the place of the segment's first plot: large coordinates would lose digits. */
-static void shift_origin_to(struct plot_terms *plot_terms, const struct corrected *origin)
+static void subtract_origin_from_plot_place(struct plot_terms *plot_terms,
+                                            const struct corrected *origin)
 {
     plot_terms->at.x_m -= origin->x_m;
     plot_terms->at.y_m -= origin->y_m;
@@ -188,7 +190,8 @@ static bool fit_path_coefficients(const struct plot_terms *plot_terms,
     memset(segment->coefficients, 0, sizeof segment->coefficients);
     for (size_t i = 0; i < segment->count; i++) {
         for (int row = 0; row < 2; row++) {
-            double values[SEGMENT_COEFFICIENTS], value = measured_coordinate(&plot_terms[i], row);
+            double values[SEGMENT_COEFFICIENTS],
+                value = place_along_row_direction_sigmas(&plot_terms[i], row);
 
             fill_coefficient_row(&plot_terms[i], row, values);
             for (int j = 0; j < SEGMENT_COEFFICIENTS; j++) {
@@ -235,7 +238,7 @@ static void fill_bias_row(const struct segment *segment, const struct plot_terms
 static double row_residual(const struct segment *segment, const struct plot_terms *plot_terms,
                            int row)
 {
-    double values[SEGMENT_COEFFICIENTS], off = measured_coordinate(plot_terms, row);
+    double values[SEGMENT_COEFFICIENTS], off = place_along_row_direction_sigmas(plot_terms, row);
 
     fill_coefficient_row(plot_terms, row, values);
     for (int k = 0; k < SEGMENT_COEFFICIENTS; k++) {
@@ -320,7 +323,7 @@ bool segment_fit_and_add_equations(const struct register_data *data, struct segm
     }
     from = plot_terms[0].at;
     for (size_t i = 0; i < segment->count; i++) {
-        shift_origin_to(&plot_terms[i], &from);
+        subtract_origin_from_plot_place(&plot_terms[i], &from);
     }
     is_fitted = fit_path_coefficients(plot_terms, plots, segment, factor);
     if (is_fitted) {

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "registration/register_data.h"
+#include "registration/register_shared_data.h"
 
 #define TURN_RAD 6.283185307179586
 #define SAME_RAD 1e-4 /* azimuths nearer than this count as equal */
@@ -61,7 +61,7 @@ static struct rho_scan turn_as_scan(const struct radar_data *radar, size_t first
  * make a full circle, when its first sector begins again, or after half of the largest offset of a
  * plot's time from its scan's.
  */
-size_t register_find_turn_end(const struct radar_data *radar, size_t first)
+size_t register_find_scan_after_turn(const struct radar_data *radar, size_t first)
 {
     const struct radar_scan *scans = radar->scans;
     double turned_rad = sector_width_rad(&scans[first]);
@@ -122,7 +122,7 @@ static void record_reported_tracks(struct following *all, const struct rho_repor
 }
 
 /* Moves the tracks that were ever confirmed into data, and frees the others. */
-static void move_confirmed_tracks(struct following *all)
+static void store_confirmed_tracks_and_free_others(struct following *all)
 {
     struct register_data *data = all->data;
 
@@ -161,14 +161,14 @@ void register_track_one_radar(struct register_data *data, size_t radar_number,
     pipeline_open(pipeline, data->parameters);
     must_succeed(rho_tracker_set_sensor(pipeline->tracker, &radar->sensor), "sensor");
     for (size_t first = 0; first < radar->num_scans;) {
-        size_t end = register_find_turn_end(radar, first);
+        size_t end = register_find_scan_after_turn(radar, first);
         struct rho_scan turn = turn_as_scan(radar, first, end, rows, pipeline->plots);
 
         pipeline_step(pipeline, &turn);
         record_reported_tracks(&all, pipeline->report, rows);
         first = end;
     }
-    move_confirmed_tracks(&all);
+    store_confirmed_tracks_and_free_others(&all);
     free(rows);
 }
 

@@ -14,7 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "scene/scene_json.h"
+#include "scene/json_value_reader.h"
 #include "scene/scene_path.h"
 #include "scene/scene_radar_notch.h"
 #include "scene/scene_reflectors.h"

@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 #include "base/random.h"
-#include "scene/scene_json.h"
+#include "scene/json_value_reader.h"
 
 #define SCENE_SCATTERERS_MAX 64
 

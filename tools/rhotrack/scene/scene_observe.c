@@ -6,7 +6,7 @@
 
 #include "base/common.h"
 #include "base/portable_math.h"
-#include "scene/scene_objects.h"
+#include "scene/scene_persistent_clutter.h"
 
 #define RANGE_LEAST_M 0.01 /* shortest range that a plot gets: the last digit in the file */
 /*
@@ -113,8 +113,8 @@ static bool is_free_of_outage_and_mask(const struct scene *scene, size_t sensor,
 }
 
 /* Whether a silent outage overlaps the scan, which then is never sent. */
-static bool is_scan_lost_in_outage(const struct scene *scene, size_t sensor, double start_s,
-                                   double end_s)
+static bool is_scan_silenced_by_outage(const struct scene *scene, size_t sensor, double start_s,
+                                       double end_s)
 {
     for (size_t i = 0; i < scene->num_events; i++) {
         const struct scene_event *event = &scene->events[i];
@@ -179,7 +179,8 @@ static double pd_at_range(const struct scene_curve *curve, double range_m)
 }
 
 /* Stores a plot: assigns its scan, limits range and azimuth, and folds an ambiguous range rate. */
-static void store_plot(struct observer *observer, struct scene_plot plot)
+static void assign_scan_fold_range_rate_and_append_plot(struct observer *observer,
+                                                        struct scene_plot plot)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double scans = (plot.t_s - sensor->start_s) / sensor->turn_s * (double)sensor->sectors;
@@ -246,7 +247,7 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
 {
     const struct scene_sensor *sensor = observer->sensor;
     double at_s = after_s;
-    bool is_there = mover_apparent_motion_at(mover, sensor, at_s, &sighting->at);
+    bool is_there = mover_motion_folded_to_unambiguous_range_at(mover, sensor, at_s, &sighting->at);
 
     for (int i = 0; sensor->turns && i < SIGHTING_ITERATIONS; i++) {
         double azimuth_rad =
@@ -255,7 +256,7 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
             turn_share_until_azimuth(sensor, azimuth_rad + sensor->azimuth_bias_rad, at_s);
 
         at_s += (i > 0 && ahead > 0.5 ? ahead - 1.0 : ahead) * sensor->turn_s;
-        is_there = mover_apparent_motion_at(mover, sensor, at_s, &sighting->at);
+        is_there = mover_motion_folded_to_unambiguous_range_at(mover, sensor, at_s, &sighting->at);
     }
     sighting->t_s = at_s;
     sighting->range_m =
@@ -269,10 +270,10 @@ static bool find_next_sighting(const struct observer *observer, const struct sce
  * Calls `take` with each sighting at which the sensor could detect the object: in coverage, outside
  * outages and masks.
  */
-static void for_each_sighting(struct observer *observer, const struct scene_mover *mover,
-                              void (*take)(struct observer *, const struct scene_mover *,
-                                           struct sighting *, uint64_t item),
-                              uint64_t item)
+static void for_each_detectable_sighting(struct observer *observer, const struct scene_mover *mover,
+                                         void (*take)(struct observer *, const struct scene_mover *,
+                                                      struct sighting *, uint64_t item),
+                                         uint64_t item)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double end_s = fmin(observer->end_s, mover->until_s);
@@ -352,8 +353,9 @@ static double faded_pd(const struct target_fades *fades, size_t sensor, double t
     return pd;
 }
 
-static void store_target_sighting(struct observer *observer, const struct scene_mover *mover,
-                                  struct sighting *sighting, uint64_t item)
+static void append_true_sighting_of_target(struct observer *observer,
+                                           const struct scene_mover *mover,
+                                           struct sighting *sighting, uint64_t item)
 {
     (void)mover;
     (void)item;
@@ -394,7 +396,7 @@ static void add_split_plots(struct observer *observer, const struct sighting *si
                 random_in_span(&random, event->azimuth_rad);
             second.x_m += sensor->sigma_m * random_in_span(&random, event->range_sigmas);
             second.y_m += sensor->sigma_m * random_in_span(&random, event->azimuth_sigmas);
-            store_plot(observer, second);
+            assign_scan_fold_range_rate_and_append_plot(observer, second);
         }
     }
 }
@@ -419,7 +421,8 @@ static void add_image_plots(struct observer *observer, const struct sighting *si
         image.target_id = -1;
         image.range_m = portable_hypot(image.at.x_m - sensor->x_m, image.at.y_m - sensor->y_m);
         image.azimuth_rad = portable_atan2(image.at.y_m - sensor->y_m, image.at.x_m - sensor->x_m);
-        store_plot(observer, noisy_plot_of_sighting(sensor, &image, &random));
+        assign_scan_fold_range_rate_and_append_plot(
+            observer, noisy_plot_of_sighting(sensor, &image, &random));
     }
 }
 
@@ -452,7 +455,7 @@ static bool are_unresolved(const struct scene_sensor *sensor, const struct sight
  * Groups sightings, sorted by time, that the sensor does not resolve: pairwise unresolved ones get
  * one group number.
  */
-static void group_unresolved_sightings(struct observer *observer)
+static void number_groups_of_unresolved_sightings(struct observer *observer)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double window_s =
@@ -586,7 +589,8 @@ static void add_body_plots(struct observer *observer, const struct scene_body *b
 
         if (random_uniform(&look) < pd &&
             is_place_in_coverage(observer->scene, sensor, on.at.x_m, on.at.y_m)) {
-            store_plot(observer, noisy_plot_of_sighting(sensor, &on, &look));
+            assign_scan_fold_range_rate_and_append_plot(observer,
+                                                        noisy_plot_of_sighting(sensor, &on, &look));
             add_image_plots(observer, &on);
         }
     }
@@ -623,7 +627,7 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
                                           .pd = -1.0,
                                           .target_id = (int)i};
 
-        for_each_sighting(observer, &mover, store_target_sighting, 0);
+        for_each_detectable_sighting(observer, &mover, append_true_sighting_of_target, 0);
     }
     if (observer->num_sightings > 0) {
         qsort(observer->sightings, observer->num_sightings, sizeof *observer->sightings, by_time);
@@ -639,7 +643,7 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
         one->is_seen = random_uniform(&random) <
                        faded_pd(&fades[one->target_id], observer->index, one->t_s, pd);
     }
-    group_unresolved_sightings(observer);
+    number_groups_of_unresolved_sightings(observer);
     for (size_t i = 0; i < observer->num_sightings; i++) {
         if (observer->sightings[i].group == i) {
             struct sighting middle = merge_sighting_group(observer, i);
@@ -647,7 +651,8 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
 
             random_uniform(&random); /* skip the number that decided the detection */
             if (middle.is_seen) {
-                store_plot(observer, noisy_plot_of_sighting(observer->sensor, &middle, &random));
+                assign_scan_fold_range_rate_and_append_plot(
+                    observer, noisy_plot_of_sighting(observer->sensor, &middle, &random));
                 add_split_plots(observer, &middle);
                 add_image_plots(observer, &middle);
             }
@@ -657,29 +662,31 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
 
 /* ---- clutter ---- */
 
-static void add_plot_of_clutter_mover(struct observer *observer, const struct scene_mover *mover,
-                                      struct sighting *sighting, uint64_t item)
+static void add_plot_of_persistent_clutter_object(struct observer *observer,
+                                                  const struct scene_mover *mover,
+                                                  struct sighting *sighting, uint64_t item)
 {
     struct random random =
         scene_random_stream(observer->seed, observer->run, STREAM_CLUTTER,
                             (item >> 32) * 64 + observer->index, item & UINT32_MAX, sighting->pass);
 
     if (random_uniform(&random) < mover->pd) {
-        store_plot(observer, noisy_plot_of_sighting(observer->sensor, sighting, &random));
+        assign_scan_fold_range_rate_and_append_plot(
+            observer, noisy_plot_of_sighting(observer->sensor, sighting, &random));
     }
 }
 
-static void observe_clutter_movers(struct observer *observer, const struct scene_run *run,
-                                   size_t source)
+static void observe_persistent_clutter_objects(struct observer *observer,
+                                               const struct scene_run *run, size_t source)
 {
     struct scene_path *paths;
     size_t count, num_paths;
-    struct scene_mover *movers =
-        draw_clutter_movers(run->scene, source, run->seed, run->run, &count, &paths, &num_paths);
+    struct scene_mover *movers = draw_persistent_clutter_objects(
+        run->scene, source, run->seed, run->run, &count, &paths, &num_paths);
 
     for (size_t i = 0; i < count; i++) {
-        for_each_sighting(observer, &movers[i], add_plot_of_clutter_mover,
-                          (uint64_t)source << 32 | i);
+        for_each_detectable_sighting(observer, &movers[i], add_plot_of_persistent_clutter_object,
+                                     (uint64_t)source << 32 | i);
     }
     for (size_t i = 0; i < num_paths; i++) {
         path_free(&paths[i]);
@@ -692,8 +699,9 @@ static void observe_clutter_movers(struct observer *observer, const struct scene
  * Stores a clutter plot at the time at which the antenna passes it in this turn, unless hidden or
  * out of coverage.
  */
-static void store_clutter_plot(struct observer *observer, size_t turn, double range_m,
-                               double azimuth_rad, double x_m, double y_m, double rate_mps)
+static void store_clutter_plot_unless_hidden(struct observer *observer, size_t turn, double range_m,
+                                             double azimuth_rad, double x_m, double y_m,
+                                             double rate_mps)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double turn_s = sensor->start_s + (double)turn * sensor->turn_s, t_s = turn_s;
@@ -706,14 +714,14 @@ static void store_clutter_plot(struct observer *observer, size_t turn, double ra
     if (range_m > 0.0 &&
         is_free_of_outage_and_mask(observer->scene, observer->index, t_s, range_m, azimuth_rad) &&
         (sensor->is_cartesian || is_in_coverage(&sensor->coverage, range_m, azimuth_rad))) {
-        store_plot(observer,
-                   (struct scene_plot){.t_s = t_s,
-                                       .target_id = -1,
-                                       .range_m = range_m + sensor->range_bias_m,
-                                       .azimuth_rad = azimuth_rad + sensor->azimuth_bias_rad,
-                                       .range_rate_mps = rate_mps,
-                                       .x_m = x_m,
-                                       .y_m = y_m});
+        assign_scan_fold_range_rate_and_append_plot(
+            observer, (struct scene_plot){.t_s = t_s,
+                                          .target_id = -1,
+                                          .range_m = range_m + sensor->range_bias_m,
+                                          .azimuth_rad = azimuth_rad + sensor->azimuth_bias_rad,
+                                          .range_rate_mps = rate_mps,
+                                          .x_m = x_m,
+                                          .y_m = y_m});
     }
 }
 
@@ -722,8 +730,8 @@ static void store_clutter_plot_at_xy(struct observer *observer, size_t turn, dou
 {
     double dx_m = x_m - observer->sensor->x_m, dy_m = y_m - observer->sensor->y_m;
 
-    store_clutter_plot(observer, turn, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m), x_m,
-                       y_m, rate_mps);
+    store_clutter_plot_unless_hidden(observer, turn, portable_hypot(dx_m, dy_m),
+                                     portable_atan2(dy_m, dx_m), x_m, y_m, rate_mps);
 }
 
 /* Limits of the sector, or of the full circle; *to_rad is above *from_rad. */
@@ -758,8 +766,8 @@ static void add_uniform_clutter_plot(struct observer *observer, const struct sce
 
         azimuth_limits(clutter->within.has_sector ? &clutter->within : coverage, &from_rad,
                        &to_rad);
-        store_clutter_plot(observer, turn, range_m, random_between(random, from_rad, to_rad), 0, 0,
-                           rate_mps);
+        store_clutter_plot_unless_hidden(observer, turn, range_m,
+                                         random_between(random, from_rad, to_rad), 0, 0, rate_mps);
     }
 }
 
@@ -802,9 +810,9 @@ static void add_strobe_plot(struct observer *observer, const struct scene_clutte
         random_between(random, -observer->scene->v_max_mps, observer->scene->v_max_mps);
 
     azimuth_rad = portable_wrap_angle(azimuth_rad);
-    store_clutter_plot(observer, turn, range_m, azimuth_rad,
-                       sensor->x_m + range_m * portable_cos(azimuth_rad),
-                       sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
+    store_clutter_plot_unless_hidden(observer, turn, range_m, azimuth_rad,
+                                     sensor->x_m + range_m * portable_cos(azimuth_rad),
+                                     sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
 }
 
 /*
@@ -878,7 +886,7 @@ static double mean_clutter_plots_per_scan(const struct scene *scene,
 }
 
 /* Adds the plots of uniform, cell and strobe clutter, which are drawn anew each scan. */
-static void observe_scan_clutter(struct observer *observer, size_t source)
+static void observe_clutter_drawn_anew_each_scan(struct observer *observer, size_t source)
 {
     const struct scene_clutter *clutter = &observer->scene->clutter[source];
     double mean = mean_clutter_plots_per_scan(observer->scene, clutter);
@@ -914,7 +922,7 @@ static void observe_false_bearings(struct observer *observer)
         uint64_t count = random_poisson(&random, sensor->false_bearings);
 
         for (uint64_t i = 0; i < count; i++) {
-            store_clutter_plot(
+            store_clutter_plot_unless_hidden(
                 observer, turn, 0.5 * (sensor->coverage.range_m.lo + sensor->coverage.range_m.hi),
                 random_between(&random, sensor->false_from_rad, sensor->false_to_rad), 0, 0, 0);
         }
@@ -1002,7 +1010,8 @@ static void store_scans_of_sensor(struct scene_run *run, const struct observer *
         if (random_uniform(&random) < sensor->late_share) {
             scan.received_s += sensor->late_s;
         }
-        if (!is_scan_lost_in_outage(run->scene, observer->index, scan.end_s - scan_s, scan.end_s)) {
+        if (!is_scan_silenced_by_outage(run->scene, observer->index, scan.end_s - scan_s,
+                                        scan.end_s)) {
             run->scans =
                 must_make_room_for_one(run->scans, run->num_scans, room, sizeof *run->scans);
             run->scans[run->num_scans++] = scan;
@@ -1023,8 +1032,8 @@ static int by_arrival(const void *a, const void *b)
     return (one->number > other->number) - (one->number < other->number);
 }
 
-static void observe_with_sensor(struct observer *observer, const struct scene_run *run,
-                                const struct target_fades *fades)
+static void observe_whole_run_with_sensor(struct observer *observer, const struct scene_run *run,
+                                          const struct target_fades *fades)
 {
     observe_targets(observer, run, fades);
     for (size_t i = 0; !observer->sensor->is_passive && i < run->scene->num_clutter; i++) {
@@ -1034,11 +1043,11 @@ static void observe_with_sensor(struct observer *observer, const struct scene_ru
             continue;
         }
         if (kind == CLUTTER_UNIFORM || kind == CLUTTER_CELL || kind == CLUTTER_STROBE) {
-            observe_scan_clutter(observer, i);
+            observe_clutter_drawn_anew_each_scan(observer, i);
         } else if (kind == CLUTTER_ABOUT_TARGETS) {
             observe_clutter_about_targets(observer, run, i);
         } else {
-            observe_clutter_movers(observer, run, i);
+            observe_persistent_clutter_objects(observer, run, i);
         }
     }
     if (observer->sensor->is_passive) {
@@ -1075,7 +1084,7 @@ struct scene_run *scene_observe(const struct scene *scene, uint64_t seed, uint64
         observer.turns = count_turns(scene, &sensor);
         observer.end_s = sensor.start_s + (double)observer.turns * sensor.turn_s;
         if (observer.turns > 0) {
-            observe_with_sensor(&observer, run, fades);
+            observe_whole_run_with_sensor(&observer, run, fades);
             store_scans_of_sensor(run, &observer, &room);
         }
         run->plots[i] = observer.plots;

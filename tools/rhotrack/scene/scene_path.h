@@ -11,8 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "scene/json_value_reader.h"
 #include "scene/scene_body.h"
-#include "scene/scene_json.h"
 #include "scene/scene_random_streams.h"
 
 struct motion {
@@ -145,7 +145,7 @@ struct target_draft {
 
 /*
  * Draws the flights of an item from before the start until the end of the scene. Exits with 2 where
- * no flight of least_s fits into box_m. In scene_flights.c.
+ * no flight of least_s fits into box_m. In scene_random_flights.c.
  */
 void flights_draw_random(const struct target_draft *draft, struct scene_paths *paths,
                          struct random *random);

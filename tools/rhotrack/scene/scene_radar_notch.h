@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-#include "scene/scene_json.h"
+#include "scene/json_value_reader.h"
 
 struct scene_notch {
     double mps;       /* half width of the notch; 0: no notch */

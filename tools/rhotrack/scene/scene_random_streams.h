@@ -8,7 +8,7 @@
 #define RHOTRACK_TOOL_SCENE_RANDOM_STREAMS_H
 
 #include "base/random.h"
-#include "scene/scene_json.h"
+#include "scene/json_value_reader.h"
 
 enum stream_kind {
     /*

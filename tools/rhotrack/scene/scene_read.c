@@ -168,7 +168,8 @@ static void read_antenna_motion(struct json_object *object, struct scene_sensor 
     sensor->late_s = json_read_number(object, "late_s", 0, 60, 0);
 }
 
-static void read_resolution(struct json_object *object, struct scene_sensor *sensor)
+static void read_range_and_azimuth_resolution(struct json_object *object,
+                                              struct scene_sensor *sensor)
 {
     sensor->resolution_m = json_read_number(object, "resolution_m", 0, 1e5, 0);
     if (!sensor->is_cartesian) {
@@ -203,7 +204,7 @@ static void read_radar(struct json_object *object, struct scene_sensor *sensor)
             json_fail_key(object, "range_rate_span_mps", "must be 0 or 1 and more");
         }
     }
-    read_resolution(object, sensor);
+    read_range_and_azimuth_resolution(object, sensor);
 }
 
 static void read_passive_sensor(struct json_object *object, struct scene_sensor *sensor)
@@ -286,7 +287,7 @@ static void read_all_sensors(struct scene *scene, struct json_object *root)
 
 static const struct scene_coverage anywhere = {.range_m = {0, 4 * RANGE_MAX_M}};
 
-static void read_clutter_area(struct json_object *object, struct scene_clutter *clutter)
+static void read_box_or_sector_of_clutter(struct json_object *object, struct scene_clutter *clutter)
 {
     clutter->within = read_coverage(object, (struct scene_coverage){.range_m = {-1, -1}});
     clutter->has_box =
@@ -310,10 +311,10 @@ static void read_uniform_clutter(struct json_object *object, struct scene_clutte
     clutter->rate_max_mps = json_read_number(object, "range_rate_max_mps", 0, 2e4, 0);
     json_exclude_keys(object, "range_rate_max_mps", "range_rate_sigma_mps");
     clutter->rate_sigma_mps = json_read_number(object, "range_rate_sigma_mps", 0, 1e3, 0);
-    read_clutter_area(object, clutter);
+    read_box_or_sector_of_clutter(object, clutter);
 }
 
-static void read_clutter_cell(struct json_object *object, struct scene_clutter *clutter)
+static void read_moving_clutter_cell(struct json_object *object, struct scene_clutter *clutter)
 {
     static const char *const shapes[] = {"gaussian", "disc"};
 
@@ -335,7 +336,7 @@ static void read_standing_clutter(struct json_object *object, struct scene_clutt
     json_exclude_keys(object, "count", "places_m");
     clutter->pd = json_read_number(object, "pd", 0, 1, 1);
     clutter->count = json_read_count(object, "count", 0, 10000, 0);
-    read_clutter_area(object, clutter);
+    read_box_or_sector_of_clutter(object, clutter);
     if (list.item) {
         clutter->count = list.count;
         clutter->places_m = must_calloc(list.count + 1, sizeof *clutter->places_m);
@@ -355,7 +356,7 @@ static void read_sea_spikes(struct json_object *object, struct scene_clutter *cl
     clutter->life_s = json_read_span(object, "life_s", 1e-3, 1e5, (struct json_span){0});
     clutter->pd = json_read_number(object, "pd", 0, 1, 1);
     clutter->speed_mps = json_read_number(object, "speed_mps", 0, 2e4, 0);
-    read_clutter_area(object, clutter);
+    read_box_or_sector_of_clutter(object, clutter);
 }
 
 static void read_strobe_clutter(struct json_object *object, struct scene_clutter *clutter)
@@ -405,8 +406,9 @@ static void read_clutter_about_targets(struct json_object *object, struct scene_
  * Checks that uniformly distributed clutter has an area, and that clutter drawn anew each scan is
  * not seen by a radar that measures velocities, which it does not have.
  */
-static void check_clutter(const struct scene *scene, const struct json_object *object,
-                          const struct scene_clutter *clutter)
+static void check_clutter_has_area_and_velocity(const struct scene *scene,
+                                                const struct json_object *object,
+                                                const struct scene_clutter *clutter)
 {
     bool is_cartesian = scene->num_radars > 0 && scene->sensors[0].is_cartesian;
     bool is_drawn_anew = clutter->kind == CLUTTER_UNIFORM || clutter->kind == CLUTTER_CELL ||
@@ -432,7 +434,7 @@ static void read_and_append_clutter(struct scene *scene, struct json_object *obj
         "uniform", "cell",  "standing",           "spikes",
         "strobe",  "flock", "second-time-around", "about-targets"};
     static void (*const readers[CLUTTER_KINDS])(struct json_object *, struct scene_clutter *) = {
-        read_uniform_clutter,    read_clutter_cell,         read_standing_clutter,
+        read_uniform_clutter,    read_moving_clutter_cell,  read_standing_clutter,
         read_sea_spikes,         read_strobe_clutter,       read_bird_flock,
         read_second_time_echoes, read_clutter_about_targets};
     struct scene_clutter *clutter = &scene->clutter[scene->num_clutter];
@@ -444,7 +446,7 @@ static void read_and_append_clutter(struct scene *scene, struct json_object *obj
     clutter->within = anywhere;
     read_from_and_until(object, &clutter->from_s, &clutter->until_s);
     readers[clutter->kind](object, clutter);
-    check_clutter(scene, object, clutter);
+    check_clutter_has_area_and_velocity(scene, object, clutter);
     json_refuse_unknown_keys(object);
     scene->num_clutter++;
 }
@@ -484,7 +486,7 @@ static void read_mask_event(struct json_object *object, struct scene_event *even
     event->within = read_coverage(object, anywhere);
 }
 
-static void read_split_event(struct json_object *object, struct scene_event *event)
+static void read_split_plots_event(struct json_object *object, struct scene_event *event)
 {
     const struct json_span none = {0, 0};
 
@@ -500,7 +502,7 @@ static void read_and_append_event(struct scene *scene, struct json_object *objec
 {
     static const char *const kinds[EVENT_KINDS] = {"outage", "fades", "mask", "split"};
     static void (*const readers[EVENT_KINDS])(struct json_object *, struct scene_event *) = {
-        read_outage_event, read_fades_event, read_mask_event, read_split_event};
+        read_outage_event, read_fades_event, read_mask_event, read_split_plots_event};
     struct scene_event *event = &scene->events[scene->num_events];
 
     json_require_key(object, "kind");
@@ -516,7 +518,7 @@ static void read_and_append_event(struct scene *scene, struct json_object *objec
 /* ---- tracker settings, and keys that only the lab reads ---- */
 
 /* Reads "settings": tracker parameters by the names that `rhotrack config` lists. */
-static void read_settings(struct scene *scene, struct json_object *root)
+static void read_tracker_settings(struct scene *scene, struct json_object *root)
 {
     struct json_object settings;
     struct parameters parameters;
@@ -635,7 +637,7 @@ struct scene *scene_read(const char *name, char *text, size_t length, const char
     json_require_key(&root, "duration_s");
     scene->duration_s = json_read_number(&root, "duration_s", 1e-3, DURATION_MAX_S, 0);
     read_area(scene, &root);
-    read_settings(scene, &root);
+    read_tracker_settings(scene, &root);
     read_all_sensors(scene, &root);
     scene->targets = targets_read(&root, "targets");
     for (size_t i = 0; i < scene->targets.count; i++) {

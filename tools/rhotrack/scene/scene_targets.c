@@ -289,7 +289,7 @@ static size_t count_rings_containing(const struct target_item *item, const struc
     return count;
 }
 
-static bool is_within_keep_limits(const struct target_item *item, const struct motion *at)
+static bool is_inside_keep_range_and_box(const struct target_item *item, const struct motion *at)
 {
     const double *box_m = item->keep_box_m;
     double range_m = portable_hypot(at->x_m - item->about_x_m, at->y_m - item->about_y_m);
@@ -317,8 +317,9 @@ static bool is_far_from_others(const struct target_item *item, const struct moti
     return true;
 }
 
-static bool path_keeps_limits(const struct target_item *item, const struct scene_path *path,
-                              double end_s, const struct scene_paths *others)
+static bool path_keeps_areas_and_spacing(const struct target_item *item,
+                                         const struct scene_path *path, double end_s,
+                                         const struct scene_paths *others)
 {
     double first_s = fmax(0.0, path->from_s);
     bool is_kept =
@@ -331,7 +332,7 @@ static bool path_keeps_limits(const struct target_item *item, const struct scene
         struct motion at = path_motion_at(path, t_s);
         size_t discs = count_rings_containing(item, &at);
 
-        if (!is_within_keep_limits(item, &at) || (item->num_keep_discs > 0 && discs == 0) ||
+        if (!is_inside_keep_range_and_box(item, &at) || (item->num_keep_discs > 0 && discs == 0) ||
             !is_far_from_others(item, &at, t_s, others)) {
             return false;
         }
@@ -359,7 +360,7 @@ static struct scene_path draw_path_within_limits(const struct target_draft *draf
 
         draw_first_leg(draft->item, &path, random);
         add_random_manoeuvres(draft->item, &path, end_s, random);
-        if (path_keeps_limits(draft->item, &path, end_s, others)) {
+        if (path_keeps_areas_and_spacing(draft->item, &path, end_s, others)) {
             return path;
         }
         path_free(&path);
@@ -376,8 +377,9 @@ static struct scene_path draw_path_within_limits(const struct target_draft *draf
  * Draws the paths of one member of a group: a single one, or with is_replaced one after the other
  * with pauses, the first beginning somewhere in its life.
  */
-static void draw_paths_of_group_member(struct scene_paths *paths, const struct target_draft *draft,
-                                       struct random *random)
+static void draw_successive_paths_of_one_target(struct scene_paths *paths,
+                                                const struct target_draft *draft,
+                                                struct random *random)
 {
     const struct target_item *item = draft->item;
     double life_s = item->has_life ? random_in_span(random, item->life) : INFINITY;
@@ -434,7 +436,7 @@ struct scene_path *targets_draw_paths(const struct scene_targets *targets, const
         for (size_t k = 0; k < item->count; k++) {
             struct random random = scene_random_stream(seed, run, STREAM_PATH, source, i, k);
 
-            draw_paths_of_group_member(&paths, &draft, &random);
+            draw_successive_paths_of_one_target(&paths, &draft, &random);
         }
         if (paths.count > TARGETS_MAX) {
             fail(EXIT_USAGE, "%s: targets: more than %d of them", file, TARGETS_MAX);
@@ -522,8 +524,9 @@ static void read_velocity(struct json_object *object, struct target_item *item)
     }
 }
 
-static void read_parent_target(struct json_object *object, struct target_item *item,
-                               const struct scene_targets *before)
+static void read_parent_that_target_splits_from(struct json_object *object,
+                                                struct target_item *item,
+                                                const struct scene_targets *before)
 {
     const struct target_item *parent;
 
@@ -598,7 +601,7 @@ static void read_described_path(struct json_object *object, struct target_item *
         return;
     }
     if (json_has_key(object, "parent")) {
-        read_parent_target(object, item, before);
+        read_parent_that_target_splits_from(object, item, before);
     } else {
         json_require_key(object, "at_m");
         read_xy_or_xyz(object, "at_m", PLACE_MAX_M, place_m, &item->has_height);
@@ -680,7 +683,7 @@ static void read_life_times(struct json_object *object, struct target_item *item
     }
 }
 
-static void read_box(struct json_object *object, struct target_item *item)
+static void read_start_box(struct json_object *object, struct target_item *item)
 {
     const double *box_m = item->box_m;
 
@@ -690,7 +693,7 @@ static void read_box(struct json_object *object, struct target_item *item)
     }
 }
 
-static void read_keep_discs(struct json_object *object, struct target_item *item)
+static void read_rings_to_stay_within(struct json_object *object, struct target_item *item)
 {
     struct json_list list = json_read_list(object, "keep_discs_m", KEEP_DISCS_MAX);
 
@@ -709,14 +712,14 @@ static void read_keep_discs(struct json_object *object, struct target_item *item
     item->keep_all_share = json_read_number(object, "keep_all_share", 0, 1, 0);
 }
 
-static void read_target_group(struct json_object *object, struct target_item *item)
+static void read_random_targets(struct json_object *object, struct target_item *item)
 {
     static const struct json_span all_round = {-PORTABLE_PI, PORTABLE_PI};
 
     item->count = json_read_count(object, "count", 1, GROUP_MAX, 0);
     read_life_times(object, item);
     json_read_xy(object, "about_m", PLACE_MAX_M, &item->about_x_m, &item->about_y_m);
-    read_box(object, item);
+    read_start_box(object, item);
     item->range = json_read_span(object, "range_m", 0, PLACE_MAX_M, (struct json_span){0});
     item->azimuth = json_read_span(object, "azimuth_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);
     json_exclude_keys(object, "box_m", "range_m");
@@ -734,7 +737,7 @@ static void read_target_group(struct json_object *object, struct target_item *it
     item->keep = json_read_span(object, "keep_range_m", 0, PLACE_MAX_M, (struct json_span){0});
     item->has_keep_box =
         json_read_numbers(object, "keep_box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->keep_box_m);
-    read_keep_discs(object, item);
+    read_rings_to_stay_within(object, item);
     item->spacing_m = json_read_number(object, "spacing_m", 0, PLACE_MAX_M, 0);
     read_random_turns(object, item);
     read_random_speed_changes(object, item);
@@ -745,7 +748,7 @@ static void read_random_flights(struct json_object *object, struct target_item *
 {
     item->flights = json_read_count(object, "flights", 1, GROUP_MAX, 0);
     json_require_key(object, "box_m");
-    read_box(object, item);
+    read_start_box(object, item);
     json_require_key(object, "least_s");
     item->flights_least = json_read_number(object, "least_s", 1, 1e5, 0);
     item->crossing_share = json_read_number(object, "crossing_share", 0, 1, 0);
@@ -766,7 +769,7 @@ struct scene_targets targets_read(struct json_object *object, const char *key)
         if (json_has_key(&one, "flights")) {
             read_random_flights(&one, item);
         } else if (json_has_key(&one, "count")) {
-            read_target_group(&one, item);
+            read_random_targets(&one, item);
         } else {
             read_described_path(&one, item, &targets);
         }

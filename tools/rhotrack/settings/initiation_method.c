@@ -19,7 +19,7 @@ bool method_takes_bearings(enum method method)
     return method == METHOD_PASSIVE || method == METHOD_PASSIVE_PAPER;
 }
 
-enum method method_of_plots(const struct parameters *parameters)
+enum method method_of_starting_tracks_from_plots(const struct parameters *parameters)
 {
     return (enum method)(METHOD_KERNEL + (int)parameters->value[PARAMETER_METHOD]);
 }
@@ -81,7 +81,7 @@ static enum rho_hough_method hough_method_of(enum method method,
 }
 
 /* Cells of rho on each side of 0 that hold all lines through plots within range_m. */
-static double count_rho_cells(double range_m, double cell_m)
+static double count_rho_cells_per_side(double range_m, double cell_m)
 {
     return floor(range_m / cell_m) + 1.0;
 }
@@ -96,7 +96,7 @@ static double smallest_rho_cell_m(double range_m)
     double digit_m = pow(10.0, floor(log10(cell_m)) - 2.0);
 
     cell_m = ceil(cell_m / digit_m) * digit_m;
-    while (2.0 * count_rho_cells(range_m, cell_m) > RHO_MAX_RHO_CELLS) {
+    while (2.0 * count_rho_cells_per_side(range_m, cell_m) > RHO_MAX_RHO_CELLS) {
         cell_m += digit_m;
     }
     return cell_m;
@@ -107,16 +107,16 @@ void method_widen_cells_to_range(struct parameters *parameters, double range_m)
     const double *value = parameters->value;
     const double eps_cells = value[PARAMETER_EPS_RHO_M] / value[PARAMETER_D_RHO_M];
 
-    if (2.0 * count_rho_cells(range_m, value[PARAMETER_D_RHO_M]) > RHO_MAX_RHO_CELLS) {
+    if (2.0 * count_rho_cells_per_side(range_m, value[PARAMETER_D_RHO_M]) > RHO_MAX_RHO_CELLS) {
         parameters_suggest(parameters, PARAMETER_D_RHO_M, smallest_rho_cell_m(range_m));
         parameters_suggest(parameters, PARAMETER_EPS_RHO_M,
                            eps_cells * smallest_rho_cell_m(range_m));
     }
 }
 
-static double must_count_rho_cells(double range_m, double cell_m)
+static double must_count_rho_cells_per_side(double range_m, double cell_m)
 {
-    double cells = count_rho_cells(range_m, cell_m);
+    double cells = count_rho_cells_per_side(range_m, cell_m);
 
     if (2.0 * cells > RHO_MAX_RHO_CELLS) {
         fail(EXIT_USAGE,
@@ -128,8 +128,8 @@ static double must_count_rho_cells(double range_m, double cell_m)
 }
 
 /* Exit 2 where the neighbourhood of +-eps spans more cells than RHO_HOUGH_REACH_MAX. */
-static void check_cells_in_eps(const struct parameters *parameters, enum parameter_id eps,
-                               enum parameter_id cell)
+static void fail_if_eps_spans_too_many_cells(const struct parameters *parameters,
+                                             enum parameter_id eps, enum parameter_id cell)
 {
     if (2.0 * parameters->value[eps] > RHO_HOUGH_REACH_MAX * parameters->value[cell]) {
         fail(EXIT_USAGE, "2 %s is more than %u cells of %s %.9g", parameters_name(eps),
@@ -144,12 +144,12 @@ struct rho_hough_config method_hough_config(enum method method, const struct par
     struct rho_hough_config config;
 
     parameters_check_together(parameters);
-    check_cells_in_eps(parameters, PARAMETER_EPS_RHO_M, PARAMETER_D_RHO_M);
-    check_cells_in_eps(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
+    fail_if_eps_spans_too_many_cells(parameters, PARAMETER_EPS_RHO_M, PARAMETER_D_RHO_M);
+    fail_if_eps_spans_too_many_cells(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
     rho_hough_config_default(&config, hough_method_of(method, parameters));
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
     config.rho_max_m =
-        (float)must_count_rho_cells(range_m, value[PARAMETER_D_RHO_M]) * config.rho_cell_m;
+        (float)must_count_rho_cells_per_side(range_m, value[PARAMETER_D_RHO_M]) * config.rho_cell_m;
     config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
     config.eps_rho_m = (float)value[PARAMETER_EPS_RHO_M];
     config.eps_theta_rad = (float)value[PARAMETER_EPS_THETA_RAD];
@@ -171,7 +171,7 @@ struct rho_hough_config method_hough_config(enum method method, const struct par
  * Suggests larger cells of rho where the customary ones do not hold range_max_m plus half the
  * largest distance between passive sensors.
  */
-static void suggest_rho_cells_for_bearings(struct parameters *parameters, int rho_cells)
+static void suggest_wider_rho_cells_for_bearings(struct parameters *parameters, int rho_cells)
 {
     const double range_m = parameters->value[PARAMETER_RANGE_MAX_M];
     const double half_m = range_m + 0.5 * parameters->passive_apart_m;
@@ -223,7 +223,7 @@ struct rho_passive_config method_passive_config(const struct parameters *paramet
     struct rho_passive_config config;
     struct rho_settings settings;
 
-    suggest_rho_cells_for_bearings(&fitted, RHO_PASSIVE_RHO_CELLS);
+    suggest_wider_rho_cells_for_bearings(&fitted, RHO_PASSIVE_RHO_CELLS);
     check_bearing_parameters(&fitted, RHO_PASSIVE_RHO_CELLS, RHO_PASSIVE_THETA_CELLS);
     settings = parameters_to_settings(&fitted);
     rho_passive_config_default(&config);
@@ -241,7 +241,7 @@ struct rho_passive_paper_config method_passive_paper_config(const struct paramet
     const double *value = fitted.value;
     struct rho_passive_paper_config config;
 
-    suggest_rho_cells_for_bearings(&fitted, RHO_PAPER_RHO_CELLS);
+    suggest_wider_rho_cells_for_bearings(&fitted, RHO_PAPER_RHO_CELLS);
     check_bearing_parameters(&fitted, RHO_PAPER_RHO_CELLS, RHO_PAPER_THETA_CELLS);
     if (value[PARAMETER_VOTES_MIN] > 255) {
         fail(EXIT_USAGE, "votes_min %.9g is more than 255, the most that passive-paper counts",

@@ -33,7 +33,7 @@ const char *method_name(enum method method);
 bool method_takes_bearings(enum method method);
 
 /* The methods that the parameters method (plots) and bearings_method (bearings) choose. */
-enum method method_of_plots(const struct parameters *parameters);
+enum method method_of_starting_tracks_from_plots(const struct parameters *parameters);
 enum method method_of_bearings(const struct parameters *parameters);
 
 /* Finds a method by its name; exit 2 with the list of methods for an unknown name. */

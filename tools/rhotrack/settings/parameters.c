@@ -486,7 +486,7 @@ void parameters_set_assignment(struct parameters *parameters, const char *assign
     }
 }
 
-bool parameters_is_set(const struct parameters *parameters, enum parameter_id id)
+bool parameters_has_value(const struct parameters *parameters, enum parameter_id id)
 {
     return parameters->source[id] != SOURCE_UNSET;
 }
@@ -560,7 +560,7 @@ static void check_area_sides(const struct parameters *parameters)
     int num_set = 0;
 
     for (int i = PARAMETER_AREA_X_MIN_M; i <= PARAMETER_AREA_Y_MAX_M; i++) {
-        num_set += parameters_is_set(parameters, (enum parameter_id)i);
+        num_set += parameters_has_value(parameters, (enum parameter_id)i);
     }
     if (!num_set) {
         return;

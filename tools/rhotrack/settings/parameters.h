@@ -359,9 +359,10 @@ bool parameters_geodetic_place_of_sensor(const struct parameters *parameters, in
  * (local_frame_meridian_convergence_rad); 0 for sensors that are not placed by latitude and
  * longitude.
  */
-double parameters_azimuth_turn_rad(const struct parameters *parameters, int32_t sensor_id);
+double parameters_sensor_meridian_convergence_rad(const struct parameters *parameters,
+                                                  int32_t sensor_id);
 
-bool parameters_is_set(const struct parameters *parameters, enum parameter_id id);
+bool parameters_has_value(const struct parameters *parameters, enum parameter_id id);
 const char *parameters_name(enum parameter_id id);
 
 /* Sets the parameter gate from --gate; exit 2 for an unknown gate. */
@@ -408,7 +409,7 @@ const char *parameters_source_name(enum parameter_source source);
 /*
  * Prints all parameters with unit, default, range, value, source and text, for the command config.
  */
-void parameters_print(const struct parameters *parameters, FILE *out);
+void parameters_print_table(const struct parameters *parameters, FILE *out);
 
 /* True where a source set any parameter of this sensor. */
 bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_id);

@@ -46,7 +46,7 @@ struct rho_settings parameters_to_settings(const struct parameters *parameters)
 #undef TAKE
     settings.scan_interval_s =
         (float)fmax(value[PARAMETER_LATE_MAX_S] / LATE_SCANS, INTERVAL_MIN_S);
-    settings.area_is_fixed = parameters_is_set(parameters, PARAMETER_AREA_X_MIN_M);
+    settings.area_is_fixed = parameters_has_value(parameters, PARAMETER_AREA_X_MIN_M);
     settings.area.x_min_m = (float)value[PARAMETER_AREA_X_MIN_M];
     settings.area.x_max_m = (float)value[PARAMETER_AREA_X_MAX_M];
     settings.area.y_min_m = (float)value[PARAMETER_AREA_Y_MIN_M];
@@ -106,10 +106,10 @@ void parameters_to_initiator(const struct parameters *parameters,
     rho_initiator_config_default(config);
     rho_settings_apply(&settings, NULL, config, NULL);
     config->process_noise_mps2 = (float)value[PARAMETER_PROCESS_NOISE_MPS2];
-    if (parameters_is_set(parameters, PARAMETER_TURN_MPS2)) {
+    if (parameters_has_value(parameters, PARAMETER_TURN_MPS2)) {
         config->turn_mps2 = (float)value[PARAMETER_TURN_MPS2];
     }
-    if (parameters_is_set(parameters, PARAMETER_SCORE_MIN_NAT)) {
+    if (parameters_has_value(parameters, PARAMETER_SCORE_MIN_NAT)) {
         config->score_min_nat = (float)value[PARAMETER_SCORE_MIN_NAT];
         config->false_tracks_per_hour = 0.0f;
     }
@@ -124,14 +124,14 @@ static void parameters_to_input_config(const struct parameters *parameters,
 {
     const double *value = parameters->value;
     float accel_mps2 = 0.5f * (float)value[PARAMETER_ACCEL_MAX_MPS2];
-    bool has_own_noise = parameters_is_set(parameters, PARAMETER_FILTER_NOISE_M) ||
-                         parameters_is_set(parameters, PARAMETER_FILTER_NOISE_MPS);
+    bool has_own_noise = parameters_has_value(parameters, PARAMETER_FILTER_NOISE_M) ||
+                         parameters_has_value(parameters, PARAMETER_FILTER_NOISE_MPS);
 
     config->is_estimated = value[PARAMETER_INPUT_ESTIMATION] > 0.0;
     config->model = value[PARAMETER_INPUT_MODEL] > 0.0 ? RHO_INPUT_PHYSICAL : RHO_INPUT_LITERAL;
     config->gamma = (float)value[PARAMETER_GAMMA];
     config->sigma_mps2 = (float)value[PARAMETER_INPUT_SIGMA_MPS2];
-    config->threshold = rho_input_threshold((float)value[PARAMETER_ONSET_CONFIDENCE]);
+    config->threshold = rho_input_threshold_sigmas((float)value[PARAMETER_ONSET_CONFIDENCE]);
     config->noise_density = has_own_noise ? 0.0f : accel_mps2 * accel_mps2;
     config->noise_m = has_own_noise ? (float)value[PARAMETER_FILTER_NOISE_M] : 0.0f;
     config->noise_mps = has_own_noise ? (float)value[PARAMETER_FILTER_NOISE_MPS] : 0.0f;
@@ -139,8 +139,8 @@ static void parameters_to_input_config(const struct parameters *parameters,
     config->initial_variance = (float)value[PARAMETER_INITIAL_VARIANCE];
 }
 
-static bool is_parameter_set_beyond_default(const struct parameters *parameters,
-                                            enum parameter_id id)
+static bool is_parameter_source_beyond_default(const struct parameters *parameters,
+                                               enum parameter_id id)
 {
     return parameters->source[id] > SOURCE_DEFAULT;
 }
@@ -148,9 +148,9 @@ static bool is_parameter_set_beyond_default(const struct parameters *parameters,
 /* True where a source set the position noise, for all sensors or for one. */
 static bool is_noise_stated(const struct parameters *parameters)
 {
-    bool says = is_parameter_set_beyond_default(parameters, PARAMETER_SIGMA_M) ||
-                is_parameter_set_beyond_default(parameters, PARAMETER_SIGMA_RANGE_M) ||
-                is_parameter_set_beyond_default(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
+    bool says = is_parameter_source_beyond_default(parameters, PARAMETER_SIGMA_M) ||
+                is_parameter_source_beyond_default(parameters, PARAMETER_SIGMA_RANGE_M) ||
+                is_parameter_source_beyond_default(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
 
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         const int32_t id = parameters->sensors[i].sensor_id;
@@ -173,11 +173,11 @@ static void set_learning_bounds(const struct parameters *parameters,
     const bool says = is_noise_stated(parameters);
 
     config->learn_noise_min =
-        says || is_parameter_set_beyond_default(parameters, PARAMETER_LEARN_NOISE_MIN)
+        says || is_parameter_source_beyond_default(parameters, PARAMETER_LEARN_NOISE_MIN)
             ? (float)value[PARAMETER_LEARN_NOISE_MIN]
             : UNSTATED_MIN;
     config->learn_noise_max =
-        says || is_parameter_set_beyond_default(parameters, PARAMETER_LEARN_NOISE_MAX)
+        says || is_parameter_source_beyond_default(parameters, PARAMETER_LEARN_NOISE_MAX)
             ? (float)value[PARAMETER_LEARN_NOISE_MAX]
             : UNSTATED_MAX;
     config->learn_pd_min = (float)value[PARAMETER_LEARN_PD_MIN];
@@ -225,7 +225,7 @@ void parameters_to_sensor_or_defaults(const struct parameters *parameters, int32
                                       struct rho_sensor *sensor)
 {
     const double *value = parameters->value;
-    double range_max_m = is_parameter_set_beyond_default(parameters, PARAMETER_RANGE_MAX_M)
+    double range_max_m = is_parameter_source_beyond_default(parameters, PARAMETER_RANGE_MAX_M)
                              ? value[PARAMETER_RANGE_MAX_M]
                              : 2.0 * (double)RHO_LIMIT_POSITION_M;
 
@@ -256,7 +256,7 @@ void parameters_to_sensor_or_defaults(const struct parameters *parameters, int32
             OF_SENSOR(SENSOR_RESOLUTION_RANGE_RATE_MPS, value[PARAMETER_RESOLUTION_RANGE_RATE_MPS]),
     };
 #undef OF_SENSOR
-    rotate_sector(sensor, parameters_azimuth_turn_rad(parameters, sensor_id));
+    rotate_sector(sensor, parameters_sensor_meridian_convergence_rad(parameters, sensor_id));
 }
 
 int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id)
@@ -283,8 +283,8 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
                           struct rho_sensor *sensor)
 {
     if (!parameters_has_sensor(parameters, sensor_id) &&
-        !is_parameter_set_beyond_default(parameters, PARAMETER_RANGE_MIN_M) &&
-        !is_parameter_set_beyond_default(parameters, PARAMETER_RANGE_MAX_M) &&
+        !is_parameter_source_beyond_default(parameters, PARAMETER_RANGE_MIN_M) &&
+        !is_parameter_source_beyond_default(parameters, PARAMETER_RANGE_MAX_M) &&
         !(parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS] > 0.0) &&
         !(parameters->value[PARAMETER_NOTCH_MPS] > 0.0) &&
         !(parameters->value[PARAMETER_RESOLUTION_RANGE_M] > 0.0) &&

@@ -84,7 +84,7 @@ static bool parse_zone_number(enum zone_parameter_id id, const char *value, stru
 }
 
 /* Index of a zone's key; -1 with the reason where it is unknown. */
-static int index_of_zone_key(const char *name, char *reason)
+static int index_of_zone_parameter_name(const char *name, char *reason)
 {
     for (int i = 0; i < NUM_ZONE_PARAMETERS; i++) {
         if (!strcmp(keys[i], name)) {
@@ -113,7 +113,7 @@ bool parameters_assign_zone(struct parameters *parameters, const char *key, cons
                  "'zone.%.60s' is not zone.N.key with a whole number N", key);
         return false;
     }
-    id = index_of_zone_key(dot + 1, reason);
+    id = index_of_zone_parameter_name(dot + 1, reason);
     zone = id < 0 ? NULL : find_or_add_zone(parameters, zone_id);
     if (!zone) {
         if (id >= 0) {

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "transport/transport_provider.h"
+#include "transport/transport_provider_interface.h"
 
 static const char *url_or_default(const char *url)
 {

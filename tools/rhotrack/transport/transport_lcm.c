@@ -12,7 +12,7 @@
 
 #include "base/common.h"
 #include "rhotrack/udpm.h"
-#include "transport/transport_provider.h"
+#include "transport/transport_provider_interface.h"
 
 /*
  * QUEUE_MESSAGES: capacity of liblcm's receive queue, which drops newer messages when full.
@@ -73,7 +73,7 @@ static enum transport_found receive_message(struct transport *transport, void *o
         .channel = provider->channel,
         .data = provider->data,
         .size = provider->size,
-        .received_us = transport_to_reception_time_us(transport, provider->time_us)};
+        .received_us = transport_monotonic_reception_time_us(transport, provider->time_us)};
     return TRANSPORT_MESSAGE;
 }
 
@@ -117,7 +117,7 @@ static char url_file_mode(const char *url)
     return *mode ? *mode : 'r';
 }
 
-static bool is_read_without_waiting(const char *url)
+static bool has_url_speed_0(const char *url)
 {
     const char *speed = url_option_text(url, "speed");
 
@@ -155,7 +155,7 @@ void transport_open_lcm_or_log(struct transport *transport, enum transport_use u
                                        url_file_mode(transport->url) == 'a' ? "ab" : "wb");
             return;
         }
-        if (is_read_without_waiting(transport->url)) {
+        if (has_url_speed_0(transport->url)) {
             transport_open_read_log(transport);
             return;
         }

@@ -11,7 +11,7 @@
 
 #include "base/common.h"
 #include "io/log/lcm_log.h"
-#include "transport/transport_provider.h"
+#include "transport/transport_provider_interface.h"
 
 struct log {
     struct lcm_log_reader *reader;

@@ -14,7 +14,7 @@
 
 #include "base/common.h"
 #include "rhotrack/udpm.h"
-#include "transport/transport_provider.h"
+#include "transport/transport_provider_interface.h"
 
 /*
  * BATCH: datagrams read by one system call. DATAGRAM_BYTES: room for one; no message of rhotrack is
@@ -160,7 +160,7 @@ static void must_set_int_option(const struct transport *transport, int descripto
     must_set_option(transport, descriptor, level, option, &value, sizeof value);
 }
 
-static int open_socket(const struct transport *transport)
+static int open_bare_udp_socket(const struct transport *transport)
 {
     int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
 
@@ -176,7 +176,7 @@ static int open_socket(const struct transport *transport)
  */
 static void use_loopback_without_route(const struct transport *transport, struct udpm *udpm)
 {
-    int descriptor = open_socket(transport);
+    int descriptor = open_bare_udp_socket(transport);
 
     if (connect(descriptor, (const struct sockaddr *)&udpm->group, sizeof udpm->group)) {
         udpm->interface = if_nametoindex("lo");
@@ -219,7 +219,7 @@ static void open_receiver(const struct transport *transport, struct udpm *udpm)
     struct ip_mreqn member = {.imr_multiaddr = udpm->group.sin_addr,
                               .imr_ifindex = (int)udpm->interface};
 
-    udpm->receiver = open_socket(transport);
+    udpm->receiver = open_bare_udp_socket(transport);
     must_set_int_option(transport, udpm->receiver, SOL_SOCKET, SO_REUSEADDR, 1);
     must_set_int_option(transport, udpm->receiver, SOL_SOCKET, SO_REUSEPORT, 1);
     must_set_int_option(transport, udpm->receiver, SOL_SOCKET, SO_TIMESTAMPNS, 1);
@@ -240,7 +240,7 @@ static void open_sender(const struct transport *transport, struct udpm *udpm)
     struct ip_mreqn out = {.imr_ifindex = (int)udpm->interface};
     struct timeval wait = {.tv_usec = 100000};
 
-    udpm->sender = open_socket(transport);
+    udpm->sender = open_bare_udp_socket(transport);
     must_set_int_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_LOOP, 1);
     must_set_int_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_TTL, udpm->ttl);
     must_set_option(transport, udpm->sender, SOL_SOCKET, SO_SNDTIMEO, &wait, sizeof wait);
@@ -295,7 +295,7 @@ static int64_t read_reception_time_and_drops(struct transport *transport, struct
         }
     }
     return time_us == INT64_MAX ? transport_now_us(transport)
-                                : transport_to_reception_time_us(transport, time_us);
+                                : transport_monotonic_reception_time_us(transport, time_us);
 }
 
 /* True for a datagram that this program sent itself, which multicast loops back. */
@@ -324,8 +324,9 @@ static bool is_source_admitted(struct transport *transport, struct udpm *udpm,
  * Parses a datagram into a message. Returns false, and counts a refusal, where it is not an LCM
  * message; long messages of other programs are recognised by their channel and not counted.
  */
-static bool parse_datagram(struct transport *transport, struct mmsghdr *here, const uint8_t *bytes,
-                           struct transport_message *message)
+static bool parse_datagram_as_one_whole_message(struct transport *transport, struct mmsghdr *here,
+                                                const uint8_t *bytes,
+                                                struct transport_message *message)
 {
     struct rho_udpm_datagram datagram;
     bool is_cut = here->msg_hdr.msg_flags & MSG_TRUNC;
@@ -362,7 +363,8 @@ static enum transport_found receive_message(struct transport *transport, void *o
         int i = udpm->next++;
 
         if (is_source_admitted(transport, udpm, &udpm->sources[i]) &&
-            parse_datagram(transport, &udpm->here[i], udpm->bytes[i], message)) {
+            parse_datagram_as_one_whole_message(transport, &udpm->here[i], udpm->bytes[i],
+                                                message)) {
             message->sender = (struct transport_sender){ntohl(udpm->sources[i].sin_addr.s_addr),
                                                         ntohs(udpm->sources[i].sin_port),
                                                         is_own_datagram(udpm, &udpm->sources[i])};

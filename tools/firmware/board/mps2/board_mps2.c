@@ -66,7 +66,7 @@ int64_t board_time_us(void)
  * Interrupt of the chip: disabled until the next board_sleep_until_event_or_time, as it stays
  * active until the frames are read.
  */
-void mps2_ethernet_interrupt(void)
+void mps2_mute_ethernet_interrupt(void)
 {
     NVIC_DISABLE = 1u << MPS2_ETHERNET_IRQ;
 }
@@ -176,7 +176,7 @@ void mps2_run_main(void)
     }
 }
 
-void mps2_handle_fault(unsigned exception)
+void mps2_report_fault_and_stop(unsigned exception)
 {
     char text[] = "fault 00";
     text[6] = (char)('0' + exception / 10 % 10);

@@ -41,13 +41,13 @@ void mps2_run_main(void) __attribute__((noreturn));
 
 /* Interrupt handlers of SysTick and Ethernet, defined by images that enable them. */
 void mps2_systick_interrupt(void);
-void mps2_ethernet_interrupt(void);
+void mps2_mute_ethernet_interrupt(void);
 
-/* Open and flush the console of printf in images that measure. In library_console.c. */
+/* Open and flush the console of printf in images that measure. In newlib_stdout_to_debugger.c. */
 void mps2_open_console(void);
 void mps2_close_console(void);
 
 /* Handles a fault of the processor; exception is its number. */
-void mps2_handle_fault(unsigned exception) __attribute__((noreturn, used));
+void mps2_report_fault_and_stop(unsigned exception) __attribute__((noreturn, used));
 
 #endif

@@ -110,7 +110,10 @@ uint32_t files_instructions_elapsed(uint32_t from, uint32_t to)
 
 int main(int argc, char **argv);
 
-/* Replaced in library_console.c for images whose C library has a console to open and flush. */
+/*
+ * Replaced in newlib_stdout_to_debugger.c for images whose C library has a console to open and
+ * flush.
+ */
 __attribute__((weak)) void mps2_open_console(void)
 {
 }
@@ -127,7 +130,7 @@ static void exit_program(uint32_t status)
     }
 }
 
-void mps2_handle_fault(unsigned exception)
+void mps2_report_fault_and_stop(unsigned exception)
 {
     exit_program(EXIT_FAULT + exception);
 }

@@ -14,7 +14,7 @@ extern uint32_t link_stack[], link_stack_top[];
 
 /*
  * Fault entry: resets the stack pointer to the top, as an overflowed stack has no room for the
- * report, and calls mps2_handle_fault with the exception's number.
+ * report, and calls mps2_report_fault_and_stop with the exception's number.
  */
 __attribute__((noreturn, naked)) static void enter_fault_handler(void)
 {
@@ -22,14 +22,14 @@ __attribute__((noreturn, naked)) static void enter_fault_handler(void)
                      "movt r0, #:upper16:link_stack_top\n"
                      "mov sp, r0\n"
                      "mrs r0, ipsr\n"
-                     "b mps2_handle_fault\n");
+                     "b mps2_report_fault_and_stop\n");
 }
 
 /* Default handlers for images that enable neither interrupt. */
 __attribute__((weak)) void mps2_systick_interrupt(void)
 {
 }
-__attribute__((weak)) void mps2_ethernet_interrupt(void)
+__attribute__((weak)) void mps2_mute_ethernet_interrupt(void)
 {
 }
 
@@ -92,5 +92,5 @@ __attribute__((section(".vectors"), used)) static const struct {
                    enter_fault_handler, enter_fault_handler, enter_fault_handler,
                    enter_fault_handler, mps2_systick_interrupt},
     .interrupts = {[0 ... MPS2_ETHERNET_IRQ - 1] = enter_fault_handler,
-                   [MPS2_ETHERNET_IRQ] = mps2_ethernet_interrupt},
+                   [MPS2_ETHERNET_IRQ] = mps2_mute_ethernet_interrupt},
 };

@@ -7,7 +7,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "io/asterix/asterix_items.h"
+#include "io/asterix/asterix_item_lengths.h"
 
 #define FX 1u  /* field extension bit, the last bit of a byte: another byte follows */
 #define BITS 7 /* items per byte of a field specification; the last bit is FX */

@@ -63,7 +63,7 @@ struct table *asterix_plot_rows_empty_table(const char *path, const struct aster
             list[count++] = all_columns[i];
         }
     }
-    return table_of_numbers(path, list, count);
+    return table_make_empty_of_numbers(path, list, count);
 }
 
 /* ---- Records ---- */
@@ -79,7 +79,7 @@ struct output_row {
  * Azimuth in radians counter-clockwise from east, -pi .. pi, from ASTERIX units clockwise from
  * north.
  */
-static double azimuth_rad_from_units(uint32_t azimuth)
+static double ccw_from_east_rad_from_azimuth_units(uint32_t azimuth)
 {
     return remainder(PI / 2 - 2 * PI / ASTERIX_TURN * azimuth, 2 * PI);
 }
@@ -99,7 +99,7 @@ static void put_plot_cells(struct output_row *row, const struct asterix_scan_plo
 {
     put_rounded_cell(row, AT_RANGE_M,
                      mark->is_ground ? mark->ground_m : mark->range * ASTERIX_RANGE_M);
-    put_rounded_cell(row, AT_AZIMUTH_RAD, azimuth_rad_from_units(mark->azimuth));
+    put_rounded_cell(row, AT_AZIMUTH_RAD, ccw_from_east_rad_from_azimuth_units(mark->azimuth));
     if (mark->has_alt) {
         put_rounded_cell(row, AT_ALT_M, mark->alt * ASTERIX_HEIGHT_M);
     }
@@ -116,8 +116,8 @@ static void put_radar_place_cells(struct output_row *row, const struct asterix_p
 }
 
 /* A row of a scan: of a plot, or with NULL the row without a plot that begins the scan. */
-static struct output_row row_of_scan(const struct asterix_scan *scan,
-                                     const struct asterix_scan_plot *mark)
+static struct output_row make_row_of_plot_or_scan_start(const struct asterix_scan *scan,
+                                                        const struct asterix_scan_plot *mark)
 {
     struct output_row row = {.time_128 = mark ? mark->time_128 : scan->time_128};
 
@@ -136,9 +136,11 @@ static struct output_row row_of_scan(const struct asterix_scan *scan,
      * start.
      */
     if (!scan->is_turn) {
-        put_rounded_cell(&row, AT_SECTOR_FROM_RAD,
-                         azimuth_rad_from_units(scan->look.from + scan->look.advance));
-        put_rounded_cell(&row, AT_SECTOR_TO_RAD, azimuth_rad_from_units(scan->look.from));
+        put_rounded_cell(
+            &row, AT_SECTOR_FROM_RAD,
+            ccw_from_east_rad_from_azimuth_units(scan->look.from + scan->look.advance));
+        put_rounded_cell(&row, AT_SECTOR_TO_RAD,
+                         ccw_from_east_rad_from_azimuth_units(scan->look.from));
     }
     if (scan->is_numbered) {
         put_rounded_cell(&row, AT_SCAN, scan->number);
@@ -161,11 +163,11 @@ static void add_row_to_table(struct table *table, const struct output_row *row, 
 
 void asterix_plot_rows_add_scan(struct table *table, const struct asterix_scan *scan)
 {
-    struct output_row row = row_of_scan(scan, NULL);
+    struct output_row row = make_row_of_plot_or_scan_start(scan, NULL);
 
     add_row_to_table(table, &row, 2);
     for (size_t i = 0; i < scan->count; i++) {
-        row = row_of_scan(scan, &scan->marks[i]);
+        row = make_row_of_plot_or_scan_start(scan, &scan->marks[i]);
         add_row_to_table(table, &row, (uint32_t)i + 3);
     }
 }
@@ -262,8 +264,8 @@ void asterix_plot_rows_report_left_out(const char *path, const struct asterix_co
  * Notes the radar of a record and the columns that it fills. Returns whether it can be used: it has
  * a place of a plot, or the type and time of an antenna message.
  */
-static bool preview_and_check_record(struct asterix_plot_rows *records,
-                                     const struct asterix_record *record)
+static bool preview_record_and_tell_if_usable(struct asterix_plot_rows *records,
+                                              const struct asterix_record *record)
 {
     struct asterix_service service;
     struct asterix_plot plot;
@@ -287,7 +289,7 @@ static void preview_recording(struct asterix_plot_rows *records, bool keep_going
     bool has_any = false;
 
     while (asterix_file_next_record(file, &record)) {
-        has_any |= preview_and_check_record(records, &record);
+        has_any |= preview_record_and_tell_if_usable(records, &record);
     }
     if (!has_any && asterix_file_num_skipped_blocks(file, ASTERIX_TRACKS) > 0) {
         fail(EXIT_USAGE, "%s: %s", records->path, asterix_plot_rows_no_tracks);
@@ -344,7 +346,7 @@ asterix_plot_rows_open(const char *path, const struct parameters *parameters, bo
     return records;
 }
 
-void asterix_plot_rows_suppress_reports(struct asterix_plot_rows *records)
+void asterix_plot_rows_suppress_end_summary(struct asterix_plot_rows *records)
 {
     records->is_hushed = true;
 }
@@ -359,7 +361,7 @@ static void queue_row_unless_late(struct asterix_plot_rows *records,
                                   const struct asterix_scan *scan,
                                   const struct asterix_scan_plot *mark)
 {
-    struct output_row row = row_of_scan(scan, mark);
+    struct output_row row = make_row_of_plot_or_scan_start(scan, mark);
 
     if (records->has_given && row.time_128 < records->given_128) {
         records->late++;

@@ -27,7 +27,7 @@ static int64_t unwrap_time_of_day(int64_t reference_128, uint32_t time_of_day_12
     return reference_128 + later;
 }
 
-static bool is_near_in_time(int64_t time_128, int64_t other_128)
+static bool is_near_in_continuous_time(int64_t time_128, int64_t other_128)
 {
     return time_128 - other_128 <= JUMP_128 && other_128 - time_128 <= JUMP_128;
 }
@@ -43,8 +43,9 @@ bool asterix_radar_state_unwrap_time(struct asterix_radar_state *sensor, uint32_
         return true;
     }
     *time_128 = unwrap_time_of_day(sensor->clock_128, time_of_day_128);
-    if (!is_near_in_time(*time_128, sensor->clock_128)) {
-        bool is_again = sensor->has_suspect && is_near_in_time(*time_128, sensor->suspect_128);
+    if (!is_near_in_continuous_time(*time_128, sensor->clock_128)) {
+        bool is_again =
+            sensor->has_suspect && is_near_in_continuous_time(*time_128, sensor->suspect_128);
 
         sensor->has_suspect = true;
         sensor->suspect_128 = *time_128;
@@ -104,7 +105,8 @@ static bool place_plot_in_look(struct asterix_radar_state *sensor,
     return nearest;
 }
 
-static void place_waiting_plots(struct asterix_radar_state *sensor, int64_t hold_128)
+static void move_waiting_plots_into_their_looks(struct asterix_radar_state *sensor,
+                                                int64_t hold_128)
 {
     size_t kept = 0;
 
@@ -204,9 +206,9 @@ int64_t asterix_radar_state_settled_time(struct asterix_radar_state *sensor, int
     return sensor->settled_128;
 }
 
-bool asterix_radar_state_accept_crossing(struct asterix_radar_state *sensor, int64_t time_128,
-                                         uint16_t azimuth, int64_t hold_128,
-                                         struct asterix_counts *counts)
+bool asterix_radar_state_complete_look_at_crossing(struct asterix_radar_state *sensor,
+                                                   int64_t time_128, uint16_t azimuth,
+                                                   int64_t hold_128, struct asterix_counts *counts)
 {
     struct asterix_look look;
     bool is_gap;
@@ -216,19 +218,21 @@ bool asterix_radar_state_accept_crossing(struct asterix_radar_state *sensor, int
         time_128 < asterix_radar_state_settled_time(sensor, hold_128)) {
         return false;
     }
-    crossing = asterix_antenna_cross(&sensor->antenna, time_128, azimuth, &look, &is_gap);
+    crossing = asterix_antenna_complete_look_at_crossing(&sensor->antenna, time_128, azimuth, &look,
+                                                         &is_gap);
     sensor->has_crossings = true;
     counts->gaps += is_gap;
     if (crossing == ASTERIX_LOOKED) {
         add_looks_before_first(sensor, &look);
         add_open_scan(sensor, &look, true);
-        place_waiting_plots(sensor, hold_128);
+        move_waiting_plots_into_their_looks(sensor, hold_128);
     }
     return crossing != ASTERIX_BACK;
 }
 
-void asterix_radar_state_add_plot(struct asterix_radar_state *sensor,
-                                  const struct asterix_scan_plot *mark, int64_t hold_128)
+void asterix_radar_state_place_plot_or_let_wait(struct asterix_radar_state *sensor,
+                                                const struct asterix_scan_plot *mark,
+                                                int64_t hold_128)
 {
     if (!place_plot_in_look(sensor, mark, hold_128)) {
         asterix_scan_plots_add(&sensor->waiting, mark);
@@ -284,14 +288,15 @@ void asterix_radar_state_drop_waiting_plots(struct asterix_radar_state *sensor, 
     sensor->waiting.count = kept;
 }
 
-void asterix_radar_state_end_last_look(struct asterix_radar_state *sensor, int64_t hold_128)
+void asterix_radar_state_end_incomplete_last_look(struct asterix_radar_state *sensor,
+                                                  int64_t hold_128)
 {
     struct asterix_look look;
 
     if (sensor->waiting.count > 0 &&
         asterix_antenna_look_so_far(&sensor->antenna, sensor->clock_128, &look)) {
         add_open_scan(sensor, &look, true);
-        place_waiting_plots(sensor, hold_128);
+        move_waiting_plots_into_their_looks(sensor, hold_128);
     }
     sensor->antenna.has_last = false;
 }
@@ -306,8 +311,8 @@ struct asterix_open_scan asterix_radar_state_take_oldest_scan(struct asterix_rad
     return open;
 }
 
-bool asterix_radar_state_extend_turn(struct asterix_radar_state *sensor,
-                                     struct asterix_open_scan *open)
+bool asterix_radar_state_try_add_look_to_turn(struct asterix_radar_state *sensor,
+                                              struct asterix_open_scan *open)
 {
     struct asterix_open_scan *turn = &sensor->turn;
 

@@ -56,13 +56,14 @@ int64_t asterix_radar_state_settled_time(struct asterix_radar_state *sensor, int
  * Processes an antenna crossing: may end a look, into which waiting plots then go. Returns false
  * where it is older than the newest crossing, or too late.
  */
-bool asterix_radar_state_accept_crossing(struct asterix_radar_state *sensor, int64_t time_128,
-                                         uint16_t azimuth, int64_t hold_128,
-                                         struct asterix_counts *counts);
+bool asterix_radar_state_complete_look_at_crossing(struct asterix_radar_state *sensor,
+                                                   int64_t time_128, uint16_t azimuth,
+                                                   int64_t hold_128, struct asterix_counts *counts);
 
 /* Adds a plot to the look that passed it, or keeps it until there is one. */
-void asterix_radar_state_add_plot(struct asterix_radar_state *sensor,
-                                  const struct asterix_scan_plot *mark, int64_t hold_128);
+void asterix_radar_state_place_plot_or_let_wait(struct asterix_radar_state *sensor,
+                                                const struct asterix_scan_plot *mark,
+                                                int64_t hold_128);
 
 /*
  * Adds a plot of a radar without crossings to a scan of interval_128, or as a scan of its own where
@@ -77,7 +78,8 @@ void asterix_radar_state_drop_waiting_plots(struct asterix_radar_state *sensor, 
                                             struct asterix_counts *counts);
 
 /* Closes the look since the newest crossing, at the end of input, if plots wait for it. */
-void asterix_radar_state_end_last_look(struct asterix_radar_state *sensor, int64_t hold_128);
+void asterix_radar_state_end_incomplete_last_look(struct asterix_radar_state *sensor,
+                                                  int64_t hold_128);
 
 /* Removes and returns the oldest open scan; its plots then belong to the caller. */
 struct asterix_open_scan asterix_radar_state_take_oldest_scan(struct asterix_radar_state *sensor);
@@ -86,16 +88,16 @@ struct asterix_open_scan asterix_radar_state_take_oldest_scan(struct asterix_rad
  * Adds a complete look to the radar's turn. Returns false, and changes nothing, where the look does
  * not begin where the turn ends.
  */
-bool asterix_radar_state_extend_turn(struct asterix_radar_state *sensor,
-                                     struct asterix_open_scan *open);
+bool asterix_radar_state_try_add_look_to_turn(struct asterix_radar_state *sensor,
+                                              struct asterix_open_scan *open);
 
 /*
  * Keeps heights and Doppler speeds only where all plots of a scan have them; else heights convert
  * slant ranges to ground ranges.
  */
-void asterix_scan_plots_keep_common(struct asterix_scan_plots *marks,
-                                    const struct asterix_place *place,
-                                    struct asterix_counts *counts);
+void asterix_scan_plots_keep_quantities_all_have(struct asterix_scan_plots *marks,
+                                                 const struct asterix_place *place,
+                                                 struct asterix_counts *counts);
 
 void asterix_scan_plots_add(struct asterix_scan_plots *marks, const struct asterix_scan_plot *mark);
 void asterix_radar_state_free(struct asterix_radar_state *sensor);

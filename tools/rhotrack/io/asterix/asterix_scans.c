@@ -107,7 +107,7 @@ static struct asterix_radar_state *find_or_add_sensor(struct asterix_scans *scan
 
 /* ---- Complete scans ---- */
 
-static int by_time(const void *a, const void *b)
+static int compare_plots_by_time_and_azimuth(const void *a, const void *b)
 {
     const struct asterix_scan_plot *one = a, *other = b;
     int order = (one->time_128 > other->time_128) - (one->time_128 < other->time_128);
@@ -133,9 +133,10 @@ static void queue_complete_scan(struct asterix_scans *scans, struct asterix_rada
                                 .count = open->marks.count};
 
     if (scan.count > 0) {
-        qsort(open->marks.list, scan.count, sizeof *open->marks.list, by_time);
+        qsort(open->marks.list, scan.count, sizeof *open->marks.list,
+              compare_plots_by_time_and_azimuth);
     }
-    asterix_scan_plots_keep_common(&open->marks, &sensor->place, &scans->counts);
+    asterix_scan_plots_keep_quantities_all_have(&open->marks, &sensor->place, &scans->counts);
     scans->counts.placed += scan.count;
     scans->ready = must_make_room_for_one(scans->ready, scans->num_ready, &scans->ready_capacity,
                                           sizeof *scans->ready);
@@ -160,9 +161,9 @@ static void finish_oldest_look(struct asterix_scans *scans, struct asterix_radar
         queue_complete_scan(scans, sensor, &open);
         return;
     }
-    if (!asterix_radar_state_extend_turn(sensor, &open)) {
+    if (!asterix_radar_state_try_add_look_to_turn(sensor, &open)) {
         queue_turn_as_scan(scans, sensor);
-        (void)asterix_radar_state_extend_turn(sensor, &open);
+        (void)asterix_radar_state_try_add_look_to_turn(sensor, &open);
     }
     if (sensor->turn.look.advance == ASTERIX_TURN) {
         queue_turn_as_scan(scans, sensor);
@@ -182,7 +183,7 @@ static void finish_all_scans_of_sensor(struct asterix_scans *scans,
                                        struct asterix_radar_state *sensor)
 {
     if (sensor->has_crossings) {
-        asterix_radar_state_end_last_look(sensor, scans->hold_128);
+        asterix_radar_state_end_incomplete_last_look(sensor, scans->hold_128);
     }
     finish_looks_until(scans, sensor, INT64_MAX);
     queue_turn_as_scan(scans, sensor);
@@ -286,7 +287,8 @@ static void end_wait_for_crossings_if_due(struct asterix_scans *scans,
     }
     sensor->is_known = true;
     if (sensor->waiting.count > 0) {
-        qsort(sensor->waiting.list, sensor->waiting.count, sizeof *sensor->waiting.list, by_time);
+        qsort(sensor->waiting.list, sensor->waiting.count, sizeof *sensor->waiting.list,
+              compare_plots_by_time_and_azimuth);
     }
     for (size_t i = 0; i < sensor->waiting.count; i++) {
         asterix_radar_state_add_plot_by_time(sensor, &sensor->waiting.list[i], scans->interval_128);
@@ -347,7 +349,7 @@ static void add_plot_unless_late(struct asterix_scans *scans, struct asterix_rad
     if (mark->time_128 < asterix_radar_state_settled_time(sensor, scans->hold_128)) {
         scans->counts.late++;
     } else if (!sensor->is_known || sensor->has_crossings) {
-        asterix_radar_state_add_plot(sensor, mark, scans->hold_128);
+        asterix_radar_state_place_plot_or_let_wait(sensor, mark, scans->hold_128);
     } else {
         asterix_radar_state_add_plot_by_time(sensor, mark, scans->interval_128);
     }
@@ -417,8 +419,8 @@ static void process_service(struct asterix_scans *scans, const struct asterix_se
         scans->counts.services_other++;
     } else if (!sensor || !is_crossing(service) ||
                !unwrap_time_and_advance_clocks(scans, sensor, service->time_128, &time_128) ||
-               !asterix_radar_state_accept_crossing(sensor, time_128, azimuth, scans->hold_128,
-                                                    &scans->counts)) {
+               !asterix_radar_state_complete_look_at_crossing(sensor, time_128, azimuth,
+                                                              scans->hold_128, &scans->counts)) {
         scans->counts.services_left++;
     } else {
         finish_due_scans(scans, sensor);

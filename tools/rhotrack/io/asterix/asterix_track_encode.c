@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "base/big_endian.h"
-#include "io/asterix/asterix_items.h"
+#include "io/asterix/asterix_item_lengths.h"
 
 #define SPECIFICATION_MAX 5 /* largest number of bytes of a field specification */
 #define FX 1u

@@ -62,7 +62,7 @@ struct asterix_track_writer *asterix_track_writer_open(FILE *file,
     return tracks;
 }
 
-void asterix_track_writer_close(struct asterix_track_writer *tracks)
+void asterix_track_writer_free(struct asterix_track_writer *tracks)
 {
     if (tracks) {
         local_frame_close(tracks->frame);
@@ -200,7 +200,8 @@ static void add_end_record(struct asterix_track_writer *tracks, const struct ent
 }
 
 /* Writes the list's tracks, and end records of those that only the list before had, by track_id. */
-static void write_track_list(struct asterix_track_writer *tracks, uint32_t time_128)
+static void write_track_list_and_ends_of_gone_tracks(struct asterix_track_writer *tracks,
+                                                     uint32_t time_128)
 {
     const struct list *before = &tracks->before;
     size_t gone = 0;
@@ -230,7 +231,7 @@ static void write_and_keep_list(struct asterix_track_writer *tracks, int64_t uti
     if (tracks->now.count > 0) {
         qsort(tracks->now.entries, tracks->now.count, sizeof *tracks->now.entries, by_track_id);
     }
-    write_track_list(tracks, time_of_day_128(utime));
+    write_track_list_and_ends_of_gone_tracks(tracks, time_of_day_128(utime));
     tracks->before = tracks->now;
     tracks->now = before;
     tracks->now.count = 0;

@@ -5,7 +5,7 @@
  */
 #include "base/big_endian.h"
 #include "io/asterix/asterix_codec.h"
-#include "io/asterix/asterix_items.h"
+#include "io/asterix/asterix_item_lengths.h"
 
 /* ---- Numbers ---- */
 

@@ -163,7 +163,7 @@ static bool skip_ipv4_header(struct packet_rest *rest, bool *is_incomplete)
 }
 
 /* Skips the header of an IPv6 packet that holds UDP, without extension headers. */
-static bool skip_ipv6_header(struct packet_rest *rest)
+static bool skip_ipv6_header_without_extensions(struct packet_rest *rest)
 {
     if (rest->size < IPV6_BYTES || rest->data[0] >> 4 != 6 || rest->data[6] != PROTOCOL_UDP) {
         return false;
@@ -179,7 +179,7 @@ static bool cut_to_udp_content(struct captured_datagrams *captured, struct packe
     size_t size;
 
     if (!(type == TYPE_IPV4 ? skip_ipv4_header(rest, &is_incomplete)
-                            : type == TYPE_IPV6 && skip_ipv6_header(rest)) ||
+                            : type == TYPE_IPV6 && skip_ipv6_header_without_extensions(rest)) ||
         rest->size < UDP_BYTES) {
         captured->incomplete += is_incomplete;
         return false;

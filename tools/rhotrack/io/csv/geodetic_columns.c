@@ -57,7 +57,7 @@ static void refuse_column_without(const struct table *table, const char *name, c
     }
 }
 
-static void check_polar_columns(const struct table *table)
+static void refuse_range_beside_lat_alt_beside_elevation(const struct table *table)
 {
     static const char *const pairs[][2] = {{"range_m", "lat_deg"},
                                            {"range_m", "lon_deg"},
@@ -67,7 +67,7 @@ static void check_polar_columns(const struct table *table)
     refuse_column_pairs(table, pairs, sizeof pairs / sizeof *pairs);
 }
 
-static void check_place_columns(const struct table *table)
+static void refuse_conflicting_geodetic_place_columns(const struct table *table)
 {
     static const char *const pairs[][2] = {{"lat_deg", "x_m"}, {"lat_deg", "y_m"},
                                            {"lat_deg", "z_m"}, {"lon_deg", "x_m"},
@@ -78,7 +78,7 @@ static void check_place_columns(const struct table *table)
     refuse_column_without(table, "alt_m", "lat_deg");
 }
 
-static void check_sensor_columns(const struct table *table)
+static void refuse_conflicting_sensor_place_columns(const struct table *table)
 {
     static const char *const pairs[][2] = {{"sensor_lat_deg", "sensor_x_m"},
                                            {"sensor_lat_deg", "sensor_y_m"},
@@ -116,11 +116,11 @@ struct geodetic_columns *geodetic_columns_open(const struct table *table,
                                   .sensor_lon_deg = table_find_column(table, "sensor_lon_deg"),
                                   .sensor_alt_m = table_find_column(table, "sensor_alt_m")};
     if (geodetic->is_polar) {
-        check_polar_columns(table);
+        refuse_range_beside_lat_alt_beside_elevation(table);
     } else {
-        check_place_columns(table);
+        refuse_conflicting_geodetic_place_columns(table);
     }
-    check_sensor_columns(table);
+    refuse_conflicting_sensor_place_columns(table);
     need_origin(table, parameters, "lat_deg");
     need_origin(table, parameters, "sensor_lat_deg");
     return geodetic;
@@ -352,9 +352,9 @@ static bool set_elevation_from_height(struct geodetic_columns *geodetic,
                       height.alt_m, range_m);
 }
 
-bool geodetic_columns_convert_polar(struct geodetic_columns *geodetic,
-                                    const struct row_check *check,
-                                    struct geodetic_columns_polar *polar)
+bool geodetic_columns_turn_polar_to_local_frame(struct geodetic_columns *geodetic,
+                                                const struct row_check *check,
+                                                struct geodetic_columns_polar *polar)
 {
     if (row_has_cell(check, geodetic->alt_m)) {
         return set_elevation_from_height(geodetic, check, polar);

@@ -14,7 +14,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "io/csv/radar_axes.h"
+#include "io/csv/radar_angles_to_local_frame.h"
 #include "io/csv/row_check.h"
 #include "io/csv/table.h"
 #include "settings/parameters.h"
@@ -70,8 +70,8 @@ struct geodetic_columns_polar {
  * Converts angles from the radar's own frame to the local frame, and alt_m, if the row has it, to
  * an elevation.
  */
-bool geodetic_columns_convert_polar(struct geodetic_columns *geodetic,
-                                    const struct row_check *check,
-                                    struct geodetic_columns_polar *polar);
+bool geodetic_columns_turn_polar_to_local_frame(struct geodetic_columns *geodetic,
+                                                const struct row_check *check,
+                                                struct geodetic_columns_polar *polar);
 
 #endif

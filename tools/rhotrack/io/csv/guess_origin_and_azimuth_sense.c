@@ -19,7 +19,8 @@ struct azimuths {
     unsigned rising, falling;
 };
 
-static void add_azimuth(struct azimuths *azimuths, double time_s, double sensor, double azimuth_rad)
+static void count_azimuth_as_rising_or_falling(struct azimuths *azimuths, double time_s,
+                                               double sensor, double azimuth_rad)
 {
     const double step_rad = azimuth_rad - azimuths->last_rad;
 
@@ -87,7 +88,7 @@ static bool is_plain_csv_file(const char *path)
            status.st_size > 0 && !lcm_log_is_log(path);
 }
 
-struct origin_and_azimuth_sense origin_and_azimuth_sense_of(const char *path)
+struct origin_and_azimuth_sense guess_origin_and_azimuth_sense_from_rows(const char *path)
 {
     struct origin_and_azimuth_sense look = {.has_place = false};
     struct azimuths azimuths = {.lowest = INFINITY, .highest = -INFINITY, .last_s = INFINITY};
@@ -119,8 +120,8 @@ struct origin_and_azimuth_sense origin_and_azimuth_sense_of(const char *path)
                 const double sensor =
                     cell_number_or_nan(table, table_find_column(table, "sensor_id"));
 
-                add_azimuth(&azimuths, cell_time_s_or_nan(table, time), isnan(sensor) ? 0 : sensor,
-                            azimuth_rad);
+                count_azimuth_as_rising_or_falling(&azimuths, cell_time_s_or_nan(table, time),
+                                                   isnan(sensor) ? 0 : sensor, azimuth_rad);
             }
         }
     }

@@ -17,6 +17,6 @@ struct origin_and_azimuth_sense {
 };
 
 /* Previews a file. No place and no sense for a file that is not plain, not CSV, or a truth. */
-struct origin_and_azimuth_sense origin_and_azimuth_sense_of(const char *path);
+struct origin_and_azimuth_sense guess_origin_and_azimuth_sense_from_rows(const char *path);
 
 #endif

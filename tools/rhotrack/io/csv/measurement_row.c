@@ -291,7 +291,7 @@ static bool read_azimuth(const struct row_reading *reading, float *azimuth_rad)
     float azimuth_deg = 0.0f;
 
     if (columns->azimuth_deg < 0) {
-        return row_read_angle(&reading->cells, columns->azimuth_rad, azimuth_rad);
+        return row_read_and_wrap_angle_rad(&reading->cells, columns->azimuth_rad, azimuth_rad);
     }
     if (!row_read_float(&reading->cells, columns->azimuth_deg, -(float)ROW_ANGLE_MAX,
                         (float)ROW_ANGLE_MAX, &azimuth_deg)) {
@@ -362,7 +362,8 @@ static bool convert_to_local_frame(const struct row_reading *reading,
         .sigma_range_m = (double)polar->sigma_range_m,
         .sigma_elevation_rad = (double)polar->sigma_elevation_rad};
 
-    if (!geodetic_columns_convert_polar(reading->columns->geodetic, &reading->cells, &seen)) {
+    if (!geodetic_columns_turn_polar_to_local_frame(reading->columns->geodetic, &reading->cells,
+                                                    &seen)) {
         return false;
     }
     polar->azimuth_rad = (float)seen.look.azimuth_rad;
@@ -405,7 +406,7 @@ static bool read_polar_plot(const struct row_reading *reading, const struct para
  * Sets the sensor's position from its radar frame, and turns the row's sector, which counts from
  * the radar's own east; sectors in the parameters have been turned already.
  */
-static void set_place_and_turn_sector(struct measurement_row *row)
+static void set_radar_place_and_rotate_sector_to_local(struct measurement_row *row)
 {
     const double *place_m = radar_axes_place_m(row->frame);
     float turn_rad = (float)radar_axes_turn_rad(row->frame);
@@ -425,8 +426,9 @@ static void set_place_and_turn_sector(struct measurement_row *row)
  * file with positions every row gives one: an empty cell means the position in the parameters, not
  * that of the scan before.
  */
-static bool read_sensor(const struct row_reading *reading, const struct parameters *parameters,
-                        struct measurement_row *row)
+static bool set_sensor_at_position_of_row(const struct row_reading *reading,
+                                          const struct parameters *parameters,
+                                          struct measurement_row *row)
 {
     const struct measurement_row_columns *columns = reading->columns;
     bool has_place = row_has_cell(&reading->cells, columns->sensor_x_m) ||
@@ -442,7 +444,7 @@ static bool read_sensor(const struct row_reading *reading, const struct paramete
         return false;
     }
     if (row->frame) {
-        set_place_and_turn_sector(row);
+        set_radar_place_and_rotate_sector_to_local(row);
         return true;
     }
     return (!has_place ||
@@ -455,7 +457,8 @@ static bool read_sensor(const struct row_reading *reading, const struct paramete
 /* ---- Bearings ---- */
 
 /* Subtracts the sensor's azimuth bias; the time bias is subtracted from the scan's time. */
-static void subtract_azimuth_bias(const struct parameters *parameters, struct measurement_row *row)
+static void subtract_azimuth_bias_from_bearing(const struct parameters *parameters,
+                                               struct measurement_row *row)
 {
     double bias_rad =
         parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_AZIMUTH_BIAS_RAD, 0.0);
@@ -474,10 +477,10 @@ static bool read_bearing(const struct row_reading *reading, const struct paramet
                                                   parameters->value[PARAMETER_SIGMA_RAD]);
 
     row->has_measurement = true;
-    if (!row_read_angle(check, columns->bearing_rad, &row->bearing.bearing_rad)) {
+    if (!row_read_and_wrap_angle_rad(check, columns->bearing_rad, &row->bearing.bearing_rad)) {
         return false;
     }
-    subtract_azimuth_bias(parameters, row);
+    subtract_azimuth_bias_from_bearing(parameters, row);
     return row_read_sigma_rad(check, columns->sigma_rad, sigma_rad, &row->bearing.sigma_rad) &&
            row_read_snr(check, columns->snr_db, &row->bearing.snr_db);
 }
@@ -525,7 +528,7 @@ static bool read_plots_row(const struct row_reading *reading, const struct param
 
     if (!row_read_sector(check, columns->sector_from_rad, columns->sector_to_rad,
                          &row->sector_from_rad, &row->sector_to_rad) ||
-        !read_sensor(reading, parameters, row) ||
+        !set_sensor_at_position_of_row(reading, parameters, row) ||
         !row_check_unbiased_time(check, row->time_us, row->bias_us)) {
         return false;
     }

@@ -65,7 +65,7 @@ bool row_read_float(const struct row_check *check, int column, float min, float 
     return true;
 }
 
-bool row_read_angle(const struct row_check *check, int column, float *angle_rad)
+bool row_read_and_wrap_angle_rad(const struct row_check *check, int column, float *angle_rad)
 {
     /* the float nearest to pi, as files may have it */
     static const double half_turn = 3.1415927410125732;
@@ -145,8 +145,8 @@ bool row_read_received(const struct row_check *check, int column, int64_t *recei
     return why ? row_refuse_cell(check, column, why) : true;
 }
 
-bool row_check_received_together(const struct row_check *check, int64_t received_us,
-                                 int64_t scan_us, bool has_number, int64_t interval_us)
+bool row_check_received_same_as_in_scan(const struct row_check *check, int64_t received_us,
+                                        int64_t scan_us, bool has_number, int64_t interval_us)
 {
     return has_number || interval_us > 0 || received_us == scan_us ||
            row_refuse(check,

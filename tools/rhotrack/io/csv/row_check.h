@@ -43,7 +43,7 @@ bool row_read_double(const struct row_check *check, int column, double min, doub
                      double *value);
 /* Reads an angle of up to ROW_ANGLE_MAX rad, and wraps it to half a turn either side of 0. */
 #define ROW_ANGLE_MAX 1e6
-bool row_read_angle(const struct row_check *check, int column, float *angle_rad);
+bool row_read_and_wrap_angle_rad(const struct row_check *check, int column, float *angle_rad);
 
 /* Converts degrees clockwise from north to radians counter-clockwise from east. */
 double row_radians_from_compass_deg(double azimuth_deg);
@@ -70,8 +70,8 @@ bool row_read_received(const struct row_check *check, int column, int64_t *recei
  * Checks that a row was received at scan_us, as the other rows of its scan, unless the scan has a
  * number or is gathered over an interval, when reception times may differ.
  */
-bool row_check_received_together(const struct row_check *check, int64_t received_us,
-                                 int64_t scan_us, bool has_number, int64_t interval_us);
+bool row_check_received_same_as_in_scan(const struct row_check *check, int64_t received_us,
+                                        int64_t scan_us, bool has_number, int64_t interval_us);
 
 /*
  * Number of a row's scan, where the file has one: rows of one sensor with equal numbers form one

@@ -47,7 +47,7 @@ int table_need_column(const struct table *table, const char *name)
         return column;
     }
     table_dialect_other_names(name, names, sizeof names);
-    table_dialect_list_names(table, found, sizeof found);
+    table_dialect_list_columns_of_file(table, found, sizeof found);
     table_dialect_hint_column(table, name, hint, sizeof hint);
     table_fail_at_row(table, TABLE_HEADER, "no column '%s'%s%s%s; the file has: %s; %s", name,
                       *names ? " (or " : "", names, *names ? ")" : "", found, hint);
@@ -91,7 +91,7 @@ const char *table_cell_text(const struct table *table, size_t row, int column,
     number = cell_number(table, row, column);
     *buffer = '\0';
     if (column == 0) {
-        return time_text(table->times_us[row], buffer);
+        return decimal_seconds_text(table->times_us[row], buffer);
     }
     if (!isnan(number) && described->word) {
         return described->word((int)number);
@@ -191,8 +191,8 @@ const char *table_read_int32(const struct table *table, size_t row, int column, 
 
 /* ---- Tables of numbers ---- */
 
-struct table *table_of_numbers(const char *path, const struct table_column *columns,
-                               size_t num_columns)
+struct table *table_make_empty_of_numbers(const char *path, const struct table_column *columns,
+                                          size_t num_columns)
 {
     struct table *table = must_calloc(1, sizeof *table);
 

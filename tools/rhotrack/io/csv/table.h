@@ -57,8 +57,8 @@ struct table *table_read(const char *path, bool keep_going);
  * (asterix_plot_rows.h).
  */
 struct parameters;
-struct table *table_read_with_parameters(const char *path, const struct parameters *parameters,
-                                         bool keep_going);
+struct table *table_read_csv_or_asterix(const char *path, const struct parameters *parameters,
+                                        bool keep_going);
 
 /* Reads the columns' names alone, without rows. */
 struct table *table_read_header(const char *path);
@@ -112,8 +112,8 @@ double table_number_or(const struct table *table, size_t row, int column, double
  * Makes a table of numbers, for a source that is not text. Its first column is t_s. Adding a row
  * returns its cells, all empty (NaN); the cell of t_s is not used.
  */
-struct table *table_of_numbers(const char *path, const struct table_column *columns,
-                               size_t num_columns);
+struct table *table_make_empty_of_numbers(const char *path, const struct table_column *columns,
+                                          size_t num_columns);
 double *table_add_row_of_numbers(struct table *table, int64_t time_us, uint32_t line);
 
 /* Writing the header and a row as lines of a CSV file. */

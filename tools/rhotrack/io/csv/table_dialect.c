@@ -324,7 +324,7 @@ void table_dialect_set_columns_option(const char *text)
     }
 }
 
-void table_dialect_list_names(const struct table *table, char *text, size_t bytes)
+void table_dialect_list_columns_of_file(const struct table *table, char *text, size_t bytes)
 {
     size_t used = 0;
 
@@ -336,12 +336,13 @@ void table_dialect_list_names(const struct table *table, char *text, size_t byte
 }
 
 /* Exit 2 where a file has some of the columns of --columns, but not all. */
-static void fail_if_partly_renamed(const struct table *table, size_t found, const char *missing)
+static void fail_if_columns_option_is_only_partly_found(const struct table *table, size_t found,
+                                                        const char *missing)
 {
     if (found > 0 && missing) {
         char names[240];
 
-        table_dialect_list_names(table, names, sizeof names);
+        table_dialect_list_columns_of_file(table, names, sizeof names);
         fail(EXIT_USAGE, "%s:%u: --columns: there is no column '%s'; the file has: %s", table->path,
              (unsigned)table->header_line, missing, names);
     }
@@ -359,13 +360,13 @@ static void rename_columns_by_option(struct table *table)
             missing = renamed[i].column;
         }
     }
-    fail_if_partly_renamed(table, found, missing);
+    fail_if_columns_option_is_only_partly_found(table, found, missing);
 
     for (size_t i = 0; i < num_renamed; i++) {
         const int column = table_find_column(table, renamed[i].column);
 
         if (column < 0) {
-            table_dialect_list_names(table, names_seen, sizeof names_seen);
+            table_dialect_list_columns_of_file(table, names_seen, sizeof names_seen);
             return;
         }
         if (table_find_column(table, renamed[i].name) >= 0) {
@@ -377,7 +378,7 @@ static void rename_columns_by_option(struct table *table)
     is_renaming_done = true;
 }
 
-void table_dialect_check_columns_option(void)
+void table_dialect_fail_if_columns_option_unused(void)
 {
     if (num_renamed > 0 && !is_renaming_done) {
         fail(EXIT_USAGE, "--columns: no file has a column '%s'%s%s", renamed[0].column,
@@ -385,7 +386,7 @@ void table_dialect_check_columns_option(void)
     }
 }
 
-static bool is_renamed(const char *name)
+static bool is_name_given_by_columns_option(const char *name)
 {
     for (size_t i = 0; i < num_renamed; i++) {
         if (renamed[i].name == name) {
@@ -433,7 +434,7 @@ void table_dialect_name_columns(struct table *table)
         const char *column;
 
         column = column_for_name(table->names[i], &unit);
-        if (is_left && !is_renamed(table->names[i]) &&
+        if (is_left && !is_name_given_by_columns_option(table->names[i]) &&
             (!column || strcmp(column, "sensor_id") != 0)) {
             continue;
         }
@@ -447,7 +448,7 @@ void table_dialect_name_columns(struct table *table)
     }
 }
 
-static const char *known_word_at(size_t index)
+static const char *known_column_word_at(size_t index)
 {
     return index < NUM_WORDS ? words[index].word : NULL;
 }
@@ -461,7 +462,7 @@ static bool may_mean_column(const char *name, const char *column)
     if (!normalise_column_name(name, plain)) {
         return false;
     }
-    nearest = name_hint_nearest(plain, known_word_at);
+    nearest = name_hint_nearest(plain, known_column_word_at);
     for (size_t i = 0; i < NUM_WORDS; i++) {
         if (strcmp(words[i].column, column) == 0 &&
             (begins_with_word(plain, words[i].word) ||

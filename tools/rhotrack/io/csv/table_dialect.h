@@ -37,10 +37,10 @@ void table_dialect_name_columns(struct table *table);
 void table_dialect_set_columns_option(const char *text);
 
 /* Exit 2 where no file so far has the columns of --columns. */
-void table_dialect_check_columns_option(void);
+void table_dialect_fail_if_columns_option_unused(void);
 
 /* Writes the names of a table's columns, separated by commas. */
-void table_dialect_list_names(const struct table *table, char *text, size_t bytes);
+void table_dialect_list_columns_of_file(const struct table *table, char *text, size_t bytes);
 
 /*
  * Writes advice on a missing column: the column of the file that it may be, and the option to say

@@ -10,11 +10,11 @@ void tracks_write_time(FILE *file, int64_t time_us)
 {
     char text[TIME_TEXT_BYTES];
 
-    fputs(time_text(time_us, text), file);
+    fputs(decimal_seconds_text(time_us, text), file);
 }
 
 /* Writes a comma and the number with the fewest digits that keep float32. */
-static void write_comma_and_float(FILE *file, float value)
+static void write_comma_and_shortest_float(FILE *file, float value)
 {
     char text[FLOAT_TEXT_BYTES];
 
@@ -50,14 +50,14 @@ static void write_body_cells(FILE *file, const struct rho_tracker *tracker, unsi
         fputs(",,,,,,,,", file);
         return;
     }
-    write_comma_and_float(file, body.length_m);
-    write_comma_and_float(file, body.width_m);
-    write_comma_and_float(file, body.heading_rad);
-    write_comma_and_float(file, body.sigma_length_m);
-    write_comma_and_float(file, body.sigma_width_m);
-    write_comma_and_float(file, body.sigma_heading_rad);
-    write_comma_and_float(file, body.sigma_along_m);
-    write_comma_and_float(file, body.sigma_across_m);
+    write_comma_and_shortest_float(file, body.length_m);
+    write_comma_and_shortest_float(file, body.width_m);
+    write_comma_and_shortest_float(file, body.heading_rad);
+    write_comma_and_shortest_float(file, body.sigma_length_m);
+    write_comma_and_shortest_float(file, body.sigma_width_m);
+    write_comma_and_shortest_float(file, body.sigma_heading_rad);
+    write_comma_and_shortest_float(file, body.sigma_along_m);
+    write_comma_and_shortest_float(file, body.sigma_across_m);
 }
 
 void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report *track,
@@ -66,17 +66,17 @@ void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report
     tracks_write_time(file, time_us);
     fprintf(file, ",%" PRIu32 ",%s", track->track_id, rho_track_status_name(track->status));
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        write_comma_and_float(file, track->state[i]);
+        write_comma_and_shortest_float(file, track->state[i]);
     }
     for (int i = 0; i < 3; i++) {
-        write_comma_and_float(file, track->accel_mps2[i]);
+        write_comma_and_shortest_float(file, track->accel_mps2[i]);
     }
-    write_comma_and_float(file, track->sigma_m);
-    write_comma_and_float(file, track->sigma_mps);
+    write_comma_and_shortest_float(file, track->sigma_m);
+    write_comma_and_shortest_float(file, track->sigma_mps);
     fprintf(file, ",%u,%u,%" PRId32 ",%" PRId32, (unsigned)track->hits, (unsigned)track->misses,
             track->sensor_id, track->plot);
     for (int i = 0; columns.covariance && i < RHO_TRIANGLE(RHO_KALMAN_STATES); i++) {
-        write_comma_and_float(file, track->covariance[i]);
+        write_comma_and_shortest_float(file, track->covariance[i]);
     }
     if (columns.bodies) {
         write_body_cells(file, columns.bodies, tracker_index);
@@ -101,17 +101,17 @@ void initiated_write_row(FILE *file, const struct initiated *row)
     fprintf(file, "%u,", row->track_id);
     tracks_write_time(file, row->time_us);
     if (row->has_state) {
-        write_comma_and_float(file, row->x_m);
-        write_comma_and_float(file, row->y_m);
-        write_comma_and_float(file, row->vx_mps);
-        write_comma_and_float(file, row->vy_mps);
+        write_comma_and_shortest_float(file, row->x_m);
+        write_comma_and_shortest_float(file, row->y_m);
+        write_comma_and_shortest_float(file, row->vx_mps);
+        write_comma_and_shortest_float(file, row->vy_mps);
     } else {
         fputs(",,,,", file);
     }
-    write_comma_and_float(file, row->rho_m);
-    write_comma_and_float(file, row->theta_rad);
+    write_comma_and_shortest_float(file, row->rho_m);
+    write_comma_and_shortest_float(file, row->theta_rad);
     fprintf(file, ",%u", row->scans);
-    write_comma_and_float(file, (float)row->score);
+    write_comma_and_shortest_float(file, (float)row->score);
     fputc('\n', file);
 }
 

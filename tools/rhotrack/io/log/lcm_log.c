@@ -255,7 +255,8 @@ static void read_until_buffered(struct lcm_log_reader *reader, size_t bytes)
     }
 }
 
-static void count_skipped_bytes(struct lcm_log_reader *reader, const uint8_t *data, size_t bytes)
+static void record_skipped_bytes_and_place(struct lcm_log_reader *reader, const uint8_t *data,
+                                           size_t bytes)
 {
     struct lcm_log_counts *counts = &reader->counts;
     struct skipped_place *last = &reader->last;
@@ -301,7 +302,7 @@ bool lcm_log_next(struct lcm_log_reader *reader, struct lcm_log_event *event)
             return true;
         }
         if (found == LCM_LOG_SKIP) {
-            count_skipped_bytes(reader, data, wanted);
+            record_skipped_bytes_and_place(reader, data, wanted);
             advance_reader(reader, wanted);
             wanted = LCM_LOG_HEADER_BYTES;
         }

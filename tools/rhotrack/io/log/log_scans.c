@@ -78,7 +78,7 @@ int64_t log_scans_hold_us(const struct parameters *parameters)
  * which would drop out-of-sequence scans, the assembler waits only for the sensors' clocks.
  * late_max_s grows by the whole wait, so that scans held for it are not dropped as too late.
  */
-static void set_assembler_waits(struct parameters *parameters, bool caller_holds_scans)
+static void set_assembler_hold_and_late_max(struct parameters *parameters, bool caller_holds_scans)
 {
     double hold_ms = (double)log_scans_hold_us(parameters) * 1e-3;
     double clocks_ms = hold_ms - parameters->value[PARAMETER_HOLD_MS];
@@ -94,7 +94,7 @@ static void open_log_and_assembler(struct log_scans *scans)
 {
     struct parameters parameters = *scans->parameters;
 
-    set_assembler_waits(&parameters, scans->is_held);
+    set_assembler_hold_and_late_max(&parameters, scans->is_held);
     parameters_to_assembler(&parameters, scans->assembler);
     scans->assembler->config.is_record = 1;
     scans->order = (struct out_of_sequence_counts){0};
@@ -162,8 +162,9 @@ static int64_t item_scan_time_us(const struct rho_scan_assembler_item *item)
  * The sensors' clock was set back: two recordings in one file cannot be stepped as one. Exit 2, or
  * the scans before are left out.
  */
-static void refuse_or_skip_scans_before(struct log_scans *scans,
-                                        const struct rho_scan_assembler_item *item, bool keep_going)
+static void refuse_clock_restart_or_skip_scans_before(struct log_scans *scans,
+                                                      const struct rho_scan_assembler_item *item,
+                                                      bool keep_going)
 {
     double time_s = 1e-6 * (double)item_scan_time_us(item);
     uint64_t before = scans->num_given - 1;
@@ -184,8 +185,8 @@ static void refuse_or_skip_scans_before(struct log_scans *scans,
 /*
  * Goes through the whole log to count its scans, and to find the last time the clock was set back.
  */
-static void count_scans_and_find_restart(struct log_scans *scans, uint64_t file_bytes,
-                                         bool keep_going)
+static void count_scans_and_find_last_clock_setback(struct log_scans *scans, uint64_t file_bytes,
+                                                    bool keep_going)
 {
     struct rho_scan_assembler_item item;
     int64_t last_us = INT64_MIN;
@@ -193,7 +194,7 @@ static void count_scans_and_find_restart(struct log_scans *scans, uint64_t file_
 
     while (assemble_next_scan(scans, &item)) {
         if (item.is_restart && item_scan_time_us(&item) < last_us) {
-            refuse_or_skip_scans_before(scans, &item, keep_going);
+            refuse_clock_restart_or_skip_scans_before(scans, &item, keep_going);
         }
         last_us = item_scan_time_us(&item);
         progress_show_by_bytes(&progress, scans->num_given, lcm_log_position(scans->reader),
@@ -254,10 +255,10 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     scans->is_held = caller_holds_scans;
     scans->assembler = must_alloc(sizeof *scans->assembler);
     open_log_and_assembler(scans);
-    count_scans_and_find_restart(scans, regular_file_size_or_zero(path), keep_going);
+    count_scans_and_find_last_clock_setback(scans, regular_file_size_or_zero(path), keep_going);
     if (reports_faults) {
         const struct scan_losses losses =
-            out_of_sequence_counts_losses(&scans->order, &scans->assembler->counters);
+            out_of_sequence_counts_to_scan_losses(&scans->order, &scans->assembler->counters);
 
         lcm_log_report_skipped(scans->reader);
         report_assembler_faults(path, &scans->assembler->counters, &losses);

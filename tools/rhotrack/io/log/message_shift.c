@@ -31,7 +31,7 @@ static bool has_scan_number(const uint8_t *data, size_t size)
     }
 }
 
-static bool has_epoch(const uint8_t *data, size_t size)
+static bool has_epoch_number(const uint8_t *data, size_t size)
 {
     enum rho_message_type type = rho_message_type_of(data, size);
 
@@ -61,9 +61,9 @@ void message_shift_in_time(uint8_t *data, size_t size, int64_t time_us, uint32_t
     }
 }
 
-void message_replace_epoch(uint8_t *data, size_t size, int32_t from, int32_t to)
+void message_replace_epoch_number(uint8_t *data, size_t size, int32_t from, int32_t to)
 {
-    if (has_epoch(data, size) && (int32_t)load_big_endian(data + EPOCH_AT, NUMBER_BYTES) == from) {
+    if (has_epoch_number(data, size) && (int32_t)load_big_endian(data + EPOCH_AT, NUMBER_BYTES) == from) {
         store_big_endian(data + EPOCH_AT, (uint64_t)to, NUMBER_BYTES);
     }
 }

@@ -21,6 +21,6 @@ bool message_scan_number(const uint8_t *data, size_t size, int32_t *scan);
 void message_shift_in_time(uint8_t *data, size_t size, int64_t time_us, uint32_t scans);
 
 /* Replaces a message's epoch by `to` where it is `from`. */
-void message_replace_epoch(uint8_t *data, size_t size, int32_t from, int32_t to);
+void message_replace_epoch_number(uint8_t *data, size_t size, int32_t from, int32_t to);
 
 #endif

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/identity_numbers.h"
+#include "base/identity_to_index_map.h"
 #include "io/csv/local_frame.h"
 
 struct point {
@@ -77,7 +77,7 @@ static void place_on_earth(const struct geojson *geojson, const struct track *tr
     }
 }
 
-static cJSON *position_json(const double on_earth[3], bool has_height)
+static cJSON *lon_lat_alt_json_array(const double on_earth[3], bool has_height)
 {
     cJSON *position = cJSON_CreateArray();
 
@@ -91,7 +91,7 @@ static cJSON *position_json(const double on_earth[3], bool has_height)
 
 /* ---- Properties ---- */
 
-static cJSON *time_json(double time_us)
+static cJSON *time_in_seconds_json(double time_us)
 {
     return cJSON_CreateNumber(time_us * 1e-6);
 }
@@ -186,8 +186,8 @@ struct line {
 static void add_line_position(struct line *line, const double on_earth[3], double time_us,
                               bool has_height)
 {
-    cJSON_AddItemToArray(line->piece, position_json(on_earth, has_height));
-    cJSON_AddItemToArray(line->times, time_json(time_us));
+    cJSON_AddItemToArray(line->piece, lon_lat_alt_json_array(on_earth, has_height));
+    cJSON_AddItemToArray(line->times, time_in_seconds_json(time_us));
 }
 
 static void begin_line_piece(struct line *line)
@@ -248,9 +248,10 @@ static void write_last_place(struct geojson *geojson, const struct track *track)
     cJSON *properties = properties_json(geojson, track, "place");
     double on_earth[3];
 
-    cJSON_AddItemToObject(properties, "t_s", time_json((double)track->last.time_us));
+    cJSON_AddItemToObject(properties, "t_s", time_in_seconds_json((double)track->last.time_us));
     place_on_earth(geojson, track, track->last.state, on_earth);
-    write_feature(geojson, geometry_json("Point", position_json(on_earth, track->has_height)),
+    write_feature(geojson,
+                  geometry_json("Point", lon_lat_alt_json_array(on_earth, track->has_height)),
                   properties);
 }
 
@@ -305,7 +306,7 @@ void geojson_add_row(struct geojson *geojson, const struct geojson_row *row)
     track->seen_at = geojson->times;
 }
 
-void geojson_end_time(struct geojson *geojson)
+void geojson_end_time_and_write_ended_tracks(struct geojson *geojson)
 {
     for (size_t i = geojson->first; i < geojson->ids.count; i++) {
         struct track *track = geojson->tracks[i];
@@ -322,7 +323,7 @@ void geojson_end_time(struct geojson *geojson)
     geojson->times++;
 }
 
-void geojson_close(struct geojson *geojson)
+void geojson_write_open_tracks_and_free(struct geojson *geojson)
 {
     for (size_t i = geojson->first; i < geojson->ids.count; i++) {
         struct track *track = geojson->tracks[i];

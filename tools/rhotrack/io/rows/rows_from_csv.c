@@ -11,7 +11,7 @@
 #include "io/csv/row_check.h"
 #include "io/csv/table.h"
 #include "io/rows/rows_geodetic_columns.h"
-#include "io/scans/scan_numbers.h"
+#include "io/scans/find_scan_by_number.h"
 
 /* State of reading a table; columns are indices into it, -1 where it has no such column. */
 struct reading {
@@ -144,8 +144,8 @@ static bool read_float(const struct row_check *check, int column, double *value)
     return !why || row_refuse_cell(check, column, why);
 }
 
-static bool read_degrees(const struct row_check *check, int column,
-                         const struct rows_column *described, double *value)
+static bool read_degrees_into_column_unit(const struct row_check *check, int column,
+                                          const struct rows_column *described, double *value)
 {
     double degrees = 0.0;
     const char *why = table_read_number(check->table, check->row, column, &degrees);
@@ -169,13 +169,13 @@ static bool read_cell(const struct reading *reading, const struct row_check *che
     float angle_rad = 0;
 
     if (described->flags & COLUMN_ANGLE && !reading->is_degrees[index]) {
-        bool is_good = row_read_angle(check, column, &angle_rad);
+        bool is_good = row_read_and_wrap_angle_rad(check, column, &angle_rad);
 
         *value = (double)angle_rad;
         return is_good;
     }
     if (reading->is_degrees[index]) {
-        return read_degrees(check, column, described, value);
+        return read_degrees_into_column_unit(check, column, described, value);
     }
     if (described->flags & COLUMN_STATUS) {
         return read_status(check, column, value);
@@ -231,8 +231,8 @@ static void fill_missing_radar_place(const struct reading *reading, int32_t sens
 
 /* ---- Rows ---- */
 
-static bool read_time_and_numbers(const struct reading *reading, const struct row_check *check,
-                                  struct row *row)
+static bool read_time_sensor_and_scan_numbers(const struct reading *reading,
+                                              const struct row_check *check, struct row *row)
 {
     const char *why = table_read_time_us(check->table, check->row, reading->t_s, &row->time_us);
 
@@ -269,7 +269,8 @@ static bool check_newest_row_by_encoding(const struct reading *reading,
                       rho_message_type_name(rows->kind->type));
 }
 
-static struct scan_number scan_number_of_row(const struct reading *reading, const struct row *row)
+static struct scan_number scan_and_epoch_number_of_row(const struct reading *reading,
+                                                       const struct row *row)
 {
     return (struct scan_number){
         .is_given = reading->file->has_scan, .scan = row->scan, .epoch = row->epoch};
@@ -278,8 +279,8 @@ static struct scan_number scan_number_of_row(const struct reading *reading, cons
 /* Whether the row belongs to a numbered scan that has begun before. */
 static bool is_in_begun_scan(const struct reading *reading, const struct row *row)
 {
-    const struct scan_number number = scan_number_of_row(reading, row);
-    size_t first = scan_numbers_find_scan(&reading->numbers, row->sensor_id, &number);
+    const struct scan_number number = scan_and_epoch_number_of_row(reading, row);
+    size_t first = scan_numbers_find_scan_index(&reading->numbers, row->sensor_id, &number);
 
     return first != SCAN_NUMBERS_NONE && row_joins_scan(&number, row->time_us, &number,
                                                         reading->file->rows.list[first].time_us, 0);
@@ -306,9 +307,9 @@ static bool check_time_order(const struct reading *reading, const struct row_che
                       (double)row_order_time_us(reading, row) * 1e-6);
 }
 
-static void note_good_row(struct reading *reading, const struct row *row)
+static void note_row_scan_and_latest_time(struct reading *reading, const struct row *row)
 {
-    const struct scan_number number = scan_number_of_row(reading, row);
+    const struct scan_number number = scan_and_epoch_number_of_row(reading, row);
 
     if (reading->file->rows.kind->has_sensor && !is_in_begun_scan(reading, row)) {
         scan_numbers_set_scan(&reading->numbers, row->sensor_id, &number,
@@ -341,19 +342,19 @@ static bool read_and_check_row(const struct reading *reading, const struct row_c
 }
 
 /* Adds a row of the table where it is good; else returns false with the reason set. */
-static bool add_row_if_good(struct reading *reading, const struct row_check *check)
+static bool add_row_or_refuse_with_reason(struct reading *reading, const struct row_check *check)
 {
     struct rows *rows = &reading->file->rows;
     struct row row = {.line = check->table->lines[check->row], .order = check->row};
 
-    if (!read_time_and_numbers(reading, check, &row)) {
+    if (!read_time_sensor_and_scan_numbers(reading, check, &row)) {
         return false;
     }
     if (!read_and_check_row(reading, check, &row, rows_add_row(rows, &row))) {
         rows->num_cells = rows->list[--rows->count].cells;
         return false;
     }
-    note_good_row(reading, &row);
+    note_row_scan_and_latest_time(reading, &row);
     return true;
 }
 
@@ -364,15 +365,16 @@ static void read_rows(struct reading *reading)
     for (size_t i = 0; i < reading->table->num_rows; i++) {
         const struct row_check check = {.table = reading->table, .row = i, .reason = reason};
 
-        if (!add_row_if_good(reading, &check)) {
+        if (!add_row_or_refuse_with_reason(reading, &check)) {
             rows_refuse_row(reading->file, &(struct row){.line = reading->table->lines[i]}, "%s",
                             reason);
         }
     }
 }
 
-bool rows_read_table(struct rows_file *file, const char *path, const struct table *table,
-                     const struct parameters *parameters, bool keep_going)
+bool rows_read_table_and_has_any(struct rows_file *file, const char *path,
+                                 const struct table *table, const struct parameters *parameters,
+                                 bool keep_going)
 {
     struct reading reading = {.file = file, .table = table, .parameters = parameters};
 
@@ -387,13 +389,13 @@ bool rows_read_table(struct rows_file *file, const char *path, const struct tabl
     return reading.has_last;
 }
 
-void rows_read_csv(struct rows_file *file, const char *path, const struct parameters *parameters,
-                   bool keep_going)
+void rows_read_csv_or_asterix(struct rows_file *file, const char *path,
+                              const struct parameters *parameters, bool keep_going)
 {
-    struct table *table = table_read_with_parameters(path, parameters, keep_going);
+    struct table *table = table_read_csv_or_asterix(path, parameters, keep_going);
 
     table_need_rows(table);
-    if (!rows_read_table(file, path, table, parameters, keep_going)) {
+    if (!rows_read_table_and_has_any(file, path, table, parameters, keep_going)) {
         table_fail_at_row(table, TABLE_HEADER, "no valid row after the header");
     }
     table_free(table);

@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-#include "io/rows/rows.h"
+#include "io/rows/rows_in_memory.h"
 #include "settings/parameters.h"
 
 /* A file's rows. */
@@ -26,16 +26,17 @@ struct rows_file {
  * Reads a file. Errors: exit 2, with file and line; with keep_going bad rows are skipped and
  * counted instead. Positions of radars that the file lacks come from the parameters.
  */
-void rows_read_csv(struct rows_file *file, const char *path, const struct parameters *parameters,
-                   bool keep_going);
+void rows_read_csv_or_asterix(struct rows_file *file, const char *path,
+                              const struct parameters *parameters, bool keep_going);
 
 /*
  * Reads rows from a table, which stays the caller's; path is for error messages. Returns false
  * where there is no good row.
  */
 struct table;
-bool rows_read_table(struct rows_file *file, const char *path, const struct table *table,
-                     const struct parameters *parameters, bool keep_going);
+bool rows_read_table_and_has_any(struct rows_file *file, const char *path,
+                                 const struct table *table, const struct parameters *parameters,
+                                 bool keep_going);
 
 /* Handles a bad row: exit 2 with its line, or with keep_going counts it. */
 void rows_refuse_row(struct rows_file *file, const struct row *row, const char *format, ...)

@@ -46,10 +46,10 @@ static const char *describe_bad_message(enum rho_status status, const struct row
 }
 
 /* Removes the rows of the newest message, down to a count of rows. */
-static void drop_newest_rows(struct rows *rows, size_t count)
+static void drop_newest_rows(struct rows *rows, size_t num_kept)
 {
-    rows->num_cells = rows->list[count].cells;
-    rows->count = count;
+    rows->num_cells = rows->list[num_kept].cells;
+    rows->count = num_kept;
 }
 
 const char *rows_from_messages_add(struct rows_collection *collection, const char *channel,
@@ -103,7 +103,8 @@ void rows_from_messages_add_event(struct rows_collection *collection, const char
 
 /* ---- Messages that belong together ---- */
 
-static int by_scan(const struct rows_message *one, const struct rows_message *other)
+static int compare_sensor_epoch_scan_and_time(const struct rows_message *one,
+                                              const struct rows_message *other)
 {
     int order = rows_compare_int64(one->key.sensor_id, other->key.sensor_id);
 
@@ -112,10 +113,10 @@ static int by_scan(const struct rows_message *one, const struct rows_message *ot
     return order ? order : rows_compare_int64(one->key.time_us, other->key.time_us);
 }
 
-static int by_part(const void *a, const void *b)
+static int by_scan_part_and_arrival(const void *a, const void *b)
 {
     const struct rows_message *one = a, *other = b;
-    int order = by_scan(one, other);
+    int order = compare_sensor_epoch_scan_and_time(one, other);
 
     order = order ? order : rows_compare_int64(one->part, other->part);
     return order ? order : rows_compare_int64((int64_t)one->arrival, (int64_t)other->arrival);
@@ -138,7 +139,7 @@ static void append_row(struct ordering *ordering, size_t index, const struct row
     row->order = order;
 }
 
-static uint64_t first_arrival_of(const struct rows_message *messages, size_t count)
+static uint64_t lowest_arrival_index(const struct rows_message *messages, size_t count)
 {
     uint64_t first = messages[0].arrival;
 
@@ -176,10 +177,10 @@ static void append_scan_row_if_time_missing(struct ordering *ordering,
  * Adds the rows of one scan, whose messages are in the order of their parts; repeated parts are
  * left out.
  */
-static void append_scan_rows(struct ordering *ordering, const struct rows_message *messages,
-                             size_t count)
+static void append_rows_of_one_scan(struct ordering *ordering, const struct rows_message *messages,
+                                    size_t count)
 {
-    uint64_t order = first_arrival_of(messages, count) << SCAN_SHIFT;
+    uint64_t order = lowest_arrival_index(messages, count) << SCAN_SHIFT;
     size_t before = ordering->count, parts = 0;
 
     for (size_t i = 0; i < count; i++) {
@@ -213,7 +214,7 @@ static int by_reception(const void *a, const void *b)
     return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
-void rows_from_messages_finish(struct rows_collection *collection)
+void rows_from_messages_sort_and_drop_repeats(struct rows_collection *collection)
 {
     struct ordering ordering = {.collection = collection};
     size_t end;
@@ -222,15 +223,17 @@ void rows_from_messages_finish(struct rows_collection *collection)
         return;
     }
     ordering.list = must_alloc(collection->rows.count * sizeof *ordering.list);
-    qsort(collection->messages, collection->count, sizeof *collection->messages, by_part);
+    qsort(collection->messages, collection->count, sizeof *collection->messages,
+          by_scan_part_and_arrival);
     for (size_t first = 0; first < collection->count; first = end) {
         const struct rows_message *messages = collection->messages + first;
 
         end = first + 1;
-        while (end < collection->count && by_scan(messages, collection->messages + end) == 0) {
+        while (end < collection->count &&
+               compare_sensor_epoch_scan_and_time(messages, collection->messages + end) == 0) {
             end++;
         }
-        append_scan_rows(&ordering, messages, end - first);
+        append_rows_of_one_scan(&ordering, messages, end - first);
     }
     qsort(ordering.list, ordering.count, sizeof *ordering.list,
           collection->rows.has_received ? by_reception : by_time);

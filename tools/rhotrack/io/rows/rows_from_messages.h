@@ -11,7 +11,7 @@
 #define RHOTRACK_TOOL_ROWS_FROM_MESSAGES_H
 
 #include "io/log/lcm_log.h"
-#include "io/rows/rows.h"
+#include "io/rows/rows_in_memory.h"
 
 struct rows_collection {
     struct rows rows;
@@ -41,7 +41,7 @@ const char *rows_from_messages_add(struct rows_collection *collection, const cha
                                    char reason[ROWS_FROM_MESSAGES_REASON_BYTES]);
 
 /* Joins the parts of scans and sorts the rows; no message may be added after it. */
-void rows_from_messages_finish(struct rows_collection *collection);
+void rows_from_messages_sort_and_drop_repeats(struct rows_collection *collection);
 void rows_from_messages_free(struct rows_collection *collection);
 
 #endif

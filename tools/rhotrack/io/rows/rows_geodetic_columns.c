@@ -31,8 +31,8 @@ bool rows_geodetic_columns_replaces_column(const struct rows_geodetic_columns *g
            (strcmp(column->name, "x_m") == 0 || strcmp(column->name, "y_m") == 0);
 }
 
-static double *cell_of(const struct rows_geodetic_columns *geodetic, double *cells,
-                       const char *name)
+static double *cell_of_named_column(const struct rows_geodetic_columns *geodetic, double *cells,
+                                    const char *name)
 {
     return &cells[rows_existing_column_index(geodetic->kind, name)];
 }
@@ -40,7 +40,7 @@ static double *cell_of(const struct rows_geodetic_columns *geodetic, double *cel
 static void put_float_cell(const struct rows_geodetic_columns *geodetic, double *cells,
                            const char *name, double value)
 {
-    *cell_of(geodetic, cells, name) = (double)(float)value;
+    *cell_of_named_column(geodetic, cells, name) = (double)(float)value;
 }
 
 static double cell_or(double cell, double otherwise)
@@ -88,8 +88,10 @@ static void put_radar_place_and_sector(const struct rows_geodetic_columns *geode
 {
     const double *place_m = radar_axes_place_m(frame);
 
-    rotate_angle_cell(cell_of(geodetic, cells, "sector_from_rad"), radar_axes_turn_rad(frame));
-    rotate_angle_cell(cell_of(geodetic, cells, "sector_to_rad"), radar_axes_turn_rad(frame));
+    rotate_angle_cell(cell_of_named_column(geodetic, cells, "sector_from_rad"),
+                      radar_axes_turn_rad(frame));
+    rotate_angle_cell(cell_of_named_column(geodetic, cells, "sector_to_rad"),
+                      radar_axes_turn_rad(frame));
     if (geodetic->kind == &rows_kind_polar) {
         put_float_cell(geodetic, cells, "sensor_x_m", place_m[0]);
         put_float_cell(geodetic, cells, "sensor_y_m", place_m[1]);
@@ -103,24 +105,25 @@ static struct geodetic_columns_polar read_polar_cells(const struct rows_geodetic
     const struct parameters *parameters = geodetic->parameters;
     double sigma_range_m = parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
                                                       parameters->value[PARAMETER_SIGMA_RANGE_M]);
-    double elevation_rad = *cell_of(geodetic, cells, "elevation_rad");
+    double elevation_rad = *cell_of_named_column(geodetic, cells, "elevation_rad");
 
     return (struct geodetic_columns_polar){
         .sensor_id = sensor_id,
-        .place_m = {cell_or(*cell_of(geodetic, cells, "sensor_x_m"), 0),
-                    cell_or(*cell_of(geodetic, cells, "sensor_y_m"), 0),
-                    cell_or(*cell_of(geodetic, cells, "sensor_z_m"), 0)},
-        .look = {*cell_of(geodetic, cells, "range_m"), *cell_of(geodetic, cells, "azimuth_rad"),
-                 cell_or(elevation_rad, 0)},
+        .place_m = {cell_or(*cell_of_named_column(geodetic, cells, "sensor_x_m"), 0),
+                    cell_or(*cell_of_named_column(geodetic, cells, "sensor_y_m"), 0),
+                    cell_or(*cell_of_named_column(geodetic, cells, "sensor_z_m"), 0)},
+        .look = {*cell_of_named_column(geodetic, cells, "range_m"),
+                 *cell_of_named_column(geodetic, cells, "azimuth_rad"), cell_or(elevation_rad, 0)},
         .has_elevation = !rows_is_cell_empty(elevation_rad),
-        .sigma_range_m = cell_or(*cell_of(geodetic, cells, "sigma_range_m"), sigma_range_m)};
+        .sigma_range_m =
+            cell_or(*cell_of_named_column(geodetic, cells, "sigma_range_m"), sigma_range_m)};
 }
 
 /*
  * Whether range and angles are in range for the conversion to the local frame. Empty cells, and
  * cells out of range, are refused later, as in any file.
  */
-static bool can_convert_look(const struct geodetic_columns_polar *polar)
+static bool are_range_and_angles_in_limits(const struct geodetic_columns_polar *polar)
 {
     const double half_turn = (double)3.1415927f; /* the float nearest to pi, as files may have it */
 
@@ -128,18 +131,18 @@ static bool can_convert_look(const struct geodetic_columns_polar *polar)
            fabs(polar->look.elevation_rad) <= half_turn / 2;
 }
 
-static bool fill_polar_cells(const struct rows_geodetic_columns *geodetic,
-                             const struct row_check *check, const struct radar_axes *frame,
-                             int32_t sensor_id, double *cells)
+static bool rotate_azimuth_and_elevation_to_local_frame(
+    const struct rows_geodetic_columns *geodetic, const struct row_check *check,
+    const struct radar_axes *frame, int32_t sensor_id, double *cells)
 {
     struct geodetic_columns_polar polar = read_polar_cells(geodetic, sensor_id, cells);
     bool had_elevation = polar.has_elevation;
 
     polar.frame = frame;
-    if (!can_convert_look(&polar)) {
+    if (!are_range_and_angles_in_limits(&polar)) {
         return true;
     }
-    if (!geodetic_columns_convert_polar(geodetic->geodetic, check, &polar)) {
+    if (!geodetic_columns_turn_polar_to_local_frame(geodetic->geodetic, check, &polar)) {
         return false;
     }
     put_float_cell(geodetic, cells, "azimuth_rad", polar.look.azimuth_rad);
@@ -169,7 +172,8 @@ bool rows_geodetic_columns_fill_local_cells(const struct rows_geodetic_columns *
         put_radar_place_and_sector(geodetic, frame, cells);
     }
     return geodetic->kind == &rows_kind_polar
-               ? fill_polar_cells(geodetic, check, frame, sensor_id, cells)
+               ? rotate_azimuth_and_elevation_to_local_frame(geodetic, check, frame, sensor_id,
+                                                             cells)
                : !geodetic_columns_has_place_columns(geodetic->geodetic) ||
                      fill_place_cells(geodetic, check, cells);
 }

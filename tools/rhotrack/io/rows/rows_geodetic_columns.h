@@ -9,7 +9,7 @@
 #include <stdbool.h>
 
 #include "io/csv/geodetic_columns.h"
-#include "io/rows/rows.h"
+#include "io/rows/rows_in_memory.h"
 
 struct rows_geodetic_columns {
     const struct rows_kind *kind;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/rows/rows.h"
+#include "io/rows/rows_in_memory.h"
 
 const struct rows_kind *const rows_kinds[NUM_ROWS_KINDS] = {
     [ROWS_PLOTS] = &rows_kind_plots,       [ROWS_POLAR] = &rows_kind_polar,

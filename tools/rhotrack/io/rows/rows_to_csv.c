@@ -9,7 +9,7 @@
 
 /* ---- Which columns ---- */
 
-static bool is_cell_worth_writing(const struct rows_column *column, double cell)
+static bool is_cell_neither_empty_nor_omitted_zero(const struct rows_column *column, double cell)
 {
     if (rows_is_cell_empty(cell)) {
         return false;
@@ -25,7 +25,8 @@ static bool is_column_wanted(const struct rows *rows, int index, bool with_covar
         return (column->flags & COLUMN_ALWAYS) || with_covariance;
     }
     for (size_t i = 0; i < rows->count; i++) {
-        if (is_cell_worth_writing(column, rows_cells(rows, &rows->list[i])[index])) {
+        if (is_cell_neither_empty_nor_omitted_zero(column,
+                                                   rows_cells(rows, &rows->list[i])[index])) {
             return true;
         }
     }
@@ -156,7 +157,7 @@ static struct table *start_table(const char *path, const struct rows *rows, cons
     if (kind->has_epoch) {
         list[count++] = (struct table_column){.name = "epoch"};
     }
-    return table_of_numbers(path, list, count);
+    return table_make_empty_of_numbers(path, list, count);
 }
 
 static void add_row_to_table(struct table *table, const struct rows *rows, const struct row *row,

@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 #include "io/csv/table.h"
-#include "io/rows/rows.h"
+#include "io/rows/rows_in_memory.h"
 
 void rows_write_csv(FILE *file, const struct rows *rows, bool with_covariance);
 

@@ -35,7 +35,7 @@ static int by_scan_and_order(const void *a, const void *b)
 }
 
 /* Order of lists' rows: by time as well, since the file may have them in any order. */
-static int by_list_and_order(const void *a, const void *b)
+static int by_epoch_scan_time_and_order(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
     int order = rows_compare_int64(one->epoch, other->epoch);
@@ -51,7 +51,7 @@ struct named_row {
     size_t row;
 };
 
-static int by_time_and_name(const void *a, const void *b)
+static int by_time_track_or_target_and_row(const void *a, const void *b)
 {
     const struct named_row *one = a, *other = b;
     int order = rows_compare_int64(one->time_us, other->time_us);
@@ -64,7 +64,7 @@ static int by_time_and_name(const void *a, const void *b)
  * For each row, finds the row before with the same track or target at the same time; SIZE_MAX where
  * there is none.
  */
-static void find_earlier_same_names(struct scan_grouping *grouping)
+static void find_earlier_rows_of_same_id_and_time(struct scan_grouping *grouping)
 {
     size_t count = grouping->file->rows.count;
     struct named_row *named = must_alloc(count * sizeof *named);
@@ -74,7 +74,7 @@ static void find_earlier_same_names(struct scan_grouping *grouping)
         named[i] = (struct named_row){grouping->rows[i].time_us,
                                       rows_cells(&grouping->file->rows, &grouping->rows[i])[0], i};
     }
-    qsort(named, count, sizeof *named, by_time_and_name);
+    qsort(named, count, sizeof *named, by_time_track_or_target_and_row);
     for (size_t i = 0; i < count; i++) {
         bool is_again = i > 0 && named[i].time_us == named[i - 1].time_us &&
                         !(named[i].name > named[i - 1].name);
@@ -191,8 +191,8 @@ static bool check_received_fits_scan(struct scan_grouping *grouping, const struc
     const struct row_check check = {.reason = reason};
 
     if (grouping->file->rows.has_received &&
-        !row_check_received_together(&check, row->received_us, scan->head.received_us,
-                                     grouping->file->has_scan, grouping->interval_us)) {
+        !row_check_received_same_as_in_scan(&check, row->received_us, scan->head.received_us,
+                                            grouping->file->has_scan, grouping->interval_us)) {
         rows_refuse_row(grouping->file, row, "%s", reason);
         return false;
     }
@@ -228,7 +228,8 @@ static bool check_row_fits_scan(struct scan_grouping *grouping, const struct row
  * Time of a scan: with numbers that of its row without a measurement, which may stand anywhere,
  * else of its first row.
  */
-static int64_t scan_time_of_rows(const struct scan_grouping *grouping, size_t first, size_t end)
+static int64_t time_of_empty_row_or_first_row_us(const struct scan_grouping *grouping, size_t first,
+                                                 size_t end)
 {
     for (size_t i = first; grouping->file->has_scan && i < end; i++) {
         if (!rows_row_has_measurement(&grouping->file->rows, &grouping->rows[i])) {
@@ -258,7 +259,7 @@ static size_t count_parts(const struct scan_grouping *grouping, const struct row
 static void add_scan_of_rows(struct scan_grouping *grouping, size_t first, size_t end)
 {
     struct rows_to_messages *scans = grouping->scans;
-    struct rows_scan scan = {.utime = scan_time_of_rows(grouping, first, end),
+    struct rows_scan scan = {.utime = time_of_empty_row_or_first_row_us(grouping, first, end),
                              .head = grouping->rows[first],
                              .first = first,
                              .order = grouping->rows[first].order};
@@ -290,7 +291,7 @@ static void add_scan_of_rows(struct scan_grouping *grouping, size_t first, size_
     scans->list[scans->count++] = scan;
 }
 
-static int by_sensor(const void *a, const void *b)
+static int by_sensor_epoch_and_time(const void *a, const void *b)
 {
     const struct rows_scan *one = a, *other = b;
     int order = rows_compare_int64(one->head.sensor_id, other->head.sensor_id);
@@ -309,7 +310,7 @@ static void number_scans(const struct scan_grouping *grouping)
     int32_t number = 0;
 
     if (grouping->scans->count > 0) {
-        qsort(list, grouping->scans->count, sizeof *list, by_sensor);
+        qsort(list, grouping->scans->count, sizeof *list, by_sensor_epoch_and_time);
     }
     for (size_t i = 0; i < grouping->scans->count; i++) {
         bool is_next = i > 0 && list[i].head.sensor_id == list[i - 1].head.sensor_id &&
@@ -328,8 +329,8 @@ static int by_due_time(const void *a, const void *b)
     return order ? order : rows_compare_int64((int64_t)one->order, (int64_t)other->order);
 }
 
-void rows_to_messages_make(struct rows_to_messages *scans, struct rows_file *file,
-                           int64_t interval_us)
+void rows_to_messages_group_into_scans(struct rows_to_messages *scans, struct rows_file *file,
+                                       int64_t interval_us)
 {
     struct scan_grouping grouping = {.scans = scans,
                                      .file = file,
@@ -339,9 +340,9 @@ void rows_to_messages_make(struct rows_to_messages *scans, struct rows_file *fil
 
     *scans = (struct rows_to_messages){.file = file};
     qsort(file->rows.list, file->rows.count, sizeof *file->rows.list,
-          grouping.kind->has_sensor ? by_scan_and_order : by_list_and_order);
+          grouping.kind->has_sensor ? by_scan_and_order : by_epoch_scan_time_and_order);
     if (!grouping.kind->has_sensor && !file->has_scan) {
-        find_earlier_same_names(&grouping);
+        find_earlier_rows_of_same_id_and_time(&grouping);
     }
     for (size_t first = 0, end; first < file->rows.count; first = end) {
         for (end = first + 1; end < file->rows.count && joins_scan(&grouping, first, end); end++) {

@@ -6,8 +6,8 @@
 #include "io/turns/antenna_turns.h"
 
 /* Position of a row's plot relative to its sensor. Returns false for a row without a plot. */
-static bool plot_place_from_sensor(const struct rows_file *file, const struct row *row,
-                                   const struct parameters *parameters, double place_m[2])
+static bool plot_place_relative_to_sensor(const struct rows_file *file, const struct row *row,
+                                          const struct parameters *parameters, double place_m[2])
 {
     const struct rows_kind *kind = file->rows.kind;
     const double *cells = rows_cells(&file->rows, row);
@@ -42,7 +42,8 @@ static bool may_have_turns(const struct rows_file *file, const struct parameters
                &file->rows, file->rows.list)[rows_existing_column_index(kind, "sector_from_rad")]);
 }
 
-void rows_turns_number_rows(struct rows_file *file, const struct parameters *parameters)
+void rows_turns_find_and_set_turn_numbers(struct rows_file *file,
+                                          const struct parameters *parameters)
 {
     struct antenna_turns *turns;
     double place_m[2];
@@ -55,15 +56,15 @@ void rows_turns_number_rows(struct rows_file *file, const struct parameters *par
     for (size_t i = 0; i < file->rows.count && goes_on; i++) {
         const struct row *row = &file->rows.list[i];
 
-        goes_on =
-            !plot_place_from_sensor(file, row, parameters, place_m) ||
-            antenna_turns_collect_row(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
+        goes_on = !plot_place_relative_to_sensor(file, row, parameters, place_m) ||
+                  antenna_turns_add_row_and_wants_more(turns, row->sensor_id, row->time_us,
+                                                       place_m[0], place_m[1]);
     }
-    if (antenna_turns_find_and_report_rules(turns, file->path,
-                                            parameters->value[PARAMETER_V_MAX_MPS])) {
+    if (antenna_turns_find_rules_report_and_have_any(turns, file->path,
+                                                     parameters->value[PARAMETER_V_MAX_MPS])) {
         for (size_t i = 0; i < file->rows.count; i++) {
             struct row *row = &file->rows.list[i];
-            const bool has_place = plot_place_from_sensor(file, row, parameters, place_m);
+            const bool has_place = plot_place_relative_to_sensor(file, row, parameters, place_m);
 
             row->turn = antenna_turns_number_row(turns, row->sensor_id, row->time_us,
                                                  has_place ? place_m : NULL);

@@ -275,14 +275,14 @@ void bearing_frame_reader_keep_last(struct bearing_frame_reader *reader, uint64_
     reader->skip = reader->total.frames > frames ? reader->total.frames - frames : 0;
 }
 
-uint64_t bearing_frame_reader_num_frames(const struct bearing_frame_reader *reader)
+uint64_t bearing_frame_reader_frames_in_files(const struct bearing_frame_reader *reader)
 {
     return reader->total.frames;
 }
 
 uint64_t bearing_frame_reader_position(const struct bearing_frame_reader *reader)
 {
-    return merged_scan_files_position(&reader->files);
+    return merged_scan_files_bytes_read(&reader->files);
 }
 
 const struct frame_sensor *bearing_frame_reader_sensors(const struct bearing_frame_reader *reader,
@@ -298,7 +298,7 @@ bearing_frame_reader_counts(const struct bearing_frame_reader *reader)
     return reader->total;
 }
 
-void bearing_frame_reader_report_skipped(const struct bearing_frame_reader *reader)
+void bearing_frame_reader_report_incomplete(const struct bearing_frame_reader *reader)
 {
     print_rows_skipped(reader->total.rows_skipped);
     if (reader->total.frames_incomplete) {

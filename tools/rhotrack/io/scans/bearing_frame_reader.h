@@ -15,7 +15,7 @@
 
 #include <stdbool.h>
 
-#include "io/scans/fixed_passive_sensors.h"
+#include "io/scans/check_passive_sensors_fixed.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 
@@ -60,7 +60,7 @@ const struct rho_frame *bearing_frame_reader_next(struct bearing_frame_reader *r
 void bearing_frame_reader_keep_last(struct bearing_frame_reader *reader, uint64_t frames);
 
 /* Number of frames in the files. */
-uint64_t bearing_frame_reader_num_frames(const struct bearing_frame_reader *reader);
+uint64_t bearing_frame_reader_frames_in_files(const struct bearing_frame_reader *reader);
 
 /* Bytes read of all files, for progress bars. */
 uint64_t bearing_frame_reader_position(const struct bearing_frame_reader *reader);
@@ -74,7 +74,7 @@ struct bearing_frame_reader_counts
 bearing_frame_reader_counts(const struct bearing_frame_reader *reader);
 
 /* Reports skipped bad rows and incomplete frames, if any, on standard error. */
-void bearing_frame_reader_report_skipped(const struct bearing_frame_reader *reader);
+void bearing_frame_reader_report_incomplete(const struct bearing_frame_reader *reader);
 void bearing_frame_reader_close(struct bearing_frame_reader *reader);
 
 #endif

@@ -49,7 +49,7 @@ uint64_t merged_scan_files_rows_skipped(const struct merged_scan_files *files)
     return rows;
 }
 
-uint64_t merged_scan_files_position(const struct merged_scan_files *files)
+uint64_t merged_scan_files_bytes_read(const struct merged_scan_files *files)
 {
     uint64_t bytes = 0;
 

@@ -31,7 +31,7 @@ bool merged_scan_files_next(struct merged_scan_files *files, struct sensor_scan 
 uint64_t merged_scan_files_rows_skipped(const struct merged_scan_files *files);
 
 /* Bytes read of all files, for progress bars. */
-uint64_t merged_scan_files_position(const struct merged_scan_files *files);
+uint64_t merged_scan_files_bytes_read(const struct merged_scan_files *files);
 void merged_scan_files_close(struct merged_scan_files *files);
 
 #endif

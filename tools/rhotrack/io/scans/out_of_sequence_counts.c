@@ -31,8 +31,9 @@ static uint32_t subtract_or_zero(uint32_t count, uint32_t part)
     return count > part ? count - part : 0;
 }
 
-struct scan_losses out_of_sequence_counts_losses(const struct out_of_sequence_counts *order,
-                                                 const struct rho_scan_assembler_counters *counters)
+struct scan_losses
+out_of_sequence_counts_to_scan_losses(const struct out_of_sequence_counts *order,
+                                      const struct rho_scan_assembler_counters *counters)
 {
     return (struct scan_losses){
         .out_of_order = order->out_of_order,

@@ -41,7 +41,7 @@ void out_of_sequence_counts_note_message(struct out_of_sequence_counts *order,
                                          const struct rho_scan_assembler *assembler);
 
 struct scan_losses
-out_of_sequence_counts_losses(const struct out_of_sequence_counts *order,
-                              const struct rho_scan_assembler_counters *counters);
+out_of_sequence_counts_to_scan_losses(const struct out_of_sequence_counts *order,
+                                      const struct rho_scan_assembler_counters *counters);
 
 #endif

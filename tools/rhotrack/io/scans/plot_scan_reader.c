@@ -73,9 +73,9 @@ bool plot_scan_reader_is_mid_row(const struct plot_scan_reader *reader)
     return scans_of_one_file_is_mid_row(followed_source(reader));
 }
 
-void plot_scan_reader_complete_scans(struct plot_scan_reader *reader)
+void plot_scan_reader_complete_scans_so_far(struct plot_scan_reader *reader)
 {
-    scans_of_one_file_complete_scans(followed_source(reader));
+    scans_of_one_file_complete_scans_so_far(followed_source(reader));
 }
 
 void plot_scan_reader_end_reading(struct plot_scan_reader *reader)
@@ -83,9 +83,9 @@ void plot_scan_reader_end_reading(struct plot_scan_reader *reader)
     scans_of_one_file_end_reading(followed_source(reader));
 }
 
-const char *plot_scan_reader_why_ended(const struct plot_scan_reader *reader)
+const char *plot_scan_reader_why_cannot_be_followed(const struct plot_scan_reader *reader)
 {
-    return scans_of_one_file_why_ended(followed_source(reader));
+    return scans_of_one_file_why_cannot_be_followed(followed_source(reader));
 }
 
 const struct rho_sensor *plot_scan_reader_sensor(const struct plot_scan_reader *reader)
@@ -95,7 +95,7 @@ const struct rho_sensor *plot_scan_reader_sensor(const struct plot_scan_reader *
 
 uint64_t plot_scan_reader_position(const struct plot_scan_reader *reader)
 {
-    return merged_scan_files_position(&reader->files);
+    return merged_scan_files_bytes_read(&reader->files);
 }
 
 struct plot_scan_reader_counts plot_scan_reader_counts(const struct plot_scan_reader *reader)

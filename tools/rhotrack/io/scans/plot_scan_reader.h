@@ -61,11 +61,11 @@ bool plot_scan_reader_waits_for_rows(const struct plot_scan_reader *reader);
 bool plot_scan_reader_is_mid_row(const struct plot_scan_reader *reader);
 
 /* For a followed file: takes all rows so far as complete scans; stops reading rows. */
-void plot_scan_reader_complete_scans(struct plot_scan_reader *reader);
+void plot_scan_reader_complete_scans_so_far(struct plot_scan_reader *reader);
 void plot_scan_reader_end_reading(struct plot_scan_reader *reader);
 
 /* Why a followed file cannot get more rows ("has become shorter"), or NULL. */
-const char *plot_scan_reader_why_ended(const struct plot_scan_reader *reader);
+const char *plot_scan_reader_why_cannot_be_followed(const struct plot_scan_reader *reader);
 
 /*
  * Sensor of the scan handed out last; NULL where no description was given. Valid as long as the

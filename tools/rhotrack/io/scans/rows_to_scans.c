@@ -18,7 +18,7 @@ void rows_to_scans_set_next_reception(struct rows_to_scans *gather, int64_t rece
 }
 
 /* The time by which rows are ordered: of reception where the file has it, else the row's own. */
-static int64_t row_order_time_us(const struct rows_to_scans *gather, int64_t time_us)
+static int64_t reception_time_or_row_time_us(const struct rows_to_scans *gather, int64_t time_us)
 {
     return gather->has_clock ? gather->clock_us : time_us;
 }
@@ -56,10 +56,12 @@ static struct gathered_scan *find_scan_by_order(struct rows_to_scans *gather, si
                                                                         : NULL;
 }
 
-struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather, int32_t sensor_id,
-                                              const struct scan_number *number, int64_t time_us)
+struct gathered_scan *rows_to_scans_find_scan_row_joins(struct rows_to_scans *gather,
+                                                        int32_t sensor_id,
+                                                        const struct scan_number *number,
+                                                        int64_t time_us)
 {
-    size_t order = scan_numbers_find_scan(&gather->numbers, sensor_id, number);
+    size_t order = scan_numbers_find_scan_index(&gather->numbers, sensor_id, number);
     struct gathered_scan *scan =
         order == SCAN_NUMBERS_NONE ? NULL : find_scan_by_order(gather, order);
 
@@ -70,11 +72,12 @@ struct gathered_scan *rows_to_scans_find_scan(struct rows_to_scans *gather, int3
                : NULL;
 }
 
-bool rows_to_scans_check_time(const struct rows_to_scans *gather, const struct gathered_scan *scan,
-                              int64_t time_us, const struct row_check *check)
+bool rows_to_scans_check_time_not_back(const struct rows_to_scans *gather,
+                                       const struct gathered_scan *scan, int64_t time_us,
+                                       const struct row_check *check)
 {
     bool is_within = scan && scan->number.is_given && !gather->has_clock;
-    int64_t clock_us = row_order_time_us(gather, time_us);
+    int64_t clock_us = reception_time_or_row_time_us(gather, time_us);
 
     return is_within || !gather->has_rows || clock_us >= gather->last_us ||
            row_refuse(check, "%s decreases from %.6f s to %.6f s",
@@ -82,9 +85,10 @@ bool rows_to_scans_check_time(const struct rows_to_scans *gather, const struct g
                       (double)clock_us * 1e-6);
 }
 
-static void note_row_time(struct rows_to_scans *gather, struct gathered_scan *scan, int64_t time_us)
+static void note_last_heard_time(struct rows_to_scans *gather, struct gathered_scan *scan,
+                                 int64_t time_us)
 {
-    scan->heard_us = row_order_time_us(gather, time_us);
+    scan->heard_us = reception_time_or_row_time_us(gather, time_us);
     if (!gather->has_rows || scan->heard_us > gather->last_us) {
         gather->last_us = scan->heard_us;
     }
@@ -92,7 +96,7 @@ static void note_row_time(struct rows_to_scans *gather, struct gathered_scan *sc
 }
 
 /* Counts, in each open scan of the sensor, one more scan that began after it. */
-static void increment_begun_since(struct rows_to_scans *gather, int32_t sensor_id)
+static void count_newer_scan_of_same_sensor(struct rows_to_scans *gather, int32_t sensor_id)
 {
     for (size_t i = 0; i < gather->count; i++) {
         gather->scans[i].begun_since += gather->scans[i].sensor_id == sensor_id;
@@ -100,20 +104,20 @@ static void increment_begun_since(struct rows_to_scans *gather, int32_t sensor_i
 }
 
 struct gathered_scan *rows_to_scans_begin_scan(struct rows_to_scans *gather,
-                                               const struct gathered_scan *scan, int64_t time_us)
+                                               const struct gathered_scan *heading, int64_t time_us)
 {
     struct gathered_scan *begun;
 
-    increment_begun_since(gather, scan->sensor_id);
+    count_newer_scan_of_same_sensor(gather, heading->sensor_id);
     gather->scans = must_make_room_for_one(gather->scans, gather->count, &gather->capacity,
                                            sizeof *gather->scans);
     begun = &gather->scans[gather->count++];
-    *begun = *scan;
+    *begun = *heading;
     begun->start_us = begun->time_us = time_us;
-    begun->begun_us = begun->heard_us = row_order_time_us(gather, time_us);
+    begun->begun_us = begun->heard_us = reception_time_or_row_time_us(gather, time_us);
     begun->order = gather->order++;
-    scan_numbers_drop_before(&gather->numbers, gather->scans[0].order);
-    scan_numbers_set_scan(&gather->numbers, scan->sensor_id, &scan->number, begun->order);
+    scan_numbers_drop_scans_before_index(&gather->numbers, gather->scans[0].order);
+    scan_numbers_set_scan(&gather->numbers, heading->sensor_id, &heading->number, begun->order);
     return begun;
 }
 
@@ -127,7 +131,7 @@ void rows_to_scans_add_element(struct rows_to_scans *gather, struct gathered_sca
     memcpy((char *)scan->elements + scan->count * gather->element_bytes, element,
            gather->element_bytes);
     scan->times_us[scan->count++] = time_us;
-    note_row_time(gather, scan, time_us);
+    note_last_heard_time(gather, scan, time_us);
 }
 
 void rows_to_scans_add_empty_row(struct rows_to_scans *gather, struct gathered_scan *scan,
@@ -141,7 +145,7 @@ void rows_to_scans_add_empty_row(struct rows_to_scans *gather, struct gathered_s
         scan->has_time = true;
         scan->time_us = time_us;
     }
-    note_row_time(gather, scan, time_us);
+    note_last_heard_time(gather, scan, time_us);
 }
 
 /* ---- Scans ---- */
@@ -170,7 +174,7 @@ static bool is_scan_complete(const struct rows_to_scans *gather, const struct ga
     return since_us > 0 && since_us >= gather->interval_us;
 }
 
-int64_t gathered_scan_time_us(const struct gathered_scan *scan)
+int64_t gathered_scan_time_less_bias_us(const struct gathered_scan *scan)
 {
     return scan->time_us - scan->bias_us;
 }
@@ -180,14 +184,15 @@ static bool may_be_preceded_by_new_scan(const struct rows_to_scans *gather,
                                         const struct gathered_scan *scan)
 {
     return !gather->has_clock &&
-           gather->last_us - gather->bias_max_us < gathered_scan_time_us(scan);
+           gather->last_us - gather->bias_max_us < gathered_scan_time_less_bias_us(scan);
 }
 
 static bool goes_out_before(const struct rows_to_scans *gather, const struct gathered_scan *one,
                             const struct gathered_scan *other)
 {
-    return gather->has_clock ? one->begun_us < other->begun_us
-                             : gathered_scan_time_us(one) < gathered_scan_time_us(other);
+    return gather->has_clock
+               ? one->begun_us < other->begun_us
+               : gathered_scan_time_less_bias_us(one) < gathered_scan_time_less_bias_us(other);
 }
 
 /* Index of the scan that goes out before all others. */
@@ -217,7 +222,7 @@ bool rows_to_scans_take_scan(struct rows_to_scans *gather, bool all, struct gath
     memmove(gather->scans + first, gather->scans + first + 1,
             (gather->count - first) * sizeof *gather->scans);
     gather->has_given = true;
-    gather->given_us = gathered_scan_time_us(scan);
+    gather->given_us = gathered_scan_time_less_bias_us(scan);
     return true;
 }
 

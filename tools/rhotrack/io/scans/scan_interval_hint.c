@@ -52,8 +52,8 @@ static bool summarise_first_part(const struct message_event *event, struct scan_
 }
 
 /* The sensor's counts, or NULL where it has no scan yet. */
-static struct lone_scan_counts *find_sensor_counts(const struct scan_interval_hint *plots,
-                                                   int16_t sensor_id)
+static struct lone_scan_counts *find_counts_of_known_sensor(const struct scan_interval_hint *plots,
+                                                            int16_t sensor_id)
 {
     for (size_t i = 0; i < plots->count; i++) {
         if (plots->sensors[i].sensor_id == sensor_id) {
@@ -63,8 +63,8 @@ static struct lone_scan_counts *find_sensor_counts(const struct scan_interval_hi
     return NULL;
 }
 
-void scan_interval_hint_add_message(struct scan_interval_hint *plots,
-                                    const struct message_event *event)
+void scan_interval_hint_count_lone_plots(struct scan_interval_hint *plots,
+                                         const struct message_event *event)
 {
     struct lone_scan_counts *sensor;
     struct scan_summary summary;
@@ -73,7 +73,7 @@ void scan_interval_hint_add_message(struct scan_interval_hint *plots,
         return;
     }
     plots->scans++;
-    sensor = find_sensor_counts(plots, summary.sensor_id);
+    sensor = find_counts_of_known_sensor(plots, summary.sensor_id);
     if (sensor) {
         const int64_t since_us = summary.time_us - sensor->last_us;
 
@@ -104,7 +104,7 @@ void scan_interval_hint_report(const struct scan_interval_hint *plots, const cha
     }
 }
 
-void scan_interval_hint_report_live(struct scan_interval_hint *plots)
+void scan_interval_hint_report_lone_plot_sensors(struct scan_interval_hint *plots)
 {
     for (size_t i = 0; i < plots->count; i++) {
         struct lone_scan_counts *sensor = &plots->sensors[i];

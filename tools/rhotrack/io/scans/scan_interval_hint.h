@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "io/log/message_source.h"
+#include "io/log/files_to_message_stream.h"
 
 /* Counts of scans and of lone ones, with a single plot. Initialised with zeros. */
 struct scan_interval_hint {
@@ -20,8 +20,8 @@ struct scan_interval_hint {
 };
 
 /* Counts a message; others than scans of plots are ignored. */
-void scan_interval_hint_add_message(struct scan_interval_hint *plots,
-                                    const struct message_event *event);
+void scan_interval_hint_count_lone_plots(struct scan_interval_hint *plots,
+                                         const struct message_event *event);
 
 /* Reports on standard error, in one line, if most scans have a single plot. */
 void scan_interval_hint_report(const struct scan_interval_hint *plots, const char *path);
@@ -30,7 +30,7 @@ void scan_interval_hint_report(const struct scan_interval_hint *plots, const cha
  * Reports once for each live sensor whose scans mostly have a single plot and come irregularly, as
  * the plots of a turning antenna do.
  */
-void scan_interval_hint_report_live(struct scan_interval_hint *plots);
+void scan_interval_hint_report_lone_plot_sensors(struct scan_interval_hint *plots);
 
 void scan_interval_hint_free(struct scan_interval_hint *plots);
 

@@ -57,8 +57,9 @@ static bool check_row_fits_scan(const struct scans_of_one_file *source,
 }
 
 /* Checks a row's sensor against the sensors of bearings of all files. */
-static bool check_bearing_sensor(const struct scans_of_one_file *source,
-                                 const struct measurement_row *row, const struct row_check *check)
+static bool check_bearing_sensor_is_fixed(const struct scans_of_one_file *source,
+                                          const struct measurement_row *row,
+                                          const struct row_check *check)
 {
     return source->options.kind == RECORD_PLOTS ||
            fixed_passive_sensors_check_row(source->options.known, source->path, row, check);
@@ -70,13 +71,13 @@ static bool check_received_fits_scan(const struct rows_to_scans *gather,
                                      const struct row_check *check)
 {
     return !scan || !gather->has_clock ||
-           row_check_received_together(check, row->received_us, scan->heard_us,
-                                       row->number.is_given && scan->number.is_given,
-                                       gather->interval_us);
+           row_check_received_same_as_in_scan(check, row->received_us, scan->heard_us,
+                                              row->number.is_given && scan->number.is_given,
+                                              gather->interval_us);
 }
 
-static struct gathered_scan *begin_scan_with_row(struct scans_of_one_file *source,
-                                                 const struct measurement_row *row)
+static struct gathered_scan *begin_scan_with_heading_of_row(struct scans_of_one_file *source,
+                                                            const struct measurement_row *row)
 {
     const struct gathered_scan scan = {.sensor_id = row->sensor_id,
                                        .number = row->number,
@@ -98,7 +99,7 @@ static void add_row_to_scan(struct scans_of_one_file *source, struct gathered_sc
     if (is_bearing) {
         fixed_passive_sensors_add_if_new(source->options.known, source->path, row);
     }
-    scan = scan ? scan : begin_scan_with_row(source, row);
+    scan = scan ? scan : begin_scan_with_heading_of_row(source, row);
     if (!row->has_measurement) {
         rows_to_scans_add_empty_row(&source->gather, scan, row->time_us);
         return;
@@ -157,12 +158,13 @@ static void process_table_row(struct scans_of_one_file *source, const struct tab
     }
     if (is_good) {
         number_row_by_turn(source, &row);
-        scan = rows_to_scans_find_scan(&source->gather, row.sensor_id, &row.number, row.time_us);
-        is_good = rows_to_scans_check_time(&source->gather, source->turns ? NULL : scan,
-                                           row.time_us, &check) &&
+        scan = rows_to_scans_find_scan_row_joins(&source->gather, row.sensor_id, &row.number,
+                                                 row.time_us);
+        is_good = rows_to_scans_check_time_not_back(&source->gather, source->turns ? NULL : scan,
+                                                    row.time_us, &check) &&
                   check_received_fits_scan(&source->gather, scan, &row, &check) &&
                   check_row_fits_scan(source, scan, &row, &check) &&
-                  check_bearing_sensor(source, &row, &check);
+                  check_bearing_sensor_is_fixed(source, &row, &check);
     }
     if (is_good) {
         source->has_good = true;
@@ -215,7 +217,7 @@ static void fill_plot_scan(struct sensor_scan *out, const struct gathered_scan *
     for (size_t i = 0; i < scan->count; i++) {
         plots[i].offset_us += (int32_t)(scan->times_us[i] - scan->time_us);
     }
-    *out = (struct sensor_scan){.scan = {.time_us = gathered_scan_time_us(scan),
+    *out = (struct sensor_scan){.scan = {.time_us = gathered_scan_time_less_bias_us(scan),
                                          .sensor_id = scan->sensor_id,
                                          .sector_from_rad = scan->sector_from_rad,
                                          .sector_to_rad = scan->sector_to_rad,
@@ -234,7 +236,7 @@ static void fill_bearing_scan(struct sensor_scan *out, const struct gathered_sca
         bearings[i].offset_us += (int32_t)(scan->times_us[i] - scan->time_us);
     }
     *out = (struct sensor_scan){.is_bearings = true,
-                                .bearings = {.time_us = gathered_scan_time_us(scan),
+                                .bearings = {.time_us = gathered_scan_time_less_bias_us(scan),
                                              .sensor_id = scan->sensor_id,
                                              .x_m = scan->sensor.x_m,
                                              .y_m = scan->sensor.y_m,
@@ -326,8 +328,8 @@ static bool add_or_refuse_bearing_sensor(struct scans_of_one_file *source,
 }
 
 /* Whether the item is of the wanted kind, and of a sensor that is accepted. */
-static bool accept_and_note_item(struct scans_of_one_file *source,
-                                 const struct rho_scan_assembler_item *item)
+static bool accept_item_of_kind_and_add_sensor(struct scans_of_one_file *source,
+                                               const struct rho_scan_assembler_item *item)
 {
     bool is_bearings = item->kind == RHO_SCAN_ASSEMBLER_BEARINGS;
 
@@ -349,7 +351,7 @@ static bool read_log_scan(struct scans_of_one_file *source, struct sensor_scan *
         if (!log_scans_next(source->log, &item)) {
             return false;
         }
-    } while (!accept_and_note_item(source, &item));
+    } while (!accept_item_of_kind_and_add_sensor(source, &item));
     *scan = (struct sensor_scan){.is_bearings = item.kind == RHO_SCAN_ASSEMBLER_BEARINGS,
                                  .path = source->path,
                                  .line = source->item};
@@ -412,14 +414,14 @@ static bool may_have_turns(const struct scans_of_one_file *source)
            S_ISREG(status.st_mode);
 }
 
-static void open_stream(struct scans_of_one_file *source)
+static void open_row_stream_and_find_columns(struct scans_of_one_file *source)
 {
     source->stream = table_stream_open(source->path, source->parameters, source->options.keep_going,
                                        source->options.follow);
     find_columns(source, table_stream_table(source->stream));
 }
 
-static void close_stream(struct scans_of_one_file *source)
+static void close_row_stream_and_columns(struct scans_of_one_file *source)
 {
     measurement_row_columns_free(&source->columns);
     table_stream_close(source->stream);
@@ -439,27 +441,28 @@ static void find_antenna_turns(struct scans_of_one_file *source)
     char reason[ROW_REASON_BYTES];
     bool goes_on = true;
 
-    table_stream_suppress_reports(stream);
+    table_stream_suppress_asterix_end_summary(stream);
     source->turns = antenna_turns_start();
     while (goes_on && table_stream_next(stream) == TABLE_STREAM_ROW) {
         if (measurement_row_read(table_stream_table(stream), &columns, 0, source->parameters, &row,
                                  reason) &&
             row.has_measurement) {
-            goes_on = antenna_turns_collect_row(source->turns, row.sensor_id, row.time_us,
-                                                (double)row.plot.x_m - (double)row.sensor.x_m,
-                                                (double)row.plot.y_m - (double)row.sensor.y_m);
+            goes_on =
+                antenna_turns_add_row_and_wants_more(source->turns, row.sensor_id, row.time_us,
+                                                     (double)row.plot.x_m - (double)row.sensor.x_m,
+                                                     (double)row.plot.y_m - (double)row.sensor.y_m);
         }
     }
     measurement_row_columns_free(&columns);
     table_stream_close(stream);
-    if (!antenna_turns_find_and_report_rules(source->turns, source->path,
-                                             source->parameters->value[PARAMETER_V_MAX_MPS])) {
+    if (!antenna_turns_find_rules_report_and_have_any(
+            source->turns, source->path, source->parameters->value[PARAMETER_V_MAX_MPS])) {
         antenna_turns_free(source->turns);
         source->turns = NULL;
     }
 }
 
-static void open_table(struct scans_of_one_file *source)
+static void open_rows_and_find_turns(struct scans_of_one_file *source)
 {
     int32_t least_us;
 
@@ -470,11 +473,11 @@ static void open_table(struct scans_of_one_file *source)
     parameters_time_bias_range_us(source->parameters, &least_us, &source->gather.bias_max_us);
     source->gather.begun_max = source->options.follow ? FOLLOW_BEGUN_MAX : 0;
     source->reorder.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
-    open_stream(source);
+    open_row_stream_and_find_columns(source);
     if (may_have_turns(source)) {
-        close_stream(source);
+        close_row_stream_and_columns(source);
         find_antenna_turns(source);
-        open_stream(source);
+        open_row_stream_and_find_columns(source);
         source->gather.begun_max = source->turns ? 1 : source->gather.begun_max;
     }
 }
@@ -503,7 +506,7 @@ struct scans_of_one_file *scans_of_one_file_open(const char *path,
     source->parameters = parameters;
     source->options = options;
     if (!lcm_log_is_log(path)) {
-        open_table(source);
+        open_rows_and_find_turns(source);
     } else if (options.follow) {
         fail(EXIT_USAGE, "%s: --follow takes CSV files, but this is an LCM log", path);
     } else {
@@ -512,11 +515,11 @@ struct scans_of_one_file *scans_of_one_file_open(const char *path,
     return source;
 }
 
-static void close_table(struct scans_of_one_file *source)
+static void close_rows_and_free_gathered_and_turns(struct scans_of_one_file *source)
 {
     rows_to_scans_free(&source->gather);
     antenna_turns_free(source->turns);
-    close_stream(source);
+    close_row_stream_and_columns(source);
 }
 
 void scans_of_one_file_rewind(struct scans_of_one_file *source)
@@ -527,8 +530,8 @@ void scans_of_one_file_rewind(struct scans_of_one_file *source)
     if (source->log) {
         log_scans_rewind(source->log);
     } else {
-        close_table(source);
-        open_table(source);
+        close_rows_and_free_gathered_and_turns(source);
+        open_rows_and_find_turns(source);
     }
 }
 
@@ -537,9 +540,9 @@ bool scans_of_one_file_waits_for_rows(const struct scans_of_one_file *source)
     return source->waits;
 }
 
-const char *scans_of_one_file_why_ended(const struct scans_of_one_file *source)
+const char *scans_of_one_file_why_cannot_be_followed(const struct scans_of_one_file *source)
 {
-    return source->stream ? table_stream_why_ended(source->stream) : NULL;
+    return source->stream ? table_stream_why_file_cannot_be_followed(source->stream) : NULL;
 }
 
 bool scans_of_one_file_is_mid_row(const struct scans_of_one_file *source)
@@ -547,7 +550,7 @@ bool scans_of_one_file_is_mid_row(const struct scans_of_one_file *source)
     return source->stream && table_stream_is_mid_row(source->stream);
 }
 
-void scans_of_one_file_complete_scans(struct scans_of_one_file *source)
+void scans_of_one_file_complete_scans_so_far(struct scans_of_one_file *source)
 {
     source->is_complete = true;
 }
@@ -573,7 +576,7 @@ void scans_of_one_file_close(struct scans_of_one_file *source)
     if (source->log) {
         log_scans_close(source->log);
     } else {
-        close_table(source);
+        close_rows_and_free_gathered_and_turns(source);
     }
     reorder_buffer_free(&source->reorder);
     free(source);

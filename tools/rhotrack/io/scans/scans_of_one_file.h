@@ -9,7 +9,7 @@
 #include <stdbool.h>
 
 #include "io/csv/measurement_row.h"
-#include "io/scans/fixed_passive_sensors.h"
+#include "io/scans/check_passive_sensors_fixed.h"
 #include "io/scans/reorder_buffer.h"
 #include "settings/parameters.h"
 
@@ -39,11 +39,11 @@ void scans_of_one_file_rewind(struct scans_of_one_file *source);
 
 /* State of a followed file, as plot_scan_reader.h describes it. */
 bool scans_of_one_file_waits_for_rows(const struct scans_of_one_file *source);
-const char *scans_of_one_file_why_ended(const struct scans_of_one_file *source);
+const char *scans_of_one_file_why_cannot_be_followed(const struct scans_of_one_file *source);
 bool scans_of_one_file_is_mid_row(const struct scans_of_one_file *source);
 
 /* Takes all rows of a followed file so far as complete scans; rows to come begin new ones. */
-void scans_of_one_file_complete_scans(struct scans_of_one_file *source);
+void scans_of_one_file_complete_scans_so_far(struct scans_of_one_file *source);
 
 /* Stops reading rows of a followed file. */
 void scans_of_one_file_end_reading(struct scans_of_one_file *source);

@@ -66,8 +66,8 @@ static double azimuth_concentration(const struct fitted *fitted, double rate_rad
 }
 
 /* Samples evenly spaced plots of the first SPAN_S seconds; returns how many plots the span has. */
-static size_t sample_and_count_span_plots(const struct turn_plot *plots, size_t count,
-                                          struct fitted *fitted)
+static size_t sample_first_span_and_count_its_plots(const struct turn_plot *plots, size_t count,
+                                                    struct fitted *fitted)
 {
     size_t num = 0, stride;
 
@@ -102,7 +102,7 @@ static double refine_turn_rate(const struct fitted *fitted, double rate_rad_s, d
 }
 
 /* Slowest rotation rate at which the azimuths agree with a turning antenna; 0: none. */
-static double find_turn_rate(const struct fitted *fitted)
+static double find_slowest_fitting_turn_rate(const struct fitted *fitted)
 {
     const double span_s = fitted->after_s[fitted->count - 1];
     const double step = TURN_RAD / (STEPS_A_LOBE * span_s);
@@ -200,7 +200,7 @@ static bool find_rule_by_azimuths(const struct turn_plot *plots, size_t count, d
                                   struct turn_rule *rule)
 {
     struct fitted fitted;
-    const size_t num = sample_and_count_span_plots(plots, count, &fitted);
+    const size_t num = sample_first_span_and_count_its_plots(plots, count, &fitted);
     double span_s, turn_s;
 
     if (num < PLOTS_MIN) {
@@ -210,7 +210,7 @@ static bool find_rule_by_azimuths(const struct turn_plot *plots, size_t count, d
     if (span_s < 2 * TURN_MIN_S) {
         return false;
     }
-    rule->rate_rad_s = find_turn_rate(&fitted);
+    rule->rate_rad_s = find_slowest_fitting_turn_rate(&fitted);
     if (fabs(rule->rate_rad_s) < TURN_RAD / TURN_MAX_S) {
         return false;
     }
@@ -276,8 +276,8 @@ static bool find_regular_burst_interval(const struct turn_plot *plots, size_t co
     return num >= LOOKS_MIN && (double)even >= EVEN_SHARE * (double)num;
 }
 
-static bool find_rule_by_gaps(const struct turn_plot *plots, size_t count, const int64_t *steps,
-                              struct turn_rule *rule)
+static bool find_rule_by_time_gaps(const struct turn_plot *plots, size_t count,
+                                   const int64_t *steps, struct turn_rule *rule)
 {
     double widest = GAP_RATIO, turn_s;
 
@@ -340,7 +340,7 @@ struct turn_rule turn_search_find_rule(const struct turn_plot *plots, size_t cou
         return rule;
     }
     steps = list_sorted_time_steps(plots, count);
-    if (!find_rule_by_gaps(plots, count, steps, &rule)) {
+    if (!find_rule_by_time_gaps(plots, count, steps, &rule)) {
         const size_t middle = count / 2;
 
         rule.turn_s = (double)steps[middle] * 1e-6;

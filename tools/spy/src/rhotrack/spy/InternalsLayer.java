@@ -6,7 +6,7 @@ import java.awt.Graphics2D;
 import java.awt.geom.Ellipse2D;
 import java.awt.geom.Line2D;
 
-import rhotrack.spy.scene.Place;
+import rhotrack.spy.scene.LocalPoint;
 import rhotrack.spy.scene.Scene;
 
 /**
@@ -52,7 +52,7 @@ final class InternalsLayer {
         for (int i = of.list().size() - 1; i >= 0; i--) {
             Scene.Hypothesis one = of.list().get(i);
             Color colour = Palette.withAlpha(Palette.ofHypothesis(i), 0.35 + 0.65 * one.share());
-            Place to = new Place(one.place().x() + seconds * one.vx(), one.place().y() + seconds * one.vy());
+            LocalPoint to = new LocalPoint(one.place().x() + seconds * one.vx(), one.place().y() + seconds * one.vy());
             double x = view.screenX(one.place().x());
             double y = view.screenY(one.place().y());
             g.setColor(colour);

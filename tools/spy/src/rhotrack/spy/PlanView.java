@@ -14,7 +14,7 @@ import javax.swing.JComponent;
 import rhotrack.spy.scene.Bounds;
 import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.Geometry;
-import rhotrack.spy.scene.Place;
+import rhotrack.spy.scene.LocalPoint;
 import rhotrack.spy.scene.Scene;
 
 /** The plan view of plots, tracks and sensors: north is up, east is right. */
@@ -88,7 +88,7 @@ final class PlanView extends JComponent {
     }
 
     /** The pixel at which a place is painted. */
-    Point pixelOf(Place place) {
+    Point pixelOf(LocalPoint place) {
         return new Point((int) Math.round(view.screenX(place.x())), (int) Math.round(view.screenY(place.y())));
     }
 
@@ -124,16 +124,16 @@ final class PlanView extends JComponent {
         labels.blockArea(0, 0, 290, 24);
         GridLayer.paint(g, view, width, height);
         if (options.shows(ViewOptions.Layer.BEARINGS)) {
-            SensorLayer.paintBearings(g, scene, view);
+            MeasurementsLayer.paintBearings(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.GHOSTS)) {
             InternalsLayer.paintGhosts(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.CLUTTER)) {
-            SensorLayer.paintEchoes(g, scene, view);
+            MeasurementsLayer.paintEchoes(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.PLOTS)) {
-            SensorLayer.paintPlots(g, scene, view);
+            MeasurementsLayer.paintPlots(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.TRUTH)) {
             TrackLayer.paintTruth(g, scene, view, seconds);
@@ -147,7 +147,7 @@ final class PlanView extends JComponent {
         }
         InternalsLayer.paintHypotheses(g, scene, selected, view, seconds);
         TrackLayer.paintTracks(g, scene, view, seconds, labels);
-        SensorLayer.paintSensors(g, scene, view, labels);
+        MeasurementsLayer.paintSensors(g, scene, view, labels);
         if (options.shows(ViewOptions.Layer.LABELS)) {
             TrackLayer.paintLabels(g, scene, view, labels);
         }
@@ -189,10 +189,10 @@ final class PlanView extends JComponent {
     }
 
     private Bounds sceneBounds() {
-        List<Place> sure = new ArrayList<>(scene.sensors().values());
+        List<LocalPoint> sure = new ArrayList<>(scene.sensors().values());
         scene.tracks().forEach(track -> sure.add(track.place()));
         scene.truth().forEach(target -> sure.add(target.place()));
-        List<Place> doubtful = new ArrayList<>();
+        List<LocalPoint> doubtful = new ArrayList<>();
         scene.plots().forEach(look -> doubtful.addAll(look.content().places()));
         Bounds bounds = Bounds.of(sure);
         Bounds plots = Bounds.ofMost(doubtful);

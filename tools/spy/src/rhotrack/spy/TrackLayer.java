@@ -15,7 +15,7 @@ import java.util.Locale;
 
 import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.Ellipse;
-import rhotrack.spy.scene.Place;
+import rhotrack.spy.scene.LocalPoint;
 import rhotrack.spy.scene.Scene;
 
 /** Tracks with trails, ellipses, bodies, vectors and labels, and the true targets where known. */
@@ -52,11 +52,11 @@ final class TrackLayer {
     static void paintTrails(Graphics2D g, Scene scene, ViewTransform view) {
         g.setStroke(Palette.THIN);
         for (int i = 0; i < scene.tracks().size(); i++) {
-            List<Place> trail = scene.trails().get(i);
+            List<LocalPoint> trail = scene.trails().get(i);
             Color colour = Palette.ofStatus(scene.tracks().get(i).status());
             for (int k = 1; k < trail.size(); k++) {
-                Place from = trail.get(k - 1);
-                Place to = trail.get(k);
+                LocalPoint from = trail.get(k - 1);
+                LocalPoint to = trail.get(k);
                 g.setColor(Palette.withAlpha(colour, 0.1 + 0.5 * k / trail.size()));
                 g.draw(new Line2D.Double(view.screenX(from.x()), view.screenY(from.y()), view.screenX(to.x()),
                         view.screenY(to.y())));
@@ -113,7 +113,7 @@ final class TrackLayer {
         }
     }
 
-    private static void drawVector(Graphics2D g, Place from, double east, double north, ViewTransform view) {
+    private static void drawVector(Graphics2D g, LocalPoint from, double east, double north, ViewTransform view) {
         Path2D line = new Path2D.Double();
         line.moveTo(view.screenX(from.x()), view.screenY(from.y()));
         line.lineTo(view.screenX(from.x() + east), view.screenY(from.y() + north));

@@ -50,7 +50,7 @@ final class TrackTable extends JComponent {
         g.fillRect(0, 0, getWidth(), getHeight());
         Scene.Hypotheses of = scene == null ? null : scene.internals().hypotheses().get(selected);
         if (of != null) {
-            HypothesesTable.paint(g, of, getWidth());
+            TrackHypothesesTable.paint(g, of, getWidth());
             g.dispose();
             return;
         }
@@ -62,7 +62,7 @@ final class TrackTable extends JComponent {
         int room = Math.max(1, (getHeight() - 32) / ROW);
         List<DisplayedTrack> shown = tracks.subList(0, tracks.size() <= room ? tracks.size() : room - 1);
         List<String[]> cells = shown.stream().map(TrackTable::cellsOf).toList();
-        double[] edges = ColumnLayout.rightEdges(columnWidths(g, cells), getWidth() - LEFT - RIGHT);
+        double[] edges = TableColumnWidths.rightEdges(columnWidths(g, cells), getWidth() - LEFT - RIGHT);
         g.setFont(Palette.SMALL);
         g.setColor(Palette.MUTED);
         drawRow(g, 18, edges, TITLES);

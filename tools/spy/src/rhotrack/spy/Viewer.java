@@ -114,7 +114,7 @@ public final class Viewer {
         Thread.sleep((long) (1000 * seconds));
         BufferedImage[] image = new BufferedImage[1];
         SwingUtilities.invokeAndWait(() -> {
-            ViewerPanel panel = new ViewerPanel(model);
+            AllViewsPanel panel = new AllViewsPanel(model);
             image[0] = panel.paintToImage(width, height);
             if (selected != null) {
                 panel.selectTrack(selected);

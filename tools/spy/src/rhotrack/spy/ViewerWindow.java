@@ -17,10 +17,10 @@ import rhotrack.spy.scene.Model;
 /** The viewer's window; closing it also closes its LCM subscription. */
 final class ViewerWindow {
     private final JFrame frame = new JFrame("rhotrack");
-    private final ViewerPanel panel;
+    private final AllViewsPanel panel;
 
     ViewerWindow(Model model, LcmSubscription feed, int width, int height) {
-        panel = new ViewerPanel(model);
+        panel = new AllViewsPanel(model);
         frame.setDefaultCloseOperation(WindowConstants.DISPOSE_ON_CLOSE);
         frame.setContentPane(panel);
         frame.setSize(width, height);
@@ -47,10 +47,10 @@ final class ViewerWindow {
         screen.width -= edges.left + edges.right;
         screen.height -= edges.top + edges.bottom;
         Rectangle moved = new Rectangle(other.getLocationOnScreen(), other.getSize());
-        Rectangle place = WindowPlacement.beside(screen, moved, frame.getSize());
+        Rectangle place = WindowBesideAnother.beside(screen, moved, frame.getSize());
         if (place == null) {
             moved.x = screen.x;
-            place = WindowPlacement.beside(screen, moved, frame.getSize());
+            place = WindowBesideAnother.beside(screen, moved, frame.getSize());
         }
         if (place != null) { // otherwise the desktop chooses the place
             other.setBounds(moved);

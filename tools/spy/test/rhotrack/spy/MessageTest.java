@@ -38,7 +38,7 @@ import rhotrack.work_t;
 import rhotrack.spy.scene.DisplayedTrack;
 import rhotrack.spy.scene.MessageDecoder;
 import rhotrack.spy.scene.Model;
-import rhotrack.spy.scene.Place;
+import rhotrack.spy.scene.LocalPoint;
 import rhotrack.spy.scene.Scene;
 
 /** From messages, good and bad, to what is painted. */
@@ -159,13 +159,13 @@ final class MessageTest {
 
     private static void bodies(Checks check) throws IOException {
         Model model = new Model();
-        ViewerPanel panel = new ViewerPanel(model);
+        AllViewsPanel panel = new AllViewsPanel(model);
         MessageDecoder decoder = new MessageDecoder(model);
         decoder.decode("RHO_POLAR_3", bytes(polarScan()));
         decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
         BufferedImage point = panel.paintToImage(900, 600);
         decoder.decode("RHO_BODIES", bytes(bodies(1, 400)));
-        check.equal("a body", List.of(new Scene.Body(12, new Place(500, 0), 400, 100, 0.5)), model.scene().bodies());
+        check.equal("a body", List.of(new Scene.Body(12, new LocalPoint(500, 0), 400, 100, 0.5)), model.scene().bodies());
         check.isTrue("is an outline", differ(point, panel.paintToImage(900, 600), 0, 40, 640, 560) > 50);
         decoder.decode("RHO_BODIES", bytes(bodies(2, -1)));
         body_list_t turned = bodies(3, 400);
@@ -284,8 +284,8 @@ final class MessageTest {
         check.equal("half of a matrix", 0, model.scene().internals().ghosts().size());
         decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 1, 2, ghost_t.APART)));
         check.equal("crossings of both parts that meet",
-                List.of(new Scene.Crossing(new Place(800, 0), false), new Scene.Crossing(new Place(200, 300), true),
-                        new Scene.Crossing(new Place(800, 0), false)),
+                List.of(new Scene.Crossing(new LocalPoint(800, 0), false), new Scene.Crossing(new LocalPoint(200, 300), true),
+                        new Scene.Crossing(new LocalPoint(800, 0), false)),
                 model.scene().internals().ghosts().get(0).crossings());
         decoder.decode("RHO_ACCUMULATOR", bytes(search(1, 7, 12)));
         decoder.decode("RHO_ACCUMULATOR", bytes(search(2, 5, 0)));
@@ -347,7 +347,7 @@ final class MessageTest {
 
     private static void thoughtsInPictures(Checks check) throws IOException {
         Model model = new Model();
-        ViewerPanel panel = new ViewerPanel(model);
+        AllViewsPanel panel = new AllViewsPanel(model);
         MessageDecoder decoder = new MessageDecoder(model);
         decoder.decode("RHO_POLAR_3", bytes(polarScan()));
         decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
@@ -410,8 +410,8 @@ final class MessageTest {
         status.messages_bad = 5;
         decoder.decode("RHO_STATUS", bytes(status));
         Scene scene = model.scene();
-        check.equal("plots", List.of(new Place(2100, 0)), scene.plots().get(0).content().places());
-        check.equal("sensors", new Place(100, 0), scene.sensors().get(3));
+        check.equal("plots", List.of(new LocalPoint(2100, 0)), scene.plots().get(0).content().places());
+        check.equal("sensors", new LocalPoint(100, 0), scene.sensors().get(3));
         check.equal("tracks", DisplayedTrack.Status.COASTING, scene.tracks().get(0).status());
         check.near("ellipse", 30, scene.tracks().get(0).ellipse().major());
         check.equal("bearings", List.of(1.0, -2.0), scene.bearings().get(0).content().angles());
@@ -447,10 +447,10 @@ final class MessageTest {
         decoder.decode("RHO_CLUTTER", bytes(echoes(7, 0, 2, 300)));
         check.equal("half of a clutter map", List.of(), model.scene().echoes());
         decoder.decode("RHO_CLUTTER", bytes(echoes(7, 1, 2, 400)));
-        check.equal("a clutter map", List.of(new Place(300, 0), new Place(400, 0)),
+        check.equal("a clutter map", List.of(new LocalPoint(300, 0), new LocalPoint(400, 0)),
                 model.scene().echoes().stream().map(Scene.Echo::place).toList());
         decoder.decode("RHO_CLUTTER", bytes(echoes(8, 0, 1, 500)));
-        check.equal("the next one", List.of(new Scene.Echo(new Place(500, 0), 3, 12, 0.5)), model.scene().echoes());
+        check.equal("the next one", List.of(new Scene.Echo(new LocalPoint(500, 0), 3, 12, 0.5)), model.scene().echoes());
         scene = model.scene();
         check.equal("all taken", 0L, scene.health().ignored());
         decoder.decode("RHO_TRACKS", bytes(trackList(2, track_t.DELETED)));
@@ -521,13 +521,13 @@ final class MessageTest {
         }
         check.equal("all counted", rounds + 300L, model.scene().health().received());
         check.isTrue("no more sensors than a tracker takes", model.scene().sensors().size() == 64);
-        new ViewerPanel(model).paintToImage(800, 600);
+        new AllViewsPanel(model).paintToImage(800, 600);
         check.isTrue("and painted", true);
     }
 
     private static void picture(Checks check) throws IOException {
         Model model = new Model();
-        ViewerPanel panel = new ViewerPanel(model);
+        AllViewsPanel panel = new AllViewsPanel(model);
         BufferedImage before = panel.paintToImage(900, 600);
         MessageDecoder decoder = new MessageDecoder(model);
         decoder.decode("RHO_POLAR_3", bytes(polarScan()));

@@ -17,7 +17,7 @@ import rhotrack.spy.scene.Geometry;
 import rhotrack.spy.scene.LcmUrlArgument;
 import rhotrack.spy.scene.ListAssembler;
 import rhotrack.spy.scene.LookHistory;
-import rhotrack.spy.scene.Place;
+import rhotrack.spy.scene.LocalPoint;
 import rhotrack.spy.scene.TracksWithTrails;
 
 /** The viewer's parts without a display or a network: `make spy-test`. */
@@ -47,8 +47,8 @@ public final class SelfTest {
     }
 
     private static void geometry() {
-        Place sensor = new Place(1000, -2000);
-        Place north = Geometry.fromPolar(sensor, 500, Math.PI / 2, 0);
+        LocalPoint sensor = new LocalPoint(1000, -2000);
+        LocalPoint north = Geometry.fromPolar(sensor, 500, Math.PI / 2, 0);
         CHECK.near("polar x", 1000, north.x());
         CHECK.near("polar y", -1500, north.y());
         CHECK.near("a slant range shrinks with elevation", 1250,
@@ -65,7 +65,7 @@ public final class SelfTest {
             CHECK.near("so is a later one", line.rho(), (3000 + 9 * vx) * Math.cos(line.theta())
                     + (-700 + 9 * vy) * Math.sin(line.theta()));
         }
-        CHECK.isTrue("NaN is no place", !new Place(Double.NaN, 0).isWithinLimits());
+        CHECK.isTrue("NaN is no place", !new LocalPoint(Double.NaN, 0).isWithinLimits());
     }
 
     private static void ellipse() {
@@ -133,16 +133,16 @@ public final class SelfTest {
 
     private static void bounds() {
         CHECK.equal("of nothing", null, Bounds.of(List.of()));
-        List<Place> places = new ArrayList<>();
+        List<LocalPoint> places = new ArrayList<>();
         for (int i = 0; i < 100; i++) {
-            places.add(new Place(i, -i));
+            places.add(new LocalPoint(i, -i));
         }
-        places.add(new Place(1e6, 1e6));
+        places.add(new LocalPoint(1e6, 1e6));
         CHECK.near("a stray one is left out", 98, Bounds.ofMost(places).east());
         CHECK.near("but is there", 1e6, Bounds.of(places).east());
         Bounds all = new Bounds(0, 0, 1, 1).union(new Bounds(-1, 0, 0, 2));
         CHECK.equal("union", new Bounds(-1, 0, 1, 2), all);
-        CHECK.near("farthest corner", 5, new Bounds(-1, -1, 3, 4).farthestFrom(new Place(0, 0)));
+        CHECK.near("farthest corner", 5, new Bounds(-1, -1, 3, 4).farthestFrom(new LocalPoint(0, 0)));
     }
 
     private static void assembler() {
@@ -189,7 +189,7 @@ public final class SelfTest {
     }
 
     private static DisplayedTrack mark(int id, DisplayedTrack.Status status, double x) {
-        return new DisplayedTrack(id, status, new Place(x, 0), 0, 1, 0, 1, 0, 1, null);
+        return new DisplayedTrack(id, status, new LocalPoint(x, 0), 0, 1, 0, 1, 0, 1, null);
     }
 
     private static void tracks() {
@@ -211,7 +211,7 @@ public final class SelfTest {
         store.applyList(new ListAssembler.Assembled<>(2, 1, false, List.of(two)));
         CHECK.equal("another tracker begins with nothing", List.of(two), store.tracks());
         CHECK.equal("tentative ones last", List.of(one, two), DisplayedTrack.byImportance(List.of(two, one)));
-        DisplayedTrack fast = new DisplayedTrack(1, DisplayedTrack.Status.CONFIRMED, new Place(0, 0), 0, 200, 0, 1, 0,
+        DisplayedTrack fast = new DisplayedTrack(1, DisplayedTrack.Status.CONFIRMED, new LocalPoint(0, 0), 0, 200, 0, 1, 0,
                 1, null);
         CHECK.near("vectors of a round time", 20, TrackLayer.vectorSeconds(List.of(fast), 100));
         CHECK.near("nothing moves", 0, TrackLayer.vectorSeconds(List.of(), 100));
@@ -242,39 +242,39 @@ public final class SelfTest {
         Rectangle[] others = {new Rectangle(100, 100, 600, 500), new Rectangle(1300, 200, 600, 500),
             new Rectangle(50, 40, 1800, 300), new Rectangle(50, 780, 1800, 300), new Rectangle(0, 30, 1920, 155)};
         for (Rectangle other : others) {
-            Rectangle place = WindowPlacement.beside(screen, other, wanted);
+            Rectangle place = WindowBesideAnother.beside(screen, other, wanted);
             CHECK.isTrue("beside " + other + ": " + place, place != null && !place.intersects(other)
                     && screen.contains(place));
         }
         CHECK.equal("as large as wanted where there is room", wanted,
-                WindowPlacement.beside(new Rectangle(0, 0, 3840, 2160), others[0], wanted).getSize());
+                WindowBesideAnother.beside(new Rectangle(0, 0, 3840, 2160), others[0], wanted).getSize());
         CHECK.equal("smaller where there is less", new Rectangle(700, 100, 1220, 800),
-                WindowPlacement.beside(screen, others[0], wanted));
-        CHECK.equal("nowhere", null, WindowPlacement.beside(screen, new Rectangle(200, 200, 1500, 800), wanted));
+                WindowBesideAnother.beside(screen, others[0], wanted));
+        CHECK.equal("nowhere", null, WindowBesideAnother.beside(screen, new Rectangle(200, 200, 1500, 800), wanted));
         Rectangle second = new Rectangle(1920, 0, 1920, 1080);
         CHECK.isTrue("on a second screen", second.contains(
-                WindowPlacement.beside(second, new Rectangle(2000, 100, 600, 500), wanted)));
+                WindowBesideAnother.beside(second, new Rectangle(2000, 100, 600, 500), wanted)));
     }
 
     private static void columns() {
         Graphics2D g = new BufferedImage(10, 10, BufferedImage.TYPE_INT_RGB).createGraphics();
-        DisplayedTrack far = new DisplayedTrack(65535, DisplayedTrack.Status.CONFIRMED, new Place(0, 0), 123456,
+        DisplayedTrack far = new DisplayedTrack(65535, DisplayedTrack.Status.CONFIRMED, new LocalPoint(0, 0), 123456,
                 19000, 0, 99999, 0,
                 123456.7, null);
         double[] widths = TrackTable.columnWidths(g, List.<String[]>of(TrackTable.cellsOf(far)));
         for (int room = 60; room < 900; room += 7) {
-            double[] edges = ColumnLayout.rightEdges(widths, room);
+            double[] edges = TableColumnWidths.rightEdges(widths, room);
             double before = 0;
             for (int i = 0; i < edges.length; i++) {
                 CHECK.isTrue("cells do not touch in " + room, edges[i] - widths[i] >= before
-                        + (edges.length > 1 ? ColumnLayout.LEAST_GAP : 0));
+                        + (edges.length > 1 ? TableColumnWidths.LEAST_GAP : 0));
                 before = edges[i];
             }
             CHECK.isTrue("nor leave the table", before <= room + 1e-9);
         }
-        CHECK.equal("all of them where there is room", 6, ColumnLayout.rightEdges(widths, 900).length);
-        CHECK.isTrue("the last ones go first", ColumnLayout.rightEdges(widths, 200).length < 6);
-        CHECK.near("up to the edge", 900, ColumnLayout.rightEdges(widths, 900)[5]);
+        CHECK.equal("all of them where there is room", 6, TableColumnWidths.rightEdges(widths, 900).length);
+        CHECK.isTrue("the last ones go first", TableColumnWidths.rightEdges(widths, 200).length < 6);
+        CHECK.near("up to the edge", 900, TableColumnWidths.rightEdges(widths, 900)[5]);
     }
 
     private static void statusLine() {

@@ -9,7 +9,7 @@ public record Bounds(double west, double south, double east, double north) {
     /** Number of places from which the outermost ones are left out. */
     private static final int ENOUGH_TO_TRIM = 60;
 
-    public static Bounds of(List<Place> places) {
+    public static Bounds of(List<LocalPoint> places) {
         return of(places, 0);
     }
 
@@ -17,16 +17,16 @@ public record Bounds(double west, double south, double east, double north) {
      * Bounds of the places without the outermost 2 % on each side, so that one wild plot does not
      * shrink the view of the others.
      */
-    public static Bounds ofMost(List<Place> places) {
+    public static Bounds ofMost(List<LocalPoint> places) {
         return of(places, places.size() < ENOUGH_TO_TRIM ? 0 : places.size() / 50);
     }
 
-    private static Bounds of(List<Place> places, int trim) {
+    private static Bounds of(List<LocalPoint> places, int trim) {
         if (places.isEmpty()) {
             return null;
         }
-        double[] xs = places.stream().mapToDouble(Place::x).toArray();
-        double[] ys = places.stream().mapToDouble(Place::y).toArray();
+        double[] xs = places.stream().mapToDouble(LocalPoint::x).toArray();
+        double[] ys = places.stream().mapToDouble(LocalPoint::y).toArray();
         Arrays.sort(xs);
         Arrays.sort(ys);
         int last = xs.length - 1 - trim;
@@ -43,7 +43,7 @@ public record Bounds(double west, double south, double east, double north) {
     }
 
     /** Distance of the farthest corner from the place. */
-    public double farthestFrom(Place place) {
+    public double farthestFrom(LocalPoint place) {
         return Math.hypot(Math.max(Math.abs(west - place.x()), Math.abs(east - place.x())),
                 Math.max(Math.abs(south - place.y()), Math.abs(north - place.y())));
     }

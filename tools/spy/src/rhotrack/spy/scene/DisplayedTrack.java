@@ -5,7 +5,7 @@ import java.util.Comparator;
 import java.util.List;
 
 /** A track as the views show it; `ellipse` is null where the track has no valid covariance. */
-public record DisplayedTrack(int id, Status status, Place place, double height, double vx, double vy, int hits,
+public record DisplayedTrack(int id, Status status, LocalPoint place, double height, double vx, double vy, int hits,
         int misses,
         double score, Ellipse ellipse) {
     public enum Status { TENTATIVE, CONFIRMED, COASTING, DELETED }

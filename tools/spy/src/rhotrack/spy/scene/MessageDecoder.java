@@ -124,9 +124,9 @@ public final class MessageDecoder {
                 || !endsWithSensorId(scan.sensor_id, channel)) {
             return false;
         }
-        List<Place> places = new ArrayList<>();
+        List<LocalPoint> places = new ArrayList<>();
         for (rhotrack.plot_t plot : scan.plots) {
-            places.add(new Place(plot.x_m, plot.y_m));
+            places.add(new LocalPoint(plot.x_m, plot.y_m));
         }
         if (!areWithinLimits(places)) {
             return false;
@@ -137,12 +137,12 @@ public final class MessageDecoder {
     }
 
     private boolean storeIfValid(String channel, polar_scan_t scan, DataInputStream in) throws IOException {
-        Place sensor = new Place(scan.sensor_x_m, scan.sensor_y_m);
+        LocalPoint sensor = new LocalPoint(scan.sensor_x_m, scan.sensor_y_m);
         if (in.available() > 0 || scan.num_polar_plots > polar_scan_t.MAX_POLAR_PLOTS || !sensor.isWithinLimits()
                 || !isValidPart(scan.part, scan.num_parts) || !endsWithSensorId(scan.sensor_id, channel)) {
             return false;
         }
-        List<Place> places = new ArrayList<>();
+        List<LocalPoint> places = new ArrayList<>();
         for (rhotrack.polar_plot_t plot : scan.polar_plots) {
             double elevation = scan.has_elevation == 1 ? plot.elevation_rad : 0;
             places.add(Geometry.fromPolar(sensor, plot.range_m, plot.azimuth_rad, elevation));
@@ -157,7 +157,7 @@ public final class MessageDecoder {
     }
 
     private boolean storeIfValid(String channel, bearing_scan_t scan, DataInputStream in) throws IOException {
-        Place sensor = new Place(scan.sensor_x_m, scan.sensor_y_m);
+        LocalPoint sensor = new LocalPoint(scan.sensor_x_m, scan.sensor_y_m);
         if (in.available() > 0 || scan.num_bearings > bearing_scan_t.MAX_BEARING_RAD || !sensor.isWithinLimits()
                 || !endsWithSensorId(scan.sensor_id, channel)) {
             return false;
@@ -191,7 +191,7 @@ public final class MessageDecoder {
     }
 
     private static DisplayedTrack trackMarkOf(track_t track) {
-        Place place = new Place(track.x_m, track.y_m);
+        LocalPoint place = new LocalPoint(track.x_m, track.y_m);
         DisplayedTrack.Status[] states = DisplayedTrack.Status.values();
         boolean known = track.status >= track_t.TENTATIVE && track.status <= track_t.DELETED;
         if (!known || !place.isWithinLimits() || !areFinite(track.z_m, track.vx_mps, track.vy_mps, track.score_nat)) {
@@ -209,7 +209,7 @@ public final class MessageDecoder {
         }
         List<Scene.Body> bodies = new ArrayList<>();
         for (body_t body : list.bodies) {
-            Place centre = new Place(body.x_m, body.y_m);
+            LocalPoint centre = new LocalPoint(body.x_m, body.y_m);
             boolean within = body.length_m >= 0 && body.length_m <= 1e5 && body.width_m >= 0 && body.width_m <= 1e5;
             if (!centre.isWithinLimits() || !within || !(Math.abs(body.heading_rad) <= 4)) {
                 return false;
@@ -227,7 +227,7 @@ public final class MessageDecoder {
         }
         List<Scene.Truth> targets = new ArrayList<>();
         for (rhotrack.truth_t target : list.targets) {
-            Place place = new Place(target.x_m, target.y_m);
+            LocalPoint place = new LocalPoint(target.x_m, target.y_m);
             if (!place.isWithinLimits() || !areFinite(target.vx_mps, target.vy_mps)) {
                 return false;
             }
@@ -261,7 +261,7 @@ public final class MessageDecoder {
         }
         List<Scene.Crossing> crossings = new ArrayList<>();
         for (ghost_t element : matrix.elements) {
-            Place place = new Place(element.x_m, element.y_m);
+            LocalPoint place = new LocalPoint(element.x_m, element.y_m);
             if (!place.isWithinLimits() || element.reason < ghost_t.KEPT || element.reason > ghost_t.UNMATCHED) {
                 return false;
             }
@@ -277,7 +277,7 @@ public final class MessageDecoder {
     }
 
     private boolean storeIfValid(accumulator_t search, DataInputStream in) throws IOException {
-        Place origin = new Place(search.origin_x_m, search.origin_y_m);
+        LocalPoint origin = new LocalPoint(search.origin_x_m, search.origin_y_m);
         boolean within = search.rho_min_m >= -1e7 && search.rho_min_m < search.rho_max_m && search.rho_max_m <= 1e7;
         if (in.available() > 0 || search.num_cells > accumulator_t.MAX_CELLS || !origin.isWithinLimits() || !within
                 || !areFinite(search.votes_max)) {
@@ -325,7 +325,7 @@ public final class MessageDecoder {
         }
         List<Scene.Hypothesis> list = new ArrayList<>();
         for (hypothesis_t one : of.hypotheses) {
-            Place place = new Place(one.x_m, one.y_m);
+            LocalPoint place = new LocalPoint(one.x_m, one.y_m);
             if (!place.isWithinLimits() || !areWithin0And1(one.share) || !areFinite(one.vx_mps, one.vy_mps)) {
                 return false;
             }
@@ -423,7 +423,7 @@ public final class MessageDecoder {
         }
         List<Scene.Echo> echoes = new ArrayList<>();
         for (echo_t echo : list.echoes) {
-            Place place = new Place(echo.x_m, echo.y_m);
+            LocalPoint place = new LocalPoint(echo.x_m, echo.y_m);
             if (!place.isWithinLimits() || echo.hits < 1 || !(echo.chance >= 0 && echo.chance <= 1)) {
                 return false;
             }
@@ -449,8 +449,8 @@ public final class MessageDecoder {
         return channel.endsWith("_" + sensorId);
     }
 
-    private static boolean areWithinLimits(List<Place> places) {
-        return places.stream().allMatch(Place::isWithinLimits);
+    private static boolean areWithinLimits(List<LocalPoint> places) {
+        return places.stream().allMatch(LocalPoint::isWithinLimits);
     }
 
     private static boolean areFinite(float... numbers) {

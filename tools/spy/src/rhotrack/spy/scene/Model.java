@@ -30,7 +30,7 @@ public final class Model {
     private List<Scene.Truth> truth = List.of();
     private List<Scene.Echo> echoes = List.of();
     private List<Scene.Body> bodies = List.of();
-    private final Map<Integer, Place> sensors = new TreeMap<>();
+    private final Map<Integer, LocalPoint> sensors = new TreeMap<>();
     /** Sensor faults in RHO_SENSORS, by part of the list. */
     private final TreeMap<Integer, List<String>> sensorFaults = new TreeMap<>();
     /** Deviations from the stated noise and pd in RHO_LEARNED, by sensor. */
@@ -61,7 +61,7 @@ public final class Model {
         }
     }
 
-    public synchronized void addSensor(int id, Place place) {
+    public synchronized void addSensor(int id, LocalPoint place) {
         if (sensors.containsKey(id) || sensors.size() < MAX_CHANNELS) {
             sensors.put(id, place);
         }

@@ -9,14 +9,14 @@ import java.util.Map;
  * keeps one copy.
  */
 public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearings>> bearings,
-        List<LookHistory.Faded<Peaks>> peaks, List<DisplayedTrack> tracks, List<List<Place>> trails, List<Truth> truth,
-        List<Echo> echoes, List<Body> bodies, Map<Integer, Place> sensors, Internals internals, Health health) {
+        List<LookHistory.Faded<Peaks>> peaks, List<DisplayedTrack> tracks, List<List<LocalPoint>> trails, List<Truth> truth,
+        List<Echo> echoes, List<Body> bodies, Map<Integer, LocalPoint> sensors, Internals internals, Health health) {
     /** Plots of one look of a sensor, or of a part of the look. */
-    public record Plots(int sensorId, List<Place> places) {
+    public record Plots(int sensorId, List<LocalPoint> places) {
     }
 
     /** Bearings of one look, rad counter-clockwise from east. */
-    public record Bearings(int sensorId, Place sensor, List<Double> angles) {
+    public record Bearings(int sensorId, LocalPoint sensor, List<Double> angles) {
     }
 
     /** The candidate lines of one search. */
@@ -26,15 +26,15 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
     public record Peak(double rho, double theta, double speed, double score, int scansHit, int sensorPairs) {
     }
 
-    public record Truth(int id, Place place, double vx, double vy) {
+    public record Truth(int id, LocalPoint place, double vx, double vy) {
     }
 
     /** A clutter-map entry: a place that returns clutter again and again. */
-    public record Echo(Place place, int sensorId, int hits, double chance) {
+    public record Echo(LocalPoint place, int sensorId, int hits, double chance) {
     }
 
     /** The estimated rectangle of an extended target, its length along the heading. */
-    public record Body(int trackId, Place centre, double length, double width, double heading) {
+    public record Body(int trackId, LocalPoint centre, double length, double width, double heading) {
     }
 
     /** The tracker's internals, where it was asked to publish them (--show). */
@@ -50,7 +50,7 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
      * A crossing of two bearings; pruned: it is a ghost, as another crossing of one of its bearings
      * is the target.
      */
-    public record Crossing(Place place, boolean pruned) {
+    public record Crossing(LocalPoint place, boolean pruned) {
     }
 
     /** Identity of an accumulator: of one pair of sensors, or of all pairs of a search. */
@@ -58,7 +58,7 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
     }
 
     /** RHO_ACCUMULATOR: the fullest cells of an accumulator; rho is measured from the origin. */
-    public record Accumulator(Which which, int scan, Place origin, double rhoMin, double rhoMax,
+    public record Accumulator(Which which, int scan, LocalPoint origin, double rhoMin, double rhoMax,
             List<Cell> cells) {
     }
 
@@ -81,7 +81,7 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
             int evidence, double support, double shared, double clutter, List<Hypothesis> list) {
     }
 
-    public record Hypothesis(double share, Place place, double vx, double vy, List<Integer> plots) {
+    public record Hypothesis(double share, LocalPoint place, double vx, double vy, List<Integer> plots) {
     }
 
     /**

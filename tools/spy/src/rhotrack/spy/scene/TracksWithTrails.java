@@ -18,7 +18,7 @@ public final class TracksWithTrails {
     private static final int PATIENCE = 5;
 
     private static final class Entry {
-        final Deque<Place> trail = new ArrayDeque<>();
+        final Deque<LocalPoint> trail = new ArrayDeque<>();
         DisplayedTrack mark;
         int unseen;
     }
@@ -65,9 +65,9 @@ public final class TracksWithTrails {
     }
 
     /** The trail of each track, oldest position first, in the order of tracks(). */
-    public List<List<Place>> trails() {
+    public List<List<LocalPoint>> trails() {
         Collection<Entry> all = entries.values();
-        List<List<Place>> trails = new ArrayList<>();
+        List<List<LocalPoint>> trails = new ArrayList<>();
         all.forEach(entry -> trails.add(List.copyOf(entry.trail)));
         return trails;
     }

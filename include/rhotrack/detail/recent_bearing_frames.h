@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * recent_bearing_frames: the bearings of the last N frames, by scan and sensor, in which the
+ * passive initiators search for tracks.
+ *
+ * A frame has the scans of several sensors at one time. A sensor is known from its first scan on,
+ * must not move, and keeps its index. Embedded in the initiators; usable alone.
+ *
+ * Stack: 100 bytes at most where nothing else is said.
+ */
+#ifndef RHOTRACK_RECENT_BEARING_FRAMES_H
+#define RHOTRACK_RECENT_BEARING_FRAMES_H
+
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/detail/bearing_crossing.h"
+#include "rhotrack/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct rho_batch_sensor {
+    int32_t sensor_id;
+    float x_m, y_m;
+};
+
+/* One bearing held in the batch, with its direction as cosine and sine. */
+struct rho_batch_bearing {
+    float cosine, sine, bearing_rad;
+    float sigma_rad;
+};
+
+struct rho_batch {
+    uint16_t scans_max; /* capacity in scans (frames): N */
+    uint16_t num_sensors, num_scans;
+    float apart_max_m; /* largest distance of two sensors that is accepted */
+    uint32_t num_left; /* number of bearings that the last push dropped with the oldest frame */
+    struct rho_batch_sensor sensors[RHO_MAX_PASSIVE_SENSORS];
+    /* times of the held scans, oldest first */
+    int64_t time_us[RHO_MAX_PASSIVE_SCANS];
+    uint8_t num_bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+    /* 1: the sensor reported in this scan, also without bearings */
+    uint8_t was_seen[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+    /* sector of each look, counter-clockwise from .. to; equal: the whole circle */
+    float sector_from_rad[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+    float sector_to_rad[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+    struct rho_batch_bearing bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]
+                                     [RHO_MAX_BEARINGS];
+};
+
+/*
+ * Prepares an empty batch of scans_max scans; sensors farther apart than apart_max_m are refused.
+ * Errors: NULL, CONFIG (scans_max not 1 .. RHO_MAX_PASSIVE_SCANS, apart_max_m not
+ * RHO_CROSSING_BASE_MIN_M .. 4 RHO_LIMIT_POSITION_M). Cost: sizeof(batch) bytes cleared.
+ */
+RHO_MUST_CHECK enum rho_status rho_batch_init(struct rho_batch *batch, unsigned scans_max,
+                                              float apart_max_m);
+
+/*
+ * Tells whether rho_batch_push would take the frame. Errors: those of rho_batch_push, except NULL
+ * for fates. Cost: sensors squared. Stack: 100 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
+                                                 const struct rho_frame *frame);
+
+/*
+ * Adds a frame to the batch; a full batch drops its oldest frame.
+ *   frame  its time is taken for all its bearings; their offsets are ignored
+ *   fates  one for each bearing, in the order of the frame's scans; bearings with HELD are stored,
+ *          or get INVALID (rho_measurement_is_valid_bearing) or NO_ROOM (beyond RHO_MAX_BEARINGS)
+ * Errors: NULL, STATE (the frame is not newer than the newest), CAPACITY (more sensors than
+ * RHO_MAX_PASSIVE_SENSORS), VALUE (a sensor twice in the frame, a sensor that has moved, is nearer
+ * than RHO_CROSSING_BASE_MIN_M to another or farther than apart_max_m from it, or whose position is
+ * not a coordinate, a sector beyond one turn either way); nothing is changed. Cost: the bearings,
+ * and moving the batch by a frame. Stack: 150 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,
+                                              const struct rho_frame *frame, uint8_t *fates);
+
+/*
+ * Removes the bearings that a track claims from the batch. Returns the number of bearings removed.
+ *   claim  for each scan and sensor the index of a bearing in the batch, from 1; 0: no bearing
+ * Indices stay valid until rho_batch_drop_bearings_marked_removed, so that bearings of several
+ * tracks can be removed; until then a removed bearing has a sigma_rad of 0. Cost: scans times
+ * sensors.
+ */
+uint32_t rho_batch_mark_bearings_removed(
+    struct rho_batch *batch, const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]);
+
+/*
+ * Closes the gaps that rho_batch_mark_bearings_removed has left in the arrays of bearings. Cost:
+ * all bearings held.
+ */
+void rho_batch_drop_bearings_marked_removed(struct rho_batch *batch);
+
+/*
+ * True if the object is valid, whatever its bytes come from (a snapshot, memory that outlived a
+ * reset): counts and indices are within their arrays, numbers within their limits.
+ * rho_snapshot_load asks it. Cost: all bearings held.
+ */
+int rho_batch_is_sound(const struct rho_batch *batch);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * recurring_clutter_map: the places that return clutter again and again.
+ *
+ * Towers, quays, flocks of birds and sea spikes give plots again and again. Counted one by one they
+ * are no denser than other clutter, but the next plot is likely where the last one was. The map
+ * holds the echoes of the last scans, each with its place and (where v_min_mps is above 0) a slow
+ * speed, and learns how often an echo with n hits returns after k misses. From that follows the
+ * clutter density at each new plot:
+ *
+ *     density*(z) = density(z) + sum over echoes of p(n, k) N(z; predicted place, noise)
+ *
+ * p is the probability of a return, and the noise is that of the echo and the plot. Scores of
+ * tracks and of new tracks are ratios to this density. No plot is blanked: a target that passes a
+ * tower loses the plots that the tower explains better, and thresholds do not change. src/DESIGN.md
+ * ("Clutter that comes back") derives it.
+ *
+ * The tracker has one map for all its sensors; each echo belongs to one sensor. The map is of fixed
+ * size: a full map drops the echo with the most misses for its hits. Plots of targets that are
+ * tracked for long are not counted. An echo counts as known after RHO_ECHO_KNOWN_HITS hits.
+ *
+ * Stack: 100 bytes at most.
+ */
+#ifndef RHOTRACK_RECURRING_CLUTTER_MAP_H
+#define RHOTRACK_RECURRING_CLUTTER_MAP_H
+
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Hits from which an echo counts as known: only known echoes are saved, shown and counted. */
+#define RHO_ECHO_KNOWN_HITS 6
+
+/*
+ * Number of classes of an echo's hits (1; 2; 3 to 5; 6 and more), and of scans since its last hit
+ * (1; 2; 3, 4; 5 to 8; 9 and more).
+ */
+#define RHO_ECHO_HIT_CLASSES 4
+#define RHO_ECHO_GAP_CLASSES 5
+
+/* An echo: a place that returns clutter again and again. */
+struct rho_echo {
+    int64_t time_us; /* time of the estimate */
+    int32_t sensor_id;
+    float x_m, y_m, vx_mps, vy_mps;
+    /*
+     * along and across the sensor's line of sight: variance of the place, covariance of place and
+     * speed, variance of the speed; m^2, m^2/s, m^2/s^2
+     */
+    float along[3], across[3];
+    float weight;   /* probability that `plot` is of this echo */
+    int16_t plot;   /* row of the echo's best plot in the newest scan; -1: none */
+    uint16_t hits;  /* plots of the echo so far, saturating; 0: this place in the table is free */
+    uint8_t unseen; /* scans of the sensor since the last hit that covered the echo */
+    /*
+     * a plot of the echo belonged to a target that has been tracked for long; the echo's looks and
+     * returns are not counted
+     */
+    uint8_t is_target;
+    uint8_t region; /* index of the echo's region in the map's tables; UINT8_MAX: not known yet */
+    uint8_t was_looked_at; /* the newest scan covered the echo */
+};
+
+/*
+ * Counts of scans that covered echoes, and of scans that saw them again, by classes of hits and of
+ * scans since the last hit.
+ */
+struct rho_echo_returns {
+    float looks[RHO_ECHO_HIT_CLASSES][RHO_ECHO_GAP_CLASSES];
+    float returns[RHO_ECHO_HIT_CLASSES][RHO_ECHO_GAP_CLASSES];
+};
+
+/*
+ * Lengths of the map's arrays. A build without it (RHO_MAX_ECHOES 0) has the smallest ones and
+ * never uses them.
+ */
+#define RHO_ECHO_PLACES (RHO_MAX_ECHOES > 0 ? RHO_MAX_ECHOES : 1)
+#define RHO_ECHO_PLOTS (RHO_MAX_ECHOES > 0 ? RHO_MAX_PLOTS : 1)
+#define RHO_ECHO_STROBES (RHO_MAX_ECHOES > 0 ? RHO_STROBE_BINS : 1)
+#define RHO_ECHO_TABLES ((RHO_MAX_ECHOES > 0 ? RHO_ECHO_REGIONS * RHO_ECHO_REGIONS : 1) + 1)
+
+struct rho_clutter_map {
+    int64_t time_us; /* time of the newest scan */
+    float v_min_mps; /* lowest speed of targets: clutter moves more slowly; 0: clutter stands */
+    uint32_t echoes_dropped; /* echoes dropped for others, or for lack of room; saturates */
+    /*
+     * plots of echoes with range rates; number of them that have the range rate of the echo's own
+     * speed
+     */
+    float rate_plots, exact_plots;
+    float scans_to_blocks; /* revolutions until the newest block of counts is closed */
+    /*
+     * place in the table with which the next scan begins, as the work of the last scan ended there
+     */
+    uint16_t first_echo;
+    uint16_t is_looked; /* `denser`, `best_per_m2` and `best_echo` are those of the newest scan */
+    /*
+     * counts of looks and returns, by regions of range and azimuth about the sensor, and last over
+     * all regions. [0] is used; [1] and [2] are blocks of the last revolutions, used later, as
+     * their plots may turn out to be of targets
+     */
+    struct rho_echo_returns tables[3][RHO_ECHO_TABLES];
+    struct rho_echo echoes[RHO_ECHO_PLACES];
+    /*
+     * by plots of the newest scan: ln of the ratio of the density with echoes to that without
+     * (during the update: the density of echoes and strobes, 1/m^2); the echo that explains the
+     * plot best, and the density that it adds
+     */
+    float denser[RHO_ECHO_PLOTS], best_per_m2[RHO_ECHO_PLOTS];
+    uint16_t best_echo[RHO_ECHO_PLOTS];
+    /*
+     * by direction: plots of the newest scan; eighths of the sensor's range in which they lie, a
+     * bit each
+     */
+    uint16_t strobe_count[RHO_ECHO_STROBES];
+    uint8_t strobe_ranges[RHO_ECHO_STROBES];
+};
+
+/*
+ * Adds a standing echo with `hits` hits (1 .. 65535): a tower that is known beforehand, or an echo
+ * of a saved map. It is dropped like others where it is never seen.
+ *   sensor_id                     the sensor of the echo
+ *   sigma_range_m, sigma_cross_m  of the place, along and across the line of sight, 0.001 .. 1e5
+ * Errors: NULL, VALUE (a place that is no coordinate, a sigma or hits outside its range). In a full
+ * map the echo with the most misses for its hits is dropped; where the newest scan saw every echo
+ * of a full map, the new echo is not added. Either is RHO_OK, and echoes_dropped counts it.
+ * Cost: RHO_MAX_ECHOES.
+ * Stack: 290 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map, int32_t sensor_id,
+                                                     float x_m, float y_m, float sigma_range_m,
+                                                     float sigma_cross_m, uint16_t hits);
+
+/*
+ * The known echoes one by one:
+ *
+ *     uint32_t place = 0;
+ *     while ((echo = rho_clutter_map_next_known(&tracker.clutter_map, &place))) ...
+ *
+ * NULL behind the last one, or where map or place is NULL. Cost of the whole walk: RHO_MAX_ECHOES.
+ */
+const struct rho_echo *rho_clutter_map_next_known(const struct rho_clutter_map *map,
+                                                  uint32_t *place);
+
+/*
+ * 1: the echo stands, as far as its plots can tell, and belongs into a saved map. 0: it moves, or
+ * is NULL.
+ */
+int rho_clutter_map_is_echo_standing(const struct rho_echo *echo);
+
+/*
+ * Statistics of echoes with this number of hits after `unseen` misses: the scans that covered them,
+ * and the scans that saw them again; the last scans are included. Both 0 for an invalid region, or
+ * a map that is NULL. To keep them over a restart, save them for each region and the least hits (1,
+ * 2, 3, 6) and unseen (1, 2, 3, 5, 9) of each class, and restore them by
+ * rho_clutter_map_teach_returns.
+ *   region  0 .. RHO_ECHO_TABLES - 2; RHO_ECHO_TABLES - 1: over all regions
+ */
+void rho_clutter_map_learned_looks_and_returns(const struct rho_clutter_map *map, unsigned region,
+                                               unsigned hits, unsigned unseen, float *looks,
+                                               float *returns);
+
+/*
+ * Replaces the statistics of echoes with this number of hits after `unseen` misses. Errors: NULL,
+ * VALUE (no such region, hits or unseen 0, looks outside 0 .. 1e9, returns outside 0 .. looks);
+ * nothing is changed.
+ */
+RHO_MUST_CHECK enum rho_status rho_clutter_map_teach_returns(struct rho_clutter_map *map,
+                                                             unsigned region, unsigned hits,
+                                                             unsigned unseen, float looks,
+                                                             float returns);
+
+/*
+ * Probability that an echo with this number of hits returns after `unseen` misses. Constant cost.
+ */
+float rho_clutter_map_return_probability(const struct rho_clutter_map *map, unsigned region,
+                                         unsigned hits, unsigned unseen);
+
+/*
+ * True where a map of unknown origin (a snapshot) is consistent. rho_tracker_is_sound calls it.
+ * Cost: RHO_MAX_ECHOES.
+ */
+int rho_clutter_map_is_sound(const struct rho_clutter_map *map);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+#include "rhotrack/detail/recent_bearing_frames.h"
+
+#include <string.h>
+
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/measurement.h"
+
+enum rho_status rho_batch_init(struct rho_batch *batch, unsigned scans_max,
+                               float sensor_distance_max_m)
+{
+    if (!batch) {
+        return RHO_ERROR_NULL;
+    }
+    if (scans_max < 1 || scans_max > RHO_MAX_PASSIVE_SCANS ||
+        !rho_is_within(sensor_distance_max_m, RHO_CROSSING_BASE_MIN_M,
+                       4.0f * RHO_LIMIT_POSITION_M)) {
+        return RHO_ERROR_CONFIG;
+    }
+    memset(batch, 0, sizeof *batch);
+    batch->scans_max = (uint16_t)scans_max;
+    batch->apart_max_m = sensor_distance_max_m;
+    return RHO_OK;
+}
+
+/* ---- sensors --------------------------------------------------------------------------------- */
+
+static float distance_m(float x_m, float y_m, float other_x_m, float other_y_m)
+{
+    float dx_m = other_x_m - x_m, dy_m = other_y_m - y_m;
+    return rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+}
+
+/* Index of the sensor with this sensor_id in the batch; num_sensors: the batch has none. */
+static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id)
+{
+    unsigned i = 0;
+    while (i < batch->num_sensors && batch->sensors[i].sensor_id != sensor_id) {
+        i++;
+    }
+    return i;
+}
+
+/* True where a scan's sensor is neither too near to a place nor too far from it. */
+static int is_distance_to_other_sensor_usable(const struct rho_batch *batch,
+                                              const struct rho_bearing_scan *scan, float x_m,
+                                              float y_m)
+{
+    return rho_is_within(distance_m(scan->x_m, scan->y_m, x_m, y_m), RHO_CROSSING_BASE_MIN_M,
+                         batch->apart_max_m);
+}
+
+/*
+ * A known sensor must not have moved; a new sensor must make a usable baseline with every known
+ * one.
+ */
+static int is_sensor_unmoved_with_usable_baselines(const struct rho_batch *batch,
+                                                   const struct rho_bearing_scan *scan)
+{
+    unsigned known = find_sensor(batch, scan->sensor_id);
+    if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
+        return 0;
+    }
+    for (unsigned i = 0; i < batch->num_sensors; i++) {
+        const struct rho_batch_sensor *sensor = &batch->sensors[i];
+        if (i == known
+                ? distance_m(scan->x_m, scan->y_m, sensor->x_m, sensor->y_m) > 0.0f
+                : !is_distance_to_other_sensor_usable(batch, scan, sensor->x_m, sensor->y_m)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/*
+ * Scan scan_number must not repeat a sensor of an earlier scan of the frame, and must make usable
+ * baselines with the sensors of those scans.
+ */
+static int is_scan_sensor_new_with_usable_baselines(const struct rho_batch *batch,
+                                                    const struct rho_frame *frame,
+                                                    uint32_t scan_number)
+{
+    for (uint32_t i = 0; i < scan_number; i++) {
+        const struct rho_bearing_scan *other = &frame->scans[i];
+        if (other->sensor_id == frame->scans[scan_number].sensor_id ||
+            !is_distance_to_other_sensor_usable(batch, &frame->scans[scan_number], other->x_m,
+                                                other->y_m)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static enum rho_status check_scans(const struct rho_batch *batch, const struct rho_frame *frame)
+{
+    unsigned num_sensors = batch->num_sensors;
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        const struct rho_bearing_scan *scan = &frame->scans[i];
+        if (scan->num_bearings > 0 && !scan->bearings) {
+            return RHO_ERROR_NULL;
+        }
+        if (!is_sensor_unmoved_with_usable_baselines(batch, scan) ||
+            !is_scan_sensor_new_with_usable_baselines(batch, frame, i) ||
+            !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad)) {
+            return RHO_ERROR_VALUE;
+        }
+        num_sensors += find_sensor(batch, scan->sensor_id) == batch->num_sensors;
+        if (num_sensors > RHO_MAX_PASSIVE_SENSORS) {
+            return RHO_ERROR_CAPACITY;
+        }
+    }
+    return RHO_OK;
+}
+
+enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rho_frame *frame)
+{
+    if (!batch || !frame || (frame->num_scans > 0 && !frame->scans)) {
+        return RHO_ERROR_NULL;
+    }
+    if (batch->num_scans > 0 && frame->time_us <= batch->time_us[batch->num_scans - 1]) {
+        return RHO_ERROR_STATE;
+    }
+    return check_scans(batch, frame);
+}
+
+/* ---- bearings -------------------------------------------------------------------------------- */
+
+static void drop_oldest_scan(struct rho_batch *batch)
+{
+    size_t left = (size_t)batch->num_scans - 1u;
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        batch->num_left += batch->num_bearings[0][s];
+    }
+    memmove(batch->time_us, batch->time_us + 1, left * sizeof batch->time_us[0]);
+    memmove(batch->num_bearings, batch->num_bearings + 1, left * sizeof batch->num_bearings[0]);
+    memmove(batch->was_seen, batch->was_seen + 1, left * sizeof batch->was_seen[0]);
+    memmove(batch->sector_from_rad, batch->sector_from_rad + 1,
+            left * sizeof batch->sector_from_rad[0]);
+    memmove(batch->sector_to_rad, batch->sector_to_rad + 1, left * sizeof batch->sector_to_rad[0]);
+    memmove(batch->bearings, batch->bearings + 1, left * sizeof batch->bearings[0]);
+    batch->num_scans--;
+}
+
+static unsigned find_or_add_sensor(struct rho_batch *batch, const struct rho_bearing_scan *scan)
+{
+    unsigned s = find_sensor(batch, scan->sensor_id);
+    if (s == batch->num_sensors) {
+        batch->sensors[batch->num_sensors++] = (struct rho_batch_sensor){
+            .sensor_id = scan->sensor_id, .x_m = scan->x_m, .y_m = scan->y_m};
+    }
+    return s;
+}
+
+/* Stores a scan, and those of its bearings with fate HELD; others it refuses get their fate. */
+static void store_scan_and_bearings_with_fate_held(struct rho_batch *batch,
+                                                   const struct rho_bearing_scan *scan,
+                                                   uint8_t *fates)
+{
+    unsigned k = batch->num_scans, s = find_or_add_sensor(batch, scan);
+    batch->was_seen[k][s] = 1;
+    batch->sector_from_rad[k][s] = scan->sector_from_rad;
+    batch->sector_to_rad[k][s] = scan->sector_to_rad;
+    for (uint32_t i = 0; i < scan->num_bearings; i++) {
+        const struct rho_bearing *from = &scan->bearings[i];
+        uint8_t *count = &batch->num_bearings[k][s];
+        if (fates[i] != RHO_FATE_HELD) {
+            continue;
+        }
+        if (!rho_measurement_is_valid_bearing(from)) {
+            fates[i] = RHO_FATE_INVALID;
+        } else if (*count == RHO_MAX_BEARINGS) {
+            fates[i] = RHO_FATE_NO_ROOM;
+        } else {
+            batch->bearings[k][s][(*count)++] =
+                (struct rho_batch_bearing){.cosine = rho_cos(from->bearing_rad),
+                                           .sine = rho_sin(from->bearing_rad),
+                                           .bearing_rad = from->bearing_rad,
+                                           .sigma_rad = from->sigma_rad};
+        }
+    }
+}
+
+enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *frame,
+                               uint8_t *fates)
+{
+    enum rho_status status = rho_batch_accepts(batch, frame);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (frame->num_scans > 0 && !fates) {
+        return RHO_ERROR_NULL;
+    }
+    rho_batch_drop_bearings_marked_removed(batch);
+    batch->num_left = 0;
+    if (batch->num_scans == batch->scans_max) {
+        drop_oldest_scan(batch);
+    }
+    unsigned k = batch->num_scans;
+    batch->time_us[k] = frame->time_us;
+    memset(batch->num_bearings[k], 0, sizeof batch->num_bearings[k]);
+    memset(batch->was_seen[k], 0, sizeof batch->was_seen[k]);
+    for (uint32_t i = 0; i < frame->num_scans; i++) {
+        store_scan_and_bearings_with_fate_held(batch, &frame->scans[i], fates);
+        fates += frame->scans[i].num_bearings;
+    }
+    batch->num_scans++;
+    return RHO_OK;
+}
+
+/* ---- removal of bearings --------------------------------------------------------------------- */
+
+uint32_t
+rho_batch_mark_bearings_removed(struct rho_batch *batch,
+                                const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
+{
+    uint32_t count = 0;
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            unsigned place = claim[k][s];
+            if (place > 0 && place <= batch->num_bearings[k][s]) {
+                struct rho_batch_bearing *bearing = &batch->bearings[k][s][place - 1];
+                /* a bearing that was removed before is not counted again */
+                count += bearing->sigma_rad > 0.0f;
+                bearing->sigma_rad = 0.0f;
+            }
+        }
+    }
+    return count;
+}
+
+void rho_batch_drop_bearings_marked_removed(struct rho_batch *batch)
+{
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            struct rho_batch_bearing *bearings = batch->bearings[k][s];
+            unsigned kept = 0;
+            for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
+                if (bearings[i].sigma_rad > 0.0f) {
+                    bearings[kept++] = bearings[i];
+                }
+            }
+            batch->num_bearings[k][s] = (uint8_t)kept;
+        }
+    }
+}

@@ -1,0 +1,367 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Doubted tracks: no longer believed but not yet ended, and how they are reported. Starts that
+ * share their newest plot. The mean time of straight flight (steady_s).
+ */
+#include "tracker_setup.h"
+
+#define SCAN_S 2.0
+#define LAST 12 /* scan until which the target is seen at first */
+
+/* A target at 250 m/s along x. */
+static void see_target(int k)
+{
+    const double x_m = 500.0 * k + uniform(-8.0, 8.0);
+    add_plot(x_m, uniform(-8.0, 8.0), 10.0);
+}
+
+static void step_scans(int from, int to)
+{
+    for (int k = from; k < to; k++) {
+        see_target(k);
+        step_at(SCAN_S * k);
+    }
+}
+
+static enum rho_track_status status_of_first_track(void)
+{
+    const struct rho_track_report *first = report_of(1);
+    return first ? first->status : RHO_TRACK_FREE;
+}
+
+/* ---- doubted tracks -------------------------------------------------------------------------- */
+
+static void a_track_in_doubt_comes_back_with_its_identity(void **state)
+{
+    (void)state;
+    for (int misses = 3; misses <= 4; misses++) {
+        use_usual_configs((uint64_t)misses);
+        begin_tracker();
+        step_scans(0, LAST);
+        for (int k = LAST; k < LAST + misses; k++) {
+            step_at(SCAN_S * k);
+            assert_int_equal(status_of_first_track(),
+                             k < LAST + 2 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
+        }
+        step_scans(LAST + misses, LAST + misses + 3);
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.tracks[0].track_id, 1);
+        assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
+        assert_int_equal(tracker.counters.tracks_started, 1);
+        assert_int_equal(tracker.counters.tracks_ended, 0);
+        /* confirmed once; after the doubt it is not counted as confirmed again */
+        assert_int_equal(tracker.counters.tracks_confirmed, 1);
+    }
+}
+
+static void a_doubted_track_that_ends_is_reported_as_ended(void **state)
+{
+    (void)state;
+    use_usual_configs(1);
+    begin_tracker();
+    step_scans(0, LAST);
+    for (int k = LAST; k < LAST + 4; k++) {
+        step_at(SCAN_S * k);
+        assert_int_equal(report.num_ended, 0);
+    }
+    assert_int_equal(status_of_first_track(), RHO_TRACK_TENTATIVE);
+    step_at(SCAN_S * (LAST + 4));
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(report.num_ended, 1);
+    assert_int_equal(report.ended[0], 1);
+    assert_int_equal(tracker.counters.tracks_confirmed, 1);
+    assert_int_equal(tracker.counters.tracks_ended, 1);
+}
+
+/* A track is confirmed above the score of a start, which takes further plots. */
+static void tracks_never_confirmed_are_not_reported_as_ended(void **state)
+{
+    (void)state;
+    use_usual_configs(1);
+    initiation.false_tracks_per_hour = 0.001f;
+    initiation.scans = 4;
+    initiation.min_scans = 3;
+    begin_tracker();
+    for (int k = 0; k < 20 && tracker.counters.tracks_started == 0; k++) {
+        for (int i = 0; i < 60; i++) {
+            const double x_m = uniform(-2e4, 2e4);
+            add_plot(x_m, uniform(-2e4, 2e4), 10.0);
+        }
+        see_target(k);
+        step_at(SCAN_S * k);
+    }
+    if (tracker.counters.tracks_started == 0 || report.tracks[0].status != RHO_TRACK_TENTATIVE) {
+        fail_msg("the scene starts no tentative track");
+    }
+    uint32_t ended = 0;
+    for (int k = 20; k < 30 && report.num_tracks > 0; k++) {
+        step_at(SCAN_S * k);
+        ended += report.num_ended;
+    }
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(tracker.counters.tracks_confirmed, 0);
+    assert_int_equal(tracker.counters.tracks_ended, tracker.counters.tracks_started);
+    assert_int_equal(ended, 0);
+}
+
+/*
+ * If a sensor sees half of its targets, five misses in a row are rarer than none, but commoner than
+ * the end of a target.
+ */
+static void misses_of_a_low_pd_sensor_raise_no_doubt(void **state)
+{
+    (void)state;
+    use_usual_configs(1);
+    config.pd = 0.5f;
+    initiation.pd = 0.5f;
+    begin_tracker();
+    step_scans(0, LAST);
+    assert_int_equal(status_of_first_track(), RHO_TRACK_CONFIRMED);
+    for (int k = LAST; k < LAST + 4; k++) {
+        step_at(SCAN_S * k);
+        assert_int_equal(status_of_first_track(), RHO_TRACK_COASTING);
+    }
+    step_at(SCAN_S * (LAST + 4));
+    assert_int_equal(status_of_first_track(), RHO_TRACK_FREE);
+    assert_int_equal(report.num_ended, 1);
+}
+
+/* One step may end all tracks. */
+static void all_tracks_ended_in_a_step_are_reported(void **state)
+{
+    enum { TRACKS = 16 };
+    (void)state;
+    use_usual_configs(1);
+    begin_tracker();
+    for (int k = 0; k < LAST; k++) {
+        for (int i = 0; i < TRACKS; i++) {
+            add_plot(500.0 * k, 3000.0 * i + normal(), 10.0);
+        }
+        step_at(SCAN_S * k);
+    }
+    assert_int_equal(report.num_tracks, TRACKS);
+    for (int k = LAST; k < LAST + 5; k++) {
+        step_at(SCAN_S * k);
+    }
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(report.num_ended, TRACKS);
+    for (uint32_t i = 0; i < TRACKS; i++) {
+        assert_int_equal(report.ended[i], i + 1);
+    }
+    assert_int_equal(tracker.counters.tracks_confirmed, TRACKS);
+}
+
+/* ---- starts that share their newest plot ----------------------------------------------------- */
+
+/* Two targets meet in one plot of the scan in which both could start, and part again. */
+static void of_two_starts_from_one_newest_plot_one_waits(void **state)
+{
+    (void)state;
+    use_usual_configs(1);
+    begin_tracker();
+    for (int k = 0; k < 6; k++) {
+        const double y_m = 400.0 * (3 - k);
+        add_plot(500.0 * k, y_m, 10.0);
+        if (k != 3) {
+            add_plot(500.0 * k, -y_m, 10.0);
+        }
+        step_at(SCAN_S * k);
+        assert_int_equal(tracker.counters.tracks_started, k < 3 ? 0 : k == 3 ? 1 : 2);
+    }
+    assert_int_equal(report.num_tracks, 2);
+    assert_true(report.tracks[0].state[4] * report.tracks[1].state[4] < 0.0f);
+}
+
+/* Older plots shared with other tracks do not matter: each target has its own newest plot. */
+static void starts_from_different_newest_plots_are_both_made(void **state)
+{
+    (void)state;
+    use_usual_configs(1);
+    begin_tracker();
+    for (int k = 0; k < 4; k++) {
+        add_plot(500.0 * k, 1000.0, 10.0);
+        add_plot(500.0 * k, -1000.0, 10.0);
+        step_at(SCAN_S * k);
+    }
+    assert_int_equal(tracker.counters.tracks_started, 2);
+}
+
+/* ---- mean time of straight flight ------------------------------------------------------------ */
+
+static void steady_s_out_of_range_is_refused(void **state)
+{
+    static const float bad_s[] = {NAN, INFINITY, -INFINITY, -1.0f, -1e-6f, 1.0001e5f, 2e5f};
+    static const float good_s[] = {0.0f, 1e-6f, 60.0f, 1e5f};
+    static struct rho_tracker then;
+    (void)state;
+    use_usual_configs(1);
+    memset(&tracker, 0x5a, sizeof tracker);
+    memcpy(&then, &tracker, sizeof tracker);
+    for (size_t i = 0; i < sizeof bad_s / sizeof bad_s[0]; i++) {
+        config.steady_s = bad_s[i];
+        assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
+        assert_memory_equal(&tracker, &then, sizeof tracker);
+    }
+    for (size_t i = 0; i < sizeof good_s / sizeof good_s[0]; i++) {
+        config.steady_s = good_s[i];
+        begin_tracker();
+    }
+}
+
+struct flight {
+    double early_m, straight_m, turning_m; /* root mean square errors in each phase */
+    double sure;   /* mean manoeuvre probability in the turn's second half */
+    unsigned kept; /* runs in which one track followed the target to the end */
+};
+
+/*
+ * 100 s straight, of which 10 s do not count and the next 30 s are "early"; then 3 g for 20 s; 50 m
+ * noise, a plot a second.
+ */
+static struct flight fly_and_turn(float steady_s)
+{
+    enum { RUNS = 12, BEGIN = 10, EARLY = 40, STRAIGHT = 100, TURN = 20 };
+    struct flight flight = {0};
+    for (int run = 0; run < RUNS; run++) {
+        double x_m = 0.0, y_m = 0.0, course_rad = 0.4;
+        use_usual_configs(100 + (uint64_t)run);
+        config.accel_max_mps2 = 40.0f;
+        config.steady_s = steady_s;
+        begin_tracker();
+        for (int k = 0; k < STRAIGHT + TURN; k++) {
+            const double seen_m = x_m + 50.0 * normal();
+            add_plot(seen_m, y_m + 50.0 * normal(), 50.0);
+            step_at(k);
+            const struct rho_track_report *track = report_of(1);
+            if (track && k >= BEGIN) {
+                const double off_m =
+                    hypot((double)track->state[0] - x_m, (double)track->state[1] - y_m);
+                double *into = k < EARLY      ? &flight.early_m
+                               : k < STRAIGHT ? &flight.straight_m
+                                              : &flight.turning_m;
+                *into += off_m * off_m / RUNS /
+                         (k < EARLY      ? EARLY - BEGIN
+                          : k < STRAIGHT ? STRAIGHT - EARLY
+                                         : TURN);
+                flight.sure += k >= STRAIGHT + TURN / 2
+                                   ? (double)track->maneuver_probability / RUNS / (TURN / 2)
+                                   : 0.0;
+            }
+            for (int part = 0; part < 100; part++) {
+                course_rad += k >= STRAIGHT ? 0.01 * 30.0 / 250.0 : 0.0;
+                x_m += 2.5 * cos(course_rad);
+                y_m += 2.5 * sin(course_rad);
+            }
+        }
+        const struct rho_track_report *track = report_of(1);
+        flight.kept += track && track->misses <= 2 && tracker.counters.tracks_started == 1;
+    }
+    flight.early_m = sqrt(flight.early_m);
+    flight.straight_m = sqrt(flight.straight_m);
+    flight.turning_m = sqrt(flight.turning_m);
+    return flight;
+}
+
+/*
+ * Targets straight for a while are known equally well whatever steady_s is: it matters before that.
+ */
+static void steady_s_improves_straight_flight_and_keeps_turns(void **state)
+{
+    (void)state;
+    const struct flight restless = fly_and_turn(0.0f), steady = fly_and_turn(300.0f);
+    print_message("early %.1f, with steady_s 300 s %.1f m; straight %.1f, %.1f m; turning %.1f, "
+                  "%.1f m; sure %.2f, %.2f\n",
+                  restless.early_m, steady.early_m, restless.straight_m, steady.straight_m,
+                  restless.turning_m, steady.turning_m, restless.sure, steady.sure);
+    assert_true(steady.early_m < 0.9 * restless.early_m); /* measured: 38 m and 31 m */
+    assert_true(restless.straight_m < 28.0);              /* measured: 24 m in both */
+    assert_true(steady.straight_m < 28.0);
+    assert_true(restless.turning_m < 72.0); /* measured: 63 m and 64 m */
+    assert_true(steady.turning_m < 72.0);
+    assert_true(restless.sure > 0.45 && steady.sure > 0.3); /* measured: 0.63 and 0.50 */
+    assert_int_equal(restless.kept, 12);
+    assert_int_equal(steady.kept, 12);
+}
+
+/* A steady_s shorter than manoeuvres last counts as their duration. */
+static void a_steady_s_shorter_than_manoeuvres_has_no_effect(void **state)
+{
+    static struct rho_report other;
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        use_usual_configs(1);
+        config.steady_s = i ? 1.0f : 0.0f;
+        begin_tracker();
+        step_scans(0, 20);
+        if (i == 0) {
+            other = report;
+        }
+    }
+    assert_memory_equal(&report, &other, sizeof report);
+}
+
+/* ---- standing objects ------------------------------------------------------------------------ */
+
+static void standing_objects_are_no_targets_above_v_min(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        for (int has_least = 0; has_least < 2; has_least++) {
+            unsigned ended = 0;
+            use_usual_configs(3);
+            config.gate = (uint8_t)gate;
+            config.v_min_mps = has_least ? 50.0f : 0.0f;
+            begin_tracker();
+            for (int k = 0; k < 40; k++) {
+                /* the track flies, then takes plots of something that stands still */
+                add_plot(k < 20 ? 400.0 * k - 8000.0 : 10.0 * normal(), 10.0 * normal(), 10.0);
+                step_at(2.0 * k);
+                for (unsigned i = 0; i < report.num_ended; i++) {
+                    ended += report.ended[i] == 1;
+                }
+            }
+            if (has_least) {
+                assert_int_equal(ended, 1);
+            } else {
+                assert_true(report.num_tracks >= 1);
+            }
+        }
+    }
+}
+
+static void v_min_out_of_range_is_refused(void **state)
+{
+    static const float bad[] = {-1.0f, NAN, INFINITY, 701.0f};
+    (void)state;
+    use_usual_configs(3);
+    begin_tracker();
+    static struct rho_tracker before;
+    before = tracker;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        config.v_max_mps = 700.0f;
+        config.v_min_mps = bad[i];
+        assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
+        assert_memory_equal(&tracker, &before, sizeof tracker);
+    }
+    config.v_min_mps = 700.0f;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_track_in_doubt_comes_back_with_its_identity),
+        cmocka_unit_test(a_doubted_track_that_ends_is_reported_as_ended),
+        cmocka_unit_test(tracks_never_confirmed_are_not_reported_as_ended),
+        cmocka_unit_test(misses_of_a_low_pd_sensor_raise_no_doubt),
+        cmocka_unit_test(all_tracks_ended_in_a_step_are_reported),
+        cmocka_unit_test(of_two_starts_from_one_newest_plot_one_waits),
+        cmocka_unit_test(starts_from_different_newest_plots_are_both_made),
+        cmocka_unit_test(steady_s_out_of_range_is_refused),
+        cmocka_unit_test(steady_s_improves_straight_flight_and_keeps_turns),
+        cmocka_unit_test(a_steady_s_shorter_than_manoeuvres_has_no_effect),
+        cmocka_unit_test(standing_objects_are_no_targets_above_v_min),
+        cmocka_unit_test(v_min_out_of_range_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

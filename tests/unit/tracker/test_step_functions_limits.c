@@ -1,0 +1,558 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The functions below a step's phases (step.h), each limit at both sides: sensor health, sectors,
+ * expected clutter, ends of tracks, shares of work. Sensors and tracks are made by hand, with the
+ * private header, as those of a scene never stand exactly at a limit.
+ */
+#include "../../src/tracker/step.h"
+#include "rhotrack/operator.h"
+#include "rhotrack/reflectors.h"
+#include "tracker_setup.h"
+
+static const struct rho_sensor radar = {.sensor_id = 1, .pd = 0.9f, .range_max_m = 1e5f};
+static struct rho_scan scan;
+static struct step at;
+
+static void start_step(void)
+{
+    use_usual_configs(1);
+    config.work_max = 0;
+    begin_tracker();
+    memset(&report, 0, sizeof report);
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
+    tracker.unclaimed_plots = 100.0f; /* on an area of 100 by 100 km */
+    tracker.extent = (struct rho_extent){-50000.0f, 50000.0f, -50000.0f, 50000.0f};
+    scan = (struct rho_scan){.sensor_id = 1, .plots = plots};
+    at = (struct step){.tracker = &tracker,
+                       .time_us = 100000000,
+                       .scan = &scan,
+                       .report = &report,
+                       .sensor = &radar,
+                       .in_view = {3},
+                       .sigma_max_m = 10.0f,
+                       .log_pd = -0.1f,
+                       .log_miss = -2.3f};
+}
+
+/* A confirmed track 20 km away at this azimuth, with this sigma on both axes. */
+static struct rho_track *make_track(double azimuth_rad, double sigma_m)
+{
+    struct rho_track *track = &tracker.tracks[tracker.num_tracks];
+    *track = (struct rho_track){.track_id = ++tracker.num_tracks,
+                                .status = RHO_TRACK_CONFIRMED,
+                                .hits = 8,
+                                .plot = -1,
+                                .was_confirmed = 1,
+                                .time_us = at.time_us};
+    track->kalman.state[RHO_X] = (float)(20000.0 * cos(azimuth_rad));
+    track->kalman.state[RHO_Y] = (float)(20000.0 * sin(azimuth_rad));
+    for (int axis = 0; axis < 2; axis++) {
+        track->kalman.covariance[RHO_AT(axis, axis)] = (float)(sigma_m * sigma_m);
+        track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
+    }
+    return track;
+}
+
+static void add_plot_at(double x_m, double y_m)
+{
+    (void)add_plot(x_m, y_m, 10.0);
+    report.fates[num_plots - 1] = RHO_FATE_HELD;
+    scan.num_plots = at.num_inputs = at.num_gated = num_plots;
+}
+
+/* ---- sensor health --------------------------------------------------------------------------- */
+
+#if RHO_SECTORS
+
+/* The radar and three others: all see what they should, with the same noise. */
+static struct rho_tracker_look *make_agreeing_looks(void)
+{
+    start_step();
+    tracker.num_looks = 4;
+    for (int i = 0; i < 4; i++) {
+        tracker.looks[i] = (struct rho_tracker_look){.sensor_id = 1 + i,
+                                                     .time_us = at.time_us,
+                                                     .seen_share = 0.9f,
+                                                     .distance2 = 1.0f,
+                                                     .sigma_m = 10.0f,
+                                                     .watched = 16,
+                                                     .watched_hits = 16};
+    }
+    tracker.config.pd = 0.9f;
+    return tracker.looks;
+}
+
+static int is_sensor_suspect(void)
+{
+    (void)rho_tracker_update_suspect_and_sigma_factor(&at);
+    return at.is_suspect;
+}
+
+/*
+ * A sensor is suspect below 0.3 of the expected detections over at least 12 looks, if one other
+ * agrees.
+ */
+static void a_sensor_that_sees_too_little_is_suspect(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        struct rho_tracker_look *looks = make_agreeing_looks();
+        looks[0].seen_share = i == 1 ? 0.28f : 0.26f;
+        looks[0].watched = i == 2 ? 11 : 12;
+        tracker.num_looks = 2;
+        looks[1].watched = i == 3 ? 11 : 12;
+        looks[1].seen_share = i == 4 ? 0.53f : 0.55f;
+        looks[1].distance2 = i == 5 ? 2.6f : 2.4f;
+        looks[1].time_us = at.time_us - (i == 6 ? 61000000 : 59000000);
+        assert_int_equal(is_sensor_suspect(), i == 0 || i == 7);
+    }
+}
+
+/*
+ * A sensor is suspect if its squared distances are above 4, over at least 12 plots, if two others
+ * agree.
+ */
+static void a_biased_sensor_is_suspect(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        struct rho_tracker_look *looks = make_agreeing_looks();
+        looks[0].distance2 = i == 1 ? 3.9f : 4.1f;
+        looks[0].watched_hits = i == 2 ? 11 : 12;
+        tracker.num_looks = 3;
+        looks[2].is_suspect = i == 3;
+        assert_int_equal(is_sensor_suspect(), i == 0);
+    }
+}
+
+/* Others that are biased, too, are witnesses up to 0.7 of its distance. */
+static void less_biased_sensors_are_witnesses(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct rho_tracker_look *looks = make_agreeing_looks();
+        tracker.num_looks = 3;
+        looks[0].distance2 = 5.0f;
+        looks[1].distance2 = looks[2].distance2 = i ? 3.6f : 3.4f;
+        assert_int_equal(is_sensor_suspect(), !i);
+    }
+}
+
+/* Two witnesses are needed; one of more than 1.9 times the noise does not count. */
+static void witnesses_have_at_most_1_9_times_the_noise(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct rho_tracker_look *looks = make_agreeing_looks();
+        tracker.num_looks = 3;
+        looks[0].distance2 = 5.0f;
+        looks[1].sigma_m = i ? 19.5f : 18.5f;
+        assert_int_equal(is_sensor_suspect(), !i);
+    }
+}
+
+static void a_suspect_sensor_that_agrees_is_trusted_again(void **state)
+{
+    static const float distance2[] = {2.4f, 2.6f, 1.0f, 19.0f, 25.0f},
+                       shares[] = {0.55f, 0.9f, 0.53f, 0.9f, 0.9f};
+    static const float factors[] = {1.0f, 2.6f, 1.0f, 19.0f, 20.0f};
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        struct rho_tracker_look *looks = make_agreeing_looks();
+        looks[0].is_suspect = 1;
+        looks[0].distance2 = distance2[i];
+        looks[0].seen_share = shares[i];
+        assert_float_equal(rho_tracker_update_suspect_and_sigma_factor(&at), factors[i], 1e-6);
+        assert_int_equal(at.is_suspect, i > 0);
+    }
+}
+
+/* Means are over the last sixteen looks; a plot outside the gate counts 9. */
+static void sensor_health_averages_the_last_sixteen_looks(void **state)
+{
+    (void)state;
+    for (int is_seen = 0; is_seen < 2; is_seen++) {
+        struct rho_tracker_look *looks = make_agreeing_looks();
+        struct rho_track *track = make_track(0.0, 10.0);
+        looks[0].seen_share = 0.8f;
+        track->is_shared = 1;
+        track->sensor_id = 2;
+        add_plot_at(20000.0, 5000.0);
+        assert_int_equal(rho_assignment_begin(&tracker.assignment, 1, 1), RHO_OK);
+        if (is_seen) {
+            rho_tracker_add_assignment_pair(&at, 0, 0, 5.0f);
+        }
+        rho_tracker_solve_assignment(&at);
+        rho_tracker_update_sensor_health(&at);
+        assert_int_equal(looks[0].watched, 16);
+        assert_float_equal(looks[0].seen_share, 0.8 + (is_seen - 0.8) / 16.0, 1e-6);
+        assert_float_equal(looks[0].distance2, is_seen ? 1.0 + 8.0 / 16.0 : 1.0, 1e-6);
+    }
+}
+
+/* ---- sectors --------------------------------------------------------------------------------- */
+
+/* Three sigmas of 200 m at 20 km are 0.03 rad. */
+static void the_antenna_has_passed_a_track_three_sigmas_behind_it(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        start_step();
+        scan.sector_to_rad = 0.5f;
+        at.turning = 1.0f;
+        assert_int_equal(
+            rho_tracker_has_antenna_passed_gate(&at, make_track(i ? 0.475 : 0.465, 200.0)), !i);
+        at.turning = -1.0f;
+        assert_int_equal(
+            rho_tracker_has_antenna_passed_gate(&at, make_track(i ? 0.025 : 0.035, 200.0)), !i);
+    }
+}
+
+/* Thresholds are merged over sensors heard in the last minute. */
+static void thresholds_of_silent_sensors_are_left_out(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct rho_tracker_look *looks = make_agreeing_looks();
+        looks[1].time_us = at.time_us - (i ? 61000000 : 59000000);
+        looks[1].start_mnat = -5000;
+        looks[1].confirm_mnat = 9000;
+        tracker.num_looks = 2;
+        at.initiator = &initiator;
+        initiator.start_mnat = tracker.start_mnat = 1000;
+        initiator.confirm_mnat = tracker.confirm_mnat = 4000;
+        rho_tracker_merge_sensor_thresholds(&at);
+        assert_int_equal(tracker.start_mnat, i ? 1000 : -5000);
+        assert_int_equal(tracker.confirm_mnat, i ? 4000 : 9000);
+    }
+}
+
+#endif
+
+/* ---- expected clutter ------------------------------------------------------------------------ */
+
+static void clutter_counts_are_averaged_over_ten_scans(void **state)
+{
+    float mean = 10.0f;
+    (void)state;
+    rho_tracker_smooth_mean(&mean, 30.0f);
+    assert_float_equal(mean, 12.0, 1e-5);
+}
+
+/* The density counts over at least 1 by 1 km, and is at least 1e-12 a square metre. */
+static void clutter_density_has_a_least_area_and_value(void **state)
+{
+    const struct rho_plot plot = {.x_m = 1.0f};
+    (void)state;
+    start_step();
+    assert_float_equal(rho_tracker_background_density_at_plot(&at, &plot), 1e-8, 1e-12);
+    tracker.extent = (struct rho_extent){0.0f, 10.0f, 0.0f, 10.0f};
+    assert_float_equal(rho_tracker_background_density_at_plot(&at, &plot), 100.0 / 1e6, 1e-7);
+    tracker.extent = (struct rho_extent){-2e7f, 2e7f, -2e7f, 2e7f};
+    assert_float_equal(1e12 * (double)rho_tracker_background_density_at_plot(&at, &plot), 1.0,
+                       1e-4);
+}
+
+/* ---- how tracks end -------------------------------------------------------------------------- */
+
+/* A tentative track ends when it is true with a probability below one in a hundred. */
+static void tentative_tracks_end_when_one_in_a_hundred_is_true(void **state)
+{
+    (void)state;
+    start_step();
+    tracker.start_mnat = 2000;
+    tracker.looks_max = 1;
+    const struct rho_track_limits limits = rho_tracker_track_limits(&at);
+    assert_float_equal(limits.tentative_mnat, 2000.0 - 1000.0 * log(100.0), 1.0);
+    assert_float_equal(limits.doubt_mnat, 1000.0 * log(200.0), 1.0);
+    assert_float_equal(limits.fall_mnat, 5.0 * 2302.6, 2.0);
+}
+
+/*
+ * A missed track that has moved stays, as tentative, with up to three clutter plots in its gate.
+ */
+static void missed_tracks_are_kept_tentative_only_in_little_clutter(void **state)
+{
+    const double sigma_m = sqrt(3.0 / (3.14159265 * 9.0 * 1e-8));
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        start_step();
+        struct rho_track *track = make_track(0.0, sigma_m * (i ? 1.01 : 0.99));
+        tracker.looks_max = 1;
+        track->hits = 20;
+        track->has_taken_back = 1;
+        track->misses_in_row = 5;
+        const struct rho_track_limits limits = rho_tracker_track_limits(&at);
+        rho_tracker_apply_thresholds(&at, track, &limits);
+        assert_int_equal(track->status, i ? RHO_TRACK_FREE : RHO_TRACK_TENTATIVE);
+    }
+}
+
+/* ---- coverage and notch of a sensor ---------------------------------------------------------- */
+
+/* Plots up to four sigmas beyond the range count as covered. */
+static void plots_four_sigmas_beyond_the_range_are_covered(void **state)
+{
+    (void)state;
+    const struct rho_plot inside = {.x_m = 1e5f + 39.0f, .sigma_range_m = 10.0f},
+                          outside = {.x_m = 1e5f + 41.0f, .sigma_range_m = 10.0f};
+    assert_true(rho_tracker_coverage_holds_plot(&radar, &inside, 0));
+    assert_false(rho_tracker_coverage_holds_plot(&radar, &outside, 0));
+}
+
+/* A radar with a notch of 10 m/s; a track across its line of sight is in it with at most 99 %. */
+static void tracks_stay_in_the_notch_for_five_minutes_at_most(void **state)
+{
+    const double sigma_m = sqrt(3.0 / (3.14159265 * 9.0 * 1e-8));
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        struct rho_sensor notched = radar;
+        notched.notch_mps = 10.0f;
+        start_step();
+        at.sensor = &notched;
+        at.time_us = 400000000;
+        struct rho_track *track = make_track(0.0, i < 2 ? 10.0 : sigma_m * (i == 2 ? 0.99 : 1.01));
+        track->filter = RHO_TRACK_KALMAN;
+        track->kalman.state[RHO_VY] = 100.0f;
+        track->kalman.covariance[RHO_AT(3, 3)] = track->kalman.covariance[RHO_AT(4, 4)] = 1e-4f;
+        track->updated_us = at.time_us - (i == 1 ? 301000000 : 299000000);
+        rho_tracker_set_notch_blind_percents(&at);
+        if (i < 2) {
+            assert_int_equal(track->blind_percent, i == 0 ? 99 : 0);
+        } else {
+            assert_int_equal(track->blind_percent > 0, i == 2);
+        }
+    }
+}
+
+static void a_look_in_the_notch_has_a_small_pd(void **state)
+{
+    struct rho_sensor notched = radar;
+    (void)state;
+    notched.notch_mps = 10.0f;
+    start_step();
+    at.sensor = &notched;
+    struct rho_track *track = make_track(0.0, 10.0);
+    track->kalman.state[RHO_VY] = 100.0f;
+    track->blind_percent = 80;
+    const struct detection seen = rho_tracker_detection_with_notch(&at, track);
+    const double pd = exp((double)at.log_pd);
+    assert_float_equal(seen.log_pd, log(pd * 0.2 + 0.03 * 0.8), 1e-5);
+    assert_float_equal(seen.log_miss, log(1.0 - pd * 0.2), 1e-5);
+}
+
+/* Steps up to a minute apart teach the manoeuvre interval; a longer silence starts anew. */
+static void manoeuvres_are_learned_in_gaps_up_to_a_minute(void **state)
+{
+    (void)state;
+    if (!RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
+        skip();
+    }
+    for (int i = 0; i < 2; i++) {
+        start_step();
+        make_track(0.0, 10.0)->hits = 16;
+        at.model.hypotheses = &tracker.hypotheses;
+        rho_tracker_learn_manoeuvre_interval(&at, i ? 61.0f : 59.0f);
+        assert_float_equal(tracker.straight_s, i ? 0.0 : 59.0, 1e-4);
+        tracker.straight_s = 7.0f;
+        tracker.time_us = 0;
+        rho_tracker_reset_manoeuvre_interval_after_silence(&tracker, i ? 61000000 : 59000000);
+        assert_float_equal(tracker.straight_s, i ? 0.0 : 7.0, 1e-4);
+    }
+}
+
+static void late_max_s_may_be_a_minute_at_most(void **state)
+{
+    (void)state;
+    if (!RHO_SECTORS) {
+        skip();
+    }
+    use_usual_configs(1);
+    config.late_max_s = 60.0f;
+    assert_true(rho_tracker_is_late_max_usable(&config));
+    config.late_max_s = 60.1f;
+    assert_false(rho_tracker_is_late_max_usable(&config));
+}
+
+/* ---- mirror images --------------------------------------------------------------------------- */
+
+#if RHO_MAX_REFLECTORS > 0
+
+/* A wall 1 km north of the radar, and a track at x whose image is 2 km north. */
+static struct rho_track *make_wall_and_track(float x_m)
+{
+    static const struct rho_reflector wall = {
+        .from_x_m = -500.0f, .from_y_m = 1000.0f, .to_x_m = 500.0f, .to_y_m = 1000.0f};
+    start_step();
+    assert_int_equal(rho_tracker_set_reflectors(&tracker, &wall, 1), RHO_OK);
+    struct rho_track *track = make_track(0.0, 10.0);
+    track->kalman.state[RHO_X] = x_m;
+    return track;
+}
+
+static int is_plot_ghost(float x_m, uint16_t hits)
+{
+    make_wall_and_track(x_m)->hits = hits;
+    add_plot_at((double)x_m, 2000.0);
+    rho_tracker_index_plots(&at);
+    rho_tracker_mark_image_plots_as_ghosts(&at);
+    return report.fates[0] == RHO_FATE_GHOST;
+}
+
+/* Tracks of three hits have images; the line of sight may miss the wall by three sigmas of 10 m. */
+static void plots_at_images_of_established_tracks_are_ghosts(void **state)
+{
+    (void)state;
+    assert_true(is_plot_ghost(800.0f, 3));
+    assert_int_equal(at.work, 12 + 3);
+    assert_false(is_plot_ghost(800.0f, 2));
+    assert_true(is_plot_ghost(1058.0f, 3));
+    assert_false(is_plot_ghost(1062.0f, 3));
+}
+
+static int does_track_at_image_end(double off_m, uint16_t hits, uint16_t misses)
+{
+    make_wall_and_track(800.0f)->hits = 30;
+    struct rho_track *image = make_track(0.0, 10.0);
+    image->kalman.state[RHO_X] = 800.0f;
+    image->kalman.state[RHO_Y] = (float)(2000.0 + off_m);
+    image->hits = hits;
+    image->misses = misses;
+    rho_tracker_end_image_tracks(&at);
+    return tracker.num_tracks == 1;
+}
+
+/*
+ * Within a chi-square of 18.5 of both covariances a track ends; an established one if it is seen
+ * rarely.
+ */
+static void tracks_near_an_image_end(void **state)
+{
+    (void)state;
+    assert_true(does_track_at_image_end(sqrt(18.4 * 200.0), 8, 0));
+    assert_false(does_track_at_image_end(sqrt(18.6 * 200.0), 8, 0));
+    assert_true(does_track_at_image_end(0.0, 20, 14));
+    assert_false(does_track_at_image_end(0.0, 20, 13));
+}
+
+#endif
+
+/* ---- work ------------------------------------------------------------------------------------ */
+
+#define WORK_MAX 1600000u
+
+static uint32_t work_share_after(void (*phase)(struct step *step))
+{
+    start_step();
+    tracker.config.work_max = WORK_MAX;
+    add_plot_at(20000.0, 0.0);
+    rho_tracker_index_plots(&at);
+    phase(&at);
+    return at.share.end;
+}
+
+static void each_phase_has_its_share_of_work(void **state)
+{
+    (void)state;
+    assert_int_equal(work_share_after(rho_tracker_begin_phase_with_share_per_track), WORK_MAX / 4);
+    if (RHO_MAX_ECHOES > 0) {
+        assert_int_equal(work_share_after(rho_tracker_predict_clutter_at_plots), WORK_MAX / 8);
+        assert_int_equal(work_share_after(rho_tracker_learn_second_plots_and_end_duplicates),
+                         WORK_MAX / 16);
+    }
+    if (RHO_MAX_REFLECTORS > 0) {
+        assert_int_equal(work_share_after(rho_tracker_mark_image_plots_as_ghosts), WORK_MAX / 16);
+        assert_int_equal(work_share_after(rho_tracker_end_image_tracks), WORK_MAX / 16);
+    }
+    /* work reserved after the search, with and without images */
+    start_step();
+    tracker.config.work_max = WORK_MAX;
+    at.initiator = &initiator;
+    initiator.config.work_max = 0;
+    assert_int_equal(rho_tracker_work_left_for_search(&at), WORK_MAX - WORK_MAX / 16);
+    if (RHO_MAX_REFLECTORS > 0) {
+        tracker.num_reflectors = 1;
+        assert_int_equal(rho_tracker_work_left_for_search(&at), WORK_MAX - WORK_MAX / 8);
+    }
+}
+
+/* Eight comparisons of a plot with an area cost one unit. */
+static void work_for_excluded_areas_is_counted(void **state)
+{
+    (void)state;
+    if (RHO_MAX_EXCLUDED_AREAS < 3) {
+        skip();
+    }
+    start_step();
+    for (int i = 0; i < 16; i++) {
+        add_plot_at(20000.0 + i, 0.0);
+    }
+    tracker.num_excluded = 3;
+    rho_tracker_mark_excluded_plots_as_ghosts(&at);
+    assert_int_equal(at.work, 16 * 3 / 8);
+}
+
+/* The plots of a scan are claimed in four parts at most. */
+static void a_scan_is_claimed_in_four_parts_at_most(void **state)
+{
+    (void)state;
+    if (!RHO_CLAIMS_BEYOND) {
+        skip();
+    }
+    for (uint32_t parts = 1; parts < 8; parts++) {
+        start_step();
+        tracker.config.work_max = WORK_MAX;
+        at.num_inputs = parts * RHO_MAX_PLOTS;
+        rho_tracker_begin_phase_with_share_per_track(&at);
+        assert_int_equal(at.share.end, WORK_MAX / (4 * (parts < 4 ? parts : 4)));
+    }
+}
+
+/* Scores are limited to a million nat, so that they can be added. */
+static void scores_beyond_a_million_nat_are_unsound(void **state)
+{
+    (void)state;
+    assert_true(rho_tracker_is_score_in_range(1000000000) &&
+                rho_tracker_is_score_in_range(-1000000000));
+    assert_false(rho_tracker_is_score_in_range(1000000001) ||
+                 rho_tracker_is_score_in_range(-1000000001));
+    start_step();
+    initiator.confirm_mnat = 1000000000;
+    assert_true(rho_initiator_is_sound(&initiator));
+    initiator.confirm_mnat = 1000000001;
+    assert_false(rho_initiator_is_sound(&initiator));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+#if RHO_SECTORS
+        cmocka_unit_test(a_sensor_that_sees_too_little_is_suspect),
+        cmocka_unit_test(a_biased_sensor_is_suspect),
+        cmocka_unit_test(less_biased_sensors_are_witnesses),
+        cmocka_unit_test(witnesses_have_at_most_1_9_times_the_noise),
+        cmocka_unit_test(a_suspect_sensor_that_agrees_is_trusted_again),
+        cmocka_unit_test(sensor_health_averages_the_last_sixteen_looks),
+        cmocka_unit_test(the_antenna_has_passed_a_track_three_sigmas_behind_it),
+        cmocka_unit_test(thresholds_of_silent_sensors_are_left_out),
+#endif
+        cmocka_unit_test(clutter_counts_are_averaged_over_ten_scans),
+        cmocka_unit_test(clutter_density_has_a_least_area_and_value),
+        cmocka_unit_test(tentative_tracks_end_when_one_in_a_hundred_is_true),
+        cmocka_unit_test(missed_tracks_are_kept_tentative_only_in_little_clutter),
+        cmocka_unit_test(plots_four_sigmas_beyond_the_range_are_covered),
+        cmocka_unit_test(tracks_stay_in_the_notch_for_five_minutes_at_most),
+        cmocka_unit_test(a_look_in_the_notch_has_a_small_pd),
+        cmocka_unit_test(manoeuvres_are_learned_in_gaps_up_to_a_minute),
+        cmocka_unit_test(late_max_s_may_be_a_minute_at_most),
+#if RHO_MAX_REFLECTORS > 0
+        cmocka_unit_test(plots_at_images_of_established_tracks_are_ghosts),
+        cmocka_unit_test(tracks_near_an_image_end),
+#endif
+        cmocka_unit_test(each_phase_has_its_share_of_work),
+        cmocka_unit_test(work_for_excluded_areas_is_counted),
+        cmocka_unit_test(a_scan_is_claimed_in_four_parts_at_most),
+        cmocka_unit_test(scores_beyond_a_million_nat_are_unsound),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

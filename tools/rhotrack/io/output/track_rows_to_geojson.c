@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/output/track_rows_to_geojson.h"
+
+#include <stdlib.h>
+
+#include "io/output/geojson.h"
+
+static int by_time(const void *a, const void *b)
+{
+    const struct row *one = a, *other = b;
+
+    return one->time_us != other->time_us
+               ? rows_compare_int64(one->time_us, other->time_us)
+               : (one->order > other->order) - (one->order < other->order);
+}
+
+static int int_or_zero_of_cell(double cell)
+{
+    return rows_is_cell_empty(cell) ? 0 : (int)cell;
+}
+
+static void add_track_row(struct geojson *geojson, const struct rows *rows, const struct row *row)
+{
+    static const char *const state[] = {"x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"};
+    const double *cells = rows_cells(rows, row);
+    struct geojson_row track = {
+        .time_us = row->time_us,
+        .track_id = (int32_t)cells[rows_existing_column_index(rows->kind, "track_id")],
+        .status =
+            rows_track_status_name((int)cells[rows_existing_column_index(rows->kind, "status")]),
+        .sigma_m = rows_float_or_zero(cells[rows_existing_column_index(rows->kind, "sigma_m")]),
+        .hits = int_or_zero_of_cell(cells[rows_existing_column_index(rows->kind, "hits")]),
+        .misses = int_or_zero_of_cell(cells[rows_existing_column_index(rows->kind, "misses")])};
+
+    for (int i = 0; i < 6; i++) {
+        track.state[i] =
+            rows_float_or_zero(cells[rows_existing_column_index(rows->kind, state[i])]);
+    }
+    geojson_add_row(geojson, &track);
+}
+
+void geojson_write_rows(FILE *file, struct rows *rows, const struct parameters *parameters)
+{
+    struct geojson *geojson = geojson_open(file, parameters);
+
+    qsort(rows->list, rows->count, sizeof *rows->list, by_time);
+    for (size_t i = 0; i < rows->count; i++) {
+        if (rows_row_has_measurement(rows, &rows->list[i])) {
+            add_track_row(geojson, rows, &rows->list[i]);
+        }
+    }
+    geojson_write_open_tracks_and_free(geojson);
+}

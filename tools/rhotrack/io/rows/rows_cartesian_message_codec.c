@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * rows_cartesian_message_codec: rows of Cartesian plots, and plot_scan_t messages.
+ */
+#include "io/rows/rows_in_memory.h"
+
+enum column {
+    X_M,
+    Y_M,
+    Z_M,
+    VX_MPS,
+    VY_MPS,
+    VZ_MPS,
+    SIGMA_M,
+    SIGMA_MPS,
+    SNR_DB,
+    SECTOR_FROM_RAD,
+    SECTOR_TO_RAD,
+    RANGE_RATE_MPS,
+    NUM_COLUMNS
+};
+
+enum group { NO_GROUP, SECTOR, VELOCITY };
+
+static const struct rows_column columns[NUM_COLUMNS] = {
+    [X_M] = {"x_m", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP, NULL, NULL},
+    [Y_M] = {"y_m", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP, NULL, NULL},
+    [Z_M] = {"z_m", COLUMN_MEASURED, NO_GROUP, NULL, NULL},
+    [VX_MPS] = {"vx_mps", COLUMN_MEASURED, VELOCITY, NULL, NULL},
+    [VY_MPS] = {"vy_mps", COLUMN_MEASURED, VELOCITY, NULL, NULL},
+    [VZ_MPS] = {"vz_mps", COLUMN_MEASURED, NO_GROUP, NULL, NULL},
+    [SIGMA_M] = {"sigma_m", 0, NO_GROUP, NULL, NULL},
+    [SIGMA_MPS] = {"sigma_mps", 0, NO_GROUP, NULL, NULL},
+    [SNR_DB] = {"snr_db", 0, NO_GROUP, NULL, NULL},
+    [SECTOR_FROM_RAD] = {"sector_from_rad", COLUMN_OF_SCAN, SECTOR, NULL, NULL},
+    [SECTOR_TO_RAD] = {"sector_to_rad", COLUMN_OF_SCAN, SECTOR, NULL, NULL},
+    [RANGE_RATE_MPS] = {"range_rate_mps", COLUMN_NO_ROOM, NO_GROUP, NULL, NULL},
+};
+
+/* A plot with a velocity and a height must have a vertical velocity too. */
+static const char *why_plot_cells_incomplete(const double *cells)
+{
+    if (rows_is_cell_empty(cells[X_M]) || rows_is_cell_empty(cells[Y_M])) {
+        return rows_is_cell_empty(cells[X_M]) ? "x_m is empty" : "y_m is empty";
+    }
+    if (rows_is_cell_empty(cells[VX_MPS]) != rows_is_cell_empty(cells[VY_MPS])) {
+        return rows_is_cell_empty(cells[VX_MPS]) ? "vx_mps is missing beside vy_mps"
+                                                 : "vy_mps is missing beside vx_mps";
+    }
+    if (rows_is_cell_empty(cells[VX_MPS]) && !rows_is_cell_empty(cells[VZ_MPS])) {
+        return "vx_mps and vy_mps are missing beside vz_mps";
+    }
+    if (!rows_is_cell_empty(cells[VX_MPS]) && rows_is_cell_empty(cells[VZ_MPS]) &&
+        !rows_is_cell_empty(cells[Z_M])) {
+        return "vz_mps is missing beside z_m and vx_mps";
+    }
+    return NULL;
+}
+
+static int plot_scan_kind_by_height_and_velocity(const double *cells)
+{
+    bool has_height = !rows_is_cell_empty(cells[Z_M]);
+
+    if (rows_is_cell_empty(cells[VX_MPS])) {
+        return has_height ? RHO_MESSAGE_PLOT_SCAN_POSITION_3D : RHO_MESSAGE_PLOT_SCAN_POSITION_2D;
+    }
+    return has_height ? RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D
+                      : RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_2D;
+}
+
+static size_t rows_in_one_message(const struct rows_part *rest)
+{
+    return rest->count < RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS ? rest->count
+                                                         : RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS;
+}
+
+static struct rho_message_plot message_plot_of(const struct rows_part *part, size_t index)
+{
+    const double *cells = rows_part_cells(part, index);
+
+    return (struct rho_message_plot){
+        .dt_us = rows_plot_offset_us(part, index),
+        .x_m = rows_float_or_zero(cells[X_M]),
+        .y_m = rows_float_or_zero(cells[Y_M]),
+        .z_m = rows_float_or_zero(cells[Z_M]),
+        .vx_mps = rows_float_or_zero(cells[VX_MPS]),
+        .vy_mps = rows_float_or_zero(cells[VY_MPS]),
+        .vz_mps = rows_float_or_zero(cells[VZ_MPS]),
+        .sigma_m = rows_float_or_zero(cells[SIGMA_M]),
+        .sigma_mps = rows_float_or_zero(cells[SIGMA_MPS]),
+        .snr_db = rows_float_or_zero(cells[SNR_DB]),
+    };
+}
+
+static size_t encode_plot_scan_part(const struct rows_part *part, uint8_t *buffer,
+                                    const char **field)
+{
+    const double *head = rows_scan_first_row_cells(part);
+    struct rho_message_place place;
+    size_t size;
+    struct rho_message_plot_scan message = {
+        .utime = part->scan->utime,
+        .scan = part->scan->head.scan,
+        .epoch = part->scan->head.epoch,
+        .sensor_id = (int16_t)part->scan->head.sensor_id,
+        .kind = (int8_t)plot_scan_kind_by_height_and_velocity(part->count ? rows_part_cells(part, 0)
+                                                                          : head),
+        .part = part->part,
+        .num_parts = part->scan->num_parts,
+        .sector_from_rad = rows_float_or_zero(head[SECTOR_FROM_RAD]),
+        .sector_to_rad = rows_float_or_zero(head[SECTOR_TO_RAD]),
+        .num_plots = (int16_t)part->count,
+    };
+
+    for (size_t i = 0; i < part->count; i++) {
+        message.plots[i] = message_plot_of(part, i);
+    }
+    if (rho_message_plot_scan_validate(&message, &place) != RHO_OK) {
+        *field = rho_message_plot_scan_field(&place);
+        return 0;
+    }
+    return rho_message_plot_scan_encode(&message, buffer, ROWS_MESSAGE_BYTES, &size) == RHO_OK
+               ? size
+               : 0;
+}
+
+static void put_sector_cells(double *cells, const struct rho_message_plot_scan *message)
+{
+    if (!rows_is_plus_zero(message->sector_from_rad) ||
+        !rows_is_plus_zero(message->sector_to_rad)) {
+        cells[SECTOR_FROM_RAD] = (double)message->sector_from_rad;
+        cells[SECTOR_TO_RAD] = (double)message->sector_to_rad;
+    }
+}
+
+static void put_plot_cells(double *cells, const struct rho_message_plot *plot, int kind)
+{
+    cells[X_M] = (double)plot->x_m;
+    cells[Y_M] = (double)plot->y_m;
+    if (kind == RHO_MESSAGE_PLOT_SCAN_POSITION_3D ||
+        kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D) {
+        cells[Z_M] = (double)plot->z_m;
+    }
+    if (kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_2D ||
+        kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D) {
+        cells[VX_MPS] = (double)plot->vx_mps;
+        cells[VY_MPS] = (double)plot->vy_mps;
+        cells[VZ_MPS] = kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D
+                            ? (double)plot->vz_mps
+                            : rows_zero_to_empty_cell(plot->vz_mps);
+    }
+    cells[SIGMA_M] = rows_zero_to_empty_cell(plot->sigma_m);
+    cells[SIGMA_MPS] = rows_zero_to_empty_cell(plot->sigma_mps);
+    cells[SNR_DB] = rows_zero_to_empty_cell(plot->snr_db);
+}
+
+static enum rho_status decode_plot_scan_to_rows(const uint8_t *data, size_t size, struct rows *rows,
+                                                struct rows_message *out, const char **field)
+{
+    struct rho_message_plot_scan message;
+    struct rho_message_place place;
+    enum rho_status status = rho_message_plot_scan_decode(data, size, &message);
+
+    if (status != RHO_OK) {
+        return status;
+    }
+    status = rho_message_plot_scan_validate(&message, &place);
+    if (status != RHO_OK) {
+        *field = rho_message_plot_scan_field(&place);
+        return status;
+    }
+    out->key = (struct row){.time_us = message.utime,
+                            .sensor_id = message.sensor_id,
+                            .epoch = message.epoch,
+                            .scan = message.scan};
+    out->part = message.part;
+    out->num_parts = message.num_parts;
+    put_sector_cells(rows_add_message_row(rows, out, 0), &message);
+    out->first = rows->count;
+    out->count = (size_t)message.num_plots;
+    for (int i = 0; i < message.num_plots; i++) {
+        double *cells = rows_add_message_row(rows, out, message.plots[i].dt_us);
+
+        put_sector_cells(cells, &message);
+        put_plot_cells(cells, &message.plots[i], message.kind);
+    }
+    return RHO_OK;
+}
+
+const struct rows_kind rows_kind_plots = {
+    .name = "plots",
+    .channel = RHO_MESSAGE_PLOT_SCAN_CHANNEL,
+    .type = RHO_MESSAGE_TYPE_PLOT_SCAN,
+    .has_sensor = true,
+    .has_epoch = true,
+    .has_received = true,
+    .columns = columns,
+    .num_columns = NUM_COLUMNS,
+    .why_not = why_plot_cells_incomplete,
+    .pattern = plot_scan_kind_by_height_and_velocity,
+    .fit = rows_in_one_message,
+    .encode = encode_plot_scan_part,
+    .decode = decode_plot_scan_to_rows,
+};

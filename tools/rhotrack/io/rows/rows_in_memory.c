@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/rows/rows_in_memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+
+const char *rows_track_status_name(int status)
+{
+    static const char *const names[ROWS_STATUS_MAX + 1] = {
+        [RHO_MESSAGE_TRACK_TENTATIVE] = "tentative",
+        [RHO_MESSAGE_TRACK_CONFIRMED] = "confirmed",
+        [RHO_MESSAGE_TRACK_COASTING] = "coasting",
+        [RHO_MESSAGE_TRACK_DELETED] = "deleted",
+    };
+
+    return names[status];
+}
+
+int rows_existing_column_index(const struct rows_kind *kind, const char *name)
+{
+    int i = 0;
+
+    while (strcmp(kind->columns[i].name, name) != 0) {
+        i++;
+    }
+    return i;
+}
+
+int rows_compare_int64(int64_t one, int64_t other)
+{
+    return (one > other) - (one < other);
+}
+
+void rows_init(struct rows *rows, const struct rows_kind *kind)
+{
+    *rows = (struct rows){.kind = kind};
+}
+
+void rows_free(struct rows *rows)
+{
+    free(rows->list);
+    free(rows->cells);
+}
+
+static void make_room_for_row_cells(struct rows *rows)
+{
+    if (rows->num_cells + (size_t)rows->kind->num_columns <= rows->cells_capacity) {
+        return;
+    }
+    rows->cells_capacity = 2 * rows->cells_capacity + 16 * ROWS_MAX_COLUMNS;
+    rows->cells = must_realloc(rows->cells, rows->cells_capacity * sizeof *rows->cells);
+}
+
+double *rows_add_row(struct rows *rows, const struct row *row)
+{
+    double *cells;
+
+    rows->list =
+        must_make_room_for_one(rows->list, rows->count, &rows->capacity, sizeof *rows->list);
+    make_room_for_row_cells(rows);
+    rows->list[rows->count] = *row;
+    rows->list[rows->count++].cells = rows->num_cells;
+    cells = rows->cells + rows->num_cells;
+    for (int i = 0; i < rows->kind->num_columns; i++) {
+        cells[i] = (double)NAN;
+    }
+    rows->num_cells += (size_t)rows->kind->num_columns;
+    return cells;
+}
+
+double *rows_cells(const struct rows *rows, const struct row *row)
+{
+    return rows->cells + row->cells;
+}
+
+bool rows_row_has_measurement(const struct rows *rows, const struct row *row)
+{
+    const double *cells = rows_cells(rows, row);
+
+    for (int i = 0; i < rows->kind->num_columns; i++) {
+        if ((rows->kind->columns[i].flags & COLUMN_MEASURED) && !rows_is_cell_empty(cells[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- For the kinds ---- */
+
+bool rows_is_cell_empty(double cell)
+{
+    return isnan(cell);
+}
+
+float rows_float_or_zero(double cell)
+{
+    return rows_is_cell_empty(cell) ? 0.0f : (float)cell;
+}
+
+bool rows_is_plus_zero(float value)
+{
+    return fpclassify(value) == FP_ZERO && !signbit(value);
+}
+
+double rows_zero_to_empty_cell(float value)
+{
+    return rows_is_plus_zero(value) ? (double)NAN : (double)value;
+}
+
+double *rows_add_message_row(struct rows *rows, const struct rows_message *message, int32_t dt_us)
+{
+    struct row row = message->key;
+
+    row.time_us += dt_us;
+    return rows_add_row(rows, &row);
+}
+
+int32_t rows_plot_offset_us(const struct rows_part *part, size_t index)
+{
+    return (int32_t)(part->rows->list[part->first + index].time_us - part->scan->utime);
+}
+
+const double *rows_part_cells(const struct rows_part *part, size_t index)
+{
+    return rows_cells(part->rows, &part->rows->list[part->first + index]);
+}
+
+const double *rows_scan_first_row_cells(const struct rows_part *part)
+{
+    return rows_cells(part->rows, &part->scan->head);
+}
