@@ -74,10 +74,10 @@ void rho_initiator_model_false_tracks(const struct search *search, struct false_
 
 /*
  * Expected number of false tracks of one search whose score reaches s_nat at once, and which had
- * not reached start_nat before. Counting ends at `stop_above`; FLT_MAX counts all.
+ * not reached start_nat before. Counting ends at `stop_at_sum`; FLT_MAX counts all.
  */
 float rho_initiator_false_sets_newly_above(const struct false_tracks *model, float score_nat,
-                                           float start_nat, float stop_above);
+                                           float start_nat, float stop_at_sum);
 
 /* Share of the false tracks started at start_nat that are still in the area at the next scan. */
 float rho_initiator_false_track_share_staying_in_area(const struct false_tracks *model,

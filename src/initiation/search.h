@@ -147,7 +147,7 @@ float rho_initiator_area_m2(const struct rho_initiator *initiator);
 float rho_initiator_mean_clutter_density(const struct rho_initiator *initiator, float x_m,
                                          float y_m);
 float rho_initiator_log_density_of_hit(const struct search *search, const struct plot_set *set,
-                                       unsigned m);
+                                       unsigned scan_index);
 
 /*
  * Adds the window's oldest scan to the clutter memory before it leaves

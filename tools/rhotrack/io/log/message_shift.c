@@ -63,7 +63,8 @@ void message_shift_in_time(uint8_t *data, size_t size, int64_t time_us, uint32_t
 
 void message_replace_epoch_number(uint8_t *data, size_t size, int32_t from, int32_t to)
 {
-    if (has_epoch_number(data, size) && (int32_t)load_big_endian(data + EPOCH_AT, NUMBER_BYTES) == from) {
+    if (has_epoch_number(data, size) &&
+        (int32_t)load_big_endian(data + EPOCH_AT, NUMBER_BYTES) == from) {
         store_big_endian(data + EPOCH_AT, (uint64_t)to, NUMBER_BYTES);
     }
 }

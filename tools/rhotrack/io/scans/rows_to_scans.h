@@ -95,9 +95,10 @@ bool rows_to_scans_check_time_not_back(const struct rows_to_scans *gather,
                                        const struct gathered_scan *scan, int64_t time_us,
                                        const struct row_check *check);
 
-/* Begins a scan at time_us with the sensor, number, bias, sector and line of `scan`. */
+/* Begins a scan at time_us with the sensor, number, bias, sector and line of `heading`. */
 struct gathered_scan *rows_to_scans_begin_scan(struct rows_to_scans *gather,
-                                               const struct gathered_scan *scan, int64_t time_us);
+                                               const struct gathered_scan *heading,
+                                               int64_t time_us);
 
 /* Adds a row to a scan: a plot or bearing, or a row without a measurement. */
 void rows_to_scans_add_element(struct rows_to_scans *gather, struct gathered_scan *scan,
