@@ -443,18 +443,19 @@ $(BUILD)/fuzz/fuzz_%: tests/fuzz/fuzz_%.c $(BUILD)/fuzz/parts.a $(BUILD)/fuzz/pr
 
 # What an image of any contents, or a script of calls leads to: all of the library, in the smaller profile, with the
 # bodies that it leaves out.
-embedded_fuzz_flags = $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags)) -DRHO_BODIES=1 -DRHO_KEEPS_OFFERS=1
+embedded_fuzz_flags = $(filter-out -DRHO_PROFILE_WORKSTATION,$(fuzz_flags))
+with_bodies := -DRHO_BODIES=1 -DRHO_KEEPS_OFFERS=1
 embedded_fuzz_objects := $(library_sources:%.c=$(BUILD)/fuzz/embedded/%.o)
 $(BUILD)/fuzz/embedded/%.o: %.c Makefile
 	@mkdir -p $(@D) && echo "  clang    $@" && clang $(embedded_fuzz_flags) \
-	    -fno-sanitize=float-divide-by-zero -fsanitize=fuzzer-no-link -c -o $@ $<
+	    $(with_bodies) -fno-sanitize=float-divide-by-zero -fsanitize=fuzzer-no-link -c -o $@ $<
 
 embedded_fuzz_link = @mkdir -p $(@D) && echo "  clang    $@" && \
     clang $(embedded_fuzz_flags) -MF $@.d \
     -fno-sanitize=unsigned-integer-overflow,implicit-conversion -fsanitize=fuzzer -o $@ $< $(filter %.o,$^) -lm
 
 $(BUILD)/fuzz/fuzz_snapshot $(BUILD)/fuzz/fuzz_tracker: $(BUILD)/fuzz/%: tests/fuzz/%.c $(embedded_fuzz_objects) Makefile
-	$(embedded_fuzz_link)
+	$(embedded_fuzz_link) $(with_bodies)
 
 # The tracker's script again, with capacities that it exhausts.
 small_capacities := -DRHO_CONFIG_FILE='"tests/fuzz/small_capacities.h"' -I.

@@ -456,6 +456,18 @@ static unsigned find_known_track(const struct known *all, uint32_t track_id)
     return place;
 }
 
+/* Adds a reported track to those known now; confirmed where it is, or was before. */
+static void add_known_track(struct known *now, const struct rho_track_report *track)
+{
+    const unsigned place = find_known_track(&known, track->track_id);
+
+    HOLDS("identities are unique",
+          track->track_id > 0 && find_known_track(now, track->track_id) == now->num);
+    now->track_id[now->num] = track->track_id;
+    now->was_confirmed[now->num++] =
+        (place < known.num && known.was_confirmed[place]) || track->status != RHO_TRACK_TENTATIVE;
+}
+
 static void check_identities(void)
 {
     const struct rho_report *report = &chain.report;
@@ -465,16 +477,13 @@ static void check_identities(void)
           report->num_tracks <= RHO_MAX_TRACKS && report->num_ended <= RHO_MAX_TRACKS);
     for (unsigned i = 0; i < report->num_tracks; i++) {
         const uint32_t track_id = report->tracks[i].track_id;
-        const unsigned place = find_known_track(&known, track_id);
 
-        HOLDS("identities are unique", track_id > 0 && find_known_track(&now, track_id) == now.num);
+        add_known_track(&now, &report->tracks[i]);
         HOLDS("identities are in their order",
               known.was_renumbered || i == 0 || track_id > report->tracks[i - 1].track_id);
-        HOLDS("identities are never used again", place < known.num || track_id > known.highest);
+        HOLDS("identities are never used again",
+              find_known_track(&known, track_id) < known.num || track_id > known.highest);
         HOLDS("identities are below the next one", track_id < chain.tracker.next_track_id);
-        now.track_id[now.num] = track_id;
-        now.was_confirmed[now.num++] = (place < known.num && known.was_confirmed[place]) ||
-                                       report->tracks[i].status != RHO_TRACK_TENTATIVE;
     }
     now.highest = chain.tracker.next_track_id - 1;
     for (unsigned i = 0; i < report->num_ended; i++) {
@@ -1510,14 +1519,8 @@ static void note_tracks_changed_by_hand(void)
                         .was_batch = known.was_batch};
 
     for (unsigned i = 0; i < chain.report.num_tracks; i++) {
-        const struct rho_track_report *track = &chain.report.tracks[i];
-        const unsigned place = find_known_track(&known, track->track_id);
-
-        HOLDS("identities stay unique", find_known_track(&now, track->track_id) == now.num);
-        now.track_id[now.num] = track->track_id;
-        now.was_confirmed[now.num++] = (place < known.num && known.was_confirmed[place]) ||
-                                       track->status != RHO_TRACK_TENTATIVE;
-        check_track(track, chain.report.num_plots);
+        add_known_track(&now, &chain.report.tracks[i]);
+        check_track(&chain.report.tracks[i], chain.report.num_plots);
     }
     HOLDS("the report has room for those ended", chain.report.num_ended <= RHO_MAX_TRACKS);
     known = now;

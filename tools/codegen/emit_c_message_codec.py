@@ -450,7 +450,7 @@ NAMES_TOP = """\
 /* SPDX-License-Identifier: MIT */
 /* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
 /* clang-format off */
-/* message_and_member_names: names of messages and members, in a file that firmware need not link. */
+/* message_and_member_names: names of messages and members; firmware need not link them. */
 #include "rhotrack/message.h"
 
 /* Offset and name of a member; tables have the members in their order. */

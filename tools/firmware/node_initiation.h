@@ -3,7 +3,7 @@
  * node_initiation: how the node starts tracks. A node is linked with one of
  *
  *     node_initiation_by_library.c    the library's initiator, for bearings its passive search
- *     node_initiation_by_papers.c     the papers' methods: Hough transforms of plots and of bearings
+ *     node_initiation_by_papers.c     the papers' methods: Hough transforms of plots and bearings
  *
  * which firmware.mk chooses by the node's configuration.
  */
