@@ -35,8 +35,8 @@ def write_dictionary(path, words):
 
 
 def write_configs(folder):
-    """INI files with every parameter at its default, its least and its most, and of two sensors;
-    the words of all of them."""
+    """INI files with every parameter at its default, its least and its most, with each alone at its
+    most (all together contradict each other), and of two sensors; the words of all of them."""
     text = (HERE.parents[1] / "tools" / "rhotrack" / "settings" / "parameters.h").read_text(encoding="utf-8")
     text = re.sub(r"\\\n *", " ", text)
     every, sensors = text.split("#define SENSOR_PARAMETERS")[:2]
@@ -56,6 +56,9 @@ def write_configs(folder):
         files[name] = "; a comment\n[rhotrack]\n" + "".join(
             f"{row[0]} = {row[1 + i]}\n" for row in rows
             if row[4] == "1" and row[0] not in words and not row[1 + i].startswith("RHO"))
+    for row in rows:
+        if row[4] == "1" and row[0] not in words and not row[3].startswith("RHO"):
+            files[f"most-{row[0]}"] = f"{row[0]} = {row[3]}\n"
     for i, name in enumerate(("sensor-least", "sensor-most")):
         files[name] = "range_max_m=9e4\n[sensor 3]\n" + "".join(
             f"{row[0]} = {row[1 + i]}\n"

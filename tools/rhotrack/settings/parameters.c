@@ -84,15 +84,14 @@ const char *parameters_value_text(const struct parameter_text *text, double valu
 {
     const char *word = text->choices;
 
-    snprintf(buffer, PARAMETER_VALUE_BYTES, "%.9g", value);
-    if (text->is_sum) {
+    if (!word) {
+        snprintf(buffer, PARAMETER_VALUE_BYTES, "%.9g", value); /* which may be beyond any int */
+    } else if (text->is_sum) {
         format_sum_of_choices(word, (unsigned)value, buffer);
-        return buffer;
-    }
-    for (int i = (int)value; word && i > 0; i--) {
-        word = strchr(word, '|') + 1;
-    }
-    if (word) {
+    } else {
+        for (int i = (int)value; i > 0; i--) {
+            word = strchr(word, '|') + 1;
+        }
         snprintf(buffer, PARAMETER_VALUE_BYTES, "%.*s", (int)strcspn(word, "|"), word);
     }
     return buffer;

@@ -175,7 +175,7 @@
       "hough, nearest: P(0|0) is this times I; 0: by the plots' noise and v_max_mps")              \
     X(PLANES, "planes", "-", 7, 1, 7, 1, 1, "hough: planes of velocity space that count")          \
     X(GATE_THETA_DEG, "gate_theta_deg", "deg", 5, 0.1, 90, 0, 1, "hough: cell of theta")           \
-    X(GATE_WINDOW_M, "gate_window_m", "m", 0, 0, 2e7, 0, 1,                                        \
+    X(GATE_WINDOW_M, "gate_window_m", "m", 0, 0, 4e6, 0, 1,                                        \
       "hough: plots so near to the prediction are candidates; 0: as accel_max_mps2 needs")         \
     X(GOSPA_CUTOFF_M, "gospa_cutoff_m", "m", 1000, 0.001, 1e6, 0, 1,                               \
       "distance beyond which a track and a target are not paired")                                 \
