@@ -9,7 +9,7 @@
  * - passive_best_candidate_subset.c: the subset of candidates with the highest total score
  * - passive_fit_of_several_tracks.c: one-to-one assignment of bearings to the chosen tracks, and
  *   their fits
- * - passive_track_score_margins.c: margins of the tracks against the best other sets
+ * - passive_score_lost_without_a_track.c: margins of the tracks against the best other sets
  * - passive_prepare.c: geometry, times, likelihood ratios
  * - passive_crossings.c: phase 1: crossings of all pairs of sensors
  * - passive_hough_votes_of_crossings.c: phase 2: votes, and the lines with the most votes

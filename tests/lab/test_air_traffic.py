@@ -15,7 +15,7 @@ import numpy as np
 
 import air_traffic
 from parts import simulated_air_traffic_runs as runs
-from common import lab
+from common import experiment
 from common import simulate_scene_in_memory
 from common import stonesoup_tracker
 
@@ -97,7 +97,7 @@ class Others(unittest.TestCase):
 
     def test_limits_of_a_poisson_mean(self):
         for count, low, high in ((0, 0, 3.689), (10, 4.795, 18.39)):
-            np.testing.assert_allclose(lab.poisson_limits(count), (low, high), atol=0.01)
+            np.testing.assert_allclose(experiment.poisson_limits(count), (low, high), atol=0.01)
 
     @unittest.skipUnless(stonesoup_tracker.is_installed(), "no stonesoup (make bench-stonesoup)")
     def test_stone_soup_follows_straight_targets(self):
@@ -137,7 +137,7 @@ def summaries_of(is_good):
 
 class Bars(unittest.TestCase):
     def judged(self, is_good):
-        report = lab.Report("test", types.SimpleNamespace(runs=100, seed=1, json=True))
+        report = experiment.Report("test", types.SimpleNamespace(runs=100, seed=1, json=True))
         air_traffic.judge_grid(report, summaries_of(is_good))
         air_traffic.tell_pairs(report, [{"runs": 100, "no_switch": float(is_good), "switches": 0.0,
                                          "lost": float(not is_good), "completeness": 1.0}] * 6)

@@ -14,7 +14,7 @@ lab_test_setup.need_packages("rhotrack")
 import numpy as np
 
 import extended_rivals as rivals
-from common import lab
+from common import experiment
 from common import stonesoup_tracker
 from parts import stonesoup_on_clustered_plots
 from parts import texas_instruments_group_tracker
@@ -179,7 +179,7 @@ class Figures(unittest.TestCase):
 
     def test_every_bar_can_be_held_and_missed(self):
         def judged(own, other):
-            report = lab.Report("test", types.SimpleNamespace(runs=100, seed=1, json=True))
+            report = experiment.Report("test", types.SimpleNamespace(runs=100, seed=1, json=True))
             worst, best = ({"identities": (value, 0.01), "centre": (value, 0.01),
                             "complete": (1 / value, 0.01)} for value in (2.0, 1.0))
             of = {"best": best, "worst": worst}

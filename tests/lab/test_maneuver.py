@@ -17,7 +17,7 @@ lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
 
-from common import lab
+from common import experiment
 import maneuver
 from parts import maneuver_scene
 from parts import follow_maneuver_by_method
@@ -476,7 +476,7 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(summary_of(many)["first_inside"][0], 49 / 50)
 
     def verdicts(self, judge, case, summaries):
-        report = lab.Report("-", types.SimpleNamespace(runs=2000, seed=1, json=True))
+        report = experiment.Report("-", types.SimpleNamespace(runs=2000, seed=1, json=True))
         judge(report, case, summaries)
         return {bar["what"]: bar["verdict"] for bar in report.bars if not bar["held"]}
 

@@ -20,7 +20,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy: the matrices
 lab_test_setup.need_packages("rhotrack")
 
 from parts import passive_scenes_and_references as bearings
-from common import lab
+from common import experiment
 import numpy as np
 import passive
 from parts import passive_chain
@@ -225,7 +225,7 @@ class Bars(unittest.TestCase):
     def missed(self, part, runs):
         options = argparse.Namespace(runs=400, seed=1, jobs=1, json=True, name="passive",
                                      output=pathlib.Path("."))
-        report = lab.Report("made up", options)
+        report = experiment.Report("made up", options)
         with mock.patch.object(passive, "runs_of", lambda *_: runs), \
                 mock.patch.object(passive_chain, "runs_of", lambda *_: runs), \
                 mock.patch.object(passive_paper_figures, "tell"):

@@ -16,7 +16,7 @@ lab_test_setup.need_packages("rhotrack")
 import numpy as np
 
 import doppler
-from common import lab
+from common import experiment
 import polar
 from parts import polar_runs
 from parts import polar_references as references
@@ -247,7 +247,7 @@ class Polar(unittest.TestCase):
 
     def test_every_bar_can_be_missed(self):
         def judged(is_good):
-            report = lab.Report("test", types.SimpleNamespace(runs=100, seed=1, json=True))
+            report = experiment.Report("test", types.SimpleNamespace(runs=100, seed=1, json=True))
             for clutter in polar.CLUTTER:
                 for case in polar.CASES[::2]:
                     polar.judge(report, case, clutter, {
@@ -268,7 +268,7 @@ class Doppler(unittest.TestCase):
         153 m."""
         with lab_test_setup.folder() as folder:
             options = types.SimpleNamespace(runs=6, seed=4711, json=True, jobs=2, output=folder)
-            report = lab.Report("test", options)
+            report = experiment.Report("test", options)
             found = [*doppler.measure(report, doppler.CASES[:1], 6, 100),
                      *doppler.measure(report, doppler.CASES[1:3], 6, 1000)]
             for of in found:

@@ -12,7 +12,7 @@ lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
 
-from common import lab
+from common import experiment
 import rotating
 from common import simulate_scene_in_memory
 
@@ -64,7 +64,7 @@ class Rotating(unittest.TestCase):
         for is_good, verdict in ((True, "ok"), (False, "MISSED")):
             one = {"targets": 3, "found": 3, "tracked": 3}
             lost = {"targets": 3, "found": 3 if is_good else 1, "tracked": 3 if is_good else 1}
-            report = lab.Report("test", types.SimpleNamespace(runs=9, seed=1, json=True))
+            report = experiment.Report("test", types.SimpleNamespace(runs=9, seed=1, json=True))
             figures = [{"rmse_m": (100.0, 1.0)}] * 3 if is_good else [
                 {"rmse_m": (200.0, 1.0)}, None, {"rmse_m": (100.0, 1.0)}]
             rotating.judge(report, [[lost] * 9, [one] * 9, [one] * 9], figures,

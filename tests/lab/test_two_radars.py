@@ -12,7 +12,7 @@ lab_test_setup.need_packages("rhotrack")
 
 import numpy as np
 
-from common import lab
+from common import experiment
 from common import simulate_scene_in_memory
 import two_radars
 
@@ -74,7 +74,7 @@ class TwoRadars(unittest.TestCase):
 
     def test_every_bar_can_be_missed(self):
         def judged(is_good):
-            report = lab.Report("test", types.SimpleNamespace(runs=9, seed=1, json=True))
+            report = experiment.Report("test", types.SimpleNamespace(runs=9, seed=1, json=True))
             biases = {kind: {"worst": 0.0 if is_good else 100.0, "not_known": int(not is_good)}
                       for kind, *_ in two_radars.KINDS}
             alone = {"rmse_m": (100.0, 1.0), "completeness": (1.0, 0.01)}

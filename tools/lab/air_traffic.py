@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from common import lab
+from common import experiment
 from common import stonesoup_tracker
 from parts.simulated_air_traffic_runs import (ALARMS, CASES, CUTOFFS_M, PAIRS, run_alarm, run_pair, run_rival,
                               run_traffic)
@@ -39,7 +39,7 @@ def summary_of(case, runs):
             "tracks": [mean_figures([run["tracks"][k] for run in runs]) for k in (0, 1)]}
     if "limit" in runs[0]:
         made["limit"] = [mean_figures([run["limit"][k] for run in runs]) for k in (0, 1)]
-        made["ratio"] = [lab.root_of(*lab.ratio_of(
+        made["ratio"] = [experiment.root_of(*experiment.ratio_of(
             [run["tracks"][k]["gospa_m"]**2 for run in runs],
             [run["limit"][k]["gospa_m"]**2 for run in runs])) for k in (0, 1)]
     return made
@@ -188,7 +188,7 @@ def tell_clutter(report, results):
                 "--part clutter --runs 200`.")
     rows, facts = [], []
     for (clutter, wanted), of in zip(ALARMS, results):
-        low, high = (limit / of["hours"] for limit in lab.poisson_limits(of["confirmed"]))
+        low, high = (limit / of["hours"] for limit in experiment.poisson_limits(of["confirmed"]))
         rate = of["confirmed"] / of["hours"]
         rows.append([clutter, wanted, of["scans"], f"{of['hours']:.1f}", of["confirmed"],
                      f"{rate:.2f}", f"{low:.2f} .. {high:.2f}", f"{of['min_scans']:.2f}",
@@ -220,7 +220,7 @@ def tell_rivals(report, results):
     for method, (figures, ms) in results.items():
         name = method if method == "rhotrack" else f"Stone Soup, {method.upper()}"
         of = mean_figures(figures)
-        over = lab.root_of(*lab.ratio_of([one["gospa_m"]**2 for one in own],
+        over = experiment.root_of(*experiment.ratio_of([one["gospa_m"]**2 for one in own],
                                          [one["gospa_m"]**2 for one in figures]))
         rows.append([name, f"{of['gospa_m']:.0f}", f"{of['localisation_m']:.0f}",
                      f"{of['missed']:.3f}", f"{of['false']:.3f}", f"{of['completeness']:.4f}",
@@ -251,7 +251,7 @@ def judge_grid(report, summaries):
             for key, what, judge, bar in (
                     ("completeness", "completeness", report.at_least, complete),
                     ("false", "false tracks a scan", report.at_most, false)):
-                value, error = lab.mean_of([run["tracks"][0][key] for run in of["runs"]])
+                value, error = experiment.mean_of([run["tracks"][0][key] for run in of["runs"]])
                 judge(f"{name}: {what}", value, bar, error)
         report.at_most(f"{name}: ms a scan", of["us"] / 1e3, ms)
         if (case.aircraft, case.clutter) == (50, 100):
@@ -317,10 +317,10 @@ def measure_rivals(report):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS, lambda parser: parser.add_argument(
+    options = experiment.options_of(__doc__, RUNS, lambda parser: parser.add_argument(
         "--part", action="append", choices=PARTS, help="this one alone (repeatable)"))
     parts = options.part or PARTS
-    report = lab.Report("Air traffic over 500 x 500 km, a scan every 10 s, sigma 50 m, P_D 0.95",
+    report = experiment.Report("Air traffic over 500 x 500 km, a scan every 10 s, sigma 50 m, P_D 0.95",
                         options)
     measure_traffic(report, parts)
     if "pairs" in parts:

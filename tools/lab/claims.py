@@ -19,12 +19,12 @@ import textwrap
 import unittest
 
 from parts import read_papers_claims_tables as table
-from common import lab
+from common import experiment
 
 RUNS = 50  # the paper's own number; passive has as many of its shares
 EXPERIMENTS = {"papers-initiation": [], "maneuver": [],
                "passive": ["--part", "pruning", "paper", "claims"]}
-PAGE = lab.ROOT / "tools" / "lab" / "CLAIMS.md"
+PAGE = experiment.ROOT / "tools" / "lab" / "CLAIMS.md"
 VERDICTS = ("holds", "fails", "cannot be known", "definition", "not measured")
 GROUPS = (("Equations", "equation"), ("Steps", "step"), ("Figures", "figure"), ("Tables", "table"),
           ("Numbers and what else is said", ""))
@@ -61,7 +61,7 @@ def experiment_folder(options, name):
 
 
 def run_experiment(options, name):
-    words = [str(lab.ROOT / "tools" / "lab" / f"{name.replace('-', '_')}.py"), *EXPERIMENTS[name],
+    words = [str(experiment.ROOT / "tools" / "lab" / f"{name.replace('-', '_')}.py"), *EXPERIMENTS[name],
              "--runs", str(options.runs), "--seed", str(options.seed), "--jobs",
              str(options.jobs), "--json", "-o", str(experiment_folder(options, name))]
     print(f"experiment {name}", file=sys.stderr, flush=True)
@@ -93,20 +93,20 @@ def figures_of(options, papers):
 def program_of(file):
     """The test program of tests/ROOM/test_X.c."""
     name = pathlib.PurePath(file).relative_to("tests").with_suffix("")
-    return lab.BUILD / "tests" / "embedded" / name
+    return experiment.BUILD / "tests" / "embedded" / name
 
 
 def results_in_c(files):
     """{(file, test): passed} of CMocka programs."""
     programs = {file: program_of(file) for file in files}
     if programs:
-        build, *wanted = (os.path.relpath(path, lab.ROOT)
-                          for path in (lab.BUILD, *programs.values()))
-        subprocess.run(["make", "-s", "-C", lab.ROOT, f"BUILD={build}", *wanted], check=True,
+        build, *wanted = (os.path.relpath(path, experiment.ROOT)
+                          for path in (experiment.BUILD, *programs.values()))
+        subprocess.run(["make", "-s", "-C", experiment.ROOT, f"BUILD={build}", *wanted], check=True,
                        stdout=subprocess.DEVNULL)
     results = {}
     for file, program in programs.items():
-        done = subprocess.run([program], capture_output=True, text=True, check=False, cwd=lab.ROOT)
+        done = subprocess.run([program], capture_output=True, text=True, check=False, cwd=experiment.ROOT)
         for verdict, test in re.findall(r"^\[  (     OK|FAILED ) \] (\w+)",
                                         done.stdout + done.stderr, re.MULTILINE):
             results[file, test] = verdict.strip() == "OK"
@@ -115,10 +115,10 @@ def results_in_c(files):
 
 def results_in_python(tests):
     """The same of unittest files, of which only the named tests run."""
-    sys.path.insert(0, str(lab.ROOT / "tests" / "lab"))
+    sys.path.insert(0, str(experiment.ROOT / "tests" / "lab"))
     results = {}
     for file in sorted({file for file, _ in tests}):
-        spec = importlib.util.spec_from_file_location(pathlib.PurePath(file).stem, lab.ROOT / file)
+        spec = importlib.util.spec_from_file_location(pathlib.PurePath(file).stem, experiment.ROOT / file)
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
         wanted = {test for of, test in tests if of == file}
@@ -191,7 +191,7 @@ def command_of(row):
         return "<br>".join(f"`rhotrack experiment {name}`" for name in names)
     files = dict.fromkeys(file for file, _ in row.test)
     return "<br>".join(
-        f"`tests/run.sh build/{program_of(file).relative_to(lab.BUILD)}`" if file.endswith(".c")
+        f"`tests/run.sh build/{program_of(file).relative_to(experiment.BUILD)}`" if file.endswith(".c")
         else f"`{file} -k {next(test for of, test in row.test if of == file)}`" for file in files)
 
 
@@ -237,7 +237,7 @@ def page_of(options, papers, figures, results):
     total = {verdict: sum(count[verdict] for count in counts) for verdict in VERDICTS}
     shown = [verdict for verdict in VERDICTS if total[verdict] or verdict != "not measured"]
     lines = [wrapped_paragraphs(HEAD, command=" ".join(["rhotrack experiment claims", *(
-        ["--figures", os.path.relpath(options.figures, lab.ROOT)] if options.figures else []),
+        ["--figures", os.path.relpath(options.figures, experiment.ROOT)] if options.figures else []),
         "--update"]),
                          sources=sources_of(options, figures)),
              f"| paper | rows | {' | '.join(shown)} |\n|---|{'---|' * (len(shown) + 1)}\n"]
@@ -269,7 +269,7 @@ def add_options(parser):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS, add_options)
+    options = experiment.options_of(__doc__, RUNS, add_options)
     try:
         papers = table.read_all(options.tables)
         figures = figures_of(options, papers)

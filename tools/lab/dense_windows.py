@@ -16,7 +16,7 @@ import pathlib
 import subprocess
 import tempfile
 
-from common import lab
+from common import experiment
 
 CLUTTER_PER_KM2 = {5: 5, 10: 5, 15: 5, 20: 5, 24: 6, 30: 6}  # and the hits that are asked
 AREA_KM2 = 10
@@ -73,12 +73,12 @@ def density_case(job):
 
 
 def add_options(parser):
-    parser.add_argument("--program", default=lab.ROOT / "build" / "rhotrack")
+    parser.add_argument("--program", default=experiment.ROOT / "build" / "rhotrack")
 
 
 def main():
-    options = lab.options_of(__doc__, 100, add_options)
-    report = lab.Report(f"Scene crossing, seven scans in one batch, work_max {FULL_NODE_WORK} "
+    options = experiment.options_of(__doc__, 100, add_options)
+    report = experiment.Report(f"Scene crossing, seven scans in one batch, work_max {FULL_NODE_WORK} "
                         "and none", options)
     windows = report.map(density_case, [
         (options.program, per_km2, min_scans, options.runs, options.seed)

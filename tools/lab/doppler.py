@@ -7,7 +7,7 @@ The clutter at which scene doppler without range rates just meets its bars is lo
 times as much, with range rates, ambiguous ones, and none. Search, tracker and scores are those of
 experiment polar.
 """
-from common import lab
+from common import experiment
 from parts import polar_runs as polar
 from common import simulate_scene_in_memory
 
@@ -91,7 +91,7 @@ def judge(report, at_limit, beyond, limit):
         report.at_most(f"{name}: false tracks a run", of["false_tracks_per_run"][0], FALSE_MAX,
                        of["false_tracks_per_run"][1])
     (_, clutter, without), (name, _, with_rates) = at_limit[:2]
-    ratio, error = lab.quotient_of(with_rates["rmse_m"], without["rmse_m"])
+    ratio, error = experiment.quotient_of(with_rates["rmse_m"], without["rmse_m"])
     report.at_most(f"{name}, {clutter} a turn: rmse over that without", ratio, 1.0, error)
 
 
@@ -109,8 +109,8 @@ def draw(report, levels, at_limit, beyond):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS)
-    report = lab.Report("A radar that measures range rates, 40 m, 7 mrad, 1 m/s, 4 s a turn",
+    options = experiment.options_of(__doc__, RUNS)
+    report = experiment.Report("A radar that measures range rates, 40 m, 7 mrad, 1 m/s, 4 s a turn",
                         options)
     rows, at_limit, beyond, limit = measure_all(report)
     report.text(f"Three targets at 20 to 60 km. Without range rates Pd .95, by a batch of seven "

@@ -18,7 +18,7 @@ import tempfile
 
 import numpy as np
 
-from common import lab
+from common import experiment
 import real_skies
 
 RUNS = 20
@@ -159,7 +159,7 @@ def run(job):
     with tempfile.TemporaryDirectory(prefix="rhotrack-") as name:
         folder = pathlib.Path(name)
         sets = [word for one in case.sets for word in ("--set", one)]
-        program = lab.BUILD / "rhotrack"
+        program = experiment.BUILD / "rhotrack"
         real_skies.run_program(program, ["simulate", case.scene, "--seed", seed, "-o", folder,
                                          *sets])
         real_skies.run_program(program, [
@@ -238,22 +238,22 @@ def judge(report, case, length, of):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS)
-    report = lab.Report("Targets that give several plots a scan", options)
+    options = experiment.options_of(__doc__, RUNS)
+    report = experiment.Report("Targets that give several plots a scan", options)
     done = report.map(run, [(number, options.seed + k, case.is_shown and k == 0)
                             for number, case in enumerate(CASES) for k in range(options.runs)])
     rows, facts = [], []
     for number, case in enumerate(CASES):
         runs = done[number * options.runs:(number + 1) * options.runs]
         for length in (key for key in runs[0][0] if key != "others"):
-            of = {key: lab.mean_of([one[length][key] for one, _ in runs])
+            of = {key: experiment.mean_of([one[length][key] for one, _ in runs])
                   for key in runs[0][0][length]}
             rows.append([case.scene, case.name, length] + [
                 f"{of[key][0]:.3f}" if key in of else "" for key in (
                     "tracks", "identities", "complete", "centre", "length", "width",
                     "nees_centre", "nees_length", "nees_width")])
             facts.append({"scene": case.scene, "case": case.name, "length_m": float(length),
-                          **lab.values_of(of)})
+                          **experiment.values_of(of)})
             if case.is_judged:
                 judge(report, case, length, of)
         if runs[0][1]:

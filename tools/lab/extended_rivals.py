@@ -17,7 +17,7 @@ import time
 
 import numpy as np
 
-from common import lab
+from common import experiment
 from common import simulate_scene_in_memory
 from common import stonesoup_tracker
 import extended
@@ -178,7 +178,7 @@ def judge(report, figures):
     for (scene, length), trackers in figures.items():
         own, others = trackers[OWN], [of for name, of in trackers.items() if name != OWN]
         for key in ("identities", "centre"):
-            value, error = lab.quotient_of(own[key], min(of[key] for of in others))
+            value, error = experiment.quotient_of(own[key], min(of[key] for of in others))
             report.at_most(f"{scene}, {length:g} m: {key} over the best of the others", value, 1.0,
                            error)
         best = max(of["complete"] for of in others)
@@ -192,8 +192,8 @@ def add_options(parser):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS, add_options)
-    report = lab.Report("Targets that give several plots a scan, by other trackers", options)
+    options = experiment.options_of(__doc__, RUNS, add_options)
+    report = experiment.Report("Targets that give several plots a scan, by other trackers", options)
     is_there = stonesoup_tracker.is_installed()
     chosen = [number for number, case in enumerate(CASES) if options.scene in (None, case.name)]
     trackers = {number: [OWN, GROUPS, *(STONE_SOUP if is_there and CASES[number].clusters else ())]
@@ -207,7 +207,7 @@ def main():
             runs = [result for job, result in zip(jobs, done) if job[:2] == (number, tracker)]
             for length in runs[0]:
                 figures.setdefault((CASES[number].name, length), {})[tracker] = {
-                    key: lab.mean_of([one[length][key] for one in runs]) for key in runs[0][length]}
+                    key: experiment.mean_of([one[length][key] for one in runs]) for key in runs[0][length]}
     report.text("Trucks and cars at a light (scene traffic-light without its notch, each car with "
                 "three scatterers) are cut to 30 s for all trackers alike. " + (
                     "Stone Soup: its trackers of points, behind DBSCAN." if is_there else
@@ -221,7 +221,7 @@ def main():
                      "scan_ms"))]
                   for (scene, length), found in figures.items() for tracker, of in found.items()])
     report.fact("cases", [{"scene": scene, "length_m": length, "tracker": tracker,
-                           **lab.values_of(of)}
+                           **experiment.values_of(of)}
                           for (scene, length), found in figures.items()
                           for tracker, of in found.items()])
     judge(report, figures)

@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.stats import chi2
 
-from common import lab
+from common import experiment
 from common import initiation_paper_aircraft as paper
 import rhotrack
 from common import straight_fit
@@ -150,7 +150,7 @@ def delay_row(per_km2, runs):
         "clutter_per_km2": per_km2, "targets": len(plots),
         "confirmed_at_scan": float(confirmed_at.mean()),
         "possible_at_scan": float(possible_at.mean()),
-        "scans_behind": lab.mean_of(confirmed_at - possible_at),
+        "scans_behind": experiment.mean_of(confirmed_at - possible_at),
         "on_third_plot": float(np.mean(plots <= 3)),
         "at_most_one_scan_late": float(np.mean(confirmed_at <= possible_at + 1)),
         "share_by_scan": [float(np.mean(confirmed_at <= k + 1)) for k in range(DELAY_SCANS)]}
@@ -218,10 +218,10 @@ def pictures_of_delays(report, delays):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS, lambda parser: parser.add_argument(
+    options = experiment.options_of(__doc__, RUNS, lambda parser: parser.add_argument(
         "--scans", type=int, default=ALARM_SCANS,
         help=f"of clutter alone, a run (default {ALARM_SCANS})"))
-    report = lab.Report("False tracks an hour, and time to confirm", options)
+    report = experiment.Report("False tracks an hour, and time to confirm", options)
     report.text(" ".join(__doc__.split("\n\n", maxsplit=1)[1].split()))
     runs, seed = range(options.runs), options.seed
     # the dense ones take longest, and go first; every rate sees the same clutter

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import matplotlib.pyplot as plt
 import numpy as np
 
-from common import lab
+from common import experiment
 from common import initiation_paper_aircraft as paper
 import rhotrack
 from common import straight_fit
@@ -237,7 +237,7 @@ def summarised(case, runs):
     """Means over the runs; NaN without targets."""
     targets = sum(run.targets for run in runs)
     share = (lambda count: count / targets) if targets else (lambda count: np.nan)
-    false, false_error = lab.mean_of([run.false for run in runs])
+    false, false_error = experiment.mean_of([run.false for run in runs])
     errors_m = [error for run in runs for error in run.errors_m]
     return {
         "bar": case.bar, "case": case.name, "targets": targets,
@@ -245,7 +245,7 @@ def summarised(case, runs):
         "all_found": float(np.mean([run.found == run.targets for run in runs])) if targets
         else np.nan,
         "oracle_pd": share(sum(run.oracle for run in runs)),
-        "behind": lab.mean_of([(run.oracle - run.found) / run.targets for run in runs])
+        "behind": experiment.mean_of([(run.oracle - run.found) / run.targets for run in runs])
         if targets else (np.nan, np.nan),
         "false_per_run": false, "false_error": false_error,
         "error_m": float(np.mean(errors_m)) if errors_m else np.nan,
@@ -290,7 +290,7 @@ def work_table(report, runs):
                                   [*WORK_MAX.values(), None])])
     for (name, most), of in zip(WORK_MAX.items(), work.T):
         report.at_most(f"work, 100 clutter plots a scan: {name}", of.mean(), most,
-                       lab.mean_of(of)[1])
+                       experiment.mean_of(of)[1])
     report.fact("work", dict(zip([*WORK_MAX, "fits"], work.mean(axis=0).tolist())))
 
 
@@ -349,8 +349,8 @@ def pictures(report, rows):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS)
-    report = lab.Report("Track initiation from plots in clutter", options)
+    options = experiment.options_of(__doc__, RUNS)
+    report = experiment.Report("Track initiation from plots in clutter", options)
     jobs = [(number, options.seed, index) for number in range(len(CASES))
             for index in range(options.runs)]
     results = report.map(run, jobs)

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from common import lab
+from common import experiment
 from parts.maneuver_scene import CLEAN_SCANS, INTERVAL_S, SCANS, Scene, Setting
 from parts.follow_maneuver_by_method import FIRST_RUNS, Method, follow, outcome_of, summary_of
 
@@ -406,8 +406,8 @@ def facts_of(cases, summaries):
 
 
 def main():
-    options = lab.options_of(__doc__, runs=500)
-    report = lab.Report("Targets that manoeuvre in clutter", options)
+    options = experiment.options_of(__doc__, runs=500)
+    report = experiment.Report("Targets that manoeuvre in clutter", options)
     summaries, pictures = run_all(report)
     paper, closed_from = len(PAPER_CASES), len(PAPER_CASES) + 1
     pd_at = closed_from + len(CLOSED_CASES)

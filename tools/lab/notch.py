@@ -17,7 +17,7 @@ import tempfile
 
 import numpy as np
 
-from common import lab
+from common import experiment
 import real_skies
 from common import read_truth_plots_tracks
 from common import scoring
@@ -69,18 +69,18 @@ def run(job):
     """Figures of one run; of the first one also what a picture needs."""
     number, seed, is_kept = job
     case = CASES[number]
-    path = read_truth_plots_tracks.path_of(lab.ROOT / "tools" / "scenes", case.scene)
+    path = read_truth_plots_tracks.path_of(experiment.ROOT / "tools" / "scenes", case.scene)
     scene = json.loads(path.read_text(encoding="utf-8"))
     with tempfile.TemporaryDirectory(prefix="rhotrack-") as name:
         folder = pathlib.Path(name)
         sets = [word for one in case.sets for word in ("--set", one)]
-        real_skies.run_program(lab.BUILD / "rhotrack",
+        real_skies.run_program(experiment.BUILD / "rhotrack",
                                ["simulate", path, "--seed", seed, "-o", folder, *sets])
         settings = read_truth_plots_tracks.Settings(folder / "scenario.ini")
         sensors = settings.sensors()
         plots = read_truth_plots_tracks.read_plots(folder / "plots.csv", sensors, 0.0)
         truth = read_truth_plots_tracks.read_truth(folder, plots.scan_times_us)
-        real_skies.run_program(lab.BUILD / "rhotrack", [
+        real_skies.run_program(experiment.BUILD / "rhotrack", [
             "track", folder / "plots.csv", "--config", folder / "scenario.ini", "--covariance",
             "-o", folder / "tracks.csv", *(word for one in case.track_sets
                                            for word in ("--set", one))])
@@ -166,19 +166,19 @@ def draw(report, case, shown):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS)
-    report = lab.Report("Radars that are blind at some range rates, or see targets twice", options)
+    options = experiment.options_of(__doc__, RUNS)
+    report = experiment.Report("Radars that are blind at some range rates, or see targets twice", options)
     done = report.map(run, [(number, options.seed + k, case.is_shown and k == 0)
                             for number, case in enumerate(CASES) for k in range(options.runs)])
     rows, facts = [], []
     for number, case in enumerate(CASES):
         runs = done[number * options.runs:(number + 1) * options.runs]
-        of = {key: lab.mean_of([one[key] for one, _ in runs]) for key in runs[0][0]}
+        of = {key: experiment.mean_of([one[key] for one, _ in runs]) for key in runs[0][0]}
         rows.append([case.scene, case.name, f"{of['identities'][0]:.3f}",
                      f"{of['completeness'][0]:.3f}", f"{of['false_per_scan'][0]:.3f}",
                      f"{of['late_false'][0]:.3f}",
                      f"{of['numbers'][0]:.1f}", f"{of['rms_m'][0]:.1f}"])
-        facts.append({"scene": case.scene, "case": case.name, **lab.values_of(of)})
+        facts.append({"scene": case.scene, "case": case.name, **experiment.values_of(of)})
         if case.bars:
             name = f"{case.scene}, {case.name}"
             report.at_most(f"{name}: identities a target", of["identities"][0], case.bars[0],

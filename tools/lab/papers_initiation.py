@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from common import lab
+from common import experiment
 from common import initiation_paper_aircraft as paper
 from parts import papers_initiation_reference_values as known
 from parts import papers_initiation_pictures as pictures
@@ -204,7 +204,7 @@ def run(job):
 def summarised(results, methods):
     """{method: {figure: (mean, standard error)}}; of ms the median."""
     return {method: {
-        name: lab.mean_of(np.concatenate([np.atleast_1d(one[method][name]) for one in results]))
+        name: experiment.mean_of(np.concatenate([np.atleast_1d(one[method][name]) for one in results]))
         if name != "ms" else (float(np.median([one[method]["ms"] for one in results])), np.nan)
         for name in results[0][method]} for method in methods}
 
@@ -440,10 +440,10 @@ def add_options(parser):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS, add_options)
+    options = experiment.options_of(__doc__, RUNS, add_options)
     methods = [method for method, (name, _) in METHODS.items() if options.method in (None, name)]
     papers = [method for method in methods if method != "default"]
-    report = lab.Report("The papers' initiation: Hough transforms of plots", options)
+    report = experiment.Report("The papers' initiation: Hough transforms of plots", options)
     for paragraph in __doc__.split("\n\n")[1:]:
         report.text(" ".join(paragraph.split()))
     ideal_votes = heights_without_chance(methods)

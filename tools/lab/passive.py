@@ -12,7 +12,7 @@ import functools
 import math
 import time
 
-from common import lab  # before numpy, whose threads it limits
+from common import experiment  # before numpy, whose threads it limits
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from parts import passive_paper_figures
 from parts import passive_variants
 import rhotrack
 from parts.passive_scenes_and_references import PLACES_M, Setting, fit, moved, nees
-from common.lab import ratio_of, root_of
+from common.experiment import ratio_of, root_of
 from parts.passive_paper_figures import RANGE_MAX_M, line_of, line_off, lines_matched, search_paper
 from parts.passive_runs import (RULES, beside, facts_of, found_facts, found_of, judge_rate, runs_of,
                           text_of)
@@ -363,9 +363,9 @@ PARTS = {"pruning": tell_pruning, "paper": tell_paper, "default": tell_default,
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS, lambda parser: parser.add_argument(
+    options = experiment.options_of(__doc__, RUNS, lambda parser: parser.add_argument(
         "--part", nargs="+", choices=PARTS, default=list(PARTS), help="tables, all unless named"))
-    report = lab.Report("Bearings of passive sensors", options)
+    report = experiment.Report("Bearings of passive sensors", options)
     for part in options.part:
         PARTS[part](report)
     report.close()

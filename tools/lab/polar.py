@@ -9,7 +9,7 @@ sigmas in all directions; with range rates, or without (polar_runs.py).
 """
 import numpy as np
 
-from common import lab
+from common import experiment
 import rhotrack
 from common import simulate_scene_in_memory
 from parts.polar_runs import (MIN_SCANS, PD, SIGMA_RANGE_RATE_MPS, TURN_S, WINDOW, Case, Sky, facts,
@@ -160,8 +160,8 @@ def draw_errors(report, figures):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS)
-    report = lab.Report("A turning radar, 15 m and 3 mrad, 4 s a turn", options)
+    options = experiment.options_of(__doc__, RUNS)
+    report = experiment.Report("A turning radar, 15 m and 3 mrad, 4 s a turn", options)
     jobs = [(options.seed + run, clutter) for clutter in CLUTTER for run in range(options.runs)]
     done = report.map(run, jobs)
     levels = [done[i * options.runs:(i + 1) * options.runs] for i in range(len(CLUTTER))]

@@ -12,7 +12,7 @@ import time
 
 import numpy as np
 
-from common import lab
+from common import experiment
 import rhotrack
 from common import simulate_scene_in_memory
 
@@ -110,7 +110,7 @@ def figures_of(runs):
     total = {key: sum(run[key] for run in runs) for key in runs[0]}
 
     def rms(key):
-        return lab.root_of(*lab.ratio_of([run[key] for run in runs],
+        return experiment.root_of(*experiment.ratio_of([run[key] for run in runs],
                                          [run["count"] for run in runs]))
 
     return {"targets": total["targets"], "found": total["found"] / total["targets"],
@@ -122,7 +122,7 @@ def figures_of(runs):
 def share_behind(runs, key):
     """By how much of the targets sectors are behind all at once, and its standard error."""
     sectors, at_once = runs[0], runs[CASES.index("all at once")]
-    return lab.ratio_of([one[key] - other[key] for one, other in zip(at_once, sectors)],
+    return experiment.ratio_of([one[key] - other[key] for one, other in zip(at_once, sectors)],
                         [one["targets"] for one in sectors])
 
 
@@ -130,7 +130,7 @@ def judge(report, runs, figures, latency_ms):
     for key, what in (("found", "found after 7 turns"), ("tracked", "tracked at the end")):
         value, error = share_behind(runs, key)
         report.at_most(f"by sectors: {what}, behind all at once", value, LOSS_MAX, error)
-    value, error = lab.quotient_of(figures[0]["rmse_m"],
+    value, error = experiment.quotient_of(figures[0]["rmse_m"],
                                    figures[CASES.index("all at once")]["rmse_m"])
     report.at_most("by sectors: rmse over that of all at once", value, RMSE_MAX, error)
     report.at_most("by sectors: ms from a plot's time to its report, at most", latency_ms,
@@ -150,8 +150,8 @@ def draw(report, steps):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS)
-    report = lab.Report("A turning antenna, 15 m and 3 mrad, 4 s and 32 sectors a turn", options)
+    options = experiment.options_of(__doc__, RUNS)
+    report = experiment.Report("A turning antenna, 15 m and 3 mrad, 4 s and 32 sectors a turn", options)
     seeds = [options.seed + run for run in range(options.runs)]
     runs = list(zip(*report.map(measure, seeds)))
     figures = [figures_of(of) for of in runs]
@@ -165,7 +165,7 @@ def main():
          f"{longest_us:.0f}", f"{latency_us / 1e3:.2f}"]
         for case, of, (longest_us, latency_us, _) in zip(CASES, figures, steps)])
     draw(report, steps)
-    report.fact("cases", [{"case": case, **lab.values_of(of), "step_max_us": step[0],
+    report.fact("cases", [{"case": case, **experiment.values_of(of), "step_max_us": step[0],
                            "latency_max_ms": step[1] / 1e3}
                           for case, of, step in zip(CASES, figures, steps)])
     judge(report, runs, figures, steps[0][1] / 1e3)

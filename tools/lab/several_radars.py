@@ -13,7 +13,7 @@ import pathlib
 import sys
 import tempfile
 
-from common import lab  # before numpy, whose threads it limits
+from common import experiment  # before numpy, whose threads it limits
 
 import numpy as np
 
@@ -188,13 +188,13 @@ def add_options(parser):
 
 
 def main():
-    options = lab.options_of(__doc__, 20, add_options)
+    options = experiment.options_of(__doc__, 20, add_options)
     common = {
         "program": str(options.program), "simulator": str(options.simulator or options.program),
         "set": options.set
     }
     names = options.sky or list(SKIES)
-    report = lab.Report("Several radars together, and each alone", options)
+    report = experiment.Report("Several radars together, and each alone", options)
     try:
         results = report.map(run, [(name, options.seed + i, common) for name in names
                                    for i in range(options.runs)])

@@ -16,7 +16,7 @@ import math
 import numpy as np
 
 from common import gospa
-from common import lab
+from common import experiment
 import rhotrack
 from common import simulate_scene_in_memory
 
@@ -177,18 +177,18 @@ def bias_figures(found):
         } if len(size) else {"estimates": 0, "not_known": off.size, "rms": math.nan,
                              "p95": math.nan, "worst": math.nan, "mean_sigma": math.nan}
     squares = np.concatenate(squares, axis=1)
-    return figures, lab.ratio_of(np.nansum(squares, axis=1), (~np.isnan(squares)).sum(axis=1))
+    return figures, experiment.ratio_of(np.nansum(squares, axis=1), (~np.isnan(squares)).sum(axis=1))
 
 
 def figures_of(runs):
     """Of one case, as (value, standard error)."""
     of = {key: [run[key] for run in runs] for key in runs[0]}
-    return {"rmse_m": lab.root_of(*lab.ratio_of(of["sum_m2"], of["errors"])),
-            "duplicates_per_target": lab.ratio_of(of["duplicates"], of["common_times"]),
-            "switches_per_target_hour": lab.ratio_of(of["switches"], of["target_hours"]),
-            "completeness": lab.ratio_of(of["with_track"], of["target_times"]),
-            "false_tracks_per_run": lab.mean_of(of["false_tracks"]),
-            "scans_late_share": lab.ratio_of(of["late"], of["scans"])}
+    return {"rmse_m": experiment.root_of(*experiment.ratio_of(of["sum_m2"], of["errors"])),
+            "duplicates_per_target": experiment.ratio_of(of["duplicates"], of["common_times"]),
+            "switches_per_target_hour": experiment.ratio_of(of["switches"], of["target_hours"]),
+            "completeness": experiment.ratio_of(of["with_track"], of["target_times"]),
+            "false_tracks_per_run": experiment.mean_of(of["false_tracks"]),
+            "scans_late_share": experiment.ratio_of(of["late"], of["scans"])}
 
 
 def judge(report, biases, variance, figures):
@@ -206,10 +206,10 @@ def judge(report, biases, variance, figures):
                    found["switches_per_target_hour"][0], 0.05,
                    found["switches_per_target_hour"][1])
     alone = min(figures[FIRST]["rmse_m"], figures[SECOND]["rmse_m"])
-    value, error = lab.quotient_of(found["rmse_m"], alone)
+    value, error = experiment.quotient_of(found["rmse_m"], alone)
     report.at_most("biases of register: rmse over the better radar's alone, biases known", value,
                    1.0, error)
-    value, error = lab.quotient_of(arrived["rmse_m"], known["rmse_m"])
+    value, error = experiment.quotient_of(arrived["rmse_m"], known["rmse_m"])
     report.at_most("scans as they arrive: rmse over that in order", value, 1.05, error)
     report.at_most("scans as they arrive: completeness behind that in order",
                    known["completeness"][0] - arrived["completeness"][0], 0.02,
@@ -277,8 +277,8 @@ def draw_errors(report, found):
 
 
 def main():
-    options = lab.options_of(__doc__, RUNS)
-    report = lab.Report("Two radars that do not know of each other, 20 aircraft, 10 minutes",
+    options = experiment.options_of(__doc__, RUNS)
+    report = experiment.Report("Two radars that do not know of each other, 20 aircraft, 10 minutes",
                         options)
     done = report.map(measure, range(options.seed, options.seed + options.runs))
     found = [one[0] for one in done]
@@ -307,7 +307,7 @@ def main():
          f"{of['switches_per_target_hour'][0]:.3f}", f"{of['completeness'][0]:.3f}",
          f"{of['false_tracks_per_run'][0]:.2f}", f"{100 * of['scans_late_share'][0]:.1f}"]
         for case, of in zip(CASES, figures)])
-    report.fact("cases", [{"case": case.name, **lab.values_of(of)}
+    report.fact("cases", [{"case": case.name, **experiment.values_of(of)}
                           for case, of in zip(CASES, figures)])
     for kind, *_ in KINDS:
         report.fact(kind, biases[kind])

@@ -8,11 +8,11 @@ import tempfile
 
 import numpy as np
 
-from common import lab
+from common import experiment
 import rhotrack
 from common import read_truth_plots_tracks
 
-PROGRAM = lab.BUILD / "rhotrack"
+PROGRAM = experiment.BUILD / "rhotrack"
 
 
 @dataclasses.dataclass

@@ -11,9 +11,9 @@ import time
 
 import numpy as np
 
-from common import lab
+from common import experiment
 
-sys.path += map(str, (lab.BUILD / "stonesoup" / "lib").glob("python3.*/site-packages"))
+sys.path += map(str, (experiment.BUILD / "stonesoup" / "lib").glob("python3.*/site-packages"))
 
 METHODS = ("gnn", "jpda")
 EPOCH = datetime.datetime(2000, 1, 1)

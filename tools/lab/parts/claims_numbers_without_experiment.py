@@ -4,7 +4,7 @@ numbers, and short runs."""
 import itertools
 import math
 
-from common import lab  # noqa: F401  before numpy, whose threads it limits
+from common import experiment  # noqa: F401  before numpy, whose threads it limits
 
 import numpy as np
 from scipy.stats import norm

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from common import lab
+from common import experiment
 from common import reference_imm
 import rhotrack
 from parts.maneuver_scene import CLEAN_SCANS, G_MPS2, INTERVAL_S, SCANS, START_SIGMA_MPS, STATE
@@ -202,19 +202,19 @@ def summary_of(outcome, imm=None):
     of the IMM that knows the plots in the same runs."""
     kept = ~outcome["is_lost"]
     ones, few = np.ones(len(kept)), outcome["is_inside"][:FIRST_RUNS]
-    summary = {"inside": lab.mean_of(outcome["is_inside"]), "first_inside": lab.mean_of(few),
-               "lost": lab.mean_of(outcome["is_lost"]), "wrong": lab.mean_of(outcome["wrong"]),
-               "hypotheses": lab.mean_of(outcome["hypotheses"]),
+    summary = {"inside": experiment.mean_of(outcome["is_inside"]), "first_inside": experiment.mean_of(few),
+               "lost": experiment.mean_of(outcome["is_lost"]), "wrong": experiment.mean_of(outcome["wrong"]),
+               "hypotheses": experiment.mean_of(outcome["hypotheses"]),
                "most_off_m": (float(outcome["most_off_m"].max()), math.nan),
                "refused": (float(outcome["refused"].sum()), math.nan),
-               "nis_per_dimension": lab.ratio_of(outcome["nis_sum"][kept],
+               "nis_per_dimension": experiment.ratio_of(outcome["nis_sum"][kept],
                                                  outcome["nis_count"][kept])}
     for name in ("least_mps", "most_mps"):  # a median's error is sqrt(pi / 2) times a mean's
         summary[name] = (float(np.median(outcome[name])),
-                         math.sqrt(math.pi / 2) * lab.mean_of(outcome[name])[1])
+                         math.sqrt(math.pi / 2) * experiment.mean_of(outcome[name])[1])
     for name, key in (("rms_m", "square_m2"), ("rms_mps", "square_mps2")):
-        summary[name] = lab.root_of(*lab.ratio_of(outcome[key], ones))
-        summary[f"kept_{name}"] = lab.root_of(*lab.ratio_of(outcome[key][kept], ones[kept]))
-        summary[f"{name}_over_imm"] = (math.nan, math.nan) if imm is None else lab.root_of(
-            *lab.ratio_of(outcome[key][kept], imm[key][kept]))
+        summary[name] = experiment.root_of(*experiment.ratio_of(outcome[key], ones))
+        summary[f"kept_{name}"] = experiment.root_of(*experiment.ratio_of(outcome[key][kept], ones[kept]))
+        summary[f"{name}_over_imm"] = (math.nan, math.nan) if imm is None else experiment.root_of(
+            *experiment.ratio_of(outcome[key][kept], imm[key][kept]))
     return summary

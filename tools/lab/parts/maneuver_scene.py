@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from common import lab  # noqa: F401  puts the package on the path
+from common import experiment  # noqa: F401  puts the package on the path
 import rhotrack
 
 SCANS, INTERVAL_S = 161, 0.25

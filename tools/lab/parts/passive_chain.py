@@ -4,13 +4,13 @@ Kalman filter in double precision that is told which bearings are a target's."""
 import math
 import time
 
-from common import lab  # before numpy, whose threads it limits
+from common import experiment  # before numpy, whose threads it limits
 
 import numpy as np
 
 import rhotrack
 from parts.passive_scenes_and_references import Setting, fit, predict, update
-from common.lab import ratio_of, root_of
+from common.experiment import ratio_of, root_of
 from parts.passive_runs import facts_of, judge_rate, runs_of, text_of
 
 NEAR_M, NEAR_SIGMAS = 1000, 4  # a track this near to a target is the target's

@@ -13,7 +13,7 @@ import itertools
 import math
 import time
 
-from common import lab  # before numpy, whose threads it limits
+from common import experiment  # before numpy, whose threads it limits
 
 import numpy as np
 from scipy.optimize import LinearConstraint, milp
@@ -158,7 +158,7 @@ def tell(report):
     for name, of in runs.items():
         own, other, psi = (np.array([run[0] for run in of]), np.array([run[1] for run in of]),
                            np.array(sum((run[2] for run in of), [])))
-        share, error = lab.mean_of(own > other)
+        share, error = experiment.mean_of(own > other)
         psi_deg = math.degrees(np.median(psi)) if len(psi) else math.nan
         facts.append({"case": name, "stand_out": share, "target_votes": float(own.mean()),
                       "other_votes": float(other.mean()),

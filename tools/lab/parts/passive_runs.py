@@ -2,7 +2,7 @@
 """What the parts of experiment passive share: their runs, and figures as texts and facts."""
 import math
 
-from common import lab  # before numpy, whose threads it limits
+from common import experiment  # before numpy, whose threads it limits
 
 import numpy as np
 
@@ -31,13 +31,13 @@ def run_job(job):
 def found_of(found, ghosts, targets):
     """Share of the targets found, ghosts a run, share of the exact runs; each with its error."""
     found, ghosts = np.array(found), np.array(ghosts)
-    return (lab.ratio_of(found, np.full(len(found), targets)), lab.mean_of(ghosts),
-            lab.mean_of((found == targets) & (ghosts == 0)))
+    return (experiment.ratio_of(found, np.full(len(found), targets)), experiment.mean_of(ghosts),
+            experiment.mean_of((found == targets) & (ghosts == 0)))
 
 
 def judge_rate(report, what, counts, bar):
     """Few events a run: a share of the runs, where they are less than one a run."""
-    rate, error = lab.mean_of(counts)
+    rate, error = experiment.mean_of(counts)
     report.at_most(what, rate, bar, error, trials=len(counts) if rate <= 1 else None)
 
 

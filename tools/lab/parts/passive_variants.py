@@ -5,7 +5,7 @@ covariance, still integers. In numpy, each at the threshold at which it errs lea
 import itertools
 import math
 
-from common import lab  # before numpy, whose threads it limits
+from common import experiment  # before numpy, whose threads it limits
 
 import numpy as np
 
@@ -154,7 +154,7 @@ def tell(report):
                 continue
             best = errors[:, i].mean(axis=0).argmin()
             share, ghosts = (found[:, i, best].mean(axis=0) / (setting.targets, 1)).tolist()
-            mean, error = lab.mean_of(errors[:, i, best])
+            mean, error = experiment.mean_of(errors[:, i, best])
             rows.append([name, way, f"{THRESHOLDS[best]:.2f}", f"{share:.3f}", f"{ghosts:.2f}",
                          f"{mean:.2f} +- {error:.2f}"])
             facts.append({"case": name, "way": way, "threshold": THRESHOLDS[best].item(),

@@ -12,7 +12,7 @@ import time
 
 import numpy as np
 
-from common import lab
+from common import experiment
 from parts import polar_references
 import rhotrack
 from common import simulate_scene_in_memory
@@ -214,24 +214,24 @@ def figures_of(runs):
     standard error)."""
     total = {key: sum(run[key] for run in runs) for key in runs[0]}
     sums = np.array([run["errors"].sum(axis=0) for run in runs]).T
-    rms = [lab.root_of(*lab.ratio_of(one, sums[4])) for one in sums[:4]]
+    rms = [experiment.root_of(*experiment.ratio_of(one, sums[4])) for one in sums[:4]]
     return {
         "targets": total["targets"], "pd": total["found"] / total["targets"],
         "oracle_pd": total["oracle"] / total["targets"],
-        "pd_behind_oracle": lab.ratio_of([run["oracle"] - run["found"] for run in runs],
+        "pd_behind_oracle": experiment.ratio_of([run["oracle"] - run["found"] for run in runs],
                                          [run["targets"] for run in runs]),
-        "false_candidates_per_run": lab.mean_of([run["false_candidates"] for run in runs]),
+        "false_candidates_per_run": experiment.mean_of([run["false_candidates"] for run in runs]),
         "candidate_error_m": total["found_m"] / max(1, total["found"]),
         "search_ms": total["search_ms"] / len(runs),
         "tracked_after_5": total["prompt"] / total["targets"],
         "tracked_at_end": total["tracked"] / total["targets"],
         "confirmed_at_turn": total["confirm_at"] / max(1, total["confirmed"]),
-        "false_tracks_per_run": lab.mean_of([run["false_tracks"] for run in runs]),
+        "false_tracks_per_run": experiment.mean_of([run["false_tracks"] for run in runs]),
         "rmse_m": rms[0], "along_rmse_m": rms[1], "double_filter_rmse_m": rms[2],
-        "rmse_mps": rms[3], "over_double_filter": lab.root_of(*lab.ratio_of(sums[0], sums[2])),
+        "rmse_mps": rms[3], "over_double_filter": experiment.root_of(*experiment.ratio_of(sums[0], sums[2])),
         "errors": total["errors"]}
 
 
 def facts(figures):
     """For JSON: without the list by turn."""
-    return lab.values_of({key: value for key, value in figures.items() if key != "errors"})
+    return experiment.values_of({key: value for key, value in figures.items() if key != "errors"})

@@ -47,7 +47,7 @@ final class Legend {
         }
         if (options.shows(ViewOptions.Layer.GHOSTS) && !scene.internals().ghosts().isEmpty()) {
             g.setStroke(Palette.THIN);
-            InternalsLayer.paintCrossing(g, legend.x, legend.y, true);
+            GhostsAndHypothesesLayer.paintCrossing(g, legend.x, legend.y, true);
             legend.drawText("ghost");
         }
         if (options.shows(ViewOptions.Layer.CLUTTER) && !scene.echoes().isEmpty()) {

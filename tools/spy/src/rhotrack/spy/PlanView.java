@@ -127,7 +127,7 @@ final class PlanView extends JComponent {
             MeasurementsLayer.paintBearings(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.GHOSTS)) {
-            InternalsLayer.paintGhosts(g, scene, view);
+            GhostsAndHypothesesLayer.paintGhosts(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.CLUTTER)) {
             MeasurementsLayer.paintEchoes(g, scene, view);
@@ -145,7 +145,7 @@ final class PlanView extends JComponent {
             TrackLayer.paintEllipses(g, scene, view);
             TrackLayer.paintBodies(g, scene, view);
         }
-        InternalsLayer.paintHypotheses(g, scene, selected, view, seconds);
+        GhostsAndHypothesesLayer.paintHypotheses(g, scene, selected, view, seconds);
         TrackLayer.paintTracks(g, scene, view, seconds, labels);
         MeasurementsLayer.paintSensors(g, scene, view, labels);
         if (options.shows(ViewOptions.Layer.LABELS)) {

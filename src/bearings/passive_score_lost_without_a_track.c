@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_track_score_margins: the margin of each track: total score of the best set of tracks
+ * passive_score_lost_without_a_track: the margin of each track: total score of the best set of tracks
  * minus that of the best set without this track. A set with a higher total that is found becomes
  * the best set.
  */

@@ -13,11 +13,11 @@ import rhotrack.spy.scene.Scene;
  * The tracker's internals in the plan view: crossings of bearings with ghosts struck out, and a
  * track's hypotheses.
  */
-final class InternalsLayer {
+final class GhostsAndHypothesesLayer {
     private static final double RADIUS = 4.5;
     private static final double STROKE = 6.5;
 
-    private InternalsLayer() {
+    private GhostsAndHypothesesLayer() {
     }
 
     static void paintGhosts(Graphics2D g, Scene scene, ViewTransform view) {
