@@ -46,8 +46,9 @@ awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) c[$i] = i; next }
     $c["t_s"] != t { n = 0; t = $c["t_s"] }
     $c["status"] != "tentative" && $c["status"] != "deleted" {
-        row[n++] = sprintf("%6d  %-9s %9.2f %9.2f %6.0f %6d", $c["track_id"], $c["status"], $c["x_m"] / 1e3,
-                           $c["y_m"] / 1e3, sqrt($c["vx_mps"] ^ 2 + $c["vy_mps"] ^ 2), $c["hits"]) }
+        row[n++] = sprintf("%6d  %-9s %9.2f %9.2f %6.0f %6d", $c["track_id"], $c["status"],
+                           $c["x_m"] / 1e3, $c["y_m"] / 1e3,
+                           sqrt($c["vx_mps"] ^ 2 + $c["vy_mps"] ^ 2), $c["hits"]) }
     END { printf "%6s  %-9s %9s %9s %6s %6s\n", "track", "status", "x km", "y km", "m/s", "hits"
           for (i = 0; i < n; i++) print row[i] }' "$out/tracks.csv"
 figure() { awk -v name="$1" '$1 == name { printf "%.3g", $2 }' "$out/evaluation.txt"; }

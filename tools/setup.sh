@@ -3,9 +3,10 @@
 # Installs the Debian packages that rhotrack is built and tested with, those that are missing. Quick
 # when none is. `setup.sh firmware`: the compilers and emulators for other processors instead;
 # `setup.sh spy`: what the viewer for lcm-spy (make spy) needs; `setup.sh lab`: what the experiments
-# in Python (make experiments) import; `setup.sh docs`: what the documentation (make docs) is written
-# with; `setup.sh python`: what the package for Python is built with; `setup.sh packages`: what the
-# other packages are; `setup.sh browser`: what the pages of `plot -o NAME.html` are tested in.
+# in Python (make experiments) import; `setup.sh docs`: what the documentation (make docs) is
+# written with; `setup.sh python`: what the package for Python is built with; `setup.sh packages`:
+# what the other packages are; `setup.sh browser`: what the pages of `plot -o NAME.html` are tested
+# in.
 set -eu
 
 packages='
@@ -116,7 +117,8 @@ done
 [ -n "$missing" ] || exit 0
 
 if ! command -v apt-get >/dev/null 2>&1; then
-    echo "setup: this is not a Debian system (no apt-get). Please install what corresponds to:$missing" >&2
+    echo "setup: this is not a Debian system (no apt-get)." \
+        "Please install what corresponds to:$missing" >&2
     exit 1
 fi
 if [ "$(id -u)" -eq 0 ]; then

@@ -9,7 +9,8 @@ cd "$(dirname "$0")/.." || exit 1
 export BUILD=${BUILD:-build}
 [ -z "$(tests/find_python.sh)" ] || exit 0
 
-echo "python: installing $(sed -nE 's/^([^# ]+==[^# ]+).*/\1/p' tests/requirements.txt | paste -s -d ' ') in $BUILD/venv"
+echo "python: installing $(sed -nE 's/^([^# ]+==[^# ]+).*/\1/p' tests/requirements.txt |
+    paste -s -d ' ') in $BUILD/venv"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 if ! { python3 -m venv --system-site-packages "$BUILD/venv" &&

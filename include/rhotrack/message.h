@@ -135,7 +135,8 @@ struct rho_message_accumulator_cell {
     int32_t track_id;
 };
 RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_encode(
-    const struct rho_message_accumulator_cell *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_accumulator_cell *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_decode(
     const uint8_t *data, size_t size, struct rho_message_accumulator_cell *message);
 RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_validate(
@@ -169,7 +170,8 @@ struct rho_message_body {
     float plots; /* number of plots that the body's size and heading come from; range 0 .. 1e9 */
 };
 RHO_MUST_CHECK enum rho_status rho_message_body_encode(
-    const struct rho_message_body *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_body *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_body_decode(
     const uint8_t *data, size_t size, struct rho_message_body *message);
 RHO_MUST_CHECK enum rho_status rho_message_body_validate(
@@ -204,7 +206,8 @@ struct rho_message_command_answer {
     int32_t track_id;
 };
 RHO_MUST_CHECK enum rho_status rho_message_command_answer_encode(
-    const struct rho_message_command_answer *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_command_answer *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_command_answer_decode(
     const uint8_t *data, size_t size, struct rho_message_command_answer *message);
 RHO_MUST_CHECK enum rho_status rho_message_command_answer_validate(
@@ -259,7 +262,8 @@ struct rho_message_command {
     float sigma_mps;
 };
 RHO_MUST_CHECK enum rho_status rho_message_command_encode(
-    const struct rho_message_command *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_command *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_command_decode(
     const uint8_t *data, size_t size, struct rho_message_command *message);
 RHO_MUST_CHECK enum rho_status rho_message_command_validate(
@@ -297,7 +301,8 @@ struct rho_message_echo {
     float chance;
 };
 RHO_MUST_CHECK enum rho_status rho_message_echo_encode(
-    const struct rho_message_echo *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_echo *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_echo_decode(
     const uint8_t *data, size_t size, struct rho_message_echo *message);
 RHO_MUST_CHECK enum rho_status rho_message_echo_validate(
@@ -344,7 +349,8 @@ struct rho_message_ghost {
     float y_m; /* position of the crossing, north, m; 0 where there is none within range_max_m */
 };
 RHO_MUST_CHECK enum rho_status rho_message_ghost_encode(
-    const struct rho_message_ghost *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_ghost *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_ghost_decode(
     const uint8_t *data, size_t size, struct rho_message_ghost *message);
 RHO_MUST_CHECK enum rho_status rho_message_ghost_validate(
@@ -375,7 +381,8 @@ struct rho_message_hypothesis {
     int16_t plots[3];
 };
 RHO_MUST_CHECK enum rho_status rho_message_hypothesis_encode(
-    const struct rho_message_hypothesis *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_hypothesis *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_hypothesis_decode(
     const uint8_t *data, size_t size, struct rho_message_hypothesis *message);
 RHO_MUST_CHECK enum rho_status rho_message_hypothesis_validate(
@@ -424,7 +431,8 @@ struct rho_message_learned {
     float pd[6];
 };
 RHO_MUST_CHECK enum rho_status rho_message_learned_encode(
-    const struct rho_message_learned *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_learned *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_learned_decode(
     const uint8_t *data, size_t size, struct rho_message_learned *message);
 RHO_MUST_CHECK enum rho_status rho_message_learned_validate(
@@ -448,7 +456,8 @@ struct rho_message_peak {
     int16_t sensor_pairs;
 };
 RHO_MUST_CHECK enum rho_status rho_message_peak_encode(
-    const struct rho_message_peak *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_peak *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_peak_decode(
     const uint8_t *data, size_t size, struct rho_message_peak *message);
 RHO_MUST_CHECK enum rho_status rho_message_peak_validate(
@@ -470,7 +479,8 @@ struct rho_message_plane_row {
     int8_t votes[64];
 };
 RHO_MUST_CHECK enum rho_status rho_message_plane_row_encode(
-    const struct rho_message_plane_row *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_plane_row *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_plane_row_decode(
     const uint8_t *data, size_t size, struct rho_message_plane_row *message);
 RHO_MUST_CHECK enum rho_status rho_message_plane_row_validate(
@@ -479,10 +489,7 @@ const char *rho_message_plane_row_field(const struct rho_message_place *place);
 
 /* ---- plot_t ---- */
 
-/*
- * One plot of a plot_scan_t: a position, and the other values that its kind states. Values that are
- * not measured are 0.
- */
+/* One plot of a plot_scan_t: a position, and what else its kind states. Unmeasured values are 0. */
 
 #define RHO_MESSAGE_PLOT_FINGERPRINT UINT64_C(0x788ad26d7448d55b)
 #define RHO_MESSAGE_PLOT_MAX_SIZE 48u
@@ -507,7 +514,8 @@ struct rho_message_plot {
     float snr_db;
 };
 RHO_MUST_CHECK enum rho_status rho_message_plot_encode(
-    const struct rho_message_plot *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_plot *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_plot_decode(
     const uint8_t *data, size_t size, struct rho_message_plot *message);
 RHO_MUST_CHECK enum rho_status rho_message_plot_validate(
@@ -537,7 +545,8 @@ struct rho_message_polar_plot {
     float snr_db;
 };
 RHO_MUST_CHECK enum rho_status rho_message_polar_plot_encode(
-    const struct rho_message_polar_plot *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_polar_plot *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_polar_plot_decode(
     const uint8_t *data, size_t size, struct rho_message_polar_plot *message);
 RHO_MUST_CHECK enum rho_status rho_message_polar_plot_validate(
@@ -611,7 +620,8 @@ struct rho_message_sensor {
     float innovation_factor;
 };
 RHO_MUST_CHECK enum rho_status rho_message_sensor_encode(
-    const struct rho_message_sensor *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_sensor *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_sensor_decode(
     const uint8_t *data, size_t size, struct rho_message_sensor *message);
 RHO_MUST_CHECK enum rho_status rho_message_sensor_validate(
@@ -660,7 +670,8 @@ struct rho_message_setting_answer {
     float max; /* upper limit of the fault's field */
 };
 RHO_MUST_CHECK enum rho_status rho_message_setting_answer_encode(
-    const struct rho_message_setting_answer *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_setting_answer *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_setting_answer_decode(
     const uint8_t *data, size_t size, struct rho_message_setting_answer *message);
 RHO_MUST_CHECK enum rho_status rho_message_setting_answer_validate(
@@ -703,7 +714,8 @@ struct rho_message_setting {
     float value; /* new value of the parameter */
 };
 RHO_MUST_CHECK enum rho_status rho_message_setting_encode(
-    const struct rho_message_setting *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_setting *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_setting_decode(
     const uint8_t *data, size_t size, struct rho_message_setting *message);
 RHO_MUST_CHECK enum rho_status rho_message_setting_validate(
@@ -800,7 +812,8 @@ struct rho_message_status {
     int32_t origin_alt_mm; /* altitude of the local frame's origin, mm */
 };
 RHO_MUST_CHECK enum rho_status rho_message_status_encode(
-    const struct rho_message_status *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_status *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_status_decode(
     const uint8_t *data, size_t size, struct rho_message_status *message);
 RHO_MUST_CHECK enum rho_status rho_message_status_validate(
@@ -847,7 +860,8 @@ struct rho_message_track {
     float covariance[21];
 };
 RHO_MUST_CHECK enum rho_status rho_message_track_encode(
-    const struct rho_message_track *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_track *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_track_decode(
     const uint8_t *data, size_t size, struct rho_message_track *message);
 RHO_MUST_CHECK enum rho_status rho_message_track_validate(
@@ -871,7 +885,8 @@ struct rho_message_truth {
     float vz_mps; /* true velocity of the target, up, m/s; range -2e4 .. 2e4 */
 };
 RHO_MUST_CHECK enum rho_status rho_message_truth_encode(
-    const struct rho_message_truth *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_truth *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_truth_decode(
     const uint8_t *data, size_t size, struct rho_message_truth *message);
 RHO_MUST_CHECK enum rho_status rho_message_truth_validate(
@@ -915,7 +930,8 @@ struct rho_message_work {
     int64_t events_not_logged;
 };
 RHO_MUST_CHECK enum rho_status rho_message_work_encode(
-    const struct rho_message_work *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_work *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_work_decode(
     const uint8_t *data, size_t size, struct rho_message_work *message);
 RHO_MUST_CHECK enum rho_status rho_message_work_validate(
@@ -944,7 +960,8 @@ struct rho_message_zone_event {
     float dwell_s; /* time since the track entered the zone, s; range 0 .. 1e9 */
 };
 RHO_MUST_CHECK enum rho_status rho_message_zone_event_encode(
-    const struct rho_message_zone_event *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_zone_event *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_zone_event_decode(
     const uint8_t *data, size_t size, struct rho_message_zone_event *message);
 RHO_MUST_CHECK enum rho_status rho_message_zone_event_validate(
@@ -973,7 +990,8 @@ struct rho_message_zone {
     float dwell_max_s; /* longest time inside of the tracks that left, s; range 0 .. 1e9 */
 };
 RHO_MUST_CHECK enum rho_status rho_message_zone_encode(
-    const struct rho_message_zone *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_zone *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_zone_decode(
     const uint8_t *data, size_t size, struct rho_message_zone *message);
 RHO_MUST_CHECK enum rho_status rho_message_zone_validate(
@@ -1055,7 +1073,8 @@ struct rho_message_accumulator_head {
     int16_t num_cells_total;
 };
 RHO_MUST_CHECK enum rho_status rho_message_accumulator_encode(
-    const struct rho_message_accumulator *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_accumulator *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_accumulator_decode(
     const uint8_t *data, size_t size, struct rho_message_accumulator *message);
 RHO_MUST_CHECK enum rho_status rho_message_accumulator_validate(
@@ -1108,7 +1127,8 @@ struct rho_message_bearing_scan_head {
     float sigma_rad;
 };
 RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_encode(
-    const struct rho_message_bearing_scan *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_bearing_scan *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_decode(
     const uint8_t *data, size_t size, struct rho_message_bearing_scan *message);
 RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_validate(
@@ -1151,7 +1171,8 @@ struct rho_message_body_list_head {
     int16_t num_parts;
 };
 RHO_MUST_CHECK enum rho_status rho_message_body_list_encode(
-    const struct rho_message_body_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_body_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_body_list_decode(
     const uint8_t *data, size_t size, struct rho_message_body_list *message);
 RHO_MUST_CHECK enum rho_status rho_message_body_list_validate(
@@ -1198,7 +1219,8 @@ struct rho_message_clutter_map_head {
     int16_t num_parts;
 };
 RHO_MUST_CHECK enum rho_status rho_message_clutter_map_encode(
-    const struct rho_message_clutter_map *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_clutter_map *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_clutter_map_decode(
     const uint8_t *data, size_t size, struct rho_message_clutter_map *message);
 RHO_MUST_CHECK enum rho_status rho_message_clutter_map_validate(
@@ -1266,7 +1288,8 @@ struct rho_message_ghost_matrix_head {
     int16_t num_parts;
 };
 RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_encode(
-    const struct rho_message_ghost_matrix *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_ghost_matrix *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_decode(
     const uint8_t *data, size_t size, struct rho_message_ghost_matrix *message);
 RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_validate(
@@ -1342,7 +1365,8 @@ struct rho_message_hypotheses_head {
     int32_t not_sent;
 };
 RHO_MUST_CHECK enum rho_status rho_message_hypotheses_encode(
-    const struct rho_message_hypotheses *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_hypotheses *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_hypotheses_decode(
     const uint8_t *data, size_t size, struct rho_message_hypotheses *message);
 RHO_MUST_CHECK enum rho_status rho_message_hypotheses_validate(
@@ -1376,7 +1400,8 @@ struct rho_message_peak_list_head {
     int32_t scan;
 };
 RHO_MUST_CHECK enum rho_status rho_message_peak_list_encode(
-    const struct rho_message_peak_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_peak_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_peak_list_decode(
     const uint8_t *data, size_t size, struct rho_message_peak_list *message);
 RHO_MUST_CHECK enum rho_status rho_message_peak_list_validate(
@@ -1437,7 +1462,8 @@ struct rho_message_plane_head {
     int16_t num_parts;
 };
 RHO_MUST_CHECK enum rho_status rho_message_plane_encode(
-    const struct rho_message_plane *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_plane *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_plane_decode(
     const uint8_t *data, size_t size, struct rho_message_plane *message);
 RHO_MUST_CHECK enum rho_status rho_message_plane_validate(
@@ -1501,7 +1527,8 @@ struct rho_message_plot_scan_head {
     float sector_to_rad;
 };
 RHO_MUST_CHECK enum rho_status rho_message_plot_scan_encode(
-    const struct rho_message_plot_scan *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_plot_scan *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_plot_scan_decode(
     const uint8_t *data, size_t size, struct rho_message_plot_scan *message);
 RHO_MUST_CHECK enum rho_status rho_message_plot_scan_validate(
@@ -1577,7 +1604,8 @@ struct rho_message_polar_scan_head {
     float sector_to_rad;
 };
 RHO_MUST_CHECK enum rho_status rho_message_polar_scan_encode(
-    const struct rho_message_polar_scan *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_polar_scan *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_polar_scan_decode(
     const uint8_t *data, size_t size, struct rho_message_polar_scan *message);
 RHO_MUST_CHECK enum rho_status rho_message_polar_scan_validate(
@@ -1624,7 +1652,8 @@ struct rho_message_sensor_list_head {
     int16_t num_parts;
 };
 RHO_MUST_CHECK enum rho_status rho_message_sensor_list_encode(
-    const struct rho_message_sensor_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_sensor_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_sensor_list_decode(
     const uint8_t *data, size_t size, struct rho_message_sensor_list *message);
 RHO_MUST_CHECK enum rho_status rho_message_sensor_list_validate(
@@ -1666,7 +1695,8 @@ struct rho_message_track_list_head {
     int16_t num_parts;
 };
 RHO_MUST_CHECK enum rho_status rho_message_track_list_encode(
-    const struct rho_message_track_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_track_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_track_list_decode(
     const uint8_t *data, size_t size, struct rho_message_track_list *message);
 RHO_MUST_CHECK enum rho_status rho_message_track_list_validate(
@@ -1710,7 +1740,8 @@ struct rho_message_truth_list_head {
     int16_t num_parts;
 };
 RHO_MUST_CHECK enum rho_status rho_message_truth_list_encode(
-    const struct rho_message_truth_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_truth_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_truth_list_decode(
     const uint8_t *data, size_t size, struct rho_message_truth_list *message);
 RHO_MUST_CHECK enum rho_status rho_message_truth_list_validate(
@@ -1748,7 +1779,8 @@ struct rho_message_zone_event_list_head {
     int32_t epoch;
 };
 RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_encode(
-    const struct rho_message_zone_event_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_zone_event_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_decode(
     const uint8_t *data, size_t size, struct rho_message_zone_event_list *message);
 RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_validate(
@@ -1789,7 +1821,8 @@ struct rho_message_zone_list_head {
     int32_t events_dropped;
 };
 RHO_MUST_CHECK enum rho_status rho_message_zone_list_encode(
-    const struct rho_message_zone_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_zone_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_zone_list_decode(
     const uint8_t *data, size_t size, struct rho_message_zone_list *message);
 RHO_MUST_CHECK enum rho_status rho_message_zone_list_validate(

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_score_lost_without_a_track: the margin of each track: total score of the best set of tracks
- * minus that of the best set without this track. A set with a higher total that is found becomes
- * the best set.
+ * passive_score_lost_without_a_track: the margin of each track: total score of the best set of
+ * tracks minus that of the best set without this track. A set with a higher total that is found
+ * becomes the best set.
  */
 #include <string.h>
 

@@ -28,7 +28,8 @@ static const struct message_format accumulator_cell_format = {
     0, 0, 0, 0};
 static const struct message_rules accumulator_cell_rules = {
     &accumulator_cell_format,
-    {accumulator_cell_ints, accumulator_cell_floats, 3, 3}, {0, 0, 0, 0}};
+    {accumulator_cell_ints, accumulator_cell_floats, 3, 3},
+    {0, 0, 0, 0}};
 
 static const struct message_run body_runs[] = {
     {offsetof(struct rho_message_body, track_id), 4, 14},
@@ -48,7 +49,8 @@ static const struct message_format body_format = {
     0, 0, 0, 0};
 static const struct message_rules body_rules = {
     &body_format,
-    {0, body_floats, 0, 7}, {0, 0, 0, 0}};
+    {0, body_floats, 0, 7},
+    {0, 0, 0, 0}};
 
 static const struct message_run command_answer_runs[] = {
     {offsetof(struct rho_message_command_answer, utime), 8, 1},
@@ -68,7 +70,8 @@ static const struct message_format command_answer_format = {
     0, 0, 0, 0};
 static const struct message_rules command_answer_rules = {
     &command_answer_format,
-    {command_answer_ints, 0, 4, 0}, {0, 0, 0, 0}};
+    {command_answer_ints, 0, 4, 0},
+    {0, 0, 0, 0}};
 
 static const struct message_run command_runs[] = {
     {offsetof(struct rho_message_command, utime), 8, 1},
@@ -78,7 +81,8 @@ static const struct message_run command_runs[] = {
 };
 static const struct message_int_rule command_ints[] = {
     {offsetof(struct rho_message_command, utime), 8, 1, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_command, action), 1, 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 5 | 1 << 6 | 1 << 7},
+    {offsetof(struct rho_message_command, action), 1, 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3
+     | 1 << 4 | 1 << 5 | 1 << 6 | 1 << 7},
     {offsetof(struct rho_message_command, track_id), 4, 2, MESSAGE_RANGE, 0, 2147483647},
 };
 static const struct message_float_rule command_floats[] = {
@@ -93,7 +97,8 @@ static const struct message_format command_format = {
     0, 0, 0, 0};
 static const struct message_rules command_rules = {
     &command_format,
-    {command_ints, command_floats, 3, 4}, {0, 0, 0, 0}};
+    {command_ints, command_floats, 3, 4},
+    {0, 0, 0, 0}};
 
 static const struct message_run echo_runs[] = {
     {offsetof(struct rho_message_echo, sensor_id), 2, 3},
@@ -115,7 +120,8 @@ static const struct message_format echo_format = {
     0, 0, 0, 0};
 static const struct message_rules echo_rules = {
     &echo_format,
-    {echo_ints, echo_floats, 2, 4}, {0, 0, 0, 0}};
+    {echo_ints, echo_floats, 2, 4},
+    {0, 0, 0, 0}};
 
 static const struct message_run ghost_runs[] = {
     {offsetof(struct rho_message_ghost, row), 2, 2},
@@ -124,7 +130,8 @@ static const struct message_run ghost_runs[] = {
 };
 static const struct message_int_rule ghost_ints[] = {
     {offsetof(struct rho_message_ghost, row), 2, 2, MESSAGE_RANGE, 0, 32767},
-    {offsetof(struct rho_message_ghost, reason), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 5 | 1 << 6},
+    {offsetof(struct rho_message_ghost, reason), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2 |
+     1 << 3 | 1 << 4 | 1 << 5 | 1 << 6},
 };
 static const struct message_float_rule ghost_floats[] = {
     {offsetof(struct rho_message_ghost, delta_rad), 1, -3.15f, 3.15f},
@@ -136,7 +143,8 @@ static const struct message_format ghost_format = {
     0, 0, 0, 0};
 static const struct message_rules ghost_rules = {
     &ghost_format,
-    {ghost_ints, ghost_floats, 2, 2}, {0, 0, 0, 0}};
+    {ghost_ints, ghost_floats, 2, 2},
+    {0, 0, 0, 0}};
 
 static const struct message_run hypothesis_runs[] = {
     {offsetof(struct rho_message_hypothesis, share), 4, 6},
@@ -153,7 +161,8 @@ static const struct message_format hypothesis_format = {
     0, 0, 0, 0};
 static const struct message_rules hypothesis_rules = {
     &hypothesis_format,
-    {0, hypothesis_floats, 0, 3}, {0, 0, 0, 0}};
+    {0, hypothesis_floats, 0, 3},
+    {0, 0, 0, 0}};
 
 static const struct message_run learned_runs[] = {
     {offsetof(struct rho_message_learned, utime), 8, 1},
@@ -177,7 +186,8 @@ static const struct message_format learned_format = {
     0, 0, 0, 0};
 static const struct message_rules learned_rules = {
     &learned_format,
-    {learned_ints, learned_floats, 3, 3}, {0, 0, 0, 0}};
+    {learned_ints, learned_floats, 3, 3},
+    {0, 0, 0, 0}};
 
 static const struct message_run peak_runs[] = {
     {offsetof(struct rho_message_peak, rho_m), 4, 4},
@@ -198,7 +208,8 @@ static const struct message_format peak_format = {
     0, 0, 0, 0};
 static const struct message_rules peak_rules = {
     &peak_format,
-    {peak_ints, peak_floats, 1, 4}, {0, 0, 0, 0}};
+    {peak_ints, peak_floats, 1, 4},
+    {0, 0, 0, 0}};
 
 static const struct message_run plane_row_runs[] = {
     {offsetof(struct rho_message_plane_row, votes), 1, 64},
@@ -209,7 +220,8 @@ static const struct message_format plane_row_format = {
     0, 0, 0, 0};
 static const struct message_rules plane_row_rules = {
     &plane_row_format,
-    {0, 0, 0, 0}, {0, 0, 0, 0}};
+    {0, 0, 0, 0},
+    {0, 0, 0, 0}};
 
 static const struct message_run plot_runs[] = {
     {offsetof(struct rho_message_plot, dt_us), 4, 10},
@@ -229,7 +241,8 @@ static const struct message_format plot_format = {
     0, 0, 0, 0};
 static const struct message_rules plot_rules = {
     &plot_format,
-    {plot_ints, plot_floats, 1, 4}, {0, 0, 0, 0}};
+    {plot_ints, plot_floats, 1, 4},
+    {0, 0, 0, 0}};
 
 static const struct message_run polar_plot_runs[] = {
     {offsetof(struct rho_message_polar_plot, dt_us), 4, 6},
@@ -250,7 +263,8 @@ static const struct message_format polar_plot_format = {
     0, 0, 0, 0};
 static const struct message_rules polar_plot_rules = {
     &polar_plot_format,
-    {polar_plot_ints, polar_plot_floats, 1, 5}, {0, 0, 0, 0}};
+    {polar_plot_ints, polar_plot_floats, 1, 5},
+    {0, 0, 0, 0}};
 
 static const struct message_run sensor_runs[] = {
     {offsetof(struct rho_message_sensor, sensor_id), 2, 1},
@@ -279,7 +293,8 @@ static const struct message_format sensor_format = {
     0, 0, 0, 0};
 static const struct message_rules sensor_rules = {
     &sensor_format,
-    {sensor_ints, sensor_floats, 6, 2}, {0, 0, 0, 0}};
+    {sensor_ints, sensor_floats, 6, 2},
+    {0, 0, 0, 0}};
 
 static const struct message_run setting_answer_runs[] = {
     {offsetof(struct rho_message_setting_answer, utime), 8, 1},
@@ -293,7 +308,8 @@ static const struct message_int_rule setting_answer_ints[] = {
     {offsetof(struct rho_message_setting_answer, utime), 8, 1, MESSAGE_TIME, 0, 0},
     {offsetof(struct rho_message_setting_answer, field), 2, 1, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_setting_answer, status), 1, 1, MESSAGE_RANGE, 0, 127},
-    {offsetof(struct rho_message_setting_answer, applies), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4},
+    {offsetof(struct rho_message_setting_answer, applies), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1
+     | 1 << 2 | 1 << 3 | 1 << 4},
     {offsetof(struct rho_message_setting_answer, fault_field), 2, 1, MESSAGE_RANGE, 0, 32767},
 };
 static const struct message_float_rule setting_answer_floats[] = {
@@ -305,7 +321,8 @@ static const struct message_format setting_answer_format = {
     0, 0, 0, 0};
 static const struct message_rules setting_answer_rules = {
     &setting_answer_format,
-    {setting_answer_ints, setting_answer_floats, 5, 1}, {0, 0, 0, 0}};
+    {setting_answer_ints, setting_answer_floats, 5, 1},
+    {0, 0, 0, 0}};
 
 static const struct message_run setting_runs[] = {
     {offsetof(struct rho_message_setting, utime), 8, 1},
@@ -326,7 +343,8 @@ static const struct message_format setting_format = {
     0, 0, 0, 0};
 static const struct message_rules setting_rules = {
     &setting_format,
-    {setting_ints, setting_floats, 2, 1}, {0, 0, 0, 0}};
+    {setting_ints, setting_floats, 2, 1},
+    {0, 0, 0, 0}};
 
 static const struct message_run status_runs[] = {
     {offsetof(struct rho_message_status, utime), 8, 1},
@@ -352,7 +370,8 @@ static const struct message_format status_format = {
     0, 0, 0, 0};
 static const struct message_rules status_rules = {
     &status_format,
-    {status_ints, status_floats, 5, 1}, {0, 0, 0, 0}};
+    {status_ints, status_floats, 5, 1},
+    {0, 0, 0, 0}};
 
 static const struct message_run track_runs[] = {
     {offsetof(struct rho_message_track, track_id), 4, 1},
@@ -361,7 +380,8 @@ static const struct message_run track_runs[] = {
     {offsetof(struct rho_message_track, update_age_us), 4, 33},
 };
 static const struct message_int_rule track_ints[] = {
-    {offsetof(struct rho_message_track, status), 1, 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4},
+    {offsetof(struct rho_message_track, status), 1, 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3 |
+     1 << 4},
     {offsetof(struct rho_message_track, hits), 2, 2, MESSAGE_RANGE, 0, 32767},
     {offsetof(struct rho_message_track, plot), 2, 1, MESSAGE_RANGE, -1, 32767},
     {offsetof(struct rho_message_track, update_age_us), 4, 1, MESSAGE_RANGE, 0, 2147483647},
@@ -377,7 +397,8 @@ static const struct message_format track_format = {
     0, 0, 0, 0};
 static const struct message_rules track_rules = {
     &track_format,
-    {track_ints, track_floats, 4, 3}, {0, 0, 0, 0}};
+    {track_ints, track_floats, 4, 3},
+    {0, 0, 0, 0}};
 
 static const struct message_run truth_runs[] = {
     {offsetof(struct rho_message_truth, target_id), 4, 7},
@@ -392,7 +413,8 @@ static const struct message_format truth_format = {
     0, 0, 0, 0};
 static const struct message_rules truth_rules = {
     &truth_format,
-    {0, truth_floats, 0, 2}, {0, 0, 0, 0}};
+    {0, truth_floats, 0, 2},
+    {0, 0, 0, 0}};
 
 static const struct message_run work_runs[] = {
     {offsetof(struct rho_message_work, utime), 8, 1},
@@ -409,7 +431,8 @@ static const struct message_format work_format = {
     0, 0, 0, 0};
 static const struct message_rules work_rules = {
     &work_format,
-    {work_ints, 0, 2, 0}, {0, 0, 0, 0}};
+    {work_ints, 0, 2, 0},
+    {0, 0, 0, 0}};
 
 static const struct message_run zone_event_runs[] = {
     {offsetof(struct rho_message_zone_event, zone_id), 4, 2},
@@ -417,7 +440,8 @@ static const struct message_run zone_event_runs[] = {
     {offsetof(struct rho_message_zone_event, speed_mps), 4, 2},
 };
 static const struct message_int_rule zone_event_ints[] = {
-    {offsetof(struct rho_message_zone_event, change), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2},
+    {offsetof(struct rho_message_zone_event, change), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1
+     << 2},
     {offsetof(struct rho_message_zone_event, direction), 1, 1, MESSAGE_RANGE, -1, 1},
 };
 static const struct message_float_rule zone_event_floats[] = {
@@ -430,7 +454,8 @@ static const struct message_format zone_event_format = {
     0, 0, 0, 0};
 static const struct message_rules zone_event_rules = {
     &zone_event_format,
-    {zone_event_ints, zone_event_floats, 2, 2}, {0, 0, 0, 0}};
+    {zone_event_ints, zone_event_floats, 2, 2},
+    {0, 0, 0, 0}};
 
 static const struct message_run zone_runs[] = {
     {offsetof(struct rho_message_zone, zone_id), 4, 1},
@@ -451,7 +476,8 @@ static const struct message_format zone_format = {
     0, 0, 0, 0};
 static const struct message_rules zone_rules = {
     &zone_format,
-    {zone_ints, zone_floats, 2, 2}, {0, 0, 0, 0}};
+    {zone_ints, zone_floats, 2, 2},
+    {0, 0, 0, 0}};
 
 static const struct message_run accumulator_runs[] = {
     {offsetof(struct rho_message_accumulator, utime), 8, 1},
@@ -466,7 +492,8 @@ static const struct message_run accumulator_runs[] = {
 };
 static const struct message_int_rule accumulator_ints[] = {
     {offsetof(struct rho_message_accumulator, utime), 8, 1, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_accumulator, method), 1, 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 5},
+    {offsetof(struct rho_message_accumulator, method), 1, 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1
+     << 3 | 1 << 4 | 1 << 5},
     {offsetof(struct rho_message_accumulator, has_pair), 1, 1, MESSAGE_RANGE, 0, 1},
     {offsetof(struct rho_message_accumulator, num_scans), 2, 1, MESSAGE_RANGE, 1, 16},
     {offsetof(struct rho_message_accumulator, oldest_utime), 8, 1, MESSAGE_TIME, 0, 0},
@@ -487,7 +514,8 @@ static const struct message_format accumulator_format = {
     sizeof(struct rho_message_accumulator_cell), RHO_MESSAGE_ACCUMULATOR_MAX_CELLS};
 static const struct message_rules accumulator_rules = {
     &accumulator_format,
-    {accumulator_ints, accumulator_floats, 8, 3}, {accumulator_cell_ints, accumulator_cell_floats, 3, 3}};
+    {accumulator_ints, accumulator_floats, 8, 3},
+    {accumulator_cell_ints, accumulator_cell_floats, 3, 3}};
 
 static const struct message_run bearing_scan_runs[] = {
     {offsetof(struct rho_message_bearing_scan, utime), 8, 1},
@@ -516,7 +544,8 @@ static const struct message_format bearing_scan_format = {
     sizeof(float), RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD};
 static const struct message_rules bearing_scan_rules = {
     &bearing_scan_format,
-    {bearing_scan_ints, bearing_scan_floats, 1, 2}, {0, bearing_scan_element_floats, 0, 1}};
+    {bearing_scan_ints, bearing_scan_floats, 1, 2},
+    {0, bearing_scan_element_floats, 0, 1}};
 
 static const struct message_run body_list_runs[] = {
     {offsetof(struct rho_message_body_list, utime), 8, 1},
@@ -537,7 +566,8 @@ static const struct message_format body_list_format = {
     sizeof(struct rho_message_body), RHO_MESSAGE_BODY_LIST_MAX_BODIES};
 static const struct message_rules body_list_rules = {
     &body_list_format,
-    {body_list_ints, 0, 3, 0}, {0, body_floats, 0, 7}};
+    {body_list_ints, 0, 3, 0},
+    {0, body_floats, 0, 7}};
 
 static const struct message_run clutter_map_runs[] = {
     {offsetof(struct rho_message_clutter_map, utime), 8, 1},
@@ -559,7 +589,8 @@ static const struct message_format clutter_map_format = {
     sizeof(struct rho_message_echo), RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES};
 static const struct message_rules clutter_map_rules = {
     &clutter_map_format,
-    {clutter_map_ints, 0, 4, 0}, {echo_ints, echo_floats, 2, 4}};
+    {clutter_map_ints, 0, 4, 0},
+    {echo_ints, echo_floats, 2, 4}};
 
 static const struct message_run ghost_matrix_runs[] = {
     {offsetof(struct rho_message_ghost_matrix, utime), 8, 1},
@@ -573,7 +604,8 @@ static const struct message_run ghost_matrix_runs[] = {
 };
 static const struct message_int_rule ghost_matrix_ints[] = {
     {offsetof(struct rho_message_ghost_matrix, utime), 8, 1, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_ghost_matrix, rule), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2},
+    {offsetof(struct rho_message_ghost_matrix, rule), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1
+     << 2},
     {offsetof(struct rho_message_ghost_matrix, num_rows), 2, 2, MESSAGE_RANGE, 0, 255},
     {offsetof(struct rho_message_ghost_matrix, not_sent), 4, 1, MESSAGE_RANGE, 0, 2147483647},
     {offsetof(struct rho_message_ghost_matrix, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
@@ -592,7 +624,8 @@ static const struct message_format ghost_matrix_format = {
     sizeof(struct rho_message_ghost), RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS};
 static const struct message_rules ghost_matrix_rules = {
     &ghost_matrix_format,
-    {ghost_matrix_ints, ghost_matrix_floats, 6, 2}, {ghost_ints, ghost_floats, 2, 2}};
+    {ghost_matrix_ints, ghost_matrix_floats, 6, 2},
+    {ghost_ints, ghost_floats, 2, 2}};
 
 static const struct message_run hypotheses_runs[] = {
     {offsetof(struct rho_message_hypotheses, utime), 8, 1},
@@ -602,7 +635,8 @@ static const struct message_run hypotheses_runs[] = {
 };
 static const struct message_int_rule hypotheses_ints[] = {
     {offsetof(struct rho_message_hypotheses, utime), 8, 1, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_hypotheses, evidence), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2},
+    {offsetof(struct rho_message_hypotheses, evidence), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1
+     << 2},
     {offsetof(struct rho_message_hypotheses, not_sent), 4, 1, MESSAGE_RANGE, 0, 2147483647},
 };
 static const struct message_float_rule hypotheses_floats[] = {
@@ -618,7 +652,8 @@ static const struct message_format hypotheses_format = {
     sizeof(struct rho_message_hypothesis), RHO_MESSAGE_HYPOTHESES_MAX_HYPOTHESES};
 static const struct message_rules hypotheses_rules = {
     &hypotheses_format,
-    {hypotheses_ints, hypotheses_floats, 3, 3}, {0, hypothesis_floats, 0, 3}};
+    {hypotheses_ints, hypotheses_floats, 3, 3},
+    {0, hypothesis_floats, 0, 3}};
 
 static const struct message_run peak_list_runs[] = {
     {offsetof(struct rho_message_peak_list, utime), 8, 1},
@@ -635,7 +670,8 @@ static const struct message_format peak_list_format = {
     sizeof(struct rho_message_peak), RHO_MESSAGE_PEAK_LIST_MAX_PEAKS};
 static const struct message_rules peak_list_rules = {
     &peak_list_format,
-    {peak_list_ints, 0, 1, 0}, {peak_ints, peak_floats, 1, 4}};
+    {peak_list_ints, 0, 1, 0},
+    {peak_ints, peak_floats, 1, 4}};
 
 static const struct message_run plane_runs[] = {
     {offsetof(struct rho_message_plane, utime), 8, 1},
@@ -664,7 +700,8 @@ static const struct message_format plane_format = {
     sizeof(struct rho_message_plane_row), RHO_MESSAGE_PLANE_MAX_ROWS};
 static const struct message_rules plane_rules = {
     &plane_format,
-    {plane_ints, plane_floats, 5, 1}, {0, 0, 0, 0}};
+    {plane_ints, plane_floats, 5, 1},
+    {0, 0, 0, 0}};
 
 static const struct message_run plot_scan_runs[] = {
     {offsetof(struct rho_message_plot_scan, utime), 8, 1},
@@ -676,7 +713,8 @@ static const struct message_run plot_scan_runs[] = {
 };
 static const struct message_int_rule plot_scan_ints[] = {
     {offsetof(struct rho_message_plot_scan, utime), 8, 1, MESSAGE_TIME, 0, 0},
-    {offsetof(struct rho_message_plot_scan, kind), 1, 1, MESSAGE_ONE_OF, 0, 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6},
+    {offsetof(struct rho_message_plot_scan, kind), 1, 1, MESSAGE_ONE_OF, 0, 1 << 2 | 1 << 3 | 1 << 4
+     | 1 << 6},
     {offsetof(struct rho_message_plot_scan, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
     {offsetof(struct rho_message_plot_scan, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
      rho_message_plot_scan, num_parts)},
@@ -692,7 +730,8 @@ static const struct message_format plot_scan_format = {
     sizeof(struct rho_message_plot), RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS};
 static const struct message_rules plot_scan_rules = {
     &plot_scan_format,
-    {plot_scan_ints, plot_scan_floats, 4, 1}, {plot_ints, plot_floats, 1, 4}};
+    {plot_scan_ints, plot_scan_floats, 4, 1},
+    {plot_ints, plot_floats, 1, 4}};
 
 static const struct message_run polar_scan_runs[] = {
     {offsetof(struct rho_message_polar_scan, utime), 8, 1},
@@ -724,7 +763,8 @@ static const struct message_format polar_scan_format = {
     sizeof(struct rho_message_polar_plot), RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS};
 static const struct message_rules polar_scan_rules = {
     &polar_scan_format,
-    {polar_scan_ints, polar_scan_floats, 4, 5}, {polar_plot_ints, polar_plot_floats, 1, 5}};
+    {polar_scan_ints, polar_scan_floats, 4, 5},
+    {polar_plot_ints, polar_plot_floats, 1, 5}};
 
 static const struct message_run sensor_list_runs[] = {
     {offsetof(struct rho_message_sensor_list, utime), 8, 1},
@@ -746,7 +786,8 @@ static const struct message_format sensor_list_format = {
     sizeof(struct rho_message_sensor), RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS};
 static const struct message_rules sensor_list_rules = {
     &sensor_list_format,
-    {sensor_list_ints, 0, 4, 0}, {sensor_ints, sensor_floats, 6, 2}};
+    {sensor_list_ints, 0, 4, 0},
+    {sensor_ints, sensor_floats, 6, 2}};
 
 static const struct message_run track_list_runs[] = {
     {offsetof(struct rho_message_track_list, utime), 8, 1},
@@ -768,7 +809,8 @@ static const struct message_format track_list_format = {
     sizeof(struct rho_message_track), RHO_MESSAGE_TRACK_LIST_MAX_TRACKS};
 static const struct message_rules track_list_rules = {
     &track_list_format,
-    {track_list_ints, 0, 4, 0}, {track_ints, track_floats, 4, 3}};
+    {track_list_ints, 0, 4, 0},
+    {track_ints, track_floats, 4, 3}};
 
 static const struct message_run truth_list_runs[] = {
     {offsetof(struct rho_message_truth_list, utime), 8, 1},
@@ -789,7 +831,8 @@ static const struct message_format truth_list_format = {
     sizeof(struct rho_message_truth), RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS};
 static const struct message_rules truth_list_rules = {
     &truth_list_format,
-    {truth_list_ints, 0, 3, 0}, {0, truth_floats, 0, 2}};
+    {truth_list_ints, 0, 3, 0},
+    {0, truth_floats, 0, 2}};
 
 static const struct message_run zone_event_list_runs[] = {
     {offsetof(struct rho_message_zone_event_list, utime), 8, 1},
@@ -806,7 +849,8 @@ static const struct message_format zone_event_list_format = {
     sizeof(struct rho_message_zone_event), RHO_MESSAGE_ZONE_EVENT_LIST_MAX_EVENTS};
 static const struct message_rules zone_event_list_rules = {
     &zone_event_list_format,
-    {zone_event_list_ints, 0, 1, 0}, {zone_event_ints, zone_event_floats, 2, 2}};
+    {zone_event_list_ints, 0, 1, 0},
+    {zone_event_ints, zone_event_floats, 2, 2}};
 
 static const struct message_run zone_list_runs[] = {
     {offsetof(struct rho_message_zone_list, utime), 8, 1},
@@ -824,37 +868,53 @@ static const struct message_format zone_list_format = {
     sizeof(struct rho_message_zone), RHO_MESSAGE_ZONE_LIST_MAX_ZONES};
 static const struct message_rules zone_list_rules = {
     &zone_list_format,
-    {zone_list_ints, 0, 2, 0}, {zone_ints, zone_floats, 2, 2}};
+    {zone_list_ints, 0, 2, 0},
+    {zone_ints, zone_floats, 2, 2}};
 
-typedef char accumulator_head_fits[offsetof(struct rho_message_accumulator, num_cells_total) ==
+typedef char accumulator_head_fits[
+    offsetof(struct rho_message_accumulator, num_cells_total) ==
     offsetof(struct rho_message_accumulator_head, num_cells_total) ? 1 : -1];
-typedef char bearing_scan_head_fits[offsetof(struct rho_message_bearing_scan, sigma_rad) ==
+typedef char bearing_scan_head_fits[
+    offsetof(struct rho_message_bearing_scan, sigma_rad) ==
     offsetof(struct rho_message_bearing_scan_head, sigma_rad) ? 1 : -1];
-typedef char body_list_head_fits[offsetof(struct rho_message_body_list, num_parts) ==
+typedef char body_list_head_fits[
+    offsetof(struct rho_message_body_list, num_parts) ==
     offsetof(struct rho_message_body_list_head, num_parts) ? 1 : -1];
-typedef char clutter_map_head_fits[offsetof(struct rho_message_clutter_map, num_parts) ==
+typedef char clutter_map_head_fits[
+    offsetof(struct rho_message_clutter_map, num_parts) ==
     offsetof(struct rho_message_clutter_map_head, num_parts) ? 1 : -1];
-typedef char ghost_matrix_head_fits[offsetof(struct rho_message_ghost_matrix, num_parts) ==
+typedef char ghost_matrix_head_fits[
+    offsetof(struct rho_message_ghost_matrix, num_parts) ==
     offsetof(struct rho_message_ghost_matrix_head, num_parts) ? 1 : -1];
-typedef char hypotheses_head_fits[offsetof(struct rho_message_hypotheses, not_sent) ==
+typedef char hypotheses_head_fits[
+    offsetof(struct rho_message_hypotheses, not_sent) ==
     offsetof(struct rho_message_hypotheses_head, not_sent) ? 1 : -1];
-typedef char peak_list_head_fits[offsetof(struct rho_message_peak_list, scan) ==
+typedef char peak_list_head_fits[
+    offsetof(struct rho_message_peak_list, scan) ==
     offsetof(struct rho_message_peak_list_head, scan) ? 1 : -1];
-typedef char plane_head_fits[offsetof(struct rho_message_plane, num_parts) ==
+typedef char plane_head_fits[
+    offsetof(struct rho_message_plane, num_parts) ==
     offsetof(struct rho_message_plane_head, num_parts) ? 1 : -1];
-typedef char plot_scan_head_fits[offsetof(struct rho_message_plot_scan, sector_to_rad) ==
+typedef char plot_scan_head_fits[
+    offsetof(struct rho_message_plot_scan, sector_to_rad) ==
     offsetof(struct rho_message_plot_scan_head, sector_to_rad) ? 1 : -1];
-typedef char polar_scan_head_fits[offsetof(struct rho_message_polar_scan, sector_to_rad) ==
+typedef char polar_scan_head_fits[
+    offsetof(struct rho_message_polar_scan, sector_to_rad) ==
     offsetof(struct rho_message_polar_scan_head, sector_to_rad) ? 1 : -1];
-typedef char sensor_list_head_fits[offsetof(struct rho_message_sensor_list, num_parts) ==
+typedef char sensor_list_head_fits[
+    offsetof(struct rho_message_sensor_list, num_parts) ==
     offsetof(struct rho_message_sensor_list_head, num_parts) ? 1 : -1];
-typedef char track_list_head_fits[offsetof(struct rho_message_track_list, num_parts) ==
+typedef char track_list_head_fits[
+    offsetof(struct rho_message_track_list, num_parts) ==
     offsetof(struct rho_message_track_list_head, num_parts) ? 1 : -1];
-typedef char truth_list_head_fits[offsetof(struct rho_message_truth_list, num_parts) ==
+typedef char truth_list_head_fits[
+    offsetof(struct rho_message_truth_list, num_parts) ==
     offsetof(struct rho_message_truth_list_head, num_parts) ? 1 : -1];
-typedef char zone_event_list_head_fits[offsetof(struct rho_message_zone_event_list, epoch) ==
+typedef char zone_event_list_head_fits[
+    offsetof(struct rho_message_zone_event_list, epoch) ==
     offsetof(struct rho_message_zone_event_list_head, epoch) ? 1 : -1];
-typedef char zone_list_head_fits[offsetof(struct rho_message_zone_list, events_dropped) ==
+typedef char zone_list_head_fits[
+    offsetof(struct rho_message_zone_list, events_dropped) ==
     offsetof(struct rho_message_zone_list_head, events_dropped) ? 1 : -1];
 
 uint64_t rho_message_fingerprint(enum rho_message_type type)
@@ -920,7 +980,8 @@ enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size)
 }
 
 enum rho_status rho_message_accumulator_cell_encode(
-    const struct rho_message_accumulator_cell *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_accumulator_cell *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&accumulator_cell_format, message, buffer, capacity, size);
 }
@@ -938,7 +999,8 @@ enum rho_status rho_message_accumulator_cell_validate(
 }
 
 enum rho_status rho_message_body_encode(
-    const struct rho_message_body *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_body *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&body_format, message, buffer, capacity, size);
 }
@@ -956,7 +1018,8 @@ enum rho_status rho_message_body_validate(
 }
 
 enum rho_status rho_message_command_answer_encode(
-    const struct rho_message_command_answer *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_command_answer *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&command_answer_format, message, buffer, capacity, size);
 }
@@ -974,7 +1037,8 @@ enum rho_status rho_message_command_answer_validate(
 }
 
 enum rho_status rho_message_command_encode(
-    const struct rho_message_command *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_command *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&command_format, message, buffer, capacity, size);
 }
@@ -992,7 +1056,8 @@ enum rho_status rho_message_command_validate(
 }
 
 enum rho_status rho_message_echo_encode(
-    const struct rho_message_echo *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_echo *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&echo_format, message, buffer, capacity, size);
 }
@@ -1010,7 +1075,8 @@ enum rho_status rho_message_echo_validate(
 }
 
 enum rho_status rho_message_ghost_encode(
-    const struct rho_message_ghost *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_ghost *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&ghost_format, message, buffer, capacity, size);
 }
@@ -1028,7 +1094,8 @@ enum rho_status rho_message_ghost_validate(
 }
 
 enum rho_status rho_message_hypothesis_encode(
-    const struct rho_message_hypothesis *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_hypothesis *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&hypothesis_format, message, buffer, capacity, size);
 }
@@ -1046,7 +1113,8 @@ enum rho_status rho_message_hypothesis_validate(
 }
 
 enum rho_status rho_message_learned_encode(
-    const struct rho_message_learned *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_learned *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&learned_format, message, buffer, capacity, size);
 }
@@ -1064,7 +1132,8 @@ enum rho_status rho_message_learned_validate(
 }
 
 enum rho_status rho_message_peak_encode(
-    const struct rho_message_peak *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_peak *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&peak_format, message, buffer, capacity, size);
 }
@@ -1082,7 +1151,8 @@ enum rho_status rho_message_peak_validate(
 }
 
 enum rho_status rho_message_plane_row_encode(
-    const struct rho_message_plane_row *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_plane_row *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&plane_row_format, message, buffer, capacity, size);
 }
@@ -1100,7 +1170,8 @@ enum rho_status rho_message_plane_row_validate(
 }
 
 enum rho_status rho_message_plot_encode(
-    const struct rho_message_plot *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_plot *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&plot_format, message, buffer, capacity, size);
 }
@@ -1118,7 +1189,8 @@ enum rho_status rho_message_plot_validate(
 }
 
 enum rho_status rho_message_polar_plot_encode(
-    const struct rho_message_polar_plot *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_polar_plot *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&polar_plot_format, message, buffer, capacity, size);
 }
@@ -1136,7 +1208,8 @@ enum rho_status rho_message_polar_plot_validate(
 }
 
 enum rho_status rho_message_sensor_encode(
-    const struct rho_message_sensor *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_sensor *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&sensor_format, message, buffer, capacity, size);
 }
@@ -1154,7 +1227,8 @@ enum rho_status rho_message_sensor_validate(
 }
 
 enum rho_status rho_message_setting_answer_encode(
-    const struct rho_message_setting_answer *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_setting_answer *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&setting_answer_format, message, buffer, capacity, size);
 }
@@ -1172,7 +1246,8 @@ enum rho_status rho_message_setting_answer_validate(
 }
 
 enum rho_status rho_message_setting_encode(
-    const struct rho_message_setting *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_setting *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&setting_format, message, buffer, capacity, size);
 }
@@ -1190,7 +1265,8 @@ enum rho_status rho_message_setting_validate(
 }
 
 enum rho_status rho_message_status_encode(
-    const struct rho_message_status *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_status *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&status_format, message, buffer, capacity, size);
 }
@@ -1208,7 +1284,8 @@ enum rho_status rho_message_status_validate(
 }
 
 enum rho_status rho_message_track_encode(
-    const struct rho_message_track *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_track *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&track_format, message, buffer, capacity, size);
 }
@@ -1226,7 +1303,8 @@ enum rho_status rho_message_track_validate(
 }
 
 enum rho_status rho_message_truth_encode(
-    const struct rho_message_truth *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_truth *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&truth_format, message, buffer, capacity, size);
 }
@@ -1244,7 +1322,8 @@ enum rho_status rho_message_truth_validate(
 }
 
 enum rho_status rho_message_work_encode(
-    const struct rho_message_work *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_work *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&work_format, message, buffer, capacity, size);
 }
@@ -1262,7 +1341,8 @@ enum rho_status rho_message_work_validate(
 }
 
 enum rho_status rho_message_zone_event_encode(
-    const struct rho_message_zone_event *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_zone_event *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&zone_event_format, message, buffer, capacity, size);
 }
@@ -1280,7 +1360,8 @@ enum rho_status rho_message_zone_event_validate(
 }
 
 enum rho_status rho_message_zone_encode(
-    const struct rho_message_zone *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_zone *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&zone_format, message, buffer, capacity, size);
 }
@@ -1298,7 +1379,8 @@ enum rho_status rho_message_zone_validate(
 }
 
 enum rho_status rho_message_accumulator_encode(
-    const struct rho_message_accumulator *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_accumulator *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&accumulator_format, message, buffer, capacity, size);
 }
@@ -1329,7 +1411,8 @@ enum rho_status rho_message_accumulator_add(
 }
 
 enum rho_status rho_message_bearing_scan_encode(
-    const struct rho_message_bearing_scan *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_bearing_scan *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&bearing_scan_format, message, buffer, capacity, size);
 }
@@ -1360,7 +1443,8 @@ enum rho_status rho_message_bearing_scan_add(
 }
 
 enum rho_status rho_message_body_list_encode(
-    const struct rho_message_body_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_body_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&body_list_format, message, buffer, capacity, size);
 }
@@ -1391,7 +1475,8 @@ enum rho_status rho_message_body_list_add(
 }
 
 enum rho_status rho_message_clutter_map_encode(
-    const struct rho_message_clutter_map *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_clutter_map *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&clutter_map_format, message, buffer, capacity, size);
 }
@@ -1422,7 +1507,8 @@ enum rho_status rho_message_clutter_map_add(
 }
 
 enum rho_status rho_message_ghost_matrix_encode(
-    const struct rho_message_ghost_matrix *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_ghost_matrix *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&ghost_matrix_format, message, buffer, capacity, size);
 }
@@ -1453,7 +1539,8 @@ enum rho_status rho_message_ghost_matrix_add(
 }
 
 enum rho_status rho_message_hypotheses_encode(
-    const struct rho_message_hypotheses *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_hypotheses *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&hypotheses_format, message, buffer, capacity, size);
 }
@@ -1484,7 +1571,8 @@ enum rho_status rho_message_hypotheses_add(
 }
 
 enum rho_status rho_message_peak_list_encode(
-    const struct rho_message_peak_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_peak_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&peak_list_format, message, buffer, capacity, size);
 }
@@ -1515,7 +1603,8 @@ enum rho_status rho_message_peak_list_add(
 }
 
 enum rho_status rho_message_plane_encode(
-    const struct rho_message_plane *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_plane *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&plane_format, message, buffer, capacity, size);
 }
@@ -1546,7 +1635,8 @@ enum rho_status rho_message_plane_add(
 }
 
 enum rho_status rho_message_plot_scan_encode(
-    const struct rho_message_plot_scan *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_plot_scan *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&plot_scan_format, message, buffer, capacity, size);
 }
@@ -1577,7 +1667,8 @@ enum rho_status rho_message_plot_scan_add(
 }
 
 enum rho_status rho_message_polar_scan_encode(
-    const struct rho_message_polar_scan *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_polar_scan *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&polar_scan_format, message, buffer, capacity, size);
 }
@@ -1608,7 +1699,8 @@ enum rho_status rho_message_polar_scan_add(
 }
 
 enum rho_status rho_message_sensor_list_encode(
-    const struct rho_message_sensor_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_sensor_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&sensor_list_format, message, buffer, capacity, size);
 }
@@ -1639,7 +1731,8 @@ enum rho_status rho_message_sensor_list_add(
 }
 
 enum rho_status rho_message_track_list_encode(
-    const struct rho_message_track_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_track_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&track_list_format, message, buffer, capacity, size);
 }
@@ -1670,7 +1763,8 @@ enum rho_status rho_message_track_list_add(
 }
 
 enum rho_status rho_message_truth_list_encode(
-    const struct rho_message_truth_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_truth_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&truth_list_format, message, buffer, capacity, size);
 }
@@ -1701,7 +1795,8 @@ enum rho_status rho_message_truth_list_add(
 }
 
 enum rho_status rho_message_zone_event_list_encode(
-    const struct rho_message_zone_event_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_zone_event_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&zone_event_list_format, message, buffer, capacity, size);
 }
@@ -1732,7 +1827,8 @@ enum rho_status rho_message_zone_event_list_add(
 }
 
 enum rho_status rho_message_zone_list_encode(
-    const struct rho_message_zone_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_zone_list *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {
     return rho_message_encode(&zone_list_format, message, buffer, capacity, size);
 }

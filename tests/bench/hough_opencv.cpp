@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenCV's HoughLinesPointSet on the points of `rhotrack bench hough`, which runs this where it was built:
+// OpenCV's HoughLinesPointSet on the points of `rhotrack bench hough`, which runs this where it was
+// built:
 //     hough_opencv POINTS RHO_MAX RHO_CELL THETA_CELL MIN_VOTES ROUNDS
 // POINTS: pairs of float32. Prints the least time of a call in milliseconds.
 #include <chrono>

@@ -17,7 +17,8 @@ load() { # text, record, settings...: one row; its $mean and $worst, the most $s
     "$root/tools/firmware/emulate.sh" m4 "$images/m4/replay.elf" "$name.lcm" out.lcm "$@" >said \
         || { cat said; return 1; }
     read -r partial mean worst used < <(
-        sed -n 's/.*partial \([0-9]*\) .*mean \([0-9]*\) max \([0-9]*\) stack \([0-9]*\).*/\1 \2 \3 \4/p' said)
+        sed -n 's/.*partial \([0-9]*\) .*mean \([0-9]*\) max \([0-9]*\) stack '\
+'\([0-9]*\).*/\1 \2 \3 \4/p' said)
     partial_steps=$((partial_steps + partial))
     row=$(awk -v text="$text" -v mean="$mean" -v worst="$worst" -v hz="$cpu_hz" 'BEGIN {
         printf "| %s | %.3g M | %.3g M | %.0f |", text, mean / 1e6, worst / 1e6, 1000 * worst / hz
@@ -27,7 +28,8 @@ load() { # text, record, settings...: one row; its $mean and $worst, the most $s
 
 # The section `load` of the page.
 section() {
-    printf '\narm-none-eabi-gcc %s, `-Os -flto`; instructions as QEMU counts them, 100 clutter plots and 8\n' \
+    printf '\narm-none-eabi-gcc %s, `-Os -flto`; instructions as QEMU counts them, '\
+'100 clutter plots and 8\n' \
         "$(arm-none-eabi-gcc -dumpfullversion)"
     printf 'targets a scan. One cycle an instruction; slow flash adds about half.\n\n'
     printf '| Cortex-M4F | mean | worst | ms at %s MHz |\n|---|---|---|---|\n' $((cpu_hz / 1000000))
@@ -42,7 +44,8 @@ record_traffic() { # name, half a side, interval, scans
     local box="[-$2,$2,-$2,$2]"
     record "$1" traffic plots --set targets.0.count=8 --set clutter.0.plots=100 \
         --set radars.0.interval_s="$3" \
-        --set duration_s=$(($3 * $4)) --set area="$box" --set targets.0.box_m="$box" --set targets.0.keep_box_m="$box"
+        --set duration_s=$(($3 * $4)) --set area="$box" --set targets.0.box_m="$box" \
+        --set targets.0.keep_box_m="$box"
 }
 
 record_loads() {
@@ -72,7 +75,8 @@ check "its worst is at most $worst_most" test "$worst" -gt 0 -a "$worst" -le "$w
 check 'no step of these was partial' test "$partial_steps" -eq 0
 section >section
 check 'tools/lab/MEASUREMENTS.md says so' says_the_page load section
-check 'flash and RAM are within the budget' env BUILD="$build" "$root/tools/firmware/check_flash_and_ram.sh"
+check 'flash and RAM are within the budget' env BUILD="$build" \
+    "$root/tools/firmware/check_flash_and_ram.sh"
 check "the stack ($stack bytes) is at most $stack_most" test "$stack" -gt 0 -a "$stack" -le \
     "$stack_most"
 finish

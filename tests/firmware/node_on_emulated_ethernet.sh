@@ -33,8 +33,9 @@ import sys
 import lcm
 sys.path.insert(0, "bindings")
 import rhotrack
-types = {"RHO_TRACKS": rhotrack.track_list_t, "RHO_PEAKS": rhotrack.peak_list_t, "RHO_STATUS": rhotrack.status_t,
-         "RHO_WORK": rhotrack.work_t, "RHO_LEARNED": rhotrack.learned_t}
+types = {"RHO_TRACKS": rhotrack.track_list_t, "RHO_PEAKS": rhotrack.peak_list_t,
+         "RHO_STATUS": rhotrack.status_t, "RHO_WORK": rhotrack.work_t,
+         "RHO_LEARNED": rhotrack.learned_t}
 counts, last, ended = collections.Counter(), None, []
 def take(channel, data):
     global last
@@ -123,7 +124,8 @@ for core in m4 m7; do
     check "Cortex-${core^^}: the Python package heard all of them" heard_all
     read_status stock.lcm
     check "Cortex-${core^^}: it says that it took $scans scans, all good" test \
-        "$(status_of scans_accepted) $(status_of messages_bad) $(status_of scans_lost) $(status_of scan)" = "$scans 0 0 $scans"
+        "$(status_of scans_accepted) $(status_of messages_bad) $(status_of scans_lost) $(
+            status_of scan)" = "$scans 0 0 $scans"
     check "Cortex-${core^^}: its stack is at most $stack_most bytes, as it says itself" test \
         "$(sed -n 's/^stack *\([0-9]*\).*/\1/p' console | tail -n 1)" -le "$stack_most"
     check "Cortex-${core^^}: it measures its steps" test \

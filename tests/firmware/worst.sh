@@ -1,9 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# What a step of each shipped configuration of the node costs at most (tools/firmware/step_cost_limits.bash)
-# holds for the worst scans that were found (worst_skies.txt), and for a few that are drawn now; the
-# limit on work is why. The smallest node also runs here on a record, and fits. LOAD=update writes
-# the worst steps into tools/lab/MEASUREMENTS.md.
+# What a step of each shipped configuration of the node costs at most
+# (tools/firmware/step_cost_limits.bash) holds for the worst scans that were found
+# (worst_skies.txt), and for a few that are drawn now; the limit on work is why. The smallest node
+# also runs here on a record, and fits. LOAD=update writes the worst steps into
+# tools/lab/MEASUREMENTS.md.
 # shellcheck source=tests/firmware/record_and_replay_logs.bash
 . "$(dirname "$0")/record_and_replay_logs.bash"
 # shellcheck source=tests/integration/checks.bash
@@ -14,8 +15,10 @@ export EMULATE_SECONDS=300
 smallest_flash=$((56 * 1024)) smallest_ram=$((64 * 1024))
 
 keeps() { # the promise, and what the processor has time for
-    printf '%-10s %10d of %10d promised, %10d in time\n' "$1" "$instructions" "$((a + b * work_max))" "$most"
-    [ "$instructions" -gt 0 ] && [ "$instructions" -le "$((a + b * work_max))" ] && [ "$instructions" -le "$most" ]
+    printf '%-10s %10d of %10d promised, %10d in time\n' "$1" "$instructions" \
+        "$((a + b * work_max))" "$most"
+    [ "$instructions" -gt 0 ] && [ "$instructions" -le "$((a + b * work_max))" ] &&
+        [ "$instructions" -le "$most" ]
 }
 
 declare -A worst promised time_for
@@ -38,7 +41,8 @@ memory_of() {
 # The section `worst` of the page.
 section() {
     local name flash ram
-    printf '\nMillions of instructions of the worst step in the skies that are kept, and bytes of the image with its\nstack, Cortex-M4F, arm-none-eabi-gcc %s.\n\n' \
+    printf '\nMillions of instructions of the worst step in the skies that are kept, and bytes of '\
+'the image with its\nstack, Cortex-M4F, arm-none-eabi-gcc %s.\n\n' \
         "$(arm-none-eabi-gcc -dumpfullversion)"
     printf '| node | worst found | promised | time for | flash | RAM |\n|---|---|---|---|---|---|\n'
     for name in $shipped; do
@@ -46,7 +50,8 @@ section() {
         [ -z "${worst[$name]-}" ] || awk -v name="$name" -v worst="${worst[$name]}" \
             -v promised="${promised[$name]}" \
             -v most="${time_for[$name]}" -v flash="$flash" -v ram="$ram" \
-            'BEGIN { printf "| %s | %.3g | %.3g | %.3g | %d | %d |\n", name, worst / 1e6, promised / 1e6, most / 1e6, flash, ram }'
+            'BEGIN { printf "| %s | %.3g | %.3g | %.3g | %d | %d |\n", name, worst / 1e6,
+                promised / 1e6, most / 1e6, flash, ram }'
     done
     printf '\n'
 }

@@ -29,7 +29,8 @@ for program in "$@"; do
     done
     options=()
     [ -f "$build/seeds/$name.dict" ] && options+=("-dict=$build/seeds/$name.dict")
-    if timeout --kill-after=1 $((seconds + grace_seconds)) "$program" -max_total_time="$seconds" -max_len=4096 \
+    if timeout --kill-after=1 $((seconds + grace_seconds)) "$program" \
+        -max_total_time="$seconds" -max_len=4096 \
         -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=1 \
         -artifact_prefix="$build/findings/$name-" "${options[@]}" "${folders[@]}" >"$log" 2>&1; then
         printf 'ok   %-20s %10s runs, %5s inputs kept, %d s\n' "$name" \

@@ -37,7 +37,8 @@ def write_dictionary(path, words):
 def write_configs(folder):
     """INI files with every parameter at its default, its least and its most, with each alone at its
     most (all together contradict each other), and of two sensors; the words of all of them."""
-    text = (HERE.parents[1] / "tools" / "rhotrack" / "settings" / "parameters.h").read_text(encoding="utf-8")
+    text = (HERE.parents[1] / "tools" / "rhotrack" / "settings" / "parameters.h").read_text(
+        encoding="utf-8")
     text = re.sub(r"\\\n *", " ", text)
     every, sensors = text.split("#define SENSOR_PARAMETERS")[:2]
     rows = re.findall(r'X\(\w+, "(\w+)", "[^"]*", ([^,]+), ([^,]+), ([^,]+), \d, (\d),', every)
@@ -95,7 +96,8 @@ def write_scenes(folder):
 
 
 def write_scripts(folder):
-    """Scripts of fuzz_tracker: scans, frames, sectors, piles, bodies, walls, images, by each gate."""
+    """Scripts of fuzz_tracker: scans, frames, sectors, piles, bodies, walls, images, by each
+    gate."""
     def world(targets=3, turns=0, gate=0, start=8, passive=1):
         return bytes((targets, turns, 7, gate, start, start, start, passive, passive))
 

@@ -12,7 +12,8 @@ run simulate polar -o sim --seed 2 --set settings.scan_interval_s=4 --set target
 python3 "$write" sim/plots.csv turns.ast
 python3 "$write" sim/plots.csv norths.ast --sectors 1
 python3 "$write" sim/plots.csv bare.ast --sectors 0
-awk -F, -v OFS=, 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == "range_rate_mps") rate = i} NR % 5 == 0 {$rate = ""} {print}' \
+awk -F, -v OFS=, 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == "range_rate_mps") rate = i}
+    NR % 5 == 0 {$rate = ""} {print}' \
     sim/plots.csv >some.csv # as replies without Doppler are
 python3 "$write" some.csv some.ast
 
@@ -32,7 +33,8 @@ want.sort(key=lambda row: (time(row), float(row["range_m"])))
 for one, other in zip(want, sorted(got, key=lambda row: float(row["t_s"]))):
     close = [row for row in got if abs(float(row["t_s"]) - time(one)) <= 1 / 256 + 1e-6
              and abs(float(row["range_m"]) - float(one["range_m"])) <= 1852 / 512 + 0.01
-             and abs(math.remainder(float(row["azimuth_rad"]) - float(one["azimuth_rad"]), 2 * math.pi)) <= math.pi / 65536 + 1e-6
+             and abs(math.remainder(float(row["azimuth_rad"]) - float(one["azimuth_rad"]),
+                                    2 * math.pi)) <= math.pi / 65536 + 1e-6
              and abs(float(row["range_rate_mps"]) - float(one["range_rate_mps"])) <= 0.5 + 1e-3]
     assert close, one
 PYTHON
@@ -163,7 +165,8 @@ check 'the radar is at its place, and has its number' grep -q \
     '^43200.000000,-14329,,,,,47.49999[0-9]*,8.50000[0-9]*,430,' placed.csv
 run track placed.ast --config sim/scenario.ini -o placed.tracks.csv
 check 'which is the origin where nobody sets one' grep -q '20 tracks confirmed' stderr
-origin='rhotrack: placed.ast: the origin is origin_lat_deg=47.4999905, origin_lon_deg=8.5000062, origin_alt_m=430'
+origin='rhotrack: placed.ast: the origin is origin_lat_deg=47.4999905, origin_lon_deg=8.5000062, '\
+'origin_alt_m=430'
 check 'and told' grep -qx "$origin" stderr
 for name in y.ast y.geojson; do
     run convert placed.ast $name
@@ -173,13 +176,16 @@ done
 run convert placed.ast placed.csv
 check 'by convert too' grep -qx "$origin" stderr
 run track placed.ast --config sim/scenario.ini --json
-check 'and in JSON' json stdout 'abs(o["origin"]["lat_deg"] - 47.5) < 2e-5 and abs(o["origin"]["lon_deg"] - 8.5) < 2e-5 and o["origin"]["alt_m"] == 430'
+check 'and in JSON' json stdout '(abs(o["origin"]["lat_deg"] - 47.5) < 2e-5
+    and abs(o["origin"]["lon_deg"] - 8.5) < 2e-5 and o["origin"]["alt_m"] == 430)'
 run track turns.ast --config sim/scenario.ini --json
 check 'where there is one' json stdout 'o["origin"] is None'
 check 'so that tracks are where they were' python3 -c '
 import csv
-pairs = zip(csv.DictReader(open("placed.tracks.csv")), csv.DictReader(open("turns.tracks.csv")), strict=True)
-assert all(a["track_id"] == b["track_id"] and abs(float(a[name]) - float(b[name])) < 0.5 for a, b in pairs for name in ("x_m", "y_m"))'
+pairs = zip(csv.DictReader(open("placed.tracks.csv")), csv.DictReader(open("turns.tracks.csv")),
+            strict=True)
+assert all(a["track_id"] == b["track_id"] and abs(float(a[name]) - float(b[name])) < 0.5
+           for a, b in pairs for name in ("x_m", "y_m"))'
 run track placed.ast --config sim/scenario.ini --set origin_lat_deg=47 --set origin_lon_deg=8.5 \
     -o south.tracks.csv
 check 'another origin moves them by 55.6 km' python3 -c '
@@ -190,7 +196,8 @@ assert all(abs(float(b["y_m"]) - float(a["y_m"]) - 55588) < 300 for a, b in pair
 # A radar that does not say where it stands, beside one that does, in one file or two.
 python3 "$write" sim/plots.csv lost.ast --sac 200 --sic 8
 cat placed.ast lost.ast >pair.ast
-lost='sensor -14328 reports no position and is assumed at the origin; set sensor.-14328.lat_deg and lon_deg'
+lost='sensor -14328 reports no position and is assumed at the origin; '\
+'set sensor.-14328.lat_deg and lon_deg'
 for command in track register; do
     run "$command" placed.ast lost.ast --config sim/scenario.ini
     check "$command names a radar without a place" grep -qx "rhotrack: lost.ast: $lost" stderr
@@ -242,8 +249,8 @@ for item, row in zip(live, rows):
     assert int.from_bytes(item[12], "big") == int(row["track_id"]) % 65536
     assert bool(item[13][0] & 2) == (row["status"] == "tentative")
     assert (len(item[13]) > 3 and item[13][3] >> 7) == (row["status"] == "coasting")
-    for name, data_of, unit in (("x_m", item[6][:3], 0.5), ("y_m", item[6][3:], 0.5), ("vx_mps", item[7][:2], 0.25),
-                                ("vy_mps", item[7][2:], 0.25)):
+    for name, data_of, unit in (("x_m", item[6][:3], 0.5), ("y_m", item[6][3:], 0.5),
+                                ("vx_mps", item[7][:2], 0.25), ("vy_mps", item[7][2:], 0.25)):
         assert abs(signed(data_of) * unit - float(row[name])) <= unit / 2 + 1e-4, (name, row)
 firsts = sum(len(item[13]) > 1 and item[13][1] >> 5 & 1 for item in records)
 assert firsts == len({row["track_id"] for row in rows}), firsts
@@ -267,10 +274,12 @@ fi
 for command in 'track turns.ast -o' 'convert covariance.csv'; do
     run $command covariance.ast --covariance
     check "$command: no covariances in CAT062" says 2 \
-        'rhotrack: covariance.ast: CAT062 cannot hold covariances (--covariance); it has standard deviations (I062/500) in any case'
+        'rhotrack: covariance.ast: CAT062 cannot hold covariances (--covariance); '\
+'it has standard deviations (I062/500) in any case'
     check "$command: no file" test ! -e covariance.ast
 done
-no_tracks='contains tracks (CAT062), but plots are needed; evaluate, plot, convert and publish take tracks'
+no_tracks='contains tracks (CAT062), but plots are needed; '\
+'evaluate, plot, convert and publish take tracks'
 cp tracks.ast nameless
 for command in track initiate maintain calibrate; do
     run $command tracks.ast
@@ -281,7 +290,8 @@ done
 
 # ---- Tracks from CAT062 ----
 run convert tracks.ast back.csv
-check 'tracks come back as they were, to the steps of CAT062' python3 - turns.tracks.csv back.csv <<'PYTHON'
+check 'tracks come back as they were, to the steps of CAT062' \
+    python3 - turns.tracks.csv back.csv <<'PYTHON'
 import csv, sys
 want, got = (list(csv.DictReader(open(path))) for path in sys.argv[1:])
 ends = [row for row in got if row["status"] == "deleted"]
@@ -289,7 +299,8 @@ got = [row for row in got if row["status"] != "deleted"]
 assert len(got) == len(want) > 100, (len(got), len(want), len(ends))
 steps = {"t_s": 1 / 256 + 1e-6, "x_m": .2501, "y_m": .2501, "vx_mps": .1251, "vy_mps": .1251}
 for one, other in zip(want, got):
-    assert one["status"] == other["status"] and int(one["track_id"]) % 65536 == int(other["track_id"])
+    assert (one["status"] == other["status"]
+            and int(one["track_id"]) % 65536 == int(other["track_id"]))
     assert all(abs(float(one[name]) - float(other[name])) <= step for name, step in steps.items())
 PYTHON
 check 'and nothing is said' test ! -s stderr
@@ -308,7 +319,8 @@ PYTHON
 done
 run convert tracks.ast tracks.lcm
 run convert tracks.lcm tracks.lcm.csv
-check 'tracks as messages' test "$(grep -c confirmed tracks.lcm.csv)" -eq "$(grep -c confirmed back.csv)"
+check 'tracks as messages' test "$(grep -c confirmed tracks.lcm.csv)" -eq \
+    "$(grep -c confirmed back.csv)"
 run plot tracks sim/plots.csv tracks.ast -o tracks.svg
 check 'a picture of them' grep -Eq '[1-9][0-9]* tracks' tracks.svg
 origin='--set origin_lat_deg=50 --set origin_lon_deg=8'
@@ -319,11 +331,12 @@ cat turns.ast tracks.ast >mixed.ast
 run track mixed.ast --config sim/scenario.ini -o mixed.csv
 check 'plots and tracks in one recording: plots are tracked' cmp mixed.csv turns.tracks.csv
 check 'and the tracks are counted' grep -Eq \
-    '^rhotrack: mixed.ast: CAT062 left out: [0-9]+ records in [0-9]+ blocks; these are tracks$' stderr
+    '^rhotrack: mixed.ast: CAT062 left out: [0-9]+ records in [0-9]+ blocks; these are tracks$' \
+    stderr
 run evaluate noon.csv mixed.ast --json --set time_tolerance_s=4
 check 'its tracks are evaluated' json stdout 'o["targets_found"] > 15'
-check 'and the plots are counted, a line a category' test \
-    "$(grep -Ec '^rhotrack: mixed.ast: CAT0(34|48) left out: [0-9]+ records in [0-9]+ blocks$' stderr)" -eq 2
+check 'and the plots are counted, a line a category' test "$(grep -Ec \
+    '^rhotrack: mixed.ast: CAT0(34|48) left out: [0-9]+ records in [0-9]+ blocks$' stderr)" -eq 2
 
 # By hand, from EUROCONTROL-SPEC-0149-9: SAC 1, SIC 2, 23:59:59.5 and 00:00:00.5 of the next day,
 # track 7, confirmed and then the end of it; 105: 50.25 N 8.5 E; 185: 100, -50.25 m/s; 130: 3048 m.
@@ -339,7 +352,8 @@ PYTHON
 # shellcheck disable=SC2086
 run convert hand.ast hand.csv $origin
 check 'by hand: times, identities, status' test \
-    "$(tail -n +2 hand.csv | cut -d, -f1-3 | tr '\n' ' ')" = '86399.500000,7,confirmed 86400.500000,7,deleted '
+    "$(tail -n +2 hand.csv | cut -d, -f1-3 | tr '\n' ' ')" = \
+    '86399.500000,7,confirmed 86400.500000,7,deleted '
 check 'by hand: place, velocity, source' python3 - <<'PYTHON'
 import csv
 row = next(csv.DictReader(open("hand.csv")))
@@ -349,13 +363,15 @@ assert float(row["vx_mps"]) == 100 and float(row["vy_mps"]) == -50.25 and row["s
 PYTHON
 run convert hand.ast hand.csv
 check 'by hand: without an origin' says 2 \
-    'rhotrack: hand.ast: its tracks (CAT062) have positions in latitude and longitude only (I062/105): origin_lat_deg *'
+    'rhotrack: hand.ast: its tracks (CAT062) have positions in latitude and longitude only '\
+'(I062/105): origin_lat_deg *'
 head -c 40 hand.ast >hand_cut.ast
 run evaluate sim/truth.csv hand_cut.ast
 check 'by hand: a cut one is refused with its byte' grep -q '^rhotrack: hand_cut.ast: byte ' stderr
 
 run convert sim/plots.csv polar.ast
-check 'plots are no tracks' says 2 'rhotrack: sim/plots.csv: contains no tracks, and CAT062 holds only tracks'
+check 'plots are no tracks' says 2 \
+    'rhotrack: sim/plots.csv: contains no tracks, and CAT062 holds only tracks'
 check 'and leave no file' test ! -e polar.ast
 
 # ---- Bad recordings ----
@@ -417,7 +433,9 @@ for at in $(seq 0 19 580); do
 data = bytearray(open("start.ast", "rb").read()); data[int(sys.argv[1]) % len(data)] ^= 0xff
 open("changed.ast", "wb").write(data)' "$at"
     run convert changed.ast changed.csv
-    [ "$status" -eq 0 ] || { [ "$status" -eq 2 ] && grep -qE '^rhotrack: changed.ast: byte [0-9]+: ' stderr; } || bad=$((bad + 1))
+    [ "$status" -eq 0 ] ||
+        { [ "$status" -eq 2 ] && grep -qE '^rhotrack: changed.ast: byte [0-9]+: ' stderr; } ||
+        bad=$((bad + 1))
     run convert changed.ast changed.csv --keep-going
     [ "$status" -eq 0 ] || bad=$((bad + 1))
 done
@@ -436,8 +454,9 @@ bad = list(blocks); bad[middle] = bad[middle][:4] + b"\xff" * (len(bad[middle]) 
 open("bad_record.ast", "wb").write(b"".join(bad))
 bad[middle] = b"\x30\x00\x01garbage"
 open("bad_length.ast", "wb").write(b"".join(bad))
-open("with_others.ast", "wb").write(b"".join(blocks[:middle] + [b"\x3e\x00\x0b\x90\x00\x01\x00\x00\x80\x00\x01",
-                                            b"\x15\x00\x05ab", b"\x15\x00\x03"] + blocks[middle:]))
+open("with_others.ast", "wb").write(b"".join(
+    blocks[:middle] + [b"\x3e\x00\x0b\x90\x00\x01\x00\x00\x80\x00\x01",
+                       b"\x15\x00\x05ab", b"\x15\x00\x03"] + blocks[middle:]))
 PYTHON
 for name in bad_record bad_length; do
     run convert "$name.ast" "$name.csv"
@@ -472,7 +491,8 @@ for kind in plots tracks; do
         check "$name: its targets have tracks" json stdout '17 <= o["tracks_confirmed"] <= 23'
     done
     check "$kind: without CAT002 plots become turns, and it is said" grep -q \
-        "old_${kind}_0.ast: sensor 1: the rows of a turn .* turns of \(4\|4.00.\|3.99.\) s by azimuth, clockwise" stderr
+        "old_${kind}_0.ast: sensor 1: the rows of a turn .* turns of \(4\|4.00.\|3.99.\) s "\
+"by azimuth, clockwise" stderr
     check "$kind: and each line once" test -z "$(sort stderr | uniq -d)"
 done
 check 'by sectors there are 32 a turn, too' test \
@@ -490,7 +510,8 @@ check 'known by what is in it' cmp old.csv old_plots_32.csv
 for name in old_plots_32 old_tracks_32; do
     head -c 20000 $name.ast >cut.ast
     run convert cut.ast cut.csv
-    check "$name: a cut one is refused with its byte" grep -q '^rhotrack: cut.ast: byte [0-9]*: ' stderr
+    check "$name: a cut one is refused with its byte" grep -q '^rhotrack: cut.ast: byte [0-9]*: ' \
+        stderr
 done
 if python3 -c 'import asterix.generated' 2>/dev/null; then
     for name in old_plots_32 old_tracks_32; do
@@ -529,7 +550,8 @@ sleep 1
 kill -INT "$live"
 wait "$live"
 check 'publish udp:// ends well' test $? -eq 0
-check 'it counted all plots, one bad datagram' grep -q '1 datagrams used up to an error in them' live.err
+check 'it counted all plots, one bad datagram' grep -q \
+    '1 datagrams used up to an error in them' live.err
 check 'and sent all sectors' grep -q '2318 datagrams, 1821 plots of 1 radars, 480 scans sent' \
     live.err
 run convert live.lcm live.csv
@@ -540,7 +562,8 @@ def plots(path):
 one, other = plots("turns.csv"), plots("live.csv")
 assert len(one) == len(other)
 for a, b in zip(one, other):
-    assert (float(a["t_s"]) - float(b["t_s"])) % 86400 < 1e-3 or (float(b["t_s"]) - float(a["t_s"])) % 86400 < 1e-3
+    assert ((float(a["t_s"]) - float(b["t_s"])) % 86400 < 1e-3
+            or (float(b["t_s"]) - float(a["t_s"])) % 86400 < 1e-3)
     assert abs(float(a["range_m"]) - float(b["range_m"])) < 0.01'
 run track live.lcm --config sim/scenario.ini
 check 'and are tracked' grep -q '20 tracks confirmed' stderr

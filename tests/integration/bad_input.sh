@@ -92,8 +92,11 @@ refuse 'line with CR' "3: x_m 'bad' is not a number" 't_s,sensor_id,x_m,y_m\r1,1
 refuse 'last line without an end' "3: x_m 'bad' is not a number" "${header}1,1,2,3\n2,1,bad,3"
 
 # ---- columns ----
-refuse 'no column x_m' "1: no column 'x_m' (or x); the file has: t_s, sensor_id, y_m; --columns x_m=NAME takes another" 't_s,sensor_id,y_m\n1,1,2\n'
-refuse 'no column t_s' "2: no column 't_s' (or t, time, *); the file has: when, *" '# comment\nwhen,sensor_id,x_m,y_m\n1,1,2,3\n'
+refuse 'no column x_m' \
+    "1: no column 'x_m' (or x); the file has: t_s, sensor_id, y_m; --columns x_m=NAME takes "\
+'another' 't_s,sensor_id,y_m\n1,1,2\n'
+refuse 'no column t_s' "2: no column 't_s' (or t, time, *); the file has: when, *" \
+    '# comment\nwhen,sensor_id,x_m,y_m\n1,1,2,3\n'
 refuse 'a column twice' "1: column 'x_m' occurs twice" 't_s,sensor_id,x_m,y_m,x_m\n1,1,2,3,4\n'
 refuse 'vx_mps without vy_mps' "1: no column 'vy_mps' beside 'vx_mps'" \
     't_s,sensor_id,x_m,y_m,vx_mps\n1,1,2,3,4\n'
@@ -119,7 +122,8 @@ refuse 'bearings: sigma 0' '2: sigma_rad 0 is outside *' \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n0,1,0,0,1,0\n'
 refuse 'bearings: a sensor that moves' '4: sensor 1 has moved: it was at 0, 0, line 2' \
     "${two}1,1,0,0.5,1\n"
-refuse 'bearings: two sensors in one place' '3: sensor 2 has the same place as sensor 1: 0, 0, line 2' \
+refuse 'bearings: two sensors in one place' \
+    '3: sensor 2 has the same place as sensor 1: 0, 0, line 2' \
     "${bearings}0,1,0,0,1\n0,2,0,0,1\n"
 refuse 'bearings: one sensor alone' \
     '2: sensor 1 is the only sensor: positions need bearings of two or more' \
@@ -141,7 +145,8 @@ check 'bearings: the first of two inputs' refused 'bad.csv:4: bearing_rad 4e6 is
 printf "${bearings}0,1,0,0,1\\n0,2,0,60000,1\\n" >apart.csv
 printf '[rhotrack]\nd_rho_m = 2000\n' >cells.ini
 refuse_file 'bearings: sensors too far apart for the cells as set' \
-    'sensors 1 and 2 are 60000 m apart; with cells of d_rho_m 2000 and range_max_m 100000 they may be 56000 m apart at most' \
+    'sensors 1 and 2 are 60000 m apart; with cells of d_rho_m 2000 and range_max_m 100000 '\
+'they may be 56000 m apart at most' \
     apart.csv --config cells.ini
 run track apart.csv -o apart.tracks.csv
 check 'bearings: cells that are not set hold sensors 60 km apart' exits 0
@@ -264,7 +269,8 @@ run track polar.csv --set range_rate_span_mps=30 --set sensor.1.range_rate_span_
 check 'a span, and none' exits 0
 
 # ---- keep going ----
-printf "${header}1,1,2,3\nbad row\n2,1,x,3\n2,1,2,3\n1.5,1,2,3\n2,1,4,5\n3,1,\"2,3\n4,1,2,3\n4,1,2,3,4\n" >mixed.csv
+printf "${header}1,1,2,3\nbad row\n2,1,x,3\n2,1,2,3\n1.5,1,2,3\n2,1,4,5\n"\
+"3,1,\"2,3\n4,1,2,3\n4,1,2,3,4\n" >mixed.csv
 run track mixed.csv --keep-going --json
 check 'keep-going: exit 0' exits 0
 check 'keep-going: good rows count, bad ones too' json stdout \
@@ -292,7 +298,8 @@ check 'standard output on a full disk' exits 1
 
 # ---- the first list of tracks, before which there is none: nothing is counted on from no memory
 # (under sanitizers) ----
-printf 't_s,track_id,status,x_m,y_m,vx_mps,vy_mps,sigma_m,sigma_mps,hits,misses\n1,1,confirmed,1,2,3,4,5,6,7,0\n' >tracks.csv
+printf 't_s,track_id,status,x_m,y_m,vx_mps,vy_mps,sigma_m,sigma_mps,hits,misses\n'\
+'1,1,confirmed,1,2,3,4,5,6,7,0\n' >tracks.csv
 run convert tracks.csv tracks.ast
 check 'tracks as CAT062' bash -c '[ '"$status"' -eq 0 ] && test -s tracks.ast'
 

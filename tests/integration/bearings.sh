@@ -60,7 +60,8 @@ takes 'scans that saw nothing' "${header}0,1,0,0,\n0,2,100,0,\n"
 takes 'other columns, another order' \
     'bearing_rad,note,sensor_y_m,sensor_x_m,sensor_id,t_s\n1,a,0,0,1,0\n1,b,9,0,2,0\n'
 takes 'all columns' \
-    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad,sector_from_rad,sector_to_rad,snr_db\n0,1,0,0,1,0.01,-1,2,9\n0,2,9,0,1,,,,\n'
+    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad,sector_from_rad,sector_to_rad,'\
+'snr_db\n0,1,0,0,1,0.01,-1,2,9\n0,2,9,0,1,,,,\n'
 takes 'a place that is written in another way' "${header}0,1,0.10,0,1\n0,2,9,0,1\n1,1,0.1,-0,1\n"
 takes 'sensors a metre apart' "${header}0,1,0,0,1\n0,2,1,0,1\n"
 printf "${header}0,1,0,0,1\n1,1,0,0,1\n" >one.csv
@@ -106,13 +107,16 @@ refuse 'two sensors in one place' '3: sensor 2 has the same place as sensor 1: 0
 refuse 'two sensors nearer than a metre' '3: sensor 2 has the same place as sensor 1: *' \
     "${header}0,1,0,0,1\n0,2,0.7,0.7,1\n"
 for number in $(seq 1 65); do echo "0,$number,0,${number}00,1"; done >many
-refuse 'more sensors than 64' '66: sensor 65 is beyond the limit of 64 sensors' "$header$(cat many)\n"
+refuse 'more sensors than 64' '66: sensor 65 is beyond the limit of 64 sensors' \
+    "$header$(cat many)\n"
 for sigma in 0 -1 0.6 1e-7; do
     refuse "sigma_rad $sigma" "2: sigma_rad $sigma is outside 9.99999997e-07 .. 0.5" \
         "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n0,1,0,0,1,$sigma\n"
 done
-refuse 'a sector that is not that of the scan' "3: the sector differs from that of the scan's first row" \
-    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad,sector_to_rad\n0,1,0,0,1,-1,1\n0,1,0,0,1,-1,2\n'
+refuse 'a sector that is not that of the scan' \
+    "3: the sector differs from that of the scan's first row" \
+    't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad,sector_to_rad\n'\
+'0,1,0,0,1,-1,1\n0,1,0,0,1,-1,2\n'
 refuse 'half a sector, in a row' '2: sector_to_rad is empty' \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad,sector_to_rad\n0,1,0,0,1,-1,\n'
 refuse 'half a sector, in the header' "1: no column 'sector_to_rad' beside 'sector_from_rad'" \
@@ -155,7 +159,10 @@ are_found() { # tracks, truth
             tracks++
             for (i in x) if (($3 - x[i])^2 + ($4 - y[i])^2 < 1e6) { found[i] = 1; $0 = "" }
         }
-        END { for (i in x) { n++; m += found[i] } exit !(n > 0 && tracks == n && m == n) }' "$2" "$1"
+        END {
+            for (i in x) { n++; m += found[i] }
+            exit !(n > 0 && tracks == n && m == n)
+        }' "$2" "$1"
 }
 for scenario in passive-two passive-three; do
     run initiate $scenario/bearings.csv --config $scenario/scenario.ini
@@ -166,8 +173,10 @@ done
 check 'columns' matches "$(head -n 1 found.csv)" \
     'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
 run initiate passive-three/bearings.csv --method passive --json
-check 'JSON' json stdout '((o["method"], o["scans"], o["sensors"], o["tracks"]) == ("passive", 8, 3, 2) and
-    o["pairs"] - o["candidates"] == o["ghosts"] and o["peak_votes"] == sorted(o["peak_votes"], reverse=True))'
+check 'JSON' json stdout '(
+    (o["method"], o["scans"], o["sensors"], o["tracks"]) == ("passive", 8, 3, 2) and
+    o["pairs"] - o["candidates"] == o["ghosts"] and
+    o["peak_votes"] == sorted(o["peak_votes"], reverse=True))'
 run initiate passive-two/bearings.csv --set scans=5
 check 'the last scans' matches "$(cat stderr)" 'rhotrack: the last 5 of 8 *'
 for range_m in 120000 500000; do
@@ -193,7 +202,8 @@ done
 # other one.
 are_tracked() { # truth, tracks
     run evaluate "$1" "$2" --json
-    exits 0 && json stdout '(o["targets_found"], o["tracks"], o["switches"], o["false_per_scan"]) == (o["targets"], o["targets"], 0, 0)'
+    exits 0 && json stdout '((o["targets_found"], o["tracks"], o["switches"],
+        o["false_per_scan"]) == (o["targets"], o["targets"], 0, 0))'
 }
 for scenario in passive-two passive-three passive-clutter; do
     for seed in 3 4 5; do
@@ -205,7 +215,8 @@ for scenario in passive-two passive-three passive-clutter; do
     done
 done
 check 'one line of summary' matches "$(run track long/bearings.csv -o tracks.csv; cat stderr)" \
-    'rhotrack: 20 scans, * plots, 4 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room; * us a scan, * at most'
+    'rhotrack: 20 scans, * plots, 4 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room; '\
+'* us a scan, * at most'
 check 'no tracks before the batch is full' matches "$(sed -n 2p tracks.csv | cut -d, -f1,3)" \
     '70.000000,confirmed'
 run track long/bearings.csv --config long/scenario.ini --covariance -o tracks.csv
@@ -253,7 +264,8 @@ awk 'function noise(  i, sum) { for (i = 0; i < 12; i++) sum += rand(); return s
                 t = 5 * k; px = x[i] + vx[i] * t; py = y[i] + vy[i] * t
                 printf "%d,%d,%.2f,%.2f\n", t, i, px, py >"truth.csv"
                 if (k % 2 == 0)
-                    printf "%d,9,%.2f,%.2f\n", t, px + 300 * noise(), py + 300 * noise() >"plots.csv"
+                    printf "%d,9,%.2f,%.2f\n", t, px + 300 * noise(),
+                        py + 300 * noise() >"plots.csv"
                 else for (s = 1; s <= 2; s++)
                     printf "%d,%d,0,%d,%.7f\n", t, s, 20000 * s - 30000,
                         atan2(py - 20000 * s + 30000, px) + 0.00175 * noise() >"bearings.csv"
@@ -319,7 +331,8 @@ check 'and the truth' grep -q truth picture.svg
 run track passive-three/bearings.csv -o under.csv
 run plot tracks passive-three/bearings.csv under.csv -o picture.svg
 check 'plot tracks has bearings under their tracks' sh -c \
-    "grep -q 'sensor 3' picture.svg && grep -q 'track 1' picture.svg && grep -q '48 bearings' picture.svg"
+    "grep -q 'sensor 3' picture.svg && grep -q 'track 1' picture.svg &&
+    grep -q '48 bearings' picture.svg"
 picture 'bearings alone' passive-two/bearings.csv
 cp picture.svg far.svg
 picture 'bearings alone, as far as the sensors see' passive-two/bearings.csv --set range_max_m=30000

@@ -12,8 +12,8 @@ build=$(realpath "${BUILD:-$root/build}")
 lines() { # filters, option...: what such a build says
     ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_FILTERS="$1" "${@:2}" \
         -Wall -Wextra -Werror -o filters \
-        "$root/tests/integration/builds_with_fewer_filters.c" "$root"/src/{base,estimation,tracker,step}/*.c \
-        "$build/librhotrack.a" && ./filters
+        "$root/tests/integration/builds_with_fewer_filters.c" \
+        "$root"/src/{base,estimation,tracker,step}/*.c "$build/librhotrack.a" && ./filters
 }
 
 is_the_same_in_loops() {

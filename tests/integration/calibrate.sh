@@ -13,23 +13,26 @@ radar() {
     cat >"$1_scene.json" <<END
 {"version": 1, "text": "$1", "duration_s": $(python3 -c "print(105 * $2)"),
  "settings": {"v_max_mps": 400, "accel_max_mps2": 20},
- "radars": [{"turn_s": $2, "range_m": [$6e1, $6e3], "sigma_range_m": $3, "sigma_azimuth_rad": $4, "pd": $5,
-             "told": {$9}}],
+ "radars": [{"turn_s": $2, "range_m": [$6e1, $6e3], "sigma_range_m": $3, "sigma_azimuth_rad": $4,
+             "pd": $5, "told": {$9}}],
  "targets": [{"count": 5, "range_m": [$6e2, $(python3 -c "print(.8 * $6e3)")], "speed_mps": $7,
-              "keep_range_m": [$(python3 -c "print(.04 * $6e3)"), $(python3 -c "print(.98 * $6e3)")]}],
+              "keep_range_m": [$(python3 -c "print(.04 * $6e3)"),
+                               $(python3 -c "print(.98 * $6e3)")]}],
  "clutter": [{"kind": "uniform", "plots": $8}]}
 END
     run simulate "$1_scene.json" --seed 2 -o "$1"
     run calibrate "$1/plots.csv" --config "$1/scenario.ini" --json -o "$1.ini"
     cp stdout "$1.json"
     check "$1: within 15 %" json "$1.json" "(lambda r: all(abs(r[k]['value'] / v - 1) < .15
-and 0 <= r[k]['sigma'] < .15 * v for k, v in {'sigma_range_m': $3, 'sigma_azimuth_rad': $4, 'pd': $5,
-'clutter_plots': $8, 'turn_s': $2}.items()))(o['radars'][0])"
+and 0 <= r[k]['sigma'] < .15 * v for k, v in {'sigma_range_m': $3, 'sigma_azimuth_rad': $4,
+'pd': $5, 'clutter_plots': $8, 'turn_s': $2}.items()))(o['radars'][0])"
     check "$1: speeds" json "$1.json" \
-        "(lambda r, v: .9 * v[0] < r['slowest_mps']['value'] <= r['fastest_mps']['value'] < 1.1 * v[1])(o['radars'][0], $7)"
+        "(lambda r, v: .9 * v[0] < r['slowest_mps']['value'] <= r['fastest_mps']['value']
+< 1.1 * v[1])(o['radars'][0], $7)"
     run track "$1/plots.csv" --config "$1/scenario.ini" --config "$1.ini" --json
     check "$1: with the INI file there is little left to learn" json stdout \
-        "(lambda l: max(abs(l[k] - 1) for k in ('sigma_range_factor', 'sigma_cross_factor')) < .2)(o['learned'][0])"
+        "(lambda l: max(abs(l[k] - 1)
+for k in ('sigma_range_factor', 'sigma_cross_factor')) < .2)(o['learned'][0])"
 }
 radar as_stated 4 30 0.003 0.9 80 '[100, 250]' 50 '"pd": 0.9'
 radar half_stated 4 30 0.003 0.7 80 '[100, 250]' 200 \
@@ -39,13 +42,15 @@ radar defaults_off 10 100 0.01 0.85 200 '[80, 250]' 100 \
 radar fine 1 5 0.001 0.75 15 '[20, 60]' 20 '"sigma_range_m": 15, "sigma_azimuth_rad": 0.003'
 radar coarse 12 200 0.005 0.8 250 '[100, 300]' 30 '"sigma_range_m": 15, "sigma_azimuth_rad": 0.003'
 check 'the INI file has what is known, with sigmas' bash -c \
-    'grep -q "^sigma_range_m = " as_stated.ini && grep -q "^pd = 0" as_stated.ini && [ "$(grep -c "^# sigma" as_stated.ini)" -eq 5 ]'
+    'grep -q "^sigma_range_m = " as_stated.ini && grep -q "^pd = 0" as_stated.ini &&
+    [ "$(grep -c "^# sigma" as_stated.ini)" -eq 5 ]'
 
 # ---- the tracker, of a radar of which nothing was said ----
 grep -v "sigma\|pd" fine/scenario.ini >bare.ini
 run track fine/plots.csv --config bare.ini --json
-check 'a radar is learned from the defaults' json stdout "(lambda l: .25 < l['sigma_range_factor'] < .45
-and .25 < l['sigma_cross_factor'] < .45 and l['pd_stated'] > .89 and min(l['pd']) < .85)(o['learned'][0])"
+check 'a radar is learned from the defaults' json stdout "(lambda l:
+.25 < l['sigma_range_factor'] < .45 and .25 < l['sigma_cross_factor'] < .45
+and l['pd_stated'] > .89 and min(l['pd']) < .85)(o['learned'][0])"
 run track fine/plots.csv --config bare.ini --set sigma_range_m=15 --set sigma_azimuth_rad=0.003 \
     --json
 check 'less where they were said' json stdout "o['learned'][0]['sigma_range_factor'] > .69"
@@ -69,11 +74,14 @@ check 'JSON has no room there' says 2 \
 run convert as_stated/plots.csv log.lcm --config as_stated/scenario.ini
 run calibrate log.lcm --config as_stated/scenario.ini --json
 check 'the same of a log, but for what floats round' json stdout \
-    "abs(o['radars'][0]['sigma_range_m']['value'] / $(python3 -c 'import json; print(json.load(open("as_stated.json"))["radars"][0]["sigma_range_m"]["value"])') - 1) < .05"
+    "abs(o['radars'][0]['sigma_range_m']['value'] / $(python3 -c 'import json
+print(json.load(open("as_stated.json"))["radars"][0]["sigma_range_m"]["value"])') - 1) < .05"
 run simulate two-radars -o two
 run calibrate two/plots.csv --config two/scenario.ini --json
 check 'two radars, by sectors' json stdout \
-    'len(o["radars"]) == 2 and all(r["turns"] < .2 * r["scans"] and abs(r["turn_s"]["value"] / t - 1) < 0.01 for r, t in zip(o["radars"], (10, 4)))'
+    '(len(o["radars"]) == 2
+    and all(r["turns"] < .2 * r["scans"] and abs(r["turn_s"]["value"] / t - 1) < 0.01
+    for r, t in zip(o["radars"], (10, 4))))'
 
 # ---- what the plots do not tell ----
 run simulate fighters --seed 2 -o fighters
@@ -105,7 +113,8 @@ import sys
 head, *rows = open(sys.argv[1]).read().splitlines()
 times = [float(row.split(",")[0]) for row in rows]
 middle = (times[0] + times[-1]) / 2
-for name, part in ("first", [r for r, t in zip(rows, times) if t < middle]), ("second", [r for r, t in zip(rows, times) if t >= middle]):
+for name, part in (("first", [r for r, t in zip(rows, times) if t < middle]),
+                   ("second", [r for r, t in zip(rows, times) if t >= middle])):
     open(name + ".csv", "w").write("\n".join([head, *part]) + "\n")
 END
     run calibrate first.csv --set v_max_mps=12 --set accel_max_mps2=0.5 -o first.ini

@@ -40,7 +40,8 @@ PYTHON
 # Rows of confirmed and coasting tracks more than 1.5 km from both targets.
 false_rows() { # tracks
     awk -F, 'function far(x, y) { return ($4 - x) ^ 2 + ($5 - y) ^ 2 > 1500 ^ 2 }
-             NR > 1 && $3 != "tentative" && far(-30e3 + 120 * $1, -20e3 + 60 * $1) && far(10e3 + 20 * $1, 60e3 - 150 * $1) { n++ }
+             NR > 1 && $3 != "tentative" && far(-30e3 + 120 * $1, -20e3 + 60 * $1) &&
+                 far(10e3 + 20 * $1, 60e3 - 150 * $1) { n++ }
              END { print n + 0 }' "$1"
 }
 
@@ -115,7 +116,8 @@ log = open("said.lcm", "rb").read()
 at = log.rindex(b"RHO_CLUTTER") + len("RHO_CLUTTER") + 8
 total, part, parts, count = struct.unpack_from(">hhhh", log, at + 16)
 x, y, vx, vy, sigma_range, sigma_cross, chance = struct.unpack_from(">7f", log, at + 24 + 6)
-sys.exit(not (28 <= total <= 40 and part == 0 and count == min(total, 40) and .3 < chance < .8 and 0 < sigma_range < 60))'
+sys.exit(not (28 <= total <= 40 and part == 0 and count == min(total, 40) and .3 < chance < .8
+              and 0 < sigma_range < 60))'
 
 # ---- a picture ----
 run plot clutter-map map.csv -o map.svg

@@ -184,8 +184,8 @@ sed -i \
 codegen
 expect 'a constant that begins as another one does' 0 'codegen: src/wire/message_types.c'
 status=0
-grep -F 'plot_scan, kind), 1, 1, MESSAGE_ONE_OF' "$copy/tree/src/wire/message_types.c" >"$copy/output" \
-    || status=$?
+grep -F -A 1 'plot_scan, kind), 1, 1, MESSAGE_ONE_OF' "$copy/tree/src/wire/message_types.c" |
+    tr -s '\n ' ' ' >"$copy/output" || status=$?
 expect '... has its own value' 0 '1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6'
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

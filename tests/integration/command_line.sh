@@ -31,7 +31,8 @@ for command in track maintain initiate publish convert; do
 done
 for command in track initiate maintain convert publish; do
     run "$command" --help
-    check "help of $command names recordings of the network" grep -q 'NAME\.pcap, NAME\.pcapng' stdout
+    check "help of $command names recordings of the network" grep -q \
+        'NAME\.pcap, NAME\.pcapng' stdout
 done
 run publish --help
 check 'publish takes received_s' bash -c '! grep -q "no received_s" stdout'
@@ -143,7 +144,8 @@ check 'config prints units, defaults and ranges' grep -Eq \
 run config --json
 check 'config as JSON' is_json stdout
 check 'config tells the source' json stdout \
-    'o["pd"]["value"] == 0.9 and o["pd"]["source"] == "default" and o["score_min_nat"]["value"] is None'
+    '(o["pd"]["value"] == 0.9 and o["pd"]["source"] == "default" and
+    o["score_min_nat"]["value"] is None)'
 
 printf '# a comment\nsigma_m = 20\n[rhotrack]\npd = 0.8   # another\n[sensor 3]\npd = 0.7\n' \
     >good.ini
@@ -153,7 +155,8 @@ check 'config file' json stdout \
 check 'sensor in the config file' json stdout 'o["sensor.3.pd"]["value"] == 0.7'
 run config --json --set sigma_m=30 --config good.ini --set sensor.3.pd=0.6
 check 'set goes before the config file in any order' json stdout \
-    'o["sigma_m"]["value"] == 30 and o["sigma_m"]["source"] == "set" and o["sensor.3.pd"]["value"] == 0.6'
+    '(o["sigma_m"]["value"] == 30 and o["sigma_m"]["source"] == "set" and
+    o["sensor.3.pd"]["value"] == 0.6)'
 
 # ---- what is said of a scene stands in the scene ----
 refuse 'parameters of scenarios that are scenes' \

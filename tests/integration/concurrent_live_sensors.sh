@@ -95,14 +95,18 @@ with open("biased.csv", "w") as plots:
             t, off = 4 * k + sensor, 120 if sensor == 3 and 30 <= k < 60 else 0
             for i in range(8):
                 if random.random() < .9:
-                    x = 90000 * (i % 4) - 135000 + (150 + 10 * i) * math.cos(.7 * i) * t + random.gauss(0, 30) + off
-                    y = 90000 * (i // 4) + (150 + 10 * i) * math.sin(.7 * i) * t + random.gauss(0, 30) + off
+                    x = (90000 * (i % 4) - 135000 + (150 + 10 * i) * math.cos(.7 * i) * t
+                         + random.gauss(0, 30) + off)
+                    y = (90000 * (i // 4) + (150 + 10 * i) * math.sin(.7 * i) * t
+                         + random.gauss(0, 30) + off)
                     print(f"{t},{sensor},{x:.3f},{y:.3f},30", file=plots)
 PYTHON
 limits=(--set v_max_mps=400 --set accel_max_mps2=10)
 "$program" convert biased.csv biased.lcm
 run node --lcm 'file://biased.lcm?speed=0' "${limits[@]}"
-check 'a biased sensor: what was said' matches "$(grep 'sensor [0-9]' stderr)" '1970-01-01T00:0[0-9]:* rhotrack: sensor 3 is suspect: its innovations are ?.? times what its sigmas say
+check 'a biased sensor: what was said' matches "$(grep 'sensor [0-9]' stderr)" \
+    '1970-01-01T00:0[0-9]:* rhotrack: sensor 3 is suspect: its innovations are ?.? times '\
+'what its sigmas say
 1970-01-01T00:0[0-9]:* rhotrack: sensor 3 is trusted again'
 awk -F, 'NR == 1 || $1 < 240' biased.csv >begun.csv
 "$program" convert begun.csv begun.lcm

@@ -78,10 +78,12 @@ for scenario in two-radars rotating; do
     run convert $scenario/plots.csv one.lcm
     check "nor of sectors: $scenario" test "$status" -eq 0 -a ! -s stderr
 done
-awk 'BEGIN { print "t_s,sensor_id,x_m,y_m"; for (k = 0; k < 40; k++) print 4 * k ",1," 100 * k ",0" }' >slow.csv
+awk 'BEGIN { print "t_s,sensor_id,x_m,y_m"
+    for (k = 0; k < 40; k++) print 4 * k ",1," 100 * k ",0" }' >slow.csv
 run convert slow.csv one.lcm
 check 'nor of a plot every 4 s' test "$status" -eq 0 -a ! -s stderr
-awk 'BEGIN { print "t_s,sensor_id,x_m,y_m,scan"; for (k = 0; k < 40; k++) print k / 4 ",1," 100 * k ",0," k }' >fast.csv
+awk 'BEGIN { print "t_s,sensor_id,x_m,y_m,scan"
+    for (k = 0; k < 40; k++) print k / 4 ",1," 100 * k ",0," k }' >fast.csv
 run convert fast.csv one.lcm
 check 'nor of scans with numbers' test "$status" -eq 0 -a ! -s stderr
 
@@ -89,8 +91,10 @@ check 'nor of scans with numbers' test "$status" -eq 0 -a ! -s stderr
 check 'a terminal as standard output is refused' python3 - "$program" <<'END'
 import os, pty, subprocess, sys
 master, terminal = pty.openpty()
-done = subprocess.run([sys.argv[1], "convert", "slow.csv", "-"], stdout=terminal, stderr=subprocess.PIPE, text=True)
-assert done.returncode == 2 and done.stderr.startswith("rhotrack: convert: an LCM log is not written on a terminal"), done
+done = subprocess.run([sys.argv[1], "convert", "slow.csv", "-"], stdout=terminal,
+                      stderr=subprocess.PIPE, text=True)
+assert done.returncode == 2 and done.stderr.startswith(
+    "rhotrack: convert: an LCM log is not written on a terminal"), done
 END
 run convert slow.csv slow.lcm
 check 'a pipe will do' bash -c "'$program' convert slow.csv - | cmp - slow.lcm"
@@ -157,8 +161,9 @@ check 'received_s: numbers are in the order of time, rows in that of reception' 
     back.csv
 
 # ---- columns ----
-cat >all.csv <<'END'
-t_s,sensor_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,sigma_m,sigma_mps,snr_db,scan,epoch,sector_from_rad,sector_to_rad,note
+cat >all.csv <<END
+t_s,sensor_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,sigma_m,sigma_mps,snr_db,scan,epoch,\
+sector_from_rad,sector_to_rad,note
 -1.5,-32768,,,,,,,,,,-2147483648,2147483647,-1,2,opens
 -1.25,-32768,1.1,-2.2,-0,4,5,6,0.1,,12.5,-2147483648,2147483647,-1,2,a
 0.000001,-32768,2000000,0,1e-30,4,5,6,,100000,,-2147483648,2147483647,-1,2,b
@@ -166,8 +171,11 @@ t_s,sensor_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,sigma_m,sigma_mps,snr_db,scan,epo
 END
 check 'all columns of plots' there_and_back all.csv
 check 'all columns of plots: values' same_values all.csv back.csv note
-cat >all.csv <<'END'
-t_s,sensor_id,range_m,azimuth_rad,elevation_rad,range_rate_mps,snr_db,sensor_x_m,sensor_y_m,sensor_z_m,sigma_range_m,sigma_azimuth_rad,sigma_elevation_rad,sigma_range_rate_mps,sector_from_rad,sector_to_rad
+cat >all.csv <<END
+t_s,sensor_id,range_m,azimuth_rad,elevation_rad,range_rate_mps,snr_db,\
+sensor_x_m,sensor_y_m,sensor_z_m,\
+sigma_range_m,sigma_azimuth_rad,sigma_elevation_rad,sigma_range_rate_mps,\
+sector_from_rad,sector_to_rad
 1,2,100,3.1415927,1.5,-3,,10,20,30,5,0.01,0.02,0.5,0,1
 1,2,101,-3.1415927,-1.5,3,7,10,20,30,6,0.01,0.02,0.5,0,1
 1,2,102,0,0,0,,10,20,30,6,0.03,0.02,0.5,0,1
@@ -181,11 +189,13 @@ check 'all columns of polar plots: values' same_values all.csv back.csv
 check 'other sigmas go into parts of their own' python3 -c '
 import sys
 sys.exit(open("one.lcm", "rb").read().count(b"RHO_POLAR_2") != 5)'
-printf 't_s,sensor_id,range_m,azimuth_deg,elevation_deg\n1,2,100,90,45\n1,2,100,180,-45\n1,2,100,0,0\n' >degrees.csv
+printf 't_s,sensor_id,range_m,azimuth_deg,elevation_deg\n%s%s%s' $'1,2,100,90,45\n' \
+    $'1,2,100,180,-45\n' $'1,2,100,0,0\n' >degrees.csv
 run convert degrees.csv one.lcm
 run convert one.lcm back.csv
-printf 't_s,sensor_id,range_m,azimuth_rad,elevation_rad,scan,epoch\n1.000000,2,100,0,0.7853982,1,1\n%s%s' \
-    $'1.000000,2,100,-1.5707964,-0.7853982,1,1\n' $'1.000000,2,100,1.5707964,0,1,1\n' >expected.csv
+printf 't_s,sensor_id,range_m,azimuth_rad,elevation_rad,scan,epoch\n%s%s%s' \
+    $'1.000000,2,100,0,0.7853982,1,1\n' $'1.000000,2,100,-1.5707964,-0.7853982,1,1\n' \
+    $'1.000000,2,100,1.5707964,0,1,1\n' >expected.csv
 check 'degrees clockwise from north' cmp expected.csv back.csv
 printf 't_s,sensor_id,range_m,azimuth_rad\n1,2,100,0\n' >placed.csv
 run convert placed.csv one.lcm --set sensor.2.x_m=500 --set sensor.2.z_m=7
@@ -195,7 +205,8 @@ printf 't_s,track_id,status,x_m,y_m,update_age_us,score_nat,maneuver_probability
     $'1,5,confirmed,1,2,250000,12.5,0.75\n' $'1,6,deleted,1,2,0,0,0\n' >tracks.csv
 check 'optional columns of tracks' there_and_back tracks.csv
 check 'optional columns of tracks: values' same_values tracks.csv back.csv
-printf 't_s,track_id,status,x_m,y_m,sigma_m,sigma_mps\n1,5,confirmed,1,2,0,4\n1,6,confirmed,1,2,4,0\n' >sigmas.csv
+printf 't_s,track_id,status,x_m,y_m,sigma_m,sigma_mps\n%s%s' \
+    $'1,5,confirmed,1,2,0,4\n' $'1,6,confirmed,1,2,4,0\n' >sigmas.csv
 check 'a place that is known beside a speed that is not' there_and_back sigmas.csv
 check 'a place that is known beside a speed that is not: values' same_values sigmas.csv back.csv
 printf 't_s,target_id,x_m,y_m\n1,1,1,2\n' >truth.csv
@@ -215,9 +226,11 @@ check 'a log from a real pipe' cmp back.csv piped.csv
 run convert one.lcm -
 check 'a log to standard output' writes_same_as back.csv
 run convert one.lcm other.lcm
-check 'log to log' says 2 'rhotrack: convert: other.lcm would be an LCM log, the format of the input; *'
+check 'log to log' says 2 \
+    'rhotrack: convert: other.lcm would be an LCM log, the format of the input; *'
 run convert crossing/plots.csv other.csv
-check 'CSV to CSV' says 2 'rhotrack: convert: other.csv would be a CSV file, the format of the input; *'
+check 'CSV to CSV' says 2 \
+    'rhotrack: convert: other.csv would be a CSV file, the format of the input; *'
 run convert crossing/plots.csv other.lcm --kind plots
 check '--kind of a CSV file' says 2 \
     'rhotrack: convert: --kind chooses messages of a log, and crossing/plots.csv is a CSV file'
@@ -344,7 +357,8 @@ cat plots.lcm truth.lcm >both.lcm
 echo before >out.csv
 run convert both.lcm out.csv
 check 'several kinds are listed' says 2 \
-    'rhotrack: both.lcm: contains several kinds of messages, and a CSV file holds one (7 plots, 7 truth): choose by --kind'
+    'rhotrack: both.lcm: contains several kinds of messages, and a CSV file holds one '\
+'(7 plots, 7 truth): choose by --kind'
 check 'several kinds: no output touched' matches "$(cat out.csv)" before
 run convert both.lcm out.csv --kind truth
 check 'one kind is chosen' says 0 'rhotrack: both.lcm: 7 messages on other channels left out'
@@ -386,11 +400,13 @@ END
 python3 damage.py
 run convert garbage.lcm out.csv
 check 'garbage is skipped and reported' matches "$(cat stderr)" \
-    $'rhotrack: garbage.lcm: 3 bytes skipped at byte 0\nrhotrack: garbage.lcm: 5 bytes skipped at byte *'
+    $'rhotrack: garbage.lcm: 3 bytes skipped at byte 0\n'\
+'rhotrack: garbage.lcm: 5 bytes skipped at byte *'
 check 'garbage: nothing is lost' same_values crossing/truth.csv out.csv
 run convert many.lcm out.csv
 check 'many damaged places: the first, and a sum' matches "$(tail -n +3 stderr)" \
-    $'rhotrack: many.lcm: 1 bytes skipped at byte *\nrhotrack: many.lcm: 7 bytes skipped in 7 places in all'
+    $'rhotrack: many.lcm: 1 bytes skipped at byte *\n'\
+'rhotrack: many.lcm: 7 bytes skipped in 7 places in all'
 run convert cut.lcm out.csv
 check 'a log that is cut off' matches "$(cat stderr)" \
     $'rhotrack: cut.lcm: * bytes skipped at byte *\nrhotrack: cut.lcm: the last event is cut off'
@@ -416,9 +432,11 @@ if way == "read":
     plots = []
     for number, event in enumerate(lcm.EventLog(path)):
         scan = rhotrack.plot_scan_t.decode(event.data)
-        assert event.eventnum == number and event.timestamp == scan.utime and scan.scan == number + 1
+        assert event.eventnum == number and event.timestamp == scan.utime
+        assert scan.scan == number + 1
         assert event.channel == f"RHO_PLOTS_{scan.sensor_id}" and scan.kind == scan.POSITION_2D
-        plots += [f"{scan.utime / 1e6:.6f},{scan.sensor_id},{p.x_m:.3f},{p.y_m:.3f},{p.sigma_m:g}" for p in scan.plots]
+        plots += [f"{scan.utime / 1e6:.6f},{scan.sensor_id},{p.x_m:.3f},{p.y_m:.3f},{p.sigma_m:g}"
+                  for p in scan.plots]
     print("t_s,sensor_id,x_m,y_m,sigma_m", *plots, sep="\n")
 else:
     log = lcm.EventLog(path, "w", overwrite=True)

@@ -21,7 +21,8 @@ def iso(t):
     return time.strftime("%Y-%m-%dT%H:%M:%S.250")
 
 write("xy.csv", "t_s,sensor_id,x_m,y_m", lambda t, x, y, r, a: f"{t},0,{x},{y}")
-write("polar.csv", "t_s,sensor_id,range_m,azimuth_deg", lambda t, x, y, r, a: f"{t},0,{r:.3f},{a:.5f}")
+write("polar.csv", "t_s,sensor_id,range_m,azimuth_deg",
+      lambda t, x, y, r, a: f"{t},0,{r:.3f},{a:.5f}")
 write("epoch.csv", "t_s,sensor_id,range_m,azimuth_deg",
       lambda t, x, y, r, a: f"{1709251170 + t}.25,0,{r:.3f},{a:.5f}")
 write("european.csv", "\ufeffTime;Radar;Range [km];Azimuth [°];Remark",
@@ -34,7 +35,8 @@ write("turns.csv", "t_s,sensor_id,range_m,azimuth_deg",
 write("iso.csv", "timestamp,range,az_deg", lambda t, x, y, r, a: f"{iso(t)}Z,{r:.3f},{a:.5f}")
 write("zone.csv", "timestamp,range,az_deg",
       lambda t, x, y, r, a: f"{iso(t + 19800)}+05:30,{r:.3f},{a:.5f}")
-write("nautical.csv", "t_s,RANGE_NMI,Theta (deg)", lambda t, x, y, r, a: f"{t},{r / 1852:.9f},{a:.5f}")
+write("nautical.csv", "t_s,RANGE_NMI,Theta (deg)",
+      lambda t, x, y, r, a: f"{t},{r / 1852:.9f},{a:.5f}")
 write("plain_place.csv", "t_s,sensor_id,lat_deg,lon_deg",
       lambda t, x, y, r, a: f"{t},0,{50 + y / 111200:.8f},{8 + x / 71500:.8f}")
 write("place.csv", "time;Latitude;lng",
@@ -77,7 +79,10 @@ like place.csv plain_place.csv --set origin_lat_deg=50 --set origin_lon_deg=8
 bearing='t_s,sensor_id,range_m,azimuth_rad\n'
 printf "${bearing}1,1,5000,3.141593\n" >six.csv
 printf "${bearing}1,1,5000,-3.1415923\n" >wrapped.csv
-for name in six wrapped; do run convert "$name.csv" "$name.lcm"; run convert "$name.lcm" "$name.back.csv"; done
+for name in six wrapped; do
+    run convert "$name.csv" "$name.lcm"
+    run convert "$name.lcm" "$name.back.csv"
+done
 check 'pi with six decimals' cmp six.back.csv wrapped.back.csv
 
 # ---- --columns ----
@@ -117,15 +122,18 @@ check '--columns: a name that no file has, evaluate' grep -q \
 check '--columns: evaluate ends with 2' exits 2
 status=0
 "$program" track - --columns 't_s=Ziet' -o tracks.csv <xy.csv 2>stderr >stdout || status=$?
-check '--columns: a name that a pipe does not have' grep -q "^rhotrack: --columns: no file has " stderr
+check '--columns: a name that a pipe does not have' grep -q \
+    "^rhotrack: --columns: no file has " stderr
 check '--columns: a pipe ends with 2' exits 2
 run track xy.csv --columns 'x_m=y_m'
-check '--columns: two of a name' says 2 "rhotrack: xy.csv:1: --columns: the file already has a column 'x_m'"
+check '--columns: two of a name' says 2 \
+    "rhotrack: xy.csv:1: --columns: the file already has a column 'x_m'"
 
 # ---- places on the earth without an origin ----
 run track plain_place.csv -o tracks.csv
 check 'the first place is the origin, and it is said' grep -q \
-    'rhotrack: plain_place.csv: the origin is origin_lat_deg=50.0719425, origin_lon_deg=8.0419580, origin_alt_m=0' stderr
+    'rhotrack: plain_place.csv: the origin is origin_lat_deg=50.0719425, '\
+'origin_lon_deg=8.0419580, origin_alt_m=0' stderr
 run track plain_place.csv -o own.tracks.csv --set origin_lat_deg=50.07194245 \
     --set origin_lon_deg=8.04195804
 check 'the tracks are those of that origin' near own.tracks.csv tracks.csv
@@ -166,7 +174,8 @@ turns="--set scan_interval_s=4"
 # shellcheck disable=SC2086
 run track compass.csv $turns -o tracks.csv
 check 'compass radians are said' grep -q \
-    '^rhotrack: compass.csv: azimuth_rad goes from 0 to 2 pi and rises with time, as that of a compass does; .* --columns azimuth_compass_rad=azimuth_rad$' stderr
+    '^rhotrack: compass.csv: azimuth_rad goes from 0 to 2 pi and rises with time, '\
+'as that of a compass does; .* --columns azimuth_compass_rad=azimuth_rad$' stderr
 # shellcheck disable=SC2086
 run track degrees.csv $turns -o own.tracks.csv
 check 'degrees are not' sh -c '! grep -q compass stderr'
@@ -237,7 +246,9 @@ refuse() { # name, LINE: what (a pattern), text as for printf
     check "$1" says 2 "rhotrack: bad.csv:$2"
 }
 refuse 'an angle without a unit is not guessed' \
-    "1: no column 'azimuth_rad' (or az_rad); the file has: t_s, range_m, azimuth; did you mean 'azimuth'? --columns 'azimuth_deg=azimuth' (clockwise from north) or 'azimuth_rad=azimuth' (counter-clockwise from east)" \
+    "1: no column 'azimuth_rad' (or az_rad); the file has: t_s, range_m, azimuth; "\
+"did you mean 'azimuth'? --columns 'azimuth_deg=azimuth' (clockwise from north) "\
+"or 'azimuth_rad=azimuth' (counter-clockwise from east)" \
     'time,range,azimuth\n1,2,3\n'
 refuse 'a time of no calendar' "2: t_s '2024-13-01T00:00:00Z' is not a number" \
     'timestamp,x,y\n2024-13-01T00:00:00Z,1,2\n'
@@ -246,15 +257,20 @@ refuse 'a zone that is none' "2: t_s '2024-03-01T00:00:00X' is not a number" \
 refuse 'two decimal commas' "2: x_m '1,2,3' is not a number" 't_s;x;y\n1;1,2,3;2\n'
 refuse 'a short row of blanks' '3: short row: 2 cells, the header has 3' 't_s x y\n1 2 3\n2 3\n'
 refuse 'a name misspelt' \
-    "1: no column 'azimuth_rad' (or az_rad); the file has: t_s, range_m, azimut_deg; did you mean 'azimut_deg'? --columns 'azimuth_deg=azimut_deg' (clockwise from north)" \
+    "1: no column 'azimuth_rad' (or az_rad); the file has: t_s, range_m, azimut_deg; "\
+"did you mean 'azimut_deg'? --columns 'azimuth_deg=azimut_deg' (clockwise from north)" \
     'time,range,azimut_deg\n1,2,3\n'
 refuse 'degrees of a compass are not suggested as radians' \
-    "1: no column 'azimuth_rad' (or az_rad); the file has: t_s, range_m, azimuth_compass_deg; did you mean 'azimuth_compass_deg'? --columns 'azimuth_deg=azimuth_compass_deg' (clockwise from north)" \
+    "1: no column 'azimuth_rad' (or az_rad); the file has: t_s, range_m, azimuth_compass_deg; "\
+"did you mean 'azimuth_compass_deg'? --columns 'azimuth_deg=azimuth_compass_deg' "\
+"(clockwise from north)" \
     't_s,range_m,azimuth_compass_deg\n1,2,3\n'
 refuse 'a name that is like no other' \
-    "1: no column 't_s' (or t, time, timestamp, datetime); the file has: Zeitpunkt, x_m, y_m; --columns t_s=NAME takes another" \
+    "1: no column 't_s' (or t, time, timestamp, datetime); the file has: Zeitpunkt, x_m, y_m; "\
+"--columns t_s=NAME takes another" \
     'Zeitpunkt,x,y\n1,2,3\n'
 refuse 'a unit that is not known' \
-    "1: no column 'x_m' (or x); the file has: t_s, x_furlong, y_furlong; did you mean 'x_furlong'? --columns 'x_m=x_furlong'" \
+    "1: no column 'x_m' (or x); the file has: t_s, x_furlong, y_furlong; "\
+"did you mean 'x_furlong'? --columns 'x_m=x_furlong'" \
     'time,x_furlong,y_furlong\n1,2,3\n'
 finish

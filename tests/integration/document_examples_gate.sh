@@ -10,7 +10,8 @@ library=$(realpath "$(dirname "$RHOTRACK")/librhotrack.a")
 export BUILD=$folder/build
 
 document() { # body of main
-    printf '# Title\n\n```sh\nnot C\n```\n\n```c\n#include "rhotrack/types.h"\nint main(void) { %s }\n```\n' "$1"
+    printf '# Title\n\n```sh\nnot C\n```\n\n```c\n#include "rhotrack/types.h"\n'\
+'int main(void) { %s }\n```\n' "$1"
 }
 
 must_fail() { # what, document, the message expected

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/gates/documents.py finds the documents as they should be, and goes red for each kind of
-# fault, seeded in a copy. Runs beside others.
+# tools/gates/documents.py finds the documents and the width of the code's lines as they should be,
+# and goes red for each kind of fault, seeded in a copy. Runs beside others.
 here=$(realpath "$(dirname "$0")")
 # shellcheck source=tests/integration/checks.bash
 . "$here/checks.bash"
@@ -35,4 +35,11 @@ table=$(printf '| %0120d |\\n```\\n%0120d\\n```' 0 0)
 check 'long lines of code and tables are none' seen README.md "$table\\n$(printf '%0101d' 0)" \
     ': 101 columns'
 check 'and are not named' test "$(grep -c columns said)" -eq 1
+for code in code.c code.py Makefile tests/code.sh; do
+    mkdir -p documents/tests
+    printf '%0100d\n%0101d\n' 0 0 >"documents/$code"
+    "$gate" documents >said
+    check "of code they are: $code" matches "$(cat said)" "$code:2: 101 columns"
+    rm "documents/$code"
+done
 finish

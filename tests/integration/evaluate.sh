@@ -37,32 +37,41 @@ CSV
 run evaluate truth.csv tracks.csv --json
 mv stdout figures
 check 'JSON' is_json figures
-check 'the names that others rely on' json figures 'all(name in o for name in """gospa_m gospa_localisation_m gospa_missed
-    gospa_false ospa_m completeness false_per_scan false_per_hour switches delay_scans rmse_m rmse_mps nees targets
-    targets_found""".split())'
+check 'the names that others rely on' json figures 'all(name in o for name in """gospa_m
+    gospa_localisation_m gospa_missed gospa_false ospa_m completeness false_per_scan false_per_hour
+    switches delay_scans rmse_m rmse_mps nees targets targets_found""".split())'
 check 'identities: one switch, one fragment, one false track' json figures \
-    'o["switches"] == 1 and o["fragments"] == 1 and o["false_tracks"] == 1 and abs(o["false_per_hour"] - 90) < 1e-9'
+    '(o["switches"] == 1 and o["fragments"] == 1 and o["false_tracks"] == 1
+    and abs(o["false_per_hour"] - 90) < 1e-9)'
 check 'delays of one scan and none' json figures 'o["delay_scans"] == 0.5 and o["delay_s"] == 5'
 # 3 4 5 5 5 5 12
 check 'errors of place' json figures \
-    'o["pairs"] == 7 and o["median_m"] == 5 and abs(o["p95_m"] - 9.9) < 1e-9 and abs(o["rmse_m"] - (269 / 7) ** .5) < 1e-9'
+    '(o["pairs"] == 7 and o["median_m"] == 5 and abs(o["p95_m"] - 9.9) < 1e-9
+    and abs(o["rmse_m"] - (269 / 7) ** .5) < 1e-9)'
 # 0 0 1 2 3 4 5
 check 'errors of velocity' json figures \
-    'o["median_mps"] == 2 and abs(o["p95_mps"] - 4.7) < 1e-9 and abs(o["rmse_mps"] - (55 / 7) ** .5) < 1e-9'
+    '(o["median_mps"] == 2 and abs(o["p95_mps"] - 4.7) < 1e-9
+    and abs(o["rmse_mps"] - (55 / 7) ** .5) < 1e-9)'
 check 'NEES where there is a covariance' json figures \
     'abs(o["nees"] - 5) < 1e-9 and o["nees_inside"] == 1'
 check 'its ratio is over its two axes' json figures \
     'abs(o["place_ratio"] - 2.5) < 1e-9 and o["velocity_ratio"] is None'
 # a covariance of the velocity of 10 m2/s2 on both axes, at errors of 1 and 3 m/s: .1 and .9 over 2;
 # an error of 2 coasts
-awk -F, -v OFS=, '{ print $0 (NR == 1 ? ",cov_vx_vx,cov_vy_vx,cov_vy_vy" : $2 == 8 && $1 < 40 ? ",10,0,10" : ",,,") }' \
-    tracks.csv >velocity.csv
+awk -F, -v OFS=, '{
+    print $0 (NR == 1 ? ",cov_vx_vx,cov_vy_vx,cov_vy_vy" : $2 == 8 && $1 < 40 ? ",10,0,10" : ",,,")
+}' tracks.csv >velocity.csv
 run evaluate truth.csv velocity.csv --json
-check 'velocities have one, too' json stdout 'abs(o["velocity_ratio"] - (.1 + .4 + .9) / 6) < 1e-9 and o["velocity_inside"] == 1 and o["nees"] == 5'
+check 'velocities have one, too' json stdout \
+    '(abs(o["velocity_ratio"] - (.1 + .4 + .9) / 6) < 1e-9 and o["velocity_inside"] == 1
+    and o["nees"] == 5)'
 check 'told apart: straight, coasting, none that turns' json stdout \
-    '[(m["pairs"], m["rmse_m"]) for m in (o["by_motion"][n] for n in ("straight", "turning", "coasting"))] == [(4, (203 / 4) ** .5), (0, None), (2, (41 / 2) ** .5)]'
+    '[(m["pairs"], m["rmse_m"])
+    for m in (o["by_motion"][n] for n in ("straight", "turning", "coasting"))] == [
+    (4, (203 / 4) ** .5), (0, None), (2, (41 / 2) ** .5)]'
 check 'told apart: the ratio of velocities' json stdout \
-    'abs(o["by_motion"]["straight"]["velocity_ratio"] - .45) < 1e-9 and abs(o["by_motion"]["coasting"]["velocity_ratio"] - .2) < 1e-9'
+    '(abs(o["by_motion"]["straight"]["velocity_ratio"] - .45) < 1e-9
+    and abs(o["by_motion"]["coasting"]["velocity_ratio"] - .2) < 1e-9)'
 sed 's/^30,2,5000,0,0,0/30,2,5000,0,0,.3/' truth.csv >turn.csv
 run evaluate turn.csv velocity.csv --json
 check 'a change of velocity by .3 m/s in 10 s is a turn' json stdout \
@@ -81,21 +90,29 @@ check 'tracks in the place of the truth' says 2 \
 run evaluate tracks.csv tracks.csv --json
 check 'tracks may be compared with tracks' exits 0
 check 'GOSPA' json figures 'abs(o["gospa_m"] ** 2 - (3 * 5e5 + 269) / 5) < 1e-6'
-check 'numbers and times' json figures '(o["targets"], o["targets_found"], o["tracks"], o["scans"], o["first_s"], o["last_s"]) == (2, 2, 4, 5, 0, 40)'
+check 'numbers and times' json figures \
+    '(o["targets"], o["targets_found"], o["tracks"], o["scans"], o["first_s"], o["last_s"]) == (
+    2, 2, 4, 5, 0, 40)'
 
 check 'by target: both, by identity' json figures \
     '[t["target_id"] for t in o["by_target"]] == [1, 2]'
-check 'by target: times' json figures '[[t[n] for n in ("first_s", "found_s", "kept_until_s", "last_s")] for t in o["by_target"]] == [[0, 10, 40, 40], [10, 10, 40, 40]]'
+check 'by target: times' json figures \
+    '[[t[n] for n in ("first_s", "found_s", "kept_until_s", "last_s")] for t in o["by_target"]] == [
+    [0, 10, 40, 40], [10, 10, 40, 40]]'
 check 'by target: identities' json figures \
-    '[(t["scans"], t["completeness"], t["switches"], t["fragments"], t["delay_scans"]) for t in o["by_target"]] == [(5, .6, 1, 1, 1), (4, 1, 0, 0, 0)]'
+    '[(t["scans"], t["completeness"], t["switches"], t["fragments"], t["delay_scans"])
+    for t in o["by_target"]] == [(5, .6, 1, 1, 1), (4, 1, 0, 0, 0)]'
 check 'by target: errors' json figures \
     '[t["median_m"] for t in o["by_target"]] == [4, 5] and o["by_target"][0]["nees"] is None'
 check 'over time: every scan' json figures \
     '[s["t_s"] for s in o["over_time"]] == [0, 10, 20, 30, 40]'
 check 'over time: numbers' json figures \
-    '[[s[n] for n in ("targets", "tracks", "pairs", "gospa_missed", "gospa_false")] for s in o["over_time"]] == [[1, 0, 0, 1, 0], [2, 2, 2, 0, 0], [2, 2, 1, 1, 1], [2, 2, 2, 0, 0], [2, 2, 2, 0, 0]]'
+    '[[s[n] for n in ("targets", "tracks", "pairs", "gospa_missed", "gospa_false")]
+    for s in o["over_time"]] == [[1, 0, 0, 1, 0], [2, 2, 2, 0, 0], [2, 2, 1, 1, 1],
+    [2, 2, 2, 0, 0], [2, 2, 2, 0, 0]]'
 check 'over time: when the identity changed' json figures \
-    '[(s["switches"], s["fragments"]) for s in o["over_time"]] == [(0, 0), (0, 0), (0, 0), (0, 1), (1, 0)]'
+    '[(s["switches"], s["fragments"]) for s in o["over_time"]] == [
+    (0, 0), (0, 0), (0, 0), (0, 1), (1, 0)]'
 
 sed '/^30,1,/i 30,1,9999,9999,10,0' truth.csv >twice.csv
 run evaluate twice.csv tracks.csv --json
@@ -111,7 +128,8 @@ check 'text: a table of targets behind them' sh -c \
     "grep -Eq '^ +2 +10.0 +40.0 +10.0 +40.0 +1.000 +0 +0 +5.0 ' stdout"
 run evaluate truth.csv tracks.csv -o over.csv
 cat >expected <<CSV
-t_s,targets,tracks,pairs,gospa_m,gospa_localisation_m,gospa_missed,gospa_false,ospa_m,switches,fragments,rmse_m,rmse_mps,nees,velocity_ratio
+t_s,targets,tracks,pairs,gospa_m,gospa_localisation_m,gospa_missed,gospa_false,ospa_m,\
+switches,fragments,rmse_m,rmse_mps,nees,velocity_ratio
 0.000000,1,0,0,707.106781,0,1,0,1000,0,0,,,,
 10.000000,2,2,2,5.83095189,5.83095189,0,0,4.12310563,0,0,4.12310563,0.707106781,5,
 20.000000,2,2,1,1000.0125,5,1,1,707.11562,0,0,5,2,5,
@@ -179,6 +197,7 @@ in_little_memory() (ulimit -v 300000 && "$program" evaluate large_truth.csv larg
     >stdout)
 check 'large files in 300 MB' in_little_memory
 check 'large files: every pair' json stdout \
-    'o["pairs"] == 200000 and o["completeness"] == 1 and abs(o["p95_m"] - 5) < 1e-9 and o["median_mps"] == 1 and len(o["by_target"]) == 1000'
+    '(o["pairs"] == 200000 and o["completeness"] == 1 and abs(o["p95_m"] - 5) < 1e-9
+    and o["median_mps"] == 1 and len(o["by_target"]) == 1000)'
 
 finish

@@ -39,8 +39,10 @@ expect_exit 2 "an unknown scenario" "$RHOTRACK" simulate nothing -o "$folder/not
 # the table in the program and the one in the tests are the same
 "$RHOTRACK" simulate radar --seed 1 --set clutter=[] -o "$folder/table"
 check "the program's real plots are the vector file's" sh -c "
-    cut -d, -f1,3,4 '$folder/table/truth.csv' | awk -F, 'NR > 1 { printf \"%d %d %d\\n\", \$1, \$2, \$3 }' | sort >'$folder/a'
-    awk -F, '/^[0-9]/ { printf \"%d %d %d\\n\", \$1, \$3, \$4 }' $root/tests/vectors/radar-table3.csv | sort >'$folder/b'
+    cut -d, -f1,3,4 '$folder/table/truth.csv' |
+        awk -F, 'NR > 1 { printf \"%d %d %d\\n\", \$1, \$2, \$3 }' | sort >'$folder/a'
+    awk -F, '/^[0-9]/ { printf \"%d %d %d\\n\", \$1, \$3, \$4 }' \
+        $root/tests/vectors/radar-table3.csv | sort >'$folder/b'
     test \$(wc -l <'$folder/a') -eq 21 && cmp -s '$folder/a' '$folder/b'"
 
 # --- evaluate: two targets over three scans; track 1 is 30 m off, lost to track 2 at the end; track
@@ -85,7 +87,9 @@ is gospa_false 0.3333
 is rmse_m 28.8675
 is gospa_m 817.0067
 printf 't_s,track_id,x_m,y_m\n' >"$folder/none.csv"
-check "no track at all is a result" sh -c "'$RHOTRACK' evaluate '$folder/truth.csv' '$folder/none.csv' --json | grep -q '\"completeness\":.*0'"
+check "no track at all is a result" sh -c \
+    "'$RHOTRACK' evaluate '$folder/truth.csv' '$folder/none.csv' --json |
+    grep -q '\"completeness\":.*0'"
 printf 't_s,track_id,x_m,y_m\n10.002,1,0,0\n' >"$folder/odd.csv"
 expect_exit 2 "a time that the truth does not have" "$RHOTRACK" evaluate "$folder/truth.csv" \
     "$folder/odd.csv"
@@ -112,14 +116,16 @@ run experiment rotating --help
 check 'experiment calls the script' grep -q '^usage: rotating.py .*--runs' stdout
 run experiment nothing
 check 'an unknown experiment names all there are' says 2 \
-    '*nothing*air-traffic*false-alarms*initiation*maneuver*notch*papers-initiation*passive*polar*real-skies*'
+    '*nothing*air-traffic*false-alarms*initiation*maneuver*notch*'\
+'papers-initiation*passive*polar*real-skies*'
 run experiment
 check 'and so does none' exits 2
 mkdir -p elsewhere/bin && cp "$RHOTRACK" elsewhere/bin/rhotrack
 status=0
 elsewhere/bin/rhotrack experiment two-radars >stdout 2>stderr || status=$?
 check 'without its sources the program says where the script is' says 1 \
-    'rhotrack: experiment two-radars is the script tools/lab/two_radars.py of the source (No such file or directory)'
+    'rhotrack: experiment two-radars is the script tools/lab/two_radars.py of the source '\
+'(No such file or directory)'
 
 # --- bench, demo
 check "bench kalman --json is JSON" sh -c \
@@ -136,9 +142,12 @@ check "the demo tracks all three aircraft and nothing else" grep -q \
 check "the demo's page is there" test -s "$folder/demo/index.html"
 # scene, turns, plots, 2 of 2, share of time, switches, error m, others a turn
 check "both vessels of both harbour scenes are tracked nearly all the time, as themselves" awk '
-    $1 == 2 || $1 == 16 { if (NF == 10 && $5 == "of") { n++; bad += $4 != 2 || $7 < 0.9 || $8 > 2 || $9 > 15 } }
+    $1 == 2 || $1 == 16 {
+        if (NF == 10 && $5 == "of") { n++; bad += $4 != 2 || $7 < 0.9 || $8 > 2 || $9 > 15 }
+    }
     END { exit n != 2 || bad }' "$folder/demo.txt"
 check "and the page shows the harbour" sh -c "
-    grep -q 'harbour-2.svg' '$folder/demo/index.html' && grep -q 'harbour-16.svg' '$folder/demo/index.html' &&
+    grep -q 'harbour-2.svg' '$folder/demo/index.html' &&
+    grep -q 'harbour-16.svg' '$folder/demo/index.html' &&
     test -s '$folder/demo/harbour-2.svg' && test -s '$folder/demo/harbour-16.svg'"
 finish

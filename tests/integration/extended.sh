@@ -32,7 +32,8 @@ steps=$(tail -n +2 told.csv | cut -d, -f1 | uniq | wc -l)
 check 'a log has the bodies of each step' test "$(count told.lcm RHO_BODIES)" -ge "$steps"
 run convert road/plots.csv road.lcm --config road/scenario.ini
 run node --lcm "file://$PWD/road.lcm?speed=0" --config road/scenario.ini --log told-live.lcm
-check 'a node sends them' test "$(count told-live.lcm RHO_BODIES)" -eq "$(count told.lcm RHO_BODIES)"
+check 'a node sends them' test \
+    "$(count told-live.lcm RHO_BODIES)" -eq "$(count told.lcm RHO_BODIES)"
 run node --lcm "file://$PWD/road.lcm?speed=0" --config silent.ini --log silent.lcm
 check 'and none where nothing is said' test "$(count silent.lcm RHO_BODIES)" -eq 0
 

@@ -10,8 +10,10 @@ awk 'BEGIN {
     srand(7)
     print "t_s,sensor_id,x_m,y_m"
     for (k = 0; k < 12; k++) {
-        printf "%.1f,1,%.2f,%.2f\n", 10 * k, -9000 + 2000 * k + 20 * (rand() - .5), 500 * k + 20 * (rand() - .5)
-        printf "%.1f,1,%.2f,%.2f\n", 10 * k, 30000 - 1500 * k + 20 * (rand() - .5), 1000 * k + 20 * (rand() - .5)
+        printf "%.1f,1,%.2f,%.2f\n", 10 * k, -9000 + 2000 * k + 20 * (rand() - .5),
+            500 * k + 20 * (rand() - .5)
+        printf "%.1f,1,%.2f,%.2f\n", 10 * k, 30000 - 1500 * k + 20 * (rand() - .5),
+            1000 * k + 20 * (rand() - .5)
     } }' >plots.csv
 run track plots.csv -o expected.csv
 rows=$(wc -l <expected.csv)
@@ -109,7 +111,8 @@ check 'a quoted cell that is not at its end waits' matches "$(cat stderr)" \
     'rhotrack: 2 scans, 2 plots, *'
 
 # Scans by number come mixed: one is complete when its sensor has begun the second one after it.
-awk -F, 'NR == 1 { print $0 ",scan"; next } { k = int(NR / 2); print $1 + (NR % 2) * 4 "," $2 "," $3 "," $4 "," k }' \
+awk -F, 'NR == 1 { print $0 ",scan"; next }
+    { k = int(NR / 2); print $1 + (NR % 2) * 4 "," $2 "," $3 "," $4 "," k }' \
     plots.csv >numbered.csv
 run track numbered.csv -o expected_numbered.csv
 follow numbered.csv -o out.csv --set follow_quiet_s=60
@@ -121,7 +124,10 @@ check 'and the same rows in the end' cmp expected_numbered.csv out.csv
 # follow_quiet_s.
 {
     echo t_s,sensor_id,x_m,y_m
-    awk -F, 'NR > 1 { print 4 * $1 / 10 "," $1 ",1," $3 "," $4; print 4 * $1 / 10 + 6.1 "," $1 ",2," $3 "," $4 }' plots.csv |
+    awk -F, 'NR > 1 {
+            print 4 * $1 / 10 "," $1 ",1," $3 "," $4
+            print 4 * $1 / 10 + 6.1 "," $1 ",2," $3 "," $4
+        }' plots.csv |
         sort -s -t, -n -k 1,1 | cut -d, -f1,3-
 } >ahead.csv
 ahead=(--set sensor.2.time_bias_s=6 --set sigma_m=50)

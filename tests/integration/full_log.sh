@@ -19,7 +19,8 @@ here = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 here.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
 here.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
 here.bind((group, int(port)))
-here.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(group) + socket.inet_aton("127.0.0.1"))
+here.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
+                socket.inet_aton(group) + socket.inet_aton("127.0.0.1"))
 open("listens", "w").close()
 while True:
     data = here.recv(65536)
@@ -99,14 +100,16 @@ check 'a file as long as it may be: the reason' grep -q \
     'limited.lcm: File too large; tracking goes on without the log' node.err
 check 'and the rest is counted' test "$left_out" -ge 1000
 check 'what is there can be read' can_be_read limited.lcm
-check 'and is no less than an event below the limit' test "$(stat -c %s limited.lcm)" -gt $((65536 - 1500))
+check 'and is no less than an event below the limit' test \
+    "$(stat -c %s limited.lcm)" -gt $((65536 - 1500))
 
 # ---- a disk that fills up ----
 if unshare -m sh -c 'mkdir disk && mount -t tmpfs -o size=64k none disk' 2>/dev/null; then
     rm -f work
     # shellcheck disable=SC2016 # that shell's
     unshare -m bash -c 'mount -t tmpfs -o size=64k none disk
-        "$0" node --config scene/scenario.ini --set hold_ms=500 --log disk/node.lcm 2>node.err & echo $! >pid
+        "$0" node --config scene/scenario.ini --set hold_ms=500 --log disk/node.lcm \
+            2>node.err & echo $! >pid
         wait $!; echo $? >code; cp disk/node.lcm filled.lcm' "$program" </dev/null &
     wait_until 5 test -s work
     holder=$!
@@ -198,7 +201,8 @@ wait_until 5 test -s work
 play
 check 'standard error into a full pipe: SIGTERM ends the node with 0' exits 0
 check "standard error into a full pipe: within a second ($took_ms ms)" test "$took_ms" -lt 1000
-check "standard error into a full pipe: tracks went on ($live_steps steps)" test "$live_steps" -ge 560
+check "standard error into a full pipe: tracks went on ($live_steps steps)" test \
+    "$live_steps" -ge 560
 # ---- a broker that takes the connection and says nothing ----
 cat >silent.py <<'PYTHON'
 import os, socket, time
@@ -242,13 +246,14 @@ int rename(const char *from, const char *to)
 C
 if gcc -shared -fPIC -o stall.so stall.c 2>/dev/null; then
     rm -f work
-    LD_PRELOAD=./stall.so "$program" node --config scene/scenario.ini --set hold_ms=500 --snapshot saved --log node.lcm \
-        2>node.err </dev/null &
+    LD_PRELOAD=./stall.so "$program" node --config scene/scenario.ini --set hold_ms=500 \
+        --snapshot saved --log node.lcm 2>node.err </dev/null &
     node=$!
     wait_until 5 test -s work
     play
     goes_on 'a snapshot that cannot end' 1
-    check 'a snapshot that cannot end: it is said' grep -q 'an output does not end in time; it ends without it' node.err
+    check 'a snapshot that cannot end: it is said' grep -q \
+        'an output does not end in time; it ends without it' node.err
     check 'and the log is whole all the same' can_be_read node.lcm
 else
     echo 'skipped: a snapshot that cannot end: no gcc here'

@@ -24,10 +24,12 @@ flags='-std=c11 -D_GNU_SOURCE -O1 -g -Iinclude -Isrc/wire -Itests -Itools/rhotra
 # shellcheck disable=SC2086 # words on purpose
 build_message() { # codec
     clang $flags -fsanitize=integer -fno-sanitize=unsigned-shift-base -o "$folder/fuzz_message" \
-        tests/fuzz/fuzz_message.c "$1" src/wire/message_types.c src/wire/message_and_member_names.c src/base/status.c
+        tests/fuzz/fuzz_message.c "$1" src/wire/message_types.c \
+        src/wire/message_and_member_names.c src/base/status.c
 }
 
-wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/catch_reader_fail.c | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
+wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/catch_reader_fail.c | sort -u |
+    sed 's/__wrap_/-Wl,--wrap=/')
 
 # The other parts are the program's own objects.
 # shellcheck disable=SC2086
@@ -132,8 +134,10 @@ tracker_must_find() { seeded fuzz_tracker_small "$@"; } # file, what is wrong, s
 tracker_must_find src/step/report.c 'a fate that is not counted' \
     's/(NO_ROOM\] \+= others);/\1 - (others > 2);/'
 tracker_must_find src/step/report.c 'a covariance that is none' \
-    's/^(    memcpy\(out->covariance, at->kalman.covariance.*)/\1 out->covariance[1] += 9.0f * (out->covariance[0] + out->covariance[2]);/'
-tracker_must_find src/step/begin_step_or_refuse_late_scan.c 'a scan that is too late, and changes the density' \
+    's/^(    memcpy\(out->covariance, at->kalman.covariance.*)/\1 out->covariance[1] += '\
+'9.0f * (out->covariance[0] + out->covariance[2]);/'
+tracker_must_find src/step/begin_step_or_refuse_late_scan.c \
+    'a scan that is too late, and changes the density' \
     's/(counters.scans_late = rho_count.*)/\1 step->tracker->unclaimed_plots += 1.0f;/'
 tracker_must_find src/tracker/confirm_and_end_track.c 'an end that is not told' \
     's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
@@ -141,7 +145,8 @@ tracker_must_find src/step/admit_started_track.c 'an identity that comes again' 
     's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
 tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
     's/return rho_initiator_work_spent\(search\) > search->limit_units;/return 0;/'
-tracker_must_find src/bearings/recent_bearing_frames_soundness.c 'a batch that is unsound for its times' \
+tracker_must_find src/bearings/recent_bearing_frames_soundness.c \
+    'a batch that is unsound for its times' \
     's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
 tracker_must_find src/step/operator.c 'an identity given to two tracks' \
     's/row_of_track\(tracker, new_id\) < tracker->num_tracks/0/'

@@ -4,8 +4,10 @@
 current folder.
 
 Usage: geodetic.py            plots, polar plots and truth, each on the earth and in metres
-       geodetic.py map FILE   the worst distance (m) of a map's lines to the truth: prints ground, height
-       geodetic.py plots FILE the worst distance (m), each axis, of plots in metres to those of the scene
+       geodetic.py map FILE   the worst distance (m) of a map's lines to the truth: prints ground,
+                              height
+       geodetic.py plots FILE the worst distance (m), each axis, of plots in metres to those of the
+                              scene
 """
 import csv
 import json
@@ -116,9 +118,9 @@ def convert(name):
     plots_m.csv."""
     with open(name, encoding="utf-8") as file, open("plots_m.csv", encoding="utf-8") as reference:
         pairs = list(zip(csv.DictReader(file), csv.DictReader(reference), strict=True))
-    print(
-        f"{max(abs(float(a[key]) - float(b[key])) for a, b in pairs for key in ('x_m', 'y_m', 'z_m')):.4f}"
-    )
+    worst_m = max(abs(float(a[key]) - float(b[key])) for a, b in pairs
+                  for key in ("x_m", "y_m", "z_m"))
+    print(f"{worst_m:.4f}")
 
 
 if __name__ == "__main__":

@@ -66,8 +66,10 @@ judge level_truth.csv ground.tracks.csv
 check 'polar without heights: near it' json stdout \
     'o["targets_found"] == 4 and 100 < o["rmse_m"] < 700'
 # ---- the origin on the date line, and longitudes beyond 180 ----
-shift_lon() { awk -F, -v OFS=, -v by="$1" -v wrap="$2" 'NR > 1 { $4 += by; if (wrap && $4 > 180) $4 -= 360
-    $4 = sprintf("%.9f", $4) } 1' plots.csv; }
+shift_lon() {
+    awk -F, -v OFS=, -v by="$1" -v wrap="$2" 'NR > 1 { $4 += by; if (wrap && $4 > 180) $4 -= 360
+        $4 = sprintf("%.9f", $4) } 1' plots.csv
+}
 sed 's/origin_lon_deg = 10/origin_lon_deg = 179.93/' origin.ini >line.ini
 shift_lon 169.93 1 >wrapped.csv
 shift_lon 169.93 0 >onward.csv
@@ -133,16 +135,21 @@ origin = struct.unpack(">iii", log[at + 10 + size - 12:at + 10 + size])
 assert origin == (500000000, 100000000, 100000), origin'
 
 # ---- a flat earth: without origin, with heights ----
-printf 't_s,sensor_id,range_m,azimuth_deg,alt_m,sensor_x_m,sensor_y_m,sensor_z_m\n1,1,5000,90,3100,1000,2000,100\n' >flat.csv
+printf 't_s,sensor_id,range_m,azimuth_deg,alt_m,sensor_x_m,sensor_y_m,sensor_z_m\n%s\n' \
+    1,1,5000,90,3100,1000,2000,100 >flat.csv
 run maintain flat.csv
 check 'flat: the ground range of a slant range and a height' matches \
     "$(sed -n 2p stdout | cut -d, -f4-6)" '5000.1*,2000*,3100*'
 
 # ---- noise ----
 noisy() { run maintain one.csv --config origin.ini "$@"; }
-printf 't_s,sensor_id,range_m,azimuth_deg,alt_m,sensor_lat_deg,sensor_lon_deg,sensor_alt_m\n1,1,100000,90,10000,50,10,0\n' >one.csv
+printf 't_s,sensor_id,range_m,azimuth_deg,alt_m,sensor_lat_deg,sensor_lon_deg,sensor_alt_m\n%s\n' \
+    1,1,100000,90,10000,50,10,0 >one.csv
 noisy --covariance
-height() { awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "cov_z_z") at = i } NR == 2 { printf "%.0f", sqrt($at) }' stdout; }
+height() {
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "cov_z_z") at = i }
+        NR == 2 { printf "%.0f", sqrt($at) }' stdout
+}
 check 'sigma_alt_m is 30' matches "$(height)" 3[01]
 noisy --covariance --set sigma_alt_m=100
 check 'or what is set' matches "$(height)" 10[0-2]
@@ -156,14 +163,16 @@ check 'or the plot itself' matches "$(height)" 20[0-4]
 run track plots.csv --config origin.ini -o map.geojson
 check 'track writes a map' is_json map.geojson
 check 'a line and a place for each of four tracks' json map.geojson \
-    '[f["geometry"]["type"] for f in o["features"]] == 4 * ["LineString", "Point"] and o["type"] == "FeatureCollection"'
+    '([f["geometry"]["type"] for f in o["features"]] == 4 * ["LineString", "Point"]
+    and o["type"] == "FeatureCollection")'
 # farthest of all points; a path that bends with the earth is followed so much late
 read -r ground height <<<"$(python3 "$scene" map map.geojson)"
 check 'the lines are where the aircraft were' awk -v g="$ground" -v h="$height" \
     'BEGIN { exit !(g < 3 && h < 3) }'
-check 'what a place says' json map.geojson '(lambda p: p["track_id"] == 1 and p["kind"] == "place" and p["status"] == "confirmed"
-    and p["t_s"] == 116 and abs(p["speed_mps"] - 132.2) < 0.2 and abs(p["heading_deg"] - 40.7) < 0.2
-    and abs(p["climb_mps"]) < 0.2 and p["hits"] == 30 and not p["is_over"])(o["features"][1]["properties"])'
+check 'what a place says' json map.geojson '(lambda p: p["track_id"] == 1 and p["kind"] == "place"
+    and p["status"] == "confirmed" and p["t_s"] == 116 and abs(p["speed_mps"] - 132.2) < 0.2
+    and abs(p["heading_deg"] - 40.7) < 0.2 and abs(p["climb_mps"]) < 0.2 and p["hits"] == 30
+    and not p["is_over"])(o["features"][1]["properties"])'
 run convert plots.tracks.csv of_csv.geojson --config origin.ini
 check 'convert makes the same of the CSV file' cmp map.geojson of_csv.geojson
 run track plots.csv --config origin.ini -o tracks.lcm
@@ -171,20 +180,25 @@ run convert tracks.lcm of_log.geojson --config origin.ini
 check 'and of the log' cmp map.geojson of_log.geojson
 run track level.csv --config origin.ini -o level.geojson
 check 'tracks without heights have positions without' json level.geojson \
-    'len(o["features"]) == 8 and {len(c) for f in o["features"] if f["geometry"]["type"] == "LineString" for c in f["geometry"]["coordinates"]} == {2}'
+    '(len(o["features"]) == 8
+    and {len(c) for f in o["features"] if f["geometry"]["type"] == "LineString"
+    for c in f["geometry"]["coordinates"]} == {2})'
 read -r ground height <<<"$(python3 "$scene" map level.geojson)"
 check 'and are where the aircraft were' awk -v g="$ground" 'BEGIN { exit !(g < 3) }'
 run track wrapped.csv --config line.ini -o line.geojson
 check 'lines are cut at longitude 180' json line.geojson \
-    'any(f["geometry"]["type"] == "MultiLineString" for f in o["features"]) and all(abs(a[0] - b[0]) < 1
-    for f in o["features"] if f["geometry"]["type"] == "MultiLineString" for l in f["geometry"]["coordinates"] for a, b in zip(l, l[1:]))'
+    '(any(f["geometry"]["type"] == "MultiLineString" for f in o["features"])
+    and all(abs(a[0] - b[0]) < 1
+    for f in o["features"] if f["geometry"]["type"] == "MultiLineString"
+    for l in f["geometry"]["coordinates"] for a, b in zip(l, l[1:])))'
 run maintain heights.csv --config radars.ini -o one.geojson
 check 'maintain writes one, too' json one.geojson \
     '[f["properties"]["kind"] for f in o["features"]] == ["track", "place"]'
 printf 't_s,sensor_id,lat_deg,lon_deg\n1,1,50,10\n2,1,,\n' >two.csv
 run track two.csv --config origin.ini -o none.geojson
 check 'without a track: a map without features' json none.geojson 'o["features"] == []'
-json='JSON, but CSV is needed; GeoJSON can only be written: give the tracks'"'"' CSV file or LCM log'
+json='JSON, but CSV is needed; GeoJSON can only be written: '\
+'give the tracks'"'"' CSV file or LCM log'
 cp map.geojson nameless
 for file in map.geojson nameless; do
     run track "$file"
@@ -217,8 +231,8 @@ check 'no origin, from a pipe' says 2 \
 from_pipe 't_s,sensor_id,range_m,azimuth_deg,sensor_lat_deg,sensor_lon_deg\n1,1,5,5,50,10\n'
 check 'no origin of a radar, from a pipe' says 2 \
     "rhotrack: *:1: column 'sensor_lat_deg': origin_lat_deg and*"
-printf 't_s,sensor_id,range_m,azimuth_deg,sensor_lat_deg,sensor_lon_deg,sensor_alt_m\n1,1,5,5,50,10,70\n' \
-    >radar_place.csv
+printf 't_s,sensor_id,range_m,azimuth_deg,sensor_lat_deg,sensor_lon_deg,sensor_alt_m\n%s\n' \
+    1,1,5,5,50,10,70 >radar_place.csv
 run track radar_place.csv -o radar_place.tracks.csv
 check "a radar's place is the origin, with its height" grep -q \
     'the origin is origin_lat_deg=50.0000000, origin_lon_deg=10.0000000, origin_alt_m=70$' stderr
@@ -247,7 +261,9 @@ refuse 'polar plots with places' "1: columns 'range_m' and 'lat_deg' exclude eac
     't_s,sensor_id,range_m,azimuth_deg,lat_deg,lon_deg\n1,1,50,10,5,5\n' "${with[@]}"
 refuse 'two sources of heights' "1: columns 'alt_m' and 'elevation_deg' exclude each other" \
     't_s,sensor_id,range_m,azimuth_deg,alt_m,elevation_deg\n1,1,50,10,5,5\n' "${with[@]}"
-refuse 'a radar in two places' "1: columns 'sensor_lat_deg' and 'sensor_x_m' exclude each other" 't_s,sensor_id,range_m,azimuth_deg,sensor_x_m,sensor_y_m,sensor_lat_deg,sensor_lon_deg\n1,1,50,10,5,5,5,5\n' "${with[@]}"
+refuse 'a radar in two places' "1: columns 'sensor_lat_deg' and 'sensor_x_m' exclude each other" \
+    't_s,sensor_id,range_m,azimuth_deg,sensor_x_m,sensor_y_m,sensor_lat_deg,sensor_lon_deg\n'\
+'1,1,50,10,5,5,5,5\n' "${with[@]}"
 refuse 'a height above the range' \
     '3: alt_m 20000 differs from the radar'"'"'s height by more than range_m 9000' \
     "${slant}2,1,9000,10,20000\n" "${with[@]}"
@@ -276,8 +292,8 @@ set_refuse() { # name, pattern, options...
     check "$name" says 2 "rhotrack: $pattern"
 }
 set_refuse 'half an origin' 'origin_lat_deg is set without origin_lon_deg' --set origin_lat_deg=50
-set_refuse 'the other half, where the file has a place' 'origin_lon_deg is set without origin_lat_deg' \
-    --set origin_lon_deg=10
+set_refuse 'the other half, where the file has a place' \
+    'origin_lon_deg is set without origin_lat_deg' --set origin_lon_deg=10
 set_refuse 'a radar without an origin' \
     'sensor 3: lat_deg and lon_deg: origin_lat_deg and origin_lon_deg are not set*' \
     --set sensor.3.lat_deg=50 --set sensor.3.lon_deg=10
@@ -294,7 +310,8 @@ check 'a map without an origin' says 2 \
     'rhotrack: GeoJSON has latitudes and longitudes: origin_lat_deg and origin_lon_deg are not set*'
 check 'no output' test ! -e out.geojson
 run track plots.csv --config origin.ini --covariance -o out.geojson
-check 'a map with covariances' says 2 'rhotrack: out.geojson: GeoJSON cannot hold covariances (--covariance)'
+check 'a map with covariances' says 2 \
+    'rhotrack: out.geojson: GeoJSON cannot hold covariances (--covariance)'
 run track plots.csv --config origin.ini --follow -o out.geojson
 check 'a map that is followed' says 2 'rhotrack: out.geojson: GeoJSON is complete only at the end *'
 run initiate plots.csv --config origin.ini -o out.geojson

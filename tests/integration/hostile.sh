@@ -17,7 +17,8 @@ with open("plots.csv", "w") as plots:
     print("t_s,sensor_id,x_m,y_m,sigma_m", file=plots)
     for k in range(100):
         t = k / 20
-        rows = [(x + vx * t + random.gauss(0, 5), y + vy * t + random.gauss(0, 5)) for x, y, vx, vy in targets]
+        rows = [(x + vx * t + random.gauss(0, 5), y + vy * t + random.gauss(0, 5))
+                for x, y, vx, vy in targets]
         rows += [(random.uniform(-5e4, 5e4), random.uniform(-5e4, 5e4)) for _ in range(40)]
         for x, y in rows:
             print(f"{t:.6f},1,{x:.3f},{y:.3f},5", file=plots)
@@ -49,7 +50,8 @@ check 'the rate was kept' test "$(sent_of total)" -ge 12000
 check 'what is no LCM is refused and counted' test "$(status_of fragments_refused)" -ge \
     "$(sent_of refused)"
 check 'other contents are counted' test \
-    $(($(status_of messages_bad) + $(status_of messages_wrong_type) + $(status_of scans_bad) + $(status_of scans_duplicate))) \
+    $(($(status_of messages_bad) + $(status_of messages_wrong_type) +
+        $(status_of scans_bad) + $(status_of scans_duplicate))) \
     -ge "$(sent_of mutated)"
 # every scan of the radar: its time, and as many plots as it has
 "$python" - <<'PYTHON' >steps

@@ -65,7 +65,10 @@ within() { [ "$1" -ge "$2" ] && [ "$1" -le "$3" ] || { echo \
     "$1 is not within $2 .. $3"; return 1; }; }
 
 # Each scan was taken, or is missing between others, or was lost at the very start or end.
-accounted() { within $(($(status_of scans_accepted) + $(status_of scans_lost))) $((2 * scans - 3)) $((2 * scans)); }
+accounted() {
+    within $(($(status_of scans_accepted) + $(status_of scans_lost))) $((2 * scans - 3)) \
+        $((2 * scans))
+}
 
 # The confirmed tracks of the stock log beside the truth, from the tenth second on: most targets
 # have theirs, always.

@@ -40,7 +40,8 @@ facts 'Table 3: NHT casts one vote of .0533' "$table3" nht \
     "$pairs and o['votes'] == 1 and abs(o['peak_votes'][0] - .0533) < 5e-5 and o['tracks'] == 1" \
     nht_reading=a
 facts 'peaks are in descending order' "$table3" ht \
-    'o["peak_votes"] == sorted(o["peak_votes"], reverse=True) and o["tracks"] == len(o["peak_votes"])'
+    '(o["peak_votes"] == sorted(o["peak_votes"], reverse=True) and
+    o["tracks"] == len(o["peak_votes"]))'
 facts 'what JSON must hold' "$table3" nht \
     'o["method"] == "nht" and all(k in o for k in ["state_bytes", "wall_us"])'
 
@@ -64,7 +65,9 @@ run initiate table1.csv --method ht --set tau=0.9
 check 'HT: likewise, above a higher share' awk -F, \
     'NR > 1 && $9 == 7 && $10 == 7 { n++ } END { exit n != 3 }' stdout
 run initiate table1.csv --method kernel --json
-check 'the work of a batch' json stdout '(o["work"], o["partial_steps"], o["plots_not_tried"]) == (o["work_worst"], 0, 0) and o["work"] > 0'
+check 'the work of a batch' json stdout '(
+    (o["work"], o["partial_steps"], o["plots_not_tried"]) == (o["work_worst"], 0, 0) and
+    o["work"] > 0)'
 run initiate table1.csv --method kernel --json --set work_max=1
 check 'a limit on it leaves plots out' json stdout \
     'o["partial_steps"] == 1 and o["plots_not_tried"] > 0'
@@ -96,8 +99,8 @@ facts 'wider tolerances' "$table3" nht 'o["votes"] > 1' eps_theta_rad=0.03
 facts 'a large falsity lets no pair vote' "$table3" nht 'o["votes"] == 0' lambda_k=1000
 run config --method nht --json
 check 'config prints the method'"'"'s customary values' json stdout \
-    '(o["v_min_mps"]["value"], o["v_max_mps"]["value"], o["vote"]["value"], o["nht_reading"]["value"],
-      o["v_min_mps"]["source"]) == (100, 400, "counts", "c", "method")'
+    '(o["v_min_mps"]["value"], o["v_max_mps"]["value"], o["vote"]["value"],
+      o["nht_reading"]["value"], o["v_min_mps"]["source"]) == (100, 400, "counts", "c", "method")'
 run config
 check 'config names the choices' grep -Eq '^nht_reading .* c +a\|c +c +default' stdout
 
@@ -120,7 +123,9 @@ refused 'unknown reading' "--set nht_reading=b: nht_reading 'b' is not one of a|
     table1.csv --set nht_reading=b
 refused 'unknown vote' "--set vote=1: vote '1' is not one of scans|counts" initiate table1.csv \
     --set vote=1
-refused 'too fine cells' 'plots 34397 m from the origin need 68796 cells of rho at d_rho_m 1, and 16384 is the limit: d_rho_m 4.2 is enough' \
+refused 'too fine cells' \
+    'plots 34397 m from the origin need 68796 cells of rho at d_rho_m 1, and 16384 is the '\
+'limit: d_rho_m 4.2 is enough' \
     initiate "$table3" --method ht --set d_rho_m=1
 # What is suggested does.
 for range in 99999 100000 123456 250000 1999999; do
@@ -150,7 +155,8 @@ run plot parameter-space table1.csv --method iht -o iht.svg
 check 'another method has one' test "$(grep -c 'votes, C\|truth' iht.svg)" = 1
 run plot parameter-space table1.csv --method kernel -o x.svg
 check 'and the default none' says 2 \
-    'rhotrack: plot parameter-space: kernel has no accumulator of plots; ht, mht, iht and nht have one'
+    'rhotrack: plot parameter-space: kernel has no accumulator of plots; '\
+'ht, mht, iht and nht have one'
 run plot tracks table1.csv --method nht -o x.svg
 check 'nor has another picture' says 2 'rhotrack: plot tracks: --method is for parameter-space'
 check 'what is refused leaves no picture' test ! -e x.svg

@@ -48,7 +48,8 @@ embedded=$(ram rho_tracker 3)
 small=$(ram rho_tracker 4)
 
 # ---- make install ----
-usual='^/opt/rt/(bin/rhotrack|lib/librhotrack\.a|lib/pkgconfig/rhotrack\.pc|lib/cmake/rhotrack/rhotrackConfig(Version)?\.cmake)$'
+usual='^/opt/rt/(bin/rhotrack|lib/librhotrack\.a|lib/pkgconfig/rhotrack\.pc'
+usual+='|lib/cmake/rhotrack/rhotrackConfig(Version)?\.cmake)$'
 usual+='|^/opt/rt/(include/rhotrack/(detail/)?[a-z_]+\.h|share/doc/rhotrack/LICENSE)$'
 usual+='|^/opt/rt/(lib/systemd/system/rhotrack-node\.service|etc/rhotrack/node\.ini)$'
 stage=$folder/stage
@@ -129,7 +130,8 @@ install_by_make "$folder/own" install-lib $odd RHO_CONFIG_FILE="$own" BUILD="$fo
     OPT=-O0
 check 'make install-lib with RHO_CONFIG_FILE, in odd folders' exits 0
 check 'nothing is put elsewhere' no_files_but own \
-    '^/usr/lib/odd/(librhotrack\.a|(pkgconfig|cmake)/.*)$|^/inc/odd/rhotrack/(detail/)?[a-z_]+\.h$|^/usr/doc-rt/LICENSE$'
+    '^/usr/lib/odd/(librhotrack\.a|(pkgconfig|cmake)/.*)$'\
+'|^/inc/odd/rhotrack/(detail/)?[a-z_]+\.h$|^/usr/doc-rt/LICENSE$'
 check 'no file knows where it was staged or built' leaks_nothing own -e "$folder"
 export PKG_CONFIG_LIBDIR=$folder/own/usr/lib/odd/pkgconfig
 check 'pkg-config: odd folders' says_flags --cflags --libs '-I/inc/odd -L/usr/lib/odd -lrhotrack'

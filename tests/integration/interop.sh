@@ -64,7 +64,8 @@ else
         echo "skipped: interop: message_vectors.h made anew, $lcm_gen is not 1.3.1"
     fi
     if [ -z "$python" ]; then
-        echo 'skipped: interop with Python: the package lcm is not installed (tools/setup_python.sh)'
+        echo 'skipped: interop with Python: the package lcm is not installed' \
+            '(tools/setup_python.sh)'
     else
         check 'the interpreter is found from any folder' test \
             "$(cd "$folder" && "$OLDPWD/tests/find_python.sh")" = "$python"

@@ -37,17 +37,20 @@ check 'no scan is late at 4 s a scan' json stdout \
 # ---- later ----
 run track later.csv --json -o later_tracks.csv
 check 'scans that are 5 s late update tracks' json stdout \
-    'o["counters"]["scans_retrodicted"] == 6 and o["counters"]["scans_late"] == 0 and o["tracks_confirmed"] == 2'
+    '(o["counters"]["scans_retrodicted"] == 6 and o["counters"]["scans_late"] == 0 and
+    o["tracks_confirmed"] == 2)'
 check 'all their plots are claimed' json stdout \
     'o["fates"]["stale"] == 0 and o["fates"]["claimed"] + o["fates"]["held"] == 80'
 check 'both are tracked to the end' matches "$(tail -n 2 later_tracks.csv | cut -d, -f1,3 | uniq)" \
     156.000000,confirmed
 run track later.csv --set late_max_s=0 --json
 check 'with late_max_s 0 they are stale' json stdout \
-    'o["counters"]["scans_late"] == 6 and o["counters"]["scans_retrodicted"] == 0 and o["fates"]["stale"] == 12'
+    '(o["counters"]["scans_late"] == 6 and o["counters"]["scans_retrodicted"] == 0 and
+    o["fates"]["stale"] == 12)'
 run track too_late.csv --json
 check 'scans that are 30 s late are stale, but for one near the end' json stdout \
-    'o["counters"]["scans_late"] == 5 and o["counters"]["scans_retrodicted"] == 1 and o["tracks_confirmed"] == 2 and sum(o["fates"].values()) == 80'
+    '(o["counters"]["scans_late"] == 5 and o["counters"]["scans_retrodicted"] == 1 and
+    o["tracks_confirmed"] == 2 and sum(o["fates"].values()) == 80)'
 
 # ---- several files ----
 sed 's/,1,/,2,/' held.csv >second.csv
@@ -92,10 +95,12 @@ check 'a node counts nothing late' bash -c '! grep -q late stderr'
 check 'and has the same tracks' python3 -c '
 import csv
 def rows(name):
-    return [(round(float(r["t_s"]) * 1e6), r["track_id"], round(float(r["x_m"]), 1), round(float(r["y_m"]), 1), r["hits"])
+    return [(round(float(r["t_s"]) * 1e6), r["track_id"], round(float(r["x_m"]), 1),
+             round(float(r["y_m"]), 1), r["hits"])
             for r in csv.DictReader(open(name)) if r["status"] != "deleted"]
 one, other = rows("expected.csv"), rows("node.csv")
-assert one == other and one, (len(one), len(other), [x for x in zip(one, other) if x[0] != x[1]][:3])'
+assert one == other and one, (
+    len(one), len(other), [x for x in zip(one, other) if x[0] != x[1]][:3])'
 run track behind_received.csv --json -o biased.csv
 check 'not told of it, its scans are late' json stdout 'o["counters"]["scans_retrodicted"] > 30'
 settings=(--set sensor.1.time_bias_s=1 --set sensor.2.time_bias_s=-9)
@@ -129,7 +134,11 @@ run track turning/polar.csv "${turning[@]}" -o expected.csv
 awk -F, 'NR == 1 { print $0 ",received_s"; next } { printf "%s,%.6f\n", $0, $1 + 0.05 }' \
     turning/polar.csv >evenly.csv
 awk -F, 'BEGIN { srand(3) } NR == 1 { print $0 ",received_s"; next }
-    { received = $1 + 0.4 * rand(); last = received > last ? received : last; printf "%s,%.6f\n", $0, last }' \
+    {
+        received = $1 + 0.4 * rand()
+        last = received > last ? received : last
+        printf "%s,%.6f\n", $0, last
+    }' \
     turning/polar.csv >unevenly.csv
 for file in evenly unevenly; do
     for option in '' --keep-going; do
@@ -167,9 +176,12 @@ run track gap.lcm --config two/scenario.ini -o two_tracks.csv
 check 'one that is lost is counted once' grep -Eqx \
     'rhotrack: gap.lcm: [0-9]+ scans out of order, 1 scans lost' stderr
 run node --lcm 'file://gap.lcm?speed=10' --config two/scenario.ini
-check 'a node says the same at its end' bash -c 'grep -q "Z rhotrack: scans lost: 1$" stderr && grep -q "Z rhotrack: scans out of order: [0-9]" stderr'
+check 'a node says the same at its end' bash -c \
+    'grep -q "Z rhotrack: scans lost: 1$" stderr &&
+    grep -q "Z rhotrack: scans out of order: [0-9]" stderr'
 check 'and before that what is lost, once, and nothing of what is late' \
-    matches "$(grep 'scans .*so far' stderr)" '*Z rhotrack: scans lost: 1 so far, the last one of sensor ?'
+    matches "$(grep 'scans .*so far' stderr)" \
+    '*Z rhotrack: scans lost: 1 so far, the last one of sensor ?'
 run track gap.lcm --config two/scenario.ini --set late_max_s=0 --set hold_ms=0 -o two_tracks.csv
 check 'what is not used is dropped' grep -Eq \
     '^rhotrack: gap.lcm: .*[0-9]+ scans late, dropped, [0-9]+ scans lost' stderr

@@ -45,7 +45,8 @@ seed src/base/angle.c '#include "rhotrack/nothing.h"' 'there is no header'
 fresh_copy
 printf 'int rho_one(void)\n{\n#if RHO_SECTORS\n    return 1;\n#endif\n    return 0;\n}\n' \
     >>"$copy/src/base/angle.c"
-must_fail 'a condition inside a function' "src/base/angle.c:$(($(wc -l <"$copy/src/base/angle.c") - 4)): #if inside a function"
+must_fail 'a condition inside a function' \
+    "src/base/angle.c:$(($(wc -l <"$copy/src/base/angle.c") - 4)): #if inside a function"
 
 fresh_copy
 mkdir "$copy/src/strangers"

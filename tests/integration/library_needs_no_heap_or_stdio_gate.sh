@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/gates/library_needs_no_heap_or_stdio.sh passes on a clean little library, and goes red for each thing that it
-# forbids.
+# tools/gates/library_needs_no_heap_or_stdio.sh passes on a clean little library, and goes red for
+# each thing that it forbids.
 set -eu
 cd "$(dirname "$0")/../.."
 top=$(pwd)
@@ -24,7 +24,8 @@ must_pass() { # what, source
 
 must_fail() { # what, source, the heading expected, the finding expected
     build "$2"
-    if "$top/tools/gates/library_needs_no_heap_or_stdio.sh" "$copy" "$copy/sample.a" >"$copy/output"; then
+    if "$top/tools/gates/library_needs_no_heap_or_stdio.sh" "$copy" "$copy/sample.a" \
+        >"$copy/output"; then
         echo "library_needs_no_heap_or_stdio.sh did not see $1"
         exit 1
     fi
@@ -36,7 +37,8 @@ must_pass 'clean code' 'float rho_twice(float v) { return v + v; }'
 must_pass 'words in comments and strings' \
     'const char *rho_name(void) { return "free"; } /* never malloc(), no double */'
 must_pass 'a constant table of pointers' \
-    'static const char *const names[] = {"a", "b"}; const char *rho_name(int i) { return names[i]; }'
+    'static const char *const names[] = {"a", "b"}; '\
+'const char *rho_name(int i) { return names[i]; }'
 word() { # source: its last line has the word
     must_fail "$1" "$1" 'forbidden words in the sources' \
         "src/base/sample.c:$(wc -l <<<"$1"): $(tail -n 1 <<<"$1")"

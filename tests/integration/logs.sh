@@ -33,7 +33,8 @@ same_tracks() { # scenario, options
         "$scenario/same.csv"
     check "$scenario $*: tracks of the log" exits 0
     check "$scenario $*: there are some, and they are the same" \
-        sh -c "test \$(wc -l <'$scenario/tracks.csv') -gt 5 && cmp '$scenario/tracks.csv' '$scenario/same.csv'"
+        sh -c "test \$(wc -l <'$scenario/tracks.csv') -gt 5 &&
+            cmp '$scenario/tracks.csv' '$scenario/same.csv'"
 }
 
 make_files radar plots
@@ -65,7 +66,8 @@ check 'a scan may hold times in any order, scans may not' says 2 \
 for first in 0.0 -0.6; do
     python3 - "$first" >mixed.csv <<'PYTHON'
 import sys
-rows = [(i + float(sys.argv[1]) + 0.3 * k, 100 * (i + 0.3 * k), 3000 * k, i) for i in range(8) for k in range(5)]
+rows = [(i + float(sys.argv[1]) + 0.3 * k, 100 * (i + 0.3 * k), 3000 * k, i)
+        for i in range(8) for k in range(5)]
 rows += [(float(i), "", "", i) for i in range(8)]
 print("t_s,sensor_id,x_m,y_m,scan")
 for t_s, x_m, y_m, scan in sorted(rows, key=lambda row: (row[0], str(row[1]))):
@@ -97,7 +99,8 @@ for path in sys.argv[1:]:
         end = at + 28 + channel + size
         events.append((utime, data[at:end]))
         at = end
-sys.stdout.buffer.write(b"".join(event for utime, event in sorted(events, key=lambda event: event[0])))
+sys.stdout.buffer.write(
+    b"".join(event for utime, event in sorted(events, key=lambda event: event[0])))
 PYTHON
 }
 merge radar/in.lcm passive-three/in.lcm radar/truth.lcm >mixed.lcm
@@ -138,7 +141,8 @@ done
 run track radar/in.lcm --config radar/scenario.ini -o .lcm
 check 'a log that is named .lcm and nothing else' cmp radar/tracks.lcm .lcm
 run evaluate radar/truth.lcm radar/in.lcm
-check 'evaluate: a log without tracks' says 2 'rhotrack: radar/in.lcm: contains no messages of tracks *'
+check 'evaluate: a log without tracks' says 2 \
+    'rhotrack: radar/in.lcm: contains no messages of tracks *'
 
 # ---- the others ----
 

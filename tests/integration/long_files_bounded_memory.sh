@@ -18,18 +18,22 @@ polar = lambda: f"{random.uniform(1e3, 5e4):.2f},{random.uniform(-3, 3):.6f}"
 note = lambda length: "," + length * "n" + "\n"
 header, scan = {
     "plots": ("x_m,y_m,note", lambda: "".join(f"@,1,{place()}{note(400)}" for _ in range(10))),
-    "polar": ("range_m,azimuth_rad,note", lambda: "".join(f"@,1,{polar()}{note(400)}" for _ in range(5))),
+    "polar": ("range_m,azimuth_rad,note",
+              lambda: "".join(f"@,1,{polar()}{note(400)}" for _ in range(5))),
     # rows have times of their own, and come mixed with the scan's before
     "numbered": ("x_m,y_m,scan,note",
-                 lambda: "".join(f"@.{i},1,{place()},{'&' if i < 2 else '#'}{note(400)}" for i in range(10))),
+                 lambda: "".join(f"@.{i},1,{place()},{'&' if i < 2 else '#'}{note(400)}"
+                                 for i in range(10))),
     "bearings": ("sensor_x_m,sensor_y_m,bearing_rad,note",
-                 lambda: "".join(f"@,{i},0,{9000 * i},{random.uniform(-3, 3):.6f}{note(2000)}" for i in (7, 8))),
+                 lambda: "".join(f"@,{i},0,{9000 * i},{random.uniform(-3, 3):.6f}{note(2000)}"
+                                 for i in (7, 8))),
 }[kind]
 scans, written, t = [scan() for _ in range(8)], 0, 0
 with open(f"{kind}.csv", "w") as file:
     print("t_s,sensor_id," + header, file=file)
     while written < size:
-        text = scans[t % 8].replace("@", str(4 * t)).replace("#", str(t)).replace("&", str(max(t - 1, 0)))
+        text = scans[t % 8].replace("@", str(4 * t)).replace("#", str(t)).replace(
+            "&", str(max(t - 1, 0)))
         written += file.write(text)
         t += 1
 PYTHON
@@ -57,7 +61,8 @@ events.sort()
 size = int(float(sys.argv[1]) * 1e6 / len(events))
 with open("both.lcm", "wb") as log:
     for utime, event in events:
-        log.write(event + struct.pack(">IqqII", 0xEDA1DA01, 0, utime, 6, size) + b"CAMERA" + bytes(size))
+        log.write(event + struct.pack(">IqqII", 0xEDA1DA01, 0, utime, 6, size)
+                  + b"CAMERA" + bytes(size))
 PYTHON
 }
 
@@ -142,9 +147,12 @@ import re
 shown = open("shown", newline="").read()
 lines = shown.split("\r\x1b[K")
 bars = [line for line in lines if line.startswith("[")]
-assert bars and all(re.fullmatch(r"\[[#.]{20}\] +\d+ %  \d+ scans, \d+ a second, \d+ (s|min) left", line) for line in bars), lines
+assert bars and all(
+    re.fullmatch(r"\[[#.]{20}\] +\d+ %  \d+ scans, \d+ a second, \d+ (s|min) left", line)
+    for line in bars), lines
 assert all(len(line) < 80 and "\n" not in line for line in bars)
-assert lines[0] == "" and re.fullmatch(r"rhotrack: \d+ scans, .*\r\nrhotrack: no track: .*\r\n", lines[-1]), lines
+assert lines[0] == "" and re.fullmatch(
+    r"rhotrack: \d+ scans, .*\r\nrhotrack: no track: .*\r\n", lines[-1]), lines
 PYTHON
 }
 check 'a bar with scans a second and time left, which goes away' bar_is_right

@@ -14,7 +14,8 @@ check 'columns of plots with heights' matches "$(head -n 1 popup/plots.csv)" \
     't_s,sensor_id,x_m,y_m,z_m,sigma_m,scan,target_id'
 check 'columns of a truth with heights' matches "$(head -n 1 popup/truth.csv)" \
     't_s,target_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps'
-check 'four clutter plots a scan but in the first three' matches "$(wc -l <popup/plots.csv)" $((1 + 161 * 6 - 3 * 4))
+check 'four clutter plots a scan but in the first three' \
+    matches "$(wc -l <popup/plots.csv)" $((1 + 161 * 6 - 3 * 4))
 check 'what a tracker may know' grep -q '^accel_max_mps2 = 117.68$' popup/scenario.ini
 check 'clutter that moves has no area' bash -c '! grep -q area popup/scenario.ini'
 run simulate popup --seed 3 --set radars.0.sigma_mps=1 --set radars.0.pd=0 --set clutter=[] -o empty
@@ -32,11 +33,14 @@ for gate in best hough nearest none; do
     cp stdout $gate.json
 done
 check 'one line of summary' matches "$(cat hough.summary)" \
-    'rhotrack: 161 scans, 793 plots: 161 claimed, 0 misses, 0 updates refused; * us a scan, * at most'
+    'rhotrack: 161 scans, 793 plots: 161 claimed, 0 misses, 0 updates refused; '\
+'* us a scan, * at most'
 check 'columns of tracks' matches "$(head -n 1 hough.csv)" \
-    't_s,track_id,status,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,sigma_m,sigma_mps,hits,misses,sensor_id,plot'
-check 'a row a scan, one track, confirmed' awk -F, 'NR > 1 && ($2 != 1 || $3 != "confirmed" || $15 != NR - 1 || NF != 18) {
-    exit 1 } END { exit NR != 162 }' hough.csv
+    't_s,track_id,status,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,'\
+'sigma_m,sigma_mps,hits,misses,sensor_id,plot'
+check 'a row a scan, one track, confirmed' awk -F, '
+    NR > 1 && ($2 != 1 || $3 != "confirmed" || $15 != NR - 1 || NF != 18) { exit 1 }
+    END { exit NR != 162 }' hough.csv
 for gate in best hough nearest; do
     check "$gate follows the target" json $gate.json \
         'o["completeness"] == 1 and o["rmse_m"] < 2.5 and o["rmse_mps"] < 15 and o["switches"] == 0'
@@ -61,7 +65,8 @@ check 'none: another draws others' bash -c '! cmp -s stdout none.csv'
 run maintain sharp/plots.csv --set gate=hough
 check 'the gate by parameter' writes_same_as hough.csv
 run maintain sharp/plots.csv --gate hough --set initial_variance=500 --covariance -o initial.csv
-check 'P(0|0) = 500 I' awk -F, 'NR == 2 { for (i = 19; i <= 39; i++) { n += $i == 500; bad += $i != 500 && $i != 0 }
+check 'P(0|0) = 500 I' awk -F, 'NR == 2 {
+    for (i = 19; i <= 39; i++) { n += $i == 500; bad += $i != 500 && $i != 0 }
     exit !(n == 6 && !bad) }' initial.csv
 run maintain sharp/plots.csv --set gate=none --gate hough
 check '--gate goes before the parameter' writes_same_as hough.csv
@@ -86,10 +91,12 @@ run maintain sharp/plots.csv --gate nearest --set filter_noise_m=5 --set filter_
 check 'so has the noise of the filter' bash -c '! cmp -s stdout nearest.csv'
 
 run maintain sharp/plots.csv --gate hough --json
-check 'json: what it must hold' json stdout '(o["gate"], o["input_estimation"], o["scans"], o["plots"],
-    o["tracks_confirmed"], o["misses"], o["updates_refused"]) == ("hough", True, 161, 793, 1, 0, 0)'
-check 'json: fates add up' json stdout '(o["fates"]["claimed"], o["fates"]["held"], sum(o["fates"].values()),
-    sorted(o["fates"])) == (161, 632, 793, ["claimed", "ghost", "held", "invalid", "no_room", "stale"])'
+check 'json: what it must hold' json stdout '(o["gate"], o["input_estimation"], o["scans"],
+    o["plots"], o["tracks_confirmed"], o["misses"], o["updates_refused"]) == (
+    "hough", True, 161, 793, 1, 0, 0)'
+check 'json: fates add up' json stdout '(o["fates"]["claimed"], o["fates"]["held"],
+    sum(o["fates"].values()), sorted(o["fates"])) == (
+    161, 632, 793, ["claimed", "ghost", "held", "invalid", "no_room", "stale"])'
 check 'json: cost' json stdout 'o["max_us"] >= o["mean_us"] > 0 and 0 < o["state_bytes"] <= 512'
 run maintain sharp/plots.csv --gate hough --json -o out.csv
 check 'json with -o: tracks in the file' cmp hough.csv out.csv
@@ -119,13 +126,15 @@ awk 'BEGIN {
         else print k ",1,10000," 100 * k ",-1.5,1.5" }' >sectors.csv
 run maintain sectors.csv --gate nearest --set input_model=physical
 check 'where a sector did not look, no plot is taken and nothing missed' awk -F, '
-    NR > 1 && (($1 % 2) != ($18 == -1) || $16 > 0 || $3 != "confirmed") { exit 1 } NR > 10 && ($4 < 9950 || $4 > 10050) { exit 1 }' stdout
+    NR > 1 && (($1 % 2) != ($18 == -1) || $16 > 0 || $3 != "confirmed") { exit 1 }
+    NR > 10 && ($4 < 9950 || $4 > 10050) { exit 1 }' stdout
 
 # Scans that stop for six hours, and for three weeks.
 awk 'BEGIN { print "t_s,sensor_id,x_m,y_m"
     for (k = 0; k < 10; k++) print k ",1," 100 * k ",0"
     for (k = 0; k < 10; k++) print 20000 + k ",1," 5000 + 100 * k ",0"
-    for (k = 0; k < 10; k++) print 2000000 + k ",1,90000,0\n" 2000000 + k ",1," 9000 + 100 * k ",0" }' >gaps.csv
+    for (k = 0; k < 10; k++)
+        print 2000000 + k ",1,90000,0\n" 2000000 + k ",1," 9000 + 100 * k ",0" }' >gaps.csv
 for gate in best nearest; do
     run maintain gaps.csv --gate $gate --set input_model=physical
     check "$gate: after a long gap the track starts again where it was last" awk -F, '
@@ -137,9 +146,11 @@ done
 # Two sensors, one with heights: the same target, 200 m/s to the east at 3 km.
 awk 'BEGIN {
     print "t_s,sensor_id,x_m,y_m,z_m"
-    for (k = 0; k < 30; k++) print k / 2 "," k % 2 "," 5000 + 100 * k ",4000," (k % 2 ? 3000 : "") }' >two.csv
+    for (k = 0; k < 30; k++)
+        print k / 2 "," k % 2 "," 5000 + 100 * k ",4000," (k % 2 ? 3000 : "") }' >two.csv
 run maintain two.csv --gate nearest --set input_model=physical
-check 'plots of two sensors go to one track' awk -F, 'NR > 1 && ($2 != 1 || $18 != 0 || $17 != NR % 2) { exit 1 }
+check 'plots of two sensors go to one track' awk -F, '
+    NR > 1 && ($2 != 1 || $18 != 0 || $17 != NR % 2) { exit 1 }
     END { exit ($4 - 7900)^2 + ($5 - 4000)^2 + ($6 - 3000)^2 > 900 || ($7 - 200)^2 > 400 }' stdout
 
 # A radar's plots, each at its own time, with range rates: a lone target.
@@ -151,7 +162,9 @@ check 'polar plots' json stdout 'o["completeness"] > 0.9 and o["rmse_m"] < 200'
 
 # ---- what it refuses ----
 run maintain popup/plots.csv --gate hough -o none_left.csv
-check 'hough without velocities' says 2 "rhotrack: gate hough needs velocities, and the scan at 0.000000 s has none: give columns 'vx_mps' and 'vy_mps'"
+check 'hough without velocities' says 2 \
+    "rhotrack: gate hough needs velocities, and the scan at 0.000000 s has none: "\
+"give columns 'vx_mps' and 'vy_mps'"
 check 'and no output is left' test ! -e none_left.csv
 cut -d, -f1-4,6-8,10 sharp/plots.csv >level.csv
 run maintain level.csv --gate hough

@@ -17,13 +17,17 @@ sys.exit(os.waitstatus_to_exitcode(pty.spawn(["/bin/sh", "-c", sys.argv[1]])))' 
 next() { matches "$(cat next)" "$1"; }
 
 terminal "'$program' simulate crossing -o 'a scene'"
-check 'simulate: track comes next' next "$program track 'a scene/plots.csv' --config 'a scene/scenario.ini' -o 'a scene/tracks.csv'"
+check 'simulate: track comes next' next \
+    "$program track 'a scene/plots.csv' --config 'a scene/scenario.ini' -o 'a scene/tracks.csv'"
 terminal "$(cat next)"
 check 'typed, it works' exits 0
-check 'track: evaluate comes next' next "$program evaluate 'a scene/truth.csv' 'a scene/tracks.csv' --config 'a scene/scenario.ini'"
+check 'track: evaluate comes next' next \
+    "$program evaluate 'a scene/truth.csv' 'a scene/tracks.csv' --config 'a scene/scenario.ini'"
 terminal "$(cat next)"
 check 'typed, it works' exits 0
-check 'evaluate: a page comes next' next "$program plot tracks 'a scene/truth.csv' 'a scene/plots.csv' 'a scene/tracks.csv' -o 'a scene/tracks.html' --config 'a scene/scenario.ini'"
+check 'evaluate: a page comes next' next \
+    "$program plot tracks 'a scene/truth.csv' 'a scene/plots.csv' 'a scene/tracks.csv' "\
+"-o 'a scene/tracks.html' --config 'a scene/scenario.ini'"
 terminal "$(cat next)"
 check 'typed, it works' test "$status" -eq 0 -a -s 'a scene/tracks.html'
 check 'and that is the last' test ! -s next
@@ -31,9 +35,11 @@ check 'and that is the last' test ! -s next
 for scene in radar-and-bearings passive-two popup weave hard-turn; do
     terminal "'$program' simulate $scene -o $scene"
     terminal "$(cat next)"
-    check "$scene: a command that works, and finds its targets" grep -Eq ' [1-9][0-9]* tracks confirmed' stderr
+    check "$scene: a command that works, and finds its targets" grep -Eq \
+        ' [1-9][0-9]* tracks confirmed' stderr
     terminal "$(cat next)"
-    check "$scene: evaluated" bash -c '[ '"$status"' -eq 0 ] && grep -Eq "^targets_found +[1-9]" stderr'
+    check "$scene: evaluated" bash -c \
+        '[ '"$status"' -eq 0 ] && grep -Eq "^targets_found +[1-9]" stderr'
     terminal "$(cat next)"
     check "$scene: drawn" test "$status" -eq 0 -a -s $scene/tracks.html
 done
@@ -50,9 +56,11 @@ check 'and not where they are' bash -c '! grep -q "was not used" stderr'
 # Plots of one's own: no truth, other names.
 mkdir mine
 cut -d, -f1-6 popup/plots.csv | sed '1s/x_m/Ost/; 1s/y_m/Nord/' >"mine/it's.csv"
-terminal "'$program' track \"mine/it's.csv\" -o mine/tracks.csv --columns x_m=Ost,y_m=Nord --set pd=.8"
+terminal \
+    "'$program' track \"mine/it's.csv\" -o mine/tracks.csv --columns x_m=Ost,y_m=Nord --set pd=.8"
 check "without a truth: a page, with the settings" next \
-    "$program plot tracks 'mine/it'\\\\''s.csv' mine/tracks.csv -o mine/tracks.html --columns x_m=Ost,y_m=Nord --set pd=.8"
+    "$program plot tracks 'mine/it'\\\\''s.csv' mine/tracks.csv -o mine/tracks.html "\
+"--columns x_m=Ost,y_m=Nord --set pd=.8"
 terminal "$(cat next)"
 check 'typed, it works' test "$status" -eq 0 -a -s mine/tracks.html
 
@@ -75,7 +83,8 @@ terminal "$(cat next)"
 check 'typed, it works' exits 0
 
 run track popup/plots.csv -o popup/tracks.csv
-check 'nothing of it where standard error is no terminal' bash -c '! grep -q "next: \|not used" stderr'
+check 'nothing of it where standard error is no terminal' bash -c \
+    '! grep -q "next: \|not used" stderr'
 for args in "track popup/plots.csv" "track popup/plots.csv -o x.lcm" "simulate crossing"; do
     terminal "'$program' $args"
     check "no command comes next: $args" test ! -s next

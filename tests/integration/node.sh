@@ -40,7 +40,8 @@ def rows(path):
 a, b = rows(sys.argv[1]), rows(sys.argv[2])
 assert a and a.keys() == b.keys(), (sorted(a), sorted(b))
 words = ("track_id", "status", "hits", "misses", "sensor_id", "plot")
-numbers = [q + s for q, s in (("x", "_m"), ("y", "_m"), ("z", "_m"), ("vx", "_mps"), ("vy", "_mps"), ("vz", "_mps"),
+numbers = [q + s for q, s in (("x", "_m"), ("y", "_m"), ("z", "_m"),
+                              ("vx", "_mps"), ("vy", "_mps"), ("vz", "_mps"),
                               ("ax", "_mps2"), ("ay", "_mps2"), ("az", "_mps2"))]
 for t in a:
     assert len(a[t]) == len(b[t]), t
@@ -84,7 +85,8 @@ check 'SIGTERM as well' exits 0
 check 'the tracks are those of track' cmp tracks.csv one.csv
 check 'both nodes of a machine hear the sensor' cmp tracks.csv two.csv
 check 'last words' matches "$(tail -n 1 one.err)" \
-    '*Z rhotrack: 3? messages in, * out; 15 steps, * plots, * tracks confirmed; * us a step, * at most'
+    '*Z rhotrack: 3? messages in, * out; 15 steps, * plots, * tracks confirmed; '\
+'* us a step, * at most'
 run convert one.lcm logged.csv --kind tracks
 check 'the log holds the tracks' same_tracks tracks.csv logged.csv
 run convert one.lcm plots.csv --kind plots
@@ -92,7 +94,8 @@ check 'and the plots' test "$(wc -l <plots.csv)" -eq "$(grep -vc ',,,' scene/plo
 if [ -n "$logger" ]; then
     run convert stock.lcm stock.csv --kind tracks
     # It hears both nodes: each list twice.
-    awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "epoch") e = i } NR == 1 || !seen[$1, $2]++' stock.csv >once.csv
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "epoch") e = i }
+        NR == 1 || !seen[$1, $2]++' stock.csv >once.csv
     check 'lcm-logger has recorded the tracks' same_tracks tracks.csv once.csv
 fi
 
@@ -176,7 +179,8 @@ cp stdout paper.csv
 check 'plots and bearings start tracks' test "$(awk -F, 'NR > 1 { print $2, $17 == 9 }' paper.csv |
     sort -u | cut -d' ' -f2 | sort -u | wc -l)" = 2
 run publish plots.csv bearings.csv --speed 0 --lcm 'file://played-papers.lcm?mode=w'
-run node --lcm 'file://played-papers.lcm?speed=0' --print --config sharp/scenario.ini --pipeline paper
+run node --lcm 'file://played-papers.lcm?speed=0' --print --config sharp/scenario.ini \
+    --pipeline paper
 check 'the node starts the same from a log' writes_same_as paper.csv
 start papers --config sharp/scenario.ini --pipeline paper
 run publish plots.csv bearings.csv --speed 100
@@ -184,7 +188,8 @@ sleep 0.2
 stop INT "$node"
 check 'and live' cmp paper.csv papers.csv
 run track plots.csv --config sharp/scenario.ini --method iht --gate hough -o iht.csv
-check 'one method alone' test "$(awk -F, '$3 == "confirmed"' iht.csv | cut -d, -f2 | sort -u | wc -l)" -ge 1
+check 'one method alone' test \
+    "$(awk -F, '$3 == "confirmed"' iht.csv | cut -d, -f2 | sort -u | wc -l)" -ge 1
 run track plots.csv --method ihh
 check 'an unknown method' says 2 "rhotrack: --method 'ihh' is not one of kernel|ht|mht|iht|nht"
 run node --pipeline all --for 0.1

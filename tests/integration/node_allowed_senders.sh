@@ -19,8 +19,8 @@ data, at, count = open(sys.argv[2], "rb").read(), 0, 0
 while at < len(data):
     _, _, _, channel, size = struct.unpack_from(">IqqII", data, at)
     at += 28 + channel + size
-    out.sendto(b"LC02" + struct.pack(">I", count) + data[at - channel - size:at - size] + b"\0" + data[at - size:at],
-               (group, int(port)))
+    out.sendto(b"LC02" + struct.pack(">I", count) + data[at - channel - size:at - size] + b"\0"
+               + data[at - size:at], (group, int(port)))
     count += 1
     time.sleep(0.002)
 print(count)

@@ -62,7 +62,8 @@ mkdir kept
 touch kept/node-19690101T000000.000.lcm kept/nodes-19690101T000000.000Z.lcm kept/node.lcm.txt
 record --log kept/node.lcm --set log_file_s=60 --set log_files=2
 check 'two are kept, and other names with them' matches "$(cd kept && echo *)" \
-    'node-19690101T000000.000.lcm node-19700101T000700.000Z.lcm node-19700101T000800.000Z.lcm node.lcm node.lcm.txt nodes-19690101T000000.000Z.lcm'
+    'node-19690101T000000.000.lcm node-19700101T000700.000Z.lcm '\
+'node-19700101T000800.000Z.lcm node.lcm node.lcm.txt nodes-19690101T000000.000Z.lcm'
 
 # ---- the log of an earlier run ----
 cp times/node.lcm before.lcm
@@ -153,17 +154,19 @@ sleep 1.2
 touch followed
 wait "$reader"
 stop
-check "a reader that follows misses nothing ($(cat follow.out follow.err) events, $(find live -name \
-    'node-*' | wc -l) files put away)" test "$(cat follow.out)" -gt 500 -a "$(find live -name \
-    'node-*' | wc -l)" -gt 3
+check "a reader that follows misses nothing ($(cat follow.out follow.err) events, $(find live \
+    -name 'node-*' | wc -l) files put away)" test "$(cat follow.out)" -gt 500 -a \
+    "$(find live -name 'node-*' | wc -l)" -gt 3
 
 # ---- removed ----
 start
 rm live/node.lcm
 check 'a log that is removed begins anew' wait_until 4 test -s live/node.lcm
-check 'which is said' grep -q 'Z rhotrack: live/node.lcm: was removed; the log begins anew$' node.err
+check 'which is said' grep -q 'Z rhotrack: live/node.lcm: was removed; the log begins anew$' \
+    node.err
 rm -r live
-gone='live/node.lcm: No such file or directory; tracking goes on without the log; the next attempt is in 60 s'
+gone='live/node.lcm: No such file or directory; tracking goes on without the log; '
+gone+='the next attempt is in 60 s'
 check 'a folder that is gone is said' wait_until 4 grep -q "$gone" node.err
 play
 mkdir live
@@ -186,7 +189,8 @@ if [ "$(id -u)" -ne 0 ] || unshare -m sh -c 'mount -t tmpfs none locked' 2>/dev/
         --log locked/node.lcm --set log_file_mb=0.05; echo $? >code
         cp locked/node.lcm stays.lcm' "$program" 2>node.err
     check 'one that cannot be put away is said once' test "$(grep -c \
-        'locked/node.lcm: cannot be renamed, or an earlier file cannot be removed: Device or resource busy' \
+        'locked/node.lcm: cannot be renamed, or an earlier file cannot be removed: '\
+'Device or resource busy' \
         node.err)" -eq 1
     earlier=$(stat -c %s sizes/node.lcm)
     check 'the log of an earlier run stays in it' cmp -n "$earlier" sizes/node.lcm stays.lcm
@@ -206,7 +210,8 @@ if unshare -m sh -c 'mkdir -p disk && mount -t tmpfs -o size=64k none disk' 2>/d
         mount -o remount,size=8m disk
         kill -HUP $node; sleep 2.5; kill -TERM $node; wait $node
         cp disk/node.lcm filled.lcm' "$program" </dev/null
-    check 'a full disk is said' grep -q 'disk/node.lcm: No space left on device; tracking goes on' node.err
+    check 'a full disk is said' grep -q \
+        'disk/node.lcm: No space left on device; tracking goes on' node.err
     check 'and that the log goes on' grep -q 'disk/node.lcm: the log goes on$' node.err
     check 'all of its events are whole' python3 events.py filled.lcm
 else

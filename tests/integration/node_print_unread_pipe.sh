@@ -10,7 +10,10 @@
 "$program" simulate range-24ghz -o scene --set duration_s=30 >/dev/null
 mkfifo pipe
 # Holds the pipe open, as small as it gets, and never reads.
-python3 -c 'import fcntl, os, time; fcntl.fcntl(os.open("pipe", os.O_RDWR), 1031, 4096); open("held", "w"); time.sleep(120)' &
+python3 -c 'import fcntl, os, time
+fcntl.fcntl(os.open("pipe", os.O_RDWR), 1031, 4096)
+open("held", "w")
+time.sleep(120)' &
 holder=$!
 trap 'kill "$holder" 2>/dev/null; rm -rf "$folder"' EXIT
 wait_until 10 test -e held

@@ -42,7 +42,8 @@ twice() { # NAME FILE SPEED TRACKS OPTIONS...
     check "$name: the restart is told" test "$(grep -c \
         '^20[0-9T:.-]*Z rhotrack: sensor 1 starts again: a restart, or a recording played again$' \
         "$name.err")" = 1
-    check "$name: and nothing else" test "$(grep -Ec 'scans|bad|stale|double|suspect' "$name.err")" = 0
+    check "$name: and nothing else" test \
+        "$(grep -Ec 'scans|bad|stale|double|suspect' "$name.err")" = 0
 }
 "$program" simulate radar -o radar # seven scans, 10 s apart
 twice seven radar/plots.csv 50 3
@@ -100,7 +101,9 @@ first=$!
 sleep 0.5
 "$program" publish other/plots.csv --speed 10 2>/dev/null &
 second=$!
-named() { grep -Eq 'rhotrack: sensor 1 has two senders: [0-9.]+:[0-9]+ and [0-9.]+:[0-9]+; ' two.err; }
+named() {
+    grep -Eq 'rhotrack: sensor 1 has two senders: [0-9.]+:[0-9]+ and [0-9.]+:[0-9]+; ' two.err
+}
 check 'two senders are named within 2 s' wait_until 2 named
 wait "$first" "$second"
 stop
@@ -113,7 +116,9 @@ first=$!
 sleep 1
 "$program" publish radar/plots.csv --set sigma_m=11 2>/dev/null &
 second=$!
-told() { grep -q 'Z rhotrack: sensor 1 has another sender, .*: a restart, or two at once$' slow.err; }
+told() {
+    grep -q 'Z rhotrack: sensor 1 has another sender, .*: a restart, or two at once$' slow.err
+}
 check 'another sender of a slow radar is told within 2 s' wait_until 2 told
 kill "$first" "$second"
 stop
@@ -139,7 +144,8 @@ check 'a node that is alone does not name itself' bash -c '! grep -q "another no
 start rows --config rotating/scenario.ini
 run publish plots.csv --speed 40 --set scan_interval_s=0
 check 'publish says that scans have one plot' grep -q \
-    '^rhotrack: plots.csv: 1575 of 1576 scans have one plot each: set scan_interval_s if they are parts of one scan$' stderr
+    '^rhotrack: plots.csv: 1575 of 1576 scans have one plot each: '\
+'set scan_interval_s if they are parts of one scan$' stderr
 stop
 check 'and so does the node, once' test "$(grep -c \
     ' rhotrack: sensor 1: 19 of 20 scans have one plot each: ' rows.err)" = 1

@@ -54,9 +54,11 @@ for bad in notch_mps=-1 sensor.1.notch_mps=x blind_speed_mps=1e9; do
     check "$bad" says 2 "rhotrack: --set $bad: *"
 done
 run track light/plots.csv --set notch_mps=10 --set blind_speed_mps=20
-check 'blind speeds overlap' says 2 'rhotrack: blind_speed_mps 20 is not more than twice notch_mps 10'
+check 'blind speeds overlap' says 2 \
+    'rhotrack: blind_speed_mps 20 is not more than twice notch_mps 10'
 run track light/plots.csv --set sensor.1.notch_mps=10 --set sensor.1.blind_speed_mps=15
-check 'of a sensor' says 2 'rhotrack: sensor 1: blind_speed_mps 15 is not more than twice notch_mps 10'
+check 'of a sensor' says 2 \
+    'rhotrack: sensor 1: blind_speed_mps 15 is not more than twice notch_mps 10'
 run simulate notch --set radars.0.blind_speed_mps=20 -o none
 check 'of a scene' says 2 \
     'rhotrack: notch:*: radars?0?.blind_speed_mps: must be more than twice notch_mps'

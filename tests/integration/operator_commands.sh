@@ -76,7 +76,8 @@ check 'a key twice' says 2 'rhotrack: command: x_m is given twice'
 run command drop "$south"
 check 'drop is done' matches "$(cat stdout)" "done: track $south"
 sleep 1.5
-check 'a dropped track is gone, and no other starts in the area' test "$(rows_of open.csv "$south")" -eq 0
+check 'a dropped track is gone, and no other starts in the area' test \
+    "$(rows_of open.csv "$south")" -eq 0
 check 'the only track is the other one' test "$(tail -n 4 open.csv | cut -d, -f2 | sort -u)" = 40
 run command include x_m=0 y_m=-2000
 check 'include is done' exits 0
@@ -115,7 +116,8 @@ run command set range_max_m 150
 check 'and what a sensor forbids' matches "$(cat stderr)" \
     'rhotrack: refused: a sensor*own range_min_m or range_max_m forbids it'
 run command set sigma_range_m 20
-check 'noise is of plots to come' matches "$(cat stdout)" 'done: sigma_range_m 20, with the next plots*'
+check 'noise is of plots to come' matches "$(cat stdout)" \
+    'done: sigma_range_m 20, with the next plots*'
 run command set pd 0.8
 check 'pd of sensors' matches "$(cat stdout)" 'done: pd 0.8, with the next scan of each sensor*'
 
@@ -153,7 +155,8 @@ run command set pd 0.8 --for 1
 check 'nor to a setting' exits 1
 check 'the track goes on' test "$(newest shut.csv + 2)" = "$north"
 stop
-check 'the node counts it' grep -q 'commands not taken: the node runs without --commands: 2' shut.err
+check 'the node counts it' grep -q \
+    'commands not taken: the node runs without --commands: 2' shut.err
 
 # ---- bad usage ----
 refuse() { # what it says, arguments

@@ -65,7 +65,8 @@ check '... and says so' grep -qx "__version__ = \"$version\"" \
 check 'packages' go "$root/tools/packaging/write_source_packages.py" "$packages"
 check '... of this version' all_state "$packages" "$version"
 check 'made again, they are the same' eval 'mv "$packages" first && sleep 2 && go \
-    "$root/tools/packaging/write_source_packages.py" "$packages" && diff -r -x described first "$packages"'
+    "$root/tools/packaging/write_source_packages.py" "$packages" &&
+    diff -r -x described first "$packages"'
 refused() { # words of the message, options
     ! go "$root/tools/packaging/write_source_packages.py" "${@:2}" none && [ ! -e none ] \
         && grep -qF -e "$1" stderr

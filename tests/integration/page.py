@@ -38,7 +38,8 @@ class Browser:
         os.close(to_write)
         self.rest, self.last, self.session, self.faults = b"", 0, None, []
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
-        self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        self.session = self.call("Target.attachToTarget", targetId=target,
+                                 flatten=True)["sessionId"]
         self.call("Runtime.enable")
         self.call("Page.enable")
 
@@ -137,7 +138,8 @@ def functions(browser, path, num_plots, track):
 
     whole, last = picture(), browser.js("document.querySelector('#now').textContent")
     browser.click(*middle_of(browser, "#time"))
-    check("the slider moves the time", browser.js("document.querySelector('#now').textContent") != last)
+    check("the slider moves the time",
+          browser.js("document.querySelector('#now').textContent") != last)
     check("and the picture", picture() != whole and 0 < drawn() < num_plots, drawn())
     browser.js("document.querySelector('#window').value = 1;"
                "document.querySelector('#window').dispatchEvent(new Event('change'))")
@@ -148,7 +150,8 @@ def functions(browser, path, num_plots, track):
     at = browser.js("document.querySelector('#time').value")
     time.sleep(0.4)
     check("playback moves the slider", browser.js("document.querySelector('#time').value") > at or
-          browser.js("+document.querySelector('#time').value") == browser.js("+document.querySelector('#time').max"))
+          browser.js("+document.querySelector('#time').value") ==
+          browser.js("+document.querySelector('#time').max"))
 
     browser.open(path)
     browser.click(*middle_of(browser, "#show-none"))
@@ -163,7 +166,8 @@ def functions(browser, path, num_plots, track):
     check("the wheel zooms", zoomed != before, zoomed)
     x, y = middle_of(browser, "#map")
     drag(browser, x, y, 60)
-    check("a drag moves the map", browser.js("document.querySelector('#world').getAttribute('transform')") != zoomed)
+    check("a drag moves the map",
+          browser.js("document.querySelector('#world').getAttribute('transform')") != zoomed)
     check("nothing is loaded from elsewhere",
           browser.js("performance.getEntriesByType('resource').length") == 0)
 
@@ -175,7 +179,8 @@ def drag(browser, x, y, by):
     for k in range(1, 13):
         browser.js("window.moved = new Promise(done => addEventListener('pointermove', () => {"
                    "const start = performance.now(); requestAnimationFrame(() =>"
-                   "requestAnimationFrame(() => done(performance.now() - start)));}, {once: true, capture: true})); 0")
+                   "requestAnimationFrame(() => done(performance.now() - start)));}, "
+                   "{once: true, capture: true})); 0")
         browser.mouse("mouseMoved", x + by * k / 12, y, button="left", buttons=1)
         times.append(browser.js("window.moved"))
     browser.mouse("mouseReleased", x + by, y, button="left", clickCount=1)

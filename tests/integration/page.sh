@@ -12,7 +12,8 @@ run track in/plots.csv --config in/scenario.ini -o tracks.lcm
 # ---- files ----
 run plot errors in/truth.csv tracks.lcm -o x.html
 check 'no page of errors' says 2 \
-    'rhotrack: x.html: only plot scans and plot tracks make a page; plot errors makes NAME.svg or NAME.png'
+    'rhotrack: x.html: only plot scans and plot tracks make a page; '\
+'plot errors makes NAME.svg or NAME.png'
 run plot tracks in/plots.csv in/truth.csv tracks.lcm --config in/scenario.ini -o page.html
 check 'a page is written' exits 0
 check 'it needs nothing beside it' sh -c '! grep -Eq "<(script|link|img)[^>]*(src|href)=" page.html'
@@ -38,7 +39,8 @@ assert array("scan_first", "I")[-1] == len(rows)
 EOF
 check 'nothing is said of colours' test ! -s stderr
 run simulate overlapping-radars -o biased --set duration_s=60
-run track biased/plots.csv --config biased/scenario.ini -o biased.csv --set sensor.1.time_bias_s=0.25
+run track biased/plots.csv --config biased/scenario.ini -o biased.csv \
+    --set sensor.1.time_bias_s=0.25
 run plot tracks biased/plots.csv biased.csv --config biased/scenario.ini -o biased.html
 check 'tracks of other settings: it is said' says 0 \
     'rhotrack: *[0-9] of *[0-9] plots that the tracks took are in no scan of the files, and have *'
@@ -88,7 +90,8 @@ browse page functions page.html "$plots" 1
 browse '501 tracks' listed many.html 'The first 500 of 501 tracks; the others are on the map.'
 browse '3 tracks' listed page.html ''
 # a true 0 was once shown as a missing value
-printf 't_s,track_id,status,x_m,y_m,z_m,score_nat\n0,1,confirmed,0,0,%s,3\n1,1,confirmed,9,9,0,0\n' 5 >climb.csv
+printf 't_s,track_id,status,x_m,y_m,z_m,score_nat\n'\
+'0,1,confirmed,0,0,%s,3\n1,1,confirmed,9,9,0,0\n' 5 >climb.csv
 sed 's/,5,3$/,0,3/' climb.csv >flat.csv
 run plot tracks climb.csv -o climb.html
 browse 'score and height of 0' zeros climb.html 'height0 m' 'score0.0 nat'

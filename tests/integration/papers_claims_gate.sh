@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/gates/papers_claims_register.py finds the register of claims as it should be, and goes red for each kind of
-# fault, seeded in a copy. Runs beside others.
+# tools/gates/papers_claims_register.py finds the register of claims as it should be, and goes red
+# for each kind of fault, seeded in a copy. Runs beside others.
 here=$(realpath "$(dirname "$0")")
 # shellcheck source=tests/integration/checks.bash
 . "$here/checks.bash"
@@ -30,7 +30,8 @@ check 'a test that is not there is seen' seen "tables/$table" \
     's/without_single_crossings_nothing_is_removed/without_single_crossings/' \
     "\\[step 2.2\\]: no test without_single_crossings in tests/unit/bearings/test_ghost_matrix.c"
 check 'a test in Python that is not there is seen' seen "tables/$table" \
-    's/test_the_papers_method$/test_no_method/' 'no test test_no_method in tests/lab/test_passive.py'
+    's/test_the_papers_method$/test_no_method/' \
+    'no test test_no_method in tests/lab/test_passive.py'
 check 'a row that is left out is seen' seen "tables/$table" 's/^\[equation 2\]/[equation 20]/' \
     "$table: no row equation 2"
 check 'a key that is none is seen' seen "tables/$table" '0,/^says/s//sais/' 'no key sais'

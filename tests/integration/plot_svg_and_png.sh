@@ -32,12 +32,14 @@ PATH=$PWD/stub:$PATH run plot scans sector.csv -o sector.svg --set sensor.1.rang
     --set sensor.1.sector_from_rad=0 --set sensor.1.sector_to_rad=1
 rows_of_coverage() { sed -n '/^\$coverage <</,/^NaN/p' stub/script | grep '^[-0-9]'; }
 check 'the outline of a sector has 147 rows' test "$(rows_of_coverage | wc -l)" -eq 147
-check 'the radar is its first row and its last' test "$(rows_of_coverage | grep -nx '0 0' | tr '\n' ' ')" = '1:0 0 147:0 0 '
+check 'the radar is its first row and its last' test \
+    "$(rows_of_coverage | grep -nx '0 0' | tr '\n' ' ')" = '1:0 0 147:0 0 '
 
 # ---- endings ----
 for name in x.gif x.htm x; do
     run plot scans in/plots.csv -o $name
-    check "-o $name is refused" says 2 "rhotrack: $name: a picture is NAME.svg, NAME.png or (a page) NAME.html"
+    check "-o $name is refused" says 2 \
+        "rhotrack: $name: a picture is NAME.svg, NAME.png or (a page) NAME.html"
     check "-o $name: nothing is written" sh -c "! ls | grep -q '^$name'"
 done
 size_of() { # the 24 bytes at the begin of a PNG
@@ -77,7 +79,8 @@ awk 'BEGIN {
 run plot scans many.csv -o many.svg
 check 'a tenth of 200 000 plots is drawn, and said' grep -q '20000 of 200000 plots drawn' many.svg
 check 'and the picture is small' test "$(stat -c %s many.svg)" -lt 4000000
-check 'as many marks as it says' test "$(grep -c 'use .* transform=.* color=.rgb(' many.svg)" -eq 20000
+check 'as many marks as it says' test \
+    "$(grep -c 'use .* transform=.* color=.rgb(' many.svg)" -eq 20000
 run plot scans many.csv -o again.svg
 check 'the same ones each time' cmp many.svg again.svg
 

@@ -22,7 +22,8 @@ for seed in 2 3 4 5 6; do
         simulate "seed$seed-rate$rate" --seed "$seed" "${rates[@]}" --set targets.0.count=20
         check "seed $seed, range rate $rate: 20 targets, 20 tracks, none false or switched" \
             json "seed$seed-rate$rate/figures.json" \
-            '(o["targets_found"], o["tracks"], o["gospa_false"], o["switches"]) == (20, 20, 0, 0) and o["delay_scans"] < 3.5'
+            '((o["targets_found"], o["tracks"], o["gospa_false"], o["switches"]) ==
+                (20, 20, 0, 0) and o["delay_scans"] < 3.5)'
     done
 done
 head -n 1 seed2-rate0/plots.csv >header
@@ -108,7 +109,8 @@ make_plots() { # heights (0 or 1)
         function noise(size) { return size * (rand() + rand() + rand() - 1.5) }
         function plot(t, x, y, z,    ground) {
             ground = sqrt(x * x + y * y)
-            printf "%.6f,1,%.4f,%.9f", t, sqrt(ground ^ 2 + z ^ 2) + noise(20), atan2(y, x) + noise(0.002)
+            printf "%.6f,1,%.4f,%.9f", t, sqrt(ground ^ 2 + z ^ 2) + noise(20),
+                atan2(y, x) + noise(0.002)
             printf heights ? ",%.9f\n" : "\n", atan2(z, ground) + noise(0.002)
         }
         BEGIN {
@@ -174,9 +176,10 @@ near() { # reference, tolerance in m, x, y, seconds
         awk -F, -v tolerance="$2" -v x="$3" -v y="$4" -v on="$5" '
             function is_off(difference, most) { return difference > most || difference < -most }
             NR > 1 && (is_off($19 - $1 - on, 1e-6) || $20 != $2 || $21 != $3 || $36 != $18 ||
-                       is_off($22 - $4 - x - $7 * on, tolerance) || is_off($23 - $5 - y - $8 * on, tolerance) ||
-                       is_off($24 - $6, tolerance) ||
-                       is_off($25 - $7, tolerance / 5) || is_off($26 - $8, tolerance / 5)) { print; exit 1 }'
+                       is_off($22 - $4 - x - $7 * on, tolerance) ||
+                       is_off($23 - $5 - y - $8 * on, tolerance) ||
+                       is_off($24 - $6, tolerance) || is_off($25 - $7, tolerance / 5) ||
+                       is_off($26 - $8, tolerance / 5)) { print; exit 1 }'
 }
 # ... and not the reference's tracks as they are.
 moved() { near "$@" && ! near "$1" "$2" 0 0 0 >/dev/null; }
@@ -193,7 +196,8 @@ shift_plots() { # metres, radians, seconds
             $1 = sprintf("%.6f", $1 + time)
             $3 = sprintf("%.4f", $3 + range)
             $4 += azimuth
-            $4 = sprintf("%.9f", $4 > 3.14159265 ? $4 - 6.283185307 : $4 < -3.14159265 ? $4 + 6.283185307 : $4)
+            $4 = sprintf("%.9f",
+                $4 > 3.14159265 ? $4 - 6.283185307 : $4 < -3.14159265 ? $4 + 6.283185307 : $4)
         } { print }' OFS=, plots.csv
 }
 shift_plots 300 0 0 >range.csv
@@ -279,7 +283,8 @@ check 'columns of the place, a parameter of the height' writes_same_as raised.cs
 both_found() { # x, y of the sensor
     awk -F, -v x="$1" -v y="$2" '
         function is_near(row_x, row_y, vx, vy) {
-            return ($3 - x - row_x)^2 + ($4 - y - row_y)^2 < 150^2 && ($5 - vx)^2 + ($6 - vy)^2 < 5^2
+            return ($3 - x - row_x)^2 + ($4 - y - row_y)^2 < 150^2 &&
+                ($5 - vx)^2 + ($6 - vy)^2 < 5^2
         }
         NR > 1 {
             n++
@@ -332,8 +337,10 @@ check 'plot scans: a bias is taken off' cmp two.svg two_range.svg
 # turns.
 cat >found.py <<'PYTHON'
 import csv, math, sys
-found = [[float(row[name]) for name in ("t_s", "x_m", "y_m")] for row in csv.DictReader(open(sys.argv[1]))]
-truth = [[float(row[name]) for name in ("t_s", "x_m", "y_m")] for row in csv.DictReader(open(sys.argv[2]))]
+found = [[float(row[name]) for name in ("t_s", "x_m", "y_m")]
+         for row in csv.DictReader(open(sys.argv[1]))]
+truth = [[float(row[name]) for name in ("t_s", "x_m", "y_m")]
+         for row in csv.DictReader(open(sys.argv[2]))]
 for t, x, y in found:
     near = min(math.hypot(x - u, y - v) for at, u, v in truth if abs(at - t) < 1e-3)
     assert near < 300, (t, x, y, near)
@@ -371,7 +378,10 @@ check 'plot parameter-space: not through a pipe' exits 2
 run plot parameter-space seed2-rate0/plots.csv --config seed2-rate0/scenario.ini -o space.svg
 check 'plot parameter-space: turns whose plots have their own times' grep -qx \
     'rhotrack: the last 12 of 15 scans are used' stderr
-awk 'BEGIN { print "t_s,sensor_id,x_m,y_m"; for (k = 0; k < 20; k++) print k ",0," 50 * k "," 900 - 20 * k }' >one.csv
+awk 'BEGIN {
+    print "t_s,sensor_id,x_m,y_m"
+    for (k = 0; k < 20; k++) print k ",0," 50 * k "," 900 - 20 * k
+}' >one.csv
 cut -d, -f1,3,4 one.csv >bare.csv
 run plot parameter-space one.csv -o one.svg
 run plot parameter-space bare.csv -o bare.svg

@@ -15,7 +15,8 @@ finds() { # program: exit code of a build in the folder presets
     "./$1" >stdout || status=$?
     exits 0 && grep -q '^track 1, confirmed: ' stdout || { cat stdout; return 1; }
 }
-presets=$(sed -n 's/^    rho_settings_preset(&settings, RHO_PRESET_\(.*\));/\1/p' presets/*.c | sort)
+presets=$(sed -n 's/^    rho_settings_preset(&settings, RHO_PRESET_\(.*\));/\1/p' presets/*.c |
+    sort)
 check 'every preset has a program' diff <(echo "$presets") \
     <(sed -n 's/^    RHO_PRESET_\([A-Z_]*\)[, ].*/\1/p' "$root/include/rhotrack/settings.h" | sort)
 for file in presets/*.c; do

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Clients of a node's metrics, for prometheus_metrics.sh: prometheus_metrics.py PORT PROCESS WHAT...; prints ok or FAIL a
-check."""
+"""Clients of a node's metrics, for prometheus_metrics.sh: prometheus_metrics.py PORT PROCESS
+WHAT...; prints ok or FAIL a check."""
 import os
 import pathlib
 import re

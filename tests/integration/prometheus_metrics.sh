@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# node --metrics: the text that Prometheus reads, read by its own parser; all counters are there, and
-# agree with the last words; clients of any kind delay no track and leave nothing behind.
+# node --metrics: the text that Prometheus reads, read by its own parser; all counters are there,
+# and agree with the last words; clients of any kind delay no track and leave nothing behind.
 here=$(realpath "$(dirname "$0")")
 # shellcheck source=tests/integration/loopback.bash
 . "$here/loopback.bash"
@@ -15,8 +15,8 @@ fi
 
 # start OPTIONS...: a node with metrics; $node is its process.
 start() {
-    "$program" node --config scene/scenario.ini --config names.ini --metrics $port --set hold_ms=300 \
-        "$@" 2>node.err </dev/null &
+    "$program" node --config scene/scenario.ini --config names.ini --metrics $port \
+        --set hold_ms=300 "$@" 2>node.err </dev/null &
     node=$!
     listens() { python3 -c "import socket; socket.create_connection(('127.0.0.1', $port))"; }
     wait_until 5 listens
@@ -28,7 +28,8 @@ stop() {
 }
 # clients WHAT...: their checks count here.
 clients() {
-    "$python" "$here/prometheus_metrics.py" $port "$node" "$@" >said 2>&1 || echo "FAIL prometheus_metrics.py $*" >>said
+    "$python" "$here/prometheus_metrics.py" $port "$node" "$@" >said 2>&1 ||
+        echo "FAIL prometheus_metrics.py $*" >>said
     cat said
     passed=$((passed + $(grep -c '^ok' said)))
     failed=$((failed + $(grep -c '^FAIL' said)))
@@ -46,7 +47,10 @@ INI
 
 # ---- the text ----
 for python in python3 /usr/bin/python3 ''; do # Debian's has Debian's packages
-    [ -n "$python" ] || { echo 'skipped: prometheus_metrics.sh: no Python package prometheus_client'; finish; }
+    [ -n "$python" ] || {
+        echo 'skipped: prometheus_metrics.sh: no Python package prometheus_client'
+        finish
+    }
     ! "$python" -c 'import prometheus_client' 2>/dev/null || break
 done
 start
@@ -66,8 +70,8 @@ check 'ends well' exits 0
 # shellcheck source=/dev/null
 . ./counts
 check 'the last words have the same numbers' grep -Eq \
-    "rhotrack: $messages_in messages in, [0-9]+ out; $steps steps, $plots plots, $tracks_confirmed tracks confirmed" \
-    node.err
+    "rhotrack: $messages_in messages in, [0-9]+ out; $steps steps, $plots plots, "\
+"$tracks_confirmed tracks confirmed" node.err
 
 # ---- a limit that an operator changes ----
 start --commands
@@ -99,7 +103,9 @@ before=$(ticks)
 sleep 1.5
 check "it does not spin: $(($(ticks) - before)) ticks" test $(($(ticks) - before)) -lt 20
 wait "$clients"
-answers() { python3 -c "import urllib.request; urllib.request.urlopen('http://127.0.0.1:$port/metrics')"; }
+answers() {
+    python3 -c "import urllib.request; urllib.request.urlopen('http://127.0.0.1:$port/metrics')"
+}
 check 'and answers again' wait_until 5 answers
 stop
 

@@ -48,7 +48,8 @@ used() { # name, interpreter, package: in an environment of its own
 }
 check 'the source package is built and used' used source python3 "$build"/python/rhotrack-*.tar.gz
 seen=' '
-for python in /usr/bin/python3 python3.{9..14} "${PYENV_ROOT:-$HOME/.pyenv}"/versions/*/bin/python3; do
+for python in /usr/bin/python3 python3.{9..14} \
+    "${PYENV_ROOT:-$HOME/.pyenv}"/versions/*/bin/python3; do
     version=$("$python" -c 'import sys, ensurepip
 assert sys.version_info >= (3, 9)
 print("%d.%d" % sys.version_info[:2])' 2>/dev/null) || continue

@@ -24,14 +24,15 @@ check 'nobody told, the rail is learned' json stdout 'len(o["learned_reflectors"
                                 o["learned_reflectors"][0]["to_m"][1]))'
 check 'the summary says it' grep -q ', a wall is learned: ' stderr
 after() { # file: rows of confirmed tracks behind the rail, no car's, in the last 15 s
-    awk -F, '$1 > 26 && $3 == "confirmed" && $5 > 14.5 && !($5 > 20 && $5 < 22) {n++} END {print n + 0}' \
-        "$1"
+    awk -F, '$1 > 26 && $3 == "confirmed" && $5 > 14.5 && !($5 > 20 && $5 < 22) {n++}
+        END {print n + 0}' "$1"
 }
 check 'images have tracks' test "$(after silent.csv)" -gt 100
 check 'and none once the rail is learned' test "$(after learned.csv)" -le 3
 run convert rail/plots.csv rail.lcm --config silent.ini
 run node --lcm "file://$PWD/rail.lcm?speed=0" --config silent.ini --snapshot rail.snapshot
-check 'a node says so when it is learned' grep -q '^[0-9T:.-]*Z rhotrack: a wall is learned: ' stderr
+check 'a node says so when it is learned' grep -q \
+    '^[0-9T:.-]*Z rhotrack: a wall is learned: ' stderr
 run node --lcm "file://$PWD/rail.lcm?speed=0" --config silent.ini --snapshot rail.snapshot
 check 'and knows it after a restart' grep -q 'a wall is learned: ' stderr
 run track rail/plots.csv --config silent.ini --set 'reflectors=0 14 200 14' --json -o option.csv

@@ -18,7 +18,11 @@ check 'a fifth of the scans arrives 300 ms late, and none before it ends' awk -F
 check 'scenario.ini says how long to wait' grep -qx 'hold_ms = 300' late/scenario.ini
 check 'and nothing of the biases' bash -c '! grep -q bias late/scenario.ini'
 check 'the sectors of each radar are numbered from 1, each once' awk -F, '
-    NR > 1 && $3 == "" { if (seen[$2 "," $9]++) exit 1; count[$2]++; if ($9 + 0 > most[$2]) most[$2] = $9 + 0 }
+    NR > 1 && $3 == "" {
+        if (seen[$2 "," $9]++) exit 1
+        count[$2]++
+        if ($9 + 0 > most[$2]) most[$2] = $9 + 0
+    }
     END { for (s in count) if (count[s] != most[s] || count[s] < 1900) exit 1 }' late/plots.csv
 run simulate two-radars "${prompt[@]}" -o sectors
 check 'without late data there is no column received_s' bash -c \
@@ -28,9 +32,11 @@ run track turns/plots.csv --config turns/scenario.ini
 check 'whole turns are scans' grep -q 'rhotrack: 20[89] scans' stderr
 
 # ---- register ----
-good='len(o["radars"]) == 2 and all(abs(r["range_bias_m"] - s * 50) < 4 * r["range_bias_sigma_m"] < 20
+good='len(o["radars"]) == 2
+and all(abs(r["range_bias_m"] - s * 50) < 4 * r["range_bias_sigma_m"] < 20
 and abs(r["azimuth_bias_rad"] - s * 0.00174533) < 4 * r["azimuth_bias_sigma_rad"] < 0.0006
-for r, s in zip(o["radars"], (1, -1))) and abs(o["radars"][1]["time_bias_s"]) < 4 * o["radars"][1]["time_bias_sigma_s"]
+for r, s in zip(o["radars"], (1, -1)))
+and abs(o["radars"][1]["time_bias_s"]) < 4 * o["radars"][1]["time_bias_sigma_s"]
 and o["radars"][0]["time_bias_s"] == 0 and o["reference_sensor"] == 1 and o["targets"] >= 19'
 good=${good//$'\n'/ }
 for kind in sectors turns; do
@@ -64,7 +70,8 @@ run register behind/plots.csv --config behind/scenario.ini --config behind.ini -
 check 'and finds it again, in all, where it is told of it' json stdout "$off"
 run track behind/plots.csv --config behind/scenario.ini --config behind.ini --json -o right.csv
 check 'with it nothing is late but by what it is not known to' json stdout \
-    'o["counters"]["scans_retrodicted"] + o["counters"]["scans_late"] < 60 and o["fates"]["stale"] < 60'
+    '(o["counters"]["scans_retrodicted"] + o["counters"]["scans_late"] < 60 and
+    o["fates"]["stale"] < 60)'
 run evaluate behind/truth.csv right.csv
 check 'tracks are at other times than the truth then' says 2 \
     'rhotrack: right.csv:*: the truth has no time within 1 ms of this row *'
@@ -72,7 +79,8 @@ run evaluate behind/truth.csv right.csv --set time_tolerance_s=0.1 --json
 check 'within time_tolerance_s they are judged' json stdout \
     'o["completeness"] > 0.95 and o["tracks"] == 20 and o["rmse_m"] < 120'
 for kind in truth exact shifted; do
-    awk -v kind=$kind 'BEGIN { print kind == "truth" ? "t_s,target_id,x_m,y_m" : "t_s,track_id,x_m,y_m,vx_mps,vy_mps"
+    awk -v kind=$kind 'BEGIN {
+        print kind == "truth" ? "t_s,target_id,x_m,y_m" : "t_s,track_id,x_m,y_m,vx_mps,vy_mps"
         by = kind == "shifted" ? 0.02 : 0
         for (k = 0; k < 10; k++) {
             if (kind == "truth") { printf "%d,1,%d,0\n", k, 100 * k }
@@ -116,7 +124,8 @@ cp stdout raw.json
 run track turns/plots.csv --config turns/scenario.ini --config turns.ini -o right.csv
 run evaluate turns/truth.csv right.csv --set time_tolerance_s=0.1 --json
 check 'tracks are nearer to the truth with them' json stdout \
-    "o[\"rmse_m\"] < 0.9 * $(python3 -c 'import json; print(json.load(open("raw.json"))["rmse_m"])')"
+    "o[\"rmse_m\"] < 0.9 * $(python3 -c \
+        'import json; print(json.load(open("raw.json"))["rmse_m"])')"
 
 # ---- what it refuses ----
 run register first.csv --config sectors/scenario.ini
@@ -129,7 +138,8 @@ run simulate passive-two -o passive
 run register passive/bearings.csv
 check 'bearings' says 2 'rhotrack: register takes plots in range and azimuth, not bearings'
 run register sectors/plots.csv --config sectors/scenario.ini --set reference_sensor=7
-check 'a reference that is not there' says 2 'rhotrack: reference_sensor 7: the input has no plots of this radar'
+check 'a reference that is not there' says 2 \
+    'rhotrack: reference_sensor 7: the input has no plots of this radar'
 cut -d, -f1-4,7-9 sectors/plots.csv >placeless.csv
 run register placeless.csv
 check 'radars without places' says 2 'rhotrack: register: radars * and * have no known place; *'
@@ -159,7 +169,8 @@ check 'by another name' says 2 'rhotrack: register: link.csv is given twice, *'
 for ending in csv lcm ast geojson svg JSON; do
     run register sectors/plots.csv --config sectors/scenario.ini -o "none.$ending"
     check "an INI file by the name of $ending" says 2 \
-        "rhotrack: none.$ending: register writes an INI file, and .${ending,,} is the ending of another"
+        "rhotrack: none.$ending: register writes an INI file, and "\
+".${ending,,} is the ending of another"
     check "and no file: $ending" test ! -e "none.$ending"
 done
 finish

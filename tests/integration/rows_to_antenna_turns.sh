@@ -94,23 +94,28 @@ turns() { # NAME, file, how (a pattern of grep -E), least number of tracks
     check "$1: tracks of these" json stdout "$4 <= o['tracks_confirmed'] <= $4 + 3"
 }
 turns 'clockwise' clockwise.csv 'turns of (4|4.00.|3.99.) s by azimuth, clockwise' 12
-turns 'counter-clockwise' other_way.csv 'turns of (4|4.00.|3.99.) s by azimuth, counter-clockwise' 12
+turns 'counter-clockwise' other_way.csv \
+    'turns of (4|4.00.|3.99.) s by azimuth, counter-clockwise' 12
 turns 'a blind sector' blind_sector.csv 'turns of (4|4.00.|3.99.) s by azimuth, clockwise' 8
-turns 'azimuths of 2 degrees noise' jitter.csv 'turns of (4|4.0..?|3.99.) s by azimuth, clockwise' 12
+turns 'azimuths of 2 degrees noise' jitter.csv \
+    'turns of (4|4.0..?|3.99.) s by azimuth, clockwise' 12
 turns 'gusts of wind' gusts.csv 'turns of (4|4.0..?|3.9..?) s by azimuth, clockwise' 12
 turns 'three plots a turn' few.csv 'turns of (4|4.00.|3.99.) s by azimuth, clockwise' 3
 turns '200 plots a turn' dense.csv 'turns of (2.5|2.50.|2.49.) s by azimuth, clockwise' 12
-turns 'times in tenths of seconds' tenths.csv 'turns of (2.5|2.50.|2.49.) s by azimuth, clockwise' 12
+turns 'times in tenths of seconds' tenths.csv \
+    'turns of (2.5|2.50.|2.49.) s by azimuth, clockwise' 12
 turns 'times in whole seconds' seconds.csv 'turns of (4|4.00.|3.99.) s by azimuth, clockwise' 12
 turns 'a near radar' near.csv 'turns of 1.2[45].? s by azimuth, clockwise' 12
 turns 'the fastest' fastest.csv 'turns of (0.5|0.50..?|0.49..?) s by azimuth, clockwise' 12
 turns 'places, not ranges' places.csv 'turns of (4|4.00.|3.99.) s by azimuth, clockwise' 12
-turns 'all in one direction' one_direction.csv 'scans, [34].[0-9]* s apart, by the gaps between them' 8
+turns 'all in one direction' one_direction.csv \
+    'scans, [34].[0-9]* s apart, by the gaps between them' 8
 turns 'a staring radar' staring.csv 'scans, 0.5 s apart, by the gaps between them' 8
 
 run track two.csv -o tracks.csv --json
 check 'two radars in one file: both said' bash -c \
-    'grep -q "sensor 1: .* turns of 4.* s by" stderr && grep -q "sensor 2: .* turns of \(10\|10.0.\|9.99.\) s by" stderr'
+    'grep -q "sensor 1: .* turns of 4.* s by" stderr &&
+    grep -q "sensor 2: .* turns of \(10\|10.0.\|9.99.\) s by" stderr'
 check 'two radars in one file: 30 and 12 turns' json stdout '41 <= o["scans"] <= 45'
 check 'two radars in one file: tracks' json stdout '24 <= o["tracks_confirmed"] <= 27'
 run track heights.csv -o tracks.csv --json
@@ -131,13 +136,16 @@ run track clockwise.csv --set scan_interval_s=3.9 -o tracks.csv
 check 'scan_interval_s=3.9: as it says' bash -c '! grep -q "gathered into" stderr'
 run track elsewhere.csv -o tracks.csv
 check 'a radar whose place is not known: the options are named' grep -q \
-    '^rhotrack: elsewhere.csv: sensor 1: each row has its own time, 0.1[0-9]* s apart, and neither azimuths (seen from its place, sensor.1.x_m and y_m) nor gaps show .*: set scan_interval_s ' stderr
+    '^rhotrack: elsewhere.csv: sensor 1: each row has its own time, 0.1[0-9]* s apart, and '\
+'neither azimuths (seen from its place, sensor.1.x_m and y_m) nor gaps show .*: '\
+'set scan_interval_s ' stderr
 run track elsewhere.csv -o tracks.csv --json --set sensor.1.x_m=30000 --set sensor.1.y_m=20000
 check 'its place is an answer' json stdout '12 <= o["tracks_confirmed"] <= 15'
 run track elsewhere.csv -o tracks.csv --json --set scan_interval_s=3.9
 check 'and scan_interval_s is one' json stdout '10 <= o["tracks_confirmed"] <= 18'
 run track - -o tracks.csv
-check 'a pipe is not looked at twice' bash -c "'$program' track - -o tracks.csv <clockwise.csv 2>&1 |
+check 'a pipe is not looked at twice' bash -c \
+    "'$program' track - -o tracks.csv <clockwise.csv 2>&1 |
     grep -q 'no track: .* scan_interval_s with the time of a turn'"
 
 # What is no turn stays as it is: the same bytes as with each time a scan, and no word.
@@ -157,5 +165,6 @@ check 'and sectors' bash -c '! grep -q "gathered into" stderr'
 # A plot that goes back in time is refused in a turn as elsewhere.
 { head -n 300 clockwise.csv; sed -n 290p clockwise.csv; tail -n +301 clockwise.csv; } >back.csv
 run track back.csv
-check 'time that goes back within a turn' grep -q '^rhotrack: back.csv:301: time decreases from ' stderr
+check 'time that goes back within a turn' grep -q \
+    '^rhotrack: back.csv:301: time decreases from ' stderr
 finish

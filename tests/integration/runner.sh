@@ -47,7 +47,8 @@ tail -n 4 "$folder/output" | grep -q '^skipped in .*: no such tool$' || { echo \
 
 # Two that wait for one another pass beside one another alone.
 meet() { # own name, the other's
-    printf 'touch %s/met-%s\nfor _ in $(seq 30); do\n    [ -e %s/met-%s ] && exit 0\n    sleep 0.1\ndone\nexit 1\n' "$folder" "$1" "$folder" "$2"
+    printf 'touch %s/met-%s\nfor _ in $(seq 30); do\n    [ -e %s/met-%s ] && exit 0\n'\
+'    sleep 0.1\ndone\nexit 1\n' "$folder" "$1" "$folder" "$2"
 }
 if [ "$(nproc)" -gt 1 ]; then
     check one.sh "# Runs beside others.

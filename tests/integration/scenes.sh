@@ -17,7 +17,8 @@ refuse() { # name, pattern behind the file, text
 }
 refuse 'an empty file' '1: not valid JSON: it ends too early*' ''
 refuse 'a file that ends too early' '2: not valid JSON: it ends too early*' $'{"version": 1,\n'
-refuse 'no JSON' "3: not valid JSON near '*uration_s: 3}'" $'{"version": 1,\n"text": "",\nduration_s: 3}'
+refuse 'no JSON' "3: not valid JSON near '*uration_s: 3}'" \
+    $'{"version": 1,\n"text": "",\nduration_s: 3}'
 refuse 'a list' '1: a scene is a JSON object*' '[1]'
 refuse 'more text' '2: more text after the end of the scene' "$start}"$'\n}'
 refuse 'no version' '1: version is missing' '{}'
@@ -36,13 +37,15 @@ refuse 'a key twice' '1: version: occurs twice' "$start, \"version\": 1}"
 refuse 'two things that exclude each other' '1: radars?0?.interval_s: does not go with turn_s' \
     "${start%\}\]}, \"interval_s\": 3}]}"
 refuse 'a deep place' '4: targets?1?.legs?1?.for_s: -1 is outside 0 .. 1000000' \
-    "$start, \"targets\": ["$'\n{"count": 1, "range_m": 9, "speed_mps": 3},{"at_m": [1, 2], "velocity_mps": [1, 1],\n"legs": [{"for_s": 1},\n{"for_s": -1}]}]}'
+    "$start, \"targets\": ["$'\n{"count": 1, "range_m": 9, "speed_mps": 3},'\
+$'{"at_m": [1, 2], "velocity_mps": [1, 1],\n"legs": [{"for_s": 1},\n{"for_s": -1}]}]}'
 refuse 'a leg without an end' '1: targets?0?.legs?0?: has no end*' \
     "$start, \"targets\": [{\"at_m\": [1, 2], \"velocity_mps\": [1, 1], \"legs\": [{}]}]}"
 refuse 'a parent that is not there' '1: targets?0?.parent: targets?3? is not an earlier path' \
     "$start, \"targets\": [{\"parent\": 3, \"from_s\": 1}]}"
 refuse 'flights as a parent' '1: targets?1?.parent: targets?0? is not an earlier path' \
-    "$start, \"targets\": [{\"flights\": 2, \"box_m\": [-1e5, 1e5, -1e5, 1e5], \"least_s\": 20}, {\"parent\": 0, \"from_s\": 0}]}"
+    "$start, \"targets\": [{\"flights\": 2, \"box_m\": [-1e5, 1e5, -1e5, 1e5], \"least_s\": 20}, "\
+"{\"parent\": 0, \"from_s\": 0}]}"
 refuse 'a group without speed' '1: targets?0?: speed_mps is missing' \
     "$start, \"targets\": [{\"count\": 3, \"range_m\": 5}]}"
 refuse 'half a number of targets' '1: targets?0?.count: 2.5 is not a whole number' \
@@ -73,14 +76,17 @@ refuse 'clutter without velocities' \
 refuse 'heights of a radar that has none' '1: targets: heights are for radars with sigma_m' \
     "$start, \"targets\": [{\"at_m\": [1, 2, 3], \"velocity_mps\": [1, 1]}]}"
 refuse 'a pull beside a turn' '1: targets?0?.legs?0?.turn_degps: does not go with accel_mps2' \
-    "$plane, \"targets\": [{\"at_m\": [1, 2], \"velocity_mps\": [1, 1], \"legs\": [{\"for_s\": 1, \"accel_mps2\": [1, 2], \"turn_degps\": 3}]}]}"
+    "$plane, \"targets\": [{\"at_m\": [1, 2], \"velocity_mps\": [1, 1], "\
+"\"legs\": [{\"for_s\": 1, \"accel_mps2\": [1, 2], \"turn_degps\": 3}]}]}"
 refuse 'one point' '1: targets?0?.points: must be two or more*' \
     "$plane, \"targets\": [{\"points\": [[0, 1, 2]]}]}"
 refuse 'points that go back in time' '1: targets?0?.points: times must increase' \
     "$plane, \"targets\": [{\"points\": [[1, 1, 2], [1, 2, 3]]}]}"
 refuse 'points and legs' '1: targets?0?.legs: does not go with points' \
     "$plane, \"targets\": [{\"points\": [], \"legs\": []}]}"
-refuse 'too much' '1: 2.5e+07 scans *' "{\"version\": 1, \"duration_s\": 1e5, \"radars\": [{\"interval_s\": 0.004, \"sigma_range_m\": 30, \"sigma_azimuth_rad\": 0.003}]}"
+refuse 'too much' '1: 2.5e+07 scans *' \
+    "{\"version\": 1, \"duration_s\": 1e5, \"radars\": [{\"interval_s\": 0.004, "\
+"\"sigma_range_m\": 30, \"sigma_azimuth_rad\": 0.003}]}"
 refuse 'a goal that is none' "1: goal.completness: unknown key, did you mean 'completeness'?" \
     "$start, \"goal\": {\"completness\": 3}}"
 refuse 'flights without a box' '1: targets?0?: box_m is missing' \
@@ -89,17 +95,19 @@ refuse 'flights that last no time' '1: targets?0?: least_s is missing' \
     "$start, \"targets\": [{\"flights\": 3, \"box_m\": [0, 9, 0, 9]}]}"
 refuse 'flights and a count' '1: targets?0?.flights: does not go with count' \
     "$start, \"targets\": [{\"flights\": 3, \"count\": 3}]}"
+group="$start, \"targets\": [{\"count\": 1, \"range_m\": 5, \"speed_mps\": 3"
 refuse 'a disc of three numbers' '1: targets?0?.keep_discs_m?0?: *' \
-    "$start, \"targets\": [{\"count\": 1, \"range_m\": 5, \"speed_mps\": 3, \"keep_discs_m\": [[1, 2, 3]]}]}"
+    "$group, \"keep_discs_m\": [[1, 2, 3]]}]}"
 refuse 'a disc inside out' '1: targets?0?.keep_discs_m: must be ?x, y, from, to?' \
-    "$start, \"targets\": [{\"count\": 1, \"range_m\": 5, \"speed_mps\": 3, \"keep_discs_m\": [[1, 2, 4, 3]]}]}"
+    "$group, \"keep_discs_m\": [[1, 2, 4, 3]]}]}"
 refuse 'a share of no disc' '1: targets?0?.keep_all_share: needs keep_discs_m' \
-    "$start, \"targets\": [{\"count\": 1, \"range_m\": 5, \"speed_mps\": 3, \"keep_all_share\": 0.5}]}"
+    "$group, \"keep_all_share\": 0.5}]}"
 refuse 'a beginning the wrong way' '1: radars?0?.start_s: the first, 4, is above the second, 2' \
     "${start%\}\]}, \"start_s\": [4, 2]}]}"
 refuse 'range rates of two kinds' \
     '1: clutter?0?.range_rate_sigma_mps: does not go with range_rate_max_mps' \
-    "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots\": 5, \"range_rate_max_mps\": 5, \"range_rate_sigma_mps\": 1}]}"
+    "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots\": 5, "\
+"\"range_rate_max_mps\": 5, \"range_rate_sigma_mps\": 1}]}"
 for keep in '"keep_discs_m": [[0, 0, 60, 70]]' '"spacing_m": 200'; do
     printf '%s' "$start, \"targets\": [{\"count\": 2, \"range_m\": 50, \"speed_mps\": 0, $keep}]}" \
         >wrong.json
@@ -107,7 +115,8 @@ for keep in '"keep_discs_m": [[0, 0, 60, 70]]' '"spacing_m": 200'; do
     check "no room: $keep" says 2 \
         'rhotrack: wrong.json: targets?0?: none of 10000 random paths keeps *'
 done
-printf '%s' "$start, \"targets\": [{\"count\": 1, \"range_m\": 50, \"speed_mps\": 30, \"keep_range_m\": 60}]}" >wrong.json
+printf '%s' "$start, \"targets\": [{\"count\": 1, \"range_m\": 50, \"speed_mps\": 30, "\
+"\"keep_range_m\": 60}]}" >wrong.json
 run simulate wrong.json -o none
 check 'paths that cannot be' says 2 'rhotrack: wrong.json: targets?0?: none of 10000 random paths *'
 run simulate nowhere.json -o none
@@ -123,7 +132,8 @@ for set in radars '=3' 'radars[1].pd=3' 'radars[x]=3' 'radars.pd=3' 'radars[0.pd
     check "no place: $set" says 2 "rhotrack: --set *"
 done
 run simulate towers --set radar.0.pd=3 -o none
-check 'no place: the nearest' says 2 "rhotrack: --set radar.0.pd=3: the scene has no such key: 'radar', did you mean 'radars'?"
+check 'no place: the nearest' says 2 "rhotrack: --set radar.0.pd=3: the scene has no such key: "\
+"'radar', did you mean 'radars'?"
 run simulate towers --set radars.1.pd=3 -o none
 check 'no place: how many there are' says 2 \
     "rhotrack: --set radars.1.pd=3: the scene has no such element: '1' of a list of 1"
@@ -134,7 +144,8 @@ check 'an unknown key by --set' says 2 "rhotrack: towers:*: radars?0?.range: unk
 run simulate towers --set 'clutter[2]={"kind": "uniform", "plots": 3}' --set settings.gate=nearest \
     --set duration_s=40 \
     --set 'radars.0.told={"pd": 0.5}' -o changed
-check '--set' bash -c 'grep -qx "gate = nearest" changed/scenario.ini && grep -qx "pd = 0.5" changed/scenario.ini && ! grep -q ^44 changed/plots.csv'
+check '--set' bash -c 'grep -qx "gate = nearest" changed/scenario.ini &&
+    grep -qx "pd = 0.5" changed/scenario.ini && ! grep -q ^44 changed/plots.csv'
 
 # ---- seeds and bytes ----
 cat >all.json <<'END'
@@ -142,29 +153,36 @@ cat >all.json <<'END'
   "version": 1, "text": "a bit of everything", "duration_s": 120,
   "settings": {"v_min_mps": 20, "v_max_mps": 400, "accel_max_mps2": 30, "gate": "best"},
   "radars": [
-    {"turn_s": 4, "range_m": [1000, 80000], "sigma_range_m": 30, "sigma_azimuth_rad": 0.003, "sigma_range_rate_mps": 1,
-     "range_rate_span_mps": 100, "pd": [[20000, 0.95], [80000, 0.6]], "resolution_m": 200, "resolution_rad": 0.01,
-     "told": {"pd": 0.8, "sigma_range_m": 60}},
-    {"sensor_id": 7, "at_m": [40000, 5000], "turn_s": 5, "sectors": 8, "start_s": 1.3, "is_counter_clockwise": true,
-     "sigma_range_m": 50, "sigma_azimuth_rad": 0.002, "azimuth_bias_rad": 0.001, "time_bias_s": 0.1}
+    {"turn_s": 4, "range_m": [1000, 80000], "sigma_range_m": 30, "sigma_azimuth_rad": 0.003,
+     "sigma_range_rate_mps": 1, "range_rate_span_mps": 100, "pd": [[20000, 0.95], [80000, 0.6]],
+     "resolution_m": 200, "resolution_rad": 0.01, "told": {"pd": 0.8, "sigma_range_m": 60}},
+    {"sensor_id": 7, "at_m": [40000, 5000], "turn_s": 5, "sectors": 8, "start_s": 1.3,
+     "is_counter_clockwise": true, "sigma_range_m": 50, "sigma_azimuth_rad": 0.002,
+     "azimuth_bias_rad": 0.001, "time_bias_s": 0.1}
   ],
   "passive": [
     {"sensor_id": 8, "at_m": [0, -20000], "interval_s": 2, "sigma_rad": 0.002, "false_bearings": 1}
   ],
   "targets": [
-    {"at_m": [20000, 10000], "velocity_mps": [-200, 30], "legs": [{"for_s": 20}, {"turn_deg": 60, "across_mps2": 10}]},
+    {"at_m": [20000, 10000], "velocity_mps": [-200, 30],
+     "legs": [{"for_s": 20}, {"turn_deg": 60, "across_mps2": 10}]},
     {"parent": 0, "from_s": 30, "speed_change_mps": 50},
-    {"count": 6, "range_m": [5000, 60000], "speed_mps": [50, 300], "life_s": [40, 80], "is_replaced": true,
-     "turns": {"every_s": [10, 30], "across_mps2": [5, 20]}, "speed_changes": {"every_s": 20, "along_mps2": 3},
+    {"count": 6, "range_m": [5000, 60000], "speed_mps": [50, 300], "life_s": [40, 80],
+     "is_replaced": true, "turns": {"every_s": [10, 30], "across_mps2": [5, 20]},
+     "speed_changes": {"every_s": 20, "along_mps2": 3},
      "stops": {"every_s": 50, "for_s": 5, "along_mps2": 10}}
   ],
   "clutter": [
     {"kind": "uniform", "plots": 20},
-    {"kind": "cell", "plots": 20, "at_m": [-20000, 0], "radius_m": 3000, "velocity_mps": [10, 3], "range_rate_sigma_mps": 2},
+    {"kind": "cell", "plots": 20, "at_m": [-20000, 0], "radius_m": 3000, "velocity_mps": [10, 3],
+     "range_rate_sigma_mps": 2},
     {"kind": "standing", "count": 10, "pd": 0.5},
-    {"kind": "spikes", "born_per_s": 0.5, "life_s": [5, 20], "pd": 0.8, "box_m": [-9000, 9000, 5000, 20000]},
-    {"kind": "strobe", "plots": 20, "azimuth_rad": 2, "width_rad": 0.05, "azimuth_radps": 0.001, "sensors": [1]},
-    {"kind": "flock", "count": 10, "at_m": [9000, -9000], "radius_m": 2000, "velocity_mps": [5, 5], "speed_mps": 3, "pd": 0.6},
+    {"kind": "spikes", "born_per_s": 0.5, "life_s": [5, 20], "pd": 0.8,
+     "box_m": [-9000, 9000, 5000, 20000]},
+    {"kind": "strobe", "plots": 20, "azimuth_rad": 2, "width_rad": 0.05, "azimuth_radps": 0.001,
+     "sensors": [1]},
+    {"kind": "flock", "count": 10, "at_m": [9000, -9000], "radius_m": 2000, "velocity_mps": [5, 5],
+     "speed_mps": 3, "pd": 0.6},
     {"kind": "second-time-around", "unambiguous_range_m": 80000, "pd": 0.6,
      "targets": [{"count": 3, "range_m": [90000, 140000], "speed_mps": 200}]}
   ],
@@ -193,7 +211,8 @@ check 'runs: the second' bash -c '! cmp -s all/plots.csv runs/run-0001/plots.csv
 
 # ---- files ----
 check 'columns of plots' matches "$(head -n 1 all/plots.csv)" \
-    't_s,sensor_id,range_m,azimuth_rad,range_rate_mps,sensor_x_m,sensor_y_m,sector_from_rad,sector_to_rad,scan,received_s,target_id'
+    't_s,sensor_id,range_m,azimuth_rad,range_rate_mps,sensor_x_m,sensor_y_m,'\
+'sector_from_rad,sector_to_rad,scan,received_s,target_id'
 check 'columns of bearings' matches "$(head -n 1 all/bearings.csv)" \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,scan,received_s,target_id'
 check 'columns of the truth' matches "$(head -n 1 all/truth.csv)" \
@@ -201,7 +220,10 @@ check 'columns of the truth' matches "$(head -n 1 all/truth.csv)" \
 check 'columns of the paths' matches "$(head -n 1 all/paths.csv)" \
     't_s,target_id,x_m,y_m,vx_mps,vy_mps,is_covered'
 check 'what a tracker is told' matches "$(sed 's/#.*//' all/scenario.ini | tr '\n' ';')" \
-    ';v_min_mps = 20;v_max_mps = 400;accel_max_mps2 = 30;gate = best;;\[sensor 1\];x_m = 0.000;y_m = 0.000;pd = 0.8;sigma_range_m = 60;sigma_azimuth_rad = 0.003;sigma_range_rate_mps = 1;range_rate_span_mps = 100;range_min_m = 1000;range_max_m = 80000;;\[sensor 7\];x_m = 40000.000;*'
+    ';v_min_mps = 20;v_max_mps = 400;accel_max_mps2 = 30;gate = best;;'\
+'\[sensor 1\];x_m = 0.000;y_m = 0.000;pd = 0.8;sigma_range_m = 60;sigma_azimuth_rad = 0.003;'\
+'sigma_range_rate_mps = 1;range_rate_span_mps = 100;range_min_m = 1000;range_max_m = 80000;;'\
+'\[sensor 7\];x_m = 40000.000;*'
 check 'truth: the paths that are covered' bash -c \
     "diff <(grep ',1\$' all/paths.csv | sed 's/,1\$//') <(tail -n +2 all/truth.csv)"
 run config --config all/scenario.ini

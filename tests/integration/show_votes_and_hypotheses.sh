@@ -39,7 +39,8 @@ def same(a, b):
         if isinstance(value, (list, tuple)):
             return [plain(one) for one in value]
         if hasattr(value, "__slots__"):
-            return {name: plain(getattr(value, name)) for name in value.__slots__ if name != "epoch"}
+            return {name: plain(getattr(value, name)) for name in value.__slots__
+                    if name != "epoch"}
         return value
     return all(plain(a[name]) == plain(b[name]) for name in TYPES if name != "RHO_TRACKS")
 
@@ -62,11 +63,14 @@ check 'plots: accumulators of four scans' shown plots.lcm \
 check 'a plane in four parts each' shown plots.lcm \
     'len(planes) == 4 * len(votes) and max(max(r.votes) for p in planes for r in p.rows) == 127'
 check 'the lines that start tracks are named' shown plots.lcm \
-    '{x.track_id for v in votes for x in v.cells} - {0} == {t.track_id for l in c["RHO_TRACKS"] for t in l.tracks}'
+    '{x.track_id for v in votes for x in v.cells} - {0} == {t.track_id
+    for l in c["RHO_TRACKS"] for t in l.tracks}'
 check 'tracks start by truth, indeterminacy and falsity' shown plots.lcm \
     'any(h.evidence == 2 and h.support > 0.2 for h in hypotheses)'
 check 'and have evidence of their plots' shown plots.lcm \
-    'any(h.evidence == 1 for h in hypotheses) and all(h.evidence == 0 or abs(h.support + h.shared + h.clutter - 1) < 1e-4 for h in hypotheses)'
+    '(any(h.evidence == 1 for h in hypotheses)
+    and all(h.evidence == 0 or abs(h.support + h.shared + h.clutter - 1) < 1e-4
+    for h in hypotheses))'
 check 'no bearings, no ghosts' shown plots.lcm 'not ghosts'
 for log in plain plots; do
     run convert "$log.lcm" "$log.csv" --kind tracks
@@ -79,24 +83,30 @@ check 'and can be drawn' exits 0
 run track passive/bearings.csv --config passive/scenario.ini --pipeline paper --show "$all" \
     -o bearings.lcm
 check 'bearings: a ghost matrix of each pair and frame' shown bearings.lcm \
-    'len(ghosts) == 3 * 8 and {(g.sensor_a_id, g.sensor_b_id) for g in ghosts} == {(1, 2), (1, 3), (2, 3)}'
+    '(len(ghosts) == 3 * 8
+    and {(g.sensor_a_id, g.sensor_b_id) for g in ghosts} == {(1, 2), (1, 3), (2, 3)})'
 check 'ghosts say what they were pruned for' shown bearings.lcm \
-    'len({e.reason for g in ghosts for e in g.elements}) > 2 and all(e.delta_rad > 0 for g in ghosts for e in g.elements if e.reason == 0)'
+    '(len({e.reason for g in ghosts for e in g.elements}) > 2
+    and all(e.delta_rad > 0 for g in ghosts for e in g.elements if e.reason == 0))'
 check 'accumulators of all pairs, and of each' shown bearings.lcm \
-    '[v.has_pair for v in votes] == [0, 1, 1, 1] and votes[0].method == 5 and votes[0].num_cells > 0'
+    '([v.has_pair for v in votes] == [0, 1, 1, 1] and votes[0].method == 5
+    and votes[0].num_cells > 0)'
 
 run track sharp/plots.csv --config sharp/scenario.ini --show hypotheses -o default.lcm
 check 'the default method shows its hypotheses alone' shown default.lcm \
-    'len(hypotheses) > 10 and not votes and not planes and any(h.num_hypotheses > 1 for h in hypotheses)'
+    '(len(hypotheses) > 10 and not votes and not planes
+    and any(h.num_hypotheses > 1 for h in hypotheses))'
 check 'whose models and shares add up to 1' shown default.lcm \
-    'all(abs(h.calm + h.steady + h.maneuver - 1) < 1e-4 and abs(sum(x.share for x in h.hypotheses) - 1) < 1e-4 for h in hypotheses)'
+    'all(abs(h.calm + h.steady + h.maneuver - 1) < 1e-4
+    and abs(sum(x.share for x in h.hypotheses) - 1) < 1e-4 for h in hypotheses)'
 
 # 12 planes a second are too many: what is left out is counted and told.
 awk -F, -v OFS=, 'NR > 1 { $1 /= 400 } { print }' sharp/plots.csv >fast.csv
 run track fast.csv --method ht --set v_max_mps=20000 --show votes -o fast.lcm
 check 'a rate is kept' shown fast.lcm \
     '50 <= len(votes) + len(planes) < 70 and votes[-1].not_sent >= 0'
-check 'and what is left out is said' matches "$(cat stderr)" '*messages of --show beyond its rate: *'
+check 'and what is left out is said' matches "$(cat stderr)" \
+    '*messages of --show beyond its rate: *'
 
 # ---- the node: a log, and live ----
 run publish sharp/plots.csv passive/bearings.csv --speed 0 --lcm 'file://played.lcm?mode=w'
@@ -139,10 +149,12 @@ run track sharp/plots.csv --show votes, --method iht -o x.lcm
 check 'an empty word' says 2 "rhotrack: --show: '' is not ghosts, votes or hypotheses"
 run track sharp/plots.csv --show votes -o x.lcm
 check 'votes of the default methods' says 2 \
-    'rhotrack: --show votes: the methods kernel and passive have no accumulator; ht, mht, iht, nht and passive-paper have one (--method)'
+    'rhotrack: --show votes: the methods kernel and passive have no accumulator; '\
+'ht, mht, iht, nht and passive-paper have one (--method)'
 run node --show ghosts --method iht --for 0.1
 check 'ghosts of others than passive-paper' says 2 \
-    'rhotrack: --show ghosts: of the methods only passive-paper has a ghost matrix (--method passive-paper or --pipeline paper)'
+    'rhotrack: --show ghosts: of the methods only passive-paper has a ghost matrix '\
+'(--method passive-paper or --pipeline paper)'
 run track sharp/plots.csv --show hypotheses -o x.csv
 check 'messages in CSV' says 2 'rhotrack: --show writes messages: it needs -o NAME.lcm'
 run track sharp/plots.csv --show hypotheses

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/gates/library_size.sh finds tools/lab/MEASUREMENTS.md true and holds its bars as the sources are. It
-# goes red where the page says something else, where code has grown, and where an object is too
-# large or does not compile.
+# tools/gates/library_size.sh finds tools/lab/MEASUREMENTS.md true and holds its bars as the sources
+# are. It goes red where the page says something else, where code has grown, and where an object is
+# too large or does not compile.
 set -eu
 cd "$(dirname "$0")/../.."
 common=$(realpath -m "${BUILD:-build}")
@@ -20,7 +20,10 @@ must_fail() { # what, the message expected, command...
         echo "library_size.sh did not see: $what"
         exit 1
     fi
-    grep -q -- "$message" <<<"$output" || { echo "library_size.sh saw $what, but said: $output"; exit 1; }
+    grep -q -- "$message" <<<"$output" || {
+        echo "library_size.sh saw $what, but said: $output"
+        exit 1
+    }
     faults=$((faults + 1))
 }
 
@@ -61,8 +64,10 @@ if ! grep -q '^skipped' "$copy/sizes"; then
         >>"$copy/src/base/angle.c"
     must_fail 'code that has grown' '^+| base and measurement ' "$copy/tools/gates/library_size.sh"
     "$copy/tools/gates/library_size.sh" --update
-    "$copy/tools/gates/library_size.sh" >/dev/null || { echo 'library_size.sh --update did not write what is'; \
-        exit 1; }
+    "$copy/tools/gates/library_size.sh" >/dev/null || {
+        echo 'library_size.sh --update did not write what is'
+        exit 1
+    }
     cp src/base/angle.c "$copy/src/base"
 
     sed -i '/^float rho_angle_wrap/,/^{/ s/^{$/{\n    volatile char room[512];\n    room[0] = 0;/' \

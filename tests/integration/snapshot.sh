@@ -31,7 +31,8 @@ check 'and leaves one' test -s state
 cp state kept
 node second.lcm --snapshot state
 cp stdout after.csv
-check 'the second says that it goes on' grep -q '^rhotrack: state: tracks continue from the snapshot$' stderr
+check 'the second says that it goes on' grep -q \
+    '^rhotrack: state: tracks continue from the snapshot$' stderr
 check 'and ends well' test "$status" -eq 0
 check 'before and after are the whole, byte for byte' sh -c \
     'tail -n +2 after.csv | cat before.csv - | cmp - all.csv'
@@ -46,7 +47,8 @@ anew() { # what is said
     check "$1: begins anew" grep -q "^rhotrack: state: $1; tracks begin anew\$" stderr
     check "$1: ends well" test "$status" -eq 0
     node second.lcm --snapshot state
-    check "$1: the next one goes on" grep -q '^rhotrack: state: tracks continue from the snapshot$' stderr
+    check "$1: the next one goes on" grep -q \
+        '^rhotrack: state: tracks continue from the snapshot$' stderr
 }
 cp kept state
 printf '\377' | dd of=state bs=1 seek=70000 conv=notrunc 2>dd.err

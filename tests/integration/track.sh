@@ -11,8 +11,10 @@ awk 'BEGIN {
     srand(7)
     print "t_s,sensor_id,x_m,y_m"
     for (k = 0; k < 12; k++) {
-        printf "%.1f,1,%.2f,%.2f\n", 10 * k, -9000 + 2000 * k + 20 * (rand() - .5), 500 * k + 20 * (rand() - .5)
-        printf "%.1f,1,%.2f,%.2f\n", 10 * k, 30000 - 1500 * k + 20 * (rand() - .5), 1000 * k + 20 * (rand() - .5)
+        printf "%.1f,1,%.2f,%.2f\n", 10 * k, -9000 + 2000 * k + 20 * (rand() - .5),
+            500 * k + 20 * (rand() - .5)
+        printf "%.1f,1,%.2f,%.2f\n", 10 * k, 30000 - 1500 * k + 20 * (rand() - .5),
+            1000 * k + 20 * (rand() - .5)
     } }' >plots.csv
 
 run track plots.csv
@@ -20,20 +22,25 @@ cp stdout tracks.csv
 cp stderr summary
 check 'tracks on standard output' exits 0
 check 'columns of the tracks' matches "$(head -n 1 tracks.csv)" \
-    't_s,track_id,status,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,sigma_m,sigma_mps,hits,misses,sensor_id,plot'
+    't_s,track_id,status,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,'\
+'sigma_m,sigma_mps,hits,misses,sensor_id,plot'
 check 'one line of summary' matches "$(cat summary)" \
-    'rhotrack: 12 scans, 24 plots, 2 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room; * us a scan, * at most'
+    'rhotrack: 12 scans, 24 plots, 2 tracks confirmed; '\
+'lost: 0 invalid, 0 stale, 0 no room; * us a scan, * at most'
 
 # Column numbers: 1 t_s, 2 track_id, 3 status, 4 x, 5 y, 6 z, 7 vx, 8 vy, 13 sigma_m, 15 hits, 16
 # misses, 18 plot.
 last_scan_is_true() {
     awk -F, '$1 == "110.000000" && $3 == "confirmed" {
             n++
-            if (($7 - 200)^2 + ($8 - 50)^2 < 25 && ($4 - 13000)^2 + ($5 - 5500)^2 < 900 && $18 == 0) a++
-            if (($7 + 150)^2 + ($8 - 100)^2 < 25 && ($4 - 13500)^2 + ($5 - 11000)^2 < 900 && $18 == 1) b++
+            if (($7 - 200)^2 + ($8 - 50)^2 < 25 &&
+                ($4 - 13000)^2 + ($5 - 5500)^2 < 900 && $18 == 0) a++
+            if (($7 + 150)^2 + ($8 - 100)^2 < 25 &&
+                ($4 - 13500)^2 + ($5 - 11000)^2 < 900 && $18 == 1) b++
         } END { exit !(n == 2 && a == 1 && b == 1) }' tracks.csv
 }
-check 'both targets are confirmed, in place, at their velocities, with their plots' last_scan_is_true
+check 'both targets are confirmed, in place, at their velocities, with their plots' \
+    last_scan_is_true
 check 'unmeasured axes are 0' awk -F, 'NR > 1 && ($6 || $9 || $12) { exit 1 }' tracks.csv
 check 'targets that fly straight pull next to nothing' \
     awk -F, 'NR > 1 && ($10 ^ 2 > 4 || $11 ^ 2 > 4) { exit 1 }' tracks.csv
@@ -53,7 +60,8 @@ awk '{ print "# comment " NR; print; print "" }' plots.csv >form.csv
 same 'comments and blank lines' form.csv
 awk -F, '{ print $4 "," $2 "," $1 "," $3 }' plots.csv >form.csv
 same 'another order of columns' form.csv
-awk -F, '{ print (NR == 1 ? "note,more" : "\"quoted, with a comma\nand a line end\",x") "," $0 }' plots.csv >form.csv
+awk -F, '{ print (NR == 1 ? "note,more" : "\"quoted, with a comma\nand a line end\",x") "," $0 }' \
+    plots.csv >form.csv
 same 'extra columns, quoted' form.csv
 awk -F, 'NR > 1 { $3 = "\"" $3 "\""; $4 = " " $4 " " } { print }' OFS=, plots.csv >form.csv
 same 'quoted numbers and spaces' form.csv
@@ -126,14 +134,18 @@ run track plots.csv --json
 cp stdout results.json
 check 'json: one object' is_json results.json
 check 'json: what it must hold' json results.json \
-    '(o["scans"], o["plots"], o["tracks_confirmed"]) == (12, 24, 2) and o["max_us"] >= o["mean_us"] > 0'
+    '((o["scans"], o["plots"], o["tracks_confirmed"]) == (12, 24, 2)
+    and o["max_us"] >= o["mean_us"] > 0)'
 check 'json: state' json results.json 'o["state_bytes"] > 1000000'
 check 'json: fates add up' json results.json \
-    'sorted(o["fates"]) == ["claimed", "ghost", "held", "invalid", "no_room", "stale"] and sum(o["fates"].values()) == 24'
+    '(sorted(o["fates"]) == ["claimed", "ghost", "held", "invalid", "no_room", "stale"]
+    and sum(o["fates"].values()) == 24)'
 check 'json: the work for new tracks' json results.json \
-    'o["work_worst"] >= o["work"] and o["work_worst"] > 0 and (o["partial_steps"], o["plots_not_tried"]) == (0, 0)'
+    '(o["work_worst"] >= o["work"] and o["work_worst"] > 0
+    and (o["partial_steps"], o["plots_not_tried"]) == (0, 0))'
 run track plots.csv --json --set work_max=1
-check 'a limit on it leaves plots out, and says so' json stdout 'o["partial_steps"] > 0 and o["plots_not_tried"] > 0'
+check 'a limit on it leaves plots out, and says so' json stdout \
+    'o["partial_steps"] > 0 and o["plots_not_tried"] > 0'
 check '... in the summary' grep -q 'work_max left out plots, [0-9]* times' stderr
 run track plots.csv --json -o out.csv
 check 'json with -o: tracks in the file' cmp tracks.csv out.csv
@@ -143,7 +155,8 @@ run track plots.csv --covariance
 cut -d, -f1-18 stdout >first_columns.csv
 check 'covariance: the other columns are the same' cmp tracks.csv first_columns.csv
 check 'covariance: 21 columns more' awk -F, 'NF != 39 { exit 1 }' stdout
-check 'covariance: their names' matches "$(head -n 1 stdout)" '*,plot,cov_x_x,cov_y_x,cov_y_y,*,cov_vz_vz'
+check 'covariance: their names' matches "$(head -n 1 stdout)" \
+    '*,plot,cov_x_x,cov_y_x,cov_y_y,*,cov_vz_vz'
 check 'covariance: its diagonal gives sigma_m' awk -F, 'NR > 1 {
     s = sqrt(($19 + $21) / 2) - $13; if (s * s > 1e-6 * $13 * $13) exit 1 }' stdout
 
@@ -194,7 +207,8 @@ awk 'function error() { return 10 * (rand() + rand() + rand() + rand() - 2) * sq
         for (k = 0; k < 40; k++) {
             t = 2 * k; px = -4000; py = -4000 + 150 * t
             a = k < 12 ? 0 : 20
-            printf "%d,1,%.3f,%.3f,%.3f,%.3f\n", t, x, y, -a * sin(heading), a * cos(heading) >"truth.csv"
+            printf "%d,1,%.3f,%.3f,%.3f,%.3f\n", t, x, y, -a * sin(heading),
+                a * cos(heading) >"truth.csv"
             printf "%d,2,%.3f,%.3f,0,0\n", t, px, py >"truth.csv"
             printf "%d,1,%.2f,%.2f\n", t, x + error(), y + error() >"turn.csv"
             printf "%d,1,%.2f,%.2f\n", t, px + error(), py + error() >"turn.csv"
@@ -203,24 +217,34 @@ awk 'function error() { return 10 * (rand() + rand() + rand() + rand() - 2) * sq
                 printf "%d,1,%.2f,%.2f\n", t, (i < 1 ? x : px) + u, (i < 1 ? y : py) + w >"turn.csv"
             }
             for (j = 0; j < 200; j++) {
-                x += 300 * cos(heading) * 0.01; y += 300 * sin(heading) * 0.01; heading += a / 300 * 0.01
+                x += 300 * cos(heading) * 0.01; y += 300 * sin(heading) * 0.01
+                heading += a / 300 * 0.01
             }
         }
     }'
 # Columns: 10 ax, 11 ay, and of the truth 5, 6. From the fifth scan of the turn on. A tracker
 # without an acceleration is off by 20.
 pulls_as_the_target() { # FILE
-    awk -F, 'NR == FNR { if ($2 == 1) { x[$1 + 0] = $3; y[$1 + 0] = $4; ax[$1 + 0] = $5; ay[$1 + 0] = $6 } next }
+    awk -F, 'NR == FNR {
+            if ($2 == 1) { x[$1 + 0] = $3; y[$1 + 0] = $4; ax[$1 + 0] = $5; ay[$1 + 0] = $6 }
+            next
+        }
         FNR > 1 && $1 >= 34 && $2 == 1 && ($4 - x[$1 + 0])^2 + ($5 - y[$1 + 0])^2 < 10000 {
             n++; sum += ($10 - ax[$1 + 0])^2 + ($11 - ay[$1 + 0])^2
             along += ($10 * ax[$1 + 0] + $11 * ay[$1 + 0]) / 400
         }
-        END { print n, sqrt(sum / n), along / n; exit !(n == 23 && sqrt(sum / n) < 12 && along / n > 0.5) }' truth.csv "$1"
+        END {
+            print n, sqrt(sum / n), along / n
+            exit !(n == 23 && sqrt(sum / n) < 12 && along / n > 0.5)
+        }' truth.csv "$1"
 }
-is_followed() { # FILE: at the last scan both targets have a confirmed track within 60 m, and have had it from the start
+# is_followed FILE: at the last scan both targets have a confirmed track within 60 m, and have had
+# it from the start
+is_followed() {
     awk -F, 'NR == FNR { x[$2] = $3; y[$2] = $4; next }
         $1 == "78.000000" && $3 == "confirmed" {
-            for (i = 1; i <= 2; i++) if (($4 - x[i])^2 + ($5 - y[i])^2 < 3600 && $15 + $16 >= 38) found[i] = 1
+            for (i = 1; i <= 2; i++)
+                if (($4 - x[i])^2 + ($5 - y[i])^2 < 3600 && $15 + $16 >= 38) found[i] = 1
         }
         END { exit !(found[1] && found[2]) }' truth.csv "$1"
 }
@@ -308,7 +332,8 @@ check 'height is tracked' awk -F, '$1 == "110.000000" && ($6 < 2970 || $6 > 3030
 # ---- initiate ----
 run initiate plots.csv
 cp stdout initiated.csv
-check 'initiate says which scans it takes' matches "$(cat stderr)" 'rhotrack: the last 7 of 12 scans are used'
+check 'initiate says which scans it takes' matches "$(cat stderr)" \
+    'rhotrack: the last 7 of 12 scans are used'
 check 'columns of initiated tracks' matches "$(head -n 1 initiated.csv)" \
     'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
 both_found() {
@@ -317,7 +342,8 @@ both_found() {
             if (($5 - 200)^2 + ($6 - 50)^2 < 25 && ($3 - 13000)^2 + ($4 - 5500)^2 < 900) a++
             if (($5 + 150)^2 + ($6 - 100)^2 < 25 && ($3 - 13500)^2 + ($4 - 11000)^2 < 900) b++
             rho = $3 * cos($8) + $4 * sin($8)
-            if ((rho - $7)^2 > 1 || $8 < 0 || $8 >= 3.14159266 || $2 != "110.000000" || $9 != 7) bad++
+            if ((rho - $7)^2 > 1 || $8 < 0 || $8 >= 3.14159266 ||
+                $2 != "110.000000" || $9 != 7) bad++
         } END { exit !(n == 2 && a == 1 && b == 1 && !bad) }' initiated.csv
 }
 check 'both targets are found at the last scan, on their lines' both_found

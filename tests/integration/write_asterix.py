@@ -3,7 +3,8 @@
 """Polar plots (CSV) as a radar would send them in ASTERIX: CAT048 plots and CAT034 antenna
 messages, or with --old CAT001 and CAT002, as a recording.
 
-Usage: write_asterix.py POLAR.csv OUT.ast [--old plots|tracks] [--sectors N] [--interval S] [--start S] [--sac N] [--sic N] [--place LAT,LON,ALT]
+Usage: write_asterix.py POLAR.csv OUT.ast [--old plots|tracks] [--sectors N] [--interval S]
+                        [--start S] [--sac N] [--sic N] [--place LAT,LON,ALT]
   --old       CAT001, by its profile of plots or of tracks, with times that lack multiples of 512 s
   --sectors   sector crossings a turn (32); 1: north markers alone; 0: no antenna messages
   --interval  of a turn (4 s); the antenna is at north at t_s 0 and turns clockwise

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """A recording in ASTERIX as the network carried it: a block a UDP datagram, as pcap or pcapng.
 
-Usage: write_capture.py IN.ast OUT (.pcapng, or pcap) [--link ethernet|cooked|raw] [--vlan] [--ipv6] [--noise]
+Usage: write_capture.py IN.ast OUT (.pcapng, or pcap) [--link ethernet|cooked|raw] [--vlan] [--ipv6]
+                        [--noise]
   --noise   each tenth packet is followed by a TCP segment, a datagram of other content, a fragment
             and a packet that is cut short
 """
@@ -28,7 +29,8 @@ def ipv4(payload, protocol=17, fragment=0):
 
 
 def ipv6(payload):
-    return struct.pack(">IHBB16s16s", 6 << 28, len(payload), 17, 64, b"\1" * 16, b"\2" * 16) + payload
+    return struct.pack(">IHBB16s16s", 6 << 28, len(payload), 17, 64, b"\1" * 16,
+                       b"\2" * 16) + payload
 
 
 def frame(args, packet):

@@ -11,12 +11,13 @@ here=$(realpath "$(dirname "$0")")
 cat >road.json <<'JSON'
 {"version": 1, "duration_s": 40,
  "settings": {"v_max_mps": 40, "accel_max_mps2": 5},
- "radars": [{"interval_s": 0.1, "range_m": [1, 300], "sigma_range_m": 0.3, "sigma_azimuth_rad": 0.003,
-             "sigma_range_rate_mps": 0.1}],
+ "radars": [{"interval_s": 0.1, "range_m": [1, 300], "sigma_range_m": 0.3,
+             "sigma_azimuth_rad": 0.003, "sigma_range_rate_mps": 0.1}],
  "targets": [
    {"at_m": [-150, 22], "speed_mps": 15, "heading_rad": 0, "until_s": 20},
    {"at_m": [150, 26], "speed_mps": 12, "heading_rad": 3.14159265, "until_s": 25},
-   {"at_m": [-120, 34], "speed_mps": 10, "heading_rad": 0, "legs": [{"to_speed_mps": 0.3, "along_mps2": 0.4}]}]}
+   {"at_m": [-120, 34], "speed_mps": 10, "heading_rad": 0,
+    "legs": [{"to_speed_mps": 0.3, "along_mps2": 0.4}]}]}
 JSON
 run simulate road.json -o road
 cat >zones.ini <<'INI'
@@ -44,8 +45,8 @@ check 'of who passed how long it took' awk -F, \
 # ---- live: the same counts ----
 log=$PWD/node.lcm
 run convert road/plots.csv road.lcm --config road/scenario.ini
-run node --lcm "file://$PWD/road.lcm?speed=0" --config road/scenario.ini --config zones.ini --log "$log" \
-    --for 20
+run node --lcm "file://$PWD/road.lcm?speed=0" --config road/scenario.ini --config zones.ini \
+    --log "$log" --for 20
 count() { grep -aoF "$1" "$log" | wc -l; }
 check 'the node tells of its zones' test "$(count RHO_ZONES)" -ge 1
 check 'and of each step with events' test "$(count RHO_ZONE_EVENTS)" -eq 5

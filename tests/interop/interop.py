@@ -132,7 +132,8 @@ def main():
         is_good = messages == good == number
         failed += not is_good
         print(
-            f"{'ok  ' if is_good else 'FAIL'} {kind.name}: {good} of {messages} messages of ours read by Python's lcm"
+            f"{'ok  ' if is_good else 'FAIL'} {kind.name}: {good} of {messages} messages of ours "
+            f"read by Python's lcm"
         )
         write(kind, logs_out / f"{kind.name}.log", number, source)
     sys.exit(failed > 0)

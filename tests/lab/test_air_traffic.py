@@ -60,7 +60,8 @@ class Traffic(unittest.TestCase):
     def test_the_limit_starts_at_so_many_hits(self):
         run = simulate_scene_in_memory.simulate("air-traffic", SEED, "targets.0.flights=20",
                                   "clutter.0.plots=0", "duration_s=400")
-        rows = simulate_scene_in_memory.with_fields(run.plots, ("t_s", "sensor_id", "x_m", "y_m", "scan"))
+        rows = simulate_scene_in_memory.with_fields(run.plots,
+                                                    ("t_s", "sensor_id", "x_m", "y_m", "scan"))
         for min_scans in (3, 4, 5):
             counts = [len(tracks) for tracks in runs.limit_of(run, rows, min_scans)]
             self.assertEqual((len(counts), max(counts[:min_scans - 1])), (40, 0))

@@ -76,7 +76,9 @@ class Groups(Followed, unittest.TestCase):
         _, derivatives = texas_instruments_group_tracker.seen_from(state, 3)
         for i in range(6):
             step = 1e-4 * np.eye(6)[i]
-            up, down = (texas_instruments_group_tracker.seen_from(state + sign * step, 3)[0] for sign in (1, -1))
+            up, down = (
+                texas_instruments_group_tracker.seen_from(state + sign * step, 3)[0]
+                for sign in (1, -1))
             np.testing.assert_allclose((up - down) / 2e-4, derivatives[:, i], atol=1e-6)
 
     def test_plots_belong_to_their_own_times(self):
@@ -110,12 +112,14 @@ class Clusters(unittest.TestCase):
         points = np.array([[0.0], [0.8], [1.6], [5.0], [5.9], [9.0]])
         for least, wanted in ((1, [0, 0, 0, 1, 1, 2]), (2, [0, 0, 0, 1, 1, -1]),
                               (3, [0, 0, 0, -1, -1, -1]), (4, [-1] * 6)):
-            np.testing.assert_array_equal(stonesoup_on_clustered_plots.dbscan(points, 1.0, least), wanted)
+            np.testing.assert_array_equal(
+                stonesoup_on_clustered_plots.dbscan(points, 1.0, least), wanted)
         self.assertEqual(len(stonesoup_on_clustered_plots.dbscan(points[:0], 1.0, 1)), 0)
 
     def test_a_cluster_is_of_one_range_rate(self):
         plots = np.array([[100.0, 0.0, -20.0], [101.0, 0.0, -20.2], [100.5, 0.0, 10.0]])
-        found = stonesoup_on_clustered_plots.clusters(plots, np.array([1.0, 2.0, 4.0]), rivals.ROAD_GNN)
+        found = stonesoup_on_clustered_plots.clusters(plots, np.array([1.0, 2.0, 4.0]),
+                                                      rivals.ROAD_GNN)
         self.assertEqual([count for _, _, count in found], [2, 1])
         np.testing.assert_allclose(found[0][0], [100.5, 0, -20.1])
         self.assertEqual(found[0][1], 1.5)
@@ -162,8 +166,8 @@ class Figures(unittest.TestCase):
     def test_a_scene_from_end_to_end(self):
         with lab_test_setup.folder() as folder:
             done = subprocess.run([
-                lab_test_setup.ROOT / "tools/lab/extended_rivals.py", "--scene", "bodies-apart", "--runs",
-                "1", "--json", "-o", folder], capture_output=True, text=True, check=False)
+                lab_test_setup.ROOT / "tools/lab/extended_rivals.py", "--scene", "bodies-apart",
+                "--runs", "1", "--json", "-o", folder], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             is_told = "make bench-stonesoup" in (folder / "index.html").read_text()
         told = json.loads(done.stdout)

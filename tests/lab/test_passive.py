@@ -384,8 +384,9 @@ class Assignment(unittest.TestCase):
         scene = bearings.Scene(bearings.Setting(3, 1, 0.001), np.random.default_rng(5))
         looks = [scene.looks()[0, s]["bearing_rad"].astype(float) for s in range(3)]
         near = scene.start[0, :2] + 500
-        self.assertLess(passive_paper_further_claims.cost_of(np.concatenate(looks), bearings.PLACES_M[:3],
-                                               np.radians(0.001), near), 12)
+        self.assertLess(
+            passive_paper_further_claims.cost_of(np.concatenate(looks), bearings.PLACES_M[:3],
+                                                 np.radians(0.001), near), 12)
 
 
 if __name__ == "__main__":

@@ -194,9 +194,9 @@ class Polar(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         with lab_test_setup.folder() as folder:
-            done = subprocess.run([lab_test_setup.ROOT / "tools/lab/polar.py", "--runs", "3", "--seed",
-                                   "4711", "--json", "-o", folder], capture_output=True, text=True,
-                                  check=False)
+            done = subprocess.run([lab_test_setup.ROOT / "tools/lab/polar.py", "--runs", "3",
+                                   "--seed", "4711", "--json", "-o", folder], capture_output=True,
+                                  text=True, check=False)
             assert done.returncode == 0, done.stderr
             cls.pictures = {path.name for path in folder.iterdir()}
         cls.told = json.loads(done.stdout)
@@ -228,7 +228,8 @@ class Polar(unittest.TestCase):
                          {"index.html", "map.svg", "gates.svg", "errors.svg", "figures.json"})
 
     def test_a_case_tells_the_library_what_it_says(self):
-        sky = polar_runs.Sky(simulate_scene_in_memory.simulate("doppler", 7, "clutter.0.plots=300"), 300)
+        sky = polar_runs.Sky(
+            simulate_scene_in_memory.simulate("doppler", 7, "clutter.0.plots=300"), 300)
         for case in (*polar.CASES, *doppler.CASES):
             rows = sky.told(case)[sky.is_plot]
             self.assertEqual("range_rate_mps" in rows.dtype.names, case.has_range_rate)

@@ -20,9 +20,9 @@ from common import simulate_scene_in_memory
 class Rotating(unittest.TestCase):
     def test_figures_bars_and_page(self):
         with lab_test_setup.folder() as folder:
-            done = subprocess.run([lab_test_setup.ROOT / "tools/lab/rotating.py", "--runs", "4", "--seed",
-                                   "4711", "--json", "-o", folder], capture_output=True, text=True,
-                                  check=False)
+            done = subprocess.run([lab_test_setup.ROOT / "tools/lab/rotating.py", "--runs", "4",
+                                   "--seed", "4711", "--json", "-o", folder], capture_output=True,
+                                  text=True, check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertTrue((folder / "load.svg").exists() and (folder / "index.html").exists())
         told = json.loads(done.stdout)

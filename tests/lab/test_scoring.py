@@ -167,8 +167,10 @@ class Consistency(unittest.TestCase):
         tracks = read_truth_plots_tracks.Tracks([np.array([1])] * 6,
                                     [np.array([[2.0 + k, 0.0]]) for k in range(6)], more)
         figures, _ = scoring.score(truth, tracks, GATE)
-        self.assertEqual([figures["pairs_" + name] for name in read_truth_plots_tracks.MOTIONS], [1, 1, 1])
-        self.assertEqual([figures["rms_m_" + name] for name in read_truth_plots_tracks.MOTIONS], [3, 4, 5])
+        self.assertEqual(
+            [figures["pairs_" + name] for name in read_truth_plots_tracks.MOTIONS], [1, 1, 1])
+        self.assertEqual(
+            [figures["rms_m_" + name] for name in read_truth_plots_tracks.MOTIONS], [3, 4, 5])
         self.assertAlmostEqual(figures["nees_place_turning"], 16 / 4 / 2)
         self.assertAlmostEqual(figures["nees_velocity_turning"], 0.1 ** 2 / 2)
         self.assertEqual(figures["inside_place"],
@@ -182,7 +184,8 @@ class Consistency(unittest.TestCase):
 
 class Files(unittest.TestCase):
     def test_coverage_is_range_and_sector(self):
-        sensor = read_truth_plots_tracks.Sensor(1000, 0, 100, 5000, 3.0, -3.0, 30, 0.003)  # 0.28 rad about -x
+        # 0.28 rad about -x
+        sensor = read_truth_plots_tracks.Sensor(1000, 0, 100, 5000, 3.0, -3.0, 30, 0.003)
         x, y = np.array([-3000, -3000, -4001, 901, 0, NAN]), np.array([0, 1000, 0, 0, 0, 0])
         self.assertEqual(sensor.covers(x, y).tolist(), [True, False, False, False, True, False])
 

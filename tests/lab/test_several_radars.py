@@ -36,7 +36,8 @@ class SeveralRadars(unittest.TestCase):
         delays_s, pairs, duplicates = several_radars.follow(truth, tracks, 1000.0)
         self.assertEqual(delays_s.tolist(), [2.0, 4.0])
         self.assertEqual((pairs, duplicates), (4, 1))
-        nothing = read_truth_plots_tracks.Tracks([np.empty(0, dtype=int)] * 4, [np.empty((0, 2))] * 4)
+        nothing = read_truth_plots_tracks.Tracks([np.empty(0, dtype=int)] * 4,
+                                                 [np.empty((0, 2))] * 4)
         never, _, _ = several_radars.follow(truth, nothing, 1000.0)
         self.assertTrue(np.isinf(never).all())
 

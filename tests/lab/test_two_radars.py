@@ -46,9 +46,10 @@ class TwoRadars(unittest.TestCase):
         self.assertTrue(0 < told["azimuth_bias_rad"]["worst"] < np.radians(0.016))
 
     def test_a_case_tells_what_it_says(self):
-        run = simulate_scene_in_memory.simulate("two-radars", 5, "duration_s=60", also=lambda folder: {
-            1: {"range_bias_m": 40.0, "azimuth_bias_rad": 0.001},
-            2: {"range_bias_m": None, "azimuth_bias_rad": -0.002, "time_bias_s": 0.25}})
+        run = simulate_scene_in_memory.simulate(
+            "two-radars", 5, "duration_s=60", also=lambda folder: {
+                1: {"range_bias_m": 40.0, "azimuth_bias_rad": 0.001},
+                2: {"range_bias_m": None, "azimuth_bias_rad": -0.002, "time_bias_s": 0.25}})
         by_case = [two_radars.scans_of(case, run) for case in two_radars.CASES]
         for case, (_, scans) in zip(two_radars.CASES, by_case):
             times_s = np.array([scan["t_s"][0] for scan in scans])

@@ -112,8 +112,9 @@ def polar_targets():
     fields = [("t_s", "f8"), ("sensor_id", "i4"), ("sensor_x_m", "f4"), ("sensor_y_m", "f4"),
               ("sensor_z_m", "f4"), ("range_m", "f4"), ("azimuth_rad", "f4")]
     places = [(500 + 400 * i, 2000) for i in range(20)]
-    return [np.array([(4.0 * i, 7, 500, 0, 0, math.hypot(*place), math.atan2(*place[::-1]))], fields)
-            for i, place in enumerate(places)]
+    return [
+        np.array([(4.0 * i, 7, 500, 0, 0, math.hypot(*place), math.atan2(*place[::-1]))], fields)
+        for i, place in enumerate(places)]
 
 
 def test_polar_rows_are_the_same_track():

@@ -743,8 +743,8 @@ PERIODIC = {"RHO_STATUS", "RHO_WORK", "RHO_SENSORS", "RHO_LEARNED", "RHO_CLUTTER
 
 
 def without_run(log, is_live=False):
-    """A log without what a run puts into it: the node's boot number, which is the time of day, and of
-    a log that is written live the times of events."""
+    """A log without what a run puts into it: the node's boot number, which is the time of day, and
+    of a log that is written live the times of events."""
     log = bytearray(log)
     for at, start, _, channel in events(log):
         if is_live:

@@ -102,7 +102,8 @@ RHO_MUST_CHECK enum rho_status rho_message_end(struct rho_message_writer *writer
 
 FUNCTIONS = """\
 RHO_MUST_CHECK enum rho_status rho_message_{s}_encode(
-    const struct rho_message_{s} *message, uint8_t *buffer, size_t capacity, size_t *size);
+    const struct rho_message_{s} *message, uint8_t *buffer, size_t capacity,
+    size_t *size);
 RHO_MUST_CHECK enum rho_status rho_message_{s}_decode(
     const uint8_t *data, size_t size, struct rho_message_{s} *message);
 RHO_MUST_CHECK enum rho_status rho_message_{s}_validate(
@@ -120,7 +121,8 @@ RHO_MUST_CHECK enum rho_status rho_message_{s}_add(
 
 BODIES = """\
 enum rho_status rho_message_{s}_encode(
-    const struct rho_message_{s} *message, uint8_t *buffer, size_t capacity, size_t *size)
+    const struct rho_message_{s} *message, uint8_t *buffer, size_t capacity,
+    size_t *size)
 {{
     return rho_message_encode(&{s}_format, message, buffer, capacity, size);
 }}
@@ -226,8 +228,8 @@ def constant_macros(struct, known):
     if channel:
         lines.append(f'#define {prefix}CHANNEL "{channel}"' +
                      (" /* prefix: the sensor's number follows */" if has_sensor else ""))
-    lines.append(
-        f"#define {prefix}FINGERPRINT UINT64_C(0x{parse_lcm_types.fingerprint(struct, known):016x})")
+    fingerprint = parse_lcm_types.fingerprint(struct, known)
+    lines.append(f"#define {prefix}FINGERPRINT UINT64_C(0x{fingerprint:016x})")
     lines.append(f"#define {prefix}MAX_SIZE {parse_lcm_types.max_message_size(struct, known)}u")
     lines += [f"#define {prefix}{name} {value}" for name, value in struct.constants.items()]
     return lines
@@ -308,9 +310,8 @@ class CodecTables:
         for field in [*fields, None]:
             if group and (field is None or PRIMITIVES[field.type] != PRIMITIVES[group[0].type]):
                 count = sum(member.length for member in group)
-                self.runs.append(
-                    f"{{offsetof({c_struct}, {group[0].name}), {PRIMITIVES[group[0].type]}, {count}}}"
-                )
+                self.runs.append(f"{{offsetof({c_struct}, {group[0].name}), "
+                                 f"{PRIMITIVES[group[0].type]}, {count}}}")
                 group = []
             group.append(field)
 
@@ -345,7 +346,8 @@ def integer_rule_rows(c_struct, fields, constants):
         if group and (rule != group_rule or field.type != group[0].type or
                       not rule.startswith(("MESSAGE_RANGE", "MESSAGE_COUNT"))):
             count = sum(member.length for member in group)
-            yield f"{{offsetof({c_struct}, {group[0].name}), {PRIMITIVES[group[0].type]}, {count}, {group_rule}}}"
+            yield (f"{{offsetof({c_struct}, {group[0].name}), "
+                   f"{PRIMITIVES[group[0].type]}, {count}, {group_rule}}}")
             group = []
         if rule:
             group.append(field)
@@ -367,7 +369,8 @@ def integer_rule(c_struct, field, constants):
         return "MESSAGE_ONE_OF, 0, " + " | ".join(f"1 << {constants[choice]}"
                                                   for choice in field.choices)
     if field.maximum.endswith(" - 1"):
-        return f"MESSAGE_BELOW, {field.minimum}, offsetof({c_struct}, {field.maximum.removesuffix(' - 1')})"
+        above = field.maximum.removesuffix(" - 1")
+        return f"MESSAGE_BELOW, {field.minimum}, offsetof({c_struct}, {above})"
     if field.type == "int64_t":
         return "MESSAGE_TIME, 0, 0" if field.minimum.startswith("-") else "MESSAGE_COUNT, 0, 0"
     return f"MESSAGE_RANGE, {field.minimum}, {field.maximum}"
@@ -389,32 +392,28 @@ def codec_tables_text(struct, tables):
                                        *float_limits(struct.list))
             own += element.c_text()
         layout, checks = element.layout_initializer(), element.checks_initializer()
-        rest = (
-            f"offsetof({c_struct}, {struct.fields[-2].name}),\n    offsetof({c_struct}, {struct.list.name}),\n"
-            f"    sizeof({c_type_of(struct.list)}), {list_capacity_name(struct)}")
-    return (
-        f"{own}static const struct message_format {struct.short}_format = {{\n"
-        f"    RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n    {head.layout_initializer()}, {layout},\n    {rest}}};\n"
-        f"static const struct message_rules {struct.short}_rules = {{\n"
-        f"    &{struct.short}_format,\n    {head.checks_initializer()}, {checks}}};\n")
+        rest = (f"offsetof({c_struct}, {struct.fields[-2].name}),\n"
+                f"    offsetof({c_struct}, {struct.list.name}),\n"
+                f"    sizeof({c_type_of(struct.list)}), {list_capacity_name(struct)}")
+    return (f"{own}static const struct message_format {struct.short}_format = {{\n"
+            f"    RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n"
+            f"    {head.layout_initializer()}, {layout},\n    {rest}}};\n"
+            f"static const struct message_rules {struct.short}_rules = {{\n"
+            f"    &{struct.short}_format,\n    {head.checks_initializer()},\n    {checks}}};\n")
 
 
 def head_layout_assertion(struct):
     """C assertion that head and whole struct have equal offsets, so that one table serves both."""
     last = struct.head[-1].name
-    return (
-        f"typedef char {struct.short}_head_fits[offsetof(struct rho_message_{struct.short}, {last}) ==\n"
-        f"    offsetof(struct rho_message_{struct.short}_head, {last}) ? 1 : -1];\n")
-
-
-def wrapped_row(row):
-    """A table row wrapped to 100 columns, but for choices, which stay beside their field."""
-    return f"    {row}," if "|" in row else textwrap.fill(f"{row},", 100, initial_indent="    ",
-                                                          subsequent_indent="     ")
+    return (f"typedef char {struct.short}_head_fits[\n"
+            f"    offsetof(struct rho_message_{struct.short}, {last}) ==\n"
+            f"    offsetof(struct rho_message_{struct.short}_head, {last}) ? 1 : -1];\n")
 
 
 def table_text(name, kind, rows):
-    lines = "".join(wrapped_row(row) + "\n" for row in rows)
+    lines = "".join(
+        textwrap.fill(f"{row},", 100, initial_indent="    ", subsequent_indent="     ") + "\n"
+        for row in rows)
     return f"static const struct {kind} {name}[] = {{\n{lines}}};\n" if rows else ""
 
 
@@ -423,15 +422,17 @@ def source_text(known):
     formats = [codec_tables_text(struct, tables) for struct in known.values()]
     parts = [
         "/* SPDX-License-Identifier: MIT */\n"
-        "/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */\n/* clang-format off */\n"
+        "/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */\n"
+        "/* clang-format off */\n"
         "#include \"rhotrack/message.h\"\n\n#include <float.h>\n\n#include \"message_codec.h\"\n",
         *formats,
         "".join(head_layout_assertion(struct) for struct in known.values() if struct.list),
         fingerprint_functions(known)
     ]
     for struct in known.values():
-        parts.append(BODIES.format(s=struct.short) +
-                     (WRITER_BODIES.format(**writer_template_values(struct)) if struct.list else ""))
+        parts.append(BODIES.format(s=struct.short))
+        if struct.list:
+            parts[-1] += WRITER_BODIES.format(**writer_template_values(struct))
     return "\n".join(parts)
 
 
@@ -486,14 +487,16 @@ def member_name_function(struct, known):
     body = ""
     if struct.list and struct.list.type in known:
         other = known[struct.list.type].short
-        body = (f"    if (place && place->element >= 0) {{\n        return find_member_name({other}_names, "
+        body = ("    if (place && place->element >= 0) {\n"
+                f"        return find_member_name({other}_names, "
                 f"{len(known[struct.list.type].fields)}, place->offset);\n    }}\n")
     elif struct.list:
-        body = f"    if (place && place->element >= 0) {{\n        return \"{struct.list.name}\";\n    }}\n"
-    return (
-        f"const char *rho_message_{short}_field(const struct rho_message_place *place)\n{{\n{body}"
-        f"    return place ? find_member_name({short}_names, {len(struct.fields)}, place->offset) : \"unknown\";\n}}\n"
-    )
+        body = ("    if (place && place->element >= 0) {\n"
+                f"        return \"{struct.list.name}\";\n    }}\n")
+    return (f"const char *rho_message_{short}_field(const struct rho_message_place *place)\n"
+            f"{{\n{body}"
+            f"    return place ? find_member_name({short}_names, {len(struct.fields)}, "
+            "place->offset) : \"unknown\";\n}\n")
 
 
 def names_source_text(known):
@@ -504,7 +507,8 @@ def names_source_text(known):
         NAMES_TOP.replace("{width}", str(width)),
         *[member_names_table(struct) for struct in known.values()],
         "const char *rho_message_type_name(enum rho_message_type type)\n{\n"
-        f"    static const char type_names[RHO_NUM_MESSAGE_TYPES][{type_width}] = {{\n{rows}    }};\n\n"
+        f"    static const char type_names[RHO_NUM_MESSAGE_TYPES][{type_width}] = {{\n"
+        f"{rows}    }};\n\n"
         "    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? type_names[type] : \"unknown\";\n}\n",
         *[member_name_function(struct, known) for struct in known.values()]
     ])

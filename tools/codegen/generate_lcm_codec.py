@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes the LCM codec of rhotrack from lcm_types/*.lcm: message.h, message_types.c, message_and_member_names.c, and
-the table in lcm_types/README.md.
+"""Writes the LCM codec of rhotrack from lcm_types/*.lcm: message.h, message_types.c,
+message_and_member_names.c, and the table in lcm_types/README.md.
 
 Usage: generate_lcm_codec.py [--check] [ROOT]
 --check writes nothing, and names each file that differs from what would be written; exit 1 where
@@ -28,10 +28,10 @@ def message_table(known):
         channel = f"`{channel}{'<sensor_id>' if has_sensor else ''}`" if channel else "-"
         most = struct.list_max if struct.list else "-"
         name = f"`{struct.list.name}`" if struct.list else "-"
-        rows.append(
-            f"| [{struct.name}]({struct.name}.lcm) | {channel} | {most} | {name} | "
-            f"{parse_lcm_types.max_message_size(struct, known)} | `{parse_lcm_types.fingerprint(struct, known):016x}` |"
-        )
+        size = parse_lcm_types.max_message_size(struct, known)
+        fingerprint = parse_lcm_types.fingerprint(struct, known)
+        rows.append(f"| [{struct.name}]({struct.name}.lcm) | {channel} | {most} | {name} | "
+                    f"{size} | `{fingerprint:016x}` |")
     return "\n".join(rows)
 
 

@@ -122,12 +122,23 @@ def parse_constants(path, number, code):
     return constants
 
 
+def lines_of_code_and_comment(path):
+    """Lines of a file as (number, code, comment). Lines of comment right behind a member or a
+    constant go on with its own comment."""
+    lines = []
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        code, _, comment = (part.strip() for part in line.partition("//"))
+        if comment and not code and lines and lines[-1][1].endswith(";"):
+            lines[-1][2] = f"{lines[-1][2]} {comment}".lstrip()
+        else:
+            lines.append([number, code, comment])
+    return lines
+
+
 def parse_file(path):
     """Reads and checks the struct of one .lcm file."""
     struct = Struct(path, [], "", "", {}, [])
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-        code, _, comment = line.partition("//")
-        code, comment = code.strip(), comment.strip()
+    for number, code, comment in lines_of_code_and_comment(path):
         if not code:
             if comment and not struct.package and not comment.startswith("SPDX"):
                 struct.comment.append(comment)
@@ -185,8 +196,9 @@ def check_struct_comment(struct):
     if "*/" in text or "/*" in text:
         exit_with_error(struct.path, 1, "the comment before the package would end the one in C")
     if "Channel " in text and not struct.channel[0]:
-        exit_with_error(struct.path, 1,
-                        "no channel that is understood: Channel RHO_NAME. or Channel RHO_NAME_<sensor_id>.")
+        exit_with_error(
+            struct.path, 1, "no channel that is understood: Channel RHO_NAME. or Channel "
+            "RHO_NAME_<sensor_id>.")
 
 
 def check_field_type(struct, field):

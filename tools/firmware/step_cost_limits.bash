@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 # Upper bounds of a step's instructions for each shipped configuration of the node (nodes/), checked
-# by a guided search for the worst step. `step_cost_limits_of NAME` sets the fixed instructions of a step
-# (a), those of a unit of work (b), and the instructions that the processor has time for (most): a
-# quarter of the scan interval at 168 MHz; 4 million for `smallest`; `full` is taken with 4 s a
-# scan; `traffic` has half of its interval, which is less than a quarter of it at 480 MHz (M7).
+# by a guided search for the worst step. `step_cost_limits_of NAME` sets the fixed instructions of a
+# step (a), those of a unit of work (b), and the instructions that the processor has time for
+# (most): a quarter of the scan interval at 168 MHz; 4 million for `smallest`; `full` is taken with
+# 4 s a scan; `traffic` has half of its interval, which is less than a quarter of it at 480 MHz
+# (M7).
 shipped='full en_route marine traffic smallest'
 step_cost_limits_of() {
     a=5000000 b=90
@@ -27,6 +28,8 @@ worst_of() {
         return 1
     }
     line=$(grep 'instructions, work' <<<"$said" | tail -1)
-    read -r instructions work work_max sky < <(sed -n 's/^\([0-9]*\) instructions, work \([0-9]*\) of \([0-9]*\), sky \([0-9a-f]*\)$/\1 \2 \3 \4/p' <<<"$line")
+    read -r instructions work work_max sky < <(
+        sed -n 's/^\([0-9]*\) instructions, work \([0-9]*\) of \([0-9]*\), '\
+'sky \([0-9a-f]*\)$/\1 \2 \3 \4/p' <<<"$line")
     [ -n "${sky:-}" ]
 }

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Checks the Markdown documents: number of words, width of lines, links, and that the files and
-functions that they name exist.
+functions that they name exist; and the width of the code's lines, in all its languages.
 
 Usage: documents.py [FOLDER]
-FOLDER has the documents (default: this repository); the files that they name are always those of
-this repository. Prints a line for each fault; exit 1 if there is one.
+FOLDER has documents and code (default: this repository); the files that documents name are always
+those of this repository. Prints a line for each fault; exit 1 if there is one.
 """
 import pathlib
 import re
@@ -17,6 +17,9 @@ HOME = pathlib.Path(__file__).resolve().parent.parent.parent
 NOT_WRITTEN = {"CHANGELOG.md", "tools/lab/CLAIMS.md", "tools/lab/MEASUREMENTS.md"}
 # Most words of README.md (outside code and tables), of DESIGN.md, of all documents; most columns.
 README_MOST, DESIGN_MOST, ALL_MOST, COLUMNS = 1200, 14000, 26000, 100
+CODE = re.compile(r"\.(c|cpp|h|py|sh|bash|java|js|css|lcm|mk|cmake)$|^\.ci/run$"
+                  r"|(^|/)(Makefile|CMakeLists\.txt)$")
+NO_CODE = re.compile(r"build|\.git/|tests/vectors/|.*\.min\.js$")  # data, and others' code
 FOREIGN = {
     "stdio.h", "stdbool.h", "stdlib.h", "stdint.h", "stddef.h", "string.h", "math.h", "errno.h",
     "limits.h", "float.h"
@@ -81,6 +84,15 @@ def unknown_functions(name, text, names):
                 yield f"{name}:{number}: no function or type {found}"
 
 
+def wide_lines_of_code(folder):
+    for path in sorted(folder.rglob("*")):
+        name = path.relative_to(folder).as_posix()
+        if CODE.search(name) and not NO_CODE.match(name) and path.is_file():
+            lines = path.read_text(encoding="utf-8").splitlines()
+            yield from (f"{name}:{number}: {len(line)} columns"
+                        for number, line in enumerate(lines, 1) if len(line) > COLUMNS)
+
+
 def faults_of_documents(folder):
     files = repository_files()
     sources = [
@@ -116,8 +128,8 @@ def faults_of_documents(folder):
 
 def main():
     folder = pathlib.Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else HOME
-    found = list(faults_of_documents(folder))
-    print("\n".join(found) or "documents: lengths, links and names hold")
+    found = [*faults_of_documents(folder), *wide_lines_of_code(folder)]
+    print("\n".join(found) or "documents: lengths, links and names hold, and lines of code")
     sys.exit(1 if found else 0)
 
 

@@ -9,7 +9,8 @@ cd "$(dirname "$0")/../.."
 document=${1:-README.md}
 library=${2:-${BUILD:-build}/librhotrack.a}
 folder=${BUILD:-build}/examples
-flags='-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Wstrict-prototypes -Werror -Iinclude'
+flags='-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow'
+flags+=' -Wstrict-prototypes -Werror -Iinclude'
 
 for needed in "$document" "$library"; do
     [ -f "$needed" ] || { echo "examples: there is no $needed"; exit 1; }
@@ -19,7 +20,11 @@ mkdir -p "$folder"
 
 # Each block keeps the line numbers of the document, so that the compiler's messages point into it.
 awk -v folder="$folder" -v document="$document" '
-    /^```c$/ {file = sprintf("%s/example%d.c", folder, ++count); printf "#line %d \"%s\"\n", NR + 1, document > file; next}
+    /^```c$/ {
+        file = sprintf("%s/example%d.c", folder, ++count)
+        printf "#line %d \"%s\"\n", NR + 1, document > file
+        next
+    }
     /^```/ {if (file) close(file); file = ""}
     file {print > file}' "$document"
 

@@ -16,8 +16,8 @@ trap 'rm -rf "$folder"' EXIT
 
 # ---- programs -------------------------------------------------------------------------------
 
-for job in filters one_track_by_single_plot_gate tracker one_track_by_hypotheses initiation passive \
-    wire zone_counts_step; do
+for job in filters one_track_by_single_plot_gate tracker one_track_by_hypotheses initiation \
+    passive wire zone_counts_step; do
     ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/$job" \
         "tools/instructions/$job.c" \
         "$build/librhotrack.a"
@@ -86,7 +86,8 @@ if [ -z "$cores" ]; then
     echo 'skipped: no arm-none-eabi-gcc or no qemu-system-arm here: nothing is counted on Cortex-M'
     [ "${CI:-}" != true ] || failed=1
 fi
-echo "Executed instructions, embedded profile, -O2: ${CC:-gcc} here, $(arm-none-eabi-gcc -dumpfullversion 2>/dev/null || echo no) arm-none-eabi-gcc"
+echo "Executed instructions, embedded profile, -O2: ${CC:-gcc} here," \
+    "$(arm-none-eabi-gcc -dumpfullversion 2>/dev/null || echo no) arm-none-eabi-gcc"
 
 print_head 'filters, a step'
 print_counts 'Kalman: predict, 3 updates of an element' 1 1450 filters predict+3
@@ -161,7 +162,8 @@ print_vote_cost() {
     count_here hough "$1" pruned
     votes=$(sed -n 's/^\([0-9]*\) votes/\1/p' "$folder/said")
     awk -v points="$1" -v plain="$plain" -v pruned="$sum" -v votes="$votes" 'BEGIN {
-        printf "%-8s %12s %12s %15.2f %15.2f\n", points, pruned, plain, pruned / votes, plain / votes }'
+        printf "%-8s %12s %12s %15.2f %15.2f\n", points, pruned, plain, pruned / votes, \
+            plain / votes }'
 }
 
 printf '\naccumulator, workstation profile, %s: 5 m x 1 mrad, 30 x 30 km, 7 scans, 5 votes\n' \
@@ -189,7 +191,8 @@ print_growth() {
         exit many > most * few }' || failed=1
 }
 
-printf '\na step in clutter spread evenly over 500 x 500 km, workstation profile, %s\n' "$(uname -m)"
+printf '\na step in clutter spread evenly over 500 x 500 km, workstation profile, %s\n' \
+    "$(uname -m)"
 printf '%-12s %12s %12s %8s %8s\n' 'speeds, m/s' '1000 plots' '5000 plots' times 'search'
 print_growth 50 300
 print_growth 0 700

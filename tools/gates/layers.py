@@ -5,8 +5,9 @@ for circular dependencies of files.
 
 A room is a folder of src/. A public header (include/rhotrack/, include/rhotrack/detail/) belongs to
 the room of the source, or the room itself, whose name is the header's or the longest with which the
-header's begins; else to the one room whose sources' names begin with the header's; else to the first
-room. A file may include the headers of its own room, those of the rooms that the table lists for it (`all above`: every earlier row), a public header that declares a function which it defines,
+header's begins; else to the one room whose sources' names begin with the header's; else to the
+first room. A file may include the headers of its own room, those of the rooms that the table lists
+for it (`all above`: every earlier row), a public header that declares a function which it defines,
 private headers of its own folder, and the system headers below. A function must not contain an #if:
 an option is an `if` on a constant, or a file that the build chooses.
 

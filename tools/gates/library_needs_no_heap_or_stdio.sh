@@ -3,13 +3,15 @@
 #
 # Checks that the library contains no heap, stdio, errno, double, mutable globals or external
 # symbols: searches the text of src/ and include/ (without comments and strings) and the symbols of
-# $BUILD/librhotrack.a. Usage: library_needs_no_heap_or_stdio.sh [ROOT [LIBRARY]]. Exit 1 where anything is found.
+# $BUILD/librhotrack.a. Usage: library_needs_no_heap_or_stdio.sh [ROOT [LIBRARY]]. Exit 1 where
+# anything is found.
 set -u
 root=${1:-$(dirname "$0")/../..}
 library=${2:-${BUILD:-build}/librhotrack.a}
 cd "$root" || exit 1
 
-words='malloc|calloc|realloc|free|(__builtin_)?alloca|strdup|\w*printf|puts|putchar|FILE|stdio|stdlib|errno|double|goto|setjmp|longjmp'
+words='malloc|calloc|realloc|free|(__builtin_)?alloca|strdup|\w*printf|puts|putchar|FILE|stdio'
+words+='|stdlib|errno|double|goto|setjmp|longjmp'
 bad=0
 
 # report HEADING FINDINGS: prints the findings, a line each, and sets bad unless they are empty
@@ -35,7 +37,8 @@ report 'symbols that the library takes from elsewhere' \
     "$(nm -A -u "$library" | sed -nE 's/.*:([^:]+:) +U (.*)/\1 \2/p' | sort -u |
        grep -vE ' (rho_\w+|memcpy|memset|memmove|memcmp|_GLOBAL_OFFSET_TABLE_)$')"
 report 'public symbols without the prefix rho_' \
-    "$(nm -A -g --defined-only "$library" | sed -nE 's/.*:([^:]+:)[0-9a-f]+ (. .*)/\1 \2/p' | grep -vE ' rho_\w+$')"
+    "$(nm -A -g --defined-only "$library" | sed -nE 's/.*:([^:]+:)[0-9a-f]+ (. .*)/\1 \2/p' |
+       grep -vE ' rho_\w+$')"
 # .data.rel.ro is allowed: constant tables of pointers, which the dynamic loader relocates once and
 # then write-protects.
 report 'mutable globals' \
@@ -43,4 +46,5 @@ report 'mutable globals' \
        (/ O .*\.(data|bss|tdata|tbss)/ || /\*COM\*/) && !/\.data\.rel\.ro/ {print object, $NF}')"
 
 [ "$bad" -eq 0 ] || exit 1
-echo "poison: $(echo "$files" | wc -l) files and $(nm "$library" 2>/dev/null | grep -c ' T ') public functions are clean"
+echo "poison: $(echo "$files" | wc -l) files and $(nm "$library" 2>/dev/null |
+    grep -c ' T ') public functions are clean"

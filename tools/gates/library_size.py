@@ -75,8 +75,8 @@ BARS = [
     ("passive", "embedded, 2 sensors, 8 scans, 8 bearings", 48 * 1024,
      "-DRHO_MAX_PASSIVE_SENSORS=2 -DRHO_MAX_PASSIVE_SCANS=8 -DRHO_MAX_BEARINGS=8"),
     ("passive", "workstation, 4 sensors, 16 scans, 16 bearings", 90 * 1024,
-     "-DRHO_MAX_PASSIVE_SENSORS=4 -DRHO_MAX_PASSIVE_SCANS=16 -DRHO_MAX_BEARINGS=16 -DRHO_PROFILE_WORKSTATION"
-     ),
+     "-DRHO_MAX_PASSIVE_SENSORS=4 -DRHO_MAX_PASSIVE_SCANS=16 -DRHO_MAX_BEARINGS=16 "
+     "-DRHO_PROFILE_WORKSTATION"),
     ("kalman", "state and covariance", 108, ""),
     ("track", "in any of its modes", 512, ""),
     ("hypothesis", "two models and its plots", 512, ""),
@@ -90,15 +90,18 @@ BARS = [
 OBJECTS = {
     "ghost": "ghost_matrix", **{
         name: name
-        for name in ("accumulator window hough initiator frames batch passive passive_paper kalman input gate imm hypotheses track "
-                     "assignment tracker scan_assembler node show").split()
+        for name in ("accumulator window hough initiator frames batch passive passive_paper kalman "
+                     "input gate imm hypotheses track assignment tracker scan_assembler node "
+                     "show").split()
     }
 }
 OTHERS = {
     "rho_hypothesis": "sizeof(struct rho_hypothesis)",
     "rho_report": "sizeof(struct rho_report)",
     "rho_plot": "sizeof(struct rho_plot)",
-    "rho_hough, a window of plots with their times, 128 peaks": "sizeof(struct rho_hough) + 12 * RHO_MAX_SCANS * RHO_MAX_PLOTS + 128 * sizeof(struct rho_accumulator_peak)",
+    "rho_hough, a window of plots with their times, 128 peaks":
+        "sizeof(struct rho_hough) + 12 * RHO_MAX_SCANS * RHO_MAX_PLOTS + "
+        "128 * sizeof(struct rho_accumulator_peak)",
 }
 
 PART_TARGETS = ["m4f", "m0plus", "m7", "rv32"]
@@ -218,10 +221,10 @@ def room_tables(measured):
     main = target_titles([measured.main])[0]
     yield (
         "Stack",
-        "Worst stack of a public function of the room with all that it calls, by the call graph. Functions of "
-        "the C library and the compiler are charged 64 bytes, their 64-bit arithmetic on M0+ and RISC-V 160. "
-        "Exception frames come on top. `tools/gates/stack.py` prints every function, `tools/gates/stack.py --path "
-        "FUNCTION` the frames of one.",
+        "Worst stack of a public function of the room with all that it calls, by the call graph. "
+        "Functions of the C library and the compiler are charged 64 bytes, their 64-bit arithmetic "
+        "on M0+ and RISC-V 160. Exception frames come on top. `tools/gates/stack.py` prints every "
+        "function, `tools/gates/stack.py --path FUNCTION` the frames of one.",
         markdown_table(["room", *target_titles(measured.targets), f"{main}, workstation",
                         f"function, {main}"], stacks))
     rows = [[f"rho_{name}", *(group_digits(sizes[name]) for sizes in measured.objects)]
@@ -254,14 +257,15 @@ def sizes_section(measured):
     """The text of section `sizes` of the page."""
     parts = [(
         "By part",
-        "Code with constants, RAM, and the worst stack of a public function by the call graph; embedded "
-        "profile (7 scans of 256 plots, 32 tracks). Code that nothing calls is not linked.",
+        "Code with constants, RAM, and the worst stack of a public function by the call graph; "
+        "embedded profile (7 scans of 256 plots, 32 tracks). Code that nothing calls is not "
+        "linked.",
         parts_table(measured)), *room_tables(measured)]
     if measured.main == "m4f":
         parts.append((
             "Aims",
-            "Aims of the design on a Cortex-M4F, embedded profile; a missed aim fails no check. Text counts "
-            "whole files, with what a linker can leave out.", aims_table(measured)))
+            "Aims of the design on a Cortex-M4F, embedded profile; a missed aim fails no check. "
+            "Text counts whole files, with what a linker can leave out.", aims_table(measured)))
     lines = [f"\nBytes at `-Os`, {measured.compiler_versions()}.\n"]
     lines += [
         f"\n### {heading}\n\n{textwrap.fill(words, 100)}\n\n{rows}"
@@ -290,8 +294,9 @@ def update_page(measured, path):
     if not measured.is_complete:
         sys.exit("size: a compiler is missing (tools/setup.sh installs it)")
     text = sizes_section(measured)
-    path.write_text(update_measurements_page.replaced(path.read_text(encoding="utf-8"), "sizes", text),
-                    encoding="utf-8")
+    path.write_text(
+        update_measurements_page.replaced(path.read_text(encoding="utf-8"), "sizes", text),
+        encoding="utf-8")
 
 
 def check_bars():
@@ -304,7 +309,8 @@ def check_bars():
                                           flags.split())["it"]
         fits = fits and size <= most
         print(
-            f"{f'struct rho_{name}, {text}':66} {size:9} {most:9}  {'ok' if size <= most else 'MISSED'}"
+            f"{f'struct rho_{name}, {text}':66} {size:9} {most:9}  "
+            f"{'ok' if size <= most else 'MISSED'}"
         )
     return fits
 

@@ -31,7 +31,8 @@ from concurrent.futures import ThreadPoolExecutor
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FOLDERS = ["src", "include", "tools", "tests", "lcm_types", "Makefile"]
 CONSTANT = re.compile(
-    r"^(?:#define\s+(?P<define>\w+)|static const \w+ (?P<const>\w+) =)\s+(?P<number>[0-9][0-9.]*(?:e[-+]?\d+)?)"
+    r"^(?:#define\s+(?P<define>\w+)|static const \w+ (?P<const>\w+) =)\s+"
+    r"(?P<number>[0-9][0-9.]*(?:e[-+]?\d+)?)"
     r"(?P<suffix>[fuULl]*)(?=\s*(?:;|/\*|$))")
 NO_POLICY = re.compile(
     r"MAGIC|VERSION|BITS|MASK|SHIFT|EXPONENT|_H$|PI\b|HALF|OFFSET|PRIME|POLYNOM|ROUNDING|EPSILON"
@@ -44,10 +45,12 @@ ALIKE = {
     "src/tracker/tracker_soundness.c": r"PASS_SLOTS$",
     "src/papers/accumulator_peak_search.c": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$",
     "src/papers/accumulator_row_votes_and_peaks.c": r"BLOCKS$|CROWDED$",
-    "src/papers/accumulator_branch_and_bound.c": r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|(SHRINK|GROW)_KEPT$",
+    "src/papers/accumulator_branch_and_bound.c":
+        r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|(SHRINK|GROW)_KEPT$",
 }
 NO_POLICY_FILES = {
-    "src/base/approx.c", "src/base/angle.c", "src/wire/message_types.c", "src/wire/message_and_member_names.c"
+    "src/base/approx.c", "src/base/angle.c", "src/wire/message_types.c",
+    "src/wire/message_and_member_names.c"
 }
 ROW = re.compile(r"\b(?P<name>(?:plot|row|claim|opened|claims\[\w+\])) >= (?P<number>0)\b")
 NOTICED_MIN = 0.9
@@ -99,7 +102,8 @@ class SourceCopy:
             else:
                 self.copy_if_different(ROOT / name, folder / name)
         makefile = (folder / "Makefile").read_text()
-        self.left_out = re.search(r"^left_out := (.*)$", makefile, re.M)[1].split()
+        self.left_out = re.search(
+            r"^left_out := ((?:.*\\\n)*.*)$", makefile, re.M)[1].replace("\\\n", "").split()
         self.bytes = {}  # hash of each program built from the unchanged sources
         what = self.noticed_by("base", "status")
         if what:

@@ -5,11 +5,11 @@
 Forbidden on each target at -Os: external symbols other than memcpy, memset, memmove, memcmp and the
 compiler's arithmetic on integers and single precision (CHARGES of stack.py); mutable globals;
 frames of variable size; calls by a pointer; recursion. The last three are also checked at -O0, as
--Os can turn a recursion into a loop. tools/gates/library_needs_no_heap_or_stdio.sh checks the sources and this machine's
-objects.
+-Os can turn a recursion into a loop. tools/gates/library_needs_no_heap_or_stdio.sh checks the
+sources and this machine's objects.
 
-Usage: object_restrictions.py [--target m0plus,m4f,m7,r5f,rv32] [ROOT]. Prints FILE:LINE: function: fault; exit 1
-where there is any.
+Usage: object_restrictions.py [--target m0plus,m4f,m7,r5f,rv32] [ROOT]. Prints FILE:LINE: function:
+fault; exit 1 where there is any.
 """
 import argparse
 import re
@@ -19,14 +19,15 @@ import cross_compile_for_gates as cross
 import stack
 
 LIBM = (
-    r"(a?(sin|cos|tan)h?|atan2|sqrt|cbrt|hypot|exp(2|m1)?|log(2|10|1p|b)?|pow|floor|ceil|trunc|l?l?r(ound|int)|"
-    r"nearbyint|fmod|remainder|modf|frexp|ldexp|scalbl?n|fabs|fdim|fma|fmax|fmin|copysign|erfc?|[lt]gamma)"
+    r"(a?(sin|cos|tan)h?|atan2|sqrt|cbrt|hypot|exp(2|m1)?|log(2|10|1p|b)?|pow|floor|ceil|trunc|"
+    r"l?l?r(ound|int)|nearbyint|fmod|remainder|modf|frexp|ldexp|scalbl?n|fabs|fdim|fma|fmax|fmin|"
+    r"copysign|erfc?|[lt]gamma)"
 )
 KINDS = [
     ("heap", r"\w*alloc|free|strn?dup|_?sbrk"),
     ("stdio",
-     r"\w*(printf|scanf|putc|puts|getc|gets)|(put|get)char|f(open|close|read|write|flush)|std(in|out|err)|_impure_ptr"
-     ),
+     r"\w*(printf|scanf|putc|puts|getc|gets)|(put|get)char|f(open|close|read|write|flush)|"
+     r"std(in|out|err)|_impure_ptr"),
     ("errno", r"_*errno(_location)?"),
     ("double arithmetic", r"__aeabi_(c?d\w+|\w+2d)|__\w+df\w*"),
     ("float and 64 bits, which drags in double's arithmetic",

@@ -28,7 +28,8 @@ import stack
 
 FIRMWARE = pathlib.Path("tools/firmware")
 PROGRAMS = {"stepped": [FIRMWARE / "budget/tracker_linked_for_size.c"],
-            "LCM node": [FIRMWARE / "budget/node_linked_for_size.c", FIRMWARE / "lcm_datagram_node.c",
+            "LCM node": [FIRMWARE / "budget/node_linked_for_size.c",
+                         FIRMWARE / "lcm_datagram_node.c",
                          FIRMWARE / "node_initiation_by_library.c"]}
 MEMORY = FIRMWARE / "board/memory.c"
 FLASH = re.compile(r"\.(text|rodata|data|sdata|srodata|literal|ARM\.ex)")

@@ -5,7 +5,8 @@
 
 A function's stack is its frame plus the largest stack of its callees. Functions of the compiler's
 library and of the C library are charged the bytes in CHARGES. Recursion, calls by a pointer and
-frames of variable size have no figure; object_restrictions.py forbids them. Exception frames come on top.
+frames of variable size have no figure; object_restrictions.py forbids them. Exception frames come
+on top.
 
 Usage: stack.py [--target m0plus|m4f|m7|r5f|rv32] [--workstation] [--path FUNCTION | --headers
 [FOLDER]] --path prints the frames on the worst path of a function. --headers compares the figures
@@ -139,7 +140,8 @@ def public_functions_of(header):
     text = header.read_text(encoding="utf-8")
     for_all = stated_stack(text[:text.index("#ifndef")])
     stated, above = for_all, for_all
-    pattern = r"(?P<comment>/\*.*?\*/)|(?P<empty>\n[ \t]*\n)|^(?!#)[\w *]*?\b(?P<name>rho_\w+)\([^;{]*\);"
+    pattern = (r"(?P<comment>/\*.*?\*/)|(?P<empty>\n[ \t]*\n)|"
+               r"^(?!#)[\w *]*?\b(?P<name>rho_\w+)\([^;{]*\);")
     for found in re.finditer(pattern, text, re.DOTALL | re.MULTILINE):
         if found["comment"]:
             stated = stated_stack(found["comment"])

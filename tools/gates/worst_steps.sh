@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 # Searches for the most expensive step of each shipped node configuration
 # (tools/instructions/worst_step_search.c, in QEMU) and compares it with the promised upper bound
-# (tools/firmware/step_cost_limits.bash). Prints a table with the sky (generated traffic) of each; a worse
-# sky than those kept in tests/firmware/worst_skies.txt is to be added there. Exit 1 where a bound
-# is exceeded. Environment: BUILD, WORST_SEED (default 1), WORST_SKIES (300), WORST_NODES (all).
+# (tools/firmware/step_cost_limits.bash). Prints a table with the sky (generated traffic) of each; a
+# worse sky than those kept in tests/firmware/worst_skies.txt is to be added there. Exit 1 where a
+# bound is exceeded. Environment: BUILD, WORST_SEED (default 1), WORST_SKIES (300), WORST_NODES
+# (all).
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=$(realpath "${BUILD:-$root/build}")

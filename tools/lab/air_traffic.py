@@ -15,8 +15,8 @@ import numpy as np
 
 from common import experiment
 from common import stonesoup_tracker
-from parts.simulated_air_traffic_runs import (ALARMS, CASES, CUTOFFS_M, PAIRS, run_alarm, run_pair, run_rival,
-                              run_traffic)
+from parts.simulated_air_traffic_runs import (ALARMS, CASES, CUTOFFS_M, PAIRS, run_alarm, run_pair,
+                                              run_rival, run_traffic)
 
 RUNS = 4
 PARTS = ("grid", "stress", "operation", "pairs", "clutter", "rivals")
@@ -320,8 +320,8 @@ def main():
     options = experiment.options_of(__doc__, RUNS, lambda parser: parser.add_argument(
         "--part", action="append", choices=PARTS, help="this one alone (repeatable)"))
     parts = options.part or PARTS
-    report = experiment.Report("Air traffic over 500 x 500 km, a scan every 10 s, sigma 50 m, P_D 0.95",
-                        options)
+    report = experiment.Report(
+        "Air traffic over 500 x 500 km, a scan every 10 s, sigma 50 m, P_D 0.95", options)
     measure_traffic(report, parts)
     if "pairs" in parts:
         tell_pairs(report, measure_pairs(report))

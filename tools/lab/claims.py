@@ -3,9 +3,9 @@
 """The register of claims: each equation, step, figure, table and number of the three papers beside
 the code, the test, the figures of ours, and whether it holds.
 
-Reads the tables tools/lab/claims/*.ini (read_papers_claims_tables.py says what stands in them), runs the
-experiments papers-initiation, passive and maneuver and the tests that rows without figures name,
-and writes OUTPUT/CLAIMS.md; with --update tools/lab/CLAIMS.md, the page that is kept.
+Reads the tables tools/lab/claims/*.ini (read_papers_claims_tables.py says what stands in them),
+runs the experiments papers-initiation, passive and maneuver and the tests that rows without figures
+name, and writes OUTPUT/CLAIMS.md; with --update tools/lab/CLAIMS.md, the page that is kept.
 """
 import importlib.util
 import json
@@ -61,8 +61,8 @@ def experiment_folder(options, name):
 
 
 def run_experiment(options, name):
-    words = [str(experiment.ROOT / "tools" / "lab" / f"{name.replace('-', '_')}.py"), *EXPERIMENTS[name],
-             "--runs", str(options.runs), "--seed", str(options.seed), "--jobs",
+    words = [str(experiment.ROOT / "tools" / "lab" / f"{name.replace('-', '_')}.py"),
+             *EXPERIMENTS[name], "--runs", str(options.runs), "--seed", str(options.seed), "--jobs",
              str(options.jobs), "--json", "-o", str(experiment_folder(options, name))]
     print(f"experiment {name}", file=sys.stderr, flush=True)
     done = subprocess.run([sys.executable, *words], stdout=subprocess.DEVNULL, check=False)
@@ -106,7 +106,8 @@ def results_in_c(files):
                        stdout=subprocess.DEVNULL)
     results = {}
     for file, program in programs.items():
-        done = subprocess.run([program], capture_output=True, text=True, check=False, cwd=experiment.ROOT)
+        done = subprocess.run([program], capture_output=True, text=True, check=False,
+                              cwd=experiment.ROOT)
         for verdict, test in re.findall(r"^\[  (     OK|FAILED ) \] (\w+)",
                                         done.stdout + done.stderr, re.MULTILINE):
             results[file, test] = verdict.strip() == "OK"
@@ -118,7 +119,8 @@ def results_in_python(tests):
     sys.path.insert(0, str(experiment.ROOT / "tests" / "lab"))
     results = {}
     for file in sorted({file for file, _ in tests}):
-        spec = importlib.util.spec_from_file_location(pathlib.PurePath(file).stem, experiment.ROOT / file)
+        spec = importlib.util.spec_from_file_location(pathlib.PurePath(file).stem,
+                                                      experiment.ROOT / file)
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
         wanted = {test for of, test in tests if of == file}
@@ -191,7 +193,8 @@ def command_of(row):
         return "<br>".join(f"`rhotrack experiment {name}`" for name in names)
     files = dict.fromkeys(file for file, _ in row.test)
     return "<br>".join(
-        f"`tests/run.sh build/{program_of(file).relative_to(experiment.BUILD)}`" if file.endswith(".c")
+        f"`tests/run.sh build/{program_of(file).relative_to(experiment.BUILD)}`"
+        if file.endswith(".c")
         else f"`{file} -k {next(test for of, test in row.test if of == file)}`" for file in files)
 
 
@@ -237,7 +240,8 @@ def page_of(options, papers, figures, results):
     total = {verdict: sum(count[verdict] for count in counts) for verdict in VERDICTS}
     shown = [verdict for verdict in VERDICTS if total[verdict] or verdict != "not measured"]
     lines = [wrapped_paragraphs(HEAD, command=" ".join(["rhotrack experiment claims", *(
-        ["--figures", os.path.relpath(options.figures, experiment.ROOT)] if options.figures else []),
+        ["--figures", os.path.relpath(options.figures, experiment.ROOT)]
+        if options.figures else []),
         "--update"]),
                          sources=sources_of(options, figures)),
              f"| paper | rows | {' | '.join(shown)} |\n|---|{'---|' * (len(shown) + 1)}\n"]

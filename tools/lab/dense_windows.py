@@ -3,10 +3,11 @@
 """Experiment dense-windows: what a limit of a step's work costs in the densest windows of the
 literature.
 
-Scene crossing (Table 1 of Fan et al.: three targets, seven scans, P_D .99) in more and more clutter,
-one batch (`rhotrack initiate`): once with the work_max of the shipped full node, once without a
-limit. A target is found where a track is within 30 m of it at the last scan. `not tried` is the
-share of the plots of which not all pairs were tried. Thresholds are those of experiment initiation.
+Scene crossing (Table 1 of Fan et al.: three targets, seven scans, P_D .99) in more and more
+clutter, one batch (`rhotrack initiate`): once with the work_max of the shipped full node, once
+without a limit. A target is found where a track is within 30 m of it at the last scan. `not tried`
+is the share of the plots of which not all pairs were tried. Thresholds are those of experiment
+initiation.
 The node's scans hold 256 plots, so that the densest window is beyond it anyhow.
 """
 import csv
@@ -78,8 +79,8 @@ def add_options(parser):
 
 def main():
     options = experiment.options_of(__doc__, 100, add_options)
-    report = experiment.Report(f"Scene crossing, seven scans in one batch, work_max {FULL_NODE_WORK} "
-                        "and none", options)
+    report = experiment.Report(f"Scene crossing, seven scans in one batch, work_max "
+                               f"{FULL_NODE_WORK} and none", options)
     windows = report.map(density_case, [
         (options.program, per_km2, min_scans, options.runs, options.seed)
         for per_km2, min_scans in CLUTTER_PER_KM2.items()])
@@ -90,7 +91,8 @@ def main():
          for plots, limited, free in windows])
     report.fact("windows", [{
         "plots": plots, "found": limited[0], "found_without_limit": free[0], "false": limited[1],
-        "false_without_limit": free[1], "not_tried": limited[2]} for plots, limited, free in windows])
+        "false_without_limit": free[1], "not_tried": limited[2]}
+        for plots, limited, free in windows])
     report.close()
 
 

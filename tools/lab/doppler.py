@@ -117,8 +117,9 @@ def main():
                 f"turns and by the tracker after five, and .1 false ones a run are met up to "
                 f"{limit} clutter plots a turn; with them at ten times as many? Rows there without "
                 f"bars have a quarter of the runs. A range rate within 800 m/s tells "
-                f"ln(800 / 4.13) = 5.3 nat a plot (4.13: e to the entropy of 1 m/s of normal noise), with "
-                f"a span of 100 m/s 3.2, of 30 m/s 2.0; ten times the clutter takes 2.3.")
+                f"ln(800 / 4.13) = 5.3 nat a plot (4.13: e to the entropy of 1 m/s of normal "
+                f"noise), with a span of 100 m/s 3.2, of 30 m/s 2.0; ten times the clutter takes "
+                f"2.3.")
     report.table(["case", "clutter a turn", "Pd, batch of 7", "false a run", "ms",
                   "tracked after 5", "at the end", "false a run", "confirmed at turn", "rmse m",
                   "rmse m/s"], [table_row(*one) for one in rows])

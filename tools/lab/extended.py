@@ -217,9 +217,10 @@ def tell_width_bound(report):
             rows.append([f"{range_m}", f"{6 * told**-0.5 / width_m:.2f}"])
     report.heading("What can be known of a car's width")
     report.table(["range m", "least sigma m"], rows)
-    report.text(f"Three scatterers, each anywhere in its third of the width, leave {3**-1.5:.2f} of "
-                "it open at any range. From afar a reported width of 1.8 m is mostly the prior's, "
-                "whose error is the same for all cars: its NEES tells how the prior suits cars.")
+    report.text(f"Three scatterers, each anywhere in its third of the width, leave {3**-1.5:.2f} "
+                "of it open at any range. From afar a reported width of 1.8 m is mostly the "
+                "prior's, whose error is the same for all cars: its NEES tells how the prior suits "
+                "cars.")
 
 
 def judge(report, case, length, of):

@@ -3,9 +3,9 @@
 """Experiment extended-rivals: targets that give several plots a scan, by rhotrack and by others.
 
 The same scenes and seeds as in experiment extended, cut in time, go to rhotrack with bodies; to
-group tracking as Texas Instruments publishes it (parts/texas_instruments_group_tracker.py); and, where the package is
-installed (`make bench-stonesoup`), to Stone Soup's trackers of points behind DBSCAN, as it has none
-of extended targets (parts/stonesoup_on_clustered_plots.py).
+group tracking as Texas Instruments publishes it (parts/texas_instruments_group_tracker.py); and,
+where the package is installed (`make bench-stonesoup`), to Stone Soup's trackers of points behind
+DBSCAN, as it has none of extended targets (parts/stonesoup_on_clustered_plots.py).
 
 rhotrack is told what the scene tells: the longest body, speeds, errors. The others' settings were
 chosen for each kind of scene, on seed 1001. Tracks, identities, completeness and the centre's
@@ -30,7 +30,8 @@ CAR = '{"length_m": 4.5, "width_m": 1.8, "scatterers": 3, "seen": 0.6}'
 CARS_AT_A_LIGHT = 24
 PLOT = ("t_s", "sensor_id", "range_m", "azimuth_rad", "range_rate_mps", "sector_from_rad",
         "sector_to_rad", "scan")
-STONE_SOUP = {f"Stone Soup, {method.upper()}": method for method in stonesoup_on_clustered_plots.METHODS}
+STONE_SOUP = {
+    f"Stone Soup, {method.upper()}": method for method in stonesoup_on_clustered_plots.METHODS}
 OWN, GROUPS = "rhotrack", "group tracking"
 
 # The best of a short search along one setting after the other, seed 1001, by tracks, identities,
@@ -81,8 +82,9 @@ CASES = (
 
 def simulate(case, seed):
     """The run, with the truth's columns."""
-    return simulate_scene_in_memory.simulate(case.scene, seed, *case.sets, also=lambda folder: with_kept_headings(
-        extended.table(folder / "truth.csv")))
+    return simulate_scene_in_memory.simulate(
+        case.scene, seed, *case.sets,
+        also=lambda folder: with_kept_headings(extended.table(folder / "truth.csv")))
 
 
 def with_kept_headings(truth):
@@ -128,11 +130,13 @@ def track(case, run, tracker):
     if tracker == OWN:
         return track_own(run)
     if tracker == GROUPS:
-        rows, ms = texas_instruments_group_tracker.track(scans_of(run, len(case.groups.sigmas)), case.groups)
+        rows, ms = texas_instruments_group_tracker.track(
+            scans_of(run, len(case.groups.sigmas)), case.groups)
     else:
         method = STONE_SOUP[tracker]
         settings = case.clusters[method]
-        rows, ms = stonesoup_on_clustered_plots.track(scans_of(run, len(settings.sigmas)), settings, method)
+        rows, ms = stonesoup_on_clustered_plots.track(
+            scans_of(run, len(settings.sigmas)), settings, method)
     return {name: rows[name] for name in rows.dtype.names}, ms
 
 
@@ -207,7 +211,8 @@ def main():
             runs = [result for job, result in zip(jobs, done) if job[:2] == (number, tracker)]
             for length in runs[0]:
                 figures.setdefault((CASES[number].name, length), {})[tracker] = {
-                    key: experiment.mean_of([one[length][key] for one in runs]) for key in runs[0][length]}
+                    key: experiment.mean_of([one[length][key] for one in runs])
+                    for key in runs[0][length]}
     report.text("Trucks and cars at a light (scene traffic-light without its notch, each car with "
                 "three scatterers) are cut to 30 s for all trackers alike. " + (
                     "Stone Soup: its trackers of points, behind DBSCAN." if is_there else

@@ -3,10 +3,11 @@
 """False tracks an hour, and time to confirm: whether the tracker keeps the false-track rate that
 it was asked for, and how soon it confirms a target.
 
-Area, noise and speeds of Table 1 of Fan et al. (initiation_paper_aircraft.py), a scan every 2 s, min_scans
-chosen by the tracker. First clutter alone: every confirmed track is false. Then three targets from
-the first scan on, P_D 0.99, 0.9 assumed, one false track an hour wanted. First possible: the scan
-at which a fit through the target's own plots reaches the threshold that was in use.
+Area, noise and speeds of Table 1 of Fan et al. (initiation_paper_aircraft.py), a scan every 2 s,
+min_scans chosen by the tracker. First clutter alone: every confirmed track is false. Then three
+targets from the first scan on, P_D 0.99, 0.9 assumed, one false track an hour wanted. First
+possible: the scan at which a fit through the target's own plots reaches the threshold that was in
+use.
 """
 import time
 from typing import NamedTuple

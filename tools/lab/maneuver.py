@@ -241,10 +241,10 @@ def tell_read(report, weave, summaries):
     report.heading("The paper's contrast in the weave, and what its text leaves open")
     report.text(
         "Scenario 2 with a true process noise of 1e-4 I: as in the pop-up. Then the paper's pop-up "
-        "with Q = R = I and 4 clutter plots within the whole width of the beam, as (33) is printed; "
-        "from x 5 km, y 53 km, -6 and -5 m/s, as the digits are printed (here they are read "
-        "backwards: 50 and 35 km, -600 and -500 m/s); and with what Methods II and III may be, as "
-        "the page that says it is lost.")
+        "with Q = R = I and 4 clutter plots within the whole width of the beam, as (33) is "
+        "printed; from x 5 km, y 53 km, -6 and -5 m/s, as the digits are printed (here they are "
+        "read backwards: 50 and 35 km, -600 and -500 m/s); and with what Methods II and III may "
+        "be, as the page that says it is lost.")
     each = len(WEAVE_CASE.methods) // len(NOISES)
     report.table(["filter's Q, case", *PAPER_HEADINGS], [
         *(paper_row(f"{NOISES[i // each]:g} I" if i % each == 0 else "", method, summary, [NAN] * 4)

@@ -93,8 +93,8 @@ def run(job):
     return {
         "identities": 1.0 + figures["switches"] / targets,
         "completeness": figures["completeness"], "false_per_scan": figures["false_per_scan"],
-        "late_false": late["false_per_scan"], "rms_m": figures["rms_m"], "numbers": float(len({number for ids in tracks.ids
-                                                         for number in ids.tolist()}))
+        "late_false": late["false_per_scan"], "rms_m": figures["rms_m"],
+        "numbers": float(len({number for ids in tracks.ids for number in ids.tolist()}))
     }, (truth, tracks) if is_kept else None
 
 
@@ -132,8 +132,8 @@ def draw_map(axes, truth, tracks):
 
 
 def draw(report, case, shown):
-    """Range over time, beside a rail a map: the truth, red in the notch, and the tracks, a colour for
-    each number."""
+    """Range over time, beside a rail a map: the truth, red in the notch, and the tracks, a colour
+    for each number."""
     import matplotlib.pyplot as plt
     truth, tracks = shown
     figure, axes = plt.subplots(figsize=(9, 4.5))
@@ -162,12 +162,14 @@ def draw(report, case, shown):
         axes.plot(x, y, color=f"C{number % 10}", linewidth=1.1)
     axes.set(xlabel="s", ylabel="m from the radar")
     axes.legend(loc="upper right")
-    report.figure(name_of(case), figure, f"{case.scene}, {case.name}: a line a track, a colour a number.")
+    report.figure(name_of(case), figure,
+                  f"{case.scene}, {case.name}: a line a track, a colour a number.")
 
 
 def main():
     options = experiment.options_of(__doc__, RUNS)
-    report = experiment.Report("Radars that are blind at some range rates, or see targets twice", options)
+    report = experiment.Report(
+        "Radars that are blind at some range rates, or see targets twice", options)
     done = report.map(run, [(number, options.seed + k, case.is_shown and k == 0)
                             for number, case in enumerate(CASES) for k in range(options.runs)])
     rows, facts = [], []

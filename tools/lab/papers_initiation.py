@@ -204,7 +204,8 @@ def run(job):
 def summarised(results, methods):
     """{method: {figure: (mean, standard error)}}; of ms the median."""
     return {method: {
-        name: experiment.mean_of(np.concatenate([np.atleast_1d(one[method][name]) for one in results]))
+        name: experiment.mean_of(
+            np.concatenate([np.atleast_1d(one[method][name]) for one in results]))
         if name != "ms" else (float(np.median([one[method]["ms"] for one in results])), np.nan)
         for name in results[0][method]} for method in methods}
 
@@ -430,7 +431,8 @@ def tell_claims(report, methods, ideal_votes):
 
 def facts_of(keys, name, summaries):
     return [{name: key, "method": method,
-             **{figure: None if np.isnan(value) else value for figure, (value, _) in summary.items()}}
+             **{figure: None if np.isnan(value) else value
+                for figure, (value, _) in summary.items()}}
             for key, of in zip(keys, summaries) for method, summary in of.items()]
 
 

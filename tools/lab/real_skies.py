@@ -64,8 +64,8 @@ def run_program(program, arguments):
                           stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode != 0:
         raise Failed(
-            f"{pathlib.Path(program).name} {' '.join(map(str, arguments))}: exit {done.returncode}: "
-            f"{done.stderr.strip()}")
+            f"{pathlib.Path(program).name} {' '.join(map(str, arguments))}: "
+            f"exit {done.returncode}: {done.stderr.strip()}")
 
 
 # --- one run
@@ -288,15 +288,16 @@ def bars(results, alarms, longs):
     """[(scene, key, held)] of the columns that are bars, of the rates of false tracks, and of what
     must not drift."""
     is_bar = {key: bar for key, _, _, bar, _ in COLUMNS}
-    return [(result["name"], key, held) for result in results for key, held in result["met"].items() if is_bar[key]] + \
+    return [(result["name"], key, held) for result in results
+            for key, held in result["met"].items() if is_bar[key]] + \
         [(row["name"], "false_tracks_per_hour", row["held"]) for row in alarms] + \
         [(row["name"], what, held) for row in longs for what, held in row["held"].items()]
 
 
 def print_table(results, options):
     print(
-        f"Real skies: {options.runs} runs a scene from seed {options.seed}; * marks a goal that is missed by more than "
-        f"{STANDARD_ERRORS} standard errors")
+        f"Real skies: {options.runs} runs a scene from seed {options.seed}; * marks a goal that is "
+        f"missed by more than {STANDARD_ERRORS} standard errors")
     print(f"{'scene':22} {'':7}" + "".join(f"{heading:>16}" for _, heading, _, _, _ in COLUMNS))
     for result in results:
         for label, cells in rows_of(result):
@@ -308,8 +309,8 @@ def print_consistency(results):
     low, high = CONSISTENCY[0][3]
     least, most = CONSISTENCY[1][3]
     print(
-        f"Consistency: NEES over its ideal, and shares inside the ellipse of 95 %; * marks what is not within {low} to {high}, "
-        f"{least} to {most}")
+        f"Consistency: NEES over its ideal, and shares inside the ellipse of 95 %; * marks what is "
+        f"not within {low} to {high}, {least} to {most}")
     print(f"{'scene':22} {'':7}{'motion':10}" + "".join(f"{heading:>15}"
                                                         for heading in CONSISTENCY_HEADINGS))
     for result in results:

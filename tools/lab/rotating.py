@@ -29,11 +29,13 @@ STEP_MAX_MS = 1.0  # beside the sector's own time
 def scans_of(case, run, seed):
     """Rows of each scan; a scan's own row is its first."""
     if case == "sectors":
-        rows = simulate_scene_in_memory.with_fields(run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad",
-                                                  "sector_from_rad", "sector_to_rad", "scan"))
+        rows = simulate_scene_in_memory.with_fields(
+            run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad", "sector_from_rad",
+                        "sector_to_rad", "scan"))
         return np.split(rows, np.flatnonzero(np.diff(rows["scan"])) + 1)
     is_plot = simulate_scene_in_memory.has_plot(run.plots)
-    rows = simulate_scene_in_memory.with_fields(run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad"))
+    rows = simulate_scene_in_memory.with_fields(
+        run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad"))
     turn = ((run.plots["scan"] - 1) // SECTORS).astype(int)
     end_s = TURN_S * (turn + 1)
     if case == "all at once":
@@ -59,7 +61,8 @@ def follow(case, run, seed):
     tracks = rhotrack.Tracker(run.settings).run(rhotrack.Scans(scans_of(case, run, seed),
                                                                run.settings))
     tracks = tracks[tracks["status"] != "tentative"]
-    scan = run.truth.scan_of(simulate_scene_in_memory.read_truth_plots_tracks.microseconds(tracks["t_s"]))
+    scan = run.truth.scan_of(
+        simulate_scene_in_memory.read_truth_plots_tracks.microseconds(tracks["t_s"]))
     off_m = np.column_stack([tracks["x_m"], tracks["y_m"]])[:, None] - run.truth.place_m[scan]
     distance_m = np.linalg.norm(off_m, axis=2)
     target = distance_m.argmin(axis=1)
@@ -151,7 +154,8 @@ def draw(report, steps):
 
 def main():
     options = experiment.options_of(__doc__, RUNS)
-    report = experiment.Report("A turning antenna, 15 m and 3 mrad, 4 s and 32 sectors a turn", options)
+    report = experiment.Report("A turning antenna, 15 m and 3 mrad, 4 s and 32 sectors a turn",
+                               options)
     seeds = [options.seed + run for run in range(options.runs)]
     runs = list(zip(*report.map(measure, seeds)))
     figures = [figures_of(of) for of in runs]

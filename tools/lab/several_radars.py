@@ -126,8 +126,8 @@ def run(job):
             folder,
             read_truth_plots_tracks.read_plots(folder / "plots.csv", sensors).scan_times_us)
         ever = truth.visible.any(axis=0)
-        truth = read_truth_plots_tracks.Truth(truth.times_us, truth.ids[ever], truth.place_m[:, ever],
-                                  truth.visible[:, ever])
+        truth = read_truth_plots_tracks.Truth(truth.times_us, truth.ids[ever],
+                                              truth.place_m[:, ever], truth.visible[:, ever])
         begins_m = truth.place_m[truth.visible.argmax(axis=0), np.arange(len(truth.ids))]
         result = {
             "common": np.all(
@@ -142,8 +142,9 @@ def run(job):
                 "track", plots, "--config", folder / "scenario.ini", *sets, "-o",
                 folder / "tracks.csv"
             ])
-            result[who] = follow(truth, read_truth_plots_tracks.read_tracks(folder / "tracks.csv", truth),
-                                 scoring.gate_m(sensors))
+            result[who] = follow(
+                truth, read_truth_plots_tracks.read_tracks(folder / "tracks.csv", truth),
+                scoring.gate_m(sensors))
     return name, result
 
 

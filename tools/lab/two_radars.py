@@ -48,8 +48,8 @@ FIRST, SECOND, LEFT, FOUND, KNOWN, ARRIVED = range(len(CASES))
 
 def register(folder):
     """{sensor_id: what `rhotrack register --json` says of it}; a bias may be missing or null."""
-    told = json.loads(simulate_scene_in_memory.run_program("register", folder / "plots.csv", "--config",
-                                             folder / "scenario.ini", "--json"))
+    told = json.loads(simulate_scene_in_memory.run_program(
+        "register", folder / "plots.csv", "--config", folder / "scenario.ini", "--json"))
     return {radar["sensor_id"]: radar for radar in told["radars"]}
 
 
@@ -59,8 +59,9 @@ def register(folder):
 def scans_of(case, run):
     """Settings that know the case's biases, and its scans; times of plots without their bias."""
     settings = run.settings.copy()
-    rows = simulate_scene_in_memory.with_fields(run.plots, ("t_s", "sensor_id", "range_m", "azimuth_rad",
-                                              "sector_from_rad", "sector_to_rad"))
+    rows = simulate_scene_in_memory.with_fields(
+        run.plots,
+        ("t_s", "sensor_id", "range_m", "azimuth_rad", "sector_from_rad", "sector_to_rad"))
     is_plot = simulate_scene_in_memory.has_plot(rows)
     for sensor_id in case.radars:
         biases = dict(BIASES[sensor_id]) if case.biases == "known" else {
@@ -108,7 +109,8 @@ def follow(case, run):
     sums = dict.fromkeys(("common_times", "duplicates", "errors", "sum_m2"), 0.0)
     order = np.argsort(tracks["t_s"], kind="stable")
     bounds = np.searchsorted(tracks["t_s"][order], np.add.outer([-1e-4, 1e-4], looks))
-    scan_of = run.truth.scan_of(simulate_scene_in_memory.read_truth_plots_tracks.microseconds(looks))
+    scan_of = run.truth.scan_of(
+        simulate_scene_in_memory.read_truth_plots_tracks.microseconds(looks))
     last_s, hours = None, 0.0
     for k, look_s in enumerate(looks):
         places_m, velocities_mps = run.truth.place_m[scan_of[k]], run.truth.velocity_mps[scan_of[k]]
@@ -177,7 +179,8 @@ def bias_figures(found):
         } if len(size) else {"estimates": 0, "not_known": off.size, "rms": math.nan,
                              "p95": math.nan, "worst": math.nan, "mean_sigma": math.nan}
     squares = np.concatenate(squares, axis=1)
-    return figures, experiment.ratio_of(np.nansum(squares, axis=1), (~np.isnan(squares)).sum(axis=1))
+    return figures, experiment.ratio_of(np.nansum(squares, axis=1),
+                                        (~np.isnan(squares)).sum(axis=1))
 
 
 def figures_of(runs):

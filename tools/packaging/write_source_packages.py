@@ -189,7 +189,8 @@ def main():
     if not re.fullmatch(r"[^<>\n]+ <[^<>@\s]+@[^<>\s]+>", options.packager):
         sys.exit(f"package: --packager {options.packager}: it is NAME <MAIL>")
     if not re.fullmatch(r"https?://[^\s<>\"'&\\]+", options.url):
-        sys.exit(f"package: --url {options.url}: it is http(s)://PLACE, without quotes, &, < and \\")
+        sys.exit(
+            f"package: --url {options.url}: it is http(s)://PLACE, without quotes, &, < and \\")
     target, time_s = options.folder.absolute(), last_change()
     values = {
         "VERSION": version(), "DESCRIPTION": DESCRIPTION, "URL": options.url,

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Writes the C of the module rhotrack._native: all of the library's headers, and readers_and_pipeline_for_python.h.
+"""Writes the C of the module rhotrack._native: all of the library's headers, and
+readers_and_pipeline_for_python.h.
 
-Usage: generate_cffi_binding.py OUTPUT COMPILER INCLUDE (the folder with rhotrack/). The headers say what Python
-sees, so that nothing is declared twice: the preprocessor resolves capacities, and cffi reads what
-it leaves.
+Usage: generate_cffi_binding.py OUTPUT COMPILER INCLUDE (the folder with rhotrack/). The headers say
+what Python sees, so that nothing is declared twice: the preprocessor resolves capacities, and cffi
+reads what it leaves.
 """
 import re
 import subprocess
@@ -26,7 +27,8 @@ def declarations(compiler, include):
     lines, is_own = [], False
     for line in text.splitlines():
         if marker := re.match(r'#.*"(.*?)"', line):
-            is_own = "/rhotrack/" in marker[1] or marker[1].endswith("readers_and_pipeline_for_python.h")
+            is_own = "/rhotrack/" in marker[1] or marker[1].endswith(
+                "readers_and_pipeline_for_python.h")
         elif is_own:
             lines.append(line)
     text = re.sub(r"static inline [^{;]*\{.*?\n\}|__attribute__\(\(\w+\)\)", "",

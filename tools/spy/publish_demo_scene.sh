@@ -3,8 +3,9 @@
 #
 # Publishes a simulated scene and its tracks for the viewer: a rotating radar in clutter, two
 # bearing sensors, and aircraft that appear one after the other and fly straight or turn, ten times
-# as fast as real time. Usage: RHOTRACK=program publish_demo_scene.sh [SECONDS], on the LCM network of
-# LCM_DEFAULT_URL. Publisher and tracker end with the script. shellcheck source=tools/spy/scene_scripts_common.bash
+# as fast as real time. Usage: RHOTRACK=program publish_demo_scene.sh [SECONDS], on the LCM network
+# of LCM_DEFAULT_URL. Publisher and tracker end with the script.
+# shellcheck source=tools/spy/scene_scripts_common.bash
 . "$(dirname "$0")/scene_scripts_common.bash"
 python3 - <<'PYTHON'
 import math
@@ -18,17 +19,20 @@ for i in range(16):
     reach = random.uniform(12e3, 42e3)
     aircraft.append({"x": -reach * math.cos(heading + random.uniform(-.5, .5)),
                      "y": -reach * math.sin(heading + random.uniform(-.5, .5)), "heading": heading,
-                     "start": 0 if i < 5 else 16.0 * (i - 4), "speed": random.uniform(90, 290), "turn": random.choice([0, 0, 0, .006, -.008])})
+                     "start": 0 if i < 5 else 16.0 * (i - 4), "speed": random.uniform(90, 290),
+                     "turn": random.choice([0, 0, 0, .006, -.008])})
 
 def position_at(a, t):
     t -= a["start"]
     if a["turn"] == 0:
-        return a["x"] + a["speed"] * t * math.cos(a["heading"]), a["y"] + a["speed"] * t * math.sin(a["heading"])
+        return (a["x"] + a["speed"] * t * math.cos(a["heading"]),
+                a["y"] + a["speed"] * t * math.sin(a["heading"]))
     radius, end = a["speed"] / a["turn"], a["heading"] + a["turn"] * t
     return (a["x"] + radius * (math.sin(end) - math.sin(a["heading"])),
             a["y"] - radius * (math.cos(end) - math.cos(a["heading"])))
 
-with open("polar.csv", "w") as polar, open("bearings.csv", "w") as bearings, open("truth.csv", "w") as truth:
+with open("polar.csv", "w") as polar, open("bearings.csv", "w") as bearings, \
+        open("truth.csv", "w") as truth:
     print("t_s,sensor_id,range_m,azimuth_rad,scan", file=polar)
     print("t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad", file=bearings)
     print("t_s,target_id,x_m,y_m", file=truth)
@@ -55,8 +59,9 @@ with open("polar.csv", "w") as polar, open("bearings.csv", "w") as bearings, ope
                 x, y = position_at(a, turn * TURN_S + 2)
                 if random.random() < .05:
                     continue
+                bearing = math.atan2(y - sy, x - sx) + random.gauss(0, .00175)
                 print(f"{turn * TURN_S + 2:.6f},{sensor},{sx},{sy},"
-                      f"{math.remainder(math.atan2(y - sy, x - sx) + random.gauss(0, .00175), 6.28318):.6f}", file=bearings)
+                      f"{math.remainder(bearing, 6.28318):.6f}", file=bearings)
         for i, a in enumerate(there):
             x, y = position_at(a, turn * TURN_S)
             print(f"{turn * TURN_S:.6f},{i},{x:.1f},{y:.1f}", file=truth)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# Sourced by publish_demo_scene.sh and publish_paper_method_scene.sh: sets $program and $seconds, changes to a temporary
-# folder, and at exit removes it and kills all background jobs.
+# Sourced by publish_demo_scene.sh and publish_paper_method_scene.sh: sets $program and $seconds,
+# changes to a temporary folder, and at exit removes it and kills all background jobs.
 set -eu
 program=$(realpath "${RHOTRACK:-$(dirname "$0")/../../build/rhotrack}")
 seconds=${1:-30}

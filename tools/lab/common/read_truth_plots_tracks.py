@@ -10,7 +10,8 @@ import numpy as np
 
 RANGE_MAX_M = 100000.0  # of a sensor that states none: the program's default
 TIME_TOLERANCE_US = 1000  # tracks stand at the truth's times, as `evaluate` has it
-TURNING_MPS2 = 0.02  # a target whose velocity changes by more a second turns, as `evaluate` has it (turning_mps2)
+# a target whose velocity changes by more a second turns, as `evaluate` has it (turning_mps2)
+TURNING_MPS2 = 0.02
 MOTIONS = ("straight", "turning", "coasting")
 STRAIGHT, TURNING, COASTING, NO_MOTION = range(4)
 # what a track may have beside its place; the columns of a tracks file, and whether the track coasts

@@ -3,20 +3,27 @@
 import html
 import os
 
-STYLE = """body{font:16px/1.5 system-ui,Helvetica,Arial,sans-serif;color:#222;max-width:72rem;margin:2rem auto;padding:0 1rem}
+STYLE = """body{font:16px/1.5 system-ui,Helvetica,Arial,sans-serif;color:#222;max-width:72rem;\
+margin:2rem auto;padding:0 1rem}
 h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px solid #ccc}
-table{border-collapse:collapse;margin:1rem 0}th,td{padding:.25rem .8rem;text-align:right;border-bottom:1px solid #eee}
+table{border-collapse:collapse;margin:1rem 0}\
+th,td{padding:.25rem .8rem;text-align:right;border-bottom:1px solid #eee}
 th{border-bottom:2px solid #888}td.n,td.w{text-align:left}tr.first td{border-top:1px solid #888}
 .oracle,.goal{color:#666}.missed{color:#b00020;font-weight:600}.met{color:#1a7f37}
 figure{margin:1.5rem 0}img{max-width:100%;height:auto}figcaption{color:#555}"""
 
-INTRODUCTION = """<p>Each scene is simulated with {runs} seeds from {seed}, tracked and scored against the truth; figures are means
-&plusmn; standard errors. The oracle is a Kalman filter or IMM that is told which plots are whose: a reference, not a bound.
-Goals of completeness, false tracks and switches are bars: green ones are met within two standard errors, red ones are not.
+INTRODUCTION = """<p>Each scene is simulated with {runs} seeds from {seed}, tracked and scored \
+against the truth; figures are means
+&plusmn; standard errors. The oracle is a Kalman filter or IMM that is told which plots are whose: \
+a reference, not a bound.
+Goals of completeness, false tracks and switches are bars: green ones are met within two standard \
+errors, red ones are not.
 Delays are in scans from a target's first visibility to its first track.</p>"""
 
-CONSISTENCY = """<p>NEES (normalised estimation error squared) of place and velocity over what it is where covariances are right: above 1
-they are too small; and shares inside the ellipse of 95 %. A track that coasts counts as that alone; else its target turns, or not.</p>"""
+CONSISTENCY = """<p>NEES (normalised estimation error squared) of place and velocity over what it \
+is where covariances are right: above 1
+they are too small; and shares inside the ellipse of 95 %. A track that coasts counts as that \
+alone; else its target turns, or not.</p>"""
 
 CAPTION = "Seed {seed}: plots grey, truth green, tracks blue, tracks without a target red."
 
@@ -30,7 +37,8 @@ def table(results, columns, rows_of):
             texts = "".join(f'<td class="{classes[None if met is None else bool(met)]}">'
                             f"{html.escape(text).replace('+-', ' &plusmn; ')}</td>"
                             for text, met in cells)
-            name = f'<a href="#{result["name"]}">{html.escape(result["name"])}</a>' if label == "today" else ""
+            name = (f'<a href="#{result["name"]}">{html.escape(result["name"])}</a>'
+                    if label == "today" else "")
             lines.append(
                 f'<tr class="{"first" if label == "today" else label}"><td class="n">{name}</td>'
                 f'<td class="w">{label}</td>{texts}</tr>')
@@ -47,20 +55,22 @@ def consistency_table(results, headings, consistency_rows):
                 f'<td class="{classes[None if held is None else bool(held)]}">{text}</td>'
                 for text, held in cells)
             lines.append(
-                f'<tr class="{label if number else "first"}"><td class="n">{"" if number else html.escape(result["name"])}'
+                f'<tr class="{label if number else "first"}"><td class="n">'
+                f'{"" if number else html.escape(result["name"])}'
                 f'</td><td class="w">{label}</td><td class="w">{motion}</td>{texts}</tr>')
     return "\n".join(lines + ["</table>"])
 
 
 def alarm_table(alarms):
     lines = [
-        "<table><tr><th>clutter</th><th>hours</th><th>wanted an hour</th><th>tracks</th><th>an hour</th>"
-        "<th>of the wanted</th><th>95 %</th></tr>"
+        "<table><tr><th>clutter</th><th>hours</th><th>wanted an hour</th><th>tracks</th>"
+        "<th>an hour</th><th>of the wanted</th><th>95 %</th></tr>"
     ]
     for row in alarms:
         lines.append(
             f'<tr><td class="n">{html.escape(row["name"])}</td><td>{row["hours"]:.1f}</td>'
-            f'<td>{row["wanted_per_hour"]:g}</td><td>{row["tracks"]}</td><td>{row["per_hour"]:.2f}</td>'
+            f'<td>{row["wanted_per_hour"]:g}</td><td>{row["tracks"]}</td>'
+            f'<td>{row["per_hour"]:.2f}</td>'
             f'<td class="{"met" if row["held"] else "missed"}">{row["ratio"]:.2f}</td>'
             f'<td>{row["ratio_low"]:.2f} to {row["ratio_high"]:.2f}</td></tr>')
     return "\n".join(lines + ["</table>"])
@@ -78,20 +88,23 @@ def write(path, results, alarms, longs, options, columns, rows_of, consistency):
             if result["about"]:
                 body.append(f"<p>{html.escape(result['about'])}</p>")
             body.append(
-                f'<figure><img src="{result["name"]}.png" alt="Plan view of {html.escape(result["name"])}">'
+                f'<figure><img src="{result["name"]}.png" '
+                f'alt="Plan view of {html.escape(result["name"])}">'
                 f"<figcaption>{CAPTION.format(seed=options.seed)}</figcaption></figure>")
         body += ["<h2>Consistency</h2>", CONSISTENCY, consistency_table(results, *consistency)]
     if alarms:
         body += [
             "<h2>False tracks an hour</h2>",
-            "<p>Scenes without targets; confirmed tracks that began after ten minutes of learning.</p>",
+            "<p>Scenes without targets; "
+            "confirmed tracks that began after ten minutes of learning.</p>",
             alarm_table(alarms)
         ]
     if longs:
         from parts import hour_by_hour
         body += ["<h2>Hour by hour</h2>", f"<pre>{html.escape(hour_by_hour.table(longs))}</pre>"]
     text = (
-        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>rhotrack: real skies</title>\n'
+        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+        f"<title>rhotrack: real skies</title>\n"
         f"<style>{STYLE}</style></head><body>\n" + "\n".join(body) + "\n</body></html>\n")
     part = path.with_suffix(".html.part")
     part.write_text(text, encoding="utf-8")

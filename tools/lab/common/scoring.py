@@ -8,7 +8,8 @@ from scipy.optimize import linear_sum_assignment
 from common import read_truth_plots_tracks
 
 GATE_SHARE = 0.0125  # of the largest range: a track so near to a target may be that target's
-FORGIVEN_TURNS = 5  # of the slowest sensor: for so long a track may stay behind where its target left or died
+# of the slowest sensor: for so long a track may stay behind where its target left or died
+FORGIVEN_TURNS = 5
 KEPT_PAIR = 0.5  # in gates: by so much another pairing must be nearer than that of the last scan
 FORBIDDEN = 1e4
 ELLIPSE = -2 * np.log(0.05)  # chi-square of two axes that 95 % are below
@@ -84,7 +85,8 @@ def pairs_of(truth, tracks, paired):
     velocity = np.full(
         (len(paired), 2), np.nan) if truth.velocity_mps is None else truth.velocity_mps[scan,
                                                                                         target]
-    motions = np.where(more[:, -1] == 1, read_truth_plots_tracks.COASTING, truth.motions()[scan, target])
+    motions = np.where(more[:, -1] == 1, read_truth_plots_tracks.COASTING,
+                       truth.motions()[scan, target])
     return places - truth.place_m[scan, target], more[:, :2] - velocity, more, motions
 
 

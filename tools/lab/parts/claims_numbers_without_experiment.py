@@ -16,8 +16,8 @@ import passive
 from parts import passive_paper_further_claims
 from parts.passive_scenes_and_references import Scene as BearingScene
 from parts.passive_scenes_and_references import Setting
-from parts.maneuver_scene import (CLEAN_SCANS, HALF_BEAM_DEG, INTERVAL_S, PRINTED_START, SCANS, START,
-                            Scene)
+from parts.maneuver_scene import (CLEAN_SCANS, HALF_BEAM_DEG, INTERVAL_S, PRINTED_START, SCANS,
+                                  START, Scene)
 from parts.follow_maneuver_by_method import follow
 
 PAIRS = 100000

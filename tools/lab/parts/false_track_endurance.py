@@ -97,11 +97,13 @@ def verdict(name, count, hours, wanted):
 
 def table(alarms):
     lines = [
-        f"{'clutter':22}{'hours':>8}{'wanted/h':>10}{'tracks':>8}{'per hour':>10}{'of wanted':>11}{'95 %':>16}"
+        f"{'clutter':22}{'hours':>8}{'wanted/h':>10}{'tracks':>8}{'per hour':>10}"
+        f"{'of wanted':>11}{'95 %':>16}"
     ]
     for row in alarms:
         limits = f"{row['ratio_low']:.2f} to {row['ratio_high']:.2f}"
         lines.append(
-            f"{row['name']:22}{row['hours']:8.1f}{row['wanted_per_hour']:10g}{row['tracks']:8d}{row['per_hour']:10.2f}"
-            f"{row['ratio']:10.2f}{' ' if row['held'] else '*'}{limits:>16}")
+            f"{row['name']:22}{row['hours']:8.1f}{row['wanted_per_hour']:10g}{row['tracks']:8d}"
+            f"{row['per_hour']:10.2f}{row['ratio']:10.2f}{' ' if row['held'] else '*'}"
+            f"{limits:>16}")
     return "\n".join(lines)

@@ -202,8 +202,10 @@ def summary_of(outcome, imm=None):
     of the IMM that knows the plots in the same runs."""
     kept = ~outcome["is_lost"]
     ones, few = np.ones(len(kept)), outcome["is_inside"][:FIRST_RUNS]
-    summary = {"inside": experiment.mean_of(outcome["is_inside"]), "first_inside": experiment.mean_of(few),
-               "lost": experiment.mean_of(outcome["is_lost"]), "wrong": experiment.mean_of(outcome["wrong"]),
+    summary = {"inside": experiment.mean_of(outcome["is_inside"]),
+               "first_inside": experiment.mean_of(few),
+               "lost": experiment.mean_of(outcome["is_lost"]),
+               "wrong": experiment.mean_of(outcome["wrong"]),
                "hypotheses": experiment.mean_of(outcome["hypotheses"]),
                "most_off_m": (float(outcome["most_off_m"].max()), math.nan),
                "refused": (float(outcome["refused"].sum()), math.nan),
@@ -214,7 +216,8 @@ def summary_of(outcome, imm=None):
                          math.sqrt(math.pi / 2) * experiment.mean_of(outcome[name])[1])
     for name, key in (("rms_m", "square_m2"), ("rms_mps", "square_mps2")):
         summary[name] = experiment.root_of(*experiment.ratio_of(outcome[key], ones))
-        summary[f"kept_{name}"] = experiment.root_of(*experiment.ratio_of(outcome[key][kept], ones[kept]))
+        summary[f"kept_{name}"] = experiment.root_of(
+            *experiment.ratio_of(outcome[key][kept], ones[kept]))
         summary[f"{name}_over_imm"] = (math.nan, math.nan) if imm is None else experiment.root_of(
             *experiment.ratio_of(outcome[key][kept], imm[key][kept]))
     return summary

@@ -75,8 +75,8 @@ def by_hour(path, count):
     with open(path, encoding="utf-8") as file:
         header, rows = next(file), list(file)
     hours = [[] for _ in range(count)]
-    times_us = np.maximum.accumulate(
-        read_truth_plots_tracks.microseconds([row.split(",", 1)[0] for row in rows]))  # the file's order stays
+    times_us = np.maximum.accumulate(  # the file's order stays
+        read_truth_plots_tracks.microseconds([row.split(",", 1)[0] for row in rows]))
     for row, hour in zip(rows, hours_of(times_us, count)):
         hours[hour].append(row)
     return header, hours
@@ -145,8 +145,8 @@ def run(job):
     chances = np.bincount(hour, weights=truth.visible.sum(axis=1), minlength=len(used))
     if not chances.all():
         raise ValueError(
-            f"{job['name']}: no target is in sight in hour {np.argmin(chances > 0) + 1}; take a scene whose targets "
-            f"are replaced")
+            f"{job['name']}: no target is in sight in hour {np.argmin(chances > 0) + 1}; "
+            f"take a scene whose targets are replaced")
     scans = np.bincount(hour, minlength=len(used))
     return job["name"], [{
         "completeness": float(paired[h] / chances[h]), "false_per_scan": float(
@@ -188,7 +188,8 @@ def judged(name, goal, runs):
 def measure(options, run_program):
     work, goals = [], {}
     for name in options.scene or SCENES:
-        scene = json.loads(read_truth_plots_tracks.path_of(options.scenes, name).read_text(encoding="utf-8"))
+        scene = json.loads(
+            read_truth_plots_tracks.path_of(options.scenes, name).read_text(encoding="utf-8"))
         goals[name] = scene.get("goal") or {}
         scene["duration_s"] = 3600 * options.hours
         hours = math.ceil(options.hours)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Figs. 4 to 6 and 12 to 14 of Fan et al.: ideal tracks, plots among clutter, and initialised tracks
-after a recursive least squares filter.
+"""Figs. 4 to 6 and 12 to 14 of Fan et al.: ideal tracks, plots among clutter, and initialised
+tracks after a recursive least squares filter.
 
 The paper filters by its reference [28], a fuzzy recursive least squares filter (RLSF), of which it
 states no equation. Here it is the filter that the name says, without the fuzzy weights: constant
@@ -73,10 +73,10 @@ def tell(report, initiator_of, plots_of, situations):
     report.heading("Figs. 4 to 6 and 12 to 14: ideal tracks, plots, initialised tracks")
     report.text(
         f"Tracks of NHT, reading C, and of the default, filtered by recursive least squares "
-        f"(constant velocity, all plots alike; the paper's own RLSF is fuzzy, and its equations are "
-        f"in another paper). Mean of {runs} runs; of each at most as many tracks as targets, of the highest peaks "
-        f"that have plots of three scans along them. Right: the last filtered place is within 3 sigma of a target (10 m, real data 60 m). "
-        f"Off: of these.")
+        f"(constant velocity, all plots alike; the paper's own RLSF is fuzzy, and its equations "
+        f"are in another paper). Mean of {runs} runs; of each at most as many tracks as targets, "
+        f"of the highest peaks that have plots of three scans along them. Right: the last filtered "
+        f"place is within 3 sigma of a target (10 m, real data 60 m). Off: of these.")
     facts = []
     for number, (kind, situation) in enumerate(situations.items()):
         near_m = 3 * (paper.TABLE_3_SIGMA_M if situation.is_real else paper.TABLE_1_SIGMA_M)
@@ -128,5 +128,5 @@ def draw(report, kind, situation, plots, tracks):
     box_km = np.array(situation.box_m) / 1e3
     grid[0, 0].set(xlim=box_km[:2], ylim=box_km[2:])
     report.figure(f"tracks-{kind.replace(',', '').replace(' ', '-')}", figure,
-                  f"Figs. {first} to {first + 2}, {kind}: ideal tracks, plots, and the initialised tracks after least "
-                  "squares.")
+                  f"Figs. {first} to {first + 2}, {kind}: ideal tracks, plots, and the "
+                  "initialised tracks after least squares.")

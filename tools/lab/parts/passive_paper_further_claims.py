@@ -4,9 +4,9 @@ heading psi of a line, and a cost that grows almost linearly with the crossings,
 assignment that it avoids.
 
 The S-D assignment is the static one of the literature: of one look of S sensors, the set of tuples
-(a bearing or none of each sensor) of the least cost, in which each bearing is at most once. A
-tuple costs its squared residuals over 2 sigma^2 from the place that its bearings fit best, less what
-a target gains over false bearings; tuples that cost more than nothing are left out by none. It is
+(a bearing or none of each sensor) of the least cost, in which each bearing is at most once. A tuple
+costs its squared residuals over 2 sigma^2 from the place that its bearings fit best, less what a
+target gains over false bearings; tuples that cost more than nothing are left out by none. It is
 solved exactly, as an integer program (HiGHS).
 """
 import itertools
@@ -21,8 +21,8 @@ from scipy.sparse import coo_array
 
 import rhotrack
 from parts.passive_scenes_and_references import PLACES_M, Scene, Setting, wrapped
-from parts.passive_paper_figures import (ROWS, THREE, TWO, crossings_left, line_of, line_off, paper_of,
-                             scene_of)
+from parts.passive_paper_figures import (ROWS, THREE, TWO, crossings_left, line_of, line_off,
+                                         paper_of, scene_of)
 from parts.passive_runs import RULES, runs_of
 
 NEAR_CELLS = 2  # of a line's cell, that count as the line's
@@ -119,7 +119,8 @@ def assign(costs, members, looks):
 
 def assignment_run(sensors, targets, seed):
     """ms, tuples, and the share of the tuples chosen that are one target's whole."""
-    scene = Scene(Setting(sensors, targets, 0.1), np.random.default_rng([seed, 7, sensors, targets]))
+    scene = Scene(Setting(sensors, targets, 0.1),
+                  np.random.default_rng([seed, 7, sensors, targets]))
     of_look = [scene.looks()[0, s] for s in range(sensors)]
     looks = [look["bearing_rad"].astype(float) for look in of_look]
     start_s = time.thread_time()
@@ -135,7 +136,8 @@ def assignment_run(sensors, targets, seed):
 
 def hough_run(sensors, targets, seed):
     """ms of a look's share of the search, crossings of a look."""
-    scene = Scene(Setting(sensors, targets, 0.1), np.random.default_rng([seed, 7, sensors, targets]))
+    scene = Scene(Setting(sensors, targets, 0.1),
+                  np.random.default_rng([seed, 7, sensors, targets]))
     frames, times_s = rhotrack.Scans(scene.frames()), []
     for _ in range(REPEATS):
         start_s = time.thread_time()

@@ -161,10 +161,10 @@ def tell(report):
                           "found": share, "ghosts_per_run": ghosts, "errors_per_run": mean})
     report.heading("Further in the paper's spirit")
     report.text(
-        f"The paper's method in numpy, {len(found)} runs, each way at the threshold (a share of the "
-        "frames) at which it errs least: targets without a line, and lines of ghosts. Literal: the "
-        "paper's pruning. Matchings: the safe rule. All pairs: a crossing stays where each other sensor "
-        f"has a bearing within {JOINT_SIGMAS} standard deviations. Shared: a crossing has {SHARES} votes, shared among cells of rho by "
-        "its covariance.")
+        f"The paper's method in numpy, {len(found)} runs, each way at the threshold (a share of "
+        "the frames) at which it errs least: targets without a line, and lines of ghosts. Literal: "
+        "the paper's pruning. Matchings: the safe rule. All pairs: a crossing stays where each "
+        f"other sensor has a bearing within {JOINT_SIGMAS} standard deviations. Shared: a crossing "
+        f"has {SHARES} votes, shared among cells of rho by its covariance.")
     report.table(["further", "way", "threshold", "Pd", "ghosts a run", "errors a run"], rows)
     report.fact("further", facts)

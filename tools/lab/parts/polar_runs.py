@@ -76,7 +76,8 @@ class Sky:
             more["range_rate_mps"] = rate_mps - case.span_mps * np.round(
                 rate_mps / case.span_mps) if case.span_mps else rate_mps
         polar = () if case.is_isotropic else ("range_m", "azimuth_rad")
-        return simulate_scene_in_memory.with_fields(self.rows, ("t_s", "sensor_id", "scan", *polar), **more)
+        return simulate_scene_in_memory.with_fields(
+            self.rows, ("t_s", "sensor_id", "scan", *polar), **more)
 
 
 # --- a search of seven turns
@@ -228,7 +229,8 @@ def figures_of(runs):
         "confirmed_at_turn": total["confirm_at"] / max(1, total["confirmed"]),
         "false_tracks_per_run": experiment.mean_of([run["false_tracks"] for run in runs]),
         "rmse_m": rms[0], "along_rmse_m": rms[1], "double_filter_rmse_m": rms[2],
-        "rmse_mps": rms[3], "over_double_filter": experiment.root_of(*experiment.ratio_of(sums[0], sums[2])),
+        "rmse_mps": rms[3],
+        "over_double_filter": experiment.root_of(*experiment.ratio_of(sums[0], sums[2])),
         "errors": total["errors"]}
 
 

@@ -134,7 +134,8 @@ def run_traffic(job):
         "air-traffic", seed, f"targets.0.flights={case.aircraft}",
         f"clutter.0.plots={case.clutter}", f"duration_s={case.num_scans * INTERVAL_S:g}",
         *case.sets)
-    rows = simulate_scene_in_memory.with_fields(run.plots, ("t_s", "sensor_id", "x_m", "y_m", "scan"))
+    rows = simulate_scene_in_memory.with_fields(run.plots,
+                                                ("t_s", "sensor_id", "x_m", "y_m", "scan"))
     scans = np.split(rows, np.flatnonzero(np.diff(rows["scan"])) + 1)
     reports, times_us, starts, _ = step_through(run.settings, scans)
     counts = collections.Counter(start for start in starts if start >= 3)
@@ -239,8 +240,8 @@ def run_alarm(job):
     """False tracks of ALARM_SCANS scans."""
     clutter, wanted_per_hour, seed = job
     random = np.random.default_rng([seed, int(clutter)])
-    settings = simulate_scene_in_memory.simulate("air-traffic", seed, "duration_s=10").settings.copy(
-        false_tracks_per_hour=wanted_per_hour)
+    settings = simulate_scene_in_memory.simulate(
+        "air-traffic", seed, "duration_s=10").settings.copy(false_tracks_per_hour=wanted_per_hour)
     box_m = [settings[f"area_{side}_m"] for side in ("x_min", "x_max", "y_min", "y_max")]
     scans = (scan_of(INTERVAL_S * k, clutter_in(box_m, clutter, random))
              for k in range(ALARM_SCANS))
@@ -256,7 +257,8 @@ def run_rival(job):
     """Figures and ms a scan of one method on the plots of a seed: 50 aircraft, clutter of 100."""
     method, seed = job
     run = simulate_scene_in_memory.simulate("air-traffic", seed, "duration_s=1200")
-    rows = simulate_scene_in_memory.with_fields(run.plots, ("t_s", "sensor_id", "x_m", "y_m", "scan"))
+    rows = simulate_scene_in_memory.with_fields(run.plots,
+                                                ("t_s", "sensor_id", "x_m", "y_m", "scan"))
     scans = np.split(rows, np.flatnonzero(np.diff(rows["scan"])) + 1)
     if method == "rhotrack":
         reports, times_us, _, _ = step_through(run.settings, scans)

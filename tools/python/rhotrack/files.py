@@ -102,7 +102,8 @@ def read_mat(path: str | os.PathLike, kind: str | None) -> np.ndarray:
     try:
         found = loadmat(path, simplify_cells=True)
     except NotImplementedError:
-        raise Error(f"{os.fspath(path)}: HDF5; save(..., '-v7') writes a file that is read") from None
+        raise Error(
+            f"{os.fspath(path)}: HDF5; save(..., '-v7') writes a file that is read") from None
     tables = [scans.of_dicts(list(one)) if isinstance(one, (list, np.ndarray)) else one
               for one in [found, *found.values()]
               if isinstance(one, dict) or (isinstance(one, (list, np.ndarray)) and len(one)

@@ -137,7 +137,8 @@ class Imm:
 
 
 class InputEstimation:
-    """A Kalman filter that estimates the target's acceleration (rhotrack/detail/input_estimation.h).
+    """A Kalman filter that estimates the target's acceleration
+    (rhotrack/detail/input_estimation.h).
 
     Fields of struct rho_input_config set by name, as gamma=0.9; model: "literal" or "physical".
     """
@@ -147,7 +148,8 @@ class InputEstimation:
         models = {"literal": lib.RHO_INPUT_LITERAL, "physical": lib.RHO_INPUT_PHYSICAL}
         if model not in models:
             raise Error(f"model {model!r} is neither literal nor physical")
-        self.config, self.struct = ffi.new("struct rho_input_config *"), ffi.new("struct rho_input *")
+        self.config = ffi.new("struct rho_input_config *")
+        self.struct = ffi.new("struct rho_input *")
         lib.rho_input_config_default(self.config)
         self.config.model = models[model]
         self.config.threshold = lib.rho_input_threshold_sigmas(onset_confidence)
@@ -164,8 +166,10 @@ class InputEstimation:
 
     def update(self, element: int, value: float, variance: float) -> None:
         """Element 0 .. 5 of the state was measured."""
-        must_succeed(lib.rho_input_update_filter_by_element(self.struct, self.config, element, value, variance),
-                     "element, value or variance")
+        must_succeed(
+            lib.rho_input_update_filter_by_element(self.struct, self.config, element, value,
+                                                   variance),
+            "element, value or variance")
 
     def update_plot(self, plot: np.ndarray, settings: Settings | None = None) -> None:
         """Takes a plot's place."""
@@ -218,8 +222,10 @@ class HoughGate:
         velocities = np.ascontiguousarray(np.atleast_2d(velocities_mps), "f4")
         if velocities.ndim != 2 or velocities.shape[1] != 3:
             raise Error(f"velocities_mps: (n, 3) is wanted, not {velocities.shape}")
-        return np.array([lib.rho_gate_hough_velocity_distance_from_lines_mps(self.struct, pointer_to(one, "float *"))
-                         for one in velocities], "f4")
+        return np.array([
+            lib.rho_gate_hough_velocity_distance_from_lines_mps(self.struct,
+                                                                pointer_to(one, "float *"))
+            for one in velocities], "f4")
 
 
 class Ghosts(NamedTuple):

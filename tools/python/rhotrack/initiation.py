@@ -287,7 +287,8 @@ class Passive:
                 has_voted = np.zeros(votes.shape, bool)
                 has_voted[row, cell[row, point]] = True
                 votes += has_voted
-            found[pair] = Accumulator(votes, theta, (np.arange(columns) + 0.5 - columns / 2) * step_m)
+            found[pair] = Accumulator(votes, theta,
+                                      (np.arange(columns) + 0.5 - columns / 2) * step_m)
         return found
 
     def ghosts(self, frame: np.ndarray) -> dict[tuple[int, int], Ghosts]:

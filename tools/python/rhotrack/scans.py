@@ -57,7 +57,8 @@ class Scans(Sequence):
                 data if _is_list(data) else _split(records(data), settings))
         else:
             array, counts = records(data), np.asarray(counts, "u4")
-            rows, are_frames = _full(array), np.full(len(counts), "bearing_rad" in array.dtype.names)
+            rows = _full(array)
+            are_frames = np.full(len(counts), "bearing_rad" in array.dtype.names)
             if counts.sum() != len(rows):
                 raise Error(f"counts of {counts.sum()} rows, and there are {len(rows)}")
         handle = lib.program_scans_from_rows(
@@ -129,9 +130,9 @@ def read(*paths: str | os.PathLike, settings: Settings | None = None, kind: str 
 
     Also MATLAB's .mat (a struct of columns, see write) and the radar_msgs of .mcap, one at a time.
     Plots and bearings give Scans. A file of tracks or truth gives one structured array, a row each
-    track or target and time; of other files where kind is "tracks" or "truth". The settings say what
-    files leave open: sigmas, places and biases of sensors, scan_interval_s, the origin. keep_going
-    skips bad rows. Error names file, line and column.
+    track or target and time; of other files where kind is "tracks" or "truth". The settings say
+    what files leave open: sigmas, places and biases of sensors, scan_interval_s, the origin.
+    keep_going skips bad rows. Error names file, line and column.
     """
     if not paths:
         raise Error("read: no file is named")

@@ -82,7 +82,8 @@ class Tracker:
 
     @property
     def fates(self) -> np.ndarray:
-        """What the last step did with each plot, in the order of the scan: "claimed", "held", ..."""
+        """What the last step did with each plot, in the order of the scan: "claimed", "held",
+        ..."""
         report = self._pipeline.report
         count = min(report.num_plots, lib.RHO_MAX_PLOTS)
         return FATES[array_of(report.fates, count, "u1")]

@@ -37,10 +37,11 @@ final class AccumulatorLayer {
      * Paints the planes of votes. Empty blocks stay dark; planes of single pairs of sensors are
      * faint, and the plane of all pairs is painted over them.
      */
-    static void paintPlane(Graphics2D g, Scene scene, Scene.Accumulator search, DoubleUnaryOperator screenX,
-            DoubleUnaryOperator screenY) {
+    static void paintPlane(Graphics2D g, Scene scene, Scene.Accumulator search,
+            DoubleUnaryOperator screenX, DoubleUnaryOperator screenY) {
         scene.internals().planes().stream()
-                .filter(plane -> plane.which().method() == search.which().method() && plane.scan() == search.scan())
+                .filter(plane -> plane.which().method() == search.which().method()
+                        && plane.scan() == search.scan())
                 .sorted(Comparator.comparing((Scene.Plane plane) -> !plane.which().hasPair()))
                 .forEach(plane -> paintPlane(g, plane, search, screenX, screenY));
     }
@@ -59,8 +60,10 @@ final class AccumulatorLayer {
                     double step = (search.rhoMax() - search.rhoMin()) / row.length;
                     double bottom = screenY.applyAsDouble(search.rhoMin() + i * step);
                     double top = screenY.applyAsDouble(search.rhoMin() + (i + 1) * step);
-                    g.setColor(Palette.withAlpha(Palette.rampColour(share), strength * (0.25 + 0.75 * share)));
-                    g.fill(new Rectangle2D.Double(left, top, right - left + 0.5, bottom - top + 0.5));
+                    g.setColor(Palette.withAlpha(Palette.rampColour(share),
+                            strength * (0.25 + 0.75 * share)));
+                    g.fill(new Rectangle2D.Double(left, top, right - left + 0.5,
+                            bottom - top + 0.5));
                 }
             }
         }
@@ -77,7 +80,8 @@ final class AccumulatorLayer {
         for (Scene.Cell cell : cells) {
             double x = screenX.applyAsDouble(cell.theta());
             double y = screenY.applyAsDouble(cell.rho());
-            Color colour = cell.trackId() > 0 ? Palette.ofStatus(DisplayedTrack.Status.CONFIRMED) : Palette.TEXT;
+            Color colour = cell.trackId() > 0
+                    ? Palette.ofStatus(DisplayedTrack.Status.CONFIRMED) : Palette.TEXT;
             Ellipse2D ring = new Ellipse2D.Double(x - RADIUS, y - RADIUS, 2 * RADIUS, 2 * RADIUS);
             g.setColor(colour);
             if (cell.trackId() > 0) {
@@ -89,14 +93,17 @@ final class AccumulatorLayer {
         }
         g.setFont(Palette.SMALL);
         for (Scene.Cell cell : cells.subList(0, Math.min(MAX_LABELS, cells.size()))) {
-            drawCellLabel(g, cell, screenX.applyAsDouble(cell.theta()), screenY.applyAsDouble(cell.rho()), labels);
+            drawCellLabel(g, cell,
+                    screenX.applyAsDouble(cell.theta()), screenY.applyAsDouble(cell.rho()), labels);
         }
     }
 
-    private static void drawCellLabel(Graphics2D g, Scene.Cell cell, double x, double y, LabelPlacer labels) {
+    private static void drawCellLabel(Graphics2D g, Scene.Cell cell, double x, double y,
+            LabelPlacer labels) {
         String text = String.format(Locale.ROOT, "%.1f%s", cell.votes(),
                 cell.trackId() > 0 ? " \u2192 track " + cell.trackId() : "");
-        Rectangle2D room = labels.placeLabel(x, y, LABEL_GAP, g.getFontMetrics().stringWidth(text), 13);
+        Rectangle2D room =
+                labels.placeLabel(x, y, LABEL_GAP, g.getFontMetrics().stringWidth(text), 13);
         if (room != null) {
             LabelPlacer.paintLeader(g, x, y, LABEL_GAP, room, Palette.MUTED);
             g.setColor(Palette.withAlpha(Palette.BACKGROUND, 0.7));

@@ -66,10 +66,11 @@ final class AllViewsPanel extends JPanel {
         controls.addButton("Clear", "C", () -> false, this::clear);
         controls.addGap();
         for (ViewOptions.Layer layer : ViewOptions.Layer.values()) {
-            controls.addButton(layer.title, String.valueOf(layer.key), () -> options.shows(layer), () -> {
-                options.toggle(layer);
-                repaint();
-            });
+            controls.addButton(layer.title, String.valueOf(layer.key), () -> options.shows(layer),
+                    () -> {
+                        options.toggle(layer);
+                        repaint();
+                    });
         }
         controls.bindKey("typed +", () -> plan.zoom(ZOOM_A_KEY));
         controls.bindKey("typed -", () -> plan.zoom(1 / ZOOM_A_KEY));
@@ -80,9 +81,11 @@ final class AllViewsPanel extends JPanel {
         return controls;
     }
 
-    private static JSplitPane splitPane(int orientation, Component first, Component second, double weight) {
+    private static JSplitPane splitPane(int orientation, Component first, Component second,
+            double weight) {
         JSplitPane split = new JSplitPane(orientation, true, first, second);
-        BasicSplitPaneUI plain = new BasicSplitPaneUI(); // the default UI paints knobs and edges in light grey
+        // the default UI paints knobs and edges in light grey
+        BasicSplitPaneUI plain = new BasicSplitPaneUI();
         split.setUI(plain);
         plain.getDivider().setBorder(BorderFactory.createEmptyBorder());
         split.setBackground(Palette.EDGE);
@@ -128,7 +131,8 @@ final class AllViewsPanel extends JPanel {
                 .max(Comparator.comparingInt(of -> of.list().size()))
                 .map(Scene.Hypotheses::trackId).orElse(0);
         scene.tracks().stream().filter(track -> track.id() == wanted).findFirst()
-                .map(track -> plan.pixelOf(track.place())).ifPresent(at -> plan.selectAt(at.x, at.y));
+                .map(track -> plan.pixelOf(track.place()))
+                .ifPresent(at -> plan.selectAt(at.x, at.y));
     }
 
     /**

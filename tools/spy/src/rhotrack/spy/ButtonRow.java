@@ -38,11 +38,13 @@ final class ButtonRow {
     void addButton(String title, String key, BooleanSupplier isOn, Runnable job) {
         JButton button = new JButton(title);
         button.setToolTipText("key " + key.toLowerCase(Locale.ROOT));
-        button.setFocusable(false); // the space key then pauses instead of pressing the last button again
+        // the space key then pauses instead of pressing the last button again
+        button.setFocusable(false);
         button.setContentAreaFilled(false);
         button.setOpaque(true);
         button.setFont(Palette.PLAIN);
-        button.setBorder(BorderFactory.createCompoundBorder(BorderFactory.createLineBorder(Palette.EDGE),
+        button.setBorder(BorderFactory.createCompoundBorder(
+                BorderFactory.createLineBorder(Palette.EDGE),
                 BorderFactory.createEmptyBorder(3, 10, 3, 10)));
         button.addActionListener(event -> runAndRefresh(job));
         states.put(button, isOn);
@@ -61,7 +63,8 @@ final class ButtonRow {
     /** Binds a key, in KeyStroke's notation ("P", "SPACE", "typed +"), to a job. */
     @SuppressWarnings("serial") // actions are never serialised
     void bindKey(String key, Runnable job) {
-        keyOwner.getInputMap(JComponent.WHEN_IN_FOCUSED_WINDOW).put(KeyStroke.getKeyStroke(key), key);
+        keyOwner.getInputMap(JComponent.WHEN_IN_FOCUSED_WINDOW)
+                .put(KeyStroke.getKeyStroke(key), key);
         keyOwner.getActionMap().put(key, new AbstractAction() {
             @Override
             public void actionPerformed(ActionEvent event) {

@@ -24,8 +24,8 @@ final class GhostsAndHypothesesLayer {
         g.setStroke(Palette.THIN);
         for (Scene.Ghosts matrix : scene.internals().ghosts()) {
             for (Scene.Crossing crossing : matrix.crossings()) {
-                paintCrossing(g, view.screenX(crossing.place().x()), view.screenY(crossing.place().y()),
-                        crossing.pruned());
+                paintCrossing(g, view.screenX(crossing.place().x()),
+                        view.screenY(crossing.place().y()), crossing.pruned());
             }
         }
     }
@@ -43,7 +43,8 @@ final class GhostsAndHypothesesLayer {
      * Paints the position and velocity of each hypothesis of the selected track, likelier ones
      * brighter.
      */
-    static void paintHypotheses(Graphics2D g, Scene scene, Integer track, ViewTransform view, double seconds) {
+    static void paintHypotheses(Graphics2D g, Scene scene, Integer track, ViewTransform view,
+            double seconds) {
         Scene.Hypotheses of = track == null ? null : scene.internals().hypotheses().get(track);
         if (of == null) {
             return;
@@ -52,7 +53,8 @@ final class GhostsAndHypothesesLayer {
         for (int i = of.list().size() - 1; i >= 0; i--) {
             Scene.Hypothesis one = of.list().get(i);
             Color colour = Palette.withAlpha(Palette.ofHypothesis(i), 0.35 + 0.65 * one.share());
-            LocalPoint to = new LocalPoint(one.place().x() + seconds * one.vx(), one.place().y() + seconds * one.vy());
+            LocalPoint to = new LocalPoint(one.place().x() + seconds * one.vx(),
+                    one.place().y() + seconds * one.vy());
             double x = view.screenX(one.place().x());
             double y = view.screenY(one.place().y());
             g.setColor(colour);

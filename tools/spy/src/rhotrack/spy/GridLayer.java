@@ -32,10 +32,12 @@ final class GridLayer {
         for (long ring = first; ring <= last; ring++) {
             double radius = ring * gap;
             g.setColor(Palette.GRID);
-            g.draw(new Ellipse2D.Double(originX - radius, originY - radius, 2 * radius, 2 * radius));
+            g.draw(new Ellipse2D.Double(originX - radius, originY - radius,
+                    2 * radius, 2 * radius));
         }
         for (long ring = first; ring <= last; ring++) {
-            drawRingLabel(g, AxisScale.formatLength(ring * step, step), originX, originY, ring * gap, width, height);
+            drawRingLabel(g, AxisScale.formatLength(ring * step, step), originX, originY,
+                    ring * gap, width, height);
         }
     }
 
@@ -43,15 +45,14 @@ final class GridLayer {
      * Draws a ring's label on the ring, in the direction in which most of the picture lies as seen
      * from the origin.
      */
-    private static void drawRingLabel(Graphics2D g, String text, double originX, double originY, double radius,
-            int width,
-            int height) {
+    private static void drawRingLabel(Graphics2D g, String text, double originX, double originY,
+            double radius, int width, int height) {
         boolean originVisible = originX > 0 && originX < width && originY > 0 && originY < height;
         double right = width / 2.0 - originX;
         double down = height / 2.0 - originY;
         if (originVisible) {
-            // One of the four diagonals, south-east unless another is clearly better, so that labels
-            // do not move with every small pan.
+            // One of the four diagonals, south-east unless another is clearly better, so that
+            // labels do not move with every small pan.
             right = right < -0.15 * width ? -1 : 1;
             down = down < -0.15 * height ? -1 : 1;
         }

@@ -18,7 +18,8 @@ final class LabelPlacer {
     /**
      * Sides of the mark that are tried, in this order: right above, right below, left above, ...
      */
-    private static final int[][] SIDES = {{1, -1}, {1, 1}, {-1, -1}, {-1, 1}, {1, 0}, {-1, 0}, {0, -1}, {0, 1}};
+    private static final int[][] SIDES =
+            {{1, -1}, {1, 1}, {-1, -1}, {-1, 1}, {1, 0}, {-1, 0}, {0, -1}, {0, 1}};
 
     /** Factor of the gap for the second try, where there is no room close to the mark. */
     private static final double FAR = 3;
@@ -46,7 +47,8 @@ final class LabelPlacer {
         }
         for (double distance : new double[] {gap, FAR * gap}) {
             for (int[] side : SIDES) {
-                Rectangle2D room = new Rectangle2D.Double(besideMark(markX, side[0], distance, width),
+                Rectangle2D room = new Rectangle2D.Double(
+                        besideMark(markX, side[0], distance, width),
                         besideMark(markY, side[1], distance, height), width, height);
                 if (screen.contains(room) && taken.stream().noneMatch(room::intersects)) {
                     taken.add(room);
@@ -66,7 +68,8 @@ final class LabelPlacer {
     }
 
     /** Draws a line from the mark to its label, unless the label is close to the mark. */
-    static void paintLeader(Graphics2D g, double markX, double markY, double gap, Rectangle2D room, Color colour) {
+    static void paintLeader(Graphics2D g, double markX, double markY, double gap, Rectangle2D room,
+            Color colour) {
         double x = Math.max(room.getMinX(), Math.min(markX, room.getMaxX()));
         double y = Math.max(room.getMinY(), Math.min(markY, room.getMaxY()));
         double distance = Math.hypot(x - markX, y - markY);

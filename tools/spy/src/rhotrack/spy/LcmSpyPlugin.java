@@ -56,7 +56,8 @@ public final class LcmSpyPlugin implements SpyPlugin {
 
     private static Optional<Window> findSpyWindow() {
         return Arrays.stream(Window.getWindows())
-                .filter(one -> one.isVisible() && one instanceof JFrame frame && SPY_TITLE.equals(frame.getTitle()))
+                .filter(one -> one.isVisible() && one instanceof JFrame frame
+                        && SPY_TITLE.equals(frame.getTitle()))
                 .findFirst();
     }
 
@@ -72,7 +73,8 @@ public final class LcmSpyPlugin implements SpyPlugin {
             findSpyWindow().ifPresent(window::placeBeside);
             window.open();
         } catch (IOException e) {
-            JOptionPane.showMessageDialog(null, e.getMessage(), "rhotrack", JOptionPane.ERROR_MESSAGE);
+            JOptionPane.showMessageDialog(null, e.getMessage(), "rhotrack",
+                    JOptionPane.ERROR_MESSAGE);
         }
     }
 }

@@ -27,12 +27,14 @@ final class Legend {
         y = height - HEIGHT / 2.0;
     }
 
-    static void paint(Graphics2D g, Scene scene, ViewOptions options, double vectorSeconds, int width, int height) {
+    static void paint(Graphics2D g, Scene scene, ViewOptions options, double vectorSeconds,
+            int width, int height) {
         g.setColor(Palette.withAlpha(Palette.BACKGROUND, 0.85));
         g.fillRect(0, height - HEIGHT, width, HEIGHT);
         Legend legend = new Legend(g, height);
-        for (DisplayedTrack.Status status : new DisplayedTrack.Status[] {DisplayedTrack.Status.CONFIRMED,
-            DisplayedTrack.Status.TENTATIVE, DisplayedTrack.Status.COASTING}) {
+        for (DisplayedTrack.Status status : new DisplayedTrack.Status[] {
+            DisplayedTrack.Status.CONFIRMED, DisplayedTrack.Status.TENTATIVE,
+            DisplayedTrack.Status.COASTING}) {
             Symbols.drawTrack(g, status, legend.x, legend.y);
             legend.drawText(status.name().toLowerCase(Locale.ROOT));
         }
@@ -68,7 +70,8 @@ final class Legend {
             scene.plots().forEach(look -> seen.put(look.content().sensorId(), "plots"));
         }
         if (options.shows(ViewOptions.Layer.BEARINGS)) {
-            scene.bearings().forEach(look -> seen.putIfAbsent(look.content().sensorId(), "bearings"));
+            scene.bearings()
+                    .forEach(look -> seen.putIfAbsent(look.content().sensorId(), "bearings"));
         }
         int shown = 0;
         for (Map.Entry<Integer, String> sensor : seen.entrySet()) {

@@ -31,8 +31,8 @@ final class Palette {
 
     static final Stroke THIN = new BasicStroke(1f);
     static final Stroke LINE = new BasicStroke(1.6f, BasicStroke.CAP_ROUND, BasicStroke.JOIN_ROUND);
-    static final Stroke DASHED =
-            new BasicStroke(1f, BasicStroke.CAP_BUTT, BasicStroke.JOIN_ROUND, 1f, new float[] {3, 4}, 0);
+    static final Stroke DASHED = new BasicStroke(1f, BasicStroke.CAP_BUTT, BasicStroke.JOIN_ROUND,
+            1f, new float[] {3, 4}, 0);
 
     private static final Color CONFIRMED = new Color(0x57e389);
     private static final Color TENTATIVE = new Color(0xf6d04d);
@@ -40,8 +40,8 @@ final class Palette {
     private static final Color[] SENSORS =
             {new Color(0x6fb1f0), new Color(0xc09bf5), new Color(0x54cfc4), new Color(0xe88fbd)};
     /** Colours of a value from low to high. */
-    private static final Color[] RAMP = {new Color(0x3b4a68), new Color(0x7a4f9a), new Color(0xd0567d),
-        new Color(0xf79a5c), new Color(0xfbe27a)};
+    private static final Color[] RAMP = {new Color(0x3b4a68), new Color(0x7a4f9a),
+        new Color(0xd0567d), new Color(0xf79a5c), new Color(0xfbe27a)};
 
     private Palette() {
     }
@@ -82,7 +82,8 @@ final class Palette {
 
     static void enableAntialiasing(Graphics2D g) {
         g.setRenderingHint(RenderingHints.KEY_ANTIALIASING, RenderingHints.VALUE_ANTIALIAS_ON);
-        g.setRenderingHint(RenderingHints.KEY_TEXT_ANTIALIASING, RenderingHints.VALUE_TEXT_ANTIALIAS_ON);
+        g.setRenderingHint(RenderingHints.KEY_TEXT_ANTIALIASING,
+                RenderingHints.VALUE_TEXT_ANTIALIAS_ON);
         g.setRenderingHint(RenderingHints.KEY_STROKE_CONTROL, RenderingHints.VALUE_STROKE_PURE);
     }
 }

@@ -56,9 +56,12 @@ final class ParameterSpaceView extends JComponent {
         g.fillRect(0, 0, getWidth(), getHeight());
         g.setFont(Palette.BOLD);
         g.setColor(Palette.TEXT);
-        Scene.Accumulator search = scene != null && options.shows(ViewOptions.Layer.VOTES) ? newestSearch() : null;
+        Scene.Accumulator search = scene != null && options.shows(ViewOptions.Layer.VOTES)
+                ? newestSearch() : null;
         g.drawString(search != null ? AccumulatorLayer.title(search) : "Parameter space", 14, 21);
-        String note = search != null ? "\u25cb peak \u2002 \u25cf new track" : "speed \u00b7 scans hit \u2002 \u25cb track";
+        String note = search != null
+                ? "\u25cb peak \u2002 \u25cf new track"
+                : "speed \u00b7 scans hit \u2002 \u25cb track";
         g.setFont(Palette.SMALL);
         g.setColor(Palette.MUTED);
         g.drawString(note, getWidth() - RIGHT - g.getFontMetrics().stringWidth(note), 21);
@@ -151,8 +154,8 @@ final class ParameterSpaceView extends JComponent {
         g.setStroke(Palette.LINE);
         for (DisplayedTrack track : scene.tracks()) {
             if (track.speed() > 0) {
-                Geometry.Line line = Geometry.lineThroughTrack(track.place().x(), track.place().y(), track.vx(),
-                        track.vy());
+                Geometry.Line line = Geometry.lineThroughTrack(track.place().x(), track.place().y(),
+                        track.vx(), track.vy());
                 g.setColor(Palette.withAlpha(Palette.ofStatus(track.status()), 0.75));
                 double x = screenX(line.theta());
                 double y = screenY(line.rho());
@@ -175,7 +178,8 @@ final class ParameterSpaceView extends JComponent {
             boolean newest = list.strength() == 1;
             for (Scene.Peak peak : list.content().peaks()) {
                 double share = most > least ? (peak.score() - least) / (most - least) : 1;
-                Color colour = Palette.withAlpha(Palette.rampColour(share), newest ? 0.95 : 0.3 * list.strength());
+                Color colour = Palette.withAlpha(Palette.rampColour(share),
+                        newest ? 0.95 : 0.3 * list.strength());
                 double radius = 2.5 + 4 * share;
                 double x = screenX(peak.theta());
                 double y = screenY(peak.rho());
@@ -198,10 +202,12 @@ final class ParameterSpaceView extends JComponent {
                 .limit(MAX_LABELS)
                 .toList();
         for (Scene.Peak peak : best) {
-            String text = String.format(Locale.ROOT, "%.0f m/s \u00b7 %d", peak.speed(), peak.scansHit());
+            String text =
+                    String.format(Locale.ROOT, "%.0f m/s \u00b7 %d", peak.speed(), peak.scansHit());
             double x = screenX(peak.theta());
             double y = screenY(peak.rho());
-            Rectangle2D room = labels.placeLabel(x, y, LABEL_GAP, g.getFontMetrics().stringWidth(text), 13);
+            Rectangle2D room =
+                    labels.placeLabel(x, y, LABEL_GAP, g.getFontMetrics().stringWidth(text), 13);
             if (room != null) {
                 LabelPlacer.paintLeader(g, x, y, LABEL_GAP, room, Palette.MUTED);
                 g.setColor(Palette.TEXT);

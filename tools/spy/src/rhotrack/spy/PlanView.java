@@ -77,7 +77,8 @@ final class PlanView extends JComponent {
         selected = null;
         double nearest = SELECT_PIXELS;
         for (DisplayedTrack track : scene == null ? List.<DisplayedTrack>of() : scene.tracks()) {
-            double away = Math.hypot(view.screenX(track.place().x()) - x, view.screenY(track.place().y()) - y);
+            double away = Math.hypot(view.screenX(track.place().x()) - x,
+                    view.screenY(track.place().y()) - y);
             if (away <= nearest) {
                 nearest = away;
                 selected = track.id();
@@ -89,7 +90,8 @@ final class PlanView extends JComponent {
 
     /** The pixel at which a place is painted. */
     Point pixelOf(LocalPoint place) {
-        return new Point((int) Math.round(view.screenX(place.x())), (int) Math.round(view.screenY(place.y())));
+        return new Point((int) Math.round(view.screenX(place.x())),
+                (int) Math.round(view.screenY(place.y())));
     }
 
     /**
@@ -164,8 +166,9 @@ final class PlanView extends JComponent {
         }
         double x = view.worldX(pointer.x);
         double y = view.worldY(pointer.y);
-        g.drawString(String.format(Locale.ROOT, "x %.2f  y %.2f  range %.2f km   %03.0f\u00b0", x / 1000, y / 1000,
-                Math.hypot(x, y) / 1000, Geometry.compassDegrees(x, y)), 12, 18);
+        g.drawString(String.format(Locale.ROOT, "x %.2f  y %.2f  range %.2f km   %03.0f\u00b0",
+                x / 1000, y / 1000, Math.hypot(x, y) / 1000, Geometry.compassDegrees(x, y)),
+                12, 18);
     }
 
     /**
@@ -178,8 +181,10 @@ final class PlanView extends JComponent {
             return;
         }
         boolean tooLarge = fitted != null
-                && Math.max(fitted.width() / wanted.width(), fitted.height() / wanted.height()) > 2.5
-                && Math.min(fitted.width() / wanted.width(), fitted.height() / wanted.height()) > 1.5;
+                && Math.max(fitted.width() / wanted.width(),
+                        fitted.height() / wanted.height()) > 2.5
+                && Math.min(fitted.width() / wanted.width(),
+                        fitted.height() / wanted.height()) > 1.5;
         if (fitted == null || tooLarge) {
             fitted = wanted;
         } else if (!fitted.contains(wanted)) {

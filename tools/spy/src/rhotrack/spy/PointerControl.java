@@ -29,7 +29,8 @@ final class PointerControl extends MouseAdapter {
 
     @Override
     public void mouseWheelMoved(MouseWheelEvent event) {
-        plan.zoomAbout(event.getX(), event.getY(), Math.pow(ZOOM_A_NOTCH, -event.getPreciseWheelRotation()));
+        plan.zoomAbout(event.getX(), event.getY(),
+                Math.pow(ZOOM_A_NOTCH, -event.getPreciseWheelRotation()));
     }
 
     @Override

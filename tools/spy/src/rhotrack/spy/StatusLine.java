@@ -57,8 +57,8 @@ final class StatusLine extends JComponent {
 
     /** Distributes the pieces over as many rows as needed, and adapts the height. */
     private void arrangeRows() {
-        rows = wrapIntoRows(scene == null ? List.of() : groupsOf(scene.health()), getWidth() - 2 * MARGIN,
-                getFontMetrics(Palette.PLAIN));
+        rows = wrapIntoRows(scene == null ? List.of() : groupsOf(scene.health()),
+                getWidth() - 2 * MARGIN, getFontMetrics(Palette.PLAIN));
         int height = rows.size() * ROW + 9;
         if (height != getPreferredSize().height) {
             setPreferredSize(new Dimension(100, height));
@@ -118,21 +118,27 @@ final class StatusLine extends JComponent {
                     health.received() == 0 ? "waiting for RHO_ channels" : "no RHO_STATUS")));
             return groups;
         }
-        groups.add(List.of(spacedPiece(Palette.MUTED, "scans"), spacedPiece(Palette.TEXT,
-                status.accepted() + " accepted"),
+        groups.add(List.of(spacedPiece(Palette.MUTED, "scans"),
+                spacedPiece(Palette.TEXT, status.accepted() + " accepted"),
                 spacedPiece(colourOfCount(status.lost()), status.lost() + " lost"),
-                spacedPiece(status.late() > 0 ? Palette.TEXT : Palette.MUTED, status.late() + " late"),
+                spacedPiece(status.late() > 0 ? Palette.TEXT : Palette.MUTED,
+                        status.late() + " late"),
                 spacedPiece(colourOfCount(status.bad()), status.bad() + " bad")));
         addSensorFaults(groups, health.sensorFaults());
         groups.add(List.of(spacedPiece(Palette.MUTED, "tracks"),
-                spacedPiece(Palette.ofStatus(DisplayedTrack.Status.CONFIRMED), status.confirmed() + " confirmed"),
-                spacedPiece(Palette.ofStatus(DisplayedTrack.Status.TENTATIVE), status.tentative() + " tentative"),
-                spacedPiece(Palette.ofStatus(DisplayedTrack.Status.COASTING), status.coasting() + " coasting")));
-        groups.add(List.of(spacedPiece(Palette.MUTED, "step"), spacedPiece(Palette.TEXT,
-                String.format(Locale.ROOT, "%.0f \u00b5s, at most %.0f", status.stepUs(), status.stepMaxUs()))));
+                spacedPiece(Palette.ofStatus(DisplayedTrack.Status.CONFIRMED),
+                        status.confirmed() + " confirmed"),
+                spacedPiece(Palette.ofStatus(DisplayedTrack.Status.TENTATIVE),
+                        status.tentative() + " tentative"),
+                spacedPiece(Palette.ofStatus(DisplayedTrack.Status.COASTING),
+                        status.coasting() + " coasting")));
+        groups.add(List.of(spacedPiece(Palette.MUTED, "step"),
+                spacedPiece(Palette.TEXT, String.format(Locale.ROOT,
+                        "%.0f \u00b5s, at most %.0f", status.stepUs(), status.stepMaxUs()))));
         addWorkGroup(groups, health.work());
         groups.add(List.of(spacedPiece(Palette.MUTED, "clutter"),
-                spacedPiece(Palette.TEXT, String.format(Locale.ROOT, "%.3g /km\u00b2", status.clutterPerKm2()))));
+                spacedPiece(Palette.TEXT,
+                        String.format(Locale.ROOT, "%.3g /km\u00b2", status.clutterPerKm2()))));
         return groups;
     }
 
@@ -144,7 +150,8 @@ final class StatusLine extends JComponent {
         List<Piece> group = new ArrayList<>();
         if (work != null && work.share() >= 0) {
             group.add(spacedPiece(Palette.MUTED, "work"));
-            group.add(spacedPiece(Palette.TEXT, String.format(Locale.ROOT, "%.0f %%", 100 * work.share())));
+            group.add(spacedPiece(Palette.TEXT,
+                    String.format(Locale.ROOT, "%.0f %%", 100 * work.share())));
         }
         if (work != null && work.partialSteps() > 0) {
             group.add(spacedPiece(Palette.WARNING, work.partialSteps() + " partial"));
@@ -165,7 +172,8 @@ final class StatusLine extends JComponent {
             groups.add(List.of(spacedPiece(Palette.WARNING, fault)));
         }
         if (faults.size() > MAX_FAULTS) {
-            groups.add(List.of(spacedPiece(Palette.WARNING, (faults.size() - MAX_FAULTS) + " more")));
+            groups.add(List.of(spacedPiece(Palette.WARNING,
+                    (faults.size() - MAX_FAULTS) + " more")));
         }
     }
 
@@ -174,7 +182,8 @@ final class StatusLine extends JComponent {
             return spacedPiece(Palette.WARNING, "PAUSED");
         }
         if (health.statusAge() > STALE_S) {
-            return spacedPiece(Palette.WARNING, String.format(Locale.ROOT, "status %.0f s old", health.statusAge()));
+            return spacedPiece(Palette.WARNING,
+                    String.format(Locale.ROOT, "status %.0f s old", health.statusAge()));
         }
         return spacedPiece(Palette.MUTED, health.received() + " messages"
                 + (health.ignored() > 0 ? ", " + health.ignored() + " not understood" : ""));

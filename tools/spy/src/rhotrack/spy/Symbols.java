@@ -53,7 +53,8 @@ final class Symbols {
         g.setColor(Palette.MUTED);
         g.fill(polygon(x, y - 14, x + 6, y + 8, x, y + 3, x - 6, y + 8));
         g.setFont(Palette.BOLD);
-        g.drawString("N", (float) (x - g.getFontMetrics().stringWidth("N") / 2.0), (float) (y + 22));
+        g.drawString("N", (float) (x - g.getFontMetrics().stringWidth("N") / 2.0),
+                (float) (y + 22));
     }
 
     private static Path2D polygon(double... xy) {

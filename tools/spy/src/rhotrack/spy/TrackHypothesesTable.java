@@ -19,7 +19,8 @@ final class TrackHypothesesTable {
     private static final int ROW = 19;
     private static final String[] MODELS = {"calm", "steady", "manoeuvres"};
     private static final String[] EVIDENCE = {"support", "shared", "clutter"};
-    private static final Color[] COLOURS = {new Color(0x57b98a), new Color(0xd8c35a), new Color(0xd0567d)};
+    private static final Color[] COLOURS =
+            {new Color(0x57b98a), new Color(0xd8c35a), new Color(0xd0567d)};
 
     private TrackHypothesesTable() {
     }
@@ -27,7 +28,8 @@ final class TrackHypothesesTable {
     static void paint(Graphics2D g, Scene.Hypotheses of, int width) {
         g.setFont(Palette.BOLD);
         g.setColor(Palette.TEXT);
-        g.drawString(String.format(Locale.ROOT, "Track %d, score %.1f", of.trackId(), of.score()), LEFT, 20);
+        g.drawString(String.format(Locale.ROOT, "Track %d, score %.1f", of.trackId(), of.score()),
+                LEFT, 20);
         drawShareBar(g, 30, width, MODELS, of.calm(), of.steady(), of.maneuver());
         if (of.evidence() > 0) {
             drawShareBar(g, 62, width, EVIDENCE, of.support(), of.shared(), of.clutter());
@@ -44,7 +46,8 @@ final class TrackHypothesesTable {
         }
     }
 
-    private static void drawShareBar(Graphics2D g, int y, int width, String[] names, double... shares) {
+    private static void drawShareBar(Graphics2D g, int y, int width, String[] names,
+            double... shares) {
         double x = LEFT;
         g.setFont(Palette.SMALL);
         for (int i = 0; i < shares.length; i++) {
@@ -62,7 +65,8 @@ final class TrackHypothesesTable {
         }
     }
 
-    private static void drawHypothesisRow(Graphics2D g, Scene.Hypothesis one, int index, int y, int width) {
+    private static void drawHypothesisRow(Graphics2D g, Scene.Hypothesis one, int index, int y,
+            int width) {
         List<Integer> known = one.plots().stream().filter(plot -> plot >= -1).toList();
         String plots = known.stream().map(plot -> plot < 0 ? "miss" : Integer.toString(plot))
                 .collect(Collectors.joining(", "));
@@ -71,7 +75,8 @@ final class TrackHypothesesTable {
         g.setFont(Palette.PLAIN);
         g.setColor(Palette.TEXT);
         g.drawString(String.format(Locale.ROOT, "%.3f", one.share()), LEFT + 16, y);
-        g.drawString(String.format(Locale.ROOT, "%.0f m/s", Math.hypot(one.vx(), one.vy())), LEFT + width * 0.36f, y);
+        g.drawString(String.format(Locale.ROOT, "%.0f m/s", Math.hypot(one.vx(), one.vy())),
+                LEFT + width * 0.36f, y);
         g.drawString(plots, LEFT + width * 0.53f, y);
     }
 }

@@ -33,7 +33,8 @@ final class TrackLayer {
 
     /** Seconds of motion that velocity vectors show, a round number; 0 where nothing moves. */
     static double vectorSeconds(List<DisplayedTrack> tracks, double metresPerPixel) {
-        double[] speeds = tracks.stream().mapToDouble(DisplayedTrack::speed).filter(v -> v > 0).sorted().toArray();
+        double[] speeds = tracks.stream()
+                .mapToDouble(DisplayedTrack::speed).filter(v -> v > 0).sorted().toArray();
         if (speeds.length == 0) {
             return 0;
         }
@@ -58,8 +59,8 @@ final class TrackLayer {
                 LocalPoint from = trail.get(k - 1);
                 LocalPoint to = trail.get(k);
                 g.setColor(Palette.withAlpha(colour, 0.1 + 0.5 * k / trail.size()));
-                g.draw(new Line2D.Double(view.screenX(from.x()), view.screenY(from.y()), view.screenX(to.x()),
-                        view.screenY(to.y())));
+                g.draw(new Line2D.Double(view.screenX(from.x()), view.screenY(from.y()),
+                        view.screenX(to.x()), view.screenY(to.y())));
             }
         }
     }
@@ -73,10 +74,11 @@ final class TrackLayer {
             }
             double a = ellipse.major() * scale;
             double b = ellipse.minor() * scale;
-            AffineTransform place = AffineTransform.getTranslateInstance(view.screenX(track.place().x()),
-                    view.screenY(track.place().y()));
+            AffineTransform place = AffineTransform.getTranslateInstance(
+                    view.screenX(track.place().x()), view.screenY(track.place().y()));
             place.rotate(-ellipse.angle()); // the y axis of the screen points down
-            Shape outline = place.createTransformedShape(new Ellipse2D.Double(-a, -b, 2 * a, 2 * b));
+            Shape outline =
+                    place.createTransformedShape(new Ellipse2D.Double(-a, -b, 2 * a, 2 * b));
             g.setColor(Palette.withAlpha(Palette.ofStatus(track.status()), 0.1));
             g.fill(outline);
             g.setColor(Palette.withAlpha(Palette.ofStatus(track.status()), 0.6));
@@ -91,14 +93,16 @@ final class TrackLayer {
         for (Scene.Body body : scene.bodies()) {
             double length = body.length() / view.metresPerPixel();
             double width = body.width() / view.metresPerPixel();
-            AffineTransform place = AffineTransform.getTranslateInstance(view.screenX(body.centre().x()),
-                    view.screenY(body.centre().y()));
+            AffineTransform place = AffineTransform.getTranslateInstance(
+                    view.screenX(body.centre().x()), view.screenY(body.centre().y()));
             place.rotate(-body.heading()); // the y axis of the screen points down
-            g.draw(place.createTransformedShape(new Rectangle2D.Double(-length / 2, -width / 2, length, width)));
+            g.draw(place.createTransformedShape(
+                    new Rectangle2D.Double(-length / 2, -width / 2, length, width)));
         }
     }
 
-    static void paintTracks(Graphics2D g, Scene scene, ViewTransform view, double seconds, LabelPlacer labels) {
+    static void paintTracks(Graphics2D g, Scene scene, ViewTransform view, double seconds,
+            LabelPlacer labels) {
         for (DisplayedTrack track : scene.tracks()) {
             g.setColor(Palette.ofStatus(track.status()));
             g.setStroke(Palette.LINE);
@@ -113,7 +117,8 @@ final class TrackLayer {
         }
     }
 
-    private static void drawVector(Graphics2D g, LocalPoint from, double east, double north, ViewTransform view) {
+    private static void drawVector(Graphics2D g, LocalPoint from, double east, double north,
+            ViewTransform view) {
         Path2D line = new Path2D.Double();
         line.moveTo(view.screenX(from.x()), view.screenY(from.y()));
         line.lineTo(view.screenX(from.x() + east), view.screenY(from.y() + north));
@@ -143,7 +148,8 @@ final class TrackLayer {
             double x = view.screenX(track.place().x());
             double y = view.screenY(track.place().y());
             int idWidth = bold.stringWidth(id) + 6;
-            Rectangle2D room = labels.placeLabel(x, y, LABEL_GAP, idWidth + small.stringWidth(speed), 14);
+            Rectangle2D room =
+                    labels.placeLabel(x, y, LABEL_GAP, idWidth + small.stringWidth(speed), 14);
             if (room == null) {
                 continue;
             }

@@ -60,9 +60,11 @@ final class TrackTable extends JComponent {
 
     private void paintTable(Graphics2D g, List<DisplayedTrack> tracks) {
         int room = Math.max(1, (getHeight() - 32) / ROW);
-        List<DisplayedTrack> shown = tracks.subList(0, tracks.size() <= room ? tracks.size() : room - 1);
+        List<DisplayedTrack> shown =
+                tracks.subList(0, tracks.size() <= room ? tracks.size() : room - 1);
         List<String[]> cells = shown.stream().map(TrackTable::cellsOf).toList();
-        double[] edges = TableColumnWidths.rightEdges(columnWidths(g, cells), getWidth() - LEFT - RIGHT);
+        double[] edges =
+                TableColumnWidths.rightEdges(columnWidths(g, cells), getWidth() - LEFT - RIGHT);
         g.setFont(Palette.SMALL);
         g.setColor(Palette.MUTED);
         drawRow(g, 18, edges, TITLES);
@@ -83,8 +85,10 @@ final class TrackTable extends JComponent {
     }
 
     static String[] cellsOf(DisplayedTrack track) {
-        return new String[] {Integer.toString(track.id()), String.format(Locale.ROOT, "%.0f m/s", track.speed()),
-            String.format(Locale.ROOT, "%03.0f\u00b0", Geometry.compassDegrees(track.vx(), track.vy())),
+        return new String[] {Integer.toString(track.id()),
+            String.format(Locale.ROOT, "%.0f m/s", track.speed()),
+            String.format(Locale.ROOT, "%03.0f\u00b0",
+                    Geometry.compassDegrees(track.vx(), track.vy())),
             track.height() == 0 ? "\u2013" : String.format(Locale.ROOT, "%.0f m", track.height()),
             Integer.toString(track.hits()), String.format(Locale.ROOT, "%.1f", track.score())};
     }
@@ -94,7 +98,8 @@ final class TrackTable extends JComponent {
         for (int i = 0; i < TITLES.length; i++) {
             widths[i] = g.getFontMetrics(Palette.SMALL).stringWidth(TITLES[i]);
             for (String[] row : rows) {
-                widths[i] = Math.max(widths[i], g.getFontMetrics(Palette.PLAIN).stringWidth(row[i]));
+                widths[i] =
+                        Math.max(widths[i], g.getFontMetrics(Palette.PLAIN).stringWidth(row[i]));
             }
         }
         return widths;
@@ -103,7 +108,8 @@ final class TrackTable extends JComponent {
     /** Draws a row of right-aligned cells. */
     private static void drawRow(Graphics2D g, int y, double[] edges, String... cells) {
         for (int i = 0; i < edges.length; i++) {
-            g.drawString(cells[i], (float) (LEFT + edges[i] - g.getFontMetrics().stringWidth(cells[i])), y);
+            g.drawString(cells[i],
+                    (float) (LEFT + edges[i] - g.getFontMetrics().stringWidth(cells[i])), y);
         }
     }
 }

@@ -6,9 +6,9 @@ import java.util.EnumSet;
 /** The layers that the user has switched on. */
 final class ViewOptions {
     enum Layer {
-        PLOTS('P', "Plots"), BEARINGS('B', "Bearings"), TRAILS('H', "Trails"), ELLIPSES('E', "Ellipses"),
-        LABELS('L', "Labels"), TRUTH('T', "Truth"), CLUTTER('M', "Clutter map"),
-        GHOSTS('G', "Ghosts"), VOTES('V', "Votes");
+        PLOTS('P', "Plots"), BEARINGS('B', "Bearings"), TRAILS('H', "Trails"),
+        ELLIPSES('E', "Ellipses"), LABELS('L', "Labels"), TRUTH('T', "Truth"),
+        CLUTTER('M', "Clutter map"), GHOSTS('G', "Ghosts"), VOTES('V', "Votes");
 
         final char key;
         final String title;

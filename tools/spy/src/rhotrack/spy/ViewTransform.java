@@ -69,7 +69,8 @@ final class ViewTransform {
         double across = bounds.width() / Math.max(1, width - 2 * margin);
         double up = bounds.height() / Math.max(1, height - 2 * margin);
         double scale = Math.max(across, up);
-        metresPerPixel = limitedScale(scale > 0 ? scale : 10); // a single place is shown with a few kilometres about it
+        // a single place is shown with a few kilometres about it
+        metresPerPixel = limitedScale(scale > 0 ? scale : 10);
         centreX = (bounds.west() + bounds.east()) / 2;
         centreY = (bounds.south() + bounds.north()) / 2;
     }

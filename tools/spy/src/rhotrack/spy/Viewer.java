@@ -21,7 +21,8 @@ public final class Viewer {
     static final int HEIGHT = 800;
 
     private static final String USAGE = """
-            usage: rhotrack.spy.Viewer [-l URL | --lcm-url=URL] [--size WIDTHxHEIGHT] [--png FILE [--after SECONDS]
+            usage: rhotrack.spy.Viewer [-l URL | --lcm-url=URL] [--size WIDTHxHEIGHT] [--png FILE \
+            [--after SECONDS]
                     [--select TRACK]]
               --lcm-url  the LCM network, as in LCM_DEFAULT_URL
               --size     of window or picture, pixels (1280x800)
@@ -40,7 +41,8 @@ public final class Viewer {
     }
 
     /** Runs the viewer with the arguments in USAGE. */
-    public static void main(String[] arguments) throws InterruptedException, InvocationTargetException {
+    public static void main(String[] arguments)
+            throws InterruptedException, InvocationTargetException {
         Viewer viewer = new Viewer();
         try {
             viewer.parseArguments(arguments);
@@ -107,10 +109,12 @@ public final class Viewer {
         }
     }
 
-    private void writePicture() throws IOException, InterruptedException, InvocationTargetException {
+    private void writePicture()
+            throws IOException, InterruptedException, InvocationTargetException {
         System.setProperty("java.awt.headless", "true");
         Model model = new Model();
-        new LcmSubscription(url, model); // not closed: the process ends, and LCM would report an error on its socket
+        // not closed: the process ends, and LCM would report an error on its socket
+        new LcmSubscription(url, model);
         Thread.sleep((long) (1000 * seconds));
         BufferedImage[] image = new BufferedImage[1];
         SwingUtilities.invokeAndWait(() -> {

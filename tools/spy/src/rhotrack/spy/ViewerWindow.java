@@ -40,7 +40,8 @@ final class ViewerWindow {
      */
     void placeBeside(Window other) {
         GraphicsConfiguration where = other.getGraphicsConfiguration();
-        Insets edges = Toolkit.getDefaultToolkit().getScreenInsets(where); // area of the desktop's bars
+        // area of the desktop's bars
+        Insets edges = Toolkit.getDefaultToolkit().getScreenInsets(where);
         Rectangle screen = where.getBounds();
         screen.x += edges.left;
         screen.y += edges.top;
@@ -62,7 +63,8 @@ final class ViewerWindow {
     void open() {
         panel.start();
         frame.setVisible(true);
-        panel.requestFocusInWindow(); // shortcuts work only while something in the window has the focus
+        // shortcuts work only while something in the window has the focus
+        panel.requestFocusInWindow();
     }
 
     boolean isOpen() {

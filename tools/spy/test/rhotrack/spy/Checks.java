@@ -32,12 +32,14 @@ final class Checks {
     }
 
     void equal(String what, Object expected, Object actual) {
-        isTrue(what + ": expected " + expected + ", is " + actual, Objects.equals(expected, actual));
+        isTrue(what + ": expected " + expected + ", is " + actual,
+                Objects.equals(expected, actual));
     }
 
     void near(String what, double expected, double actual) {
         double tolerance = 1e-9 * Math.max(1, Math.abs(expected));
-        isTrue(what + ": expected " + expected + ", is " + actual, Math.abs(expected - actual) <= tolerance);
+        isTrue(what + ": expected " + expected + ", is " + actual,
+                Math.abs(expected - actual) <= tolerance);
     }
 
     private void fail(String what) {

@@ -56,8 +56,10 @@ final class MessageTest {
         check.group("bad thoughts", () -> badThoughts(check));
         check.group("pictures of thoughts", () -> thoughtsInPictures(check));
         check.group("fingerprints", () -> {
-            check.isTrue("tracks are known", MessageDecoder.canDecode(track_list_t.LCM_FINGERPRINT));
-            check.isTrue("a part of a message is none", !MessageDecoder.canDecode(track_t.LCM_FINGERPRINT));
+            check.isTrue("tracks are known",
+                    MessageDecoder.canDecode(track_list_t.LCM_FINGERPRINT));
+            check.isTrue("a part of a message is none",
+                    !MessageDecoder.canDecode(track_t.LCM_FINGERPRINT));
         });
     }
 
@@ -165,8 +167,10 @@ final class MessageTest {
         decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
         BufferedImage point = panel.paintToImage(900, 600);
         decoder.decode("RHO_BODIES", bytes(bodies(1, 400)));
-        check.equal("a body", List.of(new Scene.Body(12, new LocalPoint(500, 0), 400, 100, 0.5)), model.scene().bodies());
-        check.isTrue("is an outline", differ(point, panel.paintToImage(900, 600), 0, 40, 640, 560) > 50);
+        check.equal("a body", List.of(new Scene.Body(12, new LocalPoint(500, 0), 400, 100, 0.5)),
+                model.scene().bodies());
+        check.isTrue("is an outline",
+                differ(point, panel.paintToImage(900, 600), 0, 40, 640, 560) > 50);
         decoder.decode("RHO_BODIES", bytes(bodies(2, -1)));
         body_list_t turned = bodies(3, 400);
         turned.bodies[0].heading_rad = Float.NaN;
@@ -284,7 +288,8 @@ final class MessageTest {
         check.equal("half of a matrix", 0, model.scene().internals().ghosts().size());
         decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 1, 2, ghost_t.APART)));
         check.equal("crossings of both parts that meet",
-                List.of(new Scene.Crossing(new LocalPoint(800, 0), false), new Scene.Crossing(new LocalPoint(200, 300), true),
+                List.of(new Scene.Crossing(new LocalPoint(800, 0), false),
+                        new Scene.Crossing(new LocalPoint(200, 300), true),
                         new Scene.Crossing(new LocalPoint(800, 0), false)),
                 model.scene().internals().ghosts().get(0).crossings());
         decoder.decode("RHO_ACCUMULATOR", bytes(search(1, 7, 12)));
@@ -292,11 +297,13 @@ final class MessageTest {
         check.equal("the last search", List.of(new Scene.Cell(-300, 1, 5, 3, 0)),
                 model.scene().internals().accumulators().get(0).cells());
         for (int part = 0; part < 4; part++) {
-            check.equal("a plane needs all its parts", 0, model.scene().internals().planes().size());
+            check.equal("a plane needs all its parts", 0,
+                    model.scene().internals().planes().size());
             decoder.decode("RHO_PLANE", bytes(plane(2, part, 4, 30 * part)));
         }
         check.equal("64 rows", 64, model.scene().internals().planes().get(0).rows().size());
-        check.equal("in their order", (byte) 90, model.scene().internals().planes().get(0).rows().get(63)[5]);
+        check.equal("in their order", (byte) 90,
+                model.scene().internals().planes().get(0).rows().get(63)[5]);
         decoder.decode("RHO_HYPOTHESES", bytes(hypotheses(12, 0.75f)));
         Scene.Hypotheses of = model.scene().internals().hypotheses().get(12);
         check.equal("plots", List.of(4, -1, 7), of.list().get(0).plots());
@@ -304,11 +311,14 @@ final class MessageTest {
         check.near("evidence", 0.75, of.support());
         check.equal("all taken", 0L, model.scene().health().ignored());
         decoder.decode("RHO_HYPOTHESES", bytes(hypotheses(13, 0.75f)));
-        check.equal("of a track that is not there", null, model.scene().internals().hypotheses().get(13));
+        check.equal("of a track that is not there", null,
+                model.scene().internals().hypotheses().get(13));
         decoder.decode("RHO_GHOSTS", bytes(ghosts(30, 0, 1, ghost_t.ROW)));
-        check.equal("the newest matrix alone", 2, model.scene().internals().ghosts().get(0).crossings().size());
+        check.equal("the newest matrix alone", 2,
+                model.scene().internals().ghosts().get(0).crossings().size());
         model.clear();
-        check.equal("forgotten", new Scene.Internals(List.of(), List.of(), List.of(), java.util.Map.of()),
+        check.equal("forgotten",
+                new Scene.Internals(List.of(), List.of(), List.of(), java.util.Map.of()),
                 model.scene().internals());
     }
 
@@ -330,7 +340,8 @@ final class MessageTest {
         more.calm = 1.5f;
         decoder.decode("RHO_HYPOTHESES", bytes(more));
         check.equal("all refused", 8L, model.scene().health().ignored());
-        check.equal("nothing is thought", new Scene.Internals(List.of(), List.of(), List.of(), java.util.Map.of()),
+        check.equal("nothing is thought",
+                new Scene.Internals(List.of(), List.of(), List.of(), java.util.Map.of()),
                 model.scene().internals());
         for (int i = 0; i < 300; i++) {
             ghost_matrix_t pair = ghosts(1, 0, 1, ghost_t.ROW);
@@ -341,7 +352,8 @@ final class MessageTest {
             of.sensor_a_id = (short) i;
             decoder.decode("RHO_ACCUMULATOR", bytes(of));
         }
-        check.equal("no more pairs than there can be", 64, model.scene().internals().ghosts().size());
+        check.equal("no more pairs than there can be", 64,
+                model.scene().internals().ghosts().size());
         check.equal("and no more searches", 64, model.scene().internals().accumulators().size());
     }
 
@@ -361,26 +373,30 @@ final class MessageTest {
             decoder.decode("RHO_PLANE", bytes(plane(1, part, 4, 127)));
         }
         BufferedImage votes = panel.paintToImage(900, 600);
-        check.isTrue("a plane is an image", count(votes, Palette.rampColour(1).getRGB()) > calm + 5000);
+        check.isTrue("a plane is an image",
+                count(votes, Palette.rampColour(1).getRGB()) > calm + 5000);
         decoder.decode("RHO_HYPOTHESES", bytes(hypotheses(12, 0.75f)));
         BufferedImage unselected = panel.paintToImage(900, 600);
-        check.equal("nobody has asked for hypotheses", 0, differ(votes, unselected, 0, 40, 640, 560));
+        check.equal("nobody has asked for hypotheses", 0,
+                differ(votes, unselected, 0, 40, 640, 560));
         panel.selectTrack(12);
         BufferedImage selected = panel.paintToImage(900, 600);
         check.isTrue("they are in the plan", differ(unselected, selected, 0, 40, 640, 560) > 20);
         check.isTrue("and beside it", differ(unselected, selected, 660, 350, 900, 570) > 500);
         click(panel, 3, 3);
-        check.equal("a click elsewhere", 0, differ(unselected, panel.paintToImage(900, 600), 0, 40, 900, 570));
+        check.equal("a click elsewhere", 0,
+                differ(unselected, panel.paintToImage(900, 600), 0, 40, 900, 570));
         panel.selectTrack(0);
-        check.equal("that with the most", 0, differ(selected, panel.paintToImage(900, 600), 0, 40, 900, 570));
+        check.equal("that with the most", 0,
+                differ(selected, panel.paintToImage(900, 600), 0, 40, 900, 570));
     }
 
     /** On the plan view, as the pointer does it. */
     private static void click(java.awt.Container container, int x, int y) {
         for (java.awt.Component child : container.getComponents()) {
             if (child instanceof PlanView plan) {
-                plan.dispatchEvent(new MouseEvent(plan, MouseEvent.MOUSE_CLICKED, 0, InputEvent.BUTTON1_DOWN_MASK, x, y,
-                        1, false));
+                plan.dispatchEvent(new MouseEvent(plan, MouseEvent.MOUSE_CLICKED, 0,
+                        InputEvent.BUTTON1_DOWN_MASK, x, y, 1, false));
             } else if (child instanceof java.awt.Container inner) {
                 click(inner, x, y);
             }
@@ -388,7 +404,8 @@ final class MessageTest {
     }
 
     /** Pixels in a rectangle that are not the same. */
-    private static int differ(BufferedImage a, BufferedImage b, int left, int top, int right, int bottom) {
+    private static int differ(BufferedImage a, BufferedImage b, int left, int top, int right,
+            int bottom) {
         int differing = 0;
         for (int x = left; x < right; x++) {
             for (int y = top; y < bottom; y++) {
@@ -410,25 +427,30 @@ final class MessageTest {
         status.messages_bad = 5;
         decoder.decode("RHO_STATUS", bytes(status));
         Scene scene = model.scene();
-        check.equal("plots", List.of(new LocalPoint(2100, 0)), scene.plots().get(0).content().places());
+        check.equal("plots", List.of(new LocalPoint(2100, 0)),
+                scene.plots().get(0).content().places());
         check.equal("sensors", new LocalPoint(100, 0), scene.sensors().get(3));
         check.equal("tracks", DisplayedTrack.Status.COASTING, scene.tracks().get(0).status());
         check.near("ellipse", 30, scene.tracks().get(0).ellipse().major());
         check.equal("bearings", List.of(1.0, -2.0), scene.bearings().get(0).content().angles());
         check.near("peaks", -300, scene.peaks().get(0).content().peaks().get(0).rho());
-        check.equal("counters stay at their limit", Integer.MAX_VALUE, scene.health().status().bad());
+        check.equal("counters stay at their limit", Integer.MAX_VALUE,
+                scene.health().status().bad());
         status.scans_lost = 12;
         status.scans_late = 9;
         decoder.decode("RHO_STATUS", bytes(status));
-        check.equal("skipped numbers that came after all are late", 9, model.scene().health().status().late());
+        check.equal("skipped numbers that came after all are late", 9,
+                model.scene().health().status().late());
         check.equal("and not lost", 3, model.scene().health().status().lost());
         status.scans_late = 20;
         decoder.decode("RHO_STATUS", bytes(status));
-        check.equal("more late ones are none the less lost", 0, model.scene().health().status().lost());
+        check.equal("more late ones are none the less lost", 0,
+                model.scene().health().status().lost());
         decoder.decode("RHO_WORK", bytes(work(250, 1000, 3)));
         check.equal("work", new Scene.Work(0.25, 3, 0, 9), model.scene().health().work());
         decoder.decode("RHO_WORK", bytes(work(250, 0, 0)));
-        check.equal("work without a limit", new Scene.Work(-1, 0, 0, 9), model.scene().health().work());
+        check.equal("work without a limit", new Scene.Work(-1, 0, 0, 9),
+                model.scene().health().work());
         decoder.decode("RHO_SENSORS", bytes(sensors(0, 2, 3, 1, 0)));
         decoder.decode("RHO_SENSORS", bytes(sensors(1, 2, 4, 1, 1)));
         check.equal("faults of sensors", List.of("S3 doubted", "S4 doubted", "S4 silent"),
@@ -450,7 +472,8 @@ final class MessageTest {
         check.equal("a clutter map", List.of(new LocalPoint(300, 0), new LocalPoint(400, 0)),
                 model.scene().echoes().stream().map(Scene.Echo::place).toList());
         decoder.decode("RHO_CLUTTER", bytes(echoes(8, 0, 1, 500)));
-        check.equal("the next one", List.of(new Scene.Echo(new LocalPoint(500, 0), 3, 12, 0.5)), model.scene().echoes());
+        check.equal("the next one", List.of(new Scene.Echo(new LocalPoint(500, 0), 3, 12, 0.5)),
+                model.scene().echoes());
         scene = model.scene();
         check.equal("all taken", 0L, scene.health().ignored());
         decoder.decode("RHO_TRACKS", bytes(trackList(2, track_t.DELETED)));
@@ -494,18 +517,20 @@ final class MessageTest {
         track_list_t vague = trackList(1, track_t.CONFIRMED);
         vague.tracks[0].covariance[0] = Float.NaN;
         decoder.decode("RHO_TRACKS", bytes(vague));
-        check.equal("a bad covariance costs the ellipse only", null, model.scene().tracks().get(0).ellipse());
+        check.equal("a bad covariance costs the ellipse only", null,
+                model.scene().tracks().get(0).ellipse());
     }
 
     private static void mutated(Checks check) throws IOException {
         Random random = new Random(1);
         Model model = new Model();
         MessageDecoder decoder = new MessageDecoder(model);
-        byte[][] originals = {bytes(polarScan()), bytes(trackList(1, track_t.CONFIRMED)), bytes(bearings()),
-            bytes(peaks()), bytes(new status_t()),
+        byte[][] originals = {bytes(polarScan()), bytes(trackList(1, track_t.CONFIRMED)),
+            bytes(bearings()), bytes(peaks()), bytes(new status_t()),
             bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300)), bytes(work(1, 2, 3)),
-            bytes(learned(3, 2, 1, 0.6)), bytes(ghosts(1, 0, 1, ghost_t.ROW)), bytes(search(1, 7, 12)),
-            bytes(plane(1, 0, 4, 127)), bytes(hypotheses(12, 0.7f)), bytes(bodies(1, 400))};
+            bytes(learned(3, 2, 1, 0.6)), bytes(ghosts(1, 0, 1, ghost_t.ROW)),
+            bytes(search(1, 7, 12)), bytes(plane(1, 0, 4, 127)), bytes(hypotheses(12, 0.7f)),
+            bytes(bodies(1, 400))};
         int rounds = 20000;
         for (int i = 0; i < rounds; i++) {
             byte[] message = originals[i % originals.length].clone();
@@ -540,7 +565,8 @@ final class MessageTest {
     }
 
     private static int count(BufferedImage image, int colour) {
-        int[] pixels = image.getRGB(0, 0, image.getWidth(), image.getHeight(), null, 0, image.getWidth());
+        int[] pixels =
+                image.getRGB(0, 0, image.getWidth(), image.getHeight(), null, 0, image.getWidth());
         return (int) Arrays.stream(pixels).filter(pixel -> pixel == colour).count();
     }
 }

@@ -59,7 +59,8 @@ public final class SelfTest {
             double vx = 200 * Math.cos(course);
             double vy = 200 * Math.sin(course);
             Geometry.Line line = Geometry.lineThroughTrack(3000, -700, vx, vy);
-            CHECK.isTrue("theta in [0, pi) for course " + course, line.theta() >= 0 && line.theta() < Math.PI);
+            CHECK.isTrue("theta in [0, pi) for course " + course,
+                    line.theta() >= 0 && line.theta() < Math.PI);
             CHECK.near("the place is on the line", line.rho(),
                     3000 * Math.cos(line.theta()) - 700 * Math.sin(line.theta()));
             CHECK.near("so is a later one", line.rho(), (3000 + 9 * vx) * Math.cos(line.theta())
@@ -108,7 +109,8 @@ public final class SelfTest {
         view.fit(new Bounds(-1000, 0, 3000, 1000), 50);
         CHECK.near("west at the margin", 50, view.screenX(-1000));
         CHECK.near("east at the other", 750, view.screenX(3000));
-        CHECK.near("one scale, 1:1", view.screenX(1000) - view.screenX(0), view.screenY(0) - view.screenY(1000));
+        CHECK.near("one scale, 1:1", view.screenX(1000) - view.screenX(0),
+                view.screenY(0) - view.screenY(1000));
         CHECK.near("middle", 300, view.screenY(500));
         double x = view.worldX(200);
         double y = view.worldY(100);
@@ -123,10 +125,13 @@ public final class SelfTest {
         for (int i = 0; i < 500; i++) {
             view.zoomAbout(1, 1, 3);
         }
-        CHECK.isTrue("there is an end to zooming", view.metresPerPixel() > 0 && Double.isFinite(view.worldX(0)));
+        CHECK.isTrue("there is an end to zooming",
+                view.metresPerPixel() > 0 && Double.isFinite(view.worldX(0)));
         long start = System.nanoTime();
-        GridLayer.paint(new BufferedImage(800, 600, BufferedImage.TYPE_INT_RGB).createGraphics(), view, 800, 600);
-        CHECK.isTrue("rings of any size are quickly drawn", System.nanoTime() - start < 2_000_000_000L);
+        GridLayer.paint(new BufferedImage(800, 600, BufferedImage.TYPE_INT_RGB).createGraphics(),
+                view, 800, 600);
+        CHECK.isTrue("rings of any size are quickly drawn",
+                System.nanoTime() - start < 2_000_000_000L);
         view.fit(new Bounds(5, 5, 5, 5), 50);
         CHECK.near("a single place is in the middle", 400, view.screenX(5));
     }
@@ -142,7 +147,8 @@ public final class SelfTest {
         CHECK.near("but is there", 1e6, Bounds.of(places).east());
         Bounds all = new Bounds(0, 0, 1, 1).union(new Bounds(-1, 0, 0, 2));
         CHECK.equal("union", new Bounds(-1, 0, 1, 2), all);
-        CHECK.near("farthest corner", 5, new Bounds(-1, -1, 3, 4).farthestFrom(new LocalPoint(0, 0)));
+        CHECK.near("farthest corner", 5,
+                new Bounds(-1, -1, 3, 4).farthestFrom(new LocalPoint(0, 0)));
     }
 
     private static void assembler() {
@@ -160,7 +166,8 @@ public final class SelfTest {
         CHECK.equal("with what it has", List.of("c"), two.get(0).items());
         CHECK.isTrue("incomplete", !two.get(0).complete());
         CHECK.equal("its late part is nothing", 0, lists.add(1, 9, 0, 3, List.of("a")).size());
-        CHECK.equal("after a restart numbers count anew", 1, lists.add(2, 10, 0, 1, List.of("e")).size());
+        CHECK.equal("after a restart numbers count anew", 1,
+                lists.add(2, 10, 0, 1, List.of("e")).size());
         CHECK.equal("a log in a loop goes on", 1, lists.add(1, 7, 0, 1, List.of("f")).size());
         CHECK.equal("no such part", 0, lists.add(1, 20, 2, 2, List.of("g")).size());
         CHECK.equal("no parts", 0, lists.add(1, 20, 0, 0, List.of("g")).size());
@@ -205,14 +212,16 @@ public final class SelfTest {
             store.applyList(new ListAssembler.Assembled<>(1, scan, false, List.of(one)));
         }
         CHECK.equal("but not for ever", List.of(one), store.tracks());
-        store.applyList(new ListAssembler.Assembled<>(1, 20, true, List.of(mark(1, DisplayedTrack.Status.DELETED, 0))));
+        store.applyList(new ListAssembler.Assembled<>(1, 20, true,
+                List.of(mark(1, DisplayedTrack.Status.DELETED, 0))));
         CHECK.equal("deleted", 0, store.tracks().size());
         store.applyList(new ListAssembler.Assembled<>(1, 21, true, List.of(one)));
         store.applyList(new ListAssembler.Assembled<>(2, 1, false, List.of(two)));
         CHECK.equal("another tracker begins with nothing", List.of(two), store.tracks());
-        CHECK.equal("tentative ones last", List.of(one, two), DisplayedTrack.byImportance(List.of(two, one)));
-        DisplayedTrack fast = new DisplayedTrack(1, DisplayedTrack.Status.CONFIRMED, new LocalPoint(0, 0), 0, 200, 0, 1, 0,
-                1, null);
+        CHECK.equal("tentative ones last", List.of(one, two),
+                DisplayedTrack.byImportance(List.of(two, one)));
+        DisplayedTrack fast = new DisplayedTrack(1, DisplayedTrack.Status.CONFIRMED,
+                new LocalPoint(0, 0), 0, 200, 0, 1, 0, 1, null);
         CHECK.near("vectors of a round time", 20, TrackLayer.vectorSeconds(List.of(fast), 100));
         CHECK.near("nothing moves", 0, TrackLayer.vectorSeconds(List.of(), 100));
     }
@@ -223,7 +232,8 @@ public final class SelfTest {
         Rectangle2D second = placer.placeLabel(200, 150, 6, 50, 14);
         CHECK.isTrue("two labels of one place do not overlap", !first.intersects(second));
         CHECK.equal("none outside", null, placer.placeLabel(-5, 100, 6, 50, 14));
-        CHECK.isTrue("at the edge it turns inwards", placer.placeLabel(396, 20, 6, 50, 14).getMaxX() <= 398);
+        CHECK.isTrue("at the edge it turns inwards",
+                placer.placeLabel(396, 20, 6, 50, 14).getMaxX() <= 398);
         placer.blockArea(0, 0, 400, 300);
         CHECK.equal("no room", null, placer.placeLabel(100, 100, 6, 50, 14));
     }
@@ -240,17 +250,20 @@ public final class SelfTest {
         Dimension wanted = new Dimension(1280, 800);
         Rectangle screen = new Rectangle(0, 30, 1920, 1050);
         Rectangle[] others = {new Rectangle(100, 100, 600, 500), new Rectangle(1300, 200, 600, 500),
-            new Rectangle(50, 40, 1800, 300), new Rectangle(50, 780, 1800, 300), new Rectangle(0, 30, 1920, 155)};
+            new Rectangle(50, 40, 1800, 300), new Rectangle(50, 780, 1800, 300),
+            new Rectangle(0, 30, 1920, 155)};
         for (Rectangle other : others) {
             Rectangle place = WindowBesideAnother.beside(screen, other, wanted);
             CHECK.isTrue("beside " + other + ": " + place, place != null && !place.intersects(other)
                     && screen.contains(place));
         }
         CHECK.equal("as large as wanted where there is room", wanted,
-                WindowBesideAnother.beside(new Rectangle(0, 0, 3840, 2160), others[0], wanted).getSize());
+                WindowBesideAnother.beside(new Rectangle(0, 0, 3840, 2160), others[0], wanted)
+                        .getSize());
         CHECK.equal("smaller where there is less", new Rectangle(700, 100, 1220, 800),
                 WindowBesideAnother.beside(screen, others[0], wanted));
-        CHECK.equal("nowhere", null, WindowBesideAnother.beside(screen, new Rectangle(200, 200, 1500, 800), wanted));
+        CHECK.equal("nowhere", null,
+                WindowBesideAnother.beside(screen, new Rectangle(200, 200, 1500, 800), wanted));
         Rectangle second = new Rectangle(1920, 0, 1920, 1080);
         CHECK.isTrue("on a second screen", second.contains(
                 WindowBesideAnother.beside(second, new Rectangle(2000, 100, 600, 500), wanted)));
@@ -258,9 +271,8 @@ public final class SelfTest {
 
     private static void columns() {
         Graphics2D g = new BufferedImage(10, 10, BufferedImage.TYPE_INT_RGB).createGraphics();
-        DisplayedTrack far = new DisplayedTrack(65535, DisplayedTrack.Status.CONFIRMED, new LocalPoint(0, 0), 123456,
-                19000, 0, 99999, 0,
-                123456.7, null);
+        DisplayedTrack far = new DisplayedTrack(65535, DisplayedTrack.Status.CONFIRMED,
+                new LocalPoint(0, 0), 123456, 19000, 0, 99999, 0, 123456.7, null);
         double[] widths = TrackTable.columnWidths(g, List.<String[]>of(TrackTable.cellsOf(far)));
         for (int room = 60; room < 900; room += 7) {
             double[] edges = TableColumnWidths.rightEdges(widths, room);
@@ -272,8 +284,10 @@ public final class SelfTest {
             }
             CHECK.isTrue("nor leave the table", before <= room + 1e-9);
         }
-        CHECK.equal("all of them where there is room", 6, TableColumnWidths.rightEdges(widths, 900).length);
-        CHECK.isTrue("the last ones go first", TableColumnWidths.rightEdges(widths, 200).length < 6);
+        CHECK.equal("all of them where there is room", 6,
+                TableColumnWidths.rightEdges(widths, 900).length);
+        CHECK.isTrue("the last ones go first",
+                TableColumnWidths.rightEdges(widths, 200).length < 6);
         CHECK.near("up to the edge", 900, TableColumnWidths.rightEdges(widths, 900)[5]);
     }
 
@@ -285,7 +299,8 @@ public final class SelfTest {
             groups.add(List.of(new StatusLine.Piece(Palette.TEXT, "group " + i, 12),
                     new StatusLine.Piece(Palette.TEXT, "of two", 12)));
         }
-        CHECK.equal("one row where there is room", 1, StatusLine.wrapIntoRows(groups, 5000, font).size());
+        CHECK.equal("one row where there is room", 1,
+                StatusLine.wrapIntoRows(groups, 5000, font).size());
         CHECK.equal("one row of nothing", 1, StatusLine.wrapIntoRows(List.of(), 100, font).size());
         for (int room = 200; room < 2000; room += 50) {
             List<List<StatusLine.Piece>> rows = StatusLine.wrapIntoRows(groups, room, font);
@@ -295,6 +310,7 @@ public final class SelfTest {
             }
             CHECK.equal("nothing is missing", 36, rows.stream().mapToInt(List::size).sum());
         }
-        CHECK.isTrue("a narrow window has more rows", StatusLine.wrapIntoRows(groups, 300, font).size() > 3);
+        CHECK.isTrue("a narrow window has more rows",
+                StatusLine.wrapIntoRows(groups, 300, font).size() > 3);
     }
 }

@@ -34,12 +34,14 @@ public record Bounds(double west, double south, double east, double north) {
     }
 
     public Bounds union(Bounds other) {
-        return other == null ? this : new Bounds(Math.min(west, other.west), Math.min(south, other.south),
-                Math.max(east, other.east), Math.max(north, other.north));
+        return other == null ? this
+                : new Bounds(Math.min(west, other.west), Math.min(south, other.south),
+                        Math.max(east, other.east), Math.max(north, other.north));
     }
 
     public boolean contains(Bounds other) {
-        return west <= other.west && south <= other.south && east >= other.east && north >= other.north;
+        return west <= other.west && south <= other.south
+                && east >= other.east && north >= other.north;
     }
 
     /** Distance of the farthest corner from the place. */

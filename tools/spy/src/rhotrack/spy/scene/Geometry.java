@@ -19,9 +19,11 @@ public final class Geometry {
      * The place at a range and azimuth from the sensor; with elevation 0 the range is taken as
      * ground range.
      */
-    public static LocalPoint fromPolar(LocalPoint sensor, double range, double azimuth, double elevation) {
+    public static LocalPoint fromPolar(LocalPoint sensor, double range, double azimuth,
+            double elevation) {
         double ground = range * Math.cos(elevation);
-        return new LocalPoint(sensor.x() + ground * Math.cos(azimuth), sensor.y() + ground * Math.sin(azimuth));
+        return new LocalPoint(sensor.x() + ground * Math.cos(azimuth),
+                sensor.y() + ground * Math.sin(azimuth));
     }
 
     /** Direction in degrees clockwise from north, 0 to 360. */

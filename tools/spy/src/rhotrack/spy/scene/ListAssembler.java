@@ -47,7 +47,8 @@ public final class ListAssembler<T> {
             }
             beginList(key, numParts);
         }
-        if (parts.size() != numParts || parts.get(part) != null || items + content.size() > MAX_ITEMS) {
+        if (parts.size() != numParts || parts.get(part) != null
+                || items + content.size() > MAX_ITEMS) {
             return ready;
         }
         parts.set(part, List.copyOf(content));

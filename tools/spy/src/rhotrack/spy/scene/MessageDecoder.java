@@ -47,20 +47,29 @@ public final class MessageDecoder {
 
     /** Whether messages of this fingerprint can be shown. */
     public static boolean canDecode(long fingerprint) {
-        return fingerprint == plot_scan_t.LCM_FINGERPRINT || fingerprint == polar_scan_t.LCM_FINGERPRINT
-                || fingerprint == bearing_scan_t.LCM_FINGERPRINT || fingerprint == track_list_t.LCM_FINGERPRINT
-                || fingerprint == truth_list_t.LCM_FINGERPRINT || fingerprint == peak_list_t.LCM_FINGERPRINT
-                || fingerprint == sensor_list_t.LCM_FINGERPRINT || fingerprint == status_t.LCM_FINGERPRINT
-                || fingerprint == clutter_map_t.LCM_FINGERPRINT || fingerprint == work_t.LCM_FINGERPRINT
-                || fingerprint == learned_t.LCM_FINGERPRINT || fingerprint == ghost_matrix_t.LCM_FINGERPRINT
-                || fingerprint == accumulator_t.LCM_FINGERPRINT || fingerprint == plane_t.LCM_FINGERPRINT
-                || fingerprint == hypotheses_t.LCM_FINGERPRINT || fingerprint == body_list_t.LCM_FINGERPRINT;
+        return fingerprint == plot_scan_t.LCM_FINGERPRINT
+                || fingerprint == polar_scan_t.LCM_FINGERPRINT
+                || fingerprint == bearing_scan_t.LCM_FINGERPRINT
+                || fingerprint == track_list_t.LCM_FINGERPRINT
+                || fingerprint == truth_list_t.LCM_FINGERPRINT
+                || fingerprint == peak_list_t.LCM_FINGERPRINT
+                || fingerprint == sensor_list_t.LCM_FINGERPRINT
+                || fingerprint == status_t.LCM_FINGERPRINT
+                || fingerprint == clutter_map_t.LCM_FINGERPRINT
+                || fingerprint == work_t.LCM_FINGERPRINT
+                || fingerprint == learned_t.LCM_FINGERPRINT
+                || fingerprint == ghost_matrix_t.LCM_FINGERPRINT
+                || fingerprint == accumulator_t.LCM_FINGERPRINT
+                || fingerprint == plane_t.LCM_FINGERPRINT
+                || fingerprint == hypotheses_t.LCM_FINGERPRINT
+                || fingerprint == body_list_t.LCM_FINGERPRINT;
     }
 
     public void decode(String channel, byte[] data) {
         boolean good = false;
         try {
-            good = data.length >= Long.BYTES && decodeByFingerprint(channel, data, ByteBuffer.wrap(data).getLong());
+            good = data.length >= Long.BYTES
+                    && decodeByFingerprint(channel, data, ByteBuffer.wrap(data).getLong());
         } catch (IOException | RuntimeException e) {
             // The message is foreign or truncated; generated code throws RuntimeException for a bad
             // count.
@@ -69,7 +78,8 @@ public final class MessageDecoder {
         model.countMessage(good);
     }
 
-    private boolean decodeByFingerprint(String channel, byte[] data, long fingerprint) throws IOException {
+    private boolean decodeByFingerprint(String channel, byte[] data, long fingerprint)
+            throws IOException {
         DataInputStream in = new DataInputStream(new ByteArrayInputStream(data));
         if (fingerprint == plot_scan_t.LCM_FINGERPRINT) {
             return storeIfValid(channel, new plot_scan_t(in), in);
@@ -119,8 +129,10 @@ public final class MessageDecoder {
         return fingerprint == status_t.LCM_FINGERPRINT && storeIfValid(new status_t(in), in);
     }
 
-    private boolean storeIfValid(String channel, plot_scan_t scan, DataInputStream in) throws IOException {
-        if (in.available() > 0 || scan.num_plots > plot_scan_t.MAX_PLOTS || !isValidPart(scan.part, scan.num_parts)
+    private boolean storeIfValid(String channel, plot_scan_t scan, DataInputStream in)
+            throws IOException {
+        if (in.available() > 0 || scan.num_plots > plot_scan_t.MAX_PLOTS
+                || !isValidPart(scan.part, scan.num_parts)
                 || !endsWithSensorId(scan.sensor_id, channel)) {
             return false;
         }
@@ -132,14 +144,17 @@ public final class MessageDecoder {
             return false;
         }
         int looks = LookHistory.looksPerTurn(scan.sector_from_rad, scan.sector_to_rad);
-        model.addPlots(channel, scan.epoch, scan.scan, looks, new Scene.Plots(scan.sensor_id, places));
+        model.addPlots(channel, scan.epoch, scan.scan, looks,
+                new Scene.Plots(scan.sensor_id, places));
         return true;
     }
 
-    private boolean storeIfValid(String channel, polar_scan_t scan, DataInputStream in) throws IOException {
+    private boolean storeIfValid(String channel, polar_scan_t scan, DataInputStream in)
+            throws IOException {
         LocalPoint sensor = new LocalPoint(scan.sensor_x_m, scan.sensor_y_m);
-        if (in.available() > 0 || scan.num_polar_plots > polar_scan_t.MAX_POLAR_PLOTS || !sensor.isWithinLimits()
-                || !isValidPart(scan.part, scan.num_parts) || !endsWithSensorId(scan.sensor_id, channel)) {
+        if (in.available() > 0 || scan.num_polar_plots > polar_scan_t.MAX_POLAR_PLOTS
+                || !sensor.isWithinLimits() || !isValidPart(scan.part, scan.num_parts)
+                || !endsWithSensorId(scan.sensor_id, channel)) {
             return false;
         }
         List<LocalPoint> places = new ArrayList<>();
@@ -152,14 +167,16 @@ public final class MessageDecoder {
         }
         int looks = LookHistory.looksPerTurn(scan.sector_from_rad, scan.sector_to_rad);
         model.addSensor(scan.sensor_id, sensor);
-        model.addPlots(channel, scan.epoch, scan.scan, looks, new Scene.Plots(scan.sensor_id, places));
+        model.addPlots(channel, scan.epoch, scan.scan, looks,
+                new Scene.Plots(scan.sensor_id, places));
         return true;
     }
 
-    private boolean storeIfValid(String channel, bearing_scan_t scan, DataInputStream in) throws IOException {
+    private boolean storeIfValid(String channel, bearing_scan_t scan, DataInputStream in)
+            throws IOException {
         LocalPoint sensor = new LocalPoint(scan.sensor_x_m, scan.sensor_y_m);
-        if (in.available() > 0 || scan.num_bearings > bearing_scan_t.MAX_BEARING_RAD || !sensor.isWithinLimits()
-                || !endsWithSensorId(scan.sensor_id, channel)) {
+        if (in.available() > 0 || scan.num_bearings > bearing_scan_t.MAX_BEARING_RAD
+                || !sensor.isWithinLimits() || !endsWithSensorId(scan.sensor_id, channel)) {
             return false;
         }
         List<Double> angles = new ArrayList<>();
@@ -169,13 +186,14 @@ public final class MessageDecoder {
             }
             angles.add((double) angle);
         }
-        model.addBearings(channel, scan.epoch, scan.scan, new Scene.Bearings(scan.sensor_id, sensor, angles));
+        model.addBearings(channel, scan.epoch, scan.scan,
+                new Scene.Bearings(scan.sensor_id, sensor, angles));
         return true;
     }
 
     private boolean storeIfValid(track_list_t list, DataInputStream in) throws IOException {
-        if (in.available() > 0 || list.num_tracks > track_list_t.MAX_TRACKS || !isValidPart(list.part,
-                list.num_parts)) {
+        if (in.available() > 0 || list.num_tracks > track_list_t.MAX_TRACKS
+                || !isValidPart(list.part, list.num_parts)) {
             return false;
         }
         List<DisplayedTrack> marks = new ArrayList<>();
@@ -194,27 +212,31 @@ public final class MessageDecoder {
         LocalPoint place = new LocalPoint(track.x_m, track.y_m);
         DisplayedTrack.Status[] states = DisplayedTrack.Status.values();
         boolean known = track.status >= track_t.TENTATIVE && track.status <= track_t.DELETED;
-        if (!known || !place.isWithinLimits() || !areFinite(track.z_m, track.vx_mps, track.vy_mps, track.score_nat)) {
+        if (!known || !place.isWithinLimits()
+                || !areFinite(track.z_m, track.vx_mps, track.vy_mps, track.score_nat)) {
             return null;
         }
         Ellipse ellipse = Ellipse.of(track.covariance[0], track.covariance[1], track.covariance[2]);
-        return new DisplayedTrack(track.track_id, states[track.status - track_t.TENTATIVE], place, track.z_m,
-                track.vx_mps,
-                track.vy_mps, track.hits, track.misses, track.score_nat, ellipse);
+        return new DisplayedTrack(track.track_id, states[track.status - track_t.TENTATIVE], place,
+                track.z_m, track.vx_mps, track.vy_mps, track.hits, track.misses,
+                track.score_nat, ellipse);
     }
 
     private boolean storeIfValid(body_list_t list, DataInputStream in) throws IOException {
-        if (in.available() > 0 || list.num_bodies > body_list_t.MAX_BODIES || !isValidPart(list.part, list.num_parts)) {
+        if (in.available() > 0 || list.num_bodies > body_list_t.MAX_BODIES
+                || !isValidPart(list.part, list.num_parts)) {
             return false;
         }
         List<Scene.Body> bodies = new ArrayList<>();
         for (body_t body : list.bodies) {
             LocalPoint centre = new LocalPoint(body.x_m, body.y_m);
-            boolean within = body.length_m >= 0 && body.length_m <= 1e5 && body.width_m >= 0 && body.width_m <= 1e5;
+            boolean within = body.length_m >= 0 && body.length_m <= 1e5
+                    && body.width_m >= 0 && body.width_m <= 1e5;
             if (!centre.isWithinLimits() || !within || !(Math.abs(body.heading_rad) <= 4)) {
                 return false;
             }
-            bodies.add(new Scene.Body(body.track_id, centre, body.length_m, body.width_m, body.heading_rad));
+            bodies.add(new Scene.Body(body.track_id, centre, body.length_m, body.width_m,
+                    body.heading_rad));
         }
         model.addBodies(list.epoch, list.scan, list.part, list.num_parts, bodies);
         return true;
@@ -243,12 +265,13 @@ public final class MessageDecoder {
         }
         List<Scene.Peak> peaks = new ArrayList<>();
         for (rhotrack.peak_t peak : list.peaks) {
-            boolean within = peak.theta_rad >= 0 && peak.theta_rad < 3.15 && Math.abs(peak.rho_m) <= 4e6;
+            boolean within = peak.theta_rad >= 0 && peak.theta_rad < 3.15
+                    && Math.abs(peak.rho_m) <= 4e6;
             if (!within || !areFinite(peak.speed_mps, peak.score_nat)) {
                 return false;
             }
-            peaks.add(new Scene.Peak(peak.rho_m, peak.theta_rad, peak.speed_mps, peak.score_nat, peak.scans_hit,
-                    peak.sensor_pairs));
+            peaks.add(new Scene.Peak(peak.rho_m, peak.theta_rad, peak.speed_mps, peak.score_nat,
+                    peak.scans_hit, peak.sensor_pairs));
         }
         model.addPeaks(list.scan, new Scene.Peaks(peaks));
         return true;
@@ -262,7 +285,8 @@ public final class MessageDecoder {
         List<Scene.Crossing> crossings = new ArrayList<>();
         for (ghost_t element : matrix.elements) {
             LocalPoint place = new LocalPoint(element.x_m, element.y_m);
-            if (!place.isWithinLimits() || element.reason < ghost_t.KEPT || element.reason > ghost_t.UNMATCHED) {
+            if (!place.isWithinLimits() || element.reason < ghost_t.KEPT
+                    || element.reason > ghost_t.UNMATCHED) {
                 return false;
             }
             boolean meets = element.reason == ghost_t.KEPT || element.reason > ghost_t.RANGE;
@@ -270,36 +294,39 @@ public final class MessageDecoder {
                 crossings.add(new Scene.Crossing(place, element.reason != ghost_t.KEPT));
             }
         }
-        model.storeInternals(internals -> internals.addGhosts(matrix.sensor_a_id, matrix.sensor_b_id, matrix.epoch,
-                matrix.scan,
-                matrix.part, matrix.num_parts, crossings));
+        model.storeInternals(internals -> internals.addGhosts(matrix.sensor_a_id,
+                matrix.sensor_b_id, matrix.epoch, matrix.scan, matrix.part, matrix.num_parts,
+                crossings));
         return true;
     }
 
     private boolean storeIfValid(accumulator_t search, DataInputStream in) throws IOException {
         LocalPoint origin = new LocalPoint(search.origin_x_m, search.origin_y_m);
-        boolean within = search.rho_min_m >= -1e7 && search.rho_min_m < search.rho_max_m && search.rho_max_m <= 1e7;
-        if (in.available() > 0 || search.num_cells > accumulator_t.MAX_CELLS || !origin.isWithinLimits() || !within
-                || !areFinite(search.votes_max)) {
+        boolean within = search.rho_min_m >= -1e7 && search.rho_min_m < search.rho_max_m
+                && search.rho_max_m <= 1e7;
+        if (in.available() > 0 || search.num_cells > accumulator_t.MAX_CELLS
+                || !origin.isWithinLimits() || !within || !areFinite(search.votes_max)) {
             return false;
         }
         List<Scene.Cell> cells = new ArrayList<>();
         for (accumulator_cell_t cell : search.cells) {
-            if (!(cell.theta_rad >= 0 && cell.theta_rad <= 6.3) || !areFinite(cell.rho_m, cell.votes)) {
+            if (!(cell.theta_rad >= 0 && cell.theta_rad <= 6.3)
+                    || !areFinite(cell.rho_m, cell.votes)) {
                 return false;
             }
-            cells.add(new Scene.Cell(cell.rho_m, cell.theta_rad, cell.votes, Integer.bitCount(cell.scan_mask),
-                    cell.track_id));
+            cells.add(new Scene.Cell(cell.rho_m, cell.theta_rad, cell.votes,
+                    Integer.bitCount(cell.scan_mask), cell.track_id));
         }
-        Scene.Which which =
-                new Scene.Which(search.method, search.has_pair != 0, search.sensor_a_id, search.sensor_b_id);
-        model.storeInternals(internals -> internals.addAccumulator(new Scene.Accumulator(which, search.scan, origin,
-                search.rho_min_m, search.rho_max_m, cells)));
+        Scene.Which which = new Scene.Which(search.method, search.has_pair != 0, search.sensor_a_id,
+                search.sensor_b_id);
+        model.storeInternals(internals -> internals.addAccumulator(new Scene.Accumulator(which,
+                search.scan, origin, search.rho_min_m, search.rho_max_m, cells)));
         return true;
     }
 
     private boolean storeIfValid(plane_t plane, DataInputStream in) throws IOException {
-        if (in.available() > 0 || plane.num_rows > plane_t.MAX_ROWS || !isValidPart(plane.part, plane.num_parts)) {
+        if (in.available() > 0 || plane.num_rows > plane_t.MAX_ROWS
+                || !isValidPart(plane.part, plane.num_parts)) {
             return false;
         }
         List<byte[]> rows = new ArrayList<>();
@@ -311,22 +338,25 @@ public final class MessageDecoder {
             }
             rows.add(row.votes);
         }
-        Scene.Which which =
-                new Scene.Which(plane.method, plane.has_pair != 0, plane.sensor_a_id, plane.sensor_b_id);
-        model.storeInternals(internals -> internals.addPlane(which, plane.epoch, plane.scan, plane.part,
-                plane.num_parts, rows));
+        Scene.Which which = new Scene.Which(plane.method, plane.has_pair != 0, plane.sensor_a_id,
+                plane.sensor_b_id);
+        model.storeInternals(internals -> internals.addPlane(which, plane.epoch, plane.scan,
+                plane.part, plane.num_parts, rows));
         return true;
     }
 
     private boolean storeIfValid(hypotheses_t of, DataInputStream in) throws IOException {
-        if (in.available() > 0 || of.num_hypotheses > hypotheses_t.MAX_HYPOTHESES || !areFinite(of.score_nat)
-                || !areWithin0And1(of.calm, of.steady, of.maneuver, of.support, of.shared, of.clutter)) {
+        if (in.available() > 0 || of.num_hypotheses > hypotheses_t.MAX_HYPOTHESES
+                || !areFinite(of.score_nat)
+                || !areWithin0And1(of.calm, of.steady, of.maneuver, of.support, of.shared,
+                        of.clutter)) {
             return false;
         }
         List<Scene.Hypothesis> list = new ArrayList<>();
         for (hypothesis_t one : of.hypotheses) {
             LocalPoint place = new LocalPoint(one.x_m, one.y_m);
-            if (!place.isWithinLimits() || !areWithin0And1(one.share) || !areFinite(one.vx_mps, one.vy_mps)) {
+            if (!place.isWithinLimits() || !areWithin0And1(one.share)
+                    || !areFinite(one.vx_mps, one.vy_mps)) {
                 return false;
             }
             List<Integer> plots = new ArrayList<>();
@@ -335,9 +365,9 @@ public final class MessageDecoder {
             }
             list.add(new Scene.Hypothesis(one.share, place, one.vx_mps, one.vy_mps, plots));
         }
-        model.storeInternals(internals -> internals.addHypotheses(new Scene.Hypotheses(of.track_id, of.scan,
-                of.score_nat,
-                of.calm, of.steady, of.maneuver, of.evidence, of.support, of.shared, of.clutter, list)));
+        model.storeInternals(internals -> internals.addHypotheses(
+                new Scene.Hypotheses(of.track_id, of.scan, of.score_nat, of.calm, of.steady,
+                of.maneuver, of.evidence, of.support, of.shared, of.clutter, list)));
         return true;
     }
 
@@ -351,14 +381,16 @@ public final class MessageDecoder {
     }
 
     private boolean storeIfValid(status_t status, DataInputStream in) throws IOException {
-        if (in.available() > 0 || !areFinite(status.step_us, status.step_max_us, status.clutter_per_km2)) {
+        if (in.available() > 0
+                || !areFinite(status.step_us, status.step_max_us, status.clutter_per_km2)) {
             return false;
         }
         // scans_lost counts every skipped scan number, including scans that arrived late
         int lost = Math.max(0, status.scans_lost - status.scans_late);
         model.setStatus(new Scene.Status(status.scans_accepted, lost, status.scans_late,
-                saturatedSum(status.scans_bad, status.messages_bad), status.tracks_tentative, status.tracks_confirmed,
-                status.tracks_coasting, status.step_us, status.step_max_us, status.clutter_per_km2));
+                saturatedSum(status.scans_bad, status.messages_bad), status.tracks_tentative,
+                status.tracks_confirmed, status.tracks_coasting, status.step_us, status.step_max_us,
+                status.clutter_per_km2));
         return true;
     }
 
@@ -367,8 +399,8 @@ public final class MessageDecoder {
                 || work.reports_not_printed < 0 || work.events_not_logged < 0) {
             return false;
         }
-        model.setWork(new Scene.Work(work.work_max == 0 ? -1 : (double) work.work / work.work_max, work.partial_steps,
-                work.reports_not_printed, work.events_not_logged));
+        model.setWork(new Scene.Work(work.work_max == 0 ? -1 : (double) work.work / work.work_max,
+                work.partial_steps, work.reports_not_printed, work.events_not_logged));
         return true;
     }
 
@@ -393,7 +425,8 @@ public final class MessageDecoder {
     }
 
     private boolean storeIfValid(learned_t learned, DataInputStream in) throws IOException {
-        double range = learned.sigma_range_factor, cross = learned.sigma_cross_factor, least = learned.pd_stated;
+        double range = learned.sigma_range_factor, cross = learned.sigma_cross_factor,
+                least = learned.pd_stated;
         if (in.available() > 0 || !(range >= 0 && range <= 100) || !(cross >= 0 && cross <= 100)) {
             return false;
         }
@@ -405,9 +438,8 @@ public final class MessageDecoder {
         }
         List<String> notes = new ArrayList<>();
         if (range != 1 || cross != 1) {
-            notes.add(String.format(Locale.ROOT, "S%d noise %.1f, across %.1f times as stated", learned.sensor_id,
-                    range,
-                    cross));
+            notes.add(String.format(Locale.ROOT, "S%d noise %.1f, across %.1f times as stated",
+                    learned.sensor_id, range, cross));
         }
         if (least < learned.pd_stated) {
             notes.add(String.format(Locale.ROOT, "S%d pd down to %.2f", learned.sensor_id, least));
@@ -417,14 +449,15 @@ public final class MessageDecoder {
     }
 
     private boolean storeIfValid(clutter_map_t list, DataInputStream in) throws IOException {
-        if (in.available() > 0 || list.num_echoes > clutter_map_t.MAX_ECHOES || !isValidPart(list.part,
-                list.num_parts)) {
+        if (in.available() > 0 || list.num_echoes > clutter_map_t.MAX_ECHOES
+                || !isValidPart(list.part, list.num_parts)) {
             return false;
         }
         List<Scene.Echo> echoes = new ArrayList<>();
         for (echo_t echo : list.echoes) {
             LocalPoint place = new LocalPoint(echo.x_m, echo.y_m);
-            if (!place.isWithinLimits() || echo.hits < 1 || !(echo.chance >= 0 && echo.chance <= 1)) {
+            if (!place.isWithinLimits() || echo.hits < 1
+                    || !(echo.chance >= 0 && echo.chance <= 1)) {
                 return false;
             }
             echoes.add(new Scene.Echo(place, echo.sensor_id, echo.hits, echo.chance));

@@ -44,7 +44,8 @@ public final class Model {
     private long ignored;
     private long changes;
 
-    public synchronized void addPlots(String channel, int epoch, int scan, int looksPerTurn, Scene.Plots look) {
+    public synchronized void addPlots(String channel, int epoch, int scan, int looksPerTurn,
+            Scene.Plots look) {
         addLook(plots, PLOT_TURNS, channel, epoch, scan, looksPerTurn, look);
     }
 
@@ -53,11 +54,11 @@ public final class Model {
         addSensor(look.sensorId(), look.sensor());
     }
 
-    private static <T> void addLook(Map<String, LookHistory<T>> channels, int turns, String channel, int epoch,
-            int scan,
-            int looksPerTurn, T look) {
+    private static <T> void addLook(Map<String, LookHistory<T>> channels, int turns, String channel,
+            int epoch, int scan, int looksPerTurn, T look) {
         if (channels.containsKey(channel) || channels.size() < MAX_CHANNELS) {
-            channels.computeIfAbsent(channel, name -> new LookHistory<>(turns)).add(epoch, scan, looksPerTurn, look);
+            channels.computeIfAbsent(channel, name -> new LookHistory<>(turns))
+                    .add(epoch, scan, looksPerTurn, look);
         }
     }
 
@@ -71,21 +72,27 @@ public final class Model {
         peaks.add(0, scan, 1, list);
     }
 
-    public synchronized void addTracks(int epoch, int scan, int part, int numParts, List<DisplayedTrack> marks) {
+    public synchronized void addTracks(int epoch, int scan, int part, int numParts,
+            List<DisplayedTrack> marks) {
         trackParts.add(epoch, scan, part, numParts, marks).forEach(tracks::applyList);
         tracksNanos = System.nanoTime();
     }
 
     public synchronized void addTruth(int scan, int part, int numParts, List<Scene.Truth> targets) {
-        truthParts.add(0, scan, part, numParts, targets).forEach(list -> truth = List.copyOf(list.items()));
+        truthParts.add(0, scan, part, numParts, targets)
+                .forEach(list -> truth = List.copyOf(list.items()));
     }
 
-    public synchronized void addEchoes(int epoch, int scan, int part, int numParts, List<Scene.Echo> known) {
-        echoParts.add(epoch, scan, part, numParts, known).forEach(list -> echoes = List.copyOf(list.items()));
+    public synchronized void addEchoes(int epoch, int scan, int part, int numParts,
+            List<Scene.Echo> known) {
+        echoParts.add(epoch, scan, part, numParts, known)
+                .forEach(list -> echoes = List.copyOf(list.items()));
     }
 
-    public synchronized void addBodies(int epoch, int scan, int part, int numParts, List<Scene.Body> known) {
-        bodyParts.add(epoch, scan, part, numParts, known).forEach(list -> bodies = List.copyOf(list.items()));
+    public synchronized void addBodies(int epoch, int scan, int part, int numParts,
+            List<Scene.Body> known) {
+        bodyParts.add(epoch, scan, part, numParts, known)
+                .forEach(list -> bodies = List.copyOf(list.items()));
     }
 
     /** Stores a message about the tracker's internals. */
@@ -158,11 +165,11 @@ public final class Model {
         List<String> faults = new ArrayList<>();
         sensorFaults.values().forEach(faults::addAll);
         learned.values().forEach(faults::addAll);
-        Scene.Health health =
-                new Scene.Health(status, work, faults, secondsSince(statusNanos), secondsSince(tracksNanos), received,
-                ignored);
-        return new Scene(allPlots, allBearings, peaks.contentsWithStrength(), tracks.tracks(), tracks.trails(), truth,
-                echoes, bodies, new TreeMap<>(sensors), internals.copyFor(tracks.tracks()), health);
+        Scene.Health health = new Scene.Health(status, work, faults, secondsSince(statusNanos),
+                secondsSince(tracksNanos), received, ignored);
+        return new Scene(allPlots, allBearings, peaks.contentsWithStrength(), tracks.tracks(),
+                tracks.trails(), truth, echoes, bodies, new TreeMap<>(sensors),
+                internals.copyFor(tracks.tracks()), health);
     }
 
     private static double secondsSince(long nanos) {

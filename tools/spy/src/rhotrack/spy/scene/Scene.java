@@ -8,9 +8,11 @@ import java.util.Map;
  * What the views draw: an immutable copy of the model, so that painting needs no lock; a pause
  * keeps one copy.
  */
-public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearings>> bearings,
-        List<LookHistory.Faded<Peaks>> peaks, List<DisplayedTrack> tracks, List<List<LocalPoint>> trails, List<Truth> truth,
-        List<Echo> echoes, List<Body> bodies, Map<Integer, LocalPoint> sensors, Internals internals, Health health) {
+public record Scene(List<LookHistory.Faded<Plots>> plots,
+        List<LookHistory.Faded<Bearings>> bearings, List<LookHistory.Faded<Peaks>> peaks,
+        List<DisplayedTrack> tracks, List<List<LocalPoint>> trails, List<Truth> truth,
+        List<Echo> echoes, List<Body> bodies, Map<Integer, LocalPoint> sensors, Internals internals,
+        Health health) {
     /** Plots of one look of a sensor, or of a part of the look. */
     public record Plots(int sensorId, List<LocalPoint> places) {
     }
@@ -23,7 +25,8 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
     public record Peaks(List<Peak> peaks) {
     }
 
-    public record Peak(double rho, double theta, double speed, double score, int scansHit, int sensorPairs) {
+    public record Peak(double rho, double theta, double speed, double score, int scansHit,
+            int sensorPairs) {
     }
 
     public record Truth(int id, LocalPoint place, double vx, double vy) {
@@ -34,7 +37,8 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
     }
 
     /** The estimated rectangle of an extended target, its length along the heading. */
-    public record Body(int trackId, LocalPoint centre, double length, double width, double heading) {
+    public record Body(int trackId, LocalPoint centre, double length, double width,
+            double heading) {
     }
 
     /** The tracker's internals, where it was asked to publish them (--show). */
@@ -58,8 +62,8 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
     }
 
     /** RHO_ACCUMULATOR: the fullest cells of an accumulator; rho is measured from the origin. */
-    public record Accumulator(Which which, int scan, LocalPoint origin, double rhoMin, double rhoMax,
-            List<Cell> cells) {
+    public record Accumulator(Which which, int scan, LocalPoint origin, double rhoMin,
+            double rhoMax, List<Cell> cells) {
     }
 
     /** A cell of an accumulator; trackId: the track that its line started, 0: none. */
@@ -77,20 +81,21 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
      * RHO_HYPOTHESES of one track; evidence: 0 none, 1 from plots, 2 from the line that started the
      * track.
      */
-    public record Hypotheses(int trackId, int scan, double score, double calm, double steady, double maneuver,
-            int evidence, double support, double shared, double clutter, List<Hypothesis> list) {
+    public record Hypotheses(int trackId, int scan, double score, double calm, double steady,
+            double maneuver, int evidence, double support, double shared, double clutter,
+            List<Hypothesis> list) {
     }
 
-    public record Hypothesis(double share, LocalPoint place, double vx, double vy, List<Integer> plots) {
+    public record Hypothesis(double share, LocalPoint place, double vx, double vy,
+            List<Integer> plots) {
     }
 
     /**
      * RHO_STATUS: the figures of the status line. Late scans arrived after newer ones of their
      * sensor; lost ones never arrived.
      */
-    public record Status(int accepted, int lost, int late, int bad, int tentative, int confirmed, int coasting,
-            double stepUs,
-            double stepMaxUs, double clutterPerKm2) {
+    public record Status(int accepted, int lost, int late, int bad, int tentative, int confirmed,
+            int coasting, double stepUs, double stepMaxUs, double clutterPerKm2) {
     }
 
     /**
@@ -103,7 +108,7 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
     /**
      * State of tracker and connection; ages in seconds, negative where nothing has been received.
      */
-    public record Health(Status status, Work work, List<String> sensorFaults, double statusAge, double tracksAge,
-            long received, long ignored) {
+    public record Health(Status status, Work work, List<String> sensorFaults, double statusAge,
+            double tracksAge, long received, long ignored) {
     }
 }

@@ -46,7 +46,8 @@ public final class TrackerInternals {
         if (hasRoom(ghostParts, pair)) {
             ghostParts.computeIfAbsent(pair, key -> new ListAssembler<>())
                     .add(epoch, scan, part, numParts, crossings)
-                    .forEach(list -> ghosts.put(pair, new Scene.Ghosts(list.scan(), List.copyOf(list.items()))));
+                    .forEach(list -> ghosts.put(pair,
+                            new Scene.Ghosts(list.scan(), List.copyOf(list.items()))));
         }
     }
 
@@ -56,12 +57,14 @@ public final class TrackerInternals {
         }
     }
 
-    void addPlane(Scene.Which which, int epoch, int scan, int part, int numParts, List<byte[]> rows) {
+    void addPlane(Scene.Which which, int epoch, int scan, int part, int numParts,
+            List<byte[]> rows) {
         if (hasRoom(planeParts, which)) {
             planeParts.computeIfAbsent(which, key -> new ListAssembler<>())
                     .add(epoch, scan, part, numParts, rows).stream()
                     .filter(ListAssembler.Assembled::complete)
-                    .forEach(list -> planes.put(which, new Scene.Plane(which, list.scan(), List.copyOf(list.items()))));
+                    .forEach(list -> planes.put(which,
+                            new Scene.Plane(which, list.scan(), List.copyOf(list.items()))));
         }
     }
 
@@ -89,7 +92,7 @@ public final class TrackerInternals {
         hypotheses.keySet().removeIf(id -> !ids.contains(id) && !ids.isEmpty());
         List<Scene.Ghosts> newest = new ArrayList<>(ghosts.values());
         newest.removeIf(matrix -> Math.abs(newestScan - matrix.scan()) > GHOST_STEPS);
-        return new Scene.Internals(newest, List.copyOf(accumulators.values()), List.copyOf(planes.values()),
-                new TreeMap<>(hypotheses));
+        return new Scene.Internals(newest, List.copyOf(accumulators.values()),
+                List.copyOf(planes.values()), new TreeMap<>(hypotheses));
     }
 }

@@ -45,7 +45,8 @@ public final class TracksWithTrails {
             }
         }
         int patience = list.complete() ? 0 : PATIENCE;
-        entries.entrySet().removeIf(e -> !named.contains(e.getKey()) && ++e.getValue().unseen > patience);
+        entries.entrySet()
+                .removeIf(e -> !named.contains(e.getKey()) && ++e.getValue().unseen > patience);
     }
 
     private void updateTrack(DisplayedTrack mark) {
