@@ -144,7 +144,7 @@ $(BUILD)/program/%.o: %.c Makefile
 
 # The shipped scenes as texts in the program.
 $(BUILD)/program/scenes.c: $(scenes) Makefile
-	@mkdir -p $(@D) && { echo '#include "scene/scene_shipped.h"'; \
+	@mkdir -p $(@D) && { echo '#include "scene/scene_load_file_or_shipped.h"'; \
 	  echo 'const struct shipped_scene shipped_scenes[] = {'; \
 	  for file in $(scenes); do \
 	    echo "{\"$$(basename $$file .json)\","; \
@@ -335,7 +335,7 @@ uninstall:
 # from end to end with the golden files, and the checks of the sources that take seconds. test-all
 # runs everything else behind it.
 quick_scripts := $(addprefix tests/integration/,papers_claims_gate.sh command_line.sh \
-                   documents.sh document_examples_gate.sh headers.sh layers.sh \
+                   documents_and_line_width.sh document_examples_gate.sh headers.sh layers.sh \
                    security_attacks_have_tests.sh)
 quick_scripts := $(wildcard $(quick_scripts)) \
                  $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \

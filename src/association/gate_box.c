@@ -3,7 +3,7 @@
  * gate_box: the box in space that holds the gates of all hypotheses of a track; plots outside of it
  * need not be scored.
  */
-#include "hypotheses_nodes.h"
+#include "hypotheses_nodes_filters_and_weights.h"
 #include "rhotrack/detail/approx.h"
 
 /* Square root of RHO_IMM_GATE: largest distance of a plot in the gate, in standard deviations. */

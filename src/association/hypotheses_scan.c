@@ -6,7 +6,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "hypotheses_nodes.h"
+#include "hypotheses_nodes_filters_and_weights.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/imm_notch.h"
 

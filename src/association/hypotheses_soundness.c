@@ -3,7 +3,7 @@
  * hypotheses_soundness: checks whether a pool of unknown origin, such as a snapshot's, is safe to
  * use.
  */
-#include "hypotheses_nodes.h"
+#include "hypotheses_nodes_filters_and_weights.h"
 
 /* Number of nodes that one pass over the lists checks, to bound the stack. */
 #define PASS_NODES 256u

@@ -330,7 +330,10 @@ void rho_initiator_try_turning_kernels_with_work_left(struct search *search);
 
 /* ---- candidates ------------------------------------------------------------------------------ */
 
-/* Converts nats to integer thousandths, limited to a million nats (track_fit.c). */
+/*
+ * Converts nats to integer thousandths, limited to a million nats
+ * (track_fit_associate_and_score.c).
+ */
 int32_t rho_initiator_nat_to_mnat(float nat);
 int rho_initiator_fit_track_if_determined(const struct search *search, const struct plot_set *set,
                                           struct line_fit *fit);
@@ -341,8 +344,8 @@ int rho_initiator_score_set_if_determined(const struct search *search, const str
                                           const struct line_fit *fit, struct set_score *score);
 
 /*
- * Arithmetic of track_fit.c for isotropic noise (isotropic_fit.c) and for all other plots
- * (anisotropic_fit.c).
+ * Arithmetic of track_fit_associate_and_score.c for isotropic noise (isotropic_fit.c) and for all
+ * other plots (anisotropic_fit.c).
  */
 int rho_initiator_fit_isotropic(const struct search *search, const struct plot_set *set,
                                 struct line_fit *fit);

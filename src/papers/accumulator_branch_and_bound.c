@@ -47,12 +47,12 @@
 
 #define CELL uint8_t
 #define NAME(f) f##_narrow
-#include "accumulator_drop_points_by_bins.h"
+#include "accumulator_prune_points_by_coarse_votes.h"
 #undef CELL
 #undef NAME
 #define CELL uint16_t
 #define NAME(f) f##_wide
-#include "accumulator_drop_points_by_bins.h"
+#include "accumulator_prune_points_by_coarse_votes.h"
 #undef CELL
 #undef NAME
 

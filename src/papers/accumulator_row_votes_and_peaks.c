@@ -81,12 +81,12 @@ static int may_have_cell_with_min_scans_wide(const uint16_t *row, unsigned n, un
 
 #define CELL uint8_t
 #define NAME(f) f##_narrow
-#include "accumulator_row_loops.h"
+#include "accumulator_row_votes_and_peaks_loops.h"
 #undef CELL
 #undef NAME
 #define CELL uint16_t
 #define NAME(f) f##_wide
-#include "accumulator_row_loops.h"
+#include "accumulator_row_votes_and_peaks_loops.h"
 #undef CELL
 #undef NAME
 

@@ -4,7 +4,8 @@
  * Each file calls only files above it in this list:
  *
  * - hough_geometry.c: rows and columns of the plane
- * - hough_voted_cells.c: the hash of cells with votes; the spread of NHT_C over their neighbours
+ * - hough_hash_of_votes_and_their_spread.c: the hash of cells with votes; the spread of NHT_C over
+ * their neighbours
  * - hough_pairs.c: pairs of plots, their lines, and the votes that the kernels of NHT give them
  * - hough_fit_track_to_voters.c: the plots that voted for a cell, and the track fitted through
  *   them; the memberships of a vote

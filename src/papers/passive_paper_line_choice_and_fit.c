@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "passive_paper_search.h"
+#include "passive_paper_hough_search_state.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 

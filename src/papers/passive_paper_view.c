@@ -3,7 +3,7 @@
  * passive_paper_view: shows intermediate results of the last search: ghost matrices, and planes of
  * votes. They are computed again from the batch, which is unchanged until the next frame.
  */
-#include "passive_paper_search.h"
+#include "passive_paper_hough_search_state.h"
 #include "rhotrack/types.h"
 
 static int is_initialised(const struct rho_passive_paper *paper)

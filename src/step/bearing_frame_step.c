@@ -6,7 +6,7 @@
  * bearings of a sensor before those of the next sensor are gated, which then meet a narrower gate.
  * The bearings that no track claimed go to bearing_initiation.
  */
-#include "bearing_frame_for_batch.h"
+#include "bearing_frame_copied_into_batch.h"
 
 #include <string.h>
 

@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "bearing_frame_for_batch.h"
+#include "bearing_frame_copied_into_batch.h"
 #include "rhotrack/detail/bearing_crossing.h"
 
 /* Least margin of a found track over rival tracks of its bearings: ln of odds of 100 to 1. */

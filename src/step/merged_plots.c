@@ -7,9 +7,9 @@
  * take the plot. So crossing tracks keep their velocities, and tracks in formation go on.
  *
  * Two targets d apart along the line of sight are unresolved with probability e^-(d^2 / 2 n), and
- * the same holds across it (resolution_cell.c has n); d has the variance c of both tracks' places.
- * The probability `merged` is the product of the factors of both axes, and of the range rates where
- * the sensor resolves them:
+ * the same holds across it (resolution_cell_size_learning.c has n); d has the variance c of both
+ * tracks' places. The probability `merged` is the product of the factors of both axes, and of the
+ * range rates where the sensor resolves them:
  *     root(n / (n + c)) e^-(d^2 / 2 (n + c))
  * The plot is shared where a merged plot is likelier than a miss of the second target:
  *     merged N(z; middle) > (1 - merged) (1 - pd) N(z; first)

@@ -161,15 +161,18 @@ static inline uint32_t rho_tracker_max_num_plots_near(const struct step *step,
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
-/* sensor_table.c: descriptions of sensors. Index in tracker->sensors; num_sensors: not described */
+/*
+ * sensor_lookup_and_validity.c: descriptions of sensors. Index in tracker->sensors; num_sensors:
+ * not described
+ */
 unsigned rho_tracker_index_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id);
 const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
                                                  int32_t sensor_id); /* NULL: not described */
 int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor);
 
 /*
- * coverage.c: true where a plot, within its noise, is in the sensor's stated coverage. sensor NULL:
- * it covers all
+ * coverage_of_tracks_by_scan.c: true where a plot, within its noise, is in the sensor's stated
+ * coverage. sensor NULL: it covers all
  */
 int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
                                     uint32_t measures);
@@ -251,8 +254,8 @@ struct detection rho_tracker_detection_without_notch(const struct step *step,
                                                      const struct rho_track *track);
 
 /*
- * blind_looks.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Sets blind_percent of the
- * tracks in view, before plots are scored
+ * blind_looks_in_doppler_notch.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Sets
+ * blind_percent of the tracks in view, before plots are scored
  */
 void rho_tracker_set_notch_blind_percents(struct step *step);
 /* Sets blind_percent of all tracks to 0, at the end of a step. */
@@ -306,7 +309,10 @@ static inline int rho_tracker_is_track_frozen(const struct rho_track *track)
 
 /* ---- resolution ------------------------------------------------------------------------------ */
 
-/* resolution_cell.c (RHO_SHARES_PLOTS): distances at which a sensor does not resolve two targets */
+/*
+ * resolution_cell_size_learning.c (RHO_SHARES_PLOTS): distances at which a sensor does not resolve
+ * two targets
+ */
 int rho_tracker_has_usable_resolution_cell(const struct rho_sensor *sensor);
 /* Variances of such distances at a plot's place, along the line of sight and across it. */
 void rho_tracker_unresolved_variances_at_plot(const struct step *step, const struct rho_plot *plot,
@@ -527,9 +533,9 @@ void rho_tracker_sum_echo_returns_at_start(struct step *step, const struct rho_c
 int rho_tracker_is_known_moving_target(const struct rho_track *track);
 
 /*
- * second_plots_of_one_target.c (RHO_MAX_ECHOES): near claimed plots, before tracks age, learns how
- * often second plots of a target come, raises the clutter density there, and ends the younger of
- * two tracks of one target
+ * second_plots_and_duplicate_tracks.c (RHO_MAX_ECHOES): near claimed plots, before tracks age,
+ * learns how often second plots of a target come, raises the clutter density there, and ends the
+ * younger of two tracks of one target
  */
 void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step);
 void rho_tracker_remove_second_plots_of_sensor(struct rho_tracker *tracker, int32_t sensor_id);

@@ -9,7 +9,7 @@
 
 #include "../tracker/mirror_state_in_wall.h"
 #include "../tracker/step.h"
-#include "learned_line.h"
+#include "learned_wall_line_arithmetic.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/gate.h"

@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "learned_line.h"
+#include "learned_wall_line_arithmetic.h"
 #include "rhotrack/detail/approx.h"
 
 /* Most pairs of tracks that are compared in a step. */

@@ -10,7 +10,7 @@
 #include "base/common.h"
 #include "catch_reader_fail.h"
 #include "io/csv/local_frame.h"
-#include "io/csv/table.h"
+#include "io/csv/table_columns_and_cells.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/plot_scan_reader.h"
 #include "picture/picture_data.h"

@@ -164,11 +164,13 @@ else
         's/number < text->min \|\| number > text->max/0/'
     seeded fuzz_scene tools/rhotrack/scene/scene_read.c 'a scene whose text is not given back' \
         's/^    free\(text\);$//'
-    seeded fuzz_tables tools/rhotrack/io/csv/row_check.c 'numbers beyond their limits' \
+    seeded fuzz_tables tools/rhotrack/io/csv/row_cells_read_and_check.c \
+        'numbers beyond their limits' \
         's/number < min \|\| number > max/0/'
-    seeded fuzz_tables tools/rhotrack/io/csv/table.c 'a table that is not given back' \
+    seeded fuzz_tables tools/rhotrack/io/csv/table_columns_and_cells.c \
+        'a table that is not given back' \
         's/free\(table->text\);//'
-    must_pass fuzz_tables tools/rhotrack/io/csv/table.c
+    must_pass fuzz_tables tools/rhotrack/io/csv/table_columns_and_cells.c
 fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

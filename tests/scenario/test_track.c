@@ -15,7 +15,7 @@
 
 #include "evaluation/gospa.h"
 #include "rhotrack/tracker.h"
-#include "scenario.h"
+#include "scenario_simulation.h"
 #include "scene/scene_observe.h"
 
 #define CUTOFF_M 500.0

@@ -2,11 +2,13 @@
 /*
  * Made by tests/vectors/make_gospa_vectors.py; do not edit.
  *
- * GOSPA (p 2, alpha 2) and OSPA (p 2) by SciPy's linear_sum_assignment over whole sets. `make_gospa_vectors.py --compare` ran once
- * with Stone Soup 1.9.1 (stonesoup.metricgenerator.ospametric):
- *   GOSPA and its parts of 27 cases (an empty pair of sets it refuses): the same to 2e-16 of the value;
- *   OSPA: the same or, in 8 cases, larger by up to 2.7 %, as it pairs by the least sum of d and not of d^2 as the definition has
- *   it; paired so (without ties) it is the same to 2e-16.
+ * GOSPA (p 2, alpha 2) and OSPA (p 2) by SciPy's linear_sum_assignment over whole sets.
+ * `make_gospa_vectors.py --compare` ran once with Stone Soup 1.9.1
+ * (stonesoup.metricgenerator.ospametric):
+ *   GOSPA and its parts of 27 cases (an empty pair of sets it refuses): the same to 2e-16 of
+ *   the value; OSPA: the same or, in 8 cases, larger by up to 2.7 %, as it pairs by the least sum
+ *   of d and not of d^2 as the definition has it; paired so (without ties) it is the same to
+ *   2e-16.
  */
 /* clang-format off */
 #ifndef RHOTRACK_TESTS_GOSPA_VECTORS_H
@@ -1439,7 +1441,8 @@ static const struct gospa_place gospa_places[] = {
     {19.000, 12.000, 0.000},
 };
 
-/* Where the points begin in gospa_places, and how many; localisation -1 and pairs -1: several may be best. */
+/* Where the points begin in gospa_places, and how many; localisation -1 and pairs -1:
+ * several may be best. */
 static const struct gospa_case {
     const char *name;
     double cutoff_m;

@@ -3,8 +3,10 @@
 """Records in ASTERIX as libasterix (EUROCONTROL's specifications by another hand) reads and writes
 them: what tests/tools/io/test_asterix_codec.c compares the program's own reader and writer with.
 
-Usage: make_asterix_vectors.py > asterix_vectors.h   (in tests/vectors; needs the package libasterix; 0.36.3 made the file)
-       make_asterix_vectors.py --check FILE.ast      (decodes every record of a recording of CAT034, CAT048, CAT062)
+Usage: make_asterix_vectors.py > asterix_vectors.h
+       make_asterix_vectors.py --check FILE.ast
+In tests/vectors; needs the package libasterix (0.36.3 made the file). --check decodes every record
+of a recording of CAT034, CAT048, CAT062.
 
 Records are drawn at random, item by item as the specification has them: which there are, how long
 those are whose length is free, and all their bits. libasterix takes them apart and says how long
@@ -190,7 +192,8 @@ def value_of(record, path):
     if node is None:
         return "NAN"
     content = node.variation.rule.content
-    if path in ("090/FL", "090/HGT"):  # edition 1.27 was without a sign by its letter; later ones have it
+    # edition 1.27 was without a sign by its letter; later ones have it
+    if path in ("090/FL", "090/HGT"):
         return repr(((node.variation.as_uint() + 8192) % 16384 - 8192) / 4)
     if isinstance(content, base.ContentQuantity):
         return repr(content._as_quantity())
@@ -208,8 +211,8 @@ def write_records(category, uap=None):
         f"enum {{ VECTORS_{name}_PLACES = {places}, VECTORS_{name}_VALUES = {len(paths)} }};"
     )
     print(
-        f"static const struct {{ const char *hex; uint16_t sizes[{places}]; double values[{len(paths)}]; }}"
-        f" vectors_{name.lower()}[] = {{")
+        f"static const struct {{ const char *hex; uint16_t sizes[{places}]; "
+        f"double values[{len(paths)}]; }} vectors_{name.lower()}[] = {{")
     for i in range(RECORDS):
         spec = specs[i % 2]
         data = draw_record(rng, spec, uap)

@@ -3,12 +3,15 @@
 """GOSPA and OSPA of sets of points, straight from their definitions: the reference of
 tests/tools/evaluation/test_gospa.c.
 
-Usage: make_gospa_vectors.py > gospa_vectors.h   (in tests/vectors; needs NumPy and SciPy)
-       make_gospa_vectors.py --compare           (needs Stone Soup, too: the same cases through its metrics)
+Usage: make_gospa_vectors.py > gospa_vectors.h
+       make_gospa_vectors.py --compare
+In tests/vectors; needs NumPy and SciPy. --compare puts the same cases through Stone Soup's metrics,
+which it needs, too.
 
 For |X| <= |Y|, d_c = min(d, c), over all ways to give each x a y of its own:
-  GOSPA (p 2, alpha 2)^2 = min sum d_c(x, y)^2 + c^2 / 2 (|Y| - |X|)      (Rahmathullah et al., Definition 1)
-  OSPA (p 2)^2           = (min sum d_c(x, y)^2 + c^2 (|Y| - |X|)) / |Y|   (Schuhmacher et al., eq. 3)
+  GOSPA (p 2, alpha 2)^2 = min sum d_c(x, y)^2 + c^2 / 2 (|Y| - |X|)
+  OSPA (p 2)^2           = (min sum d_c(x, y)^2 + c^2 (|Y| - |X|)) / |Y|
+(Rahmathullah et al., Definition 1; Schuhmacher et al., eq. 3).
 The minimum comes from SciPy's linear_sum_assignment over all of X and Y at once; the program pairs
 clusters apart, by a method of its own. Parts of GOSPA are given where one pairing alone is best (no
 ties): pairs are those with d < c.
@@ -24,17 +27,20 @@ HEADER = """/* SPDX-License-Identifier: MIT */
 /*
  * Made by tests/vectors/make_gospa_vectors.py; do not edit.
  *
- * GOSPA (p 2, alpha 2) and OSPA (p 2) by SciPy's linear_sum_assignment over whole sets. `make_gospa_vectors.py --compare` ran once
- * with Stone Soup 1.9.1 (stonesoup.metricgenerator.ospametric):
+ * GOSPA (p 2, alpha 2) and OSPA (p 2) by SciPy's linear_sum_assignment over whole sets.
+ * `make_gospa_vectors.py --compare` ran once with Stone Soup 1.9.1
+ * (stonesoup.metricgenerator.ospametric):
 @OUTCOME@
  */
 /* clang-format off */
 #ifndef RHOTRACK_TESTS_GOSPA_VECTORS_H
 #define RHOTRACK_TESTS_GOSPA_VECTORS_H
 """
-OUTCOME = """ *   GOSPA and its parts of 27 cases (an empty pair of sets it refuses): the same to 2e-16 of the value;
- *   OSPA: the same or, in 8 cases, larger by up to 2.7 %, as it pairs by the least sum of d and not of d^2 as the definition has
- *   it; paired so (without ties) it is the same to 2e-16."""
+OUTCOME = """\
+ *   GOSPA and its parts of 27 cases (an empty pair of sets it refuses): the same to 2e-16 of
+ *   the value; OSPA: the same or, in 8 cases, larger by up to 2.7 %, as it pairs by the least sum
+ *   of d and not of d^2 as the definition has it; paired so (without ties) it is the same to
+ *   2e-16."""
 
 
 def uniform(rng, count, width, height=0.0):
@@ -120,13 +126,15 @@ def write():
         gospa, ospa, localisation, pairs = metrics(cutoff, targets, tracks)
         parts = "-1.0, -1" if has_ties else f"{localisation:.13g}, {pairs}"
         rows.append(
-            f'    {{"{name}", {cutoff}, {len(places)}, {len(targets)}, {len(places) + len(targets)}, '
-            f"{len(tracks)}, {gospa:.13g}, {ospa:.13g}, {parts}}},")
+            f'    {{"{name}", {cutoff}, {len(places)}, {len(targets)}, '
+            f"{len(places) + len(targets)}, {len(tracks)}, {gospa:.13g}, {ospa:.13g}, {parts}}},")
         places += targets + tracks
     print("static const struct gospa_place gospa_places[] = {")
     print("\n".join(f"    {{{x:.3f}, {y:.3f}, {z:.3f}}}," for x, y, z in places))
     print(
-        "};\n\n/* Where the points begin in gospa_places, and how many; localisation -1 and pairs -1: several may be best. */"
+        "};\n\n"
+        "/* Where the points begin in gospa_places, and how many; localisation -1 and pairs -1:\n"
+        " * several may be best. */"
     )
     print("static const struct gospa_case {\n    const char *name;\n    double cutoff_m;\n"
           "    size_t targets, num_targets, tracks, num_tracks;\n"
@@ -183,10 +191,12 @@ def compare():
                                             abs(theirs_ospa / ospa_paired_by_d() - 1.0))
         larger += theirs_ospa > ospa * (1.0 + 1e-9)
         print(
-            f"{name:32} gospa {gospa:14.6f} {value['distance']:14.6f}   ospa {ospa:12.6f} {theirs_ospa:12.6f}"
+            f"{name:32} gospa {gospa:14.6f} {value['distance']:14.6f}   "
+            f"ospa {ospa:12.6f} {theirs_ospa:12.6f}"
         )
     print(
-        f"Stone Soup {stonesoup.__version__}, {counted} cases, OSPA larger in {larger}; worst, relative:"
+        f"Stone Soup {stonesoup.__version__}, {counted} cases, OSPA larger in {larger}; "
+        "worst, relative:"
     )
     print("\n".join(f"  {name:24} {value:.2g}" for name, value in worst.items()))
 

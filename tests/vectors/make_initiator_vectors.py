@@ -117,10 +117,12 @@ def main():
     print("#define VECTOR_PD %.1ff\n#define VECTOR_V_MAX_MPS %.1ff\n#define VECTOR_SIDE_M %.1ff" %
           (PD, V_MAX, AREA[1]))
     print(
-        "static const struct {\n    int num_scans;\n    unsigned mask;\n    double process_noise_mps2;"
+        "static const struct {\n    int num_scans;\n    unsigned mask;\n"
+        "    double process_noise_mps2;"
     )
     print(
-        "    double t_s[7], sigma_m[7], x_m[7], y_m[7];\n    double score_nat, x_last_m, y_last_m, vx_mps, vy_mps;"
+        "    double t_s[7], sigma_m[7], x_m[7], y_m[7];\n"
+        "    double score_nat, x_last_m, y_last_m, vx_mps, vy_mps;"
     )
     print("} initiator_vectors[] = {")
     for number in range(30):

@@ -3,7 +3,8 @@
 """Writes message_table.h beside itself: the messages of lcm_types/*.lcm as tables for the tests of
 the codec.
 
-Usage: make_message_table.py [--check]     --check: writes nothing, exit 1 where the file is not what would be written.
+Usage: make_message_table.py [--check]
+--check writes nothing: exit 1 where the file is not what would be written.
 
 It reads the .lcm files by itself and shares nothing with tools/codegen, whose work the tests check.
 """
@@ -19,18 +20,25 @@ TOP = """\
 /* SPDX-License-Identifier: MIT */
 /* Made by make_message_table.py from lcm_types/. */
 /*
- * Included once for each family of structs: MESSAGE_TABLE(name) names a table, MESSAGE_STRUCT(s) the C type of struct s,
- * MESSAGE_HEAD(s, m) is the offset of a member in the struct of the members before the list, MESSAGE_LIST_IS_POINTER
- * whether the struct holds a pointer to its list. The tables' own types stand in tests/unit/wire/message_shape.h.
+ * Included once for each family of structs: MESSAGE_TABLE(name) names a table, MESSAGE_STRUCT(s)
+ * the C type of struct s, MESSAGE_HEAD(s, m) is the offset of a member in the struct of the members
+ * before the list, MESSAGE_LIST_IS_POINTER whether the struct holds a pointer to its list. The
+ * tables' own types stand in tests/unit/wire/message_shape.h.
  */
 """
+
+
+def comments_on_one_line(text):
+    """The text with each comment on one line, as lines of comment go on with the one before."""
+    return re.sub(r"(//.*)((?:\n *//.*)+)", lambda found: found.group(1) + re.sub(
+        r"\n *//", "", found.group(2)), text)
 
 
 class Struct:
     """A struct: members as (type, name, dimension, rule), constants, channel."""
 
     def __init__(self, path):
-        text = path.read_text(encoding="utf-8")
+        text = comments_on_one_line(path.read_text(encoding="utf-8"))
         self.name = re.search(r"^struct (\w+)", text, re.M).group(1)
         self.short = self.name.removesuffix("_t")
         self.constants = {
@@ -62,15 +70,18 @@ def rule(struct, kind, comment):
     chosen = re.search(r"\{(.*)\}$", comment)
     if chosen:
         values = [str(struct.constants[name]) for name in chosen.group(1).split(", ")]
-        return f".rule = MEMBER_ONE_OF, .choices = {{{', '.join(values)}}}, .num_choices = {len(values)}"
+        return (f".rule = MEMBER_ONE_OF, .choices = {{{', '.join(values)}}}, "
+                f".num_choices = {len(values)}")
     if ranged and ranged.group(3):
-        return f".rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT({struct.short}), {ranged.group(2)})"
+        return (".rule = MEMBER_BELOW, "
+                f".other = offsetof(MESSAGE_STRUCT({struct.short}), {ranged.group(2)})")
     if kind == "float":
         low, high = ranged.group(1, 2) if ranged else ("-FLT_MAX", "FLT_MAX")
         return f".is_float = true, .low = (float)({low}), .high = (float)({high})"
     if not ranged:
         return ".rule = MEMBER_ANY"
-    return f".rule = MEMBER_RANGE, .min = INT64_C({ranged.group(1)}), .max = INT64_C({ranged.group(2)})"
+    return (f".rule = MEMBER_RANGE, .min = INT64_C({ranged.group(1)}), "
+            f".max = INT64_C({ranged.group(2)})")
 
 
 def row(struct, member, offset=None):
@@ -79,7 +90,8 @@ def row(struct, member, offset=None):
     head = f"MESSAGE_HEAD({struct.short}, {name})" if struct.list and offset is None else "0"
     offset = offset or f"offsetof(MESSAGE_STRUCT({struct.short}), {name})"
     count = dimension if dimension.isdigit() else "1"
-    return f'    {{"{name}", {offset}, {head}, {WIDTH[kind]}, {count}, {rule(struct, kind, comment)}}},\n'
+    return (f'    {{"{name}", {offset}, {head}, {WIDTH[kind]}, {count}, '
+            f"{rule(struct, kind, comment)}}},\n")
 
 
 def tables(struct):
@@ -107,10 +119,10 @@ def shape(struct, known):
             kind].short, f"sizeof(MESSAGE_STRUCT({known[kind].short}))", len(members)
         wire = sum(WIDTH[member[0]] * int(member[2] or 1) for member in members)
     c_struct = f"MESSAGE_STRUCT({struct.short})"
-    return (
-        f"{text},\n     {{\"{struct.counter[1]}\", offsetof({c_struct}, {struct.counter[1]}), 0, 2, 1, "
-        f".rule = MEMBER_ANY}},\n     offsetof({c_struct}, {name}), MESSAGE_TABLE({element}), {number}, {size}, {wire}, "
-        f"{struct.most}, MESSAGE_LIST_IS_POINTER}},\n")
+    counter = struct.counter[1]
+    return (f'{text},\n     {{"{counter}", offsetof({c_struct}, {counter}), 0, 2, 1, '
+            f".rule = MEMBER_ANY}},\n     offsetof({c_struct}, {name}), MESSAGE_TABLE({element}), "
+            f"{number}, {size}, {wire}, {struct.most}, MESSAGE_LIST_IS_POINTER}},\n")
 
 
 def header(structs):

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Made by make_message_table.py from lcm_types/. */
 /*
- * Included once for each family of structs: MESSAGE_TABLE(name) names a table, MESSAGE_STRUCT(s) the C type of struct s,
- * MESSAGE_HEAD(s, m) is the offset of a member in the struct of the members before the list, MESSAGE_LIST_IS_POINTER
- * whether the struct holds a pointer to its list. The tables' own types stand in tests/unit/wire/message_shape.h.
+ * Included once for each family of structs: MESSAGE_TABLE(name) names a table, MESSAGE_STRUCT(s)
+ * the C type of struct s, MESSAGE_HEAD(s, m) is the offset of a member in the struct of the members
+ * before the list, MESSAGE_LIST_IS_POINTER whether the struct holds a pointer to its list. The
+ * tables' own types stand in tests/unit/wire/message_shape.h.
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE

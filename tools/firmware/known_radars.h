@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_FIRMWARE_KNOWN_RADARS_H
 #define RHOTRACK_FIRMWARE_KNOWN_RADARS_H
 
-#include "node_settings.h"
+#include "node_settings_defaults.h"
 #include "rhotrack/scan_assembler.h"
 
 /*

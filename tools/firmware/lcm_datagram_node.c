@@ -2,7 +2,7 @@
 #include "lcm_datagram_node.h"
 
 #include "node_initiation.h"
-#include "node_settings.h"
+#include "node_settings_defaults.h"
 #include "rhotrack/body.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"

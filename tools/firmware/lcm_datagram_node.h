@@ -56,7 +56,10 @@ struct node_config {
     int64_t (*clock_us)(void *context); /* clock for the step times in RHO_STATUS */
 };
 
-/* The settings of node_settings.h, which default to the library's; no sensors and no callbacks. */
+/*
+ * The settings of node_settings_defaults.h, which default to the library's; no sensors and no
+ * callbacks.
+ */
 void node_config_default(struct node_config *config);
 
 /*

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "node_initiation.h"
-#include "node_settings.h"
+#include "node_settings_defaults.h"
 #include "rhotrack/paper_starts.h"
 
 static struct rho_paper_starts starts;

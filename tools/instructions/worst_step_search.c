@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "count.h"
-#include "node_settings.h"
+#include "node_settings_defaults.h"
 #include "random_draws.h"
 #include "rhotrack/body.h"
 #include "rhotrack/detail/angle.h"

@@ -72,10 +72,10 @@ def run_experiment(options, name):
 
 def figures_of(options, papers):
     """{experiment: its figures.json} of all that the rows name."""
-    from parts import claims_numbers_without_experiment
+    from parts import compute_claims_figures_outside_experiments
     used = {of[1] for paper in papers for row in paper.rows for of in row.measured}
     used |= {row.at[1] for paper in papers for row in paper.rows if row.at}
-    figures = {"own": claims_numbers_without_experiment.figures()} if "own" in used else {}
+    figures = {"own": compute_claims_figures_outside_experiments.figures()} if "own" in used else {}
     for name in EXPERIMENTS:
         if name in used:
             path = experiment_folder(options, name) / "figures.json"
@@ -221,7 +221,7 @@ def sources_of(options, figures):
     how = ("as they were last run, which [the measurements](MEASUREMENTS.md) show, too"
            if options.figures else "which this command ran")
     return f"{', '.join(names)}, {how}; `claims` itself has those of " \
-           "`tools/lab/parts/claims_numbers_without_experiment.py`"
+           "`tools/lab/parts/compute_claims_figures_outside_experiments.py`"
 
 
 def wrapped_paragraphs(text, **values):

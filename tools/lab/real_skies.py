@@ -434,8 +434,8 @@ def main():
             from parts import false_track_endurance
             alarms = false_track_endurance.measure(options, run_program)
         elif options.long:
-            from parts import hour_by_hour
-            longs = hour_by_hour.measure(options, run_program)
+            from parts import endurance_hour_by_hour
+            longs = endurance_hour_by_hour.measure(options, run_program)
         else:
             results = measure(options, find_scenes(options))
         report = as_json(results, options, alarms, longs)
@@ -452,7 +452,7 @@ def main():
     if options.endurance:
         print(false_track_endurance.table(alarms))
     elif options.long:
-        print(hour_by_hour.table(longs))
+        print(endurance_hour_by_hour.table(longs))
     elif not options.lines:
         print_table(results, options)
         print_consistency(results)

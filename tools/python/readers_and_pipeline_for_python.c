@@ -19,10 +19,10 @@
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/merge_plots_and_bearings.h"
 #include "live/node_core.h"
-#include "maintenance/maintainer.h"
+#include "maintenance/maintainer_of_one_track.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/measurement.h"
-#include "settings/initiation_method.h"
+#include "settings/initiation_method_names_and_configs.h"
 #include "settings/parameters.h"
 
 /* ---- Failures ---- */

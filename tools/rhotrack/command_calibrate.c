@@ -7,9 +7,9 @@
 #include "calibration/calibrate_noise_and_pd.h"
 #include "calibration/calibrate_output.h"
 #include "command_line.h"
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "io/scans/merge_plots_and_bearings.h"
-#include "registration/register_shared_data.h"
+#include "registration/register_shared_data_and_plot_correction.h"
 
 static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
                                              struct register_data *data)

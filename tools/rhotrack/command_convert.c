@@ -10,15 +10,15 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_track_writer.h"
 #include "io/asterix/asterix_tracks_to_table.h"
-#include "io/csv/table.h"
+#include "io/csv/table_columns_and_cells.h"
 #include "io/log/files_to_message_stream.h"
 #include "io/log/lcm_log.h"
-#include "io/output/geojson.h"
+#include "io/output/geojson_tracks_writer.h"
 #include "io/output/track_rows_to_geojson.h"
 #include "io/rows/rows_from_csv.h"
 #include "io/rows/rows_from_messages.h"

@@ -4,11 +4,11 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "evaluation/evaluation.h"
-#include "evaluation/evaluation_input.h"
-#include "evaluation/evaluation_report.h"
-#include "io/csv/table.h"
+#include "evaluation/evaluation_of_tables_time_by_time.h"
+#include "evaluation/evaluation_results_to_text_json_csv.h"
+#include "io/csv/table_columns_and_cells.h"
 #include "io/log/log_messages_to_table.h"
 #include "suggested_next_command.h"
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "initiation/initiate_hough.h"
 #include "initiation/initiate_passive.h"
 #include "initiation/initiate_passive_paper.h"

@@ -11,8 +11,8 @@
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/csv/guess_origin_and_azimuth_sense.h"
-#include "io/csv/table_dialect.h"
-#include "settings/initiation_method.h"
+#include "io/csv/table_dialect_and_column_names.h"
+#include "settings/initiation_method_names_and_configs.h"
 
 enum { NUM_OPTIONS = 29, RUNS_MAX = 1000000 };
 

@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 
 /* One command of the program, a row of the table in main.c. */
 struct command {

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "io/output/tracks_output.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/plot_scan_reader.h"
-#include "maintenance/maintainer.h"
+#include "maintenance/maintainer_of_one_track.h"
 #include "rhotrack/detail/measurement.h"
 
 struct maintaining {

@@ -6,16 +6,16 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "io/output/clutter_map_load_and_save.h"
 #include "picture/gnuplot_picture_file.h"
 #include "picture/interactive_map_page.h"
 #include "picture/picture_data.h"
-#include "picture/plot_bearings.h"
+#include "picture/plot_bearing_rays_map.h"
 #include "picture/plot_clutter_map.h"
 #include "picture/plot_errors.h"
 #include "picture/plot_parameter_space.h"
-#include "picture/plot_tracks.h"
+#include "picture/plot_tracks_and_plots_by_time.h"
 #include "picture/plot_votes.h"
 
 static void require_points(const struct plot_points *points, const char *kind, const char *what)

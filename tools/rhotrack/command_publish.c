@@ -8,13 +8,13 @@
 #include <time.h>
 
 #include "base/common.h"
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "io/asterix/asterix_udp_receiver.h"
 #include "io/log/files_to_message_stream.h"
 #include "io/log/lcm_log.h"
-#include "io/log/message_shift.h"
-#include "io/scans/scan_interval_hint.h"
-#include "live/publish_common.h"
+#include "io/log/message_shift_time_number_epoch.h"
+#include "io/scans/scan_interval_hint_for_single_plot_scans.h"
+#include "live/publish_stop_signals_epoch_and_send.h"
 #include "rhotrack/udpm.h"
 #include "transport/transport.h"
 

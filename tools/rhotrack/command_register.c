@@ -4,7 +4,7 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "io/scans/merge_plots_and_bearings.h"
 #include "pipeline/pipeline.h"
 #include "registration/register.h"

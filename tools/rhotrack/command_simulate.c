@@ -4,7 +4,7 @@
 
 #include "base/common.h"
 #include "base/name_hint.h"
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "scene/scene.h"
 #include "suggested_next_command.h"
 

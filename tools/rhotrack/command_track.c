@@ -11,11 +11,11 @@
 
 #include "base/common.h"
 #include "command_line.h"
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "initiation/search_last_bearing_frames.h"
 #include "io/output/clutter_map_load_and_save.h"
 #include "io/output/tracks_output.h"
-#include "io/output/zone_events_output.h"
+#include "io/output/zone_events_and_counts_output.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/merge_plots_and_bearings.h"
 #include "io/scans/plot_scan_reader.h"
@@ -23,7 +23,7 @@
 #include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/pipeline_show_ghosts_votes_hypotheses.h"
-#include "settings/initiation_method.h"
+#include "settings/initiation_method_names_and_configs.h"
 #include "suggested_next_command.h"
 
 struct tracking {

@@ -8,8 +8,8 @@
 #include "base/common.h"
 #include "base/name_hint.h"
 #include "command_line.h"
-#include "commands.h"
-#include "io/csv/table_dialect.h"
+#include "commands_and_parsed_line.h"
+#include "io/csv/table_dialect_and_column_names.h"
 #include "rhotrack/rhotrack.h"
 
 #define INPUT_FORMATS                                                                              \

@@ -8,7 +8,7 @@
 #include "base/common.h"
 #include "base/random.h"
 #include "base/text_table.h"
-#include "bench_node.h"
+#include "bench_codec.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
 

@@ -13,7 +13,7 @@
 #include "bench.h"
 #include "lab_commands.h"
 #include "pipeline/pipeline.h"
-#include "scenario.h"
+#include "scenario_simulation.h"
 
 #define FILTER_STEPS 20000
 #define FILTER_LIFE 200

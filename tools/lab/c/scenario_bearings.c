@@ -11,7 +11,7 @@
 #define PI 3.141592653589793
 #define START_FAR_M 78000.0
 #define END_X_MIN_M 2000.0
-#define STREAM 11 /* of random numbers; no scenario in scenario.c has this one */
+#define STREAM 11 /* of random numbers; no scenario in scenario_simulation.c has this one */
 
 static const struct scenario_box starts = {
     .x_min_m = 20000.0, .x_max_m = 75000.0, .y_min_m = -50000.0, .y_max_m = 50000.0};

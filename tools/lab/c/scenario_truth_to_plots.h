@@ -7,7 +7,7 @@
 #define RHOTRACK_TOOL_SCENARIO_TRUTH_TO_PLOTS_H
 
 #include "base/random.h"
-#include "scenario.h"
+#include "scenario_simulation.h"
 
 struct scenario_plan {
     size_t num_scans, num_targets; /* num_targets: in each scan */

@@ -100,8 +100,9 @@ def write(path, results, alarms, longs, options, columns, rows_of, consistency):
             alarm_table(alarms)
         ]
     if longs:
-        from parts import hour_by_hour
-        body += ["<h2>Hour by hour</h2>", f"<pre>{html.escape(hour_by_hour.table(longs))}</pre>"]
+        from parts import endurance_hour_by_hour
+        table = html.escape(endurance_hour_by_hour.table(longs))
+        body += ["<h2>Hour by hour</h2>", f"<pre>{table}</pre>"]
     text = (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         f"<title>rhotrack: real skies</title>\n"

@@ -23,7 +23,7 @@ import rhotrack
 from parts.passive_scenes_and_references import PLACES_M, Scene, Setting, wrapped
 from parts.passive_paper_figures import (ROWS, THREE, TWO, crossings_left, line_of, line_off,
                                          paper_of, scene_of)
-from parts.passive_runs import RULES, runs_of
+from parts.passive_runs_and_figure_texts import RULES, runs_of
 
 NEAR_CELLS = 2  # of a line's cell, that count as the line's
 SUMMED = {"3s 2t .05 clean": (Setting(3, 2, 0.05),), "3s 2t .1 clean": (Setting(3, 2, 0.1),),

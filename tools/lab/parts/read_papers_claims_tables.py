@@ -11,7 +11,7 @@ beginnings of their paths) at work, and what it shows. All others are rows:
   measured     lines of NAME[, NAME...]: EXPERIMENT PATH, figures of ours. PATH walks an
                experiment's figures.json, as in cases[case=IV;method=HT].votes: members, and of a
                list the object with such members, or that of an index. HT|MHT in it is one name
-               each. EXPERIMENT `own` is claims_numbers_without_experiment.py
+               each. EXPERIMENT `own` is compute_claims_figures_outside_experiments.py
   paper        the paper's value; default: says
   shown        text of the figures, {NAME:.2f}
   holds        expression of the names: whether the claim is true

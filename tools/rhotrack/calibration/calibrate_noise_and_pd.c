@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "calibration/calibrate_segments.h"
+#include "calibration/calibrate_segment_fits_and_residuals.h"
 
 #define ROUNDS_MAX 8
 /* noise that changes by a smaller share between rounds has converged */

@@ -57,8 +57,8 @@ struct calibrate_result {
 struct register_data;
 
 /*
- * Calibrates every radar from the scans in data (register_shared_data.h); calibrate_result_free
- * frees the result. The pipeline is used for tracking and stays the caller's.
+ * Calibrates every radar from the scans in data (register_shared_data_and_plot_correction.h);
+ * calibrate_result_free frees the result. The pipeline is used for tracking and stays the caller's.
  */
 struct calibrate_result calibrate(struct register_data *data, struct pipeline *pipeline);
 void calibrate_result_free(struct calibrate_result *result);

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include "evaluation/evaluation_report.h"
+#include "evaluation/evaluation_results_to_text_json_csv.h"
 #include "picture/gnuplot_picture_file.h"
 
 /* times beyond this are drawn as seconds from the first: axis labels have six digits */

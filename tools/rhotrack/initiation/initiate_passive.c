@@ -9,7 +9,7 @@
 #include "io/output/initiated_tracks_output.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/angle.h"
-#include "settings/initiation_method.h"
+#include "settings/initiation_method_names_and_configs.h"
 
 static enum rho_status push_passive_frame(void *object, const struct rho_frame *frame,
                                           uint8_t *fates)

@@ -8,7 +8,7 @@
 #include "initiation/search_last_bearing_frames.h"
 #include "io/output/initiated_tracks_output.h"
 #include "pipeline/pipeline.h"
-#include "settings/initiation_method.h"
+#include "settings/initiation_method_names_and_configs.h"
 
 static enum rho_status push_paper_frame(void *object, const struct rho_frame *frame, uint8_t *fates)
 {

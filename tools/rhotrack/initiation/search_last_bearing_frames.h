@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_TOOL_SEARCH_LAST_BEARING_FRAMES_H
 #define RHOTRACK_TOOL_SEARCH_LAST_BEARING_FRAMES_H
 
-#include "commands.h"
+#include "commands_and_parsed_line.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "rhotrack/detail/recent_bearing_frames.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/common.h"
 #include "io/output/clutter_map_load_and_save.h"
-#include "live/refused_messages_to_retry.h"
+#include "live/retry_scans_refused_by_assembler.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/command.h"

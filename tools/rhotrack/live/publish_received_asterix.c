@@ -16,11 +16,11 @@
 #include "base/common.h"
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_udp_receiver.h"
-#include "io/csv/table.h"
-#include "io/log/message_shift.h"
+#include "io/csv/table_columns_and_cells.h"
+#include "io/log/message_shift_time_number_epoch.h"
 #include "io/rows/rows_from_csv.h"
 #include "io/rows/rows_to_messages.h"
-#include "live/publish_common.h"
+#include "live/publish_stop_signals_epoch_and_send.h"
 
 #define WAIT_S 30.0 /* wait for a radar's place, and for its antenna messages */
 #define POLL_MS 100

@@ -6,13 +6,13 @@
 #ifndef RHOTRACK_TOOL_MAINTAINER_BY_MULTIPLE_HYPOTHESES_H
 #define RHOTRACK_TOOL_MAINTAINER_BY_MULTIPLE_HYPOTHESES_H
 
-#include "maintenance/maintainer.h"
+#include "maintenance/maintainer_of_one_track.h"
 
 struct maintainer_hypotheses;
 
 /*
- * Each function does what its namesake of maintainer.h does for the gate best. The start takes an
- * estimate (kalman) at time_us, and log_density is never NAN.
+ * Each function does what its namesake of maintainer_of_one_track.h does for the gate best. The
+ * start takes an estimate (kalman) at time_us, and log_density is never NAN.
  */
 struct maintainer_hypotheses *maintainer_hypotheses_new(const struct parameters *parameters);
 struct maintainer_hypotheses *

@@ -7,7 +7,7 @@
 
 #include "base/common.h"
 #include "io/csv/measurement_row.h"
-#include "io/csv/table.h"
+#include "io/csv/table_columns_and_cells.h"
 #include "io/log/lcm_log.h"
 #include "io/log/log_messages_to_table.h"
 #include "io/log/log_scans.h"

@@ -6,7 +6,7 @@
 
 #include "base/common.h"
 #include "evaluation/gospa.h"
-#include "evaluation/time_alignment.h"
+#include "evaluation/track_rows_at_truth_times.h"
 
 #define MARKERS_MAX 40 /* most markers on a line; closer ones cannot be told apart */
 

@@ -8,7 +8,7 @@
 
 #include "io/turns/sectors_merged_to_turns.h"
 #include "picture/gnuplot_picture_file.h"
-#include "settings/initiation_method.h"
+#include "settings/initiation_method_names_and_configs.h"
 
 /* The votes to be drawn, computed before the picture is begun so that errors leave no file. */
 struct plot_votes;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "settings/initiation_method.h"
+#include "settings/initiation_method_names_and_configs.h"
 
 #define WINDOWS_MAX 256 /* windows of a sensor, or of two that share one */
 

@@ -6,7 +6,7 @@
 
 #include "base/common.h"
 #include "rhotrack/publish.h"
-#include "settings/initiation_method.h"
+#include "settings/initiation_method_names_and_configs.h"
 
 struct pipeline_show {
     struct rho_show show;

@@ -150,7 +150,10 @@ struct target_draft {
 void flights_draw_random(const struct target_draft *draft, struct scene_paths *paths,
                          struct random *random);
 
-/* Reads the list of targets at the key. In scene_targets.c, like the functions below. */
+/*
+ * Reads the list of targets at the key. In scene_targets_read_and_draw_paths.c, like the functions
+ * below.
+ */
 struct scene_targets targets_read(struct json_object *object, const char *key);
 void targets_free(struct scene_targets *targets);
 

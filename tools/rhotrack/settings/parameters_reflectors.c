@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/number_parsing.h"
+#include "base/number_and_time_parsing.h"
 #include "rhotrack/reflectors.h"
 #include "settings/parameters.h"
 

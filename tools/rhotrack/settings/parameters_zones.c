@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/number_parsing.h"
+#include "base/number_and_time_parsing.h"
 #include "settings/parameters.h"
 
 static const char *const keys[NUM_ZONE_PARAMETERS] = {"corners_m", "heading_rad", "margin_m",

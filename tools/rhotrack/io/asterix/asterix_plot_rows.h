@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * asterix_plot_rows: an ASTERIX recording of radars as rows of polar plots (table.h). Readers of
- * tables read recordings through it, and `convert` writes the rows to a CSV file: the line number
- * in an error message is the line of that file.
+ * asterix_plot_rows: an ASTERIX recording of radars as rows of polar plots
+ * (table_columns_and_cells.h). Readers of tables read recordings through it, and `convert` writes
+ * the rows to a CSV file: the line number in an error message is the line of that file.
  *
  * Columns: t_s, sensor_id, range_m, azimuth_rad, alt_m, range_rate_mps; where a radar states its
  * place sensor_lat_deg, sensor_lon_deg, sensor_alt_m; where one reports antenna crossings
@@ -13,7 +13,7 @@
 #define RHOTRACK_TOOL_ASTERIX_PLOT_ROWS_H
 
 #include "io/asterix/asterix_scans.h"
-#include "io/csv/table.h"
+#include "io/csv/table_columns_and_cells.h"
 #include "settings/parameters.h"
 
 struct asterix_plot_rows;

@@ -14,9 +14,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "io/csv/radar_angles_to_local_frame.h"
-#include "io/csv/row_check.h"
-#include "io/csv/table.h"
+#include "io/csv/radar_angles_to_common_north_and_level.h"
+#include "io/csv/row_cells_read_and_check.h"
+#include "io/csv/table_columns_and_cells.h"
 #include "settings/parameters.h"
 
 struct geodetic_columns;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "io/csv/measurement_row.h"
 
-#include "io/csv/row_check.h"
+#include "io/csv/row_cells_read_and_check.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
 

@@ -12,8 +12,8 @@
 #include <stdint.h>
 
 #include "io/csv/geodetic_columns.h"
-#include "io/csv/row_check.h"
-#include "io/csv/table.h"
+#include "io/csv/row_cells_read_and_check.h"
+#include "io/csv/table_columns_and_cells.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 

@@ -15,11 +15,11 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "base/number_parsing.h"
+#include "base/number_and_time_parsing.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_plot_rows.h"
 #include "io/asterix/asterix_tracks_to_table.h"
-#include "io/csv/table_dialect.h"
+#include "io/csv/table_dialect_and_column_names.h"
 
 #define FIRST_CAPACITY (1u << 16)
 #define FIRST_TEXT 1024u
@@ -158,7 +158,10 @@ static bool is_blank_or_comment(const char *line, size_t length)
 
 /* ---- Rows ---- */
 
-/* Whether a name points into the file's text; others are constants (table_dialect.h). */
+/*
+ * Whether a name points into the file's text; others are constants
+ * (table_dialect_and_column_names.h).
+ */
 static bool is_name_pointing_into_table_text(const struct table_stream *stream, const char *name)
 {
     const char *text = stream->table->text;

@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-#include "io/csv/table.h"
+#include "io/csv/table_columns_and_cells.h"
 #include "io/rows/rows_in_memory.h"
 
 /*

@@ -12,8 +12,8 @@
 
 #include "base/common.h"
 #include "io/csv/geodetic_columns.h"
-#include "io/csv/row_check.h"
-#include "io/csv/table.h"
+#include "io/csv/row_cells_read_and_check.h"
+#include "io/csv/table_columns_and_cells.h"
 #include "pipeline/pipeline.h"
 
 /* sigma of echoes entered by hand, where no sigma is configured */

@@ -7,7 +7,7 @@
 #include "base/common.h"
 #include "io/asterix/asterix_track_writer.h"
 #include "io/log/lcm_log.h"
-#include "io/output/geojson.h"
+#include "io/output/geojson_tracks_writer.h"
 #include "io/output/tracks_output.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "io/output/geojson.h"
+#include "io/output/geojson_tracks_writer.h"
 
 static int by_time(const void *a, const void *b)
 {

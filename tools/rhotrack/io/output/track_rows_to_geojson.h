@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * track_rows_to_geojson: writes rows of tracks, from a file or a log, as GeoJSON (geojson.h).
+ * track_rows_to_geojson: writes rows of tracks, from a file or a log, as GeoJSON
+ * (geojson_tracks_writer.h).
  */
 #ifndef RHOTRACK_TOOL_TRACK_ROWS_TO_GEOJSON_H
 #define RHOTRACK_TOOL_TRACK_ROWS_TO_GEOJSON_H

@@ -8,7 +8,7 @@
 #include "io/asterix/asterix_track_writer.h"
 #include "io/csv/tracks_writer.h"
 #include "io/log/lcm_log.h"
-#include "io/output/geojson.h"
+#include "io/output/geojson_tracks_writer.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/publish.h"
 

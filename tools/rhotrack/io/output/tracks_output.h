@@ -2,7 +2,7 @@
 /*
  * tracks_output: writes tracks to a file: CSV; where its name ends with .lcm an LCM log of
  * RHO_TRACKS messages, one list for each step, at the scans' times; with .geojson GeoJSON
- * (geojson.h); with .ast or .asterix an ASTERIX recording of the same lists
+ * (geojson_tracks_writer.h); with .ast or .asterix an ASTERIX recording of the same lists
  * (asterix_track_writer.h).
  */
 #ifndef RHOTRACK_TOOL_TRACKS_OUTPUT_H

@@ -12,7 +12,7 @@
 #include <stdint.h>
 
 #include "io/csv/geodetic_columns.h"
-#include "io/csv/table.h"
+#include "io/csv/table_columns_and_cells.h"
 #include "settings/parameters.h"
 
 struct trajectory_row {

@@ -8,10 +8,10 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/csv/row_check.h"
-#include "io/csv/table.h"
-#include "io/rows/rows_geodetic_columns.h"
-#include "io/scans/find_scan_by_number.h"
+#include "io/csv/row_cells_read_and_check.h"
+#include "io/csv/table_columns_and_cells.h"
+#include "io/rows/rows_lat_lon_to_local_frame.h"
+#include "io/scans/hash_table_of_scans_by_number.h"
 
 /* State of reading a table; columns are indices into it, -1 where it has no such column. */
 struct reading {

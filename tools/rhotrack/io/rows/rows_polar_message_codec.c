@@ -3,7 +3,7 @@
  * rows_polar_message_codec: rows of polar plots, and polar_scan_t messages. A message has one set
  * of sigmas: plots with other sigmas go into another part.
  */
-#include "io/csv/row_check.h"
+#include "io/csv/row_cells_read_and_check.h"
 #include "io/rows/rows_in_memory.h"
 
 #define DEG_RAD 0.017453292519943295

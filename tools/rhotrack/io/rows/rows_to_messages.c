@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/csv/row_check.h"
+#include "io/csv/row_cells_read_and_check.h"
 
 #define OWN_TIME_MAX_US 60000000 /* limit of dt_us in messages; scan_interval_s is never longer */
 

@@ -24,8 +24,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "io/csv/row_check.h"
-#include "io/scans/find_scan_by_number.h"
+#include "io/csv/row_cells_read_and_check.h"
+#include "io/scans/hash_table_of_scans_by_number.h"
 #include "rhotrack/types.h"
 
 /* A scan under way with its `count` plots or bearings, each with the time of its row. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/turns/turn_search.h"
+#include "io/turns/turn_or_time_gap_search.h"
 
 #define ROWS_MAX 6000        /* largest number of rows collected for the search */
 #define SENSOR_ROWS_MAX 3000 /* largest number of rows collected of one sensor */

@@ -2,7 +2,8 @@
 /*
  * antenna_turns: numbers the turns of rotating antennas in files whose plots have a time each,
  * where scan_interval_s is not set. The first rows of a file are collected, a rule is found for
- * each of its sensors (turn_search.h), and the rows then get the numbers of their turns.
+ * each of its sensors (turn_or_time_gap_search.h), and the rows then get the numbers of their
+ * turns.
  */
 #ifndef RHOTRACK_TOOL_ANTENNA_TURNS_H
 #define RHOTRACK_TOOL_ANTENNA_TURNS_H

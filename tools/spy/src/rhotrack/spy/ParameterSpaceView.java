@@ -132,12 +132,13 @@ final class ParameterSpaceView extends JComponent {
             drawCentred(g, THETAS[i], x, bottom + 15);
         }
         drawCentred(g, "\u03b8, rad", (LEFT + getWidth() - RIGHT) / 2.0, bottom + 32);
-        double step = AxisScale.roundStep(rhoLimit / (getHeight() - TOP - BOTTOM) * 2 * 50);
+        double step =
+                RoundStepsAndLengths.roundStep(rhoLimit / (getHeight() - TOP - BOTTOM) * 2 * 50);
         for (long k = (long) -Math.floor(rhoLimit / step); k * step <= rhoLimit; k++) {
             double y = screenY(k * step);
             g.setColor(k == 0 ? Palette.EDGE : Palette.GRID);
             g.draw(new Line2D.Double(LEFT, y, getWidth() - RIGHT, y));
-            String text = AxisScale.formatLength(k * step, step);
+            String text = RoundStepsAndLengths.formatLength(k * step, step);
             g.setColor(Palette.GRID_TEXT);
             g.drawString(text, LEFT - 8 - g.getFontMetrics().stringWidth(text), (float) y + 4);
         }

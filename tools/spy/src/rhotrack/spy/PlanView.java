@@ -124,18 +124,18 @@ final class PlanView extends JComponent {
         LabelPlacer labels = new LabelPlacer(width, height);
         labels.blockArea(width - 50, 0, 50, 60);
         labels.blockArea(0, 0, 290, 24);
-        GridLayer.paint(g, view, width, height);
+        RangeRingsAndAxesLayer.paint(g, view, width, height);
         if (options.shows(ViewOptions.Layer.BEARINGS)) {
-            MeasurementsLayer.paintBearings(g, scene, view);
+            PlotsBearingsEchoesAndSensorsLayer.paintBearings(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.GHOSTS)) {
             GhostsAndHypothesesLayer.paintGhosts(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.CLUTTER)) {
-            MeasurementsLayer.paintEchoes(g, scene, view);
+            PlotsBearingsEchoesAndSensorsLayer.paintEchoes(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.PLOTS)) {
-            MeasurementsLayer.paintPlots(g, scene, view);
+            PlotsBearingsEchoesAndSensorsLayer.paintPlots(g, scene, view);
         }
         if (options.shows(ViewOptions.Layer.TRUTH)) {
             TrackLayer.paintTruth(g, scene, view, seconds);
@@ -149,7 +149,7 @@ final class PlanView extends JComponent {
         }
         GhostsAndHypothesesLayer.paintHypotheses(g, scene, selected, view, seconds);
         TrackLayer.paintTracks(g, scene, view, seconds, labels);
-        MeasurementsLayer.paintSensors(g, scene, view, labels);
+        PlotsBearingsEchoesAndSensorsLayer.paintSensors(g, scene, view, labels);
         if (options.shows(ViewOptions.Layer.LABELS)) {
             TrackLayer.paintLabels(g, scene, view, labels);
         }

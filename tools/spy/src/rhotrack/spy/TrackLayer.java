@@ -38,7 +38,8 @@ final class TrackLayer {
         if (speeds.length == 0) {
             return 0;
         }
-        return AxisScale.roundStep(VECTOR_PIXELS * metresPerPixel / speeds[speeds.length / 2]);
+        return RoundStepsAndLengths.roundStep(
+                VECTOR_PIXELS * metresPerPixel / speeds[speeds.length / 2]);
     }
 
     static void paintTruth(Graphics2D g, Scene scene, ViewTransform view, double seconds) {

@@ -42,7 +42,7 @@ public final class SelfTest {
         CHECK.group("windows", SelfTest::windows);
         CHECK.group("columns", SelfTest::columns);
         CHECK.group("status line", SelfTest::statusLine);
-        MessageTest.run(CHECK);
+        MessagesToPictureTest.run(CHECK);
         System.exit(CHECK.report() ? 0 : 1);
     }
 
@@ -89,18 +89,18 @@ public final class SelfTest {
     }
 
     private static void scale() {
-        CHECK.near("1", 1, AxisScale.roundStep(1));
-        CHECK.near("2", 2, AxisScale.roundStep(1.01));
-        CHECK.near("5000", 5000, AxisScale.roundStep(2100));
-        CHECK.near("10000", 10000, AxisScale.roundStep(5001));
-        CHECK.near("0.2", 0.2, AxisScale.roundStep(0.11));
-        CHECK.near("of nothing", 1, AxisScale.roundStep(0));
-        CHECK.near("of NaN", 1, AxisScale.roundStep(Double.NaN));
-        CHECK.equal("km", "20 km", AxisScale.formatLength(20000, 5000));
-        CHECK.equal("parts of a km", "1.5 km", AxisScale.formatLength(1500, 500));
-        CHECK.equal("m", "50 m", AxisScale.formatLength(50, 50));
-        CHECK.equal("small steps far out", "1.05 km", AxisScale.formatLength(1050, 50));
-        CHECK.equal("negative", "\u22124 km", AxisScale.formatLength(-4000, 2000));
+        CHECK.near("1", 1, RoundStepsAndLengths.roundStep(1));
+        CHECK.near("2", 2, RoundStepsAndLengths.roundStep(1.01));
+        CHECK.near("5000", 5000, RoundStepsAndLengths.roundStep(2100));
+        CHECK.near("10000", 10000, RoundStepsAndLengths.roundStep(5001));
+        CHECK.near("0.2", 0.2, RoundStepsAndLengths.roundStep(0.11));
+        CHECK.near("of nothing", 1, RoundStepsAndLengths.roundStep(0));
+        CHECK.near("of NaN", 1, RoundStepsAndLengths.roundStep(Double.NaN));
+        CHECK.equal("km", "20 km", RoundStepsAndLengths.formatLength(20000, 5000));
+        CHECK.equal("parts of a km", "1.5 km", RoundStepsAndLengths.formatLength(1500, 500));
+        CHECK.equal("m", "50 m", RoundStepsAndLengths.formatLength(50, 50));
+        CHECK.equal("small steps far out", "1.05 km", RoundStepsAndLengths.formatLength(1050, 50));
+        CHECK.equal("negative", "\u22124 km", RoundStepsAndLengths.formatLength(-4000, 2000));
     }
 
     private static void view() {
@@ -128,7 +128,8 @@ public final class SelfTest {
         CHECK.isTrue("there is an end to zooming",
                 view.metresPerPixel() > 0 && Double.isFinite(view.worldX(0)));
         long start = System.nanoTime();
-        GridLayer.paint(new BufferedImage(800, 600, BufferedImage.TYPE_INT_RGB).createGraphics(),
+        RangeRingsAndAxesLayer.paint(
+                new BufferedImage(800, 600, BufferedImage.TYPE_INT_RGB).createGraphics(),
                 view, 800, 600);
         CHECK.isTrue("rings of any size are quickly drawn",
                 System.nanoTime() - start < 2_000_000_000L);

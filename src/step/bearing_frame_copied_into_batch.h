@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * bearing_frame_copied_into_batch: usable bearings of a frame (the scans of all passive sensors at
+ * one time), and the frame in the form that a batch takes. Private to the step and the initiation
+ * of bearings.
+ */
+#ifndef RHOTRACK_BEARING_FRAME_COPIED_INTO_BATCH_H
+#define RHOTRACK_BEARING_FRAME_COPIED_INTO_BATCH_H
+
+#include "phases.h"
+#include "rhotrack/detail/measurement.h"
+
+static inline int is_usable_bearing(const struct rho_bearing *bearing)
+{
+    return rho_measurement_is_valid_bearing(bearing) && bearing->offset_us <= RHO_LIMIT_OFFSET_US &&
+           bearing->offset_us >= -RHO_LIMIT_OFFSET_US;
+}
+
+/*
+ * Number of a scan's bearings that have a place in the report's fates and in the batch.
+ *   first  place of the scan's first bearing among all bearings of the frame
+ */
+static inline uint32_t num_bearings_with_room_in_fates(const struct step *step,
+                                                       const struct rho_bearing_scan *scan,
+                                                       uint32_t first)
+{
+    const uint32_t room = first < step->num_gated ? step->num_gated - first : 0;
+    const uint32_t num = scan->num_bearings < room ? scan->num_bearings : room;
+    return num < RHO_MAX_BEARINGS ? num : RHO_MAX_BEARINGS;
+}
+
+/* A frame in the form that a batch takes: scans cut to the bearings with fates, and their fates. */
+struct batch_frame {
+    struct rho_frame frame;
+    struct rho_bearing_scan scans[RHO_MAX_PASSIVE_SENSORS];
+    uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
+};
+
+/* bearing_initiation.c: fills *held from step->frame; copies its fates back to the report */
+void rho_tracker_copy_frame_for_batch(const struct step *step, struct batch_frame *held);
+void rho_tracker_copy_fates_to_report_from_batch(const struct step *step, struct batch_frame *held);
+
+#endif

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * coverage_of_tracks_by_scan: the tracks that a scan can see.
+ *
+ * A track well outside the field of view is left as it is: it is not predicted, gets no plots and
+ * counts no miss. So a sensor's scans change no bit of the estimates of tracks that it cannot see,
+ * and the cost of a sector grows with the tracks in it alone. The margin of the field of view grows
+ * with the uncertainty of the track's place, so that a track that no sensor sees is predicted in
+ * the end, until its place is too uncertain to be of use.
+ */
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/measurement.h"
+#include "step.h"
+
+/*
+ * Margin of the field of view: standard deviations of the track's place, and a share of the range
+ * that allows for biases of the plots.
+ */
+#define MARGIN_SIGMAS 8.0f
+#define MARGIN_SHARE 0.05f
+
+static int is_near_sector(float azimuth_rad, float from_rad, float to_rad, float margin_rad)
+{
+    float to_first_rad = rho_angle_difference(azimuth_rad, from_rad);
+    float to_last_rad = rho_angle_difference(azimuth_rad, to_rad);
+
+    return rho_angle_in_sector(azimuth_rad, from_rad, to_rad) ||
+           (to_first_rad <= margin_rad && to_first_rad >= -margin_rad) ||
+           (to_last_rad <= margin_rad && to_last_rad >= -margin_rad);
+}
+
+/* Standard deviations of its noise that a plot may lie outside of the sensor's stated coverage. */
+#define PLOT_SIGMAS 4.0f
+
+int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
+                                    uint32_t measures)
+{
+    if (!sensor) {
+        return 1;
+    }
+    const float dx_m = plot->x_m - sensor->x_m, dy_m = plot->y_m - sensor->y_m;
+    const float dz_m = measures & RHO_MEASURES_Z ? plot->z_m - sensor->z_m : 0.0f;
+    const float ground_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    const float slant_m = rho_sqrt(ground_m * ground_m + dz_m * dz_m);
+    const float range_sigma_m = PLOT_SIGMAS * plot->sigma_range_m;
+    const float cross_sigma_m = PLOT_SIGMAS * plot->sigma_cross_m;
+    if (ground_m - range_sigma_m > sensor->range_max_m ||
+        slant_m + range_sigma_m < sensor->range_min_m) {
+        return 0;
+    }
+    return !(cross_sigma_m < ground_m) ||
+           rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad) ||
+           rho_tracker_coverage_holds_bearing(sensor, rho_atan2(dy_m, dx_m),
+                                              cross_sigma_m / ground_m);
+}
+
+/* True where the scan or the sensor covers a sector instead of the full circle. */
+static int covers_less_than_full_circle(const struct step *step)
+{
+    const struct rho_scan *scan = step->scan;
+    const struct rho_sensor *sensor = step->sensor;
+
+    return !rho_angle_is_circle(scan->sector_from_rad, scan->sector_to_rad) ||
+           (sensor && !rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad));
+}
+
+static int is_near_scan_and_sensor_sectors(const struct step *step, float azimuth_rad,
+                                           float margin_rad)
+{
+    const struct rho_scan *scan = step->scan;
+    const struct rho_sensor *sensor = step->sensor;
+
+    return is_near_sector(azimuth_rad, scan->sector_from_rad, scan->sector_to_rad, margin_rad) &&
+           (!sensor || is_near_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad,
+                                      margin_rad));
+}
+
+int rho_tracker_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_rad,
+                                       float margin_rad)
+{
+    return is_near_sector(bearing_rad, sensor->sector_from_rad, sensor->sector_to_rad, margin_rad);
+}
+
+int rho_tracker_may_scan_see_track(const struct step *step, const struct rho_track *track)
+{
+    const struct rho_sensor *sensor = step->sensor;
+    const float *state = track->kalman.state;
+    float dt_s, dx_m, dy_m, range_m, margin_m;
+
+    if (!sensor && !covers_less_than_full_circle(step)) {
+        return 1;
+    }
+    dt_s = rho_seconds_between(track->time_us, step->time_us);
+    dx_m = state[0] + state[3] * dt_s - (sensor ? sensor->x_m : 0.0f);
+    dy_m = state[1] + state[4] * dt_s - (sensor ? sensor->y_m : 0.0f);
+    range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    if (sensor && range_m <= sensor->range_max_m && range_m >= sensor->range_min_m &&
+        !covers_less_than_full_circle(step)) {
+        return 1;
+    }
+    dt_s = dt_s < 0.0f ? -dt_s : dt_s; /* the track's estimate may be newer than the scan */
+    margin_m = MARGIN_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
+               step->tracker->config.accel_max_mps2 * dt_s * dt_s + MARGIN_SHARE * range_m;
+    if (sensor &&
+        (range_m - margin_m > sensor->range_max_m || range_m + margin_m < sensor->range_min_m)) {
+        return 0;
+    }
+    if (!(margin_m < range_m) || !covers_less_than_full_circle(step)) {
+        return 1; /* plots of a track within the margin of the sensor may be in any direction */
+    }
+    /* upper bound of the angle that the margin subtends: asin(x) <= x pi / 2 for x in 0 .. 1 */
+    return is_near_scan_and_sensor_sectors(step, rho_atan2(dy_m, dx_m),
+                                           margin_m / range_m * (0.5f * RHO_PI));
+}
+
+int rho_tracker_is_track_in_view(const struct step *step, unsigned row)
+{
+    return (step->in_view[row / 32] >> row % 32 & 1u) != 0;
+}
+
+int rho_tracker_sector_covers_track_place(const struct step *step, float sector_from_rad,
+                                          float sector_to_rad, const struct rho_track *track)
+{
+    return rho_measurement_covers(step->sensor, sector_from_rad, sector_to_rad,
+                                  track->kalman.state[0], track->kalman.state[1]);
+}
+
+int rho_tracker_may_count_miss(const struct step *step, const struct rho_track *track)
+{
+    if (RHO_SECTORS) {
+        return !step->is_suspect && rho_tracker_has_antenna_passed_gate(step, track);
+    }
+    return rho_tracker_sector_covers_track_place(step, step->scan->sector_from_rad,
+                                                 step->scan->sector_to_rad, track);
+}

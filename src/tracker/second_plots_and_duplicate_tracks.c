@@ -1,0 +1,545 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * second_plots_and_duplicate_tracks: raises the clutter density near claimed plots by the density
+ * of second plots of the same target, learns how often those come, and ends the younger of two
+ * tracks of one target.
+ */
+#include <string.h>
+
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/recurring_clutter_map_operations.h"
+#include "step.h"
+
+/*
+ * Distances of second plots from first ones on an axis: upper bounds of the bins in standard
+ * deviations, prior shares of the bins, and the weight of the prior in plots.
+ */
+static const float bin_end[RHO_SECOND_BINS] = {1.0f, 2.0f, 3.0f, 4.0f, 6.0f, 8.0f, 12.0f, 16.0f};
+static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
+                                                 0.1f,  0.05f, 0.03f, 0.02f};
+#define BINS_PRIOR_PLOTS 4.0f
+/* Largest distance of a second plot on an axis, standard deviations: the end of the last bin. */
+#define NEAR_SIGMAS 16.0f
+/* Units of work for a pair of plots near each other. */
+#define PAIR_UNITS 12u
+
+/* Prior number of second plots per claimed plot, and its weight in looks. */
+#define RATE_PRIOR 0.01f
+#define RATE_PRIOR_LOOKS 10.0f
+/* Weight of the sensor's rate of second plots in that of a track, in looks. */
+#define TRACK_PRIOR_LOOKS 10.0f
+/* Looks at which the sums of second plots of a sensor, and of a track, are halved. */
+#define LOOKS_REMEMBERED 1000.0f
+#define TRACK_LOOKS_REMEMBERED 50.0f
+/* Fewest hits of a track that teaches: a neighbouring target has a track of its own by then. */
+#define TEACHER_HITS 8
+
+/* Most hits of a track that may be taken for a second track of an older track's target. */
+#define YOUNGER_HITS_MAX 12
+/*
+ * ln of the odds that two tracks are of one target and not of two: above END the younger track
+ * ends, LEAST is the lower bound, and STEP the largest change by one scan.
+ */
+#define ONE_TARGET_END_NAT 3.0f
+#define ONE_TARGET_LEAST_NAT (-4.0f)
+#define ONE_TARGET_STEP_NAT 3.0f
+
+/*
+ * Evidence for one target by a scan in which both tracks claimed one plot (merged_plots), and by a
+ * scan in which the younger track has no plot, and the older one's lies outside the younger's gate.
+ */
+#define SHARED_NAT 0.3f
+#define MISS_NAT 1.0f
+#define LOG_TWO 0.69314718f
+
+/* ---- learned rates --------------------------------------------------------------------------- */
+
+/* Finds the sensor's table of second plots, or gives it a free one. NULL: all tables are in use. */
+static struct rho_second_plots *find_or_claim_table(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        struct rho_second_plots *table = &tracker->second_plots[i];
+        if (!(table->looks > 0.0f)) {
+            table->sensor_id = sensor_id;
+            return table;
+        }
+        if (table->sensor_id == sensor_id) {
+            return table;
+        }
+    }
+    return 0;
+}
+
+/* Frees a sensor's table of second plots; the last table in use takes its place. */
+void rho_tracker_remove_second_plots_of_sensor(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    struct rho_second_plots *tables = tracker->second_plots;
+    unsigned num = 0, place = RHO_MAX_SENSORS;
+    while (num < RHO_MAX_SENSORS && tables[num].looks > 0.0f) {
+        place = tables[num].sensor_id == sensor_id ? num : place;
+        num++;
+    }
+    if (place < num) {
+        tables[place] = tables[num - 1u];
+        memset(&tables[num - 1u], 0, sizeof tables[0]);
+    }
+}
+
+static float second_plot_rate(const struct rho_second_plots *table, const struct rho_track *track)
+{
+    const float rate =
+        (table->plots + RATE_PRIOR_LOOKS * RATE_PRIOR) / (table->looks + RATE_PRIOR_LOOKS);
+    return track ? (track->second_plots + TRACK_PRIOR_LOOKS * rate) /
+                       (track->second_looks + TRACK_PRIOR_LOOKS)
+                 : rate;
+}
+
+static unsigned distance_bin(float sigmas)
+{
+    unsigned bin = 0;
+    while (bin < RHO_SECOND_BINS && sigmas > bin_end[bin]) {
+        bin++;
+    }
+    return bin;
+}
+
+/* Density of second plots on an axis at a distance in this bin, per sigma, on either side. */
+static float share_per_sigma_in_bin(const struct rho_second_plots *table, const float *sums,
+                                    unsigned bin)
+{
+    const float width = bin_end[bin] - (bin > 0 ? bin_end[bin - 1u] : 0.0f);
+    return 0.5f * (sums[bin] + BINS_PRIOR_PLOTS * bin_prior[bin]) /
+           ((table->plots + BINS_PRIOR_PLOTS) * width);
+}
+
+/* Distance of a plot from a claimed one, along the line of sight and across it, in bins. */
+struct bin_offset {
+    unsigned along, across; /* indices of bins; RHO_SECOND_BINS: beyond the last bin */
+};
+
+static int is_within_bins(struct bin_offset offset)
+{
+    return offset.along < RHO_SECOND_BINS && offset.across < RHO_SECOND_BINS;
+}
+
+static struct bin_offset bin_offset_of_plots(const struct rho_sensor *sensor,
+                                             const struct rho_plot *first,
+                                             const struct rho_plot *second)
+{
+    const struct echo_view view = rho_clutter_map_view_from_sensor(sensor, first->x_m, first->y_m);
+    const float dx_m = second->x_m - first->x_m, dy_m = second->y_m - first->y_m;
+    const float along_m = dx_m * view.along_x + dy_m * view.along_y;
+    const float across_m = dy_m * view.along_x - dx_m * view.along_y;
+    return (struct bin_offset){
+        distance_bin((along_m < 0.0f ? -along_m : along_m) / first->sigma_range_m),
+        distance_bin((across_m < 0.0f ? -across_m : across_m) / first->sigma_cross_m),
+    };
+}
+
+/* Density of a target's second plot, if it has one, at an offset from the first one, 1/m^2. */
+static float second_plot_density(const struct rho_second_plots *table, struct bin_offset offset,
+                                 const struct rho_plot *first)
+{
+    return share_per_sigma_in_bin(table, table->along, offset.along) *
+           share_per_sigma_in_bin(table, table->across, offset.across) /
+           (first->sigma_range_m * first->sigma_cross_m);
+}
+
+/* Likelihood ratio of two plots' range rates, of one target against clutter of any range rate. */
+static float range_rate_ratio_one_target_to_clutter(const struct step *step, uint32_t measures,
+                                                    const struct rho_plot *first,
+                                                    const struct rho_plot *second)
+{
+    if (!(measures & RHO_MEASURES_RANGE_RATE)) {
+        return 1.0f;
+    }
+    return rho_tracker_range_rate_likelihood_ratio(
+        step, second->range_rate_mps - first->range_rate_mps,
+        first->sigma_range_rate_mps * first->sigma_range_rate_mps +
+            second->sigma_range_rate_mps * second->sigma_range_rate_mps);
+}
+
+/* Adds a density ratio to a window plot's stored one, both coded as ln in steps of `repeats`. */
+static uint8_t add_ratio_to_coded_density_ratio(uint8_t repeats, float ratio)
+{
+    const float was = rho_exp((float)repeats / RHO_WINDOW_REPEATS_PER_NAT);
+    const float is = RHO_WINDOW_REPEATS_PER_NAT * rho_log(was + ratio) + 0.5f;
+    return (uint8_t)(is < 255.0f ? is : 255.0f);
+}
+
+/* ---- pairs of tracks ------------------------------------------------------------------------- */
+
+/* Finds the live track with this identity by bisection: rows are in the order of identities. */
+static struct rho_track *find_track_below_row(struct rho_tracker *tracker, uint32_t track_id,
+                                              unsigned end)
+{
+    unsigned first = 0;
+    while (first < end) {
+        const unsigned middle = (first + end) / 2u;
+        if (tracker->tracks[middle].track_id < track_id) {
+            first = middle + 1u;
+        } else {
+            end = middle;
+        }
+    }
+    struct rho_track *track = &tracker->tracks[first];
+    return track->track_id == track_id && track->status != RHO_TRACK_FREE ? track : 0;
+}
+
+static float probability_of_same_target_as_older(const struct rho_track *track)
+{
+    return 1.0f / (1.0f + rho_exp(-track->one_target_nat));
+}
+
+/*
+ * Evidence for one target, ln, by a scan in which each of both tracks claimed a plot: the younger
+ * track's plot is a second plot of the older's target, or of a target of its own.
+ */
+static float one_target_evidence_by_two_plots(const struct step *step,
+                                              const struct rho_second_plots *table,
+                                              unsigned older_row, unsigned row)
+{
+    const struct rho_track *older = &step->tracker->tracks[older_row];
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_plot *first = &step->scan->plots[older->plot];
+    const struct rho_plot *second = &step->scan->plots[track->plot];
+    const struct bin_offset offset = bin_offset_of_plots(step->sensor, first, second);
+    float gain_nat = 0.0f, ratio = 0.0f, swap_nat = 0.0f, own_nat = 0.0f;
+    (void)rho_tracker_find_pair_gain(step, row, track->plot, &gain_nat);
+    /*
+     * the two plots may also be swapped: the younger track's plot is the first one of the only
+     * target, or, with two targets, each made the other's plot
+     */
+    float ways = 1.0f, older_ways = 1.0f;
+    if (rho_tracker_find_pair_gain(step, older_row, older->plot, &own_nat) &&
+        rho_tracker_find_pair_gain(step, older_row, track->plot, &swap_nat)) {
+        float other_nat;
+        older_ways += rho_exp(swap_nat - own_nat);
+        if (rho_tracker_find_pair_gain(step, row, older->plot, &other_nat)) {
+            ways += rho_exp(swap_nat - own_nat + other_nat - gain_nat);
+        }
+    }
+    if (is_within_bins(offset)) {
+        ratio = second_plot_rate(table, older) * second_plot_density(table, offset, first) *
+                range_rate_ratio_one_target_to_clutter(step, step->scan->measures, first, second) /
+                rho_tracker_background_density_at_plot(step, second) *
+                rho_exp(-rho_tracker_log_echo_over_background_density(step, (uint32_t)track->plot));
+    }
+    return rho_log(1.0f + ratio) + rho_log(older_ways / ways) - gain_nat;
+}
+
+/*
+ * Evidence for one target, ln, by a scan in which one of both tracks has a plot, or both have the
+ * same. A plot in both gates could be of either of two targets: two ways, which LOG_TWO counts.
+ */
+static float one_target_evidence_by_one_plot(const struct step *step,
+                                             const struct rho_second_plots *table,
+                                             unsigned older_row, unsigned row)
+{
+    const struct rho_track *older = &step->tracker->tracks[older_row];
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const int plot = older->plot >= 0 ? older->plot : track->plot;
+    float gain_nat = 0.0f, older_gain_nat = 0.0f, nat = -second_plot_rate(table, older);
+    if (older->plot == track->plot) {
+        return SHARED_NAT;
+    }
+    const int is_in_gate = rho_tracker_find_pair_gain(step, row, plot, &gain_nat);
+    const int is_in_olders_gate =
+        rho_tracker_find_pair_gain(step, older_row, plot, &older_gain_nat);
+    if (older->plot < 0) {
+        if (!is_in_olders_gate) {
+            /*
+             * at the older track's place it may be a second plot of its target, which is no
+             * evidence; elsewhere it is the younger's target or clutter
+             */
+            struct rho_plot place = step->scan->plots[plot];
+            place.x_m = older->kalman.state[0];
+            place.y_m = older->kalman.state[1];
+            return is_within_bins(
+                       bin_offset_of_plots(step->sensor, &place, &step->scan->plots[plot]))
+                       ? 0.0f
+                       : -gain_nat;
+        }
+        nat += older_gain_nat - gain_nat;
+    }
+    if (!is_in_gate) {
+        return MISS_NAT;
+    }
+    return nat - rho_tracker_log_pd_and_log_miss_of_track(step, track).log_miss -
+           (is_in_olders_gate ? LOG_TWO : 0.0f);
+}
+
+static void add_evidence_of_same_target_as_older(struct rho_track *track, float nat)
+{
+    nat = nat < ONE_TARGET_STEP_NAT ? nat : ONE_TARGET_STEP_NAT;
+    track->one_target_nat += nat > -ONE_TARGET_STEP_NAT ? nat : -ONE_TARGET_STEP_NAT;
+    track->one_target_nat =
+        track->one_target_nat > ONE_TARGET_LEAST_NAT ? track->one_target_nat : ONE_TARGET_LEAST_NAT;
+}
+
+static void test_and_end_younger_track(struct step *step, const struct rho_second_plots *table,
+                                       unsigned row)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_track *track = &tracker->tracks[row];
+    struct rho_track *older = find_track_below_row(tracker, track->older_id, row);
+    if (!older) {
+        track->older_id = 0;
+        track->one_target_nat = 0.0f;
+        return;
+    }
+    const unsigned older_row = (unsigned)(older - tracker->tracks);
+    const float share = probability_of_same_target_as_older(track);
+    older->second_share = share < older->second_share ? share : older->second_share;
+    if (!rho_tracker_is_track_in_view(step, row) ||
+        !rho_tracker_is_track_in_view(step, older_row) ||
+        !rho_tracker_may_count_miss(step, track) || !rho_tracker_may_count_miss(step, older) ||
+        (track->plot < 0 && older->plot < 0)) {
+        return;
+    }
+    const float nat = track->plot >= 0 && older->plot >= 0 && track->plot != older->plot
+                          ? one_target_evidence_by_two_plots(step, table, older_row, row)
+                          : one_target_evidence_by_one_plot(step, table, older_row, row);
+    add_evidence_of_same_target_as_older(track, nat);
+    if (track->one_target_nat > ONE_TARGET_END_NAT) {
+        track->one_target_nat = ONE_TARGET_END_NAT;
+        if (older->plot >= 0) {
+            rho_tracker_end_track(step, track);
+        }
+    }
+}
+
+/* ---- plots near a claimed one ---------------------------------------------------------------- */
+
+struct second_plot_sums {
+    float plots;
+    float along[RHO_SECOND_BINS], across[RHO_SECOND_BINS];
+};
+
+static int can_teach_second_plots(const struct rho_track *track)
+{
+    return track->was_confirmed && track->hits >= TEACHER_HITS;
+}
+
+/*
+ * Probability that a plot near the track's plot is its target's second one. Raises the density of
+ * clutter at an unclaimed plot; a younger track that claimed the plot becomes one to be tested.
+ */
+static float second_plot_probability_raise_density(struct step *step,
+                                                   const struct rho_second_plots *table,
+                                                   unsigned row, uint32_t other,
+                                                   struct bin_offset offset)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const struct rho_track *track = &tracker->tracks[row];
+    const struct rho_plot *first = &step->scan->plots[track->plot];
+    const struct rho_plot *second = &step->scan->plots[other];
+    const int owner = tracker->assignment.column_row[other];
+    float share = 1.0f;
+    if (step->report->fates[other] != RHO_FATE_HELD) {
+        if (owner <= (int)row || tracker->tracks[owner].plot != (int)other ||
+            tracker->config.gate == RHO_TRACKER_HOUGH) {
+            /* no second plot: an older track's, or invalid; the Hough gate has no likelihoods */
+            return 0.0f;
+        }
+        struct rho_track *younger = &tracker->tracks[owner];
+        if (younger->older_id == 0 && younger->hits <= YOUNGER_HITS_MAX && track->was_confirmed) {
+            younger->older_id = track->track_id;
+            younger->one_target_nat = 0.0f;
+            add_evidence_of_same_target_as_older(
+                younger, one_target_evidence_by_two_plots(step, table, row, (unsigned)owner));
+        }
+        share = younger->older_id == track->track_id ? probability_of_same_target_as_older(younger)
+                                                     : 0.0f;
+    }
+    const float ratio =
+        second_plot_rate(table, track) * second_plot_density(table, offset, first) *
+        range_rate_ratio_one_target_to_clutter(step, step->scan->measures, first, second) /
+        rho_tracker_background_density_at_plot(step, second);
+    float *denser = &tracker->clutter_map.denser[other];
+    const float known = rho_exp(*denser);
+    if (step->report->fates[other] == RHO_FATE_HELD) {
+        *denser = rho_log(known + ratio);
+    }
+    return share * ratio / (known + ratio);
+}
+
+/* Sums the probable second plots near a track's plot, and raises the clutter density at them. */
+static void sum_second_plots_and_raise_density_at_them(struct step *step,
+                                                       const struct rho_second_plots *table,
+                                                       unsigned row, struct second_plot_sums *found)
+{
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_plot *first = &step->scan->plots[track->plot];
+    const float half_m = NEAR_SIGMAS * 1.4142136f * rho_plot_sigma_m(first);
+    struct plots_near near = rho_tracker_plots_near(step, first->x_m - half_m, first->x_m + half_m,
+                                                    first->y_m - half_m, first->y_m + half_m);
+    uint32_t passed = 0;
+    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i); passed++) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        const float dx_m = plot->x_m - first->x_m, dy_m = plot->y_m - first->y_m;
+        if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
+            (int)i == track->plot || step->report->fates[i] == RHO_FATE_INVALID) {
+            continue;
+        }
+        const struct bin_offset offset = bin_offset_of_plots(step->sensor, first, plot);
+        rho_tracker_spend_work(step, PAIR_UNITS);
+        if (is_within_bins(offset)) {
+            const float share = second_plot_probability_raise_density(step, table, row, i, offset);
+            found->plots += share;
+            found->along[offset.along] += share;
+            found->across[offset.across] += share;
+        }
+    }
+    rho_tracker_spend_work(step, passed / RHO_WORK_PASSED_A_UNIT);
+}
+
+static void add_second_plots_to_track(struct rho_track *track, float plots, float share)
+{
+    if (track->second_looks >= TRACK_LOOKS_REMEMBERED) {
+        track->second_looks *= 0.5f;
+        track->second_plots *= 0.5f;
+    }
+    track->second_looks += share;
+    track->second_plots += share * plots;
+}
+
+static void add_second_plots_to_sensor(struct rho_second_plots *table,
+                                       const struct second_plot_sums *found, float looks)
+{
+    const float keep = table->looks >= LOOKS_REMEMBERED ? 0.5f : 1.0f;
+    table->looks = keep * table->looks + looks;
+    table->plots = keep * table->plots + found->plots;
+    for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {
+        table->along[bin] = keep * table->along[bin] + found->along[bin];
+        table->across[bin] = keep * table->across[bin] + found->across[bin];
+    }
+}
+
+/* Counts a claimed plot whose neighbours are not scored, as the share of work is used up. */
+static void count_plot_not_tried(struct step *step)
+{
+    step->is_partial = 1;
+    step->plots_not_tried = rho_count(step->plots_not_tried, 1);
+}
+
+void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_second_plots *table = find_or_claim_table(tracker, step->scan->sensor_id);
+    struct second_plot_sums found = {.plots = 0.0f};
+    float looks = 0.0f;
+    if (!table || step->is_late || step->num_inputs > RHO_MAX_PLOTS) {
+        return;
+    }
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        tracker->tracks[row].second_share = 1.0f;
+    }
+    /* not with the Hough gate, whose gains are no likelihoods */
+    for (unsigned row = 1; row < tracker->num_tracks && tracker->config.gate != RHO_TRACKER_HOUGH;
+         row++) {
+        if (tracker->tracks[row].older_id > 0 && tracker->tracks[row].status != RHO_TRACK_FREE) {
+            test_and_end_younger_track(step, table, row);
+        }
+    }
+    rho_tracker_begin_work_phase(step, RHO_WORK_SECOND_SHARE);
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (track->status == RHO_TRACK_FREE || track->plot < 0) {
+            continue;
+        }
+        if (rho_tracker_is_phase_work_spent(step)) {
+            count_plot_not_tried(step);
+            continue;
+        }
+        struct second_plot_sums near = {.plots = 0.0f};
+        sum_second_plots_and_raise_density_at_them(step, table, row, &near);
+        if (can_teach_second_plots(track)) {
+            const float share = track->second_share;
+            add_second_plots_to_track(track, near.plots, share);
+            looks += share;
+            found.plots += share * near.plots;
+            for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {
+                found.along[bin] += share * near.along[bin];
+                found.across[bin] += share * near.across[bin];
+            }
+        }
+    }
+    if (looks > 0.0f) {
+        add_second_plots_to_sensor(table, &found, looks);
+    }
+}
+
+/* ---- plots in the window --------------------------------------------------------------------- */
+
+static void raise_window_ratios_near_claimed_plot(struct step *step,
+                                                  const struct rho_second_plots *table,
+                                                  struct rho_window_scan *scan, unsigned claimed)
+{
+    const struct rho_plot first = rho_window_unpack_plot(scan, claimed);
+    const struct rho_sensor *sensor = rho_window_sensor_if_described(scan);
+    const float half_m = NEAR_SIGMAS * 1.4142136f * rho_plot_sigma_m(&first);
+    for (unsigned i = 0; i < scan->num_plots; i++) {
+        const float dx_m = scan->plots[i].x_m - first.x_m, dy_m = scan->plots[i].y_m - first.y_m;
+        if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
+            (scan->marks[i] & RHO_WINDOW_INITIATED)) {
+            continue;
+        }
+        const struct rho_plot plot = rho_window_unpack_plot(scan, i);
+        const struct bin_offset offset = bin_offset_of_plots(sensor, &first, &plot);
+        rho_tracker_spend_work(step, PAIR_UNITS);
+        if (is_within_bins(offset)) {
+            const float ratio =
+                second_plot_rate(table, 0) * second_plot_density(table, offset, &first) *
+                range_rate_ratio_one_target_to_clutter(step, scan->measures, &first, &plot) /
+                rho_tracker_background_density_at_plot(step, &plot);
+            scan->repeats[i] = add_ratio_to_coded_density_ratio(scan->repeats[i], ratio);
+        }
+    }
+}
+
+void rho_tracker_raise_window_clutter_near_start(struct step *step,
+                                                 const struct rho_candidate *candidate)
+{
+    struct rho_window *window = &step->initiator->window;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        const struct rho_second_plots *table =
+            find_or_claim_table(step->tracker, scan->sensor.sensor_id);
+        if (((unsigned)candidate->mask >> m & 1u) && table &&
+            rho_tracker_is_phase_work_spent(step)) {
+            count_plot_not_tried(step);
+        } else if (((unsigned)candidate->mask >> m & 1u) && table) {
+            rho_tracker_spend_work(step, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
+            raise_window_ratios_near_claimed_plot(step, table, scan, candidate->plot[m]);
+        }
+    }
+}
+
+/* ---- snapshots ------------------------------------------------------------------------------- */
+
+int rho_tracker_has_sound_track_second_plots(const struct rho_track *track)
+{
+    return rho_is_within(track->second_looks, 0.0f, 1e6f) &&
+           rho_is_within(track->second_plots, 0.0f, 1e6f) &&
+           rho_is_within(track->one_target_nat, -1e3f, 1e3f) &&
+           rho_are_finite(&track->second_share, 1);
+}
+
+int rho_tracker_has_sound_second_plot_tables(const struct rho_tracker *tracker)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_second_plots *table = &tracker->second_plots[i];
+        if (!rho_is_within(table->looks, 0.0f, 1e9f) || !rho_is_within(table->plots, 0.0f, 1e9f)) {
+            return 0;
+        }
+        for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {
+            if (!rho_is_within(table->along[bin], 0.0f, 1e9f) ||
+                !rho_is_within(table->across[bin], 0.0f, 1e9f)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/rows/rows_lat_lon_to_local_frame.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TURN 6.283185307179586
+
+struct rows_geodetic_columns rows_geodetic_columns_open(const struct table *table,
+                                                        const struct rows_kind *kind,
+                                                        const struct parameters *parameters)
+{
+    bool has_any = kind == &rows_kind_plots || kind == &rows_kind_polar || kind == &rows_kind_truth;
+
+    return (struct rows_geodetic_columns){
+        .kind = kind,
+        .parameters = parameters,
+        .geodetic = has_any ? geodetic_columns_open(table, parameters) : NULL};
+}
+
+void rows_geodetic_columns_close(struct rows_geodetic_columns *geodetic)
+{
+    geodetic_columns_close(geodetic->geodetic);
+    geodetic->geodetic = NULL;
+}
+
+bool rows_geodetic_columns_replaces_column(const struct rows_geodetic_columns *geodetic,
+                                           const struct rows_column *column)
+{
+    return geodetic_columns_has_place_columns(geodetic->geodetic) &&
+           (strcmp(column->name, "x_m") == 0 || strcmp(column->name, "y_m") == 0);
+}
+
+static double *cell_of_named_column(const struct rows_geodetic_columns *geodetic, double *cells,
+                                    const char *name)
+{
+    return &cells[rows_existing_column_index(geodetic->kind, name)];
+}
+
+static void put_float_cell(const struct rows_geodetic_columns *geodetic, double *cells,
+                           const char *name, double value)
+{
+    *cell_of_named_column(geodetic, cells, name) = (double)(float)value;
+}
+
+static double cell_or(double cell, double otherwise)
+{
+    return rows_is_cell_empty(cell) ? otherwise : cell;
+}
+
+/* ---- Places ---- */
+
+static bool fill_place_cells(const struct rows_geodetic_columns *geodetic,
+                             const struct row_check *check, double *cells)
+{
+    double place_m[3];
+    bool has_alt;
+
+    if (geodetic->kind->has_sensor && !geodetic_columns_row_has_place(geodetic->geodetic, check)) {
+        return true; /* a scan without detections */
+    }
+    if (!geodetic_columns_read_place(geodetic->geodetic, check, place_m, &has_alt)) {
+        return false;
+    }
+    put_float_cell(geodetic, cells, "x_m", place_m[0]);
+    put_float_cell(geodetic, cells, "y_m", place_m[1]);
+    if (has_alt) {
+        put_float_cell(geodetic, cells, "z_m", place_m[2]);
+    }
+    return true;
+}
+
+/* ---- Radars ---- */
+
+static void rotate_angle_cell(double *cell, double turn_rad)
+{
+    if (!rows_is_cell_empty(*cell)) {
+        *cell = (double)(float)remainder(*cell + turn_rad, TURN);
+    }
+}
+
+/*
+ * Sets the radar's position, and turns the sector, which counts from the radar's own east, to the
+ * local frame.
+ */
+static void put_radar_place_and_sector(const struct rows_geodetic_columns *geodetic,
+                                       const struct radar_axes *frame, double *cells)
+{
+    const double *place_m = radar_axes_place_m(frame);
+
+    rotate_angle_cell(cell_of_named_column(geodetic, cells, "sector_from_rad"),
+                      radar_axes_turn_rad(frame));
+    rotate_angle_cell(cell_of_named_column(geodetic, cells, "sector_to_rad"),
+                      radar_axes_turn_rad(frame));
+    if (geodetic->kind == &rows_kind_polar) {
+        put_float_cell(geodetic, cells, "sensor_x_m", place_m[0]);
+        put_float_cell(geodetic, cells, "sensor_y_m", place_m[1]);
+        put_float_cell(geodetic, cells, "sensor_z_m", place_m[2]);
+    }
+}
+
+static struct geodetic_columns_polar read_polar_cells(const struct rows_geodetic_columns *geodetic,
+                                                      int32_t sensor_id, double *cells)
+{
+    const struct parameters *parameters = geodetic->parameters;
+    double sigma_range_m = parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
+                                                      parameters->value[PARAMETER_SIGMA_RANGE_M]);
+    double elevation_rad = *cell_of_named_column(geodetic, cells, "elevation_rad");
+
+    return (struct geodetic_columns_polar){
+        .sensor_id = sensor_id,
+        .place_m = {cell_or(*cell_of_named_column(geodetic, cells, "sensor_x_m"), 0),
+                    cell_or(*cell_of_named_column(geodetic, cells, "sensor_y_m"), 0),
+                    cell_or(*cell_of_named_column(geodetic, cells, "sensor_z_m"), 0)},
+        .look = {*cell_of_named_column(geodetic, cells, "range_m"),
+                 *cell_of_named_column(geodetic, cells, "azimuth_rad"), cell_or(elevation_rad, 0)},
+        .has_elevation = !rows_is_cell_empty(elevation_rad),
+        .sigma_range_m =
+            cell_or(*cell_of_named_column(geodetic, cells, "sigma_range_m"), sigma_range_m)};
+}
+
+/*
+ * Whether range and angles are in range for the conversion to the local frame. Empty cells, and
+ * cells out of range, are refused later, as in any file.
+ */
+static bool are_range_and_angles_in_limits(const struct geodetic_columns_polar *polar)
+{
+    const double half_turn = (double)3.1415927f; /* the float nearest to pi, as files may have it */
+
+    return polar->look.range_m > 0 && fabs(polar->look.azimuth_rad) <= half_turn &&
+           fabs(polar->look.elevation_rad) <= half_turn / 2;
+}
+
+static bool rotate_azimuth_and_elevation_to_local_frame(
+    const struct rows_geodetic_columns *geodetic, const struct row_check *check,
+    const struct radar_axes *frame, int32_t sensor_id, double *cells)
+{
+    struct geodetic_columns_polar polar = read_polar_cells(geodetic, sensor_id, cells);
+    bool had_elevation = polar.has_elevation;
+
+    polar.frame = frame;
+    if (!are_range_and_angles_in_limits(&polar)) {
+        return true;
+    }
+    if (!geodetic_columns_turn_polar_to_local_frame(geodetic->geodetic, check, &polar)) {
+        return false;
+    }
+    put_float_cell(geodetic, cells, "azimuth_rad", polar.look.azimuth_rad);
+    if (polar.has_elevation) {
+        put_float_cell(geodetic, cells, "elevation_rad", polar.look.elevation_rad);
+    }
+    if (polar.has_elevation && !had_elevation) {
+        put_float_cell(geodetic, cells, "sigma_elevation_rad", polar.sigma_elevation_rad);
+    }
+    return true;
+}
+
+bool rows_geodetic_columns_fill_local_cells(const struct rows_geodetic_columns *geodetic,
+                                            const struct row_check *check, int32_t sensor_id,
+                                            double *cells)
+{
+    const struct radar_axes *frame = NULL;
+
+    if (!geodetic->geodetic) {
+        return true;
+    }
+    if (geodetic->kind->has_sensor &&
+        !geodetic_columns_find_radar_frame(geodetic->geodetic, check, sensor_id, &frame)) {
+        return false;
+    }
+    if (frame) {
+        put_radar_place_and_sector(geodetic, frame, cells);
+    }
+    return geodetic->kind == &rows_kind_polar
+               ? rotate_azimuth_and_elevation_to_local_frame(geodetic, check, frame, sensor_id,
+                                                             cells)
+               : !geodetic_columns_has_place_columns(geodetic->geodetic) ||
+                     fill_place_cells(geodetic, check, cells);
+}
