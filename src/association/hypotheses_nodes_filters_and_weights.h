@@ -26,9 +26,9 @@ unsigned rho_hypotheses_room_after_cutting_others(struct rho_hypotheses *pool, u
                                                   unsigned wanted);
 
 /* Predicts one filter to another time without mixing its models: to a plot's own time, or back. */
-enum rho_status rho_hypotheses_predict_filter_unmixed(struct rho_hypotheses *pool,
-                                                      struct rho_imm *imm, int64_t from_us,
-                                                      int64_t to_us);
+enum rho_status rho_hypotheses_predict_one_filter_unmixed(struct rho_hypotheses *pool,
+                                                          struct rho_imm *imm, int64_t from_us,
+                                                          int64_t to_us);
 
 /*
  * Filter of a hypothesis at a given time: its own, or a copy in the pool's scratch that was

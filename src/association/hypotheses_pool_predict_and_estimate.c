@@ -197,9 +197,9 @@ static const struct rho_imm_step *cached_step_of_interval(struct rho_hypotheses 
     return &pool->step;
 }
 
-enum rho_status rho_hypotheses_predict_filter_unmixed(struct rho_hypotheses *pool,
-                                                      struct rho_imm *imm, int64_t from_us,
-                                                      int64_t to_us)
+enum rho_status rho_hypotheses_predict_one_filter_unmixed(struct rho_hypotheses *pool,
+                                                          struct rho_imm *imm, int64_t from_us,
+                                                          int64_t to_us)
 {
     return from_us == to_us
                ? RHO_OK
@@ -213,7 +213,7 @@ const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
         return &at->imm;
     }
     pool->scratch = at->imm;
-    return rho_hypotheses_predict_filter_unmixed(pool, &pool->scratch, at->time_us, time_us) ==
+    return rho_hypotheses_predict_one_filter_unmixed(pool, &pool->scratch, at->time_us, time_us) ==
                    RHO_OK
                ? &pool->scratch
                : 0;

@@ -352,7 +352,7 @@ static int16_t update_with_plot_or_miss(struct rho_hypotheses *pool, struct rho_
                                         const struct rho_imm_plot *seen, int64_t time_us,
                                         const struct rho_imm_match *match, int16_t row)
 {
-    if (rho_hypotheses_predict_filter_unmixed(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
+    if (rho_hypotheses_predict_one_filter_unmixed(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
         rho_imm_update(&at->imm, &pool->model, seen, match) == RHO_OK) {
         at->time_us = time_us;
         return row;
@@ -524,7 +524,7 @@ static int try_move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesi
                                int64_t time_us)
 {
     pool->scratch = at->imm;
-    if (rho_hypotheses_predict_filter_unmixed(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (rho_hypotheses_predict_one_filter_unmixed(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
         at->imm = pool->scratch;
         return 0;
     }

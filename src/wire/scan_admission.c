@@ -56,14 +56,14 @@ static int is_later_within_jump(const struct rho_scan_assembler_config *config, 
 }
 
 /* 1 where a scan's number, epoch and time allow it to be the sensor's next one after `from`. */
-static int may_be_next_scan(const struct rho_scan_assembler_config *config,
-                            const struct rho_scan_assembler_place *place,
-                            const struct rho_scan_assembler_place *from)
+static int may_follow_in_sensor_sequence(const struct rho_scan_assembler_config *config,
+                                         const struct rho_scan_assembler_place *now,
+                                         const struct rho_scan_assembler_place *from)
 {
-    int32_t ahead = scan_number_difference(place->scan, from->scan);
+    int32_t ahead = scan_number_difference(now->scan, from->scan);
 
-    return place->epoch == from->epoch && ahead >= 1 && ahead <= RHO_SCAN_ASSEMBLER_SKIP_MAX &&
-           is_later_within_jump(config, place->time_us, from->time_us);
+    return now->epoch == from->epoch && ahead >= 1 && ahead <= RHO_SCAN_ASSEMBLER_SKIP_MAX &&
+           is_later_within_jump(config, now->time_us, from->time_us);
 }
 
 /* 1 where took_us is above 3/2 of longest_us; computed so that 64 bits do not overflow. */
@@ -142,7 +142,7 @@ find_refused_series_to_continue(const struct rho_scan_assembler_config *config,
         const struct rho_scan_assembler_stray *stray = &source->strays[i];
 
         if (stray->scans > (most ? most->scans : 0) &&
-            may_be_next_scan(config, place, &stray->place)) {
+            may_follow_in_sensor_sequence(config, place, &stray->place)) {
             most = stray;
         }
     }

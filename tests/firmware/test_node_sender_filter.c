@@ -77,7 +77,7 @@ static void keep_newest_status(void *context, const uint8_t *bytes, size_t size)
     }
 }
 
-static int64_t monotonic_clock_us(void *context)
+static int64_t simulated_clock_us(void *context)
 {
     (void)context;
     return now_us;
@@ -89,7 +89,7 @@ static void start_node(const uint32_t *sources, uint16_t num_sources,
     struct node_config config;
     node_config_default(&config);
     config.send = keep_newest_status;
-    config.clock_us = monotonic_clock_us;
+    config.clock_us = simulated_clock_us;
     config.sources = sources;
     config.num_sources = num_sources;
     config.is_authentic = hook;
@@ -217,7 +217,7 @@ static void bad_lists_of_allowed_addresses_are_refused(void **state)
     (void)state;
     node_config_default(&config);
     config.send = keep_newest_status;
-    config.clock_us = monotonic_clock_us;
+    config.clock_us = simulated_clock_us;
     config.sources = sources;
     config.num_sources = RHO_UDPM_MAX_SOURCES + 1;
     assert_int_equal(node_start(&config), RHO_ERROR_VALUE);

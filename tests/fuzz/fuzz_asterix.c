@@ -21,7 +21,7 @@ static void abort_unless(bool holds)
 }
 
 /* Rows of a scan are records whose cells are empty or finite numbers. */
-static void check_rows(const struct asterix_scan *scan)
+static void check_scan_table_cells_are_finite(const struct asterix_scan *scan)
 {
     const struct asterix_columns columns = {.has_place = true, .has_scan = true};
     struct table *table = asterix_plot_rows_empty_table("", &columns);
@@ -34,17 +34,17 @@ static void check_rows(const struct asterix_scan *scan)
     table_free(table);
 }
 
-static void check_scan(const struct asterix_scan *scan, int64_t settled_128)
+static void check_scan(const struct asterix_scan *scan, int64_t not_before_128)
 {
-    abort_unless(scan->time_128 >= settled_128 && scan->number > 0);
+    abort_unless(scan->time_128 >= not_before_128 && scan->number > 0);
     abort_unless(scan->look.advance > 0 && scan->look.advance <= ASTERIX_TURN);
     abort_unless(scan->look.end_128 >= scan->look.start_128 &&
                  (scan->is_numbered || scan->count == 1));
-    check_rows(scan);
+    check_scan_table_cells_are_finite(scan);
     for (size_t i = 0; i < scan->count; i++) {
         const struct asterix_scan_plot *mark = &scan->marks[i];
 
-        abort_unless(mark->time_128 >= settled_128 && mark->range > 0);
+        abort_unless(mark->time_128 >= not_before_128 && mark->range > 0);
         abort_unless(i == 0 || mark->time_128 >= mark[-1].time_128);
         abort_unless(mark->has_alt == scan->marks[0].has_alt);
         abort_unless(mark->has_doppler == scan->marks[0].has_doppler);
@@ -54,7 +54,7 @@ static void check_scan(const struct asterix_scan *scan, int64_t settled_128)
 /*
  * Checks the completed scans; none is earlier than settled_128, the time declared settled before.
  */
-static size_t check_scans(struct asterix_scans *scans, int64_t settled_128)
+static size_t check_scans_and_count_plots(struct asterix_scans *scans, int64_t settled_128)
 {
     struct asterix_scan scan;
     size_t count = 0;
@@ -66,7 +66,7 @@ static size_t check_scans(struct asterix_scans *scans, int64_t settled_128)
     return count;
 }
 
-static void read_all_records(struct asterix_scans *scans, const uint8_t *data, size_t size)
+static void preview_all_records(struct asterix_scans *scans, const uint8_t *data, size_t size)
 {
     struct asterix_block block;
     struct asterix_record record;
@@ -88,7 +88,7 @@ static void read_all_records(struct asterix_scans *scans, const uint8_t *data, s
 }
 
 /* Radars in the datagram: 1, or 2 for two and more. */
-static int count_radars(const uint8_t *data, size_t size)
+static int count_radars_up_to_two(const uint8_t *data, size_t size)
 {
     struct asterix_block block;
     struct asterix_record record;
@@ -110,11 +110,11 @@ static int count_radars(const uint8_t *data, size_t size)
 }
 
 /* Feeds the bytes as datagrams of one ASTERIX block each. */
-static size_t take_datagram(struct asterix_scans *scans, const uint8_t *data, size_t size,
-                            struct asterix_datagram_counts *heard)
+static size_t take_datagrams_and_count_plots(struct asterix_scans *scans, const uint8_t *data,
+                                             size_t size, struct asterix_datagram_counts *heard)
 {
     /* with several radars, one's clock may be behind the other's */
-    bool has_one_radar = count_radars(data, size) <= 1;
+    bool has_one_radar = count_radars_up_to_two(data, size) <= 1;
     struct asterix_block block;
     struct asterix_error error;
     size_t count = 0, bytes;
@@ -128,7 +128,7 @@ static size_t take_datagram(struct asterix_scans *scans, const uint8_t *data, si
                     ? ASTERIX_HEADER_BYTES + block.size
                     : size - at;
         asterix_datagram_take_records(scans, data + at, bytes, heard);
-        count += check_scans(scans, settled_128);
+        count += check_scans_and_count_plots(scans, settled_128);
     }
     return count;
 }
@@ -149,11 +149,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     rules.interval_s = (data[0] & 2) != 0 ? 4 : 0;
     scans = asterix_scans_open(&rules);
     if (data[0] & 4) {
-        read_all_records(scans, data + 1, size - 1);
+        preview_all_records(scans, data + 1, size - 1);
     }
-    placed = take_datagram(scans, data + 1, size - 1, &heard);
+    placed = take_datagrams_and_count_plots(scans, data + 1, size - 1, &heard);
     asterix_scans_finish(scans);
-    placed += check_scans(scans, INT64_MIN);
+    placed += check_scans_and_count_plots(scans, INT64_MIN);
     counts = asterix_scans_counts(scans);
     abort_unless(placed == counts->placed);
     abort_unless(counts->plots == counts->placed + counts->not_real + counts->no_detection +

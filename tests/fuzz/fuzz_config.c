@@ -32,8 +32,8 @@ struct reading {
     bool asks_library;
 };
 
-static void check_parameter_limits(struct parameter_text text, double value,
-                                   enum parameter_source source)
+static void check_set_value_is_within_limits(struct parameter_text text, double value,
+                                             enum parameter_source source)
 {
     if (source != SOURCE_UNSET) {
         CHECK(value >= text.min && value <= text.max); /* false for NaN, too */
@@ -41,19 +41,19 @@ static void check_parameter_limits(struct parameter_text text, double value,
     }
 }
 
-static void check_all_parameter_limits(void)
+static void check_all_values_are_within_limits(void)
 {
     for (int id = 0; id < NUM_PARAMETERS; id++) {
-        check_parameter_limits(parameters_text((enum parameter_id)id), parameters.value[id],
-                               parameters.source[id]);
+        check_set_value_is_within_limits(parameters_text((enum parameter_id)id),
+                                         parameters.value[id], parameters.source[id]);
     }
     CHECK(parameters.num_sensors <= RHO_MAX_SENSORS && parameters.num_allowed <= RHO_MAX_SENSORS);
     for (size_t i = 0; i < parameters.num_sensors; i++) {
         const struct sensor_parameters *sensor = &parameters.sensors[i];
 
         for (int id = 0; id < NUM_SENSOR_PARAMETERS; id++) {
-            check_parameter_limits(parameters_sensor_text((enum sensor_parameter_id)id),
-                                   sensor->value[id], sensor->source[id]);
+            check_set_value_is_within_limits(parameters_sensor_text((enum sensor_parameter_id)id),
+                                             sensor->value[id], sensor->source[id]);
         }
         for (size_t k = 0; k < i; k++) {
             CHECK(parameters.sensors[k].sensor_id != sensor->sensor_id);
@@ -93,7 +93,7 @@ static void read_config(void *context)
     }
     parameters_locate_sensors(&parameters);
     parameters_check_together(&parameters);
-    check_all_parameter_limits();
+    check_all_values_are_within_limits();
     parameters_print_table(&parameters, nowhere);
     if (reading->asks_library) {
         check_library_takes_configs();

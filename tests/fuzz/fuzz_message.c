@@ -25,7 +25,7 @@ static bool is_pattern(const uint8_t *bytes, size_t size)
 }
 
 /* validate returns a status of its own, and the place it names is a member of the struct. */
-static void check_validate(size_t type, const void *message)
+static void check_validate_names_a_member(size_t type, const void *message)
 {
     struct rho_message_place place = {UINT16_MAX, -2};
     const enum rho_status status = codecs[type].validate(message, &place);
@@ -70,7 +70,7 @@ static void check_decode(size_t type, const uint8_t *data, size_t size)
                      RHO_ERROR_CAPACITY);
         abort_unless(codecs[type].encode(message, again, size, &again_size) == RHO_OK);
         abort_unless(again_size == size && memcmp(again, data, size) == 0);
-        check_validate(type, message);
+        check_validate_names_a_member(type, message);
     }
     free(again);
     free(message);
@@ -118,7 +118,7 @@ static void check_encode_any_struct(size_t type, const uint8_t *data, size_t siz
         abort_unless(bytes_size <= codecs[type].max_size);
         check_decode(type, bytes, bytes_size);
     }
-    check_validate(type, message);
+    check_validate_names_a_member(type, message);
     free(message);
 }
 

@@ -25,7 +25,7 @@ struct reading {
     size_t num_sets;
 };
 
-static void check_span(struct json_span span)
+static void check_number_range_is_finite(struct json_span span)
 {
     CHECK(isfinite(span.lo) && isfinite(span.hi) && span.lo <= span.hi);
 }
@@ -37,8 +37,8 @@ static void check_sensor(const struct scene *scene, size_t i)
     CHECK(sensor->is_passive == (i >= scene->num_radars));
     CHECK(isfinite(sensor->x_m) && isfinite(sensor->y_m));
     CHECK(sensor->turn_s > 0.0 && isfinite(sensor->turn_s) && sensor->sectors > 0);
-    check_span(sensor->starts_s);
-    check_span(sensor->starts_rad);
+    check_number_range_is_finite(sensor->starts_s);
+    check_number_range_is_finite(sensor->starts_rad);
     for (size_t k = 0; k < i; k++) {
         CHECK(scene->sensors[k].sensor_id != sensor->sensor_id);
     }
@@ -63,12 +63,12 @@ static void check_scene(const struct scene *scene)
         CHECK(scene->clutter[i].kind < CLUTTER_KINDS &&
               are_known_sensors(scene, scene->clutter[i].sensors));
         CHECK(isfinite(scene->clutter[i].plots) && isfinite(scene->clutter[i].plots_per_km2));
-        check_span(scene->clutter[i].life_s);
+        check_number_range_is_finite(scene->clutter[i].life_s);
     }
     for (size_t i = 0; i < scene->num_events; i++) {
         CHECK(scene->events[i].kind < EVENT_KINDS &&
               are_known_sensors(scene, scene->events[i].sensors));
-        check_span(scene->events[i].for_s);
+        check_number_range_is_finite(scene->events[i].for_s);
     }
     for (size_t i = 0; i < scene->targets.count; i++) {
         const struct target_item *item = &scene->targets.items[i], *parent;

@@ -217,7 +217,7 @@ static const struct region regions[] = {
 };
 
 /* Changes one place of the image as eight bytes of the input say. */
-static void change_image(int scene, const uint8_t *edit)
+static void change_one_place_of_image(const uint8_t *edit)
 {
     static const float numbers[] = {NAN,     INFINITY, -INFINITY, 1e30f,  -1e30f, 1e-30f,
                                     0.0f,    -0.0f,    1e15f,     -1e15f, 2e6f,   -2e6f,
@@ -230,7 +230,6 @@ static void change_image(int scene, const uint8_t *edit)
     size_t at =
         region.first +
         ((size_t)edit[1] | (size_t)edit[2] << 8 | (size_t)(edit[3] >> 3) << 16) % region.bytes;
-    (void)scene;
     switch (edit[3] % 8) {
     case 0:
         memcpy(image + at, edit + 4, 1);
@@ -274,7 +273,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const int scene = data[0] % SCENES;
     memcpy(image, images[scene], image_bytes);
     for (size_t at = 1; at + 8 <= size && at < 8 * 40; at += 8) {
-        change_image(scene, data + at);
+        change_one_place_of_image(data + at);
     }
     set_image_checksum();
     memset(&chain, 0x3c, sizeof chain);

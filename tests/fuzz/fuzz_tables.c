@@ -31,7 +31,7 @@ static bool is_within(float v, float limit)
     return v >= -limit && v <= limit; /* false for NaN, too */
 }
 
-static void read_table(const char *path, bool keep_going)
+static void read_table_and_check_cells(const char *path, bool keep_going)
 {
     struct table *table = table_read(path, keep_going);
     int64_t time_us;
@@ -141,7 +141,7 @@ static void read_file(void *context)
 
     switch (reading->which & 3) {
     case 0:
-        read_table(reading->path, keep_going);
+        read_table_and_check_cells(reading->path, keep_going);
         break;
     case 1:
         read_scans(reading->path, &reading->parameters, keep_going);

@@ -420,7 +420,7 @@ static void check_track(const struct rho_track_report *track, uint32_t num_plots
 }
 
 /* What can be asked about a track: its body and its evidence. */
-static void check_answers(unsigned track)
+static void check_body_and_evidence(unsigned track)
 {
     struct rho_tracker_evidence evidence;
     struct rho_body body;
@@ -506,10 +506,10 @@ static void check_identities(void)
 }
 
 /*
- * Plots claimed by tracks have the fate CLAIMED, and at most two tracks share one; a new track
- * names a plot that it was found in.
+ * A plot that a track names is valid and has the fate CLAIMED; one that a new track names, which is
+ * a plot that it was found in, the fate HELD.
  */
-static void check_claims(const struct rho_scan *scan)
+static void check_claimed_plots_fate_and_validity(const struct rho_scan *scan)
 {
     for (unsigned i = 0; i < chain.report.num_tracks; i++) {
         const int32_t plot = chain.report.tracks[i].plot;
@@ -577,7 +577,7 @@ static void check_step_work(const struct rho_tracker *tracker)
           tracker->work.plots_not_tried == 0 || tracker->work.partial_steps > 0);
 }
 
-static void check_passive(struct rho_passive *passive)
+static void check_passive_tracks(struct rho_passive *passive)
 {
     HOLDS("tracks of bearings are within their capacity",
           passive->num_tracks <= RHO_MAX_PASSIVE_TRACKS);
@@ -616,7 +616,7 @@ static void check_objects(void)
     for (unsigned i = 0; i < PASSIVES; i++) {
         if (touched & PASSIVE(i)) {
             HOLDS("the passive initiator is sound", rho_passive_is_sound(&chain.passives[i]));
-            check_passive(&chain.passives[i]);
+            check_passive_tracks(&chain.passives[i]);
         }
     }
 }
@@ -648,12 +648,12 @@ static void check_step(uint32_t num_plots, int64_t time_us, const struct rho_sca
     check_fates(num_plots);
     check_counters();
     if (scan) {
-        check_claims(scan);
+        check_claimed_plots_fate_and_validity(scan);
     }
     check_identities();
     for (unsigned i = 0; i < chain.report.num_tracks; i++) {
         check_track(&chain.report.tracks[i], num_plots);
-        check_answers(i);
+        check_body_and_evidence(i);
     }
     HOLDS("time never goes back",
           !before.tracker.has_time || chain.tracker.time_us >= before.tracker.time_us);
@@ -865,7 +865,7 @@ static int is_in_sector(const struct rho_scan *scan, const struct look_from *fro
 }
 
 /* Sets the next sector, computed in float as a radar's program would. */
-static void set_sector(struct look_from *from, float *sector_from_rad, float *sector_to_rad)
+static void set_next_sector(struct look_from *from, float *sector_from_rad, float *sector_to_rad)
 {
     const float width_rad = (float)(2 * PI / from->sectors);
 
@@ -979,7 +979,7 @@ static struct rho_scan make_scan(struct script *script, unsigned how, struct rho
                             .measures = from->measures,
                             .plots = plots};
 
-    set_sector(from, &scan.sector_from_rad, &scan.sector_to_rad);
+    set_next_sector(from, &scan.sector_from_rad, &scan.sector_to_rad);
     for (unsigned i = 0; i < world.num_targets; i++) {
         const double x_m = target_m(i, 0) + uniform(-20, 20);
         const double y_m = target_m(i, 1) + uniform(-20, 20);
@@ -1047,7 +1047,7 @@ static void step_scan(struct script *script)
 
 /* ---- an initiator without a tracker ---------------------------------------------------------- */
 
-static void search_own_initiator(struct script *script)
+static void search_or_consume_own_initiator(struct script *script)
 {
     struct rho_initiator *lone = &chain.initiators[LONE];
     const unsigned how = read_byte(script);
@@ -1197,7 +1197,7 @@ static struct rho_frame make_frame(struct script *script, unsigned how, struct b
                                           .x_m = from->x_m,
                                           .y_m = from->y_m,
                                           .bearings = seen->bearings[s]};
-        set_sector(from, &look->sector_from_rad, &look->sector_to_rad);
+        set_next_sector(from, &look->sector_from_rad, &look->sector_to_rad);
         add_bearings_of_targets(look, from, seen->bearings[s]);
     }
     if (how & 16) {
@@ -1375,7 +1375,7 @@ static void save_image(const struct rho_snapshot_part parts[PARTS])
 }
 
 /* Loads the image into objects whose memory holds other bytes. */
-static void load_image(const struct rho_snapshot_part parts[PARTS])
+static void load_image_over_other_bytes(const struct rho_snapshot_part parts[PARTS])
 {
     memset(&chain, 0x77, offsetof(struct pipeline, report));
     HOLDS("what was saved can be loaded",
@@ -1393,12 +1393,12 @@ static void save_or_load(struct script *script)
     if (image_bytes == 0 || (how & 1 && world.images < IMAGES_MAX)) {
         save_image(parts);
         if (!(how & 2)) {
-            load_image(parts);
+            load_image_over_other_bytes(parts);
             HOLDS("what is loaded is what was saved, byte for byte",
                   memcmp(&before, &chain, OBJECTS_BYTES) == 0);
         }
     } else {
-        load_image(parts);
+        load_image_over_other_bytes(parts);
         known = known_of_image;
         world_of_image.images = world.images;
         world_of_image.full_scans = world.full_scans;
@@ -1665,7 +1665,7 @@ static void make_refused_calls(struct script *script)
     check_unchanged(status);
 }
 
-static void check_known(int32_t sensor_id)
+static void check_learned_of_sensor(int32_t sensor_id)
 {
     struct rho_tracker_known known_of_sensor;
 
@@ -1697,7 +1697,7 @@ static void call_queries(struct script *script)
               !look || (isfinite(look->seen_share) && isfinite(look->distance2) &&
                         isfinite(look->sigma_m)));
 #endif
-        check_known(world.radars[i].sensor_id);
+        check_learned_of_sensor(world.radars[i].sensor_id);
         if (rho_is_coordinate(x_m) && rho_is_coordinate(y_m)) {
             const float density = rho_initiator_density(&chain.initiators[i % INITIATORS],
                                                         world.radars[i].sensor_id, x_m, y_m);
@@ -1719,8 +1719,8 @@ static void run_script(const uint8_t *data, size_t size, int fill)
                                                     push_to_own_initiator,
                                                     push_to_own_initiator,
                                                     push_to_own_initiator,
-                                                    search_own_initiator,
-                                                    search_own_initiator,
+                                                    search_or_consume_own_initiator,
+                                                    search_or_consume_own_initiator,
                                                     use_own_passive_initiator,
                                                     use_own_passive_initiator,
                                                     use_own_passive_initiator,

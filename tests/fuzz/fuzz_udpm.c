@@ -9,7 +9,7 @@
 #include "check.h"
 #include "rhotrack/udpm.h"
 
-static void check_header_writer(const uint8_t *data, size_t size)
+static void check_datagram_head_writer(const uint8_t *data, size_t size)
 {
     char channel[80];
     uint8_t buffer[80];
@@ -33,7 +33,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t buffer[RHO_UDPM_MAX_HEAD];
     size_t head = 0;
 
-    check_header_writer(data, size);
+    check_datagram_head_writer(data, size);
     if (rho_udpm_parse(data, size, &datagram) != RHO_OK) {
         CHECK(!datagram.channel && !datagram.payload && datagram.payload_size == 0);
         return 0;

@@ -70,26 +70,26 @@ static void step(int scan)
     take(&(struct rho_scan){.time_us = 2000000 * (int64_t)scan - 700000});
 }
 
-static enum rho_status init(uint8_t gate, uint8_t is_estimated)
+static enum rho_status init(uint8_t gate, uint8_t is_input_estimated)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config initiation;
     rho_tracker_config_default(&config);
     config.gate = gate;
-    config.input.is_estimated = is_estimated;
+    config.input.is_estimated = is_input_estimated;
     rho_initiator_config_default(&initiation);
     enum rho_status status = rho_initiator_init(&initiator, sizeof initiator, &initiation);
     return status == RHO_OK ? rho_tracker_init(&tracker, sizeof tracker, &config) : status;
 }
 
-static void print_default(void)
+static void print_status_of_default_config(void)
 {
     struct rho_tracker_config config;
     rho_tracker_config_default(&config);
     printf("default %s\n", rho_status_name(rho_tracker_init(&tracker, sizeof tracker, &config)));
 }
 
-static void print_starts(void)
+static void print_status_of_steps_with_initiators(void)
 {
     static const struct rho_scan scan = {.time_us = 0};
     static const struct rho_frame frame = {.time_us = 0};
@@ -118,7 +118,7 @@ int main(void)
         printf("gate %d input %d: %s %08x %u\n", way / 2, way % 2, rho_status_name(status),
                (unsigned)sum, status == RHO_OK ? (unsigned)report.num_tracks : 0u);
     }
-    print_default();
-    print_starts();
+    print_status_of_default_config();
+    print_status_of_steps_with_initiators();
     return 0;
 }

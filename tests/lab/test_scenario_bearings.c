@@ -68,7 +68,7 @@ static struct parameters passive_parameters(double pd)
     struct parameters parameters;
 
     parameters_set_defaults(&parameters);
-    suggest_passive_parameters(&parameters);
+    suggest_passive_scenario_parameters(&parameters);
     parameters_suggest(&parameters, PARAMETER_TRUE_PD, pd);
     return parameters;
 }

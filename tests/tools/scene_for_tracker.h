@@ -64,7 +64,8 @@ static inline struct parameters scene_parameters(const struct scene *scene)
 }
 
 /* A scan's time by its radar's clock, which includes the radar's time bias. */
-static inline int64_t scene_scan_time_us(const struct scene_run *run, const struct scene_scan *scan)
+static inline int64_t scene_scan_time_by_radar_clock_us(const struct scene_run *run,
+                                                        const struct scene_scan *scan)
 {
     return llround((scan->end_s + run->scene->sensors[scan->sensor].time_bias_s) * 1e6);
 }
@@ -90,7 +91,7 @@ static inline struct rho_scan scene_scan_for_tracker(const struct scene_run *run
                                                      struct rho_plot *plots)
 {
     const struct scene_sensor *sensor = &run->scene->sensors[scan->sensor];
-    struct rho_scan out = {.time_us = scene_scan_time_us(run, scan),
+    struct rho_scan out = {.time_us = scene_scan_time_by_radar_clock_us(run, scan),
                            .sensor_id = sensor->sensor_id,
                            .measures = sensor->has_range_rate ? RHO_MEASURES_RANGE_RATE : 0u,
                            .sector_from_rad = (float)scan->from_rad,

@@ -65,7 +65,7 @@ static inline void see_frame(unsigned k, double time_s)
 
 /* ---- steps ----------------------------------------------------------------------------------- */
 
-static inline uint32_t count_held(void)
+static inline uint32_t count_bearings_held_in_batch(void)
 {
     uint32_t count = 0;
     for (unsigned k = 0; k < passive.batch.num_scans; k++) {
@@ -79,7 +79,7 @@ static inline uint32_t count_held(void)
 }
 
 /* Checks that the numbers of fates add up to the bearings of all scans. */
-static inline void check_fates(const struct rho_frame *frame)
+static inline void check_fate_counts_add_up(const struct rho_frame *frame)
 {
     uint32_t sum = 0, counted = 0, bearings = 0;
     for (unsigned i = 0; i < frame->num_scans; i++) {
@@ -117,7 +117,7 @@ static inline void step_frame(const struct rho_frame *frame)
 {
     memset(&report, 0xee, sizeof report);
     assert_int_equal(rho_tracker_step_frame(&tracker, &passive, frame, &report), RHO_OK);
-    check_fates(frame);
+    check_fate_counts_add_up(frame);
     check_report();
 }
 

@@ -84,7 +84,7 @@ static inline unsigned poisson(double mean)
 /* ---- targets --------------------------------------------------------------------------------- */
 
 /* The target's place and course at t_s: exact, on a circle while it turns. */
-static inline struct target target_at(const struct target *target, double t_s)
+static inline struct target target_on_its_turning_path_at(const struct target *target, double t_s)
 {
     struct target at = *target;
     double turn = target->pull_mps2 / target->speed_mps;
@@ -114,7 +114,7 @@ static inline double own_time_s(const struct target *target, double t_s)
 {
     double offset_s = 0.0;
     for (int i = 0; i < 8 && scene.turn_s > 0.0; i++) {
-        struct target at = target_at(target, t_s + offset_s);
+        struct target at = target_on_its_turning_path_at(target, t_s + offset_s);
         double turned = atan2(at.y_m, at.x_m) / 6.283185307179586;
         offset_s = scene.turn_s * (turned - floor(turned));
     }
@@ -174,7 +174,7 @@ static inline void add_target_plot(const struct target *at, double offset_s, int
     };
 }
 
-static inline void add_clutter(void)
+static inline void add_one_clutter_plot(void)
 {
     struct target at = {0};
     at.x_m = uniform(-scene.half_area_m, scene.half_area_m);
@@ -192,12 +192,12 @@ static inline void see_scan(int k, double t_s)
     unsigned clutter = k < scene.clean_scans ? 0 : poisson(scene.clutter);
     for (unsigned i = 0; i < scene.num_targets || clutter > 0;) {
         if (clutter > 0 && (i == scene.num_targets || uniform(0.0, 1.0) < 0.7)) {
-            add_clutter();
+            add_one_clutter_plot();
             clutter--;
             continue;
         }
         double offset_s = own_time_s(&scene.target[i], t_s);
-        struct target at = target_at(&scene.target[i], t_s + offset_s);
+        struct target at = target_on_its_turning_path_at(&scene.target[i], t_s + offset_s);
         if (uniform(0.0, 1.0) < scene.pd || k < scene.clean_scans) {
             add_target_plot(&at, offset_s, (int)i);
         }
@@ -239,7 +239,7 @@ static inline int track_was_there(const struct rho_track_report *track)
  * Each plot belongs to one old track, or to two that share it, and is claimed; a claimed plot
  * without a track belonged to one that ended in this step. Newest plots of new tracks are held.
  */
-static inline void check_claims(void)
+static inline void check_plots_claimed_by_at_most_two_tracks(void)
 {
     int owner[SCENE_PLOTS_MAX];
     unsigned there = 0, claimed = 0, owned = 0;
@@ -266,7 +266,7 @@ static inline void check_claims(void)
     assert_in_range(claimed, owned, owned + num_before - there);
 }
 
-static inline void check_fates(void)
+static inline void check_fate_counts_add_up(void)
 {
     uint32_t counts[RHO_NUM_FATES] = {0}, sum = 0, counted = 0;
     for (uint32_t i = 0; i < num_plots; i++) {
@@ -387,13 +387,13 @@ static inline void step_with_scan(struct rho_scan *scan, struct rho_initiator *s
     }
     memset(&report, 0xee, sizeof report);
     assert_int_equal(rho_tracker_step(&tracker, starter, scan, &report), RHO_OK);
-    check_claims();
-    check_fates();
+    check_plots_claimed_by_at_most_two_tracks();
+    check_fate_counts_add_up();
     check_pool();
     check_tracks();
 }
 
-static inline struct rho_scan scan_of_plots(int k)
+static inline struct rho_scan scan_without_plots_of_step(int k)
 {
     return (struct rho_scan){.time_us = llround(scene.interval_s * k * 1e6),
                              .measures = scene.measures};
@@ -401,7 +401,7 @@ static inline struct rho_scan scan_of_plots(int k)
 
 static inline void step_tracker(int k)
 {
-    struct rho_scan scan = scan_of_plots(k);
+    struct rho_scan scan = scan_without_plots_of_step(k);
     see_scan(k, scene.interval_s * k);
     if (scene.num_sectors > 0) {
         keep_sector_plots(k, &scan);
@@ -413,13 +413,13 @@ static inline void step_tracker(int k)
 
 static inline double distance_m(const struct rho_track_report *track, unsigned target, double t_s)
 {
-    struct target at = target_at(&scene.target[target], t_s);
+    struct target at = target_on_its_turning_path_at(&scene.target[target], t_s);
     return hypot((double)track->state[0] - at.x_m, (double)track->state[1] - at.y_m);
 }
 
 /* The confirmed track nearest to a target, within limit_m; NULL: none. */
-static inline const struct rho_track_report *follower_of(unsigned target, double t_s,
-                                                         double limit_m)
+static inline const struct rho_track_report *
+confirmed_track_nearest_to_target(unsigned target, double t_s, double limit_m)
 {
     const struct rho_track_report *found = NULL;
     for (unsigned i = 0; i < report.num_tracks; i++) {

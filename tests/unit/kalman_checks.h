@@ -48,7 +48,7 @@ static inline int is_positive_definite(const struct rho_kalman *kalman)
     return 1;
 }
 
-static inline void assert_sane_covariance(const struct rho_kalman *kalman)
+static inline void assert_finite_with_variances_in_limits(const struct rho_kalman *kalman)
 {
     for (int i = 0; i < STATES; ++i) {
         const float variance = kalman->covariance[RHO_AT(i, i)];

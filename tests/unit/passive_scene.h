@@ -292,7 +292,7 @@ static inline enum rho_status search_scene(struct rho_passive *passive, const st
 
 /* ---- checks of tracks ----------------------------------------------------------------------- */
 
-static inline int is_track_finite(const struct rho_passive_track *track)
+static inline int has_finite_state_and_positive_variances(const struct rho_passive_track *track)
 {
     int is_finite = isfinite(track->x_m) && isfinite(track->y_m) && isfinite(track->vx_mps) &&
                     isfinite(track->vy_mps) && isfinite(track->chi2) && track->chi2 >= 0.0f;
@@ -327,14 +327,14 @@ static inline int are_claims_right(const struct rho_passive *passive,
     return hits == track->hits && scans == track->scans;
 }
 
-static inline int are_tracks_sound(const struct rho_passive *passive)
+static inline int are_tracks_finite_with_right_claims(const struct rho_passive *passive)
 {
     uint64_t claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS] = {{0}};
     if (passive->num_tracks > RHO_MAX_PASSIVE_TRACKS) {
         return 0;
     }
     for (unsigned i = 0; i < passive->num_tracks; i++) {
-        if (!is_track_finite(&passive->tracks[i]) ||
+        if (!has_finite_state_and_positive_variances(&passive->tracks[i]) ||
             !are_claims_right(passive, &passive->tracks[i], claimed)) {
             return 0;
         }

@@ -9,7 +9,7 @@
 #include "tracker_setup.h"
 
 /* Steps with plots of two targets 4 km apart, the first of them only if sees_first. */
-static void see_flights(int k, int sees_first)
+static void step_scan_of_flights(int k, int sees_first)
 {
     if (sees_first) {
         add_noisy_plot(-3000.0 + 100.0 * k, 2000.0, 10.0);
@@ -23,7 +23,7 @@ static int next_k;
 static void run_scans(int scans, int sees_first)
 {
     for (int i = 0; i < scans; i++) {
-        see_flights(next_k++, sees_first);
+        step_scan_of_flights(next_k++, sees_first);
     }
 }
 
@@ -39,7 +39,7 @@ static void prepare_tracker(void)
 }
 
 /* The only track within 200 m of y_m; NULL: none. */
-static const struct rho_track_report *track_near(double y_m)
+static const struct rho_track_report *only_track_within_200_m(double y_m)
 {
     const struct rho_track_report *found = NULL;
     for (unsigned i = 0; i < report.num_tracks; i++) {

@@ -285,7 +285,7 @@ static void errors_are_split_by_straight_turning_and_coasting(void **state)
 }
 
 /* The ellipse of 95 % ends at a chi-square of 5.9915. */
-static void the_nees_ellipse_holds_95_percent(void **state)
+static void the_nees_ellipse_ends_at_chi_square_5_99(void **state)
 {
     (void)state;
     struct evaluation *e = evaluation_start(CUTOFF_M);
@@ -415,7 +415,7 @@ int main(void)
         cmocka_unit_test(nees_uses_the_full_covariance),
         cmocka_unit_test(velocity_nees_uses_the_velocity_covariance),
         cmocka_unit_test(errors_are_split_by_straight_turning_and_coasting),
-        cmocka_unit_test(the_nees_ellipse_holds_95_percent),
+        cmocka_unit_test(the_nees_ellipse_ends_at_chi_square_5_99),
         cmocka_unit_test(tracks_unpaired_in_most_rows_are_false),
         cmocka_unit_test(results_by_target_are_sorted_by_identity),
         cmocka_unit_test(results_of_3000_targets_sum_to_the_total),

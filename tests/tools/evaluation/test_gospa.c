@@ -81,9 +81,9 @@ static void small_random_sets_get_the_optimal_pairing(void **state)
  * The returned pairs fit the result: each track once, each pair nearer than the cutoff, squares
  * that sum to the localisation error.
  */
-static void check_pairs(const struct gospa *result, const struct gospa_place *targets,
-                        size_t num_targets, const struct gospa_place *tracks, size_t num_tracks,
-                        double cutoff_m, const int *track_of)
+static void check_pairs_fit_result(const struct gospa *result, const struct gospa_place *targets,
+                                   size_t num_targets, const struct gospa_place *tracks,
+                                   size_t num_tracks, double cutoff_m, const int *track_of)
 {
     bool *is_taken = calloc(num_tracks + 1, sizeof *is_taken);
     double localisation_m2 = 0.0;
@@ -127,8 +127,8 @@ static void separate_groups_get_the_optimal_pairing(void **state)
         double expected =
             least_gospa2_of_all_pairings(targets, num_targets, tracks, num_tracks, 5.0, 0, 0);
         assert_true(fabs(result.squared_m2 - expected) < TOLERANCE);
-        check_pairs(&result, targets, (size_t)num_targets, tracks, (size_t)num_tracks, 5.0,
-                    track_of);
+        check_pairs_fit_result(&result, targets, (size_t)num_targets, tracks, (size_t)num_tracks,
+                               5.0, track_of);
     }
 }
 
@@ -152,7 +152,8 @@ static void results_equal_a_dense_assignment(void **state)
             assert_true(fabs(result.localisation_m2 - c->localisation_m2) <=
                         1e-11 * c->localisation_m2);
         }
-        check_pairs(&result, targets, c->num_targets, tracks, c->num_tracks, c->cutoff_m, track_of);
+        check_pairs_fit_result(&result, targets, c->num_targets, tracks, c->num_tracks, c->cutoff_m,
+                               track_of);
     }
 }
 

@@ -376,7 +376,7 @@ static void test_bad_records_are_refused_with_reason(void **state)
     check_bad_record(2, "0108", 1, "a record of CAT002 has an item at the undefined place 12");
 }
 
-static void test_data_blocks_are_read(void **state)
+static void test_category_and_size_of_data_blocks_are_read(void **state)
 {
     const uint8_t block[] = {48, 0, 6, 1, 2, 3, 99};
     struct asterix_block read;
@@ -420,7 +420,7 @@ int main(void)
         cmocka_unit_test(test_cat062_tracks_are_written),
         cmocka_unit_test(test_values_beyond_an_item_become_its_largest),
         cmocka_unit_test(test_bad_records_are_refused_with_reason),
-        cmocka_unit_test(test_data_blocks_are_read),
+        cmocka_unit_test(test_category_and_size_of_data_blocks_are_read),
         cmocka_unit_test(test_sensor_id_of_sac_and_sic),
     };
 

@@ -373,7 +373,7 @@ static struct given given_file_of_random_scans(void)
     return open_reader_of_text(text);
 }
 
-static int compare_times(const void *a, const void *b)
+static int compare_bearing_scan_times(const void *a, const void *b)
 {
     const struct rho_bearing_scan *first = a, *second = b;
 
@@ -420,7 +420,7 @@ static void live_frames_equal_those_of_the_reader(void **state)
         assert_int_equal(scans[i].num_bearings, 1);
         scans[i].bearings = &bearing;
     }
-    qsort(scans, num_scans, sizeof *scans, compare_times);
+    qsort(scans, num_scans, sizeof *scans, compare_bearing_scan_times);
     rho_frames_config_default(&config);
     config.sensors_min = 3;
     config.silent_frames = 255;

@@ -266,7 +266,7 @@ static void numbered_scans_end_after_a_minute_or_begun_max_newer_ones(void **sta
  * Row times are by biased clocks, scan times by the common one: sensor 1 is two seconds ahead,
  * sensor 2 three behind.
  */
-static void scans_are_sorted_by_time_without_clock_bias(void **state)
+static void scans_of_biased_clocks_are_sorted_by_common_time(void **state)
 {
     const int64_t biases_us[] = {0, 2 * SECOND, -3 * SECOND};
     struct rows_to_scans gather;
@@ -309,7 +309,7 @@ int main(void)
         cmocka_unit_test(rows_are_grouped_by_scan_number),
         cmocka_unit_test(times_may_go_back_within_a_numbered_scan_alone),
         cmocka_unit_test(numbered_scans_end_after_a_minute_or_begun_max_newer_ones),
-        cmocka_unit_test(scans_are_sorted_by_time_without_clock_bias),
+        cmocka_unit_test(scans_of_biased_clocks_are_sorted_by_common_time),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -26,18 +26,18 @@
  * Prints rows of a radar's sector n, counter-clockwise from 0: its opening, and a plot in its
  * middle 0.5 s earlier.
  */
-static size_t print_sector_rows(char *text, int sensor, double x_m, int n, double t_s)
+static size_t print_sector_rows(char *text, int sensor, double x_m, int sector_index, double t_s)
 {
-    double from = 2 * PI * (n % SECTORS) / SECTORS, to = from + 2 * PI / SECTORS;
+    double from = 2 * PI * (sector_index % SECTORS) / SECTORS, to = from + 2 * PI / SECTORS;
     double middle = from + PI / SECTORS;
 
     return (size_t)sprintf(
         text, "%.6f,%d,,,%.1f,0,%.7f,%.7f,%d\n%.6f,%d,10000,%.7f,%.1f,0,%.7f,%.7f,%d\n", t_s,
-        sensor, x_m, from, to, n + 1, t_s - 0.5, sensor, middle > PI ? middle - 2 * PI : middle,
-        x_m, from, to, n + 1);
+        sensor, x_m, from, to, sector_index + 1, t_s - 0.5, sensor,
+        middle > PI ? middle - 2 * PI : middle, x_m, from, to, sector_index + 1);
 }
 
-static struct revolutions read_last_turns(const char *text, size_t max)
+static struct revolutions read_newest_turns_of_all_radars(const char *text, size_t max)
 {
     char path[] = "/tmp/rhotrack-turns-XXXXXX", *paths[] = {path};
     struct parameters parameters;
@@ -75,7 +75,7 @@ static void test_sectors_of_one_radar_form_turns(void **state)
     for (int n = 0; n < 3 * SECTORS + 2; n++) { /* + 2: the last turn has only begun */
         length += print_sector_rows(text + length, 1, 500, n, n + 1);
     }
-    revolutions = read_last_turns(text, 3);
+    revolutions = read_newest_turns_of_all_radars(text, 3);
     assert_int_equal(revolutions.total, 4);
     assert_int_equal(revolutions.count, 3);
     assert_int_equal(revolutions.late, 0);
@@ -105,7 +105,7 @@ static void test_interleaved_radars_form_turns_of_their_own(void **state)
         length += print_sector_rows(text + length, 1, 0, n, n + 1);
         length += print_sector_rows(text + length, 2, 800, n + SECTORS / 2, n + 1.2);
     }
-    revolutions = read_last_turns(text, 5);
+    revolutions = read_newest_turns_of_all_radars(text, 5);
     assert_int_equal(revolutions.total, 6);
     assert_int_equal(revolutions.count, 5);
     assert_turn_has(&revolutions.list[0], 2, 1.2, 4);
@@ -117,7 +117,7 @@ static void test_interleaved_radars_form_turns_of_their_own(void **state)
     revolutions_free(&revolutions);
     revolutions =
         /* with room for one turn, a dropped turn that still goes on does not come back */
-        read_last_turns(text, 1);
+        read_newest_turns_of_all_radars(text, 1);
     assert_int_equal(revolutions.total, 6);
     assert_int_equal(revolutions.count, 1);
     assert_turn_has(&revolutions.list[0], 2, 9.2, 4);
@@ -126,10 +126,10 @@ static void test_interleaved_radars_form_turns_of_their_own(void **state)
 
 static void test_scans_of_a_whole_circle_are_turns(void **state)
 {
-    struct revolutions revolutions =
-        read_last_turns("t_s,sensor_id,x_m,y_m\n0,1,5,5\n0,1,6,5\n0.5,2,1,1\n2,1,7,5\n"
-                        "2,2,,\n4,1,8,5\n",
-                        4);
+    struct revolutions revolutions = read_newest_turns_of_all_radars(
+        "t_s,sensor_id,x_m,y_m\n0,1,5,5\n0,1,6,5\n0.5,2,1,1\n2,1,7,5\n"
+        "2,2,,\n4,1,8,5\n",
+        4);
 
     (void)state;
     assert_int_equal(revolutions.total, 5);
@@ -150,9 +150,9 @@ static void test_scans_of_a_whole_circle_are_turns(void **state)
 static void test_late_scans_of_the_same_sensor_are_left_out(void **state)
 {
     struct revolutions revolutions =
-        read_last_turns("t_s,sensor_id,x_m,y_m,received_s\n0,1,1,1,0\n4,1,2,1,4\n"
-                        "8,1,3,1,8\n5,2,9,9,8.5\n6,1,4,1,9\n12,1,5,1,12\n",
-                        4);
+        read_newest_turns_of_all_radars("t_s,sensor_id,x_m,y_m,received_s\n0,1,1,1,0\n4,1,2,1,4\n"
+                                        "8,1,3,1,8\n5,2,9,9,8.5\n6,1,4,1,9\n12,1,5,1,12\n",
+                                        4);
 
     (void)state;
     assert_int_equal(revolutions.late, 1);
@@ -167,7 +167,8 @@ static void test_late_scans_of_the_same_sensor_are_left_out(void **state)
 
 static void test_a_scan_without_plots_is_a_turn(void **state)
 {
-    struct revolutions revolutions = read_last_turns("t_s,sensor_id,x_m,y_m\n0,1,,\n", 7);
+    struct revolutions revolutions =
+        read_newest_turns_of_all_radars("t_s,sensor_id,x_m,y_m\n0,1,,\n", 7);
 
     (void)state;
     assert_int_equal(revolutions.count, 1);

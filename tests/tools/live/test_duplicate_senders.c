@@ -90,7 +90,7 @@ static void a_restarted_sender_is_not_warned_of(void **state)
 }
 
 /* A radar of 10 s a turn: the first sender is heard again 8 s after the second one. */
-static void a_second_sender_is_warned_of_though_it_may_be_a_restart(void **state)
+static void a_second_sender_is_warned_of_at_once_as_a_possible_restart(void **state)
 {
     static const char line[] = "rhotrack: sensor 3 has another sender, 10.9.0.1:5002, until now "
                                "10.9.0.1:5001: a restart, or two at once\n";
@@ -145,7 +145,7 @@ int main(void)
         cmocka_unit_test(two_senders_of_one_sensor_are_warned_of_once),
         cmocka_unit_test(names_that_are_no_sensor_channels_are_ignored),
         cmocka_unit_test(a_restarted_sender_is_not_warned_of),
-        cmocka_unit_test(a_second_sender_is_warned_of_though_it_may_be_a_restart),
+        cmocka_unit_test(a_second_sender_is_warned_of_at_once_as_a_possible_restart),
         cmocka_unit_test(another_node_is_warned_of_once),
         cmocka_unit_test(the_number_of_warnings_is_limited),
     };

@@ -233,7 +233,7 @@ static void the_status_message_tells_the_origin(void **state)
     node_core_close(live.core);
 }
 
-static void the_limits_are_sent_in_their_own_message(void **state)
+static void work_and_unprinted_reports_are_sent_apart_from_status(void **state)
 {
     struct live live;
     const struct node_core_losses losses = {
@@ -268,7 +268,7 @@ int main(void)
         cmocka_unit_test(a_moved_passive_sensor_is_accepted_after_a_while),
         cmocka_unit_test(passive_sensors_that_moved_together_are_accepted),
         cmocka_unit_test(the_status_message_tells_the_origin),
-        cmocka_unit_test(the_limits_are_sent_in_their_own_message),
+        cmocka_unit_test(work_and_unprinted_reports_are_sent_apart_from_status),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

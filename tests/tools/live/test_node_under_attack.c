@@ -71,7 +71,8 @@ static void put_plot(struct rho_message_plot_scan *scan, double x_m, double y_m,
         (struct rho_message_plot){.x_m = (float)x_m, .y_m = (float)y_m, .sigma_m = (float)sigma_m};
 }
 
-static void put_plots_of_targets(struct rho_message_plot_scan *scan, struct random *random)
+static void put_plots_of_targets_and_clutter(struct rho_message_plot_scan *scan,
+                                             struct random *random)
 {
     const double t_s = (double)(scan->utime - START_US) / 1e6;
 
@@ -87,8 +88,9 @@ static void put_plots_of_targets(struct rho_message_plot_scan *scan, struct rand
     }
 }
 
-static void take_message_timed(struct live *live, const char *channel, int16_t sensor_id,
-                               const uint8_t *message, size_t size)
+static void take_message_and_advance_clock_by_its_work(struct live *live, const char *channel,
+                                                       int16_t sensor_id, const uint8_t *message,
+                                                       size_t size)
 {
     char name[32];
     int64_t start_us;
@@ -109,7 +111,8 @@ static void send_empty_polar_scan(struct live *live, const struct datagram *data
     size_t size;
 
     assert_int_equal(rho_message_polar_scan_encode(&nothing, buffer, sizeof buffer, &size), RHO_OK);
-    take_message_timed(live, RHO_MESSAGE_POLAR_SCAN_CHANNEL, datagram->sensor_id, buffer, size);
+    take_message_and_advance_clock_by_its_work(live, RHO_MESSAGE_POLAR_SCAN_CHANNEL,
+                                               datagram->sensor_id, buffer, size);
 }
 
 /* Sends a datagram, with the same plots whenever it is sent. */
@@ -132,7 +135,7 @@ static void send_datagram(struct live *live, const struct datagram *datagram)
                                           .part = datagram->part,
                                           .num_parts = datagram->num_parts};
     if (datagram->num_plots == 0) {
-        put_plots_of_targets(&scan, &random);
+        put_plots_of_targets_and_clutter(&scan, &random);
     }
     for (int i = 0; i < datagram->num_plots; i++) {
         const double half_m = datagram->half_m > 0.0f ? (double)datagram->half_m : 50000.0;
@@ -141,7 +144,8 @@ static void send_datagram(struct live *live, const struct datagram *datagram)
         put_plot(&scan, x_m, random_between(&random, -half_m, half_m), datagram->sigma_m);
     }
     assert_int_equal(rho_message_plot_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
-    take_message_timed(live, RHO_MESSAGE_PLOT_SCAN_CHANNEL, datagram->sensor_id, buffer, size);
+    take_message_and_advance_clock_by_its_work(live, RHO_MESSAGE_PLOT_SCAN_CHANNEL,
+                                               datagram->sensor_id, buffer, size);
 }
 
 static void add_datagram(struct live *live, struct datagram datagram)
@@ -185,7 +189,7 @@ static const struct rho_track_report *track_nearest_to(const struct rho_report *
 }
 
 /* Called after each step: time without a hit, or without a track, is a gap. */
-static void note_gaps(void *context, const struct rho_report *report)
+static void note_longest_gap_in_hits_and_time_found(void *context, const struct rho_report *report)
 {
     struct live *live = context;
     const struct rho_track_report *track = track_nearest_to(report, 0);
@@ -218,7 +222,7 @@ static int compare_reception_times(const void *a, const void *b)
     return (first->received_us > second->received_us) - (first->received_us < second->received_us);
 }
 
-static void prepare_radar_run(struct live *live, int64_t interval_us)
+static void set_parameters_and_plan_radar_scans(struct live *live, int64_t interval_us)
 {
     char reason[PARAMETER_REASON_BYTES];
 
@@ -230,8 +234,9 @@ static void prepare_radar_run(struct live *live, int64_t interval_us)
 
 static void run_node(struct live *live)
 {
-    const struct node_core_events events = {
-        .context = live, .send = ignore_message, .stepped = note_gaps};
+    const struct node_core_events events = {.context = live,
+                                            .send = ignore_message,
+                                            .stepped = note_longest_gap_in_hits_and_time_found};
 
     live->core = node_core_open(&live->parameters, 1, &events);
     qsort(live->datagrams, live->count, sizeof live->datagrams[0], compare_reception_times);
@@ -267,7 +272,7 @@ static void attack_with_nothing(struct live *live, int64_t from_us)
  * Scans with as many plots as the messages hold, all near one place: every pair of plots may be a
  * target.
  */
-static void attack_with_120_crowded_scans(struct live *live, int64_t from_us)
+static void attack_with_120_datagrams_of_crowded_scans(struct live *live, int64_t from_us)
 {
     for (int16_t i = 0; i < 120; i++) {
         add_datagram(live, (struct datagram){.received_us = from_us + i * 500,
@@ -283,7 +288,7 @@ static void attack_with_120_crowded_scans(struct live *live, int64_t from_us)
 }
 
 /* Six scans in a row without plots of the targets would end their tracks by misses. */
-static void attack_with_120_empty_scans(struct live *live, int64_t from_us)
+static void attack_with_120_scans_without_target_plots(struct live *live, int64_t from_us)
 {
     for (int16_t i = 0; i < 120; i++) {
         add_datagram(live, (struct datagram){.received_us = from_us + i * 5000,
@@ -341,7 +346,7 @@ static void attack_with_polar_scans_of_its_number(struct live *live, int64_t fro
 }
 
 /* An empty scan after each of the radar's scans, until the end. */
-static void attack_with_an_empty_scan_after_each(struct live *live, int64_t from_us)
+static void attack_with_targetless_scan_after_each_of_radar(struct live *live, int64_t from_us)
 {
     const int64_t interval_us = live->datagrams[1].time_us - live->datagrams[0].time_us;
 
@@ -358,9 +363,10 @@ static void attack_with_an_empty_scan_after_each(struct live *live, int64_t from
     }
 }
 
-static void run_attack(struct live *live, int64_t interval_us, attacker *attack, const char *what)
+static void run_attack_and_print_gap_and_delay(struct live *live, int64_t interval_us,
+                                               attacker *attack, const char *what)
 {
-    prepare_radar_run(live, interval_us);
+    set_parameters_and_plan_radar_scans(live, interval_us);
     attack(live, START_US + attack_s * SECOND_US);
     run_node(live);
     print_message("  %-24s gap %.2f s, found after %.2f s, longest step %.3f s\n", what,
@@ -377,19 +383,19 @@ static void check_attacks_are_harmless(int64_t interval_us)
     static const struct {
         attacker *attack;
         const char *what;
-    } attacks[] = {{attack_with_120_crowded_scans, "120 datagrams, crowds"},
-                   {attack_with_120_empty_scans, "120 datagrams, empty"},
+    } attacks[] = {{attack_with_120_datagrams_of_crowded_scans, "120 datagrams, crowds"},
+                   {attack_with_120_scans_without_target_plots, "120 datagrams, empty"},
                    {attack_with_a_scan_ahead_each_3_s, "1 datagram each 3 s"},
                    {attack_with_eight_scans_an_hour_ahead, "8 datagrams"},
                    {attack_with_polar_scans_of_its_number, "120 polar, in its number"},
-                   {attack_with_an_empty_scan_after_each, "1 after each, empty"}};
+                   {attack_with_targetless_scan_after_each_of_radar, "1 after each, empty"}};
     static struct live alone, live;
 
     print_message("a scan each %.2f s\n", (double)interval_us / 1e6);
-    run_attack(&alone, interval_us, attack_with_nothing, "nobody");
+    run_attack_and_print_gap_and_delay(&alone, interval_us, attack_with_nothing, "nobody");
     assert_true(alone.found_us > 0);
     for (unsigned i = 0; i < sizeof attacks / sizeof attacks[0]; i++) {
-        run_attack(&live, interval_us, attacks[i].attack, attacks[i].what);
+        run_attack_and_print_gap_and_delay(&live, interval_us, attacks[i].attack, attacks[i].what);
         assert_true(live.gap_us <= alone.gap_us + 1500000);
         assert_true(live.found_us > 0 && live.found_us <= alone.found_us + SECOND_US);
     }
@@ -421,7 +427,7 @@ static void attacks_do_not_disturb_a_radar_of_20_s(void **state)
 }
 
 /* Two senders are counted once, however often they alternate. */
-static void two_senders_of_one_sensor_number_are_counted(void **state)
+static void scans_of_two_senders_of_one_number_are_warned_of_once(void **state)
 {
     static struct live live;
     struct node_sensors sensors = {.count = 0};
@@ -432,7 +438,7 @@ static void two_senders_of_one_sensor_number_are_counted(void **state)
     (void)state;
     attack_s = 120;
     end_s = 180;
-    prepare_radar_run(&live, SECOND_US);
+    set_parameters_and_plan_radar_scans(&live, SECOND_US);
     for (int32_t scan = 1; scan < 120; scan += 40) {
         const int64_t time_us = START_US + scan * SECOND_US;
 
@@ -461,7 +467,7 @@ int main(void)
         cmocka_unit_test(attacks_do_not_disturb_a_fast_radar),
         cmocka_unit_test(attacks_do_not_disturb_a_slow_radar),
         cmocka_unit_test(attacks_do_not_disturb_a_radar_of_20_s),
-        cmocka_unit_test(two_senders_of_one_sensor_number_are_counted),
+        cmocka_unit_test(scans_of_two_senders_of_one_number_are_warned_of_once),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -254,7 +254,7 @@ static void nis_uses_the_noise_ellipse_and_range_rate_of_a_plot(void **state)
  * In the first scan after the start no input was estimated yet, so its prior D V(0) D^T widens the
  * gate.
  */
-static void check_nis_in_first_scan(const char *model, double d_m)
+static void check_nis_in_first_scan(const char *model, double place_gain_of_input)
 {
     struct parameters parameters = parameters_at_default();
     struct maintainer *maintainer;
@@ -267,8 +267,8 @@ static void check_nis_in_first_scan(const char *model, double d_m)
     for (int k = 0; k < 3; k++) {
         axes[k] = axis_start(start_m[k], start_mps[k], 10.0, 3.0);
         axis_predict(&axes[k], DT_S, 1.0, 1.0);
-        axes[k].xx += d_m * d_m * v0;
-        axes[k].xv += d_m * d_mps * v0;
+        axes[k].xx += place_gain_of_input * place_gain_of_input * v0;
+        axes[k].xv += place_gain_of_input * d_mps * v0;
         axes[k].vv += d_mps * d_mps * v0;
     }
     maintainer_predict(maintainer, DT_US);
@@ -580,8 +580,8 @@ struct region {
     double pd;
 };
 
-static double draw_offset_in_region(const struct region *region, double offset[3],
-                                    struct random *random)
+static double draw_offset_in_region_and_get_length2(const struct region *region, double offset[3],
+                                                    struct random *random)
 {
     double length2;
 
@@ -624,7 +624,7 @@ static double density_error(const struct region *region, int scans)
         for (int i = 0; i < region->num_clutter; i++) {
             double p[3], v[3], offset[3];
 
-            draw_offset_in_region(region, offset, &random);
+            draw_offset_in_region_and_get_length2(region, offset, &random);
             for (int k = 0; k < 3; k++) {
                 p[k] = place_m[k] + region->half_m * offset[k];
                 v[k] = region->half_mps * offset[k]; /* velocities in proportion to places */

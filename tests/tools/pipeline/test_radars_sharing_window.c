@@ -17,12 +17,12 @@
 
 static struct pipeline chain;
 
-static void open_pipeline(double initiators)
+static void open_pipeline(double initiators_setting)
 {
     struct parameters parameters;
 
     parameters_set_defaults(&parameters);
-    parameters.value[PARAMETER_INITIATORS] = initiators;
+    parameters.value[PARAMETER_INITIATORS] = initiators_setting;
     for (int32_t id = 1; id <= 7; id++) {
         char assignment[40];
 

@@ -25,7 +25,7 @@
 
 static struct pipeline chain;
 
-static int open_pipeline_once(void **state)
+static int allocate_pipeline_once(void **state)
 {
     (void)state;
     chain = pipeline_allocate();
@@ -291,7 +291,7 @@ static struct rho_plot isotropic_plot_at(float x_m, float y_m, float sigma_m)
                              .sigma_up_m = sigma_m};
 }
 
-static void test_bad_input_is_refused(void **state)
+static void test_isotropic_plots_and_a_moving_radar_are_refused(void **state)
 {
     struct parameters parameters;
     parameters_set_defaults(&parameters);
@@ -387,11 +387,11 @@ int main(void)
         cmocka_unit_test(test_configured_biases_and_scan_order_do_not_matter),
         cmocka_unit_test(test_bias_sigmas_follow_the_measured_noise),
         cmocka_unit_test(test_unobservable_biases_are_reported_as_unknown),
-        cmocka_unit_test(test_bad_input_is_refused),
+        cmocka_unit_test(test_isotropic_plots_and_a_moving_radar_are_refused),
         cmocka_unit_test(a_refused_scan_adds_no_radar),
         cmocka_unit_test(a_radar_without_plots_is_no_reference),
         cmocka_unit_test(test_cholesky_inverse_and_failure),
     };
 
-    return cmocka_run_group_tests_name("register", tests, open_pipeline_once, free_pipeline);
+    return cmocka_run_group_tests_name("register", tests, allocate_pipeline_once, free_pipeline);
 }

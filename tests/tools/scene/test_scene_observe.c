@@ -364,7 +364,7 @@ static void passive_sensors_measure_bearings(void **state)
     free_observation(run, scene);
 }
 
-static void scans_come_in_the_order_of_their_ends(void **state)
+static void scans_come_in_the_order_of_their_reception(void **state)
 {
     (void)state;
     struct scene *scene;
@@ -401,7 +401,7 @@ int main(void)
         cmocka_unit_test(a_target_may_give_split_plots),
         cmocka_unit_test(unresolved_targets_give_one_plot),
         cmocka_unit_test(passive_sensors_measure_bearings),
-        cmocka_unit_test(scans_come_in_the_order_of_their_ends),
+        cmocka_unit_test(scans_come_in_the_order_of_their_reception),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -50,7 +50,7 @@ static struct seen count_seen_by_range_rate(const char *radar, double notch_mps,
     return seen;
 }
 
-static void no_plots_have_range_rates_within_the_notch(void **state)
+static void targets_in_the_notch_are_seen_with_notch_pd(void **state)
 {
     static const char *const more[] = {"", ", \"sigma_range_rate_mps\": 1"};
     (void)state;
@@ -83,7 +83,7 @@ static void without_a_notch_every_range_rate_is_seen(void **state)
     assert_share(seen.blind, seen.blind_looks, 0.8);
 }
 
-static void pd_in_the_notch_is_the_lower_one(void **state)
+static void pd_in_the_notch_is_the_lesser_of_notch_pd_and_pd(void **state)
 {
     const struct scene_notch notch = {.mps = 5, .pd = 0.5, .blind_mps = 30};
     (void)state;
@@ -112,10 +112,10 @@ static void the_tracker_may_be_told_another_notch(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_plots_have_range_rates_within_the_notch),
+        cmocka_unit_test(targets_in_the_notch_are_seen_with_notch_pd),
         cmocka_unit_test(no_plots_have_range_rates_near_blind_speeds),
         cmocka_unit_test(without_a_notch_every_range_rate_is_seen),
-        cmocka_unit_test(pd_in_the_notch_is_the_lower_one),
+        cmocka_unit_test(pd_in_the_notch_is_the_lesser_of_notch_pd_and_pd),
         cmocka_unit_test(the_tracker_may_be_told_another_notch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

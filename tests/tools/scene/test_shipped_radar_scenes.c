@@ -204,7 +204,7 @@ static void aircraft_of_two_radars_are_mostly_seen_by_both(void **state)
  * Scans are in order of arrival, a fifth of them 300 ms late; the second radar starts at any point
  * of its turn.
  */
-static void a_fifth_of_the_scans_arrives_late(void **state)
+static void a_fifth_of_scene_two_radars_scans_is_300_ms_late(void **state)
 {
     (void)state;
     struct scene *scene;
@@ -264,7 +264,7 @@ int main(void)
         cmocka_unit_test(scene_rotating_has_sectors_and_a_turning_target),
         cmocka_unit_test(scene_two_radars_has_its_configured_biases),
         cmocka_unit_test(aircraft_of_two_radars_are_mostly_seen_by_both),
-        cmocka_unit_test(a_fifth_of_the_scans_arrives_late),
+        cmocka_unit_test(a_fifth_of_scene_two_radars_scans_is_300_ms_late),
         cmocka_unit_test(scan_times_follow_the_biased_radar_clock),
     };
 

@@ -105,10 +105,11 @@ static inline void model_sort_by_weight(struct model_child *children, int num)
  * Makes the best children that take a plot from one hypothesis, without the miss; returns their
  * number.
  */
-static inline int model_best_children(const struct model_track *track, int parent,
-                                      const struct rho_hypotheses_scan *scan, int num_plots,
-                                      double log_pd, const struct rho_hypotheses_clutter *clutter,
-                                      struct model_child *out)
+static inline int model_best_children_that_take_a_plot(const struct model_track *track, int parent,
+                                                       const struct rho_hypotheses_scan *scan,
+                                                       int num_plots, double log_pd,
+                                                       const struct rho_hypotheses_clutter *clutter,
+                                                       struct model_child *out)
 {
     const struct model_answer *at = &track->answers[parent];
     int num = 0;
@@ -197,7 +198,8 @@ static inline double model_take_scan(struct model_track *track,
     int num = 0, num_kept = 0;
 
     for (int i = 0; i < track->num; ++i) {
-        const int n = model_best_children(track, i, scan, num_plots, log_pd, clutter, candidates);
+        const int n = model_best_children_that_take_a_plot(track, i, scan, num_plots, log_pd,
+                                                           clutter, candidates);
 
         for (int k = 0; k < n; ++k) {
             const int16_t owner = scan->claims ? scan->claims[candidates[k].row] : -1;

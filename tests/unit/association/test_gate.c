@@ -103,9 +103,11 @@ static void plot_noise_xyz(const struct rho_plot *plot, const struct rho_sensor 
 }
 
 /* Squared Mahalanobis distance and ln det in double precision; returns the number of dimensions. */
-static int gate_in_double_precision(const struct rho_kalman *kalman, const struct rho_plot *plot,
-                                    uint32_t measures, const struct rho_sensor *sensor,
-                                    double *distance2, double *log_det)
+static int gate_in_double_precision_and_count_dimensions(const struct rho_kalman *kalman,
+                                                         const struct rho_plot *plot,
+                                                         uint32_t measures,
+                                                         const struct rho_sensor *sensor,
+                                                         double *distance2, double *log_det)
 {
     double offset_s = plot->offset_us * 1e-6, at[6], r[3][3], s[4][4] = {{0.0}}, d[4] = {0.0};
     int has_z = (measures & RHO_MEASURES_Z) != 0, n = has_z ? 3 : 2;
@@ -186,7 +188,8 @@ static void the_gate_uses_every_measured_dimension(void **state)
         double distance2, log_det;
         kalman.state[3] = uniform(-40.0f, 40.0f);
         kalman.state[4] = uniform(-40.0f, 40.0f);
-        int n = gate_in_double_precision(&kalman, &plot, measures, &sensor, &distance2, &log_det);
+        int n = gate_in_double_precision_and_count_dimensions(&kalman, &plot, measures, &sensor,
+                                                              &distance2, &log_det);
         rho_gate_open(&gate, &kalman, NOISE, &sensor, measures);
         int is_in = rho_gate_test(&gate, &plot, &result);
         if (fabs(distance2 - limit[n]) > 0.02) {

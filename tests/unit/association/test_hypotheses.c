@@ -441,7 +441,7 @@ static void plots_claimed_by_other_tracks_are_left_out_as_in_the_model(void **st
  * One step at 781 m/s: 10 g to the right, then to the left and again, and straight before and
  * after.
  */
-static void move_weaving_target(double x[6], double t)
+static void move_weaving_target_by_one_scan(double x[6], double t)
 {
     const double side = t < 8.0 || t >= 32.0 ? 0.0
                         : t < 12.0           ? 1.0
@@ -523,7 +523,7 @@ static int is_weaving_target_lost(void)
                                            .plots = plots,
                                            .log_miss = (float)log(0.1)};
 
-        move_weaving_target(x, SCAN_S * k);
+        move_weaving_target_by_one_scan(x, SCAN_S * k);
         const double beam = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) * sin(0.6 / 57.29578);
         const struct rho_hypotheses_clutter clutter = {
             .log_per_m2 = (float)log(CLUTTER / (4.0 / 3.0 * 3.14159265 * beam * beam * beam))};

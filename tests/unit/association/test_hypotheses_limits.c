@@ -86,13 +86,13 @@ static int score_plots(struct rho_hypotheses *of, uint16_t slot, double time_s,
 
 static struct rho_hypotheses_outcome commit_scan(struct rho_hypotheses *of, uint16_t slot,
                                                  double time_s, const struct rho_plot *plots,
-                                                 const int16_t *claims, int16_t own)
+                                                 const int16_t *claims, int16_t own_track)
 {
     const struct rho_hypotheses_scan scan = {.time_us = (int64_t)(1e6 * time_s),
                                              .plots = plots,
                                              .log_miss = -2.3f,
                                              .claims = claims,
-                                             .own = own};
+                                             .own = own_track};
     struct rho_hypotheses_outcome outcome = {.row = 77};
 
     assert_int_equal(rho_hypotheses_commit(of, slot, &scan, &outcome), RHO_OK);

@@ -222,7 +222,8 @@ static void random_sectors_contain_the_angles_between_their_ends(void **state)
 }
 
 /* Compares lines, where (rho, 0) and (-rho, pi) are the same one. */
-static void assert_line(struct rho_line line, double rho_m, double theta_rad, double reach_m)
+static void assert_line(struct rho_line line, double rho_m, double theta_rad,
+                        double tolerance_scale_m)
 {
     double theta_error = line.theta_rad - theta_rad;
 
@@ -232,10 +233,10 @@ static void assert_line(struct rho_line line, double rho_m, double theta_rad, do
     }
     assert_true(line.theta_rad >= 0.0f && line.theta_rad < RHO_PI);
     assert_true(fabs(theta_error) <= THETA_ABSOLUTE);
-    assert_true(fabs(line.rho_m - rho_m) <= RHO_RELATIVE * reach_m);
+    assert_true(fabs(line.rho_m - rho_m) <= RHO_RELATIVE * tolerance_scale_m);
 }
 
-static void lines_agree_with_the_reference(void **state)
+static void lines_of_place_and_direction_agree_with_the_reference(void **state)
 {
     (void)state;
     for (size_t i = 0; i < NUM(line_vectors); ++i) {
@@ -264,7 +265,7 @@ static void lines_along_the_axes_have_exact_rho_and_theta(void **state)
  * A direction and its opposite give the same line; a point mirrored in the origin changes the sign
  * of rho.
  */
-static void reversed_lines_are_equal_and_mirrored_lines_differ_in_rho(void **state)
+static void opposite_directions_are_one_line_and_mirroring_negates_rho(void **state)
 {
     (void)state;
     for (int i = 0; i < 360; ++i) {
@@ -278,7 +279,7 @@ static void reversed_lines_are_equal_and_mirrored_lines_differ_in_rho(void **sta
     }
 }
 
-static void a_line_without_a_direction_is_nan(void **state)
+static void a_line_of_zero_or_not_finite_direction_is_nan(void **state)
 {
     const float bad[][2] = {{0.0f, 0.0f},     {-0.0f, 0.0f},     {NAN, 1.0f}, {1.0f, NAN},
                             {INFINITY, 1.0f}, {1.0f, -INFINITY}, {NAN, NAN},  {INFINITY, INFINITY}};
@@ -358,10 +359,10 @@ int main(void)
         cmocka_unit_test(a_sector_with_equal_ends_is_the_whole_circle),
         cmocka_unit_test(a_sector_continues_another_at_its_left_or_right_end),
         cmocka_unit_test(random_sectors_contain_the_angles_between_their_ends),
-        cmocka_unit_test(lines_agree_with_the_reference),
+        cmocka_unit_test(lines_of_place_and_direction_agree_with_the_reference),
         cmocka_unit_test(lines_along_the_axes_have_exact_rho_and_theta),
-        cmocka_unit_test(reversed_lines_are_equal_and_mirrored_lines_differ_in_rho),
-        cmocka_unit_test(a_line_without_a_direction_is_nan),
+        cmocka_unit_test(opposite_directions_are_one_line_and_mirroring_negates_rho),
+        cmocka_unit_test(a_line_of_zero_or_not_finite_direction_is_nan),
         cmocka_unit_test(theta_cells_divide_half_a_turn_evenly),
         cmocka_unit_test(thetas_out_of_range_are_in_the_nearest_cell),
         cmocka_unit_test(ends_of_sectors_are_within_one_turn_of_zero),

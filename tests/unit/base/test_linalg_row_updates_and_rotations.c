@@ -47,7 +47,7 @@ static enum rho_status update_by_row(struct rho_kalman *e, const float *row, flo
 /* --- updates by rows ------------------------------------------------------------------------- */
 
 /* (sum |row_i| sigma_i)^2: the largest that the variance along the row can be. */
-static double largest_variance_along_row(const struct dense *d, const float row[STATES])
+static double largest_possible_variance_along_row(const struct dense *d, const float row[STATES])
 {
     double sum = 0.0;
 
@@ -72,9 +72,10 @@ static void a_row_update_agrees_with_the_joseph_form(void **state)
         const double expected_nis = dense_update(&expected, &measured);
         assert_int_equal(update_by_row(&e, row, innovation, variance, nis), RHO_OK);
         assert_near_dense(e.state, e.covariance, &expected, &before, UPDATE_RELATIVE);
-        assert_float_equal(nis[0], expected_nis,
-                           NIS_RELATIVE * expected_nis *
-                               (1.0 + largest_variance_along_row(&before, row) / variance));
+        assert_float_equal(
+            nis[0], expected_nis,
+            NIS_RELATIVE * expected_nis *
+                (1.0 + largest_possible_variance_along_row(&before, row) / variance));
         assert_true(nis[1] == GUARD);
     }
 }
@@ -105,7 +106,7 @@ struct measured_row {
 };
 
 /* A measurement along a random row, within a sigma or so of the estimate. */
-static struct measured_row random_measured_row(const struct rho_kalman *e)
+static struct measured_row random_row_and_measured_value(const struct rho_kalman *e)
 {
     struct measured_row m;
     double value = normal();
@@ -145,7 +146,7 @@ static void the_order_of_rows_does_not_matter(void **state)
         struct measured_row rows[3];
 
         for (int k = 0; k < 3; ++k) {
-            rows[k] = random_measured_row(&e);
+            rows[k] = random_row_and_measured_value(&e);
         }
         update_by_rows_in_order(&first, rows, orders[0]);
         const struct dense expected = dense_of(first.state, first.covariance);

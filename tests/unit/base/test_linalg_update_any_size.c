@@ -238,7 +238,7 @@ static void sharp_measurements_leave_a_vague_estimate_positive_definite(void **s
 /*
  * Correlated elements are measured one after the other, each 10^8 times better than it was known.
  */
-static void sharp_elements_leave_a_correlated_estimate_positive_definite(void **state)
+static void sharply_measured_correlated_elements_stay_positive_definite(void **state)
 {
     (void)state;
     for (int c = 0; c < MOST * 60; ++c) {
@@ -566,7 +566,7 @@ int main(void)
         cmocka_unit_test(a_row_update_agrees_with_full_matrices),
         cmocka_unit_test(the_general_update_agrees_with_that_for_six_elements),
         cmocka_unit_test(sharp_measurements_leave_a_vague_estimate_positive_definite),
-        cmocka_unit_test(sharp_elements_leave_a_correlated_estimate_positive_definite),
+        cmocka_unit_test(sharply_measured_correlated_elements_stay_positive_definite),
         cmocka_unit_test(updates_raise_variances_by_rounding_at_most),
         cmocka_unit_test(elements_that_are_not_coupled_keep_their_bytes),
         cmocka_unit_test(an_update_with_bad_numbers_is_refused_and_changes_nothing),

@@ -204,7 +204,7 @@ static void coordinates_beyond_their_limit_are_refused(void **state)
  * A scan at the limit of times with a plot after it is stored, ten such offsets beyond the limit
  * are not.
  */
-static void stored_times_allow_own_times_beyond_the_last_scan_time(void **state)
+static void stored_times_may_exceed_the_time_limit_by_an_offset(void **state)
 {
     (void)state;
     assert_true(rho_is_stored_time(RHO_LIMIT_TIME_US + RHO_LIMIT_OFFSET_US));
@@ -230,7 +230,7 @@ int main(void)
         cmocka_unit_test(the_noise_of_a_plot_is_its_larger_horizontal_sigma),
         cmocka_unit_test(nan_and_infinity_are_not_finite),
         cmocka_unit_test(coordinates_beyond_their_limit_are_refused),
-        cmocka_unit_test(stored_times_allow_own_times_beyond_the_last_scan_time),
+        cmocka_unit_test(stored_times_may_exceed_the_time_limit_by_an_offset),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -77,7 +77,8 @@ static void init_default_frames(void)
 }
 
 /* Returns the number of scans of the frame that the push closed; 0: none closed. */
-static unsigned push_bearings(unsigned sensor, int64_t time_us, unsigned num_bearings, unsigned tag)
+static unsigned push_bearings_and_count_closed_scans(unsigned sensor, int64_t time_us,
+                                                     unsigned num_bearings, unsigned tag)
 {
     struct sent sent;
     assert_int_equal(rho_frames_push(&frames, make_scan(&sent, sensor, time_us, num_bearings, tag)),
@@ -88,12 +89,12 @@ static unsigned push_bearings(unsigned sensor, int64_t time_us, unsigned num_bea
     return view.frame.num_scans;
 }
 
-static unsigned push_scan(unsigned sensor, int64_t time_us)
+static unsigned push_scan_and_count_closed_scans(unsigned sensor, int64_t time_us)
 {
-    return push_bearings(sensor, time_us, 1, 0);
+    return push_bearings_and_count_closed_scans(sensor, time_us, 1, 0);
 }
 
-static unsigned close_open_frame(void)
+static unsigned close_frame_and_count_its_scans(void)
 {
     assert_int_equal(rho_frames_close(&frames), RHO_OK);
     (void)rho_frames_closed(&frames, &view);
@@ -104,8 +105,8 @@ static unsigned close_open_frame(void)
 static void push_complete_frames(unsigned count)
 {
     for (unsigned k = 0; k < count; k++) {
-        assert_int_equal(push_scan(0, k * SECOND_US), 0);
-        assert_int_equal(push_scan(1, k * SECOND_US), 2);
+        assert_int_equal(push_scan_and_count_closed_scans(0, k * SECOND_US), 0);
+        assert_int_equal(push_scan_and_count_closed_scans(1, k * SECOND_US), 2);
     }
 }
 
@@ -115,8 +116,8 @@ static void a_frame_closes_with_its_last_sensor(void **state)
 {
     (void)state;
     init_default_frames();
-    assert_int_equal(push_bearings(0, 7, 2, 100), 0);
-    assert_int_equal(push_bearings(1, 5, 1, 200), 2);
+    assert_int_equal(push_bearings_and_count_closed_scans(0, 7, 2, 100), 0);
+    assert_int_equal(push_bearings_and_count_closed_scans(1, 5, 1, 200), 2);
     assert_int_equal(view.frame.time_us, 5);
     assert_int_equal(view.is_restart, 0);
     const struct rho_bearing_scan *scans = view.frame.scans;
@@ -138,14 +139,14 @@ static void scans_join_a_frame_within_the_tolerance_of_its_earliest(void **state
 {
     (void)state;
     init_default_frames();
-    assert_int_equal(push_scan(0, 0), 0);
-    assert_int_equal(push_scan(1, TOLERANCE_US), 2);
-    assert_int_equal(push_scan(0, SECOND_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 0), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, TOLERANCE_US), 2);
+    assert_int_equal(push_scan_and_count_closed_scans(0, SECOND_US), 0);
     /* too late for the frame, which it closes */
-    assert_int_equal(push_scan(1, SECOND_US + TOLERANCE_US + 1), 1);
+    assert_int_equal(push_scan_and_count_closed_scans(1, SECOND_US + TOLERANCE_US + 1), 1);
     assert_int_equal(view.frame.time_us, SECOND_US);
     assert_int_equal(view.frame.scans[0].sensor_id, 40);
-    assert_int_equal(close_open_frame(), 1);
+    assert_int_equal(close_frame_and_count_its_scans(), 1);
     assert_int_equal(frames.counters.frames, 3);
     assert_int_equal(frames.counters.frames_incomplete, 2);
     assert_int_equal(frames.sensors[0].missing, 1);
@@ -157,14 +158,14 @@ static void a_scan_that_is_earlier_may_join_the_open_frame(void **state)
     (void)state;
     init_default_frames();
     push_complete_frames(1);
-    assert_int_equal(push_scan(0, SECOND_US), 0);
-    assert_int_equal(push_scan(1, SECOND_US - TOLERANCE_US), 2);
+    assert_int_equal(push_scan_and_count_closed_scans(0, SECOND_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, SECOND_US - TOLERANCE_US), 2);
     assert_int_equal(view.frame.time_us, SECOND_US - TOLERANCE_US);
-    assert_int_equal(push_scan(0, 2 * SECOND_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 2 * SECOND_US), 0);
     /* too early for the open frame */
-    assert_int_equal(push_scan(1, 2 * SECOND_US - TOLERANCE_US - 1), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, 2 * SECOND_US - TOLERANCE_US - 1), 0);
     assert_int_equal(frames.counters.scans_late, 1);
-    assert_int_equal(close_open_frame(), 1);
+    assert_int_equal(close_frame_and_count_its_scans(), 1);
 }
 
 static void a_sensor_that_reports_again_closes_the_frame(void **state)
@@ -172,13 +173,14 @@ static void a_sensor_that_reports_again_closes_the_frame(void **state)
     (void)state;
     init_default_frames();
     push_complete_frames(1);
-    assert_int_equal(push_scan(0, SECOND_US), 0);
-    assert_int_equal(push_scan(0, SECOND_US + 1), 1);
+    assert_int_equal(push_scan_and_count_closed_scans(0, SECOND_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(0, SECOND_US + 1), 1);
     assert_int_equal(view.frame.time_us, SECOND_US);
-    assert_int_equal(push_scan(1, SECOND_US + 2), 2);
+    assert_int_equal(push_scan_and_count_closed_scans(1, SECOND_US + 2), 2);
     assert_int_equal(view.frame.time_us, SECOND_US + 1);
-    assert_int_equal(push_scan(0, 2 * SECOND_US), 0);
-    assert_int_equal(push_scan(0, 2 * SECOND_US), 0); /* repeated: frames must differ in time */
+    assert_int_equal(push_scan_and_count_closed_scans(0, 2 * SECOND_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 2 * SECOND_US),
+                     0); /* repeated: frames must differ in time */
     assert_int_equal(frames.counters.scans_late, 1);
 }
 
@@ -186,11 +188,11 @@ static void the_caller_closes_a_frame(void **state)
 {
     (void)state;
     init_default_frames();
-    assert_int_equal(close_open_frame(), 0);
-    assert_int_equal(push_scan(0, 0), 0);
-    assert_int_equal(close_open_frame(), 1);
-    assert_int_equal(close_open_frame(), 0);
-    assert_int_equal(push_scan(0, 0), 0);
+    assert_int_equal(close_frame_and_count_its_scans(), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 0), 0);
+    assert_int_equal(close_frame_and_count_its_scans(), 1);
+    assert_int_equal(close_frame_and_count_its_scans(), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 0), 0);
     assert_int_equal(frames.counters.scans_late, 1);
     assert_int_equal(frames.counters.frames, 1);
     assert_int_equal(frames.counters.frames_incomplete, 0); /* no other sensor is known */
@@ -203,7 +205,7 @@ static void a_frame_waits_for_the_smallest_number_of_sensors(void **state)
     config.sensors_min = SENSORS;
     init_frames(&config);
     for (unsigned s = 0; s < SENSORS; s++) {
-        assert_int_equal(push_scan(s, s), s + 1 == SENSORS ? SENSORS : 0);
+        assert_int_equal(push_scan_and_count_closed_scans(s, s), s + 1 == SENSORS ? SENSORS : 0);
     }
     assert_int_equal(frames.counters.frames_incomplete, 0);
 }
@@ -215,12 +217,12 @@ static void late_scans_are_counted_and_left_out(void **state)
     (void)state;
     init_default_frames();
     push_complete_frames(3);
-    assert_int_equal(push_scan(0, 2 * SECOND_US), 0);
-    assert_int_equal(push_scan(1, SECOND_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 2 * SECOND_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, SECOND_US), 0);
     assert_int_equal(frames.counters.scans_late, 2);
     assert_int_equal(frames.counters.scans_taken, 6);
-    assert_int_equal(close_open_frame(), 0);
-    assert_int_equal(push_scan(0, 2 * SECOND_US + 1), 0);
+    assert_int_equal(close_frame_and_count_its_scans(), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 2 * SECOND_US + 1), 0);
     assert_int_equal(frames.counters.scans_taken, 7);
 }
 
@@ -231,17 +233,19 @@ static void a_silent_sensor_is_waited_for_three_frames(void **state)
     init_default_frames();
     push_complete_frames(1);
     for (unsigned k = 1; k <= 10; k++) { /* sensor 2 reports, sensor 1 has fallen silent */
-        closed_late += push_scan(0, k * SECOND_US) > 0;
-        (void)push_scan(2, k * SECOND_US);
+        closed_late += push_scan_and_count_closed_scans(0, k * SECOND_US) > 0;
+        (void)push_scan_and_count_closed_scans(2, k * SECOND_US);
     }
     assert_int_equal(closed_late, 3); /* frames that only the next scan closed */
     assert_int_equal(frames.sensors[1].silent, 10);
     assert_int_equal(frames.sensors[1].missing, 10);
     assert_int_equal(frames.counters.frames, 11);
-    assert_int_equal(push_scan(1, 10 * SECOND_US + 1), 0); /* sensor 1 reports again */
-    assert_int_equal(push_scan(0, 11 * SECOND_US), 1);
-    assert_int_equal(push_scan(2, 11 * SECOND_US), 0); /* sensor 1 is waited for again */
-    assert_int_equal(push_scan(1, 11 * SECOND_US), 3);
+    assert_int_equal(push_scan_and_count_closed_scans(1, 10 * SECOND_US + 1),
+                     0); /* sensor 1 reports again */
+    assert_int_equal(push_scan_and_count_closed_scans(0, 11 * SECOND_US), 1);
+    assert_int_equal(push_scan_and_count_closed_scans(2, 11 * SECOND_US),
+                     0); /* sensor 1 is waited for again */
+    assert_int_equal(push_scan_and_count_closed_scans(1, 11 * SECOND_US), 3);
 }
 
 static void a_sensor_that_joins_last_is_late_only_once(void **state)
@@ -249,9 +253,9 @@ static void a_sensor_that_joins_last_is_late_only_once(void **state)
     (void)state;
     init_default_frames();
     for (unsigned k = 0; k < 8; k++) { /* sensor 2 is unknown when the first frame closes */
-        (void)push_scan(0, k * SECOND_US + 2);
-        (void)push_scan(1, k * SECOND_US + 1);
-        (void)push_scan(2, k * SECOND_US);
+        (void)push_scan_and_count_closed_scans(0, k * SECOND_US + 2);
+        (void)push_scan_and_count_closed_scans(1, k * SECOND_US + 1);
+        (void)push_scan_and_count_closed_scans(2, k * SECOND_US);
     }
     assert_int_equal(frames.counters.scans_late, 1);
     assert_int_equal(frames.counters.frames, 8);
@@ -265,10 +269,10 @@ static void single_scans_with_wrong_times_change_nothing(void **state)
     (void)state;
     init_default_frames();
     push_complete_frames(3);
-    assert_int_equal(push_scan(0, 3 * SECOND_US), 0);
-    assert_int_equal(push_scan(1, RHO_LIMIT_TIME_US), 0);
-    assert_int_equal(push_scan(1, -RHO_LIMIT_TIME_US), 0);
-    assert_int_equal(push_scan(1, 3 * SECOND_US), 2);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 3 * SECOND_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, RHO_LIMIT_TIME_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, -RHO_LIMIT_TIME_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, 3 * SECOND_US), 2);
     assert_int_equal(frames.counters.scans_off_clock, 2);
     assert_int_equal(frames.counters.scans_late, 0);
     assert_int_equal(frames.counters.clock_jumps, 0);
@@ -279,11 +283,11 @@ static void a_scan_beyond_the_largest_time_jump_is_off_the_clock(void **state)
     (void)state;
     init_default_frames();
     push_complete_frames(1);
-    assert_int_equal(push_scan(0, 30 * SECOND_US), 0);
-    assert_int_equal(push_scan(1, 0), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 30 * SECOND_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, 0), 0);
     assert_int_equal(frames.counters.scans_late, 1);
-    assert_int_equal(push_scan(0, 60 * SECOND_US + 1), 0);
-    assert_int_equal(push_scan(1, -1), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 60 * SECOND_US + 1), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, -1), 0);
     assert_int_equal(frames.counters.scans_off_clock, 2);
     assert_int_equal(frames.counters.scans_taken, 3);
 }
@@ -295,9 +299,9 @@ static void one_sensor_with_a_wrong_clock_does_not_stop_the_others(void **state)
     init_default_frames();
     for (unsigned k = 0; k < 1000; k++) {
         int64_t time_us = k * SECOND_US;
-        (void)push_scan(0, time_us);
-        (void)push_scan(1, time_us);
-        (void)push_scan(2, k < 5 ? time_us : time_us + ahead_us);
+        (void)push_scan_and_count_closed_scans(0, time_us);
+        (void)push_scan_and_count_closed_scans(1, time_us);
+        (void)push_scan_and_count_closed_scans(2, k < 5 ? time_us : time_us + ahead_us);
     }
     assert_int_equal(frames.counters.clock_jumps, 0);
     assert_int_equal(frames.counters.scans_off_clock, 995);
@@ -315,7 +319,7 @@ static void the_clock_of_most_sensors_wins_over_a_wrong_first_one(void **state)
     for (unsigned k = 0; k < 20; k++) {
         for (unsigned s = 0; s < 3; s++) {
             int64_t time_us = k * SECOND_US + (s == 0 ? 3600 * SECOND_US : 0);
-            if (push_scan(s, time_us) > 0) {
+            if (push_scan_and_count_closed_scans(s, time_us) > 0) {
                 assert_true(view.is_restart || view.frame.time_us > last_us ||
                             frames.counters.frames == 1);
                 restarts += (unsigned)view.is_restart;
@@ -336,18 +340,19 @@ static void a_jump_of_all_clocks_restarts_the_frames(void **state)
     for (unsigned i = 0; i < 2; i++) {
         init_default_frames();
         push_complete_frames(3);
-        assert_int_equal(push_scan(0, 3 * SECOND_US), 0);
+        assert_int_equal(push_scan_and_count_closed_scans(0, 3 * SECOND_US), 0);
         for (unsigned k = 0; k < 4; k++) {
-            assert_int_equal(push_scan(k % 2, k / 2 * SECOND_US + jumps_us[i]), 0);
+            assert_int_equal(
+                push_scan_and_count_closed_scans(k % 2, k / 2 * SECOND_US + jumps_us[i]), 0);
         }
         /* closes the last frame before the jump */
-        assert_int_equal(push_scan(0, 2 * SECOND_US + jumps_us[i]), 1);
+        assert_int_equal(push_scan_and_count_closed_scans(0, 2 * SECOND_US + jumps_us[i]), 1);
         assert_int_equal(view.frame.time_us, 3 * SECOND_US);
         assert_int_equal(view.is_restart, 0);
-        assert_int_equal(push_scan(1, 2 * SECOND_US + jumps_us[i] - 1), 2);
+        assert_int_equal(push_scan_and_count_closed_scans(1, 2 * SECOND_US + jumps_us[i] - 1), 2);
         assert_int_equal(view.is_restart, 1);
-        assert_int_equal(push_scan(0, 3 * SECOND_US + jumps_us[i]), 0);
-        assert_int_equal(push_scan(1, 3 * SECOND_US + jumps_us[i]), 2);
+        assert_int_equal(push_scan_and_count_closed_scans(0, 3 * SECOND_US + jumps_us[i]), 0);
+        assert_int_equal(push_scan_and_count_closed_scans(1, 3 * SECOND_US + jumps_us[i]), 2);
         assert_int_equal(view.is_restart, 0);
         assert_int_equal(frames.counters.scans_off_clock, 4);
         assert_int_equal(frames.counters.clock_jumps, 1);
@@ -457,8 +462,8 @@ struct model {
     unsigned silent[SENSORS];
 };
 
-static int model_frame_times(const struct model *model, unsigned frame, int64_t *first_us,
-                             int64_t *last_us)
+static int count_model_frame_scans_and_find_times(const struct model *model, unsigned frame,
+                                                  int64_t *first_us, int64_t *last_us)
 {
     int count = 0;
     for (unsigned i = 0; i < model->count; i++) {
@@ -500,13 +505,14 @@ static int model_is_complete(const struct model *model)
 }
 
 /* Returns the number of the frame that the scan closes, or 0. */
-static unsigned model_push(struct model *model, unsigned sensor, int64_t time_us)
+static unsigned model_push_and_find_closed_frame(struct model *model, unsigned sensor,
+                                                 int64_t time_us)
 {
     int64_t first_us = 0, last_us = 0, closed_us = 0, end_us = 0;
     unsigned open = model->is_closed ? 0 : model->frames, closes = 0;
     unsigned closed = model->is_closed ? model->frames : model->frames - 1u;
-    int has_open = model_frame_times(model, open, &first_us, &last_us);
-    int has_closed = model_frame_times(model, closed, &closed_us, &end_us);
+    int has_open = count_model_frame_scans_and_find_times(model, open, &first_us, &last_us);
+    int has_closed = count_model_frame_scans_and_find_times(model, closed, &closed_us, &end_us);
     int fits = has_open && !model_has(model, open, sensor) && last_us - time_us <= TOLERANCE_US &&
                time_us - first_us <= TOLERANCE_US;
     unsigned i = model->count++;
@@ -537,7 +543,7 @@ static unsigned model_push(struct model *model, unsigned sensor, int64_t time_us
 static void compare_closed_frame(const struct model *model, unsigned frame)
 {
     int64_t first_us = 0, last_us = 0;
-    int count = model_frame_times(model, frame, &first_us, &last_us);
+    int count = count_model_frame_scans_and_find_times(model, frame, &first_us, &last_us);
     assert_int_equal(view.frame.num_scans, count);
     if (count == 0) {
         return;
@@ -571,8 +577,8 @@ static void compare_run_with_model(struct model *model, struct rho_batch *batch)
     for (unsigned i = 0; i < MODEL_SCANS; i++) {
         unsigned sensor = random_below(10) < 9 ? i % active : random_below(active);
         int64_t time_us = random_scan_time(i);
-        unsigned has = push_bearings(sensor, time_us, 1, i);
-        unsigned closes = model_push(model, sensor, time_us);
+        unsigned has = push_bearings_and_count_closed_scans(sensor, time_us, 1, i);
+        unsigned closes = model_push_and_find_closed_frame(model, sensor, time_us);
         assert_int_equal(has > 0, closes > 0);
         compare_closed_frame(model, closes);
         late += model->frame[i] == 0;
@@ -607,8 +613,8 @@ static void bearings_beyond_the_capacity_are_counted(void **state)
 {
     (void)state;
     init_default_frames();
-    assert_int_equal(push_bearings(0, 0, RHO_MAX_BEARINGS + 3, 0), 0);
-    assert_int_equal(push_bearings(1, 0, RHO_MAX_BEARINGS, 500), 2);
+    assert_int_equal(push_bearings_and_count_closed_scans(0, 0, RHO_MAX_BEARINGS + 3, 0), 0);
+    assert_int_equal(push_bearings_and_count_closed_scans(1, 0, RHO_MAX_BEARINGS, 500), 2);
     assert_int_equal(frames.counters.bearings_no_room, 3);
     assert_int_equal(view.frame.scans[0].num_bearings, RHO_MAX_BEARINGS);
     assert_int_equal(view.frame.scans[1].num_bearings, RHO_MAX_BEARINGS);
@@ -625,11 +631,12 @@ static void counters_saturate(void **state)
     memset(&frames.counters, 0xff, sizeof frames.counters);
     frames.sensors[0].missing = frames.sensors[0].silent = UINT32_MAX;
     struct rho_frames_counters full = frames.counters;
-    assert_int_equal(push_scan(0, 0), 0);
-    assert_int_equal(push_bearings(1, 2 * SECOND_US, RHO_MAX_BEARINGS + 1, 0), 0);
-    assert_int_equal(push_scan(1, 3 * SECOND_US), 1);
+    assert_int_equal(push_scan_and_count_closed_scans(0, 0), 0);
+    assert_int_equal(
+        push_bearings_and_count_closed_scans(1, 2 * SECOND_US, RHO_MAX_BEARINGS + 1, 0), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, 3 * SECOND_US), 1);
     for (unsigned i = 0; i < 5; i++) {
-        (void)push_scan(1, 1000 * SECOND_US);
+        (void)push_scan_and_count_closed_scans(1, 1000 * SECOND_US);
     }
     assert_memory_equal(&frames.counters, &full, sizeof full);
     assert_true(frames.sensors[0].missing == UINT32_MAX);
@@ -718,7 +725,7 @@ static void init_with_closed_and_open_frame(void)
 {
     init_default_frames();
     push_complete_frames(1);
-    assert_int_equal(push_bearings(0, SECOND_US, 2, 0), 0);
+    assert_int_equal(push_bearings_and_count_closed_scans(0, SECOND_US, 2, 0), 0);
     before = frames;
 }
 
@@ -782,7 +789,7 @@ static void one_sensor_too_many_is_refused(void **state)
     (void)state;
     init_default_frames();
     for (unsigned s = 0; s < SENSORS; s++) {
-        (void)push_scan(s, 0);
+        (void)push_scan_and_count_closed_scans(s, 0);
     }
     before = frames;
     struct sent sent;
@@ -811,12 +818,12 @@ static void the_first_and_last_possible_times_are_accepted(void **state)
 {
     (void)state;
     init_default_frames();
-    assert_int_equal(push_scan(0, -RHO_LIMIT_TIME_US), 0);
-    assert_int_equal(push_scan(1, -RHO_LIMIT_TIME_US), 2);
+    assert_int_equal(push_scan_and_count_closed_scans(0, -RHO_LIMIT_TIME_US), 0);
+    assert_int_equal(push_scan_and_count_closed_scans(1, -RHO_LIMIT_TIME_US), 2);
     for (unsigned i = 0; i < 5; i++) {
-        assert_int_equal(push_scan(0, RHO_LIMIT_TIME_US), 0);
+        assert_int_equal(push_scan_and_count_closed_scans(0, RHO_LIMIT_TIME_US), 0);
     }
-    assert_int_equal(push_scan(1, RHO_LIMIT_TIME_US - TOLERANCE_US), 2);
+    assert_int_equal(push_scan_and_count_closed_scans(1, RHO_LIMIT_TIME_US - TOLERANCE_US), 2);
     assert_int_equal(view.is_restart, 1);
 }
 

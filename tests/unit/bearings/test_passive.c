@@ -205,7 +205,7 @@ static struct figures figures_of_scenes(const struct scene *from, unsigned runs)
         scene = *from;
         draw_scene(&scene);
         assert_int_equal(search_scene(&passive, &scene), RHO_OK);
-        assert_true(are_tracks_sound(&passive));
+        assert_true(are_tracks_finite_with_right_claims(&passive));
         add_figures(&figures);
     }
     return figures;
@@ -342,7 +342,7 @@ static void draw_seeded_scene(const struct scene *from, uint64_t seed)
 static void search_into(struct rho_passive *into)
 {
     assert_int_equal(search_scene(into, &scene), RHO_OK);
-    assert_true(are_tracks_sound(into));
+    assert_true(are_tracks_finite_with_right_claims(into));
 }
 
 /* A track after the scene was rotated and shifted. */
@@ -498,7 +498,7 @@ enum third { SAW_NOTHING, WAS_ABSENT, LOOKED_AWAY, LOOKED_THERE };
  * Searches a scene in which the third sensor sees the target at the first scan only: two thirds of
  * the bearings are left.
  */
-static void search_without_third_sensor(enum third third, float hits_min)
+static void search_without_third_sensor(enum third third, float config_hits_min)
 {
     struct rho_passive_config config;
     struct scene from = scene_of(3, 1, 0.05, 1.0, 0.0);
@@ -512,13 +512,13 @@ static void search_without_third_sensor(enum third third, float hits_min)
                                                                  : -0.5 * PI;
     }
     rho_passive_config_default(&config);
-    config.hits_min = hits_min;
+    config.hits_min = config_hits_min;
     /* the lower limit of the false bearings' density, whatever `third` is */
     config.field_of_view_rad = (float)(2.0 * PI);
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
     assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
     assert_int_equal(rho_passive_search(&passive), RHO_OK);
-    assert_true(are_tracks_sound(&passive));
+    assert_true(are_tracks_finite_with_right_claims(&passive));
 }
 
 static void targets_outside_a_sensors_sector_do_not_count_as_missed(void **state)

@@ -38,7 +38,7 @@ static void begin_candidates(void)
  * `before` candidates of about 20 nat that exclude all others, then two of 15 nat that can be
  * tracks together. Returns the score of the subset chosen.
  */
-static float total_of_best_subset(unsigned before)
+static float total_nat_chosen_after_exclusive_candidates(unsigned before)
 {
     struct rho_passive_choice best;
     begin_candidates();
@@ -54,11 +54,11 @@ static float total_of_best_subset(unsigned before)
 static void the_best_subset_of_the_first_twelve_starts_is_chosen(void **state)
 {
     (void)state;
-    assert_true(total_of_best_subset(0) == 30.0f);
-    assert_true(total_of_best_subset(8) == 30.0f);
-    assert_true(total_of_best_subset(11) == 30.0f);
-    assert_true(total_of_best_subset(12) == 20.0f);
-    assert_true(total_of_best_subset(18) == 20.0f);
+    assert_true(total_nat_chosen_after_exclusive_candidates(0) == 30.0f);
+    assert_true(total_nat_chosen_after_exclusive_candidates(8) == 30.0f);
+    assert_true(total_nat_chosen_after_exclusive_candidates(11) == 30.0f);
+    assert_true(total_nat_chosen_after_exclusive_candidates(12) == 20.0f);
+    assert_true(total_nat_chosen_after_exclusive_candidates(18) == 20.0f);
 }
 
 static void a_candidate_worth_less_than_a_millinat_is_left_out(void **state)
@@ -82,7 +82,7 @@ static void a_candidate_worth_less_than_a_millinat_is_left_out(void **state)
  * With seven of ten bearings in common the second candidate is excluded as the same target, with
  * six it is not.
  */
-static void candidates_that_share_70_percent_of_bearings_are_one_target(void **state)
+static void a_candidate_sharing_70_percent_of_bearings_is_excluded(void **state)
 {
     struct rho_passive_choice best;
     (void)state;
@@ -106,7 +106,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_best_subset_of_the_first_twelve_starts_is_chosen),
         cmocka_unit_test(a_candidate_worth_less_than_a_millinat_is_left_out),
-        cmocka_unit_test(candidates_that_share_70_percent_of_bearings_are_one_target),
+        cmocka_unit_test(a_candidate_sharing_70_percent_of_bearings_is_excluded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,7 +18,7 @@ static struct rho_passive passive = {.config = {.range_max_m = 1000.0f}};
 static struct rho_passive_search search = {.passive = &passive, .half_s = 10.0f};
 
 /* Without bearings the displacement goes to 0 in steps of a tenth of the range, 1000 m. */
-static void a_fit_is_bounded_to_two_ranges_and_steps_of_a_tenth(void **state)
+static void a_fit_stays_in_two_ranges_and_steps_at_most_a_tenth(void **state)
 {
     static const uint8_t no_claims[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
     float state_m[4] = {5000.0f, -5000.0f, 500.0f, -60.0f};
@@ -88,7 +88,7 @@ static void a_line_needs_two_votes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_fit_is_bounded_to_two_ranges_and_steps_of_a_tenth),
+        cmocka_unit_test(a_fit_stays_in_two_ranges_and_steps_at_most_a_tenth),
         cmocka_unit_test(false_bearing_density_and_smallest_sigma_have_floors),
         cmocka_unit_test(a_line_needs_two_votes),
     };

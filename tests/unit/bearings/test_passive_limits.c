@@ -269,7 +269,7 @@ static void a_new_sensor_too_near_or_too_far_is_refused(void **state)
 }
 
 /* Pushes sensors a kilometre apart, one a frame; returns the last status. */
-static enum rho_status push_sensors(unsigned count)
+static enum rho_status push_new_sensors_one_a_frame(unsigned count)
 {
     enum rho_status status = RHO_OK;
     for (unsigned i = 0; i < count && status == RHO_OK; i++) {
@@ -286,9 +286,9 @@ static void sensors_beyond_the_capacity_are_refused(void **state)
 {
     (void)state;
     init_default_passive();
-    assert_int_equal(push_sensors(RHO_MAX_PASSIVE_SENSORS), RHO_OK);
+    assert_int_equal(push_new_sensors_one_a_frame(RHO_MAX_PASSIVE_SENSORS), RHO_OK);
     init_default_passive();
-    assert_int_equal(push_sensors(RHO_MAX_PASSIVE_SENSORS + 1), RHO_ERROR_CAPACITY);
+    assert_int_equal(push_new_sensors_one_a_frame(RHO_MAX_PASSIVE_SENSORS + 1), RHO_ERROR_CAPACITY);
     assert_memory_equal(&passive, &before, sizeof passive);
 }
 
@@ -400,7 +400,7 @@ static void fates_come_in_the_order_of_scans(void **state)
 static void expect_sound_search(void)
 {
     assert_int_equal(rho_passive_search(&passive), RHO_OK);
-    assert_true(are_tracks_sound(&passive));
+    assert_true(are_tracks_finite_with_right_claims(&passive));
 }
 
 static void push_scene(void)
@@ -484,7 +484,7 @@ static int compare_doubles(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-static unsigned collect_traces(void)
+static unsigned collect_and_sort_crossing_traces(void)
 {
     unsigned count = 0;
     for (unsigned a = 0; a + 1 < scene.sensors; a++) {
@@ -509,7 +509,7 @@ static void the_most_certain_crossings_are_kept(void **state)
     (void)state;
     search_full_batch(RHO_GHOST_NO_RULE);
     assert_int_equal(passive.num_tracks, 0); /* no track: the second pass has all bearings */
-    assert_true(collect_traces() > RHO_MAX_PASSIVE_POINTS);
+    assert_true(collect_and_sort_crossing_traces() > RHO_MAX_PASSIVE_POINTS);
     assert_int_equal(passive.num_points, RHO_MAX_PASSIVE_POINTS);
     double kept_m2 = 0.0, least_m2 = 0.0;
     for (unsigned i = 0; i < RHO_MAX_PASSIVE_POINTS; i++) {
@@ -699,7 +699,7 @@ static void random_frames_leave_sound_tracks(void **state)
     assert_true(taken > 40);
 }
 
-static struct rho_passive_config random_config(void)
+static struct rho_passive_config random_config_maybe_invalid(void)
 {
     struct rho_passive_config config;
     config.scans = (uint16_t)uniform(3.0, 10.0);
@@ -722,7 +722,7 @@ static void random_configurations_leave_sound_tracks(void **state)
     unsigned taken = 0;
     prepare_batch();
     for (unsigned run = 0; run < 300; run++) {
-        struct rho_passive_config config = random_config();
+        struct rho_passive_config config = random_config_maybe_invalid();
         if (rho_passive_init(&passive, sizeof passive, &config) == RHO_OK) {
             enum rho_status status = push_scans_from(&passive, &scene, 0);
             assert_true(status == RHO_OK || status == RHO_ERROR_VALUE);

@@ -381,7 +381,7 @@ static uint8_t plain_add_bearing(struct plain_look *look, const struct rho_beari
  * Pushes `given` into the model; returns how many bearings left with the oldest frame. The expected
  * fates are written over `fates`.
  */
-static unsigned plain_push(unsigned scans_max, uint8_t *fates)
+static unsigned plain_push_and_count_bearings_dropped(unsigned scans_max, uint8_t *fates)
 {
     unsigned num_left = 0;
     plain_drop_all_removed();
@@ -434,7 +434,7 @@ static void push_random_frame(unsigned scans_max)
 {
     uint8_t fates[sizeof given.fates];
     memcpy(fates, given.fates, sizeof fates);
-    unsigned num_left = plain_push(scans_max, fates);
+    unsigned num_left = plain_push_and_count_bearings_dropped(scans_max, fates);
     push_frame();
     assert_memory_equal(given.fates, fates, sizeof fates);
     assert_int_equal(batch.num_left, num_left);
@@ -519,7 +519,7 @@ static void random_calls_agree_with_a_simple_model(void **state)
 /* ---- searches after tracks were started ----------------------------------------------------- */
 
 /* Two targets seen by two sensors, searched for. */
-static void find_two_targets(unsigned seed)
+static void search_two_target_scene(unsigned seed)
 {
     random_state = seed;
     scene = scene_of(2, 2, 0.1, 1.0, 0.5);
@@ -527,7 +527,8 @@ static void find_two_targets(unsigned seed)
     assert_int_equal(search_scene(&passive, &scene), RHO_OK);
 }
 
-static int is_same_track(const struct rho_passive_track *a, const struct rho_passive_track *b)
+static int are_track_states_near(const struct rho_passive_track *a,
+                                 const struct rho_passive_track *b)
 {
     return hypot((double)(a->x_m - b->x_m), (double)(a->y_m - b->y_m)) < 100.0 &&
            hypot((double)(a->vx_mps - b->vx_mps), (double)(a->vy_mps - b->vy_mps)) < 5.0;
@@ -550,21 +551,21 @@ static void a_track_that_was_started_is_not_found_again(void **state)
     (void)state;
     unsigned runs = 0;
     for (unsigned seed = 1; seed <= 20; seed++) {
-        find_two_targets(seed);
+        search_two_target_scene(seed);
         if (passive.num_tracks != 2) {
             continue;
         }
         for (unsigned first = 0; first < 2; first++) {
-            find_two_targets(seed);
+            search_two_target_scene(seed);
             const struct rho_passive_track gone = passive.tracks[first];
             const struct rho_passive_track kept = passive.tracks[1 - first];
             unsigned held = count_held_bearings();
             assert_int_equal(rho_passive_consume(&passive, &gone), gone.hits);
             assert_int_equal(rho_passive_search(&passive), RHO_OK);
             assert_int_equal(count_held_bearings(), held - gone.hits);
-            assert_true(are_tracks_sound(&passive));
+            assert_true(are_tracks_finite_with_right_claims(&passive));
             assert_int_equal(passive.num_tracks, 1);
-            assert_true(is_same_track(&passive.tracks[0], &kept));
+            assert_true(are_track_states_near(&passive.tracks[0], &kept));
             assert_int_equal(passive.tracks[0].hits, kept.hits);
             runs++;
         }
@@ -577,7 +578,7 @@ static void a_track_that_was_started_is_not_found_again(void **state)
 static void tracks_of_one_search_are_consumed_together(void **state)
 {
     (void)state;
-    find_two_targets(1);
+    search_two_target_scene(1);
     assert_int_equal(passive.num_tracks, 2);
     unsigned held = count_held_bearings(), hits = passive.tracks[0].hits + passive.tracks[1].hits;
     for (unsigned i = 0; i < 2; i++) {
@@ -591,7 +592,7 @@ static void tracks_of_one_search_are_consumed_together(void **state)
 static void consuming_an_empty_or_invalid_track_changes_nothing(void **state)
 {
     (void)state;
-    find_two_targets(1);
+    search_two_target_scene(1);
     struct rho_passive_track nothing = {.hits = 9};
     struct rho_passive copy = passive;
     assert_int_equal(rho_passive_consume(NULL, &nothing), 0);

@@ -121,7 +121,7 @@ static void overlap_must_last_for_enough_scans(void **state)
 }
 
 /* The middles may be half of the mean length and width apart: 2 m and 1 m. */
-static void bodies_must_overlap_by_half(void **state)
+static void a_duplicate_ends_only_if_bodies_overlap_by_half(void **state)
 {
     (void)state;
     const struct {
@@ -216,7 +216,7 @@ int main(void)
         cmocka_unit_test(the_younger_of_two_overlapping_tracks_ends),
         cmocka_unit_test(the_older_of_two_overlapping_tracks_stays),
         cmocka_unit_test(overlap_must_last_for_enough_scans),
-        cmocka_unit_test(bodies_must_overlap_by_half),
+        cmocka_unit_test(a_duplicate_ends_only_if_bodies_overlap_by_half),
         cmocka_unit_test(tracks_of_different_velocity_stay),
         cmocka_unit_test(of_two_new_tracks_within_half_a_body_one_ends),
         cmocka_unit_test(a_suddenly_appearing_truck_has_one_track),

@@ -37,7 +37,7 @@ static void add_plot_near_track(double x_m, double y_m, double rate_mps)
  * A track flying east at 10 m/s, with sigmas of 1 m and 1 m/s, whose body was shaped by so many
  * plots.
  */
-static void make_track_with_body(float plots_of_body)
+static void make_track_with_body(float plots_seen_so_far)
 {
     struct rho_track *track = &tracker.tracks[0];
     struct rho_body_filter *body = &tracker.bodies.of[0];
@@ -55,7 +55,7 @@ static void make_track_with_body(float plots_of_body)
                                      .across = {.weight = 1e6f},
                                      .prior_m2 = 1.0f,
                                      .cos_heading = 1.0f,
-                                     .plots = plots_of_body,
+                                     .plots = plots_seen_so_far,
                                      .has_heading = 1};
     tracker.num_tracks = tracker.bodies.count = 1;
 }

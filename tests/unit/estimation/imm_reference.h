@@ -42,8 +42,8 @@ struct wide_step {
 };
 
 /* Inverts by Gauss-Jordan with partial pivoting; returns ln |det a|. */
-static inline double wide_invert(int n, double a[WIDE_ROWS][WIDE_ROWS],
-                                 double inverse[WIDE_ROWS][WIDE_ROWS])
+static inline double wide_invert_and_log_det(int n, double a[WIDE_ROWS][WIDE_ROWS],
+                                             double inverse[WIDE_ROWS][WIDE_ROWS])
 {
     double log_det = 0.0;
 
@@ -137,7 +137,7 @@ static inline double wide_log_density(const struct wide_model *m, const struct w
     double ph[WIDE][WIDE_ROWS], s[WIDE_ROWS][WIDE_ROWS], inverse[WIDE_ROWS][WIDE_ROWS];
 
     wide_innovation_covariance(m, z, ph, s);
-    const double log_det = wide_invert(z->num, s, inverse);
+    const double log_det = wide_invert_and_log_det(z->num, s, inverse);
     *distance2 = 0.0;
     for (int a = 0; a < z->num; ++a) {
         for (int b = 0; b < z->num; ++b) {
@@ -153,7 +153,7 @@ static inline void wide_update(struct wide_model *m, const struct wide_rows *z)
     double gain[WIDE][WIDE_ROWS] = {{0.0}}, rest[WIDE][WIDE], half[WIDE][WIDE] = {{0.0}};
 
     wide_innovation_covariance(m, z, ph, s);
-    wide_invert(z->num, s, inverse);
+    wide_invert_and_log_det(z->num, s, inverse);
     for (int i = 0; i < WIDE; ++i) {
         for (int b = 0; b < z->num; ++b) {
             for (int a = 0; a < z->num; ++a) {
@@ -332,7 +332,8 @@ static const int chain_models[3] = {STEADY, STEADY, MANOEUVRE};
  * True if the manoeuvring model is mixed back into the steady one: with calm targets it must have
  * odds of 0.16 at least.
  */
-static inline int reference_manoeuvre_ends(const struct rho_imm_model *model, double probability)
+static inline int is_manoeuvre_likely_enough_to_mix_back(const struct rho_imm_model *model,
+                                                         double probability)
 {
     return !(model->calm_s > 0.0f) || probability >= 0.16 * (1.0 - probability);
 }
@@ -343,7 +344,7 @@ static inline int reference_manoeuvre_ends(const struct rho_imm_model *model, do
  * that of agile ones; agile targets that stay steady become calm.
  */
 static inline void reference_change_probabilities(const struct rho_imm_model *model, double dt,
-                                                  int returns, double change[3][3])
+                                                  int may_manoeuvre_end, double change[3][3])
 {
     const double begins = 1.0 / model->steady_s, ends = 1.0 / model->maneuver_s;
     const double moved = -expm1(-dt * (begins + ends)) / (begins + ends);
@@ -352,7 +353,7 @@ static inline void reference_change_probabilities(const struct rho_imm_model *mo
     const double calm_begins =
         has_calm ? fmin(-expm1(-dt / fmax(model->calm_s, model->steady_s)), begins * moved)
                  : begins * moved;
-    const double ended = returns ? ends * moved : 0.0, stays = 1.0 - begins * moved;
+    const double ended = may_manoeuvre_end ? ends * moved : 0.0, stays = 1.0 - begins * moved;
     const double rows[3][3] = {{1.0 - calm_begins, 0.0, calm_begins},
                                {stays * settles, stays * (1.0 - settles), begins * moved},
                                {0.0, ended, 1.0 - ended}};
@@ -591,7 +592,7 @@ static inline struct reference_match reference_match_plot(const struct reference
  * estimate; a first height opens the axis at the end.
  */
 static inline void reference_update(struct reference *r, const struct rho_imm_model *model,
-                                    const struct reference_plot *seen, double probability)
+                                    const struct reference_plot *seen, double manoeuvre_probability)
 {
     const int opens = !r->has_z && (seen->measures & RHO_MEASURES_Z);
 
@@ -621,15 +622,16 @@ static inline void reference_update(struct reference *r, const struct rho_imm_mo
         }
     }
     r->has_z = r->has_z || opens;
-    r->probability = probability;
+    r->probability = manoeuvre_probability;
 }
 
 /*
  * Updates with a bearing, in metres across the line of sight; the linearisation error counts as
  * noise. Returns the log density over both models.
  */
-static inline double reference_bearing(struct reference *r, double x, double y, double bearing,
-                                       double sigma)
+static inline double reference_update_bearing_and_log_density(struct reference *r, double x,
+                                                              double y, double bearing,
+                                                              double sigma)
 {
     struct wide_rows z[2] = {{.num = 1}, {.num = 1}};
     struct reference_match match;

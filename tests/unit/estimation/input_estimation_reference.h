@@ -182,7 +182,8 @@ static inline void ref_augmented_start(struct ref_augmented *a, const double x[6
  * Widens the input's covariance V by 1 / gamma. The sensitivity M = cov(x, u) V^-1 and the
  * covariance B without input stay: p = [B + M V M^T, M V; V M^T, V].
  */
-static inline void ref_augmented_widen(struct ref_augmented *a, const struct ref_setting *s)
+static inline void ref_augmented_divide_input_covariance_by_gamma(struct ref_augmented *a,
+                                                                  const struct ref_setting *s)
 {
     ref_matrix v = {{0.0}}, c = {{0.0}}, m, taken, factor = {{0.0}};
 
@@ -227,7 +228,7 @@ static inline void ref_augmented_predict(struct ref_augmented *a, const struct r
     double x[REF_ALL] = {0.0};
 
     if (s->gamma < 1.0) {
-        ref_augmented_widen(a, s);
+        ref_augmented_divide_input_covariance_by_gamma(a, s);
     }
     ref_transition(s, REF_ALL, f);
     ref_product(REF_ALL, REF_ALL, REF_ALL, f, a->p, 0, half);
@@ -270,7 +271,8 @@ static inline void ref_augmented_remove_input(struct ref_augmented *a, int k)
  * Drops inputs below the threshold, the least significant first. Returns how many sigmas the
  * closest decision was from the threshold.
  */
-static inline double ref_augmented_decide(struct ref_augmented *a, const struct ref_setting *s)
+static inline double ref_augmented_drop_inputs_and_margin_sigmas(struct ref_augmented *a,
+                                                                 const struct ref_setting *s)
 {
     double margin = 1e9;
     int left = 7;

@@ -357,11 +357,11 @@ static void update_reference(struct reference *body, const struct rho_body_look 
  * Sigma of a side from the number of plots, scatterers that stay in place, and the heading's error.
  */
 static double expected_sigma_of_side(const struct axis *axis, double spread_m2, double turned_m2,
-                                     double most)
+                                     double most_plots)
 {
     const double length_m = sqrt(12.0 * spread_m2), told = 1.0 - axis->prior_share;
     const double stays_m =
-        told * length_m / pow(most, 1.5) * (1.0 + told * told * 8.4 / pow(most, 3.0));
+        told * length_m / pow(most_plots, 1.5) * (1.0 + told * told * 8.4 / pow(most_plots, 3.0));
     return sqrt(stays_m * stays_m +
                 pow(6.0 / length_m, 2.0) * (axis->variance_m4 + turned_m2 * turned_m2));
 }

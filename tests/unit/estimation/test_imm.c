@@ -495,7 +495,8 @@ static void predict_pair(struct pair *pair, float dt_s, int is_prediction)
                                    : rho_imm_predict_unmixed(&pair->imm, &step),
                      RHO_OK);
     if (is_prediction) {
-        const int returns = reference_manoeuvre_ends(&pair->model, before.probability);
+        const int returns =
+            is_manoeuvre_likely_enough_to_mix_back(&pair->model, before.probability);
 
         reference_predict(&pair->reference, &pair->model, dt_s, returns);
         reference_predict(&same, &pair->model, dt_s, returns);
@@ -558,10 +559,11 @@ static void update_pair_with_bearing(struct pair *pair, const struct truth *trut
         rho_imm_update_bearing(&pair->imm, from->x_m, from->y_m, bearing_rad, sigma_rad, &gain_nat),
         RHO_OK);
     keep_largest(&pair->by_step.log_likelihood,
-                 gain_nat - reference_bearing(&same, from->x_m, from->y_m, bearing_rad, sigma_rad));
+                 gain_nat - reference_update_bearing_and_log_density(&same, from->x_m, from->y_m,
+                                                                     bearing_rad, sigma_rad));
     keep_largest(&pair->by_mean.log_likelihood,
-                 gain_nat - reference_bearing(&pair->reference, from->x_m, from->y_m, bearing_rad,
-                                              sigma_rad));
+                 gain_nat - reference_update_bearing_and_log_density(
+                                &pair->reference, from->x_m, from->y_m, bearing_rad, sigma_rad));
     compare_pair(pair, &same, &before);
 }
 
@@ -680,7 +682,7 @@ static void mixing_agrees_with_the_reference_for_nearly_certain_models(void **st
         struct reference expected = before;
 
         reference_predict(&expected, &model, step.dt_s,
-                          reference_manoeuvre_ends(&model, before.probability));
+                          is_manoeuvre_likely_enough_to_mix_back(&model, before.probability));
         assert_int_equal(rho_imm_predict(&imm, &step), RHO_OK);
         assert_float_equal(imm.probability, expected.probability, 2e-7);
         /* share of all targets: as a share of the steady ones it may be rounding alone */

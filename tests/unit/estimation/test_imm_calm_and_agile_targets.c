@@ -98,7 +98,7 @@ static void the_calm_share_falls_in_manoeuvres_and_recovers(void **state)
 }
 
 /* Updates, bearings and predictions without mixing leave the calm share unchanged. */
-static void only_predictions_change_the_calm_share(void **state)
+static void only_predictions_with_mixing_change_the_calm_share(void **state)
 {
     const struct rho_imm_model model = test_model();
     const struct rho_plot plot = {
@@ -212,7 +212,7 @@ static void without_calm_targets_the_markov_chain_has_two_states(void **state)
 }
 
 /* From 1 us to a day no share becomes 0 / 0, however certain the probabilities are. */
-static void certain_probabilities_stay_valid_over_any_interval(void **state)
+static void model_and_calm_probabilities_of_0_or_1_stay_valid(void **state)
 {
     static const float shares[] = {0.0f, 1e-30f, 1e-8f, 0.5f, 0.99999994f, 1.0f};
     static const float intervals_s[] = {1e-6f, 1e-5f, 1e-3f, 1.0f, 1e3f, 8e3f, 1e5f};
@@ -260,7 +260,7 @@ static double squared_error_m2(const float *state, const double x[4])
 }
 
 /* Moves the target with white acceleration. */
-static void move_target(double x[4], double dt)
+static void move_target_with_white_acceleration(double x[4], double dt)
 {
     for (int axis = 0; axis < 2; ++axis) {
         const double v = sqrt(WHITE_DENSITY * dt) * normal();
@@ -282,7 +282,7 @@ static void add_errors_of_run(const struct rho_imm_model *model, struct errors *
     }
     told = imm.steady;
     for (int scan = 0; scan < SCANS; ++scan) {
-        move_target(x, PERIOD_S);
+        move_target_with_white_acceleration(x, PERIOD_S);
         const struct rho_plot plot = {.x_m = (float)(x[0] + SIGMA_M * normal()),
                                       .y_m = (float)(x[1] + SIGMA_M * normal()),
                                       .sigma_range_m = (float)SIGMA_M,
@@ -389,11 +389,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_calm_share_grows_while_no_manoeuvre_happens),
         cmocka_unit_test(the_calm_share_falls_in_manoeuvres_and_recovers),
-        cmocka_unit_test(only_predictions_change_the_calm_share),
+        cmocka_unit_test(only_predictions_with_mixing_change_the_calm_share),
         cmocka_unit_test(process_noise_is_the_mean_of_calm_and_agile_targets),
         cmocka_unit_test(an_unlikely_manoeuvre_is_not_mixed_into_the_steady_model),
         cmocka_unit_test(without_calm_targets_the_markov_chain_has_two_states),
-        cmocka_unit_test(certain_probabilities_stay_valid_over_any_interval),
+        cmocka_unit_test(model_and_calm_probabilities_of_0_or_1_stay_valid),
         cmocka_unit_test(straight_targets_are_tracked_nearly_as_by_the_ideal_filter),
         cmocka_unit_test(a_smaller_acceleration_limit_tracks_straight_cars_better),
     };

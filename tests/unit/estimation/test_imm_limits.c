@@ -78,7 +78,7 @@ static struct rho_plot plot_at(float x_m, float y_m, float z_m, float sigma_m)
  * Tries a Cholesky factorisation of the open elements in double precision, their variances raised
  * by `share`.
  */
-static int is_positive_definite(int n, const float *covariance, double share)
+static int is_positive_definite(int n, const float *covariance, double variances_raised_by_share)
 {
     double l[RHO_IMM_STATES][RHO_IMM_STATES] = {{0.0}};
 
@@ -86,7 +86,7 @@ static int is_positive_definite(int n, const float *covariance, double share)
         for (int j = 0; j <= i; ++j) {
             double rest = covariance[RHO_AT(i, j)];
 
-            rest *= i == j ? 1.0 + share : 1.0;
+            rest *= i == j ? 1.0 + variances_raised_by_share : 1.0;
             for (int k = 0; k < j; ++k) {
                 rest -= l[i][k] * l[j][k];
             }
@@ -284,9 +284,9 @@ static void sigmas_from_millimetres_to_100_km_stay_positive_definite(void **stat
 
 /* ---- random hostile calls ------------------------------------------------------------------- */
 
-static float random_power_of_ten(double from, double to)
+static float random_power_of_ten(double from_exponent, double to_exponent)
 {
-    return (float)pow(10.0, uniform(from, to));
+    return (float)pow(10.0, uniform(from_exponent, to_exponent));
 }
 
 static uint32_t random_measures(void)
@@ -383,7 +383,7 @@ static void random_hostile_calls_leave_a_valid_filter(void **state)
 
 /* ---- refusals -------------------------------------------------------------------------------- */
 
-static void steps_of_invalid_time_are_refused(void **state)
+static void steps_that_are_not_finite_or_too_long_are_refused(void **state)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, 1.1e5f, -1.1e5f};
     const struct rho_imm_model model = model_of_limits(100.0f, 1000.0f);
@@ -660,7 +660,7 @@ int main(void)
         cmocka_unit_test(a_vague_start_with_a_sharp_sensor_stays_positive_definite),
         cmocka_unit_test(sigmas_from_millimetres_to_100_km_stay_positive_definite),
         cmocka_unit_test(random_hostile_calls_leave_a_valid_filter),
-        cmocka_unit_test(steps_of_invalid_time_are_refused),
+        cmocka_unit_test(steps_that_are_not_finite_or_too_long_are_refused),
         cmocka_unit_test(steps_are_limited_to_about_a_day),
         cmocka_unit_test(predictions_beyond_the_largest_variance_are_refused),
         cmocka_unit_test(filters_that_hold_nan_or_infinity_are_not_predicted),

@@ -57,7 +57,7 @@ static const struct scene plain = {
                 .q_velocity = 1.0},
 };
 
-static void start_truth(double truth[6])
+static void set_fixed_initial_truth(double truth[6])
 {
     const double at[6] = {50e3, 35e3, 300.0, -600.0, -500.0, 0.0};
 
@@ -172,7 +172,7 @@ static struct rho_input_config config_of(const struct scene *scene)
     return config;
 }
 
-static struct pair start_pair(const struct scene *scene, const double truth[6])
+static struct pair start_pair_at_true_state(const struct scene *scene, const double truth[6])
 {
     struct pair pair = {.config = config_of(scene)};
     struct rho_kalman kalman = opened_filter(3, 500.0f, 500.0f);
@@ -236,7 +236,7 @@ static void assert_inputs_near_reference(const struct rho_input *input,
     }
 }
 
-static void predict_pair(struct pair *pair, const struct scene *scene)
+static void predict_pair_and_assert_agreement(struct pair *pair, const struct scene *scene)
 {
     struct rho_kalman estimate;
 
@@ -248,9 +248,10 @@ static void predict_pair(struct pair *pair, const struct scene *scene)
 }
 
 /* Returns 0 if the decisions differ and the reference's was a toss-up. */
-static int decide_pair(struct pair *pair, const struct scene *scene)
+static int decide_pair_and_return_agreement(struct pair *pair, const struct scene *scene)
 {
-    const double margin = ref_augmented_decide(&pair->augmented, &scene->setting);
+    const double margin =
+        ref_augmented_drop_inputs_and_margin_sigmas(&pair->augmented, &scene->setting);
     struct rho_kalman estimate;
 
     rho_input_test_and_end_inputs(&pair->input, &pair->config);
@@ -273,13 +274,13 @@ static void compare_run(const struct scene *scene, struct tally *tally)
 {
     double truth[6];
 
-    start_truth(truth);
-    struct pair pair = start_pair(scene, truth);
+    set_fixed_initial_truth(truth);
+    struct pair pair = start_pair_at_true_state(scene, truth);
     for (int k = 1; k <= STEPS; ++k) {
         const int before = pair.augmented.present;
 
         move_truth(truth, scene, scene->setting.dt * k);
-        predict_pair(&pair, scene);
+        predict_pair_and_assert_agreement(&pair, scene);
         const struct look look = measure(truth, scene);
         const double chance = uniform(0.0, 1.0);
         if (chance >= scene->pd) {
@@ -287,7 +288,7 @@ static void compare_run(const struct scene *scene, struct tally *tally)
         }
         update_input(&pair, &look);
         ref_augmented_update(&pair.augmented, &look.reference);
-        if (!decide_pair(&pair, scene)) {
+        if (!decide_pair_and_return_agreement(&pair, scene)) {
             return;
         }
         tally->onsets += (pair.augmented.present & ~before) != 0;
@@ -327,7 +328,7 @@ static void compare_two_stage_with_augmented(const struct scene *scene)
     struct ref_two_stage stages;
     struct ref_augmented augmented;
 
-    start_truth(truth);
+    set_fixed_initial_truth(truth);
     ref_two_stage_start(&stages, truth, 500.0, 500.0, scene->setting.v0);
     ref_augmented_start(&augmented, truth, 500.0, 500.0, scene->setting.v0);
     for (int k = 1; k <= STEPS; ++k) {
@@ -373,13 +374,13 @@ static void the_library_agrees_with_the_augmented_filter(void **state)
             scene.setting.threshold = 1e-12;
             scene.sigma_m = kind == POSITION_VELOCITY ? 1.0 : 10.0;
             scene.sigma_cross_m = 150.0;
-            start_truth(truth);
-            struct pair pair = start_pair(&scene, truth);
+            set_fixed_initial_truth(truth);
+            struct pair pair = start_pair_at_true_state(&scene, truth);
             for (int k = 1; k <= STEPS; ++k) {
                 struct rho_kalman estimate;
 
                 move_truth(truth, &scene, scene.setting.dt * k);
-                predict_pair(&pair, &scene);
+                predict_pair_and_assert_agreement(&pair, &scene);
                 const struct look look = measure(truth, &scene);
                 update_input(&pair, &look);
                 ref_augmented_update(&pair.augmented, &look.reference);
@@ -463,15 +464,15 @@ static void decisions_agree_with_noise_along_the_line_of_sight(void **state)
 /* A pair after ten seconds, in the last four of which all axes have inputs. */
 static struct pair manoeuvring_pair(const struct scene *scene, double truth[6])
 {
-    start_truth(truth);
-    struct pair pair = start_pair(scene, truth);
+    set_fixed_initial_truth(truth);
+    struct pair pair = start_pair_at_true_state(scene, truth);
     for (int k = 1; k <= 40; ++k) {
         move_truth(truth, scene, scene->setting.dt * k);
-        predict_pair(&pair, scene);
+        predict_pair_and_assert_agreement(&pair, scene);
         const struct look look = measure(truth, scene);
         update_input(&pair, &look);
         ref_augmented_update(&pair.augmented, &look.reference);
-        assert_true(decide_pair(&pair, scene));
+        assert_true(decide_pair_and_return_agreement(&pair, scene));
     }
     assert_int_equal(pair.input.present, 7);
     return pair;

@@ -518,7 +518,7 @@ static void assert_valid_filter(const struct rho_input *input)
 {
     struct rho_kalman estimate;
 
-    assert_sane_covariance(&input->bare);
+    assert_finite_with_variances_in_limits(&input->bare);
     assert_true(is_positive_definite(&input->bare));
     assert_true(is_variance_positive_definite(input->variance));
     for (int axis = 0; axis < 3; ++axis) {
@@ -537,12 +537,12 @@ static void assert_valid_filter(const struct rho_input *input)
     }
 }
 
-static float random_hostile_number(double from, double to)
+static float random_hostile_number(double from_exponent, double to_exponent)
 {
     static const float nonsense[] = {NAN,      INFINITY,     -INFINITY, FLT_MAX,
                                      -FLT_MAX, FLT_TRUE_MIN, 0.0f,      -1.0f};
     const double sign = uniform(0.0, 1.0) < 0.3 ? -1.0 : 1.0;
-    const double usual = sign * pow(10.0, uniform(from, to));
+    const double usual = sign * pow(10.0, uniform(from_exponent, to_exponent));
     const int which = (int)uniform(0.0, 8.0);
 
     return uniform(0.0, 1.0) < 0.05 ? nonsense[which] : (float)usual;
@@ -695,7 +695,7 @@ static void an_onset_seen_by_a_sharp_sensor_is_estimated(void **state)
 }
 
 /* The input adds 10^10 times the bare variance, whose rounding alone would exceed the latter. */
-static void a_gate_widened_by_an_input_stays_positive_definite(void **state)
+static void an_estimate_widened_by_an_input_stays_positive_definite(void **state)
 {
     struct rho_input_config config = paper_config();
 
@@ -752,7 +752,7 @@ int main(void)
         cmocka_unit_test(random_hostile_calls_leave_a_valid_filter),
         cmocka_unit_test(a_vague_input_with_a_sharp_sensor_stays_positive_definite),
         cmocka_unit_test(an_onset_seen_by_a_sharp_sensor_is_estimated),
-        cmocka_unit_test(a_gate_widened_by_an_input_stays_positive_definite),
+        cmocka_unit_test(an_estimate_widened_by_an_input_stays_positive_definite),
         cmocka_unit_test(a_copied_filter_continues_identically),
     };
 

@@ -39,9 +39,9 @@ static void place_target(float state[STATES], const double place[2], double rang
 }
 
 /* One direction in three is within a milliradian of west, where bearings wrap. */
-static double random_direction(int n)
+static double random_direction_each_third_near_west(int case_number)
 {
-    return n % 3 == 0 ? DENSE_PI + uniform(-1e-3, 1e-3) : uniform(-DENSE_PI, DENSE_PI);
+    return case_number % 3 == 0 ? DENSE_PI + uniform(-1e-3, 1e-3) : uniform(-DENSE_PI, DENSE_PI);
 }
 
 static void assert_linearised_bearing(const float state[STATES], const double place[2],
@@ -69,7 +69,8 @@ static void the_linearised_bearing_agrees_with_its_derivative(void **state)
         double place[2];
 
         draw_place(place);
-        const double direction = random_direction(n), range = pow(10.0, uniform(3.0, 5.3));
+        const double direction = random_direction_each_third_near_west(n),
+                     range = pow(10.0, uniform(3.0, 5.3));
         const double bearing = remainder(direction + uniform(-2.0, 2.0), 2.0 * DENSE_PI);
         float at[STATES];
 
@@ -195,7 +196,7 @@ static void the_noise_added_is_the_variance_of_the_linearisation_error(void **st
         struct rho_kalman_bearing seen;
         const double here[2] = {0.0, 0.0};
 
-        place_target(kalman.state, here, 1e4, random_direction(n));
+        place_target(kalman.state, here, 1e4, random_direction_each_third_near_west(n));
         kalman.covariance[RHO_AT(1, 1)] = (float)uniform(1e4, 1.2e5);
         kalman.covariance[RHO_AT(1, 0)] =
             (float)(uniform(-0.9, 0.9) * 300.0 * sqrt((double)kalman.covariance[RHO_AT(1, 1)]));
@@ -209,11 +210,12 @@ static void the_noise_added_is_the_variance_of_the_linearisation_error(void **st
 /* --- updates ---------------------------------------------------------------------------------- */
 
 /* A correlated estimate with sigmas of 1 to 100, 3 to 160 km from the place. */
-static struct rho_kalman random_estimate(const double place[2], int n)
+static struct rho_kalman random_estimate(const double place[2], int case_number)
 {
     struct rho_kalman kalman;
 
-    const double range = pow(10.0, uniform(3.5, 5.2)), direction = random_direction(n);
+    const double range = pow(10.0, uniform(3.5, 5.2)),
+                 direction = random_direction_each_third_near_west(case_number);
 
     random_covariance(kalman.covariance, 2.0);
     place_target(kalman.state, place, range, direction);
@@ -304,7 +306,7 @@ static void a_sensor_of_the_smallest_sigma_sets_the_variance_across(void **state
         const double range = pow(10.0, uniform(3.0, 5.0));
         struct rho_kalman kalman = opened_filter(2, 1.0f, 4.0f);
 
-        place_target(kalman.state, place, range, random_direction(n));
+        place_target(kalman.state, place, range, random_direction_each_third_near_west(n));
         const struct dense before = dense_of(kalman.state, kalman.covariance);
         const double bearing = dense_bearing_of(before.x, place);
         const double noise = dense_bearing(&before, place, bearing, 1e-6).r[0][0];
@@ -328,7 +330,8 @@ static void many_sharp_bearings_leave_the_covariance_positive_definite(void **st
     for (int n = 0; n < 200; ++n) {
         const double place[2] = {0.0, 0.0};
         const float sigma = n % 2 ? 1e-6f : 1e-4f;
-        const double range = pow(10.0, uniform(4.0, 5.0)), direction = random_direction(n);
+        const double range = pow(10.0, uniform(4.0, 5.0)),
+                     direction = random_direction_each_third_near_west(n);
         struct rho_kalman kalman = opened_filter(2, 1e8f, 1e5f);
 
         place_target(kalman.state, place, range, direction);
@@ -340,7 +343,7 @@ static void many_sharp_bearings_leave_the_covariance_positive_definite(void **st
                                                        (float)remainder(bearing, 2.0 * DENSE_PI),
                                                        sigma),
                              RHO_OK);
-            assert_sane_covariance(&kalman);
+            assert_finite_with_variances_in_limits(&kalman);
             assert_true(is_positive_definite(&kalman));
             assert_int_equal(rho_kalman_predict(&kalman, 1.0f, 1.0f), RHO_OK);
             assert_true(is_positive_definite(&kalman));

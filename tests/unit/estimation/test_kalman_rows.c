@@ -92,7 +92,7 @@ static void rows_leave_a_closed_axis_zero(void **state)
 }
 
 /* A measurement variance below the minimum has the same effect as the minimum. */
-static void row_updates_keep_the_minimum_variance(void **state)
+static void row_variances_below_the_minimum_act_as_the_minimum(void **state)
 {
     const float variances[] = {1e-30f, FLT_TRUE_MIN, 0.5f * RHO_KALMAN_VARIANCE_MIN};
 
@@ -106,7 +106,7 @@ static void row_updates_keep_the_minimum_variance(void **state)
         assert_int_equal(
             rho_kalman_update_row(&floor, row, 3e-5f, RHO_KALMAN_VARIANCE_MIN, &floor_nis), RHO_OK);
         assert_true(floor.covariance[RHO_AT(element, element)] == RHO_KALMAN_VARIANCE_MIN);
-        assert_sane_covariance(&floor);
+        assert_finite_with_variances_in_limits(&floor);
         for (size_t k = 0; k < NUM(variances); ++k) {
             struct rho_kalman kalman = before;
             float nis = GUARD;
@@ -134,7 +134,7 @@ static void a_vague_start_with_sharp_rows_stays_positive_definite(void **state)
             }
             assert_int_equal(rho_kalman_update_row(&kalman, row, (float)normal(), 1.0f, NULL),
                              RHO_OK);
-            assert_sane_covariance(&kalman);
+            assert_finite_with_variances_in_limits(&kalman);
             assert_true(is_positive_definite(&kalman));
             assert_int_equal(rho_kalman_predict(&kalman, 1.0f, 0.0f), RHO_OK);
             assert_true(is_positive_definite(&kalman));
@@ -332,7 +332,7 @@ int main(void)
         cmocka_unit_test(rows_agree_with_the_joseph_form),
         cmocka_unit_test(a_row_update_agrees_with_a_result_by_hand),
         cmocka_unit_test(rows_leave_a_closed_axis_zero),
-        cmocka_unit_test(row_updates_keep_the_minimum_variance),
+        cmocka_unit_test(row_variances_below_the_minimum_act_as_the_minimum),
         cmocka_unit_test(a_vague_start_with_sharp_rows_stays_positive_definite),
         cmocka_unit_test(a_row_update_refuses_bad_arguments),
         cmocka_unit_test(a_row_update_refuses_a_bad_estimate),

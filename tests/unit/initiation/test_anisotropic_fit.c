@@ -12,7 +12,7 @@
 /* ---- nearly isotropic noise ----------------------------------------------------------------- */
 
 /* Searches three targets in clutter; in odd windows plots have their own times. */
-static void search_random_window(int window, double sigma_cross_m)
+static void search_window_of_three_targets_in_clutter(int window, double sigma_cross_m)
 {
     struct rho_initiator_config config = usual_config();
     config.score_min_nat = -3.0f;
@@ -26,7 +26,7 @@ static void search_random_window(int window, double sigma_cross_m)
         path[i][2] = v_mps * cos(heading), path[i][3] = v_mps * sin(heading);
     }
     for (int k = 0; k < SCANS; k++) {
-        add_clutter(&config.area, 40);
+        add_one_clutter_plot(&config.area, 40);
         for (int i = 0; i < 3; i++) {
             double t_s = SCAN_S * (k - 3);
             add_plot(path[i][0] + path[i][2] * t_s + 10.0 * normal(),
@@ -47,10 +47,11 @@ static void noise_of_nearly_equal_axes_gives_the_isotropic_result(void **state)
     static struct rho_candidate isotropic[RHO_MAX_CANDIDATES];
     int found = 0;
     for (int window = 0; window < 60; window++) {
-        search_random_window(window, 10.0);
+        search_window_of_three_targets_in_clutter(window, 10.0);
         unsigned n = initiator.num_candidates;
         memcpy(isotropic, initiator.candidates, sizeof isotropic);
-        search_random_window(window, 10.00390625); /* the next larger sigma that a window stores */
+        search_window_of_three_targets_in_clutter(
+            window, 10.00390625); /* the next larger sigma that a window stores */
         assert_int_equal(initiator.num_candidates, n);
         for (unsigned i = 0; i < n; i++, found++) {
             const struct rho_candidate *a = &isotropic[i], *b = &initiator.candidates[i];
@@ -239,9 +240,9 @@ static void a_fitted_height_is_used_for_range_rates_of_level_scans(void **state)
 static struct straight_plot seen[SCANS];
 
 /* Whole numbers, which a window stores exactly. */
-static double random_whole_sigma(double most)
+static double random_whole_numbered_sigma(double sigma_max)
 {
-    return floor(uniform(2.0, most));
+    return floor(uniform(2.0, sigma_max));
 }
 
 /*
@@ -261,8 +262,8 @@ static void push_random_track(const uint32_t measures[SCANS])
         *of = (struct straight_plot){
             .t_s = t_s,
             .sensor_m = {sensor.x_m, sensor.y_m},
-            .sigma_m = {random_whole_sigma(40), random_whole_sigma(300), 25.0},
-            .sigma_rate_mps = random_whole_sigma(9),
+            .sigma_m = {random_whole_numbered_sigma(40), random_whole_numbered_sigma(300), 25.0},
+            .sigma_rate_mps = random_whole_numbered_sigma(9),
             .has_z = (measures[k] & Z) != 0,
             .has_rate = (measures[k] & RATE) != 0};
         double rate = 0.0, range2 = 0.0;
@@ -284,7 +285,7 @@ static void push_random_track(const uint32_t measures[SCANS])
     }
 }
 
-static void expect_reference_fit(void)
+static void expect_reference_state_and_score(void)
 {
     const struct rho_candidate *track = &initiator.candidates[0];
     double area_m2 = 40e3 * 40e3, log_fisher;
@@ -314,7 +315,7 @@ static void compare_random_tracks(const uint32_t measures[SCANS])
         start_initiator(&config);
         push_random_track(measures);
         search_window(RHO_SEARCH_BATCH);
-        expect_reference_fit();
+        expect_reference_state_and_score();
     }
 }
 

@@ -64,7 +64,7 @@ static void push_next_scan(void)
 static void push_scans_with_hot_spot(int scans, int hot)
 {
     for (int k = 0; k < scans; k++) {
-        add_clutter(&around, COLD_PLOTS);
+        add_one_clutter_plot(&around, COLD_PLOTS);
         add_spot(clutter_memory_cell_middle_m(5000.0), clutter_memory_cell_middle_m(5000.0), hot);
         push_next_scan();
     }
@@ -317,15 +317,15 @@ static void the_memory_is_laid_out_anew_when_the_area_changes(void **state)
     }
 }
 
-static void push_scans_over_area(double side_m, int scans)
+static void push_scans_over_area_with_hot_spot(double half_side_m, int scans)
 {
     for (int k = 0; k < scans; k++) {
         for (int n = 0; n < COLD_PLOTS; n++) {
-            const double x_m = uniform(-side_m, side_m);
-            add_plot(x_m, uniform(-side_m, side_m), 10.0, 10.0);
+            const double x_m = uniform(-half_side_m, half_side_m);
+            add_plot(x_m, uniform(-half_side_m, half_side_m), 10.0, 10.0);
         }
         for (int n = 0; n < 4; n++) {
-            add_plot(0.5 * side_m, 0.5 * side_m, 10.0, 10.0);
+            add_plot(0.5 * half_side_m, 0.5 * half_side_m, 10.0, 10.0);
         }
         push_next_scan();
     }
@@ -345,10 +345,10 @@ static void hot_spots_are_learned_anew_after_the_area_has_grown(void **state)
     random_state = 1;
     time_s = 0.0;
     start_initiator(&config);
-    push_scans_over_area(1e4, 100);
+    push_scans_over_area_with_hot_spot(1e4, 100);
     assert_true(density_at(5e3, 5e3) > 10.0 * density_at(-5e3, -5e3));
     for (int k = 0; k < 40; k++) {
-        add_clutter(&(struct rho_extent){-1e5f, 1e5f, -1e5f, 1e5f}, COLD_PLOTS);
+        add_one_clutter_plot(&(struct rho_extent){-1e5f, 1e5f, -1e5f, 1e5f}, COLD_PLOTS);
         push_next_scan();
     }
     search_window(RHO_SEARCH_NEWEST);
@@ -356,7 +356,7 @@ static void hot_spots_are_learned_anew_after_the_area_has_grown(void **state)
         hot_there = fmax(hot_there, density_at(x_m, x_m));
     }
     assert_true(hot_there < 6.0 * cold);
-    push_scans_over_area(wide_m, 40);
+    push_scans_over_area_with_hot_spot(wide_m, 40);
     assert_true(density_at(0.5 * wide_m, 0.5 * wide_m) > 8.0 * cold);
 }
 

@@ -184,13 +184,15 @@ static void calls_without_init_or_scans_are_refused(void **state)
  * ---- comparison with the reference ------------------------------------------------------------
  */
 
-static void push_vector(size_t i, int k)
+static void push_one_scan_of_vector(size_t vector, int scan)
 {
-    if (initiator_vectors[i].mask >> k & 1u) {
-        add_plot((float)initiator_vectors[i].x_m[k], (float)initiator_vectors[i].y_m[k]);
-        plots[0].sigma_range_m = plots[0].sigma_cross_m = (float)initiator_vectors[i].sigma_m[k];
+    if (initiator_vectors[vector].mask >> scan & 1u) {
+        add_plot((float)initiator_vectors[vector].x_m[scan],
+                 (float)initiator_vectors[vector].y_m[scan]);
+        plots[0].sigma_range_m = plots[0].sigma_cross_m =
+            (float)initiator_vectors[vector].sigma_m[scan];
     }
-    push_scan(initiator_vectors[i].t_s[k]);
+    push_scan(initiator_vectors[vector].t_s[scan]);
 }
 
 static void scores_and_fits_agree_with_the_reference(void **state)
@@ -208,7 +210,7 @@ static void scores_and_fits_agree_with_the_reference(void **state)
         config.min_scans = 4;
         init_initiator(&config);
         for (int k = 0; k < initiator_vectors[i].num_scans; k++) {
-            push_vector(i, k);
+            push_one_scan_of_vector(i, k);
         }
         search_window(RHO_SEARCH_BATCH);
         assert_int_equal(initiator.num_candidates, 1);
@@ -525,7 +527,7 @@ static const struct path straight = {-500.0f, 100.0f, 0.0f, 0.0f};
  * Changed speeds apply at once, another window length or area empties the window, and refused
  * configurations change nothing.
  */
-static void an_initiator_can_be_reconfigured(void **state)
+static void reconfiguring_keeps_the_window_unless_length_or_area_change(void **state)
 {
     struct rho_initiator_config config = test_config();
     (void)state;
@@ -590,7 +592,7 @@ int main(void)
         cmocka_unit_test(candidates_share_one_plot_at_most),
         cmocka_unit_test(the_same_scans_give_the_same_bytes),
         cmocka_unit_test(scans_of_equal_times_make_no_track),
-        cmocka_unit_test(an_initiator_can_be_reconfigured),
+        cmocka_unit_test(reconfiguring_keeps_the_window_unless_length_or_area_change),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

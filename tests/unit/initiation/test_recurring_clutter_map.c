@@ -46,9 +46,9 @@ static struct rho_plot *add_radar_plot(double x_m, double y_m)
     return plot;
 }
 
-static void add_clutter_beyond(double least_m, int count)
+static void add_clutter_beyond_range(double range_min_m, int count)
 {
-    const double least = least_m * least_m / (RANGE_M * RANGE_M);
+    const double least = range_min_m * range_min_m / (RANGE_M * RANGE_M);
 
     for (int i = 0; i < count; i++) {
         const double range_m = RANGE_M * sqrt(uniform(least, 1.0));
@@ -60,7 +60,7 @@ static void add_clutter_beyond(double least_m, int count)
 
 static void add_clutter_plots(int count)
 {
-    add_clutter_beyond(800.0, count);
+    add_clutter_beyond_range(800.0, count);
 }
 
 /* Ten towers at ranges of 15 to 60 km. */
@@ -539,7 +539,7 @@ static void the_map_learns_from_scans_with_too_many_plots(void **state)
         struct rho_scan scan = {.time_us = llround(1e6 * TURN_S * turn), .plots = plots};
 
         add_tower_plots(1.0);
-        add_clutter_beyond(70000.0, RHO_MAX_PLOTS + 100);
+        add_clutter_beyond_range(70000.0, RHO_MAX_PLOTS + 100);
         scan.num_plots = num_plots;
         assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
         check_fate_sums();
@@ -553,7 +553,7 @@ static void the_map_learns_from_scans_with_too_many_plots(void **state)
  */
 
 /* Hits of known towers from the same plots in whole turns, or in turns of eight sectors. */
-static unsigned tower_hits_by_sectors(int sectors)
+static unsigned sum_tower_hits_of_turns_in_sectors(int sectors)
 {
     const struct rho_echo *echo;
     uint32_t place = 0;
@@ -600,7 +600,7 @@ static void sectors_of_a_turn_count_as_one_look(void **state)
 
     (void)state;
     for (int k = 0; k < 2; k++) {
-        const unsigned hits = tower_hits_by_sectors(k == 0 ? 1 : 8);
+        const unsigned hits = sum_tower_hits_of_turns_in_sectors(k == 0 ? 1 : 8);
 
         assert_int_equal(count_known_towers(), TOWERS);
         assert_in_range(hits, 390, 450); /* 0.7 of 600 */
@@ -655,14 +655,14 @@ static void a_standing_echo_does_not_explain_a_fast_range_rate(void **state)
  */
 #define REFLECTORS 6
 
-static void add_room_plot(double x_m, double y_m, double speed_mps)
+static void add_room_plot(double x_m, double y_m, double vx_mps)
 {
     const double range_m = hypot(x_m, y_m), sigma_m = 0.15;
     const double dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
     struct rho_plot *plot = add_plot(x_m + dx_m, y_m + dy_m, sigma_m);
     const double rate_mps = 0.1 * normal();
 
-    plot->range_rate_mps = (float)(speed_mps * x_m / range_m + rate_mps);
+    plot->range_rate_mps = (float)(vx_mps * x_m / range_m + rate_mps);
     plot->sigma_range_rate_mps = 0.1f;
 }
 

@@ -300,7 +300,7 @@ static void a_damaged_map_is_not_sound(void **state)
  * The prior for targets that may stand is 0.003 with a weight of three looks, for all regions; the
  * result is the prior of one region with a weight of two.
  */
-static void return_probabilities_have_priors_for_standing_targets(void **state)
+static void prior_of_returns_is_lower_if_targets_may_stand_still(void **state)
 {
     static const double looks[] = {0.0, 40.0}, returns[] = {0.0, 12.0};
     (void)state;
@@ -397,7 +397,7 @@ int main(void)
         cmocka_unit_test(echoes_with_most_misses_are_dropped_first),
         cmocka_unit_test(a_taught_echo_does_not_replace_one_just_seen),
         cmocka_unit_test(a_damaged_map_is_not_sound),
-        cmocka_unit_test(return_probabilities_have_priors_for_standing_targets),
+        cmocka_unit_test(prior_of_returns_is_lower_if_targets_may_stand_still),
         cmocka_unit_test(an_echo_counts_as_moving_from_four_sigmas_of_speed),
         cmocka_unit_test(at_most_a_billion_looks_can_be_taught),
 #if RHO_MAX_ECHOES > 2

@@ -59,7 +59,7 @@ struct rays {
     double a_m, b_m, sine;
 };
 
-static struct rays intersect_rays(float bearing_a, float bearing_b)
+static struct rays ranges_and_sine_of_crossing_rays(float bearing_a, float bearing_b)
 {
     double ca = cos(bearing_a), sa = sin(bearing_a), cb = cos(bearing_b), sb = sin(bearing_b);
     double dx = (double)base.x_b_m - (double)base.x_a_m;
@@ -81,7 +81,7 @@ static void crossings_agree_with_intersected_rays(void **state)
     for (int run = 0; run < 200000; run++) {
         set_random_base();
         float a = (float)uniform(-PI, PI), b = (float)uniform(-PI, PI);
-        struct rays rays = intersect_rays(a, b);
+        struct rays rays = ranges_and_sine_of_crossing_rays(a, b);
         if (is_borderline(rays)) {
             continue;
         }
@@ -107,7 +107,7 @@ static void crossing_places_are_exact_to_a_metre(void **state)
         double y_m = base.y_a_m + range_m * sin(direction);
         float a = (float)atan2(y_m - base.y_a_m, x_m - base.x_a_m);
         float b = (float)atan2(y_m - base.y_b_m, x_m - base.x_b_m);
-        struct rays rays = intersect_rays(a, b);
+        struct rays rays = ranges_and_sine_of_crossing_rays(a, b);
         if (rays.b_m > 80e3 || fabs(rays.sine) < 0.02) {
             continue;
         }
@@ -181,7 +181,7 @@ static void exchanging_the_sensors_gives_the_same_crossing(void **state)
     for (int run = 0; run < 20000; run++) {
         set_random_base();
         float a = (float)uniform(-PI, PI), b = (float)uniform(-PI, PI);
-        struct rays rays = intersect_rays(a, b);
+        struct rays rays = ranges_and_sine_of_crossing_rays(a, b);
         enum rho_crossing_fate fate = rho_crossing_find(&base, a, b, RANGE_MAX_M, &crossing);
         struct rho_crossing first = crossing;
         set_base(base.x_b_m, base.y_b_m, base.x_a_m, base.y_a_m);

@@ -245,7 +245,7 @@ static float variance_ratio_after_miss(float notch_mps, float blind_speed_mps, s
 }
 
 /* With more than nine blind zones within four sigmas the mean range rate stays. */
-static void at_most_nine_blind_zones_are_summed(void **state)
+static void with_more_than_nine_blind_zones_a_miss_keeps_the_range_rate(void **state)
 {
     struct estimate many = make_estimate(133.0f, 0.0f, 22.6f),
                     few = make_estimate(133.0f, 0.0f, 21.4f);
@@ -316,7 +316,7 @@ int main(void)
         cmocka_unit_test(targets_stand_within_two_sigmas_and_two_notch_widths),
         cmocka_unit_test(a_target_stands_if_the_notch_explains_the_miss),
         cmocka_unit_test(blind_zones_count_within_four_sigmas),
-        cmocka_unit_test(at_most_nine_blind_zones_are_summed),
+        cmocka_unit_test(with_more_than_nine_blind_zones_a_miss_keeps_the_range_rate),
         cmocka_unit_test(a_miss_changes_the_variance_by_0_01_to_4),
         cmocka_unit_test(notch_widths_and_blind_speeds_are_checked),
         cmocka_unit_test(repeated_misses_keep_estimates_finite),

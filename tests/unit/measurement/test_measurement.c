@@ -132,7 +132,7 @@ static struct spread errors_of_conversion(double range_m, double sigma_rad, doub
 
 /* Checks that converted places are unbiased and have the stated sigmas along, across and up. */
 static void check_conversion_errors(double range_m, double sigma_rad, double elevation,
-                                    double bias_m)
+                                    double plain_conversion_bias_m)
 {
     enum { COUNT = 40000 };
     struct spread spread = errors_of_conversion(range_m, sigma_rad, elevation, COUNT);
@@ -154,7 +154,8 @@ static void check_conversion_errors(double range_m, double sigma_rad, double ele
             assert_float_equal(spread.covariance[i][j] / (said[i] * said[j]), 0.0, 0.05);
         }
     }
-    assert_float_equal(spread.plain_along, -bias_m, 4.0 * said[0] / sqrt(COUNT) + 0.05 * bias_m);
+    assert_float_equal(spread.plain_along, -plain_conversion_bias_m,
+                       4.0 * said[0] / sqrt(COUNT) + 0.05 * plain_conversion_bias_m);
 }
 
 static void converted_places_are_unbiased_with_the_stated_noise(void **state)

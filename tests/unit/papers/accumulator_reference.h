@@ -133,7 +133,7 @@ static inline int by_rank(const void *a, const void *b)
     return p->rho_cell < q->rho_cell ? -1 : 1;
 }
 
-static inline uint32_t expect_peaks(void)
+static inline uint32_t list_peaks_of_whole_plane(void)
 {
     uint32_t count = 0;
     fill_plane();
@@ -167,22 +167,22 @@ static inline struct rho_accumulator_config paper_cells(void)
                                            .neighbours = 8};
 }
 
-static inline void prepare_accumulator(const struct rho_accumulator_config *config)
+static inline void init_accumulator_with_config(const struct rho_accumulator_config *config)
 {
     of = config;
     assert_int_equal(rho_accumulator_init(&accumulator, sizeof accumulator, config), RHO_OK);
 }
 
 /* Draws points in a square about the origin, divided evenly among the scans. */
-static inline void scatter_points(unsigned num_scans, unsigned count, double half_m)
+static inline void scatter_points(unsigned num_scans, unsigned total_points, double half_m)
 {
     points.num_scans = num_scans;
-    for (unsigned i = 0; i < count; i++) {
+    for (unsigned i = 0; i < total_points; i++) {
         x_m[i] = (float)uniform(-half_m, half_m);
         y_m[i] = (float)uniform(-half_m, half_m);
     }
     for (unsigned scan = 0; scan < num_scans; scan++) {
-        scan_end[scan] = count * (scan + 1) / num_scans;
+        scan_end[scan] = total_points * (scan + 1) / num_scans;
     }
 }
 
@@ -194,9 +194,9 @@ static inline void find_peaks(uint32_t max_peaks)
 
 static inline void expect_same_peaks(const struct rho_accumulator_config *config)
 {
-    prepare_accumulator(config);
+    init_accumulator_with_config(config);
     find_peaks(PEAKS_MAX);
-    uint32_t count = expect_peaks();
+    uint32_t count = list_peaks_of_whole_plane();
     assert_int_equal(result.num_peaks, count);
     assert_int_equal(result.peaks_dropped, 0);
     assert_memory_equal(peaks, expected, count * sizeof peaks[0]);

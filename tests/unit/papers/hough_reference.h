@@ -90,7 +90,7 @@ static inline void add_plot(double x, double y, double t)
  * Adds two kernels in two scans and a plot in the third one: the pair along y = 1000 is 12 m from
  * one kernel, 30 m from the other, and 9 m from the line between them.
  */
-static inline void add_two_kernels(void)
+static inline void set_scene_of_pair_between_two_kernels(void)
 {
     points.at.num_scans = 0;
     start_scan();

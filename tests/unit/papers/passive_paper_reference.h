@@ -272,8 +272,8 @@ static unsigned most_votes_around_cell(const struct plane *plane, int is_sure, i
 }
 
 /* 0 if some pair does not confirm the cell, else 1 and the votes of all pairs in it. */
-static int height_of_cell(int is_sure, int row, int column, unsigned votes_min,
-                          enum rho_accumulator_votes what)
+static int votes_plus_one_of_confirmed_cell(int is_sure, int row, int column, unsigned votes_min,
+                                            enum rho_accumulator_votes what)
 {
     unsigned sum = 1;
     for (unsigned i = 0; i < num_pairs; i++) {
@@ -295,9 +295,11 @@ static inline int fill_heights(const struct rho_passive_paper_config *config, un
     num_confirmed = 0;
     for (int row = 0; row < rows; row++) {
         for (int column = 0; column < COLUMNS; column++) {
-            int most = height_of_cell(0, row, column, votes_min, config->votes);
+            int most = votes_plus_one_of_confirmed_cell(0, row, column, votes_min, config->votes);
             heights[row][column] =
-                most > 0 ? height_of_cell(1, row, column, votes_min, config->votes) : 0;
+                most > 0
+                    ? votes_plus_one_of_confirmed_cell(1, row, column, votes_min, config->votes)
+                    : 0;
             is_sure = is_sure && heights[row][column] == most;
             num_confirmed += heights[row][column] > 0;
         }
@@ -420,8 +422,9 @@ struct sums {
  * The cell with most votes of a pair at a line, the line's own cell before its neighbours. Returns
  * 0 if float may find another one.
  */
-static int find_most_voted_cell(const struct plane *plane, struct place at,
-                                enum rho_accumulator_votes what, struct place *best)
+static int find_most_voted_cell_and_tell_if_sure(const struct plane *plane, struct place at,
+                                                 enum rho_accumulator_votes what,
+                                                 struct place *best)
 {
     int near = num_pairs > 1, is_sure = 1;
     unsigned most = count_votes(votes_in_cell(plane, 1, at.row, at.column), what);
@@ -458,15 +461,18 @@ static void add_crossings(struct sums *sums, struct place at, double cell_m)
     }
 }
 
-static int gather_state_sums(struct place at, const struct rho_passive_paper_config *config,
-                             struct sums *sums)
+static int gather_state_sums_and_tell_if_sure(struct place at,
+                                              const struct rho_passive_paper_config *config,
+                                              struct sums *sums)
 {
     int is_sure = 1;
     unsigned pair = 0;
     for (unsigned a = 0; a + 1 < scene.sensors; a++) {
         for (unsigned b = a + 1; b < scene.sensors; b++) {
             struct place best;
-            is_sure = find_most_voted_cell(&planes[pair++], at, config->votes, &best) && is_sure;
+            is_sure =
+                find_most_voted_cell_and_tell_if_sure(&planes[pair++], at, config->votes, &best) &&
+                is_sure;
             cross_pair(a, b, config);
             add_crossings(sums, best, (double)config->rho_cell_m);
         }
@@ -478,7 +484,7 @@ static inline void expect_state(const struct rho_passive_paper_line *line, struc
                                 const struct rho_passive_paper_config *config)
 {
     struct sums sums = {0};
-    if (!gather_state_sums(at, config, &sums)) {
+    if (!gather_state_sums_and_tell_if_sure(at, config, &sums)) {
         return;
     }
     assert_int_equal(line->scans, sums.mask);

@@ -77,7 +77,7 @@ static void a_line_is_found_at_its_theta_and_rho(void **state)
         double course = (10.0 * heading + 3.0) * DEG_RAD;
         add_points_on_line(7, 800.0, 300.0, 400.0 * cos(course), 400.0 * sin(course));
         config.min_votes = 7;
-        prepare_accumulator(&config);
+        init_accumulator_with_config(&config);
         find_peaks(16);
         assert_true(result.num_peaks >= 1);
         assert_int_equal(peaks[0].mask, 0x7f);
@@ -99,7 +99,7 @@ static void a_line_at_the_end_of_theta_is_one_peak(void **state)
         double tilt_rad = (i - 10) * 2e-4;
         add_points_on_line(7, 2002.5 - 1200.0 * tilt_rad, -1200.0, 400.0 * tilt_rad, 400.0);
         config.min_votes = 7;
-        prepare_accumulator(&config);
+        init_accumulator_with_config(&config);
         find_peaks(PEAKS_MAX);
         uint32_t kept = suppress_peaks(result.num_peaks, NULL, 0);
         assert_int_equal(kept, 1);
@@ -118,11 +118,11 @@ static void a_scan_votes_once_in_a_cell_and_points_vote_each(void **state)
     scan_end[0] = 10;
     scan_end[1] = 11;
     scan_end[2] = 12;
-    prepare_accumulator(&config);
+    init_accumulator_with_config(&config);
     find_peaks(4);
     assert_int_equal(peaks[0].votes, 3);
     config.votes = RHO_VOTES_POINTS;
-    prepare_accumulator(&config);
+    init_accumulator_with_config(&config);
     find_peaks(4);
     assert_int_equal(peaks[0].votes, 12);
     assert_int_equal(peaks[0].mask, 0);
@@ -134,7 +134,7 @@ static void the_best_peaks_are_kept_and_the_others_counted(void **state)
     struct rho_accumulator_config config = paper_cells();
     scatter_points(7, 200, 2500.0);
     config.min_votes = 2;
-    prepare_accumulator(&config);
+    init_accumulator_with_config(&config);
     find_peaks(PEAKS_MAX);
     uint32_t all = result.num_peaks, votes = result.votes;
     assert_true(all > 100);
@@ -159,7 +159,7 @@ static void a_threshold_may_be_a_share_of_the_most_votes(void **state)
         config.min_share = 0.0f;
         config.neighbours = run % 3 ? 8 : 0;
         config.votes = run % 4 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS;
-        prepare_accumulator(&config);
+        init_accumulator_with_config(&config);
         find_peaks(PEAKS_MAX);
         uint32_t most = result.votes_max, least = (uint32_t)ceil(0.6 * most), count = 0;
         while (count < result.num_peaks && peaks[count].votes >= least) {
@@ -167,7 +167,7 @@ static void a_threshold_may_be_a_share_of_the_most_votes(void **state)
         }
         memcpy(expected, peaks, count * sizeof peaks[0]);
         config.min_share = 0.6f;
-        prepare_accumulator(&config);
+        init_accumulator_with_config(&config);
         for (uint32_t room = count + 1; room <= PEAKS_MAX;
              room = room < PEAKS_MAX ? PEAKS_MAX : room + 1) {
             find_peaks(room);
@@ -218,7 +218,7 @@ static void earlier_contents_of_the_accumulator_do_not_matter(void **state)
     struct rho_accumulator_config config = paper_cells();
     static struct rho_accumulator_peak first[64];
     scatter_points(7, 100, 2500.0);
-    prepare_accumulator(&config);
+    init_accumulator_with_config(&config);
     find_peaks(64);
     uint32_t count = result.num_peaks;
     memcpy(first, peaks, sizeof first);
@@ -237,7 +237,7 @@ static void without_points_there_are_no_peaks(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
-    prepare_accumulator(&config);
+    init_accumulator_with_config(&config);
     points.num_scans = 0;
     find_peaks(4);
     assert_int_equal(result.num_peaks + result.votes + result.votes_max, 0);
@@ -274,7 +274,7 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
     scatter_points(7, 150, 2500.0);
     config.min_votes = 3;
     config.neighbours = 0;
-    prepare_accumulator(&config);
+    init_accumulator_with_config(&config);
     find_peaks(3000);
     uint32_t all = result.num_peaks, kept = 0;
     for (uint32_t i = 0; i < all; i++) {
@@ -345,7 +345,7 @@ static void bad_points_are_refused(void **state)
     struct rho_accumulator_points none = {.num_scans = 1};
     const float bad[] = {NAN, INFINITY, -INFINITY, 2.1e6f, -FLT_MAX};
     scatter_points(3, 30, 1000.0);
-    prepare_accumulator(&config);
+    init_accumulator_with_config(&config);
     assert_int_equal(rho_accumulator_find_peaks(NULL, &points, peaks, 4, &result), RHO_ERROR_NULL);
     assert_int_equal(rho_accumulator_find_peaks(&accumulator, NULL, peaks, 4, &result),
                      RHO_ERROR_NULL);

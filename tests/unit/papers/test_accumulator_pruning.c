@@ -29,12 +29,12 @@ static int random_below(int n)
 static void expect_same_without_pruning(struct rho_accumulator_config config, uint32_t room)
 {
     config.no_pruning = 1;
-    prepare_accumulator(&config);
+    init_accumulator_with_config(&config);
     find_peaks(room);
     plain = result;
     memcpy(expected, peaks, plain.num_peaks * sizeof expected[0]);
     config.no_pruning = 0;
-    prepare_accumulator(&config);
+    init_accumulator_with_config(&config);
     find_peaks(room);
     assert_int_equal(result.num_peaks, plain.num_peaks);
     assert_int_equal(result.peaks_dropped, plain.peaks_dropped);
@@ -47,7 +47,7 @@ static void expect_peaks_of_whole_plane(const struct rho_accumulator_config *con
 {
     uint32_t count = result.num_peaks;
     of = config;
-    assert_int_equal(expect_peaks(), count);
+    assert_int_equal(list_peaks_of_whole_plane(), count);
     assert_memory_equal(peaks, expected, count * sizeof peaks[0]);
 }
 

@@ -52,7 +52,7 @@ static struct rho_hough_memberships memberships_of_pair(unsigned first, unsigned
 static void a_vote_has_truth_indeterminacy_and_falsity(void **state)
 {
     (void)state;
-    add_two_kernels();
+    set_scene_of_pair_between_two_kernels();
     add_plot(500.0, 3000.0, 4.0); /* too far for a target of 400 m/s */
     use_paper_values_all_cells(RHO_HOUGH_NHT_A);
     prepare_hough();
@@ -334,7 +334,7 @@ static void invalid_votes_and_planes_are_refused(void **state)
 {
     (void)state;
     struct rho_hough_memberships of;
-    add_two_kernels();
+    set_scene_of_pair_between_two_kernels();
     add_plot(500.0, 3000.0, 4.0);
     use_coarse_cells(RHO_HOUGH_IHT);
     prepare_hough();

@@ -32,7 +32,7 @@ static void compare_cells_and_peaks(void)
     config.keeps_all_cells = 0;
     size_t num = choose_from_listed();
     find_peaks();
-    expect_peaks(num);
+    list_peaks_of_whole_plane(num);
 }
 
 static void votes_in_clutter_agree_with_double_precision(void **state)
@@ -102,12 +102,12 @@ static void votes_agree_for_other_cells_and_limits(void **state)
     }
 }
 
-static void add_dense_plots(int num)
+static void add_dense_plots(int num_per_scan)
 {
     points.at.num_scans = 0;
     for (unsigned scan = 0; scan < 5; scan++) {
         start_scan();
-        for (int i = 0; i < num; i++) {
+        for (int i = 0; i < num_per_scan; i++) {
             add_plot_in_rectangle(-600.0, 600.0, -600.0, 600.0, 2.0 * scan);
         }
     }

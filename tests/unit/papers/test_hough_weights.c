@@ -38,7 +38,7 @@ static void votes_with_indeterminacy_agree_with_double_precision(void **state)
 static void two_kernels_support_the_line_between_them(void **state)
 {
     (void)state;
-    add_two_kernels();
+    set_scene_of_pair_between_two_kernels();
     for (int run = 0; run < 4; run++) {
         use_paper_values_all_cells(RHO_HOUGH_NHT_A);
         config.uses_indeterminacy = run & 1;

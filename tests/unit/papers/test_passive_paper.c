@@ -135,8 +135,8 @@ static void votes_may_count_crossings_instead_of_scans(void **state)
  * Draws a place within 80 km seen by two of the four sensors; true if float determines its range to
  * a metre.
  */
-static int draw_crossing(struct rho_crossing_base *base, float bearing_rad[2],
-                         struct rho_crossing *crossing)
+static int draw_crossing_of_sure_range(struct rho_crossing_base *base, float bearing_rad[2],
+                                       struct rho_crossing *crossing)
 {
     double x_m = uniform(-80e3, 80e3), y_m = uniform(-80e3, 80e3);
     unsigned a = (unsigned)uniform(0.0, 3.0), b = (unsigned)uniform(a + 1.0, 4.0);
@@ -177,7 +177,7 @@ static void rho_agrees_from_either_sensor(void **state)
         struct rho_crossing crossing;
         float bearing_rad[2];
         double x_m, y_m;
-        if (!draw_crossing(&base, bearing_rad, &crossing)) {
+        if (!draw_crossing_of_sure_range(&base, bearing_rad, &crossing)) {
             continue;
         }
         float theta_rad = (float)uniform(0.0, PI);

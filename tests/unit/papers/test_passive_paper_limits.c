@@ -38,7 +38,7 @@ static void search_and_check(void)
 }
 
 /* Draws a scene, pushes and searches its first five frames, and puts the sixth into `full`. */
-static void prepare_batch(void)
+static void search_five_frames_and_fill_sixth(void)
 {
     random_state = 3;
     scene = scene_of(2, 2, 0.05, 1.0, 0.0);
@@ -148,7 +148,7 @@ static void the_default_configuration_is_that_of_the_header(void **state)
 static void an_object_can_be_initialised_with_its_own_configuration(void **state)
 {
     (void)state;
-    prepare_batch();
+    search_five_frames_and_fill_sixth();
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &paper.config), RHO_OK);
     assert_int_equal(paper.config.scans, 8);
     assert_int_equal(paper.batch.num_scans + paper.batch.num_sensors + paper.num_lines, 0);
@@ -169,7 +169,7 @@ static void the_object_has_a_bounded_size(void **state)
 static void null_pointers_are_refused(void **state)
 {
     (void)state;
-    prepare_batch();
+    search_five_frames_and_fill_sixth();
     assert_int_equal(rho_passive_paper_init(NULL, sizeof paper, &paper.config), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_passive_paper_push(NULL, &full.frame, full.fates), RHO_ERROR_NULL);
@@ -185,7 +185,7 @@ static void null_pointers_are_refused(void **state)
 static void a_wrong_object_size_is_refused(void **state)
 {
     (void)state;
-    prepare_batch();
+    search_five_frames_and_fill_sixth();
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper - 1, &before.config),
                      RHO_ERROR_SIZE);
     assert_int_equal(rho_passive_paper_init(&paper, 0, &before.config), RHO_ERROR_SIZE);
@@ -195,7 +195,7 @@ static void a_wrong_object_size_is_refused(void **state)
 static void an_object_without_init_is_refused(void **state)
 {
     (void)state;
-    prepare_batch();
+    search_five_frames_and_fill_sixth();
     memset(&paper, 0, sizeof paper);
     before = paper;
     expect_frame_refused(RHO_ERROR_STATE);
@@ -206,7 +206,7 @@ static void an_object_without_init_is_refused(void **state)
 static void a_refused_frame_keeps_the_lines_found(void **state)
 {
     (void)state;
-    prepare_batch();
+    search_five_frames_and_fill_sixth();
     assert_true(paper.num_lines > 0);
     full.frame.time_us = paper.batch.time_us[4];
     expect_frame_refused(RHO_ERROR_STATE);
@@ -224,7 +224,7 @@ static void a_refused_frame_keeps_the_lines_found(void **state)
 static void sensors_too_far_apart_for_the_cells_are_refused(void **state)
 {
     (void)state;
-    prepare_batch();
+    search_five_frames_and_fill_sixth();
     full.scans[1].sensor_id = 99;
     full.scans[1].x_m = 0.0f;
     full.scans[1].y_m = -10e3f + 56.1e3f;
@@ -240,7 +240,7 @@ static void sensors_too_far_apart_for_the_cells_are_refused(void **state)
 static void fewer_than_four_frames_make_no_line(void **state)
 {
     (void)state;
-    prepare_batch();
+    search_five_frames_and_fill_sixth();
     init_default_paper();
     search_and_check();
     assert_int_equal(paper.num_lines, 0);
@@ -255,7 +255,7 @@ static void fewer_than_four_frames_make_no_line(void **state)
 static void one_sensor_makes_no_line(void **state)
 {
     (void)state;
-    prepare_batch();
+    search_five_frames_and_fill_sixth();
     for (unsigned k = 0; k < scene.scans; k++) {
         scene.look[k][1].is_absent = 1;
     }
@@ -267,7 +267,7 @@ static void one_sensor_makes_no_line(void **state)
 }
 
 /* Pairs with the silent sensor confirm nothing, until its last scan has left the batch. */
-static void a_sensor_that_fell_silent_is_left_out(void **state)
+static void no_line_until_a_silent_sensors_scans_have_left_the_batch(void **state)
 {
     (void)state;
     random_state = 4;
@@ -296,7 +296,7 @@ static void lines_of_one_scan_have_no_state(void **state)
 {
     (void)state;
     struct rho_passive_paper_config config = paper_config();
-    prepare_batch();
+    search_five_frames_and_fill_sixth();
     for (unsigned k = 0; k < scene.scans; k++) {
         scene.look[k][0].count = k == 3 ? scene.look[k][0].count : 0;
     }
@@ -405,7 +405,7 @@ static void hostile_frames_give_sound_lines(void **state)
 static void a_repeated_search_gives_the_same_bytes(void **state)
 {
     (void)state;
-    prepare_batch();
+    search_five_frames_and_fill_sixth();
     push_scans(5, 8);
     search_and_check();
     before = paper;
@@ -430,7 +430,7 @@ int main(void)
         cmocka_unit_test(sensors_too_far_apart_for_the_cells_are_refused),
         cmocka_unit_test(fewer_than_four_frames_make_no_line),
         cmocka_unit_test(one_sensor_makes_no_line),
-        cmocka_unit_test(a_sensor_that_fell_silent_is_left_out),
+        cmocka_unit_test(no_line_until_a_silent_sensors_scans_have_left_the_batch),
         cmocka_unit_test(lines_of_one_scan_have_no_state),
         cmocka_unit_test(crossings_and_lines_beyond_the_capacity_are_counted),
         cmocka_unit_test(votes_of_crossings_saturate_at_255),

@@ -35,7 +35,7 @@ static double centre_of(int cell, float theta_cell_rad)
 }
 
 /* The best cell by trying all; of cells equal within rounding the lowest. */
-static int best_cell_of_all(const double change[2], float theta_cell_rad)
+static int cell_of_least_rho_change(const double change[2], float theta_cell_rad)
 {
     const double size = hypot(change[0], change[1]);
     int best = 0;
@@ -56,7 +56,8 @@ static void assert_best_theta(const struct rho_gate_hough *hough, int plane,
     const double change[2] = {change_mps[axes_of[plane][0]], change_mps[axes_of[plane][1]]};
     const double size = hypot(change[0], change[1]);
     const double theta_rad = atan2(hough->sin_theta[plane], hough->cos_theta[plane]);
-    const double best_rad = centre_of(best_cell_of_all(change, theta_cell_rad), theta_cell_rad);
+    const double best_rad =
+        centre_of(cell_of_least_rho_change(change, theta_cell_rad), theta_cell_rad);
 
     assert_float_equal(hypot(hough->sin_theta[plane], hough->cos_theta[plane]), 1.0, 1e-6);
     if (is_exact || fabs(theta_rad - best_rad) < ANGLE_RAD) {
@@ -192,7 +193,7 @@ static void residuals_are_sums_of_rho_over_the_chosen_planes(void **state)
 
             if (planes >> plane & 1) {
                 expected += change_of_rho(
-                    off, centre_of(best_cell_of_all(change, FIVE_DEGREES), FIVE_DEGREES));
+                    off, centre_of(cell_of_least_rho_change(change, FIVE_DEGREES), FIVE_DEGREES));
             }
         }
         assert_float_equal(rho_gate_hough_velocity_distance_from_lines_mps(&hough, plot_mps),

@@ -327,7 +327,7 @@ static double distance_m(const struct rho_track_report *track)
 }
 
 /* Checks that at most one track is confirmed, within four of the plots' standard deviations. */
-static void check_only_track(uint32_t *track_id)
+static void check_at_most_one_confirmed_track(uint32_t *track_id)
 {
     const double across_m = hypot(mover.x_m, mover.y_m) * (double)settings.sigma_azimuth_rad;
     const double sigma_m = fmax(across_m, (double)settings.sigma_range_m);
@@ -361,7 +361,7 @@ static void test_each_preset_tracks_its_target(void **state)
                 (struct rho_scan){.time_us = llround(k * (double)settings.scan_interval_s * 1e6),
                                   .sensor_id = 1,
                                   .measures = target->measures});
-            check_only_track(&track_id);
+            check_at_most_one_confirmed_track(&track_id);
             assert_true(track_id > 0 || k < 7);
             move_target(k);
         }

@@ -16,7 +16,7 @@ static struct rho_bearing many[3][RHO_MAX_PLOTS + 50];
 static const struct target incomer = {.x_m = 60e3, .y_m = 5e3, .vx_mps = -200.0, .vy_mps = 10.0};
 
 /* Steps frames 0 .. 11 of that target, which is found and followed. */
-static void fly_twelve_frames(unsigned sensors)
+static void track_incomer_for_twelve_frames(unsigned sensors)
 {
     random_state = 9;
     scene = scene_of(sensors, 1, 0.1, 1.0, 0.0);
@@ -43,7 +43,7 @@ static void add_look_bearing(struct look *look, double bearing_rad)
 static void each_bearing_has_its_fate_in_its_row(void **state)
 {
     (void)state;
-    fly_twelve_frames(2);
+    track_incomer_for_twelve_frames(2);
     see_frame(12, 120.0);
     struct look *look = scene.look[scene_slot_of(12)];
     add_look_bearing(&look[0], 0.0);
@@ -120,7 +120,8 @@ static void fate_counters_add_up_over_a_long_run(void **state)
         frames++;
         assert_int_equal(counters->scans_accepted, frames);
         assert_int_equal(counters->fates[RHO_FATE_HELD] + counters->fates[RHO_FATE_GHOST],
-                         counters->plots_initiated + counters->plots_clutter + count_held());
+                         counters->plots_initiated + counters->plots_clutter +
+                             count_bearings_held_in_batch());
         assert_int_equal(counters->tracks_started - counters->tracks_ended, report.num_tracks);
     }
     assert_int_equal(
@@ -136,11 +137,14 @@ static void fate_counters_add_up_over_a_long_run(void **state)
  * The batch's newest frame holds exactly this scan's bearings of fate HELD or GHOST, in their
  * order.
  */
-static void expect_batch_holds(unsigned sensor, const struct rho_bearing_scan *scan, uint32_t first)
+static void expect_newest_batch_frame_holds_held_and_ghosts(unsigned sensor,
+                                                            const struct rho_bearing_scan *scan,
+                                                            uint32_t first_row)
 {
     unsigned newest = passive.batch.num_scans - 1u, held = 0;
-    for (uint32_t i = 0; i < scan->num_bearings && first + i < RHO_MAX_PLOTS; i++) {
-        if (report.fates[first + i] == RHO_FATE_HELD || report.fates[first + i] == RHO_FATE_GHOST) {
+    for (uint32_t i = 0; i < scan->num_bearings && first_row + i < RHO_MAX_PLOTS; i++) {
+        if (report.fates[first_row + i] == RHO_FATE_HELD ||
+            report.fates[first_row + i] == RHO_FATE_GHOST) {
             const struct rho_batch_bearing *bearing = &passive.batch.bearings[newest][sensor][held];
             assert_true(bearing->bearing_rad == scan->bearings[i].bearing_rad);
             held++;
@@ -150,7 +154,8 @@ static void expect_batch_holds(unsigned sensor, const struct rho_bearing_scan *s
 }
 
 /* Steps three scans with so many bearings, which all cross those of the other sensors. */
-static void expect_fates_with_bearings(uint32_t num_0, uint32_t num_1, uint32_t num_2)
+static void step_three_bearing_scans_and_expect_fates(uint32_t num_0, uint32_t num_1,
+                                                      uint32_t num_2)
 {
     const uint32_t num[3] = {num_0, num_1, num_2};
     const float middle_rad[3] = {0.4f, -0.4f, -0.3f};
@@ -176,7 +181,7 @@ static void expect_fates_with_bearings(uint32_t num_0, uint32_t num_1, uint32_t 
             assert_int_equal(report.fates[first + i],
                              i < RHO_MAX_BEARINGS ? RHO_FATE_HELD : RHO_FATE_NO_ROOM);
         }
-        expect_batch_holds(s, &scans[s], first);
+        expect_newest_batch_frame_holds_held_and_ghosts(s, &scans[s], first);
         first += num[s];
     }
     assert_int_equal(report.fates_total[RHO_FATE_INVALID] + report.fates_total[RHO_FATE_GHOST], 0);
@@ -185,17 +190,17 @@ static void expect_fates_with_bearings(uint32_t num_0, uint32_t num_1, uint32_t 
 static void bearings_beyond_the_capacities_get_fate_no_room(void **state)
 {
     (void)state;
-    expect_fates_with_bearings(RHO_MAX_BEARINGS, RHO_MAX_BEARINGS + 1, 2);
-    expect_fates_with_bearings(RHO_MAX_BEARINGS + 7, 0, RHO_MAX_BEARINGS + 9);
+    step_three_bearing_scans_and_expect_fates(RHO_MAX_BEARINGS, RHO_MAX_BEARINGS + 1, 2);
+    step_three_bearing_scans_and_expect_fates(RHO_MAX_BEARINGS + 7, 0, RHO_MAX_BEARINGS + 9);
     /*
      * the last bearing with a fate is in the second scan, before the third, the last of the first,
      * in the first
      */
-    expect_fates_with_bearings(RHO_MAX_PLOTS - 3, 5, 4);
-    expect_fates_with_bearings(RHO_MAX_PLOTS - 3, 3, 4);
-    expect_fates_with_bearings(RHO_MAX_PLOTS, 3, 4);
-    expect_fates_with_bearings(RHO_MAX_PLOTS + 40, 3, 4);
-    expect_fates_with_bearings(1, RHO_MAX_PLOTS + 40, 4);
+    step_three_bearing_scans_and_expect_fates(RHO_MAX_PLOTS - 3, 5, 4);
+    step_three_bearing_scans_and_expect_fates(RHO_MAX_PLOTS - 3, 3, 4);
+    step_three_bearing_scans_and_expect_fates(RHO_MAX_PLOTS, 3, 4);
+    step_three_bearing_scans_and_expect_fates(RHO_MAX_PLOTS + 40, 3, 4);
+    step_three_bearing_scans_and_expect_fates(1, RHO_MAX_PLOTS + 40, 4);
 }
 
 /* The total exceeds 32 bits; only the first bearings of each scan are read. */
@@ -222,7 +227,8 @@ static void absurd_numbers_of_bearings_do_no_harm(void **state)
     /* bearings without a fate are not held */
     assert_int_equal(passive.batch.num_bearings[0][1], 0);
     assert_int_equal(passive.batch.num_bearings[0][2], 0);
-    expect_batch_holds(0, &(struct rho_bearing_scan){.num_bearings = 50, .bearings = many[0]}, 0);
+    expect_newest_batch_frame_holds_held_and_ghosts(
+        0, &(struct rho_bearing_scan){.num_bearings = 50, .bearings = many[0]}, 0);
 }
 
 /* The track table is full of tracks of plots in the west, where the passive sensors do not look. */
@@ -267,7 +273,7 @@ static void a_full_track_table_starts_no_track_and_holds_bearings(void **state)
         assert_int_equal(tracker.counters.tracks_no_room, k < BATCH - 1 ? 0 : k - BATCH + 2);
     }
     assert_int_equal(tracker.counters.tracks_started, RHO_MAX_TRACKS);
-    assert_int_equal(count_held(), 2 * BATCH);
+    assert_int_equal(count_bearings_held_in_batch(), 2 * BATCH);
 }
 
 /* ---- late and refused frames, frames without initiation -------------------------------------- */
@@ -275,7 +281,7 @@ static void a_full_track_table_starts_no_track_and_holds_bearings(void **state)
 static void a_late_frame_changes_counters_only(void **state)
 {
     (void)state;
-    fly_twelve_frames(2);
+    track_incomer_for_twelve_frames(2);
     copy_objects();
     see_frame(12, 109.999999);
     step_frame(&full.frame);
@@ -311,7 +317,7 @@ static void expect_refused_frame(struct rho_passive *of, enum rho_status status)
 
 static void prepare_good_frame(void)
 {
-    fly_twelve_frames(2);
+    track_incomer_for_twelve_frames(2);
     see_frame(12, 120.0);
     copy_objects();
 }
@@ -334,7 +340,7 @@ static void objects_never_initialised_are_refused(void **state)
     prepare_good_frame();
     tracker.magic = tracker_then.magic = 0;
     EXPECT_REFUSED((void)0, RHO_ERROR_STATE);
-    fly_twelve_frames(2);
+    track_incomer_for_twelve_frames(2);
     see_frame(12, 120.0);
     passive.magic = 0;
     copy_objects();
@@ -370,8 +376,8 @@ static void frames_that_the_batch_refuses_are_refused(void **state)
     EXPECT_REFUSED(full.scans[1].y_m += 0.5f, RHO_ERROR_VALUE);
     EXPECT_REFUSED(full.scans[1] = full.scans[0], RHO_ERROR_VALUE);
     EXPECT_REFUSED(full.scans[1].sensor_id = 99, RHO_ERROR_VALUE);
-    fly_twelve_frames(RHO_MAX_PASSIVE_SENSORS < SCENE_SENSORS ? RHO_MAX_PASSIVE_SENSORS
-                                                              : SCENE_SENSORS);
+    track_incomer_for_twelve_frames(
+        RHO_MAX_PASSIVE_SENSORS < SCENE_SENSORS ? RHO_MAX_PASSIVE_SENSORS : SCENE_SENSORS);
     see_frame(12, 120.0);
     copy_objects();
     if (RHO_MAX_PASSIVE_SENSORS <= SCENE_SENSORS) {
@@ -386,14 +392,14 @@ static void frames_that_the_batch_refuses_are_refused(void **state)
 static void without_passive_initiation_tracks_go_on_and_none_start(void **state)
 {
     (void)state;
-    fly_twelve_frames(2);
+    track_incomer_for_twelve_frames(2);
     passive_then = passive;
     scene.targets = 2;
     scene.target[1] = (struct target){.x_m = 30e3, .y_m = -20e3, .vx_mps = -100.0, .vy_mps = 90.0};
     for (unsigned k = 12; k < 24; k++) {
         see_frame(k, 10.0 * k);
         assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &full.frame, &report), RHO_OK);
-        check_fates(&full.frame);
+        check_fate_counts_add_up(&full.frame);
         assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);
         assert_int_equal(report.fates_total[RHO_FATE_NO_ROOM], 2);
         assert_int_equal(report.num_tracks, 1);
@@ -413,7 +419,7 @@ static void without_passive_initiation_tracks_go_on_and_none_start(void **state)
 static void a_frame_without_scans_is_accepted(void **state)
 {
     (void)state;
-    fly_twelve_frames(2);
+    track_incomer_for_twelve_frames(2);
     for (int64_t k = 12; k < 30; k++) {
         const struct rho_frame frame = {.time_us = 10000000 * k};
         step_frame(&frame);
@@ -421,11 +427,11 @@ static void a_frame_without_scans_is_accepted(void **state)
         assert_int_equal(report.tracks[0].misses, 0);
     }
     assert_int_equal(tracker.counters.scans_accepted, 30);
-    assert_int_equal(count_held(), 0);
+    assert_int_equal(count_bearings_held_in_batch(), 0);
 }
 
 /* Bearings of 0.01 rad sigma are covered up to four sigmas beyond a sensor's sector. */
-static void bearings_beyond_a_sensors_sector_are_outside(void **state)
+static void bearings_over_4_sigmas_beyond_the_sector_are_invalid(void **state)
 {
     static const float bearings_rad[] = {0.539f, 0.541f, -0.539f, -0.541f};
     (void)state;
@@ -453,7 +459,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_bearing_has_its_fate_in_its_row),
-        cmocka_unit_test(bearings_beyond_a_sensors_sector_are_outside),
+        cmocka_unit_test(bearings_over_4_sigmas_beyond_the_sector_are_invalid),
         cmocka_unit_test(a_bearing_without_partners_is_held),
         cmocka_unit_test(fate_counters_add_up_over_a_long_run),
         cmocka_unit_test(bearings_beyond_the_capacities_get_fate_no_room),

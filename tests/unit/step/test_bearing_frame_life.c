@@ -10,7 +10,7 @@
 static uint8_t gate_of_tracks; /* enum rho_tracker_gate */
 
 /* A target that is found and followed until frame 11 at 110 s. */
-static void fly_twelve_frames(unsigned seed)
+static void track_random_target_for_twelve_frames(unsigned seed)
 {
     random_state = seed;
     scene = scene_of(2, 1, 0.1, 1.0, 0.0);
@@ -93,7 +93,7 @@ static void step_frame_without_targets(unsigned k)
 static void five_frames_without_its_bearings_end_a_track(void **state)
 {
     (void)state;
-    fly_twelve_frames(3);
+    track_random_target_for_twelve_frames(3);
     const uint32_t track_id = report.tracks[0].track_id;
     double score_nat = (double)report.tracks[0].score_nat;
     for (unsigned k = 12; k < 16; k++) {
@@ -115,10 +115,10 @@ static void five_frames_without_its_bearings_end_a_track(void **state)
     assert_int_equal(tracker.counters.tracks_ended, 1);
 }
 
-static void a_bearing_resets_the_misses_of_a_track(void **state)
+static void a_bearing_restarts_the_misses_in_a_row_of_a_track(void **state)
 {
     (void)state;
-    fly_twelve_frames(3);
+    track_random_target_for_twelve_frames(3);
     for (unsigned k = 12; k < 16; k++) {
         step_frame_without_targets(k);
     }
@@ -139,7 +139,7 @@ static void a_miss_of_one_sensor_lowers_the_score_only(void **state)
     (void)state;
     static struct rho_tracker tracker_then;
     static struct rho_passive passive_then;
-    fly_twelve_frames(3);
+    track_random_target_for_twelve_frames(3);
     see_frame(12, 120.0);
     tracker_then = tracker;
     passive_then = passive;
@@ -172,7 +172,7 @@ static void sensors_missing_from_frames_do_no_harm(void **state)
     (void)state;
     double error2 = 0.0;
     for (unsigned seed = 1; seed <= 20; seed++) {
-        fly_twelve_frames(seed);
+        track_random_target_for_twelve_frames(seed);
         for (unsigned k = 12; k < 24; k++) {
             for (unsigned s = 0; s < 2; s++) {
                 scene.look[scene_slot_of(k)][s].is_absent = uniform(0.0, 1.0) < 0.6;
@@ -200,7 +200,7 @@ static void bearings_of_one_sensor_keep_a_track(void **state)
     (void)state;
     double share2 = 0.0;
     for (unsigned seed = 1; seed <= 20; seed++) {
-        fly_twelve_frames(seed);
+        track_random_target_for_twelve_frames(seed);
         double sigma_m = (double)report.tracks[0].sigma_m;
         for (unsigned k = 12; k < 22; k++) {
             scene.look[scene_slot_of(k)][1].is_absent = 1;
@@ -254,9 +254,9 @@ static void expect_misses_if_seen(int is_seen)
 static void no_miss_is_counted_where_no_sensor_looked(void **state)
 {
     (void)state;
-    fly_twelve_frames(5);
+    track_random_target_for_twelve_frames(5);
     expect_misses_if_seen(1);
-    fly_twelve_frames(5);
+    track_random_target_for_twelve_frames(5);
     expect_misses_if_seen(0);
 }
 
@@ -289,12 +289,12 @@ static void misses_count_within_a_sensors_coverage_only(void **state)
 {
     (void)state;
     for (int32_t sensor_id = 10; sensor_id <= 11; sensor_id++) {
-        fly_twelve_frames(5);
+        track_random_target_for_twelve_frames(5);
         describe_sensor(10, 1000.0f, 0.0f, 0.0f);
         describe_sensor(11, 1000.0f, 0.0f, 0.0f);
         miss_frames_and_expect(12, 4, 1);
         miss_frames_and_expect(16, 8, 0);
-        fly_twelve_frames(5);
+        track_random_target_for_twelve_frames(5);
         describe_sensor(10, 2e5f, 2.5f, -2.5f);
         describe_sensor(11, 2e5f, 2.5f, -2.5f);
         miss_frames_and_expect(12, 4, 1);
@@ -314,7 +314,7 @@ static void undescribed_sensors_have_the_range_of_the_initiation(void **state)
     struct rho_passive_config config;
     rho_passive_config_default(&config);
     config.range_max_m = 1500.0f;
-    fly_twelve_frames(5);
+    track_random_target_for_twelve_frames(5);
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
     miss_frames_and_expect(12, 12, 1);
 }
@@ -368,7 +368,7 @@ static void follow_with_time_offsets(const double scan_s[2], const double offset
                                      struct bias *bias)
 {
     const struct target *target = &scene.target[0];
-    fly_twelve_frames(1 + bias->rows);
+    track_random_target_for_twelve_frames(1 + bias->rows);
     struct ekf ekf = ekf_from_track(&report.tracks[0]);
     for (unsigned k = 12; k < 24; k++) {
         step_bearings_of_own_times(k, scan_s, offset_s, &ekf);
@@ -419,7 +419,7 @@ static void bearings_update_at_their_own_times(void **state)
  * One target whose bearings of eight degrees are hardly better than chance; returns the number of
  * tracks started.
  */
-static uint32_t start_with_false_track_rate(float false_tracks_per_hour)
+static uint32_t count_tracks_started_at_false_track_rate(float false_tracks_per_hour)
 {
     struct rho_passive_config config;
     random_state = 5;
@@ -436,9 +436,9 @@ static uint32_t start_with_false_track_rate(float false_tracks_per_hour)
 static void the_start_threshold_follows_the_false_track_rate(void **state)
 {
     (void)state;
-    assert_int_equal(start_with_false_track_rate(1e5f), 1);
+    assert_int_equal(count_tracks_started_at_false_track_rate(1e5f), 1);
     int32_t often_mnat = passive.start_mnat, score_mnat = passive.tracks[0].score_mnat;
-    assert_int_equal(start_with_false_track_rate(1e-5f), 0);
+    assert_int_equal(count_tracks_started_at_false_track_rate(1e-5f), 0);
     assert_int_equal(passive.num_tracks, 1); /* a candidate was found, but it started no track */
     assert_int_equal(passive.tracks[0].score_mnat, score_mnat);
     /* the threshold grows by ln(1 / rate) */
@@ -451,7 +451,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(targets_that_cross_at_one_sensor_keep_their_identities),
         cmocka_unit_test(five_frames_without_its_bearings_end_a_track),
-        cmocka_unit_test(a_bearing_resets_the_misses_of_a_track),
+        cmocka_unit_test(a_bearing_restarts_the_misses_in_a_row_of_a_track),
         cmocka_unit_test(a_miss_of_one_sensor_lowers_the_score_only),
         cmocka_unit_test(sensors_missing_from_frames_do_no_harm),
         cmocka_unit_test(bearings_of_one_sensor_keep_a_track),

@@ -75,7 +75,7 @@ static void step_radar_scan(double time_s)
     step_radar_scan_at(llround(time_s * 1e6), time_s);
 }
 
-static void draw_one_target(unsigned seed)
+static void draw_one_target_and_start_tracker_and_radar(unsigned seed)
 {
     random_state = seed;
     scene = scene_of(2, 1, 0.1, 1.0, 0.0);
@@ -91,7 +91,7 @@ struct figures {
 
 static void fly_radar_and_bearings(unsigned seed, int has_bearings, struct figures *figures)
 {
-    draw_one_target(seed);
+    draw_one_target_and_start_tracker_and_radar(seed);
     for (unsigned k = 0; k < 12; k++) {
         step_radar_scan(10.0 * k);
     }
@@ -164,7 +164,7 @@ static void a_track_started_by_bearings_takes_plots_of_a_radar(void **state)
     double before_m = 0.0, after_m = 0.0;
     unsigned claimed = 0;
     for (unsigned seed = 1; seed <= 20; seed++) {
-        draw_one_target(seed);
+        draw_one_target_and_start_tracker_and_radar(seed);
         fly_frames(0, 10, 10.0);
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(report.tracks[0].hits, 10);
@@ -201,7 +201,7 @@ static void a_track_started_by_bearings_takes_plots_of_a_radar(void **state)
 static void scans_and_frames_share_one_order_of_time(void **state)
 {
     (void)state;
-    draw_one_target(4);
+    draw_one_target_and_start_tracker_and_radar(4);
     for (unsigned k = 0; k < 10; k++) {
         step_radar_scan(10.0 * k);
         fly_frame(k, 10.0);
@@ -381,7 +381,7 @@ static void hostile_frames_keep_the_tracker_sound(void **state)
             enum rho_status status = rho_tracker_step_frame(
                 &tracker, uniform(0.0, 1.0) < 0.97 ? &passive : NULL, &full.frame, &report);
             if (status == RHO_OK) {
-                check_fates(&full.frame);
+                check_fate_counts_add_up(&full.frame);
                 check_report();
                 taken++;
             } else {

@@ -14,7 +14,7 @@
 
 /* ---- targets are found ----------------------------------------------------------------------- */
 
-static void expect_target_found_with(unsigned sensors)
+static void expect_target_found_with_first_full_batch(unsigned sensors)
 {
     unsigned runs = 0;
     for (unsigned seed = 1; seed <= 20; seed++) {
@@ -52,12 +52,12 @@ static void expect_target_found_with(unsigned sensors)
 static void a_target_is_found_with_the_first_full_batch(void **state)
 {
     (void)state;
-    expect_target_found_with(2);
-    expect_target_found_with(3);
+    expect_target_found_with_first_full_batch(2);
+    expect_target_found_with_first_full_batch(3);
 }
 
 /* Scores of 2.3 to 9.2 nat about the threshold ln 100: those below start no track. */
-static void tracks_start_at_a_score_of_ln_100(void **state)
+static void only_candidates_above_ln_100_start_tracks(void **state)
 {
     unsigned below = 0, above = 0;
     (void)state;
@@ -90,18 +90,18 @@ static void tracks_start_at_a_score_of_ln_100(void **state)
  * Target unseen in the frames whose bit is set in `missing`; the full batch finds it, and a track
  * starts or not.
  */
-static void expect_starts_with_missing_frames(unsigned missing, int starts)
+static void expect_starts_with_missing_frames(unsigned missing_frame_bits, int starts)
 {
     random_state = 2;
     scene = scene_of(3, 1, 0.1, 1.0, 0.0);
     scene.target[0] = random_target(120.0);
     start_chain(5.0f);
     for (unsigned k = 0; k < BATCH; k++) {
-        scene.targets = missing >> k & 1u ? 0 : 1;
+        scene.targets = missing_frame_bits >> k & 1u ? 0 : 1;
         fly_frame(k, 10.0);
     }
     assert_int_equal(passive.num_tracks, 1);
-    assert_int_equal(passive.tracks[0].scans, 0xff & ~missing);
+    assert_int_equal(passive.tracks[0].scans, 0xff & ~missing_frame_bits);
     assert_true(passive.tracks[0].score_mnat >= passive.start_mnat);
     assert_int_equal(report.num_tracks, starts);
     assert_int_equal(tracker.counters.tracks_started, starts);
@@ -155,9 +155,10 @@ static void false_bearings_alone_start_no_track(void **state)
         start_chain(5.0f);
         fly_frames(0, 60, 10.0);
         started += tracker.counters.tracks_started;
-        assert_int_equal(
-            tracker.counters.fates[RHO_FATE_HELD] + tracker.counters.fates[RHO_FATE_GHOST],
-            tracker.counters.plots_initiated + tracker.counters.plots_clutter + count_held());
+        assert_int_equal(tracker.counters.fates[RHO_FATE_HELD] +
+                             tracker.counters.fates[RHO_FATE_GHOST],
+                         tracker.counters.plots_initiated + tracker.counters.plots_clutter +
+                             count_bearings_held_in_batch());
     }
     assert_int_equal(started, 0);
 }
@@ -295,7 +296,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_target_is_found_with_the_first_full_batch),
-        cmocka_unit_test(tracks_start_at_a_score_of_ln_100),
+        cmocka_unit_test(only_candidates_above_ln_100_start_tracks),
         cmocka_unit_test(no_track_starts_if_the_last_two_frames_missed_it),
         cmocka_unit_test(a_new_target_is_found_while_others_are_tracked),
         cmocka_unit_test(false_bearings_alone_start_no_track),

@@ -25,7 +25,7 @@ static void restore_objects(void)
 }
 
 /* One straight target, stepped up to scan k - 1. */
-static void fly_lone_target(uint8_t gate, uint32_t measures, int k)
+static void start_and_fly_lone_target(uint8_t gate, uint32_t measures, int num_scans)
 {
     set_up_scene(gate, 77);
     scene.interval_s = interval_s;
@@ -33,7 +33,7 @@ static void fly_lone_target(uint8_t gate, uint32_t measures, int k)
     scene.num_targets = 1;
     scene.target[0] = (struct target){-5000.0, 4000.0, 3000.0, 200.0, -0.4, 0.0, 0.0, 0.0};
     begin_tracker();
-    for (int i = 0; i < k; i++) {
+    for (int i = 0; i < num_scans; i++) {
         step_tracker(i);
     }
     assert_int_equal(report.num_tracks, 1);
@@ -41,11 +41,11 @@ static void fly_lone_target(uint8_t gate, uint32_t measures, int k)
 
 /* ---- scores of hits and misses --------------------------------------------------------------- */
 
-static void tracks_are_confirmed_by_further_hits(void **state)
+static void coasting_tracks_are_confirmed_again_by_a_hit(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        fly_lone_target((uint8_t)gate, 0, 15);
+        start_and_fly_lone_target((uint8_t)gate, 0, 15);
         scene.pd = 0.0;
         step_tracker(15);
         assert_int_equal(report.tracks[0].status, RHO_TRACK_COASTING);
@@ -64,8 +64,8 @@ static void tracks_are_confirmed_by_further_hits(void **state)
 static double score_gain_of_plot(uint32_t measures)
 {
     double before_nat = (double)report.tracks[0].score_nat;
-    struct rho_scan scan = scan_of_plots(30);
-    struct target at = target_at(&scene.target[0], 30.0);
+    struct rho_scan scan = scan_without_plots_of_step(30);
+    struct target at = target_on_its_turning_path_at(&scene.target[0], 30.0);
     copy_objects();
     scene.measures = scan.measures = measures;
     num_plots = 0;
@@ -92,7 +92,7 @@ static void velocity_and_range_rate_add_to_the_score(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        fly_lone_target((uint8_t)gate, 0, 30);
+        start_and_fly_lone_target((uint8_t)gate, 0, 30);
         double variance = (double)report.tracks[0].sigma_mps * (double)report.tracks[0].sigma_mps;
         double place = score_gain_of_plot(0), rate = score_gain_of_plot(RHO_MEASURES_RANGE_RATE),
                velocity = score_gain_of_plot(RHO_MEASURES_VELOCITY);
@@ -107,12 +107,12 @@ static void velocity_and_range_rate_add_to_the_score(void **state)
 }
 
 /* Score of hits among so many unclaimed plots, while no initiator measures their density. */
-static double score_of_hits_among_unclaimed(uint8_t gate, unsigned strangers)
+static double mean_score_gain_of_a_hit_among_unclaimed_plots(uint8_t gate, unsigned strangers)
 {
     double score_nat = 0.0;
-    fly_lone_target(gate, 0, 10);
+    start_and_fly_lone_target(gate, 0, 10);
     for (int k = 10; k < 80; k++) {
-        struct rho_scan scan = scan_of_plots(k);
+        struct rho_scan scan = scan_without_plots_of_step(k);
         see_scan(k, k);
         for (unsigned i = 0; i < strangers; i++) {
             plots[num_plots++] = (struct rho_plot){.x_m = i % 2 ? 9e4f : -9e4f,
@@ -131,8 +131,8 @@ static void without_an_initiator_unclaimed_plots_set_the_clutter(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        double few = score_of_hits_among_unclaimed((uint8_t)gate, 4),
-               many = score_of_hits_among_unclaimed((uint8_t)gate, 40);
+        double few = mean_score_gain_of_a_hit_among_unclaimed_plots((uint8_t)gate, 4),
+               many = mean_score_gain_of_a_hit_among_unclaimed_plots((uint8_t)gate, 40);
         assert_true(fabs(few - many - log(10.0)) < 0.05);
     }
 }
@@ -140,11 +140,11 @@ static void without_an_initiator_unclaimed_plots_set_the_clutter(void **state)
 /* ---- looks elsewhere ------------------------------------------------------------------------- */
 
 /* Adds a second plot beside the target's at each of a few scans, which opens several hypotheses. */
-static void add_second_plots(int from, int to)
+static void step_scans_with_second_plots_beside_target(int from, int to)
 {
     for (int k = from; k < to; k++) {
-        struct rho_scan scan = scan_of_plots(k);
-        struct target at = target_at(&scene.target[0], k);
+        struct rho_scan scan = scan_without_plots_of_step(k);
+        struct target at = target_on_its_turning_path_at(&scene.target[0], k);
         see_scan(k, k);
         at.x_m += 35.0 * cos(2.0 * k);
         at.y_m += 35.0 * sin(2.0 * k);
@@ -158,13 +158,13 @@ static void scans_of_other_sectors_change_no_evidence(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        fly_lone_target((uint8_t)gate, 0, 15);
-        add_second_plots(15, 19);
+        start_and_fly_lone_target((uint8_t)gate, 0, 15);
+        step_scans_with_second_plots_beside_target(15, 19);
         float score_nat = report.tracks[0].score_nat;
         unsigned count = report.tracks[0].num_hypotheses;
         assert_true(gate == RHO_TRACKER_BEST ? count >= 3 : count == 1);
         for (int i = 1; i <= 6; i++) {
-            struct rho_scan scan = scan_of_plots(18);
+            struct rho_scan scan = scan_without_plots_of_step(18);
             scan.time_us += 100000 * i;
             scan.sector_from_rad = -2.0f; /* sector away from the target, which is at 2 to 3 rad */
             scan.sector_to_rad = -1.0f;
@@ -188,11 +188,11 @@ static void misses_count_where_the_target_is_predicted(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        fly_lone_target((uint8_t)gate, 0, 15);
-        struct target last = target_at(&scene.target[0], 14.0);
-        struct target next = target_at(&scene.target[0], 18.0);
+        start_and_fly_lone_target((uint8_t)gate, 0, 15);
+        struct target last = target_on_its_turning_path_at(&scene.target[0], 14.0);
+        struct target next = target_on_its_turning_path_at(&scene.target[0], 18.0);
         double from_rad = atan2(last.y_m, last.x_m), to_rad = atan2(next.y_m, next.x_m);
-        struct rho_scan scan = scan_of_plots(18);
+        struct rho_scan scan = scan_without_plots_of_step(18);
         scan.sector_from_rad = (float)((from_rad + to_rad) / 2.0);
         scan.sector_to_rad = (float)(from_rad + 0.5);
         assert_true(to_rad < from_rad - 0.05);
@@ -216,8 +216,8 @@ static void gates_of_bearings_allow_for_manoeuvres(void **state)
     (void)state;
     for (int i = 0; i < 2 * RHO_NUM_TRACKER_GATES; i++) {
         const int late_s = i % 2 ? 10 : 0;
-        fly_lone_target((uint8_t)(i / 2), 0, 15);
-        struct target at = target_at(&scene.target[0], 14.0 + late_s);
+        start_and_fly_lone_target((uint8_t)(i / 2), 0, 15);
+        struct target at = target_on_its_turning_path_at(&scene.target[0], 14.0 + late_s);
         const float x_m = (float)at.x_m, y_m = (float)at.y_m - 6000.0f;
         const struct rho_bearing bearing = {.bearing_rad = 1.5707963f + 0.1f, .sigma_rad = 1e-3f};
         const struct rho_bearing_scan look_up = {.time_us = 1000000 * (14 + late_s),
@@ -260,8 +260,8 @@ static double change_of_rho_mps(const struct rho_track *track, const double velo
 }
 
 /* The velocity of a plot, measured or from its place. */
-static void velocity_of_plot(const struct rho_plot *plot, const double expected_m[3],
-                             double velocity_mps[3])
+static void measured_or_derived_velocity_of_plot(const struct rho_plot *plot,
+                                                 const double expected_m[3], double velocity_mps[3])
 {
     const struct rho_track *track = &tracker_then.tracks[0];
     const float place_m[3] = {plot->x_m, plot->y_m, plot->z_m};
@@ -278,12 +278,12 @@ static void velocity_of_plot(const struct rho_plot *plot, const double expected_
  * Five plots in the gate, near the predicted place. Returns the paper's choice, 0 if two are
  * equally good.
  */
-static int plot_chosen_by_paper(int k)
+static int assert_choice_of_paper_and_return_if_clear(int k)
 {
     double expected_m[3], least = INFINITY, second = INFINITY;
     const float *at = report.tracks[0].state;
     int best = -1;
-    struct rho_scan scan = scan_of_plots(k);
+    struct rho_scan scan = scan_without_plots_of_step(k);
     copy_objects();
     for (int axis = 0; axis < 3; axis++) {
         expected_m[axis] = (double)at[axis] + interval_s * (double)at[3 + axis];
@@ -297,7 +297,7 @@ static int plot_chosen_by_paper(int k)
     }
     for (int i = 0; i < 5; i++) {
         double velocity_mps[3];
-        velocity_of_plot(&plots[i], expected_m, velocity_mps);
+        measured_or_derived_velocity_of_plot(&plots[i], expected_m, velocity_mps);
         double off = change_of_rho_mps(&tracker_then.tracks[0], velocity_mps,
                                        scene.measures & RHO_MEASURES_Z ? 3 : 1);
         best = off < least ? i : best;
@@ -320,10 +320,10 @@ static void the_hough_gate_takes_the_plot_of_least_rho_change(void **state)
     interval_s = 2.0;
     for (unsigned kind = 0; kind < 4; kind++) {
         int told = 0;
-        fly_lone_target(RHO_TRACKER_HOUGH, kinds[kind], 12);
+        start_and_fly_lone_target(RHO_TRACKER_HOUGH, kinds[kind], 12);
         for (int k = 12; k < 62; k++) {
             for (int i = 0; i < 4; i++) {
-                told += plot_chosen_by_paper(k);
+                told += assert_choice_of_paper_and_return_if_clear(k);
                 restore_objects(); /* undone, as taking clutter would lead the track astray */
             }
             step_tracker(k);
@@ -371,7 +371,7 @@ static void add_plot_off_both_lines(double y_m, double lower_mps, double upper_m
 }
 
 /* Two tracks, at y = 0 and 400 m, whose velocities changed nearly along x and y. */
-static struct rho_scan fly_two_tracks(uint8_t status_of_upper)
+static struct rho_scan fly_two_tracks_and_make_empty_next_scan(uint8_t status_of_upper)
 {
     set_up_scene(RHO_TRACKER_HOUGH, 77);
     config.hough_window_m = 2000.0f;
@@ -393,7 +393,7 @@ static struct rho_scan fly_two_tracks(uint8_t status_of_upper)
     }
     tracker.tracks[upper].status = status_of_upper;
     num_plots = 0;
-    return scan_of_plots(16);
+    return scan_without_plots_of_step(16);
 }
 
 /*
@@ -405,7 +405,7 @@ static void a_confirmed_track_gives_way_for_a_residual_ratio_up_to_1_1(void **st
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct rho_scan scan = fly_two_tracks(RHO_TRACK_TENTATIVE);
+        struct rho_scan scan = fly_two_tracks_and_make_empty_next_scan(RHO_TRACK_TENTATIVE);
         add_plot_off_both_lines(0.0, 10.0, 0.0);
         add_plot_off_both_lines(-1800.0, i ? 10.9 : 11.7, 0.0);
         step_with_scan(&scan, NULL);
@@ -418,12 +418,12 @@ static void a_confirmed_track_gives_way_for_a_residual_ratio_up_to_1_1(void **st
  * Between confirmed tracks the product of residuals decides, each plus 0.001 m/s: 0 and 1 m/s
  * against twice 0.031 m/s.
  */
-static void velocity_residuals_are_compared_with_a_floor_of_1_mmps(void **state)
+static void products_of_velocity_residuals_plus_1_mmps_decide(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
         const double off_mps = i ? 0.026 : 0.036;
-        struct rho_scan scan = fly_two_tracks(RHO_TRACK_CONFIRMED);
+        struct rho_scan scan = fly_two_tracks_and_make_empty_next_scan(RHO_TRACK_CONFIRMED);
         add_plot_off_both_lines(200.0, 0.0, off_mps);
         add_plot_off_both_lines(210.0, off_mps, 1.0);
         step_with_scan(&scan, NULL);
@@ -440,7 +440,7 @@ static void the_hough_gate_begins_with_the_third_velocity(void **state)
 {
     (void)state;
     for (uint8_t velocities = 2; velocities < 4; velocities++) {
-        struct rho_scan scan = fly_two_tracks(RHO_TRACK_CONFIRMED);
+        struct rho_scan scan = fly_two_tracks_and_make_empty_next_scan(RHO_TRACK_CONFIRMED);
         const float *at = tracker.tracks[lower].kalman.state;
         tracker.tracks[lower].num_velocities = velocities;
         add_plot_off_both_lines(0.0, 9.0, 1.0);
@@ -457,7 +457,7 @@ static void the_hough_gate_begins_with_the_third_velocity(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tracks_are_confirmed_by_further_hits),
+        cmocka_unit_test(coasting_tracks_are_confirmed_again_by_a_hit),
         cmocka_unit_test(velocity_and_range_rate_add_to_the_score),
         cmocka_unit_test(without_an_initiator_unclaimed_plots_set_the_clutter),
         cmocka_unit_test(scans_of_other_sectors_change_no_evidence),
@@ -465,7 +465,7 @@ int main(void)
         cmocka_unit_test(gates_of_bearings_allow_for_manoeuvres),
         cmocka_unit_test(the_hough_gate_takes_the_plot_of_least_rho_change),
         cmocka_unit_test(a_confirmed_track_gives_way_for_a_residual_ratio_up_to_1_1),
-        cmocka_unit_test(velocity_residuals_are_compared_with_a_floor_of_1_mmps),
+        cmocka_unit_test(products_of_velocity_residuals_plus_1_mmps_decide),
         cmocka_unit_test(the_hough_gate_begins_with_the_third_velocity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -56,7 +56,7 @@ static int is_plot_merged(void)
     return 1;
 }
 
-static void start_pair(uint64_t seed)
+static void start_tracker_with_pd_of_pair(uint64_t seed)
 {
     use_usual_configs(seed);
     config.pd = (float)PD;
@@ -119,7 +119,7 @@ struct pair_run {
 static struct pair_run fly_pair_together(uint64_t seed)
 {
     struct pair_run run = {.least_tracks = 2};
-    start_pair(seed);
+    start_tracker_with_pd_of_pair(seed);
     for (int k = 0; k < APPROACH + TOGETHER + PARTING; k++) {
         see_pair(SPEED_MPS * k, half_gap_m(k));
         step_at(k);
@@ -158,7 +158,7 @@ static void crossing_merged_targets_keep_their_velocities(void **state)
     double error_mps = 0.0;
     (void)state;
     for (uint64_t seed = 1; seed <= RUNS; seed++) {
-        start_pair(seed);
+        start_tracker_with_pd_of_pair(seed);
         for (int k = 0; k < 60; k++) {
             see_pair(SPEED_MPS * k, 40.0 * (k - 30));
             step_at(k);
@@ -184,7 +184,7 @@ static void crossing_merged_targets_keep_their_velocities(void **state)
  */
 static int scans_until_one_track(uint64_t seed, double apart_m)
 {
-    start_pair(seed);
+    start_tracker_with_pd_of_pair(seed);
     for (int k = 0; k < 120; k++) {
         see_one(SPEED_MPS * k, 0.0);
         if (k < 30) {
@@ -218,11 +218,11 @@ static void a_target_gone_beside_another_ends_soon(void **state)
     assert_true(longest <= 60);
 }
 
-static void a_pair_merged_forever_becomes_one_track(void **state)
+static void of_a_pair_merged_forever_one_track_falls_in_doubt(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= RUNS; seed++) {
-        start_pair(seed);
+        start_tracker_with_pd_of_pair(seed);
         int doubted = 0;
         for (int k = 0; k < 140; k++) {
             see_pair(SPEED_MPS * k, k < 30 ? 20.0 * (30 - k) : 0.0);
@@ -328,7 +328,7 @@ static void a_track_five_sigmas_away_shares_no_plot(void **state)
  * Two targets 300 m apart, 40 km from the sensor, with plots of 30 m sigma in range and 170 m
  * across. In three scans only one of them, or the middle, is seen: counts scans with a merged plot.
  */
-static unsigned count_merged_scans_apart(double along_m, double across_m, int is_one)
+static unsigned count_merged_scans_apart(double along_m, double across_m, int is_middle_seen)
 {
     unsigned shared = 0;
     use_usual_configs(1);
@@ -336,7 +336,7 @@ static unsigned count_merged_scans_apart(double along_m, double across_m, int is
     begin_tracker();
     for (int k = 0; k < 24; k++) {
         const int is_missed = k >= 20 && k < 23;
-        const double share = is_missed && is_one ? 0.5 : 0.0;
+        const double share = is_missed && is_middle_seen ? 0.5 : 0.0;
         for (int i = 0; i < 2 - is_missed; i++) {
             struct rho_plot *plot = add_plot(40000.0 - 4.0 * SPEED_MPS * k + (i + share) * along_m,
                                              (i + share) * across_m, 30.0);
@@ -368,7 +368,7 @@ static void a_merged_plot_updates_at_its_own_time(void **state)
 {
     (void)state;
     for (int offset_s = 0; offset_s <= 5; offset_s += 5) {
-        start_pair(5);
+        start_tracker_with_pd_of_pair(5);
         for (int k = 0; k < 32; k++) {
             const double x_m = SPEED_MPS * (10.0 * k + offset_s);
             const int is_one = k >= 20;
@@ -387,10 +387,10 @@ static void a_merged_plot_updates_at_its_own_time(void **state)
 }
 
 /* After two scans without any plot, the track that claims the merged plot is confirmed again. */
-static void a_merged_pair_survives_two_missed_scans(void **state)
+static void a_merged_pairs_track_is_confirmed_after_two_misses(void **state)
 {
     (void)state;
-    start_pair(6);
+    start_tracker_with_pd_of_pair(6);
     for (int k = 0; k < 30; k++) {
         for (int i = 0; i < (k < 20 ? 2 : k < 22 ? 0 : 1); i++) {
             add_plot(SPEED_MPS * 10.0 * k, k < 20 ? 60.0 * i : 30.0, SIGMA_M);
@@ -410,7 +410,7 @@ static void a_merged_pair_survives_two_missed_scans(void **state)
  */
 static double sigma_after_update(int is_shared)
 {
-    start_pair(8);
+    start_tracker_with_pd_of_pair(8);
     for (int k = 0; k < 23; k++) {
         const double x_m = SPEED_MPS * 10.0 * k;
         for (int i = 0; i < 2 && (k < 20 || (k == 22 && !is_shared)); i++) {
@@ -444,7 +444,7 @@ static void a_merged_plot_beyond_the_capacity_is_reported_by_row(void **state)
     if (!RHO_CLAIMS_BEYOND) {
         skip();
     }
-    start_pair(7);
+    start_tracker_with_pd_of_pair(7);
     for (int k = 0; k < 25; k++) {
         const double x_m = SPEED_MPS * 10.0 * k;
         for (int i = 0; i < RHO_MAX_PLOTS && k == 24; i++) {
@@ -465,14 +465,14 @@ int main(void)
         cmocka_unit_test(targets_merged_for_long_keep_their_identities),
         cmocka_unit_test(crossing_merged_targets_keep_their_velocities),
         cmocka_unit_test(a_target_gone_beside_another_ends_soon),
-        cmocka_unit_test(a_pair_merged_forever_becomes_one_track),
+        cmocka_unit_test(of_a_pair_merged_forever_one_track_falls_in_doubt),
         cmocka_unit_test(only_established_tracks_share_a_merged_plot),
         cmocka_unit_test(two_tracks_at_most_share_a_plot),
         cmocka_unit_test(resolved_targets_share_no_plot),
         cmocka_unit_test(a_track_five_sigmas_away_shares_no_plot),
         cmocka_unit_test(targets_resolved_in_range_share_no_plot),
         cmocka_unit_test(a_merged_plot_updates_at_its_own_time),
-        cmocka_unit_test(a_merged_pair_survives_two_missed_scans),
+        cmocka_unit_test(a_merged_pairs_track_is_confirmed_after_two_misses),
         cmocka_unit_test(a_merged_plot_counts_with_root_2_the_noise),
         cmocka_unit_test(a_merged_plot_beyond_the_capacity_is_reported_by_row),
     };

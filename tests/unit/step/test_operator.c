@@ -16,7 +16,7 @@ static void an_operator_starts_a_track_at_a_place(void **state)
     (void)state;
     prepare_tracker();
     assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
-    const struct rho_track_report *track = track_near(6000.0);
+    const struct rho_track_report *track = only_track_within_200_m(6000.0);
     assert_non_null(track);
     assert_int_equal(track->status, RHO_TRACK_CONFIRMED);
     assert_int_equal(track->track_id, 3);
@@ -26,9 +26,9 @@ static void an_operator_starts_a_track_at_a_place(void **state)
     assert_true(rho_tracker_is_sound(&tracker));
     for (int i = 0; i < 3; i++) {
         add_noisy_plot(500.0 + 50.0 * (i + 1), 6000.0, 10.0);
-        see_flights(next_k++, 1);
-        assert_int_equal(track_near(6000.0)->track_id, 3);
-        assert_int_equal(track_near(6000.0)->hits, i + 2);
+        step_scan_of_flights(next_k++, 1);
+        assert_int_equal(only_track_within_200_m(6000.0)->track_id, 3);
+        assert_int_equal(only_track_within_200_m(6000.0)->hits, i + 2);
     }
     assert_int_equal(report.num_tracks, 3);
 }
@@ -40,11 +40,11 @@ static void a_track_started_by_hand_ends_without_plots(void **state)
     (void)state;
     prepare_tracker();
     assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
-    assert_true(track_near(6000.0)->sigma_mps > 100.0f);
+    assert_true(only_track_within_200_m(6000.0)->sigma_mps > 100.0f);
     run_scans(config.coast_scans_max - 1, 1);
-    assert_non_null(track_near(6000.0));
+    assert_non_null(only_track_within_200_m(6000.0));
     run_scans(1, 1);
-    assert_null(track_near(6000.0));
+    assert_null(only_track_within_200_m(6000.0));
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], 3);
 }
@@ -114,8 +114,8 @@ static void an_operator_drops_one_track(void **state)
 {
     (void)state;
     prepare_tracker();
-    const uint32_t lost = track_near(2000.0)->track_id;
-    const uint32_t kept = track_near(-2000.0)->track_id;
+    const uint32_t lost = only_track_within_200_m(2000.0)->track_id;
+    const uint32_t kept = only_track_within_200_m(-2000.0)->track_id;
     assert_int_equal(rho_tracker_drop_track(&tracker, lost, &report), RHO_OK);
     assert_int_equal(report.num_tracks, 1);
     assert_int_equal(report.tracks[0].track_id, kept);
@@ -131,8 +131,8 @@ static void an_operator_drops_one_track(void **state)
     assert_int_equal(rho_tracker_drop_track(&tracker, kept, NULL), RHO_ERROR_NULL);
     check_unchanged();
     run_scans(8, 1); /* its target is found again and gets another identity */
-    assert_int_equal(track_near(2000.0)->track_id, 3);
-    assert_int_equal(track_near(-2000.0)->track_id, kept);
+    assert_int_equal(only_track_within_200_m(2000.0)->track_id, 3);
+    assert_int_equal(only_track_within_200_m(-2000.0)->track_id, kept);
 }
 
 /* If the report's list of ended tracks is full, the track stays. */
@@ -156,26 +156,26 @@ static void an_operator_renumbers_a_track_upwards_and_back(void **state)
 {
     (void)state;
     prepare_tracker();
-    const uint32_t old_id = track_near(2000.0)->track_id, other_id = 3 - old_id;
+    const uint32_t old_id = only_track_within_200_m(2000.0)->track_id, other_id = 3 - old_id;
     assert_int_equal(rho_tracker_renumber_track(&tracker, old_id, 40, &report), RHO_OK);
-    assert_int_equal(track_near(2000.0)->track_id, 40);
-    assert_int_equal(track_near(-2000.0)->track_id, other_id);
+    assert_int_equal(only_track_within_200_m(2000.0)->track_id, 40);
+    assert_int_equal(only_track_within_200_m(-2000.0)->track_id, other_id);
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], old_id);
     assert_int_equal(tracker.counters.tracks_ended, 0);
     run_scans(4, 1); /* each step checks that tracks are in order of identity */
-    assert_int_equal(track_near(2000.0)->track_id, 40);
-    assert_int_equal(track_near(2000.0)->hits, track_near(-2000.0)->hits);
+    assert_int_equal(only_track_within_200_m(2000.0)->track_id, 40);
+    assert_int_equal(only_track_within_200_m(2000.0)->hits, only_track_within_200_m(-2000.0)->hits);
     assert_int_equal(rho_tracker_renumber_track(&tracker, 40, old_id, &report), RHO_OK);
     assert_int_equal(report.tracks[0].track_id, 1);
     assert_int_equal(report.tracks[1].track_id, 2);
     assert_true(rho_tracker_is_sound(&tracker));
     run_scans(4, 1);
-    assert_int_equal(track_near(2000.0)->track_id, old_id);
+    assert_int_equal(only_track_within_200_m(2000.0)->track_id, old_id);
     /* no later track gets an identity given by hand */
     assert_int_equal(rho_tracker_drop_track(&tracker, old_id, &report), RHO_OK);
     run_scans(8, 1);
-    assert_int_equal(track_near(2000.0)->track_id, 41);
+    assert_int_equal(only_track_within_200_m(2000.0)->track_id, 41);
 }
 
 static void identities_in_use_are_refused(void **state)
@@ -220,13 +220,13 @@ static void a_frozen_track_coasts_until_it_is_thawed(void **state)
 {
     (void)state;
     prepare_tracker();
-    const uint32_t frozen = track_near(2000.0)->track_id;
-    const uint16_t hits = track_near(2000.0)->hits;
+    const uint32_t frozen = only_track_within_200_m(2000.0)->track_id;
+    const uint16_t hits = only_track_within_200_m(2000.0)->hits;
     assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 1, &report), RHO_OK);
-    assert_int_equal(track_near(2000.0)->status, RHO_TRACK_COASTING);
-    assert_int_equal(track_near(2000.0)->plot, -1);
+    assert_int_equal(only_track_within_200_m(2000.0)->status, RHO_TRACK_COASTING);
+    assert_int_equal(only_track_within_200_m(2000.0)->plot, -1);
     run_scans(4 * config.coast_scans_max, 0);
-    const struct rho_track_report *track = track_near(2000.0);
+    const struct rho_track_report *track = only_track_within_200_m(2000.0);
     assert_non_null(track);
     assert_int_equal(track->track_id, frozen);
     assert_int_equal(track->hits, hits);
@@ -246,8 +246,8 @@ static void a_frozen_track_takes_no_plots(void **state)
 {
     (void)state;
     prepare_tracker();
-    const uint32_t frozen = track_near(2000.0)->track_id;
-    const uint16_t hits = track_near(2000.0)->hits;
+    const uint32_t frozen = only_track_within_200_m(2000.0)->track_id;
+    const uint16_t hits = only_track_within_200_m(2000.0)->hits;
     assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 1, &report), RHO_OK);
     run_scans(3, 1);
     assert_int_equal(report_of(frozen)->hits, hits);
@@ -259,7 +259,7 @@ static void a_frozen_track_takes_no_plots(void **state)
     assert_null(report_of(frozen));
 }
 
-static void freezing_a_track_leaves_others_alone(void **state)
+static void refused_freezes_change_nothing(void **state)
 {
     (void)state;
     prepare_tracker();
@@ -287,7 +287,7 @@ static void frames_of_bearings_leave_frozen_tracks_alone(void **state)
     (void)state;
     for (int is_frozen = 0; is_frozen < 2; is_frozen++) {
         prepare_tracker();
-        const struct rho_track_report before = *track_near(2000.0);
+        const struct rho_track_report before = *only_track_within_200_m(2000.0);
         if (is_frozen) {
             assert_int_equal(rho_tracker_freeze_track(&tracker, before.track_id, 1, &report),
                              RHO_OK);
@@ -330,7 +330,7 @@ static void random_commands_keep_the_tracker_sound(void **state)
             const double x_m = uniform(-5000.0, 5000.0);
             (void)add_plot(x_m, 5000.0, 10.0);
         }
-        see_flights(next_k++, i % 3 != 0);
+        step_scan_of_flights(next_k++, i % 3 != 0);
         const uint32_t id = 1 + (uint32_t)uniform(0.0, 6.0);
         const struct rho_operator_start start = {
             .x_m = 100.0f * (float)i, .y_m = -7000.0f, .sigma_m = 100.0f};
@@ -361,7 +361,7 @@ int main(void)
         cmocka_unit_test(evidence_is_kept_for_tracks_that_keep_their_row),
         cmocka_unit_test(a_frozen_track_coasts_until_it_is_thawed),
         cmocka_unit_test(a_frozen_track_takes_no_plots),
-        cmocka_unit_test(freezing_a_track_leaves_others_alone),
+        cmocka_unit_test(refused_freezes_change_nothing),
         cmocka_unit_test(frames_of_bearings_leave_frozen_tracks_alone),
         cmocka_unit_test(random_commands_keep_the_tracker_sound),
     };

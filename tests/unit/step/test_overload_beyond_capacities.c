@@ -66,7 +66,7 @@ static void expect_first_targets_tracked(int k)
     }
 }
 
-static void start_overload(uint8_t gate)
+static void start_tracker_for_overload(uint8_t gate)
 {
     use_usual_configs(11);
     config.gate = gate;
@@ -79,7 +79,7 @@ static void overload_keeps_existing_tracks_and_is_counted(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        start_overload((uint8_t)gate);
+        start_tracker_for_overload((uint8_t)gate);
         track_first_targets();
         const struct rho_tracker_counters then = tracker.counters;
         for (int k = QUIET; k < SCANS; k++) {
@@ -107,7 +107,7 @@ static void overload_keeps_existing_tracks_and_is_counted(void **state)
 static void hypotheses_cut_in_crowds_are_counted(void **state)
 {
     (void)state;
-    start_overload(RHO_TRACKER_BEST);
+    start_tracker_for_overload(RHO_TRACKER_BEST);
     track_first_targets();
     for (int k = QUIET; k < QUIET + 12; k++) {
         for (int i = 0; i < FIRST; i++) {
@@ -131,7 +131,7 @@ static void within_capacity_no_loss_is_counted(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-        start_overload((uint8_t)gate);
+        start_tracker_for_overload((uint8_t)gate);
         track_first_targets();
         assert_int_equal(tracker.counters.tracks_no_room, 0);
         assert_int_equal(tracker.counters.candidates_dropped, 0);
@@ -150,7 +150,7 @@ static void within_capacity_no_loss_is_counted(void **state)
 static unsigned count_confirmed_tracks_replaced(uint32_t gone, int late)
 {
     unsigned ended = 0;
-    start_overload(RHO_TRACKER_BEST);
+    start_tracker_for_overload(RHO_TRACKER_BEST);
     for (int k = 0; k < 9; k++) {
         for (uint32_t i = 0; i < RHO_MAX_TRACKS; i++) {
             if (k < 5 || i >= gone) {
@@ -203,7 +203,7 @@ static void tracks_find_plots_beyond_the_capacity(void **state)
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
         unsigned there = 0;
-        start_overload((uint8_t)gate);
+        start_tracker_for_overload((uint8_t)gate);
         track_first_targets();
         for (int k = QUIET; k < SCANS; k++) {
             /* the targets' plots: in the second part, in the third, across both */
@@ -224,7 +224,7 @@ static void tracks_find_plots_beyond_the_capacity(void **state)
 static void claimed_plots_beyond_the_capacity_are_reported_by_row(void **state)
 {
     (void)state;
-    start_overload(RHO_TRACKER_BEST);
+    start_tracker_for_overload(RHO_TRACKER_BEST);
     track_first_targets();
     see_targets_last(QUIET, RHO_MAX_PLOTS + 50);
     step_at(2.0 * QUIET);
@@ -245,7 +245,7 @@ static void tracks_of_gone_targets_end_in_overfull_scans(void **state)
 {
     (void)state;
     unsigned believed = 0;
-    start_overload(RHO_TRACKER_BEST);
+    start_tracker_for_overload(RHO_TRACKER_BEST);
     track_first_targets();
     for (int k = QUIET; k < QUIET + 20; k++) {
         for (int band = 0; band < 4; band++) {
@@ -269,7 +269,7 @@ static void tracks_of_gone_targets_end_in_overfull_scans(void **state)
 static void plots_beyond_four_times_the_capacity_are_ignored(void **state)
 {
     (void)state;
-    start_overload(RHO_TRACKER_BEST);
+    start_tracker_for_overload(RHO_TRACKER_BEST);
     track_first_targets();
     see_clutter(RHO_MAX_PLOTS + 10);
     plots[RHO_MAX_PLOTS + 3].x_m = NAN;

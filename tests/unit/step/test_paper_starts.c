@@ -219,7 +219,7 @@ static void the_same_scans_give_the_same_bytes(void **state)
     assert_memory_equal(&starts_then.window, &starts.window, sizeof starts.window);
 }
 
-static void bad_calls_are_refused(void **state)
+static void bad_calls_of_paper_starts_are_refused(void **state)
 {
     (void)state;
     begin_with_method(RHO_HOUGH_IHT);
@@ -302,7 +302,7 @@ static void lines_from_bearings_start_tracks(void **state)
     }
 }
 
-static void bad_frames_are_refused(void **state)
+static void bad_calls_of_passive_paper_are_refused(void **state)
 {
     (void)state;
     const struct rho_frame frame = make_frame(0);
@@ -321,7 +321,7 @@ static void bad_frames_are_refused(void **state)
     assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_ERROR_STATE);
 }
 
-static void bad_estimates_start_no_track(void **state)
+static void bad_estimates_given_by_a_caller_start_no_track(void **state)
 {
     (void)state;
     struct rho_kalman estimate;
@@ -385,10 +385,10 @@ int main(void)
         cmocka_unit_test(lines_without_a_new_plot_start_nothing),
         cmocka_unit_test(a_line_takes_plots_within_three_sigmas_of_its_motion),
         cmocka_unit_test(the_same_scans_give_the_same_bytes),
-        cmocka_unit_test(bad_calls_are_refused),
+        cmocka_unit_test(bad_calls_of_paper_starts_are_refused),
         cmocka_unit_test(lines_from_bearings_start_tracks),
-        cmocka_unit_test(bad_frames_are_refused),
-        cmocka_unit_test(bad_estimates_start_no_track),
+        cmocka_unit_test(bad_calls_of_passive_paper_are_refused),
+        cmocka_unit_test(bad_estimates_given_by_a_caller_start_no_track),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

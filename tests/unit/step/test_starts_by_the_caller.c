@@ -181,7 +181,7 @@ static void a_caller_may_start_tracks_by_a_hough_transform(void **state)
 static struct rho_track_plot three[3];
 
 /* Three plots of a target, and a step at the time of the last one. */
-static void see_three_plots(void)
+static void start_tracker_and_step_third_of_three_plots(void)
 {
     use_usual_configs(4);
     begin_tracker();
@@ -215,7 +215,7 @@ static void expect_start_refused(enum rho_status status, int32_t score_mnat)
 static void refused_starts_change_nothing(void **state)
 {
     (void)state;
-    see_three_plots();
+    start_tracker_and_step_third_of_three_plots();
     assert_int_equal(rho_tracker_start_track(NULL, three, 3, 0, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_start_track(&tracker, NULL, 3, 0, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_start_track(&tracker, three, 3, 0, NULL), RHO_ERROR_NULL);
@@ -247,7 +247,7 @@ static void refused_starts_change_nothing(void **state)
 static void a_full_tracker_replaces_its_lowest_tentative_track(void **state)
 {
     (void)state;
-    see_three_plots();
+    start_tracker_and_step_third_of_three_plots();
     for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
         assert_int_equal(
             rho_tracker_start_track(&tracker, three, 3, -1000 - (int32_t)(i % 3), &report), RHO_OK);

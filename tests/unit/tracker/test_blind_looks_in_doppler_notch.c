@@ -32,8 +32,8 @@ static void start_tracker(float v_max_mps, float accel_max_mps2, float v_min_mps
  * Adds a plot if the range rate over ground is outside the notch of `true_notch_mps`. Returns
  * whether it did.
  */
-static int see_if_outside_notch(double t_s, double x_m, double y_m, double vx_mps, double vy_mps,
-                                double sigma_m, double true_notch_mps)
+static int add_plot_if_outside_notch_and_step(double t_s, double x_m, double y_m, double vx_mps,
+                                              double vy_mps, double sigma_m, double true_notch_mps)
 {
     const double dx_m = x_m - (double)radar.x_m, dy_m = y_m - (double)radar.y_m;
     const double rate_mps = (dx_m * vx_mps + dy_m * vy_mps) / hypot(dx_m, dy_m);
@@ -73,9 +73,9 @@ static struct passage fly_past_radar(double platform_mps)
         const double t_s = 4.0 * k;
         radar.x_m = (float)(platform_mps * (t_s - 220.0));
         assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
-        note_passage(
-            &passage, k,
-            see_if_outside_notch(t_s, 75.0 * (t_s - 220.0), 12000.0, 75.0, 0.0, 30.0, 12.0));
+        note_passage(&passage, k,
+                     add_plot_if_outside_notch_and_step(t_s, 75.0 * (t_s - 220.0), 12000.0, 75.0,
+                                                        0.0, 30.0, 12.0));
     }
     return passage;
 }
@@ -106,7 +106,7 @@ static void an_aircraft_in_an_undeclared_notch_is_lost(void **state)
  * A radar flying beside the aircraft sees it in the notch by the range rate over ground, without
  * its own motion.
  */
-static void the_notch_follows_a_moving_radar(void **state)
+static void the_notch_of_a_moving_radar_is_of_rates_over_ground(void **state)
 {
     (void)state;
     start_tracker(350.0f, 20.0f, 30.0f);
@@ -133,7 +133,8 @@ static struct passage fly_stopping_car(double for_s, float *off_m)
             v_mps = v_mps > 0.0 ? 0.0 : v_mps < -14.0 ? -14.0 : v_mps;
             x_m += 0.05 * v_mps;
         }
-        note_passage(&passage, k, see_if_outside_notch(0.05 * k, x_m, 3.0, v_mps, 0.0, 0.3, 0.3));
+        note_passage(&passage, k,
+                     add_plot_if_outside_notch_and_step(0.05 * k, x_m, 3.0, v_mps, 0.0, 0.3, 0.3));
         if (stood_s > 0.0 && stood_s < for_s && report.num_tracks > 0) {
             const float *at = report.tracks[0].state;
             *off_m = fmaxf(*off_m, hypotf(at[0] - (float)x_m, at[1] - 3.0f));
@@ -166,18 +167,20 @@ static void a_track_in_the_notch_ends_after_minutes(void **state)
     start_tracker(40.0f, 6.0f, 0.0f);
     describe_radar(0.3f, 0.0f);
     for (; k < 100; k++) {
-        (void)see_if_outside_notch(0.5 * k, 150.0 - 0.5 * k, 3.0, -1.0, 0.0, 0.3, 0.3);
+        (void)add_plot_if_outside_notch_and_step(0.5 * k, 150.0 - 0.5 * k, 3.0, -1.0, 0.0, 0.3,
+                                                 0.3);
     }
     /* the car stops within one look */
     for (; k < 106; k++) {
-        (void)see_if_outside_notch(0.5 * k, 100.0 - 0.2 * (k - 100), 3.0, -0.4, 0.0, 0.1, 0.3);
+        (void)add_plot_if_outside_notch_and_step(0.5 * k, 100.0 - 0.2 * (k - 100), 3.0, -0.4, 0.0,
+                                                 0.1, 0.3);
     }
     for (; k < 106 + 560; k++) {
-        (void)see_if_outside_notch(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
+        (void)add_plot_if_outside_notch_and_step(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
     }
     assert_int_equal(report.num_tracks, 1);
     for (; k < 106 + 700; k++) {
-        (void)see_if_outside_notch(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
+        (void)add_plot_if_outside_notch_and_step(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
     }
     assert_int_equal(report.num_tracks, 0);
 }
@@ -190,8 +193,8 @@ static void a_gone_target_outside_the_notch_ends(void **state)
         start_tracker(350.0f, 20.0f, 30.0f);
         describe_radar(12.0f, blind ? 40.0f : 0.0f);
         for (int k = 0; k < 40; k++) {
-            (void)see_if_outside_notch(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0,
-                                       k < 24 ? 0.0 : 1e9);
+            (void)add_plot_if_outside_notch_and_step(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0,
+                                                     30.0, k < 24 ? 0.0 : 1e9);
         }
         /*
          * 75 m/s is within 12 m/s of a multiple of 40 m/s: misses do not show that the target has
@@ -208,7 +211,8 @@ static double score_gain_of_plot_nat(int is_blind)
     start_tracker(350.0f, 20.0f, 30.0f);
     describe_radar(0.0f, 0.0f);
     for (int k = 0; k < 20; k++) {
-        (void)see_if_outside_notch(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0, 0.0);
+        (void)add_plot_if_outside_notch_and_step(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0,
+                                                 0.0);
         if (k == 18) {
             before_nat = (double)report.tracks[0].score_nat;
             describe_radar(is_blind ? 12.0f : 0.0f, is_blind ? 37.5f : 0.0f);
@@ -260,7 +264,8 @@ static void clutter_in_the_gate_ends_coasting_in_the_notch(void **state)
         start_tracker(350.0f, 20.0f, 30.0f);
         describe_radar(12.0f, 37.5f);
         for (int k = 0; k < 12; k++) {
-            (void)see_if_outside_notch(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0, 0.0);
+            (void)add_plot_if_outside_notch_and_step(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0,
+                                                     30.0, 0.0);
         }
         for (int k = 12; k < 80 && report.tracks[0].misses == 0; k++) {
             before = clutter_plots_in_gate();
@@ -274,7 +279,7 @@ static void clutter_in_the_gate_ends_coasting_in_the_notch(void **state)
 /*
  * Aircraft on straight courses past the radar, new ones following: range rates of -190 .. 190 m/s.
  */
-static void see_flights_past_radar(int k)
+static void step_flights_past_radar(int k)
 {
     for (int i = 0; i < 12; i++) {
         const int life = (k + 7 * i) / 40, age = (k + 7 * i) % 40;
@@ -294,7 +299,7 @@ static void see_flights_past_radar(int k)
  * P_D is learned outside the notches. Undeclared blind speeds make the sensor suspect; a notch at
  * rest is found a few times, is refuted, and is given up.
  */
-static void a_radar_with_a_notch_is_not_suspect(void **state)
+static void pd_is_learned_outside_declared_notches(void **state)
 {
     struct rho_tracker_known known;
     (void)state;
@@ -302,7 +307,7 @@ static void a_radar_with_a_notch_is_not_suspect(void **state)
         start_tracker(350.0f, 20.0f, 30.0f);
         describe_radar(is_told ? 12.0f : 0.0f, is_told ? 60.0f : 0.0f);
         for (int k = 0; k < 600; k++) {
-            see_flights_past_radar(k);
+            step_flights_past_radar(k);
         }
         assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
         assert_true(known.looks > 500);
@@ -328,11 +333,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_aircraft_in_the_notch_keeps_its_track),
         cmocka_unit_test(an_aircraft_in_an_undeclared_notch_is_lost),
-        cmocka_unit_test(the_notch_follows_a_moving_radar),
+        cmocka_unit_test(the_notch_of_a_moving_radar_is_of_rates_over_ground),
         cmocka_unit_test(a_stopped_car_in_the_notch_keeps_its_track),
         cmocka_unit_test(a_track_in_the_notch_ends_after_minutes),
         cmocka_unit_test(a_gone_target_outside_the_notch_ends),
-        cmocka_unit_test(a_radar_with_a_notch_is_not_suspect),
+        cmocka_unit_test(pd_is_learned_outside_declared_notches),
         cmocka_unit_test(bad_notches_are_refused),
         cmocka_unit_test(a_plot_of_a_blind_look_adds_less_score),
         cmocka_unit_test(clutter_in_the_gate_ends_coasting_in_the_notch),

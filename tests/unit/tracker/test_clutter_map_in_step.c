@@ -195,7 +195,7 @@ static void an_echo_takes_a_plot_of_weight_above_0_3(void **state)
 }
 
 /* Sums of range rates are halved at a thousand plots. */
-static void range_rate_sums_are_halved_at_1000_plots(void **state)
+static void range_rate_sums_of_the_clutter_map_are_halved_at_1000(void **state)
 {
     static const float before[] = {999.0f, 1000.0f}, after[] = {1000.0f, 501.0f};
     (void)state;
@@ -257,7 +257,7 @@ static int do_twelve_hits_make_a_target(uint16_t hits, float v_min_mps, float mo
     return rho_tracker_is_known_moving_target(track);
 }
 
-static void tracks_of_targets_unlearn_their_echoes(void **state)
+static void tracks_of_12_hits_that_moved_are_known_moving_targets(void **state)
 {
     (void)state;
     assert_false(do_twelve_hits_make_a_target(11, 30.0f, 0.0f));
@@ -323,9 +323,9 @@ int main(void)
         cmocka_unit_test(range_rates_scale_the_density_of_an_echo),
         cmocka_unit_test(an_echo_of_uncertain_place_is_dropped),
         cmocka_unit_test(an_echo_takes_a_plot_of_weight_above_0_3),
-        cmocka_unit_test(range_rate_sums_are_halved_at_1000_plots),
+        cmocka_unit_test(range_rate_sums_of_the_clutter_map_are_halved_at_1000),
         cmocka_unit_test(sensors_silent_for_a_minute_do_not_count),
-        cmocka_unit_test(tracks_of_targets_unlearn_their_echoes),
+        cmocka_unit_test(tracks_of_12_hits_that_moved_are_known_moving_targets),
         cmocka_unit_test(a_strobe_has_more_than_eight_plots),
         cmocka_unit_test(a_strobe_has_six_times_the_plots_of_other_directions),
         cmocka_unit_test(a_strobe_covers_six_eighths_of_the_range),

@@ -158,17 +158,17 @@ static void step_radar_scan(int which, double from_rad, double to_rad)
                           .sector_to_rad = (float)(says ? remainder(last_rad, 2.0 * PI) : 0.0)});
 }
 
-static int is_believed(const struct rho_track_report *track)
+static int is_confirmed_or_coasting(const struct rho_track_report *track)
 {
     return track->status == RHO_TRACK_CONFIRMED || track->status == RHO_TRACK_COASTING;
 }
 
-static const struct rho_track_report *believed_track_near(const struct target *target,
-                                                          double most_m)
+static const struct rho_track_report *
+first_confirmed_or_coasting_track_within(const struct target *target, double most_m)
 {
     for (unsigned i = 0; i < report.num_tracks; i++) {
         const struct rho_track_report *track = &report.tracks[i];
-        if (is_believed(track) &&
+        if (is_confirmed_or_coasting(track) &&
             hypot((double)track->state[0] - target_x_m(target, now_s),
                   (double)track->state[1] - target_y_m(target, now_s)) < most_m) {
             return track;
@@ -197,15 +197,17 @@ static void tally_false_and_missing_tracks_of_report(double range_m, double turn
                                   0.0125 * range_m + 3.0 * (double)track->sigma_m;
         }
         const double speed_mps = hypot((double)track->state[3], (double)track->state[4]);
-        tally.rows += is_believed(track);
-        tally.false_rows += is_believed(track) && !has_target;
-        tally.fast_rows += is_believed(track) && speed_mps > 1.1 * (double)config.v_max_mps;
+        tally.rows += is_confirmed_or_coasting(track);
+        tally.false_rows += is_confirmed_or_coasting(track) && !has_target;
+        tally.fast_rows +=
+            is_confirmed_or_coasting(track) && speed_mps > 1.1 * (double)config.v_max_mps;
     }
     for (int k = 0; k < num_targets; k++) {
         if (is_seen_by_any_radar(&targets[k], now_s, 0.97) &&
             is_seen_by_any_radar(&targets[k], now_s - 6.0 * turn_s, 0.97)) {
             tally.present++;
-            tally.missing += !believed_track_near(&targets[k], 0.0125 * range_m);
+            tally.missing +=
+                !first_confirmed_or_coasting_track_within(&targets[k], 0.0125 * range_m);
         }
     }
 }
@@ -241,11 +243,11 @@ static void add_leaving_targets(int count, double range_m, double speed_mps)
     }
 }
 
-static unsigned count_believed(void)
+static unsigned count_confirmed_or_coasting_tracks(void)
 {
     unsigned count = 0;
     for (unsigned i = 0; i < report.num_tracks; i++) {
-        count += is_believed(&report.tracks[i]);
+        count += is_confirmed_or_coasting(&report.tracks[i]);
     }
     return count;
 }
@@ -271,7 +273,7 @@ static void expect_no_track_after(const char *what, uint64_t seed, double speed_
     step_all_until(300.0 + EMPTY_S);
     print_tally(what);
     assert_true(tracker.counters.tracks_confirmed >= 6);
-    assert_int_equal(count_believed(), 0);
+    assert_int_equal(count_confirmed_or_coasting_tracks(), 0);
     for (unsigned i = 0; i < report.num_tracks; i++) {
         assert_true(report.tracks[i].track_id >= newest);
     }
@@ -370,14 +372,16 @@ static void tracks_survive_a_minute_without_the_radar(void **state)
             add_crossing_targets(20, 120e3);
             step_all_until(100.0);
             for (int i = 0; i < num_targets; i++) {
-                const struct rho_track_report *track = believed_track_near(&targets[i], 1500.0);
+                const struct rho_track_report *track =
+                    first_confirmed_or_coasting_track_within(&targets[i], 1500.0);
                 ids[i] = track ? track->track_id : 0;
             }
             now_s += 60.0;
             memset(&tally, 0, sizeof tally);
             step_all_until(now_s + 16.0);
             for (int i = 0; i < num_targets; i++) {
-                const struct rho_track_report *track = believed_track_near(&targets[i], 1500.0);
+                const struct rho_track_report *track =
+                    first_confirmed_or_coasting_track_within(&targets[i], 1500.0);
                 kept += track && track->track_id == ids[i];
                 found += track != NULL;
                 all++;
@@ -462,7 +466,7 @@ static void a_target_missed_after_a_radar_pause_keeps_its_track(void **state)
  * A target seen in so many scans, then missed in so many. Returns the track's identity before the
  * misses.
  */
-static uint32_t identity_after_misses(int seen, int missed, double *t_s)
+static uint32_t see_then_miss_target_and_return_track_id(int seen, int missed, double *t_s)
 {
     start_scene(7, 30.0, 350.0, 20.0);
     for (int k = 0; k < seen; k++, *t_s += 4.0) {
@@ -488,7 +492,7 @@ static void an_established_target_hidden_for_a_while_keeps_its_identity(void **s
     radars[0] = radar_of_80_km();
     for (int missed = 9; missed <= 12; missed++) {
         double t_s = 0.0;
-        const uint32_t id = identity_after_misses(24, missed, &t_s);
+        const uint32_t id = see_then_miss_target_and_return_track_id(24, missed, &t_s);
         assert_int_equal(report_of(id) != NULL, missed < 12);
         for (int k = 0; k < 3; k++, t_s += 4.0) {
             step_scan_of_one_target(t_s, 1, 6);
@@ -497,9 +501,9 @@ static void an_established_target_hidden_for_a_while_keeps_its_identity(void **s
         assert_true(missed == 12 || report_of(id)->status == RHO_TRACK_CONFIRMED);
     }
     double t_s = 0.0;
-    assert_non_null(report_of(identity_after_misses(12, 4, &t_s)));
+    assert_non_null(report_of(see_then_miss_target_and_return_track_id(12, 4, &t_s)));
     t_s = 0.0;
-    assert_null(report_of(identity_after_misses(12, 5, &t_s)));
+    assert_null(report_of(see_then_miss_target_and_return_track_id(12, 5, &t_s)));
 }
 
 /* One of two radars is switched off for good; the other one sees none or some of its targets. */
@@ -552,7 +556,8 @@ static void after_ten_silent_minutes_no_old_track_is_left(void **state)
             now_s += EMPTY_S;
             step_all_until(now_s + 4.0);
             for (unsigned i = 0; i < report.num_tracks; i++) {
-                assert_false(is_believed(&report.tracks[i]) && report.tracks[i].track_id < newest);
+                assert_false(is_confirmed_or_coasting(&report.tracks[i]) &&
+                             report.tracks[i].track_id < newest);
             }
             step_all_until(now_s + 16.0);
             for (unsigned i = 0; i < report.num_tracks; i++) {
@@ -696,7 +701,7 @@ static void tracks_faster_than_v_max_end_soon(void **state)
         add_plot(x_m, 10e3, 30.0);
         step_at(t_s);
         if (300.0 + 10.0 * pulls_s > 1.3 * 350.0) {
-            rows += count_believed() > 0;
+            rows += count_confirmed_or_coasting_tracks() > 0;
         }
     }
     print_message("%d rows of the one that is too fast\n", rows);

@@ -23,7 +23,7 @@ static void step_scans(int from, int to)
     }
 }
 
-static enum rho_track_status status_of_first_track(void)
+static enum rho_track_status status_of_track_1(void)
 {
     const struct rho_track_report *first = report_of(1);
     return first ? first->status : RHO_TRACK_FREE;
@@ -40,7 +40,7 @@ static void a_track_in_doubt_comes_back_with_its_identity(void **state)
         step_scans(0, LAST);
         for (int k = LAST; k < LAST + misses; k++) {
             step_at(SCAN_S * k);
-            assert_int_equal(status_of_first_track(),
+            assert_int_equal(status_of_track_1(),
                              k < LAST + 2 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
         }
         step_scans(LAST + misses, LAST + misses + 3);
@@ -64,7 +64,7 @@ static void a_doubted_track_that_ends_is_reported_as_ended(void **state)
         step_at(SCAN_S * k);
         assert_int_equal(report.num_ended, 0);
     }
-    assert_int_equal(status_of_first_track(), RHO_TRACK_TENTATIVE);
+    assert_int_equal(status_of_track_1(), RHO_TRACK_TENTATIVE);
     step_at(SCAN_S * (LAST + 4));
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(report.num_ended, 1);
@@ -116,13 +116,13 @@ static void misses_of_a_low_pd_sensor_raise_no_doubt(void **state)
     initiation.pd = 0.5f;
     begin_tracker();
     step_scans(0, LAST);
-    assert_int_equal(status_of_first_track(), RHO_TRACK_CONFIRMED);
+    assert_int_equal(status_of_track_1(), RHO_TRACK_CONFIRMED);
     for (int k = LAST; k < LAST + 4; k++) {
         step_at(SCAN_S * k);
-        assert_int_equal(status_of_first_track(), RHO_TRACK_COASTING);
+        assert_int_equal(status_of_track_1(), RHO_TRACK_COASTING);
     }
     step_at(SCAN_S * (LAST + 4));
-    assert_int_equal(status_of_first_track(), RHO_TRACK_FREE);
+    assert_int_equal(status_of_track_1(), RHO_TRACK_FREE);
     assert_int_equal(report.num_ended, 1);
 }
 
@@ -302,7 +302,7 @@ static void a_steady_s_shorter_than_manoeuvres_has_no_effect(void **state)
 
 /* ---- standing objects ------------------------------------------------------------------------ */
 
-static void standing_objects_are_no_targets_above_v_min(void **state)
+static void tracks_that_come_to_a_stand_end_above_v_min(void **state)
 {
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
@@ -360,7 +360,7 @@ int main(void)
         cmocka_unit_test(steady_s_out_of_range_is_refused),
         cmocka_unit_test(steady_s_improves_straight_flight_and_keeps_turns),
         cmocka_unit_test(a_steady_s_shorter_than_manoeuvres_has_no_effect),
-        cmocka_unit_test(standing_objects_are_no_targets_above_v_min),
+        cmocka_unit_test(tracks_that_come_to_a_stand_end_above_v_min),
         cmocka_unit_test(v_min_out_of_range_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

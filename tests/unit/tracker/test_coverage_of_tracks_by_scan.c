@@ -63,7 +63,7 @@ static void step_plot(struct rho_initiator *with, int32_t sensor_id, int64_t tim
  * Thirty scans of a weaving target; one scan of the other sensor after every `every` scans, 0:
  * none.
  */
-static struct rho_track_report fly_weaving_target(uint8_t gate, int every)
+static struct rho_track_report fly_weaving_target(uint8_t gate, int scans_per_other_scan)
 {
     start_tracker(gate);
     describe_sensor(NEAR, 0.0f, 50000.0f);
@@ -75,7 +75,7 @@ static struct rho_track_report fly_weaving_target(uint8_t gate, int every)
 
         step_plot(with, NEAR, 2 * k * SECOND_US, 10000.0 + 200.0 * t_s,
                   5000.0 + 40.0 * sin(t_s / 10.0), k);
-        if (every > 0 && k >= 8 && k % every == 0) {
+        if (scans_per_other_scan > 0 && k >= 8 && k % scans_per_other_scan == 0) {
             /* gate best scores hypotheses against the clutter density, which all sensors share */
             step_plot(NULL, FAR, (2 * k + 1) * SECOND_US,
                       gate == RHO_TRACKER_BEST ? NAN : 400000.0 + 900.0 * k, 3000.0, k);
@@ -308,7 +308,8 @@ static void coverage_has_a_margin_of_eight_sigmas_and_a_twentieth_of_range(void 
 }
 
 /* Whether a plot is within the coverage of 1 .. 50 km to the east, 30 degrees to either side. */
-static int is_covered(double x_m, double y_m, double sigma_range_m, double sigma_cross_m)
+static int is_plot_within_coverage(double x_m, double y_m, double sigma_range_m,
+                                   double sigma_cross_m)
 {
     const struct rho_sensor sensor = {.sensor_id = NEAR,
                                       .pd = 0.9f,
@@ -335,10 +336,12 @@ static void plots_up_to_four_sigmas_beyond_the_coverage_are_covered(void **state
     for (int beyond = 3; beyond <= 5; beyond += 2) {
         const double angle = 0.5 + 0.01 * beyond; /* cross-range sigma of 100 m at 10 km */
         const int expected = beyond < 4;
-        assert_int_equal(is_covered(5e4 + 100.0 * beyond, 0.0, 100.0, 1.0), expected);
-        assert_int_equal(is_covered(1e3 - 50.0 * beyond, 0.0, 50.0, 1.0), expected);
-        assert_int_equal(is_covered(1e4 * cos(angle), 1e4 * sin(angle), 1.0, 100.0), expected);
-        assert_int_equal(is_covered(1e4 * cos(angle), -1e4 * sin(angle), 1.0, 100.0), expected);
+        assert_int_equal(is_plot_within_coverage(5e4 + 100.0 * beyond, 0.0, 100.0, 1.0), expected);
+        assert_int_equal(is_plot_within_coverage(1e3 - 50.0 * beyond, 0.0, 50.0, 1.0), expected);
+        assert_int_equal(is_plot_within_coverage(1e4 * cos(angle), 1e4 * sin(angle), 1.0, 100.0),
+                         expected);
+        assert_int_equal(is_plot_within_coverage(1e4 * cos(angle), -1e4 * sin(angle), 1.0, 100.0),
+                         expected);
     }
 }
 

@@ -20,7 +20,7 @@ static void step_empty_scan(int32_t sensor_id, double t_s, float from_rad, float
  * A radar looks west every ten seconds for two minutes, then only east, where the target is, every
  * second, and is silent from `silent_s` on. Returns seconds until its track ends.
  */
-static double seconds_until_track_ends(double silent_s)
+static double seconds_until_track_ends(double silent_from_s)
 {
     use_usual_configs(1);
     config.gate = RHO_TRACKER_NEAREST;
@@ -34,15 +34,15 @@ static double seconds_until_track_ends(double silent_s)
     for (double t_s = 0.0; t_s < 120.0; t_s += 10.0) {
         step_empty_scan(1, t_s, 2.5f, -2.5f);
     }
-    for (double t_s = 120.0; t_s < silent_s; t_s += 1.0) {
+    for (double t_s = 120.0; t_s < silent_from_s; t_s += 1.0) {
         add_plot(10000.0 + 20.0 * t_s, 0.0, 10.0);
         step_empty_scan(1, t_s, -0.5f, 0.5f);
     }
     assert_int_equal(report.num_tracks, 1);
-    for (double t_s = silent_s; t_s < silent_s + 2000.0; t_s += 1.0) {
+    for (double t_s = silent_from_s; t_s < silent_from_s + 2000.0; t_s += 1.0) {
         step_empty_scan(OTHER, t_s, 0.0f, 0.0f);
         if (report.num_tracks == 0) {
-            return t_s - silent_s;
+            return t_s - silent_from_s;
         }
     }
     return INFINITY;
@@ -51,7 +51,7 @@ static double seconds_until_track_ends(double silent_s)
 /*
  * Another sector counts as the radar's usual one after sixteen intervals, here of ten seconds each.
  */
-static void unobserved_tracks_end_after_sixteen_intervals(void **state)
+static void a_new_sector_counts_as_usual_after_sixteen_intervals(void **state)
 {
     (void)state;
     const double before_s = seconds_until_track_ends(110.0 + 0.8 * 160.0),
@@ -63,7 +63,7 @@ static void unobserved_tracks_end_after_sixteen_intervals(void **state)
 /* ---- scan intervals -------------------------------------------------------------------------- */
 
 /* Interval of a sensor heard at these times, in seconds. */
-static double mean_interval_after(const double *at_s, int num)
+static double interval_learned_from_scans_at(const double *at_s, int num)
 {
     use_usual_configs(1);
     begin_tracker();
@@ -79,9 +79,9 @@ static void the_interval_of_a_sensor_is_a_running_mean(void **state)
     static const double sooner[] = {0.0, 10.0, 14.0}, later[] = {0.0, 10.0, 24.0},
                         outage[] = {0.0, 10.0, 60.0};
     (void)state;
-    assert_float_equal(mean_interval_after(sooner, 3), 10.0 - 0.25 * 6.0, 1e-4);
-    assert_float_equal(mean_interval_after(later, 3), 10.0 + 0.25 * 4.0, 1e-4);
-    assert_float_equal(mean_interval_after(outage, 3), 10.0 + 0.25 * 10.0, 1e-4);
+    assert_float_equal(interval_learned_from_scans_at(sooner, 3), 10.0 - 0.25 * 6.0, 1e-4);
+    assert_float_equal(interval_learned_from_scans_at(later, 3), 10.0 + 0.25 * 4.0, 1e-4);
+    assert_float_equal(interval_learned_from_scans_at(outage, 3), 10.0 + 0.25 * 10.0, 1e-4);
 }
 
 /* Hit interval of a track seen every ten seconds, and then once after last_gap_s. */
@@ -120,9 +120,10 @@ static void a_tracks_hit_interval_falls_fast_and_rises_slowly(void **state)
 /* ---- limits of unobserved time --------------------------------------------------------------- */
 
 /* A confirmed track 10 km east, seen at 0 s by sensor 1, which looks every 4 s up to range_m. */
-static struct rho_track *make_confirmed_track(float range_m, uint8_t misses)
+static struct rho_track *make_confirmed_track(float sensor_range_max_m, uint8_t misses)
 {
-    const struct rho_sensor sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = range_m};
+    const struct rho_sensor sensor = {
+        .sensor_id = 1, .pd = 0.9f, .range_max_m = sensor_range_max_m};
     struct rho_track *track = &tracker.tracks[0];
     use_usual_configs(1);
     begin_tracker();
@@ -142,9 +143,9 @@ static struct rho_track *make_confirmed_track(float range_m, uint8_t misses)
 
 static const struct rho_track_limits limits = {.doubt_mnat = 5000, .fall_mnat = 20000};
 
-static int does_track_end_after(float range_m, uint8_t misses, double unseen_s)
+static int does_track_end_after(float sensor_range_max_m, uint8_t misses, double unseen_s)
 {
-    struct rho_track *track = make_confirmed_track(range_m, misses);
+    struct rho_track *track = make_confirmed_track(sensor_range_max_m, misses);
     const struct step at = {.tracker = &tracker, .time_us = llround(unseen_s * 1e6)};
     return rho_tracker_update_and_test_unobserved(&at, track, 0, &limits);
 }
@@ -216,7 +217,7 @@ static void tracks_as_uncertain_as_the_sensors_range_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(unobserved_tracks_end_after_sixteen_intervals),
+        cmocka_unit_test(a_new_sector_counts_as_usual_after_sixteen_intervals),
         cmocka_unit_test(the_interval_of_a_sensor_is_a_running_mean),
         cmocka_unit_test(a_tracks_hit_interval_falls_fast_and_rises_slowly),
         cmocka_unit_test(unobserved_tracks_end_at_their_time_limits),

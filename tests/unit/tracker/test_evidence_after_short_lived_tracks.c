@@ -41,7 +41,7 @@ static void step_turn(void)
  * Something moves like a target, is seen `hits` times in a row and then no more for ten turns.
  * Returns turns in which it was reported as confirmed or coasting.
  */
-static int show_short_lived_target(double x_m, double y_m, int hits)
+static int count_turns_reporting_short_lived_target(double x_m, double y_m, int hits)
 {
     int reported = 0;
     for (int k = 0; k < hits + 10; k++) {
@@ -70,7 +70,8 @@ static void where_tracks_last_they_are_confirmed_at_three_plots(void **state)
     (void)state;
     start_tracker();
     for (int n = 0; n < 8; n++) {
-        assert_true(show_short_lived_target(-20000.0, place_of_number(n), 20) >= 18);
+        assert_true(count_turns_reporting_short_lived_target(-20000.0, place_of_number(n), 20) >=
+                    18);
     }
     assert_true(tracker.ended_early < 1.0f);
     assert_true(tracker.established > 8.0f);
@@ -83,8 +84,8 @@ static void a_few_short_lived_tracks_change_nothing(void **state)
     for (int k = 0; k < 30; k++) {
         step_turn();
     }
-    assert_true(show_short_lived_target(-20000.0, -30000.0, 4) > 0);
-    assert_true(show_short_lived_target(-20000.0, -20000.0, 20) >= 18);
+    assert_true(count_turns_reporting_short_lived_target(-20000.0, -30000.0, 4) > 0);
+    assert_true(count_turns_reporting_short_lived_target(-20000.0, -20000.0, 20) >= 18);
 }
 
 static void where_tracks_end_early_more_hits_are_needed(void **state)
@@ -96,17 +97,18 @@ static void where_tracks_end_early_more_hits_are_needed(void **state)
         step_turn();
     }
     for (int n = 0; n < 24; n++) {
-        const int reported = show_short_lived_target(-20000.0, place_of_number(n), 4);
+        const int reported =
+            count_turns_reporting_short_lived_target(-20000.0, place_of_number(n), 4);
         first += n < 4 ? reported : 0;
         last += n >= 20 ? reported : 0;
     }
     assert_true(tracker.ended_early > 10.0f);
     assert_true(first > 8);    /* turns that each was reported for */
     assert_int_equal(last, 0); /* the last one was never confirmed */
-    const int reported = show_short_lived_target(-20000.0, -30000.0, 20);
+    const int reported = count_turns_reporting_short_lived_target(-20000.0, -30000.0, 20);
     assert_in_range(reported, 12, 17); /* a real target is confirmed some turns later */
     for (int n = 0; n < 6; n++) {
-        (void)show_short_lived_target(-20000.0, place_of_number(n), 20);
+        (void)count_turns_reporting_short_lived_target(-20000.0, place_of_number(n), 20);
     }
     assert_true(tracker.established > 8.0f);
 }
@@ -116,14 +118,14 @@ static void short_lived_tracks_are_forgotten_after_a_while(void **state)
     (void)state;
     start_tracker();
     for (int n = 0; n < 12; n++) {
-        (void)show_short_lived_target(-20000.0, place_of_number(n), 4);
+        (void)count_turns_reporting_short_lived_target(-20000.0, place_of_number(n), 4);
     }
     assert_true(tracker.ended_early > 6.0f);
     for (int k = 0; k < 1200; k++) {
         step_turn();
     }
     assert_true(tracker.ended_early < 1.0f);
-    assert_true(show_short_lived_target(-20000.0, -30000.0, 20) >= 18);
+    assert_true(count_turns_reporting_short_lived_target(-20000.0, -30000.0, 20) >= 18);
 }
 
 /* ---- evidence by formula --------------------------------------------------------------------- */

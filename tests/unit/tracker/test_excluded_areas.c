@@ -17,15 +17,15 @@ static void plots_in_an_excluded_area_start_no_track(void **state)
             assert_int_equal(rho_tracker_exclude_area(&tracker, &north), RHO_OK);
         }
         run_scans(12, 1);
-        assert_int_equal(track_near(2000.0) == NULL, is_excluded);
-        assert_non_null(track_near(-2000.0));
+        assert_int_equal(only_track_within_200_m(2000.0) == NULL, is_excluded);
+        assert_non_null(only_track_within_200_m(-2000.0));
         assert_int_equal(tracker.counters.plots_excluded, is_excluded ? 12 : 0);
         assert_int_equal(report.fates_total[RHO_FATE_GHOST], is_excluded);
     }
     assert_true(rho_tracker_is_sound(&tracker));
     assert_int_equal(rho_tracker_include_place(&tracker, 0.0f, 2000.0f), RHO_OK);
     run_scans(8, 1);
-    assert_non_null(track_near(2000.0));
+    assert_non_null(only_track_within_200_m(2000.0));
     assert_int_equal(tracker.counters.plots_excluded, 12);
 }
 
@@ -33,17 +33,17 @@ static void tracks_pass_through_an_excluded_area(void **state)
 {
     (void)state;
     prepare_tracker();
-    const uint32_t passing = track_near(2000.0)->track_id;
-    const uint16_t hits = track_near(2000.0)->hits;
+    const uint32_t passing = only_track_within_200_m(2000.0)->track_id;
+    const uint16_t hits = only_track_within_200_m(2000.0)->hits;
     assert_int_equal(rho_tracker_exclude_area(&tracker, &north), RHO_OK);
     run_scans(8, 1);
-    assert_int_equal(track_near(2000.0)->track_id, passing);
-    assert_int_equal(track_near(2000.0)->hits, hits + 8);
+    assert_int_equal(only_track_within_200_m(2000.0)->track_id, passing);
+    assert_int_equal(only_track_within_200_m(2000.0)->hits, hits + 8);
     assert_int_equal(tracker.counters.plots_excluded, 0);
     run_scans(3 * config.coast_scans_max, 0);
-    assert_null(track_near(2000.0));
+    assert_null(only_track_within_200_m(2000.0));
     run_scans(8, 1); /* its target, back again, starts no track */
-    assert_null(track_near(2000.0));
+    assert_null(only_track_within_200_m(2000.0));
 }
 
 static void bad_excluded_areas_are_refused(void **state)

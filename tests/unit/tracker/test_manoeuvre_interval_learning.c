@@ -59,14 +59,15 @@ static double learned_manoeuvre_interval_s(void)
 }
 
 /* Counts established tracks that surely manoeuvred in the scan before (turns 1), or did not (0). */
-static unsigned count_established_tracks_turning(const struct rho_report *before, int turns)
+static unsigned count_established_tracks_by_manoeuvre(const struct rho_report *before,
+                                                      int has_manoeuvred)
 {
     unsigned count = 0;
     for (unsigned i = 0; i < report.num_tracks; i++) {
         for (unsigned k = 0; k < before->num_tracks; k++) {
             count += before->tracks[k].track_id == report.tracks[i].track_id &&
                      report.tracks[i].hits >= ESTABLISHED_HITS &&
-                     turns == (before->tracks[k].maneuver_probability > 0.9f);
+                     has_manoeuvred == (before->tracks[k].maneuver_probability > 0.9f);
         }
     }
     return count;
@@ -88,8 +89,9 @@ static void straight_targets_lengthen_the_manoeuvre_interval(void **state)
         const double counts_s = k > 0 && count_established_tracks() > 0 ? TURN_S : 0.0;
         fly_turns_of_antenna(1, TARGETS, 0);
         const double kept = exp(-TURN_S / MEMORY_S);
-        straight_s = kept * straight_s + counts_s * count_established_tracks_turning(&before, 0);
-        turning_s = kept * turning_s + counts_s * count_established_tracks_turning(&before, 1);
+        straight_s =
+            kept * straight_s + counts_s * count_established_tracks_by_manoeuvre(&before, 0);
+        turning_s = kept * turning_s + counts_s * count_established_tracks_by_manoeuvre(&before, 1);
         const double all_s = 1200.0 + straight_s;
         const double turns = 4.0 + turning_s / (double)tracker.hypotheses.model.maneuver_s;
         expected_s *= expected_s < 2400.0 && all_s / turns >= 2.0 * expected_s ? 2.0 : 1.0;
@@ -149,7 +151,7 @@ static void turning_targets_shorten_the_interval_again(void **state)
  * A minute without looks and new tracks teach nothing; then calm targets have the interval of the
  * beginning.
  */
-static void a_silent_minute_does_not_change_the_interval(void **state)
+static void a_silent_minute_forgets_the_learned_interval(void **state)
 {
     (void)state;
     start_tracker();
@@ -206,7 +208,7 @@ int main(void)
         cmocka_unit_test(straight_targets_lengthen_the_manoeuvre_interval),
         cmocka_unit_test(a_learned_interval_reduces_covariances),
         cmocka_unit_test(turning_targets_shorten_the_interval_again),
-        cmocka_unit_test(a_silent_minute_does_not_change_the_interval),
+        cmocka_unit_test(a_silent_minute_forgets_the_learned_interval),
         cmocka_unit_test(a_pause_of_45_s_keeps_the_interval),
         cmocka_unit_test(without_a_calm_model_no_interval_is_learned),
     };

@@ -50,11 +50,11 @@ static struct rho_tracker_learned *start_with_slow_counts(unsigned intervals, un
 }
 
 /* Intervals in the notch after the look that makes the TOP interval have so many looks and hits. */
-static unsigned notch_intervals_after(unsigned looks, unsigned hits)
+static unsigned notch_intervals_after_top_counts(unsigned top_looks, unsigned top_hits)
 {
     struct rho_tracker_learned *learned = &tracker.learned[0];
-    learned->rate_looks[TOP] = (uint8_t)(looks - 1u);
-    learned->rate_hits[TOP] = (uint8_t)(hits - 1u);
+    learned->rate_looks[TOP] = (uint8_t)(top_looks - 1u);
+    learned->rate_hits[TOP] = (uint8_t)(top_hits - 1u);
     step_look_at_speed(75.0);
     assert_true(rho_tracker_is_sound(&tracker));
     return learned->blind_rates;
@@ -62,7 +62,7 @@ static unsigned notch_intervals_after(unsigned looks, unsigned hits)
 
 static unsigned notch_intervals_found(void)
 {
-    return notch_intervals_after(FEW, FEW * 9 / 10);
+    return notch_intervals_after_top_counts(FEW, FEW * 9 / 10);
 }
 
 /*
@@ -108,10 +108,10 @@ static void a_notch_is_rarer_than_chance_by_four_standard_deviations(void **stat
 {
     (void)state;
     start_with_slow_counts(8, 3, 0)->rate_hits[0] = 1;
-    assert_int_equal(notch_intervals_after(FEW, FEW / 2), 8);
+    assert_int_equal(notch_intervals_after_top_counts(FEW, FEW / 2), 8);
     start_with_slow_counts(8, 3, 0)->rate_hits[0] = 3;
     tracker.learned[0].rate_hits[1] = 1;
-    assert_int_equal(notch_intervals_after(FEW, FEW / 2), 0);
+    assert_int_equal(notch_intervals_after_top_counts(FEW, FEW / 2), 0);
 }
 
 static void a_notch_needs_20_looks_within_and_60_above(void **state)
@@ -122,8 +122,8 @@ static void a_notch_needs_20_looks_within_and_60_above(void **state)
     (void)start_with_slow_counts(8, 2, 0);
     assert_int_equal(notch_intervals_found(), 0);
     (void)start_with_slow_counts(4, 10, 0);
-    assert_int_equal(notch_intervals_after(48, 43), 0);
-    assert_int_equal(notch_intervals_after(64, 58), 4);
+    assert_int_equal(notch_intervals_after_top_counts(48, 43), 0);
+    assert_int_equal(notch_intervals_after_top_counts(64, 58), 4);
 }
 
 static void a_notch_is_at_least_four_intervals_wide(void **state)
@@ -172,12 +172,12 @@ static void looks_are_counted_and_halved_at_250(void **state)
 {
     (void)state;
     (void)start_with_slow_counts(8, 10, 0);
-    assert_int_equal(notch_intervals_after(FEW - 4, 75), 0);
-    assert_int_equal(notch_intervals_after(FEW, 79), 8);
+    assert_int_equal(notch_intervals_after_top_counts(FEW - 4, 75), 0);
+    assert_int_equal(notch_intervals_after_top_counts(FEW, 79), 8);
     const struct rho_tracker_learned *learned = start_with_looks_at(75.0);
-    (void)notch_intervals_after(248, 240);
+    (void)notch_intervals_after_top_counts(248, 240);
     assert_int_equal(learned->rate_looks[TOP], 248);
-    (void)notch_intervals_after(250, 240);
+    (void)notch_intervals_after_top_counts(250, 240);
     assert_int_equal(learned->rate_looks[TOP], 125);
     assert_int_equal(learned->rate_hits[TOP], 120);
 }

@@ -177,7 +177,7 @@ static void sectors_start_tracks_as_early_as_whole_turns(void **state)
 }
 
 /* A track's report is of the sector with its plot. */
-static void reports_are_as_recent_as_the_sector(void **state)
+static void tracks_are_reported_in_the_sector_of_their_plot(void **state)
 {
     struct scene scene = {.turning = -1, .speed_mps = 100.0, .hidden = -1};
     int seen = 0;
@@ -201,7 +201,7 @@ static void reports_are_as_recent_as_the_sector(void **state)
 }
 
 /* The window holds turns, not sectors: after a lost sector it begins another turn and goes on. */
-static void a_lost_sector_loses_few_plots(void **state)
+static void lost_sectors_cost_no_track(void **state)
 {
     struct scene scene = {.turning = 1, .speed_mps = 60.0, .hidden = -1, .sectors = SECTORS};
     (void)state;
@@ -227,8 +227,8 @@ int main(void)
         cmocka_unit_test(scans_of_another_radar_between_sectors_change_nothing),
         cmocka_unit_test(misses_are_counted_once_a_turn),
         cmocka_unit_test(sectors_start_tracks_as_early_as_whole_turns),
-        cmocka_unit_test(reports_are_as_recent_as_the_sector),
-        cmocka_unit_test(a_lost_sector_loses_few_plots),
+        cmocka_unit_test(tracks_are_reported_in_the_sector_of_their_plot),
+        cmocka_unit_test(lost_sectors_cost_no_track),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -366,7 +366,7 @@ static void add_errors_of_report(struct worth *worth)
     }
 }
 
-static void step_scan_of_all(int k)
+static void step_scan_of_all_aircraft(int k)
 {
     const struct rho_scan scan = {
         .time_us = k * INTERVAL_US, .num_plots = num_plots[k], .plots = plots[k]};
@@ -375,7 +375,7 @@ static void step_scan_of_all(int k)
 }
 
 /* One scan in five comes `behind` scans late; 0: all in time. */
-static struct worth run_with_late_scans(int behind, float late_max_s)
+static struct worth run_with_every_fifth_scan_late(int behind, float late_max_s)
 {
     struct worth worth = {0};
 
@@ -387,10 +387,10 @@ static struct worth run_with_late_scans(int behind, float late_max_s)
             int before = k - behind;
 
             if (!is_late) {
-                step_scan_of_all(k);
+                step_scan_of_all_aircraft(k);
             }
             if (behind > 0 && before > 10 && before % 5 == 3) {
-                step_scan_of_all(before);
+                step_scan_of_all_aircraft(before);
             }
             if (!is_late) {
                 add_errors_of_report(&worth);
@@ -407,11 +407,11 @@ static double rmse_m(const struct worth *worth)
 
 static void late_scans_improve_tracks_nearly_as_much_as_timely_ones(void **state)
 {
-    struct worth in_time = run_with_late_scans(0, 20.0f);
+    struct worth in_time = run_with_every_fifth_scan_late(0, 20.0f);
     (void)state;
     for (int behind = 1; behind <= 2; behind++) {
-        struct worth taken = run_with_late_scans(behind, 20.0f),
-                     dropped = run_with_late_scans(behind, 0.0f);
+        struct worth taken = run_with_every_fifth_scan_late(behind, 20.0f),
+                     dropped = run_with_every_fifth_scan_late(behind, 0.0f);
 
         print_message("%d late: %.1f m in time, %.1f m taken, %.1f m dropped\n", behind,
                       rmse_m(&in_time), rmse_m(&taken), rmse_m(&dropped));

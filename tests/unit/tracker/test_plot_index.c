@@ -30,10 +30,10 @@ static void begin_scene(uint8_t gate)
     }
 }
 
-static void add_plot_of(int target, double x_m, double y_m, double t_s)
+static void add_plot_of(int target, double x_m, double y_m, double offset_s)
 {
     targets_of[num_plots] = target;
-    add_plot(x_m, y_m, 20.0)->offset_us = (int32_t)lround(t_s * 1e6);
+    add_plot(x_m, y_m, 20.0)->offset_us = (int32_t)lround(offset_s * 1e6);
 }
 
 /*
@@ -177,7 +177,8 @@ static void step_copy(const struct rho_tracker *from, struct rho_tracker *tracke
  * Steps the plot at (x, y), with its own time and noise, alone and then among far plots: the
  * track's result is the same. Returns 1 if the track claimed the plot.
  */
-static int is_claimed_alike(double x_m, double y_m, int32_t offset_us, double sigma_m)
+static int is_claimed_also_among_far_plots(double x_m, double y_m, int32_t offset_us,
+                                           double sigma_m)
 {
     /*
      * extents that the strips are laid over: the plot alone, one x, narrow, wide, maximal, one
@@ -218,7 +219,7 @@ static void far_plots_do_not_hide_a_plot_in_the_gate(void **state)
         int claimed = 0, refused = 0;
         start_one_track((uint8_t)gate);
         for (double x_m = -300.0; x_m <= 300.0; x_m += 12.5) {
-            const int is_claimed = is_claimed_alike(x_m, 0.0, 0, 20.0);
+            const int is_claimed = is_claimed_also_among_far_plots(x_m, 0.0, 0, 20.0);
             claimed += is_claimed;
             refused += !is_claimed;
         }
@@ -233,9 +234,10 @@ static void plots_of_own_times_are_found_in_other_strips(void **state)
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
         start_one_track((uint8_t)gate);
         for (int offset_s = -1; offset_s <= 8; offset_s++) {
-            assert_true(is_claimed_alike(300.0 * offset_s, 0.0, offset_s * 1000000, 20.0));
-            assert_false(
-                is_claimed_alike(300.0 * offset_s + 2500.0, 0.0, offset_s * 1000000, 20.0));
+            assert_true(
+                is_claimed_also_among_far_plots(300.0 * offset_s, 0.0, offset_s * 1000000, 20.0));
+            assert_false(is_claimed_also_among_far_plots(300.0 * offset_s + 2500.0, 0.0,
+                                                         offset_s * 1000000, 20.0));
         }
     }
 }
@@ -246,9 +248,9 @@ static void plots_with_large_sigmas_are_found(void **state)
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
         start_one_track((uint8_t)gate);
-        assert_true(is_claimed_alike(500.0, 0.0, 0, 300.0));
-        assert_true(is_claimed_alike(-500.0, 100.0, 0, 300.0));
-        assert_false(is_claimed_alike(500.0, 0.0, 0, 10.0));
+        assert_true(is_claimed_also_among_far_plots(500.0, 0.0, 0, 300.0));
+        assert_true(is_claimed_also_among_far_plots(-500.0, 100.0, 0, 300.0));
+        assert_false(is_claimed_also_among_far_plots(500.0, 0.0, 0, 10.0));
     }
 }
 

@@ -34,7 +34,7 @@ static struct car image_of(const struct car *car)
     return (struct car){car->x_m, 80.0 - car->y_m, car->vx_mps, -car->vy_mps};
 }
 
-static void step_scan_at(int k)
+static void step_scan_of_added_plots(int k)
 {
     step_scan((struct rho_scan){.time_us = INT64_C(100000) * k, .sensor_id = SENSOR});
 }
@@ -62,7 +62,7 @@ static void images_start_no_tracks(void **state)
             if (k % 5 != 3) {
                 see_car(&image, 0.1 * k);
             }
-            step_scan_at(k);
+            step_scan_of_added_plots(k);
             behind += count_tracks_behind_wall();
             ghosts += report.fates_total[RHO_FATE_GHOST];
         }
@@ -94,7 +94,7 @@ static void targets_behind_the_wall_are_found(void **state)
                 see_car(&image, 0.1 * k);
             }
             see_car(&cars[i], 0.1 * k);
-            step_scan_at(k);
+            step_scan_of_added_plots(k);
             for (unsigned n = 0; n < report.num_tracks && k >= 20; n++) {
                 if (report.tracks[n].state[1] > 40.0f) {
                     first_id = first_id ? first_id : report.tracks[n].track_id;
@@ -122,7 +122,7 @@ static void images_need_the_line_of_sight_to_cross_the_wall(void **state)
             const struct car image = image_of(&front);
             see_car(&front, 0.1 * k);
             see_car(&image, 0.1 * k);
-            step_scan_at(k);
+            step_scan_of_added_plots(k);
             assert_int_equal(report.fates_total[RHO_FATE_GHOST], 0);
         }
         assert_int_equal(count_tracks_behind_wall(), 1);
@@ -168,7 +168,7 @@ static void an_established_track_at_an_image_stays(void **state)
             see_car(&front, 0.1 * k);
         }
         see_car(&image, 0.1 * k);
-        step_scan_at(k);
+        step_scan_of_added_plots(k);
         if (k == 40) {
             assert_int_equal(report.num_tracks, 1);
             id = report.tracks[0].track_id;
@@ -200,7 +200,7 @@ static unsigned count_ghosts_past_end(double sigmas)
     start_tracker_with_walls(0);
     for (int k = 0; k < 30; k++) {
         see_exactly(&plain, 0.1 * k);
-        step_scan_at(k);
+        step_scan_of_added_plots(k);
     }
     const double x_m = plain.x_m + plain.vx_mps * 3.0, crossing_m = x_m * 40.0 / image.y_m;
     const double end_m = crossing_m + sigmas * (double)report.tracks[0].sigma_m;
@@ -208,7 +208,7 @@ static unsigned count_ghosts_past_end(double sigmas)
     set_wall(&told);
     see_exactly(&plain, 3.0);
     see_exactly(&image, 3.0);
-    step_scan_at(30);
+    step_scan_of_added_plots(30);
     return report.fates_total[RHO_FATE_GHOST];
 }
 
@@ -260,7 +260,7 @@ static int does_track_end_off_image(double off_m, double *chi2)
                 see_exactly(&near, 0.1 * k);
             }
             set_wall(is_told && k == 31 ? &wall : NULL);
-            step_scan_at(k);
+            step_scan_of_added_plots(k);
         }
         if (!is_told) {
             assert_int_equal(report.num_tracks, 2);
@@ -296,7 +296,7 @@ static int does_track_end_seen(int of_ten)
             see_exactly(&image, 0.1 * k);
         }
         set_wall(k == 90 ? &wall : NULL);
-        step_scan_at(k);
+        step_scan_of_added_plots(k);
         if (k == 90) {
             return report.num_tracks == 1;
         }
@@ -328,7 +328,7 @@ static uint32_t work_of_wall(int has_plot)
             if (has_plot && k == 40) { /* in the corner of the image's search box */
                 (void)add_plot(image.x_m + image.vx_mps * 4.0 + 2.0, image.y_m + 2.0, 0.5);
             }
-            step_scan_at(k);
+            step_scan_of_added_plots(k);
         }
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(report.fates_total[RHO_FATE_GHOST], 0);
@@ -368,7 +368,7 @@ static void work_of_many_tracks_and_walls_is_bounded(void **state)
             const struct car car = {40.0 * (i % 20) - 400.0, 20.0 + 40.0 * (i / 20 % 20), 8.0, 0.0};
             see_car(&car, 0.1 * k);
         }
-        step_scan_at(k);
+        step_scan_of_added_plots(k);
         assert_true(tracker.work.work <= 200000 + BEYOND);
         partial += report.is_partial;
     }

@@ -179,7 +179,7 @@ struct cell {
 };
 
 /* Both targets have plots: Fisher scoring of ln(1 - p), in double precision. */
-static void update_expected_cell(struct cell cell[2], const double apart_m2[2])
+static void update_expected_cell_by_resolved_pair(struct cell cell[2], const double apart_m2[2])
 {
     double q[2], all = 0.0;
     for (int axis = 0; axis < 2; axis++) {
@@ -223,7 +223,7 @@ static void the_cell_is_learned_by_fisher_scoring(void **state)
             (double)learned->log_cell[1] == cell[1].nat) {
             continue;
         }
-        update_expected_cell(cell, apart_m2);
+        update_expected_cell_by_resolved_pair(cell, apart_m2);
         for (int axis = 0; axis < 2; axis++) {
             assert_true(fabs((double)learned->log_cell[axis] - cell[axis].nat) < 1e-3);
             assert_true(fabs((double)learned->cell_weight[axis] - cell[axis].weight) < 1e-2);
@@ -256,7 +256,7 @@ static void bad_resolution_cells_are_refused(void **state)
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
 }
 
-static void learned_cells_of_a_snapshot_are_checked(void **state)
+static void invalid_learned_cells_make_a_tracker_unsound(void **state)
 {
     (void)state;
     set_radar(1);
@@ -292,7 +292,7 @@ int main(void)
         cmocka_unit_test(an_unstated_resolution_cell_is_learned),
         cmocka_unit_test(the_cell_is_learned_by_fisher_scoring),
         cmocka_unit_test(bad_resolution_cells_are_refused),
-        cmocka_unit_test(learned_cells_of_a_snapshot_are_checked),
+        cmocka_unit_test(invalid_learned_cells_make_a_tracker_unsound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

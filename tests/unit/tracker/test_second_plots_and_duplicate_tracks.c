@@ -56,7 +56,7 @@ static void see_targets(int k, double second)
     }
 }
 
-static int count_tracks_near(double x_m, double y_m, double far_m)
+static int count_confirmed_tracks_near(double x_m, double y_m, double far_m)
 {
     int num = 0;
     for (unsigned i = 0; i < report.num_tracks; i++) {
@@ -86,8 +86,8 @@ static void a_target_with_second_plots_has_one_track(void **state)
             see_clutter();
             step_at(TURN_S * k);
             for (int i = 0; i < TARGETS && k >= 30; i++) {
-                const int num =
-                    count_tracks_near(-30000.0 + SPEED_MPS * TURN_S * k, 8000.0 * i, 1000.0);
+                const int num = count_confirmed_tracks_near(-30000.0 + SPEED_MPS * TURN_S * k,
+                                                            8000.0 * i, 1000.0);
                 others += num > 1 ? num - 1 : 0;
                 switches += num == 0;
             }
@@ -127,7 +127,7 @@ static void two_targets_abreast_keep_two_tracks(void **state)
             see_target_with_second_plot(x_m, -8000.0 - 12.0 * SIGMA_M, 0.0);
             see_clutter();
             step_at(TURN_S * k);
-            both += k >= 20 && count_tracks_near(x_m, -8000.0, 1000.0) >= 2;
+            both += k >= 20 && count_confirmed_tracks_near(x_m, -8000.0, 1000.0) >= 2;
         }
     }
     assert_in_range(both, 294, 300);
@@ -152,7 +152,7 @@ static void a_separating_target_gets_a_track(void **state)
             see_clutter();
             step_at(TURN_S * k);
         }
-        found += count_tracks_near(-30000.0 + SPEED_MPS * TURN_S * 65, 0.0, 1500.0) >= 2;
+        found += count_confirmed_tracks_near(-30000.0 + SPEED_MPS * TURN_S * 65, 0.0, 1500.0) >= 2;
     }
     assert_in_range(found, 7, 10);
 }
@@ -263,7 +263,7 @@ static void fill_second_plot_table(float looks)
 /*
  * Expected density of a bin on one axis, over both sides, per sigma; the prior counts as 4 plots.
  */
-static double expected_share_of_bin(const float *sums, unsigned bin)
+static double expected_density_of_bin_per_sigma(const float *sums, unsigned bin)
 {
     static const double end[] = {1, 2, 3, 4, 6, 8, 12, 16};
     static const double prior[] = {0.26, 0.24, 0.18, 0.12, 0.1, 0.05, 0.03, 0.02};
@@ -290,9 +290,9 @@ static void second_plot_scores_equal_their_formula(void **state)
         set_claim(0, 0);
         const double of_sensor = (6.0 + 10.0 * 0.01) / (50.0 + 10.0);
         const double rate = (3.0 + 10.0 * of_sensor) / (20.0 + 10.0);
-        const double per_m2 = expected_share_of_bin(second_plot_table()->along, bins[i][0]) *
-                              expected_share_of_bin(second_plot_table()->across, bins[i][1]) /
-                              100.0;
+        const double per_m2 =
+            expected_density_of_bin_per_sigma(second_plot_table()->along, bins[i][0]) *
+            expected_density_of_bin_per_sigma(second_plot_table()->across, bins[i][1]) / 100.0;
         const double ratio = rate * per_m2 / (100.0 / 1e10);
         score_second_plots(NULL);
         expect_close((double)tracker.clutter_map.denser[1], log(1.0 + ratio));
@@ -360,8 +360,8 @@ static void after_twelve_hits_a_track_is_a_target_of_its_own(void **state)
 /* ---- evidence for one target or two ---------------------------------------------------------- */
 
 /* Evidence for one target, in nat, after a scan; before_nat: evidence before it. */
-static double evidence_for_one_target_nat(int older_plot, int plot, double far,
-                                          const double gains_nat[2][2], float before_nat)
+static double change_of_one_target_evidence_nat(int older_plot, int plot, double far,
+                                                const double gains_nat[2][2], float before_nat)
 {
     start_with_tracks(2);
     fill_second_plot_table(50.0f);
@@ -382,8 +382,8 @@ static void a_shared_plot_and_a_miss_each_add_little_evidence(void **state)
 {
     (void)state;
     for (int plot = 0; plot < 2; plot++) {
-        expect_close(evidence_for_one_target_nat(plot, plot, 300.0, NULL, 0.0f), 0.3);
-        expect_close(evidence_for_one_target_nat(plot, -1, 300.0, NULL, 0.0f), 1.0);
+        expect_close(change_of_one_target_evidence_nat(plot, plot, 300.0, NULL, 0.0f), 0.3);
+        expect_close(change_of_one_target_evidence_nat(plot, -1, 300.0, NULL, 0.0f), 1.0);
     }
 }
 
@@ -391,7 +391,7 @@ static void a_shared_plot_and_a_miss_each_add_little_evidence(void **state)
  * The younger track is missed although the plot is in its gate: two targets could claim it in two
  * ways.
  */
-static void a_plot_in_both_gates_adds_the_evidence_of_a_miss(void **state)
+static void a_younger_track_that_misses_a_plot_in_its_gate_adds_evidence(void **state)
 {
     const double rate = ((6.0 + 0.1) / 60.0 * 10.0) / 10.0;
     (void)state;
@@ -399,21 +399,21 @@ static void a_plot_in_both_gates_adds_the_evidence_of_a_miss(void **state)
         const double both[2][2] = {{plot ? 0.0 : 5.0, plot ? 5.0 : 0.0},
                                    {plot ? 0.0 : 4.0, plot ? 4.0 : 0.0}};
         const double younger[2][2] = {{0.0, 0.0}, {both[1][0], both[1][1]}};
-        expect_close(evidence_for_one_target_nat(plot, -1, 300.0, both, 0.0f),
+        expect_close(change_of_one_target_evidence_nat(plot, -1, 300.0, both, 0.0f),
                      2.3 - log(2.0) - rate);
-        expect_close(evidence_for_one_target_nat(plot, -1, 300.0, younger, 0.0f), 2.3 - rate);
+        expect_close(change_of_one_target_evidence_nat(plot, -1, 300.0, younger, 0.0f), 2.3 - rate);
     }
 }
 
 /* Two plots far apart: the evidence falls by the gain of the younger track. */
-static void two_plots_add_the_gain_of_the_younger_as_evidence(void **state)
+static void two_plots_lower_the_evidence_by_the_gain_of_the_younger(void **state)
 {
     (void)state;
-    expect_close(evidence_for_one_target_nat(0, 1, 300.0,
-                                             (const double[2][2]){{5.0, 0.0}, {0.0, 1.2}}, 0.0f),
+    expect_close(change_of_one_target_evidence_nat(
+                     0, 1, 300.0, (const double[2][2]){{5.0, 0.0}, {0.0, 1.2}}, 0.0f),
                  -1.2);
-    expect_close(evidence_for_one_target_nat(1, 0, 300.0,
-                                             (const double[2][2]){{0.0, 5.0}, {1.2, 0.0}}, 0.0f),
+    expect_close(change_of_one_target_evidence_nat(
+                     1, 0, 300.0, (const double[2][2]){{0.0, 5.0}, {1.2, 0.0}}, 0.0f),
                  -1.2);
 }
 
@@ -435,7 +435,7 @@ static void evidence_above_3_nat_ends_the_younger_track(void **state)
         assert_int_equal(tracker.tracks[1].status == RHO_TRACK_FREE, i % 2);
         expect_close((double)tracker.tracks[1].one_target_nat, i % 2 ? 3.0 : 2.9);
     }
-    expect_close(evidence_for_one_target_nat(0, 1, 300.0, far, 0.0f), -3.0);
+    expect_close(change_of_one_target_evidence_nat(0, 1, 300.0, far, 0.0f), -3.0);
 }
 
 #endif
@@ -453,8 +453,8 @@ int main(void)
         cmocka_unit_test(work_of_second_plots_is_counted),
         cmocka_unit_test(after_twelve_hits_a_track_is_a_target_of_its_own),
         cmocka_unit_test(a_shared_plot_and_a_miss_each_add_little_evidence),
-        cmocka_unit_test(a_plot_in_both_gates_adds_the_evidence_of_a_miss),
-        cmocka_unit_test(two_plots_add_the_gain_of_the_younger_as_evidence),
+        cmocka_unit_test(a_younger_track_that_misses_a_plot_in_its_gate_adds_evidence),
+        cmocka_unit_test(two_plots_lower_the_evidence_by_the_gain_of_the_younger),
         cmocka_unit_test(evidence_above_3_nat_ends_the_younger_track),
 #endif
     };

@@ -30,7 +30,7 @@ static void assert_unchanged(void)
 }
 
 /* All targets have one track, with the hits that the scene gave them. */
-static void assert_all_targets_tracked(const struct scene *scene)
+static void assert_targets_tracked_with_all_hits(const struct scene *scene)
 {
     assert_int_equal(report.num_tracks, TARGETS);
     assert_int_equal(tracker.counters.tracks_started, TARGETS);
@@ -87,7 +87,7 @@ static void a_new_description_does_not_break_the_turn(void **state)
                 struct scene scene = {.turning = i == 1 ? -1 : 1, .speed_mps = 80.0, .hidden = -1};
 
                 fly_and_describe_radar(&scene, 4, at, places_m[k], pds[i]);
-                assert_all_targets_tracked(&scene);
+                assert_targets_tracked_with_all_hits(&scene);
                 assert_int_equal(rho_tracker_look_of(&tracker, 1)->count, 2 * TURNS * SECTORS);
             }
         }
@@ -161,7 +161,7 @@ static void more_radars_than_the_table_holds_are_tracked(void **state)
         assert_int_equal(rho_tracker_look_of(&tracker, scan.sensor_id)->time_us, scan.time_us);
         assert_true(tracker.num_looks <= RHO_MAX_SENSORS);
     }
-    assert_all_targets_tracked(&scene);
+    assert_targets_tracked_with_all_hits(&scene);
     assert_int_equal(tracker.num_sensors, RHO_MAX_SENSORS);
     for (int32_t id = 1; id <= SENSORS; id++) { /* the last round began with radar 1 */
         assert_int_equal(rho_tracker_look_of(&tracker, id) != NULL, id > SENSORS - RHO_MAX_SENSORS);
@@ -205,7 +205,7 @@ static void targets_in_unsearched_sectors_are_not_missed(void **state)
         for (int sector = 1; sector < SECTORS; sector++) {
             step_sector(&scene, 2 * TURNS, sector);
         }
-        assert_all_targets_tracked(&scene);
+        assert_targets_tracked_with_all_hits(&scene);
     }
 }
 
@@ -243,7 +243,7 @@ static void impossible_sectors_are_refused(void **state)
         step_sector(&scene, TURNS, sector);
     }
     scene.plots[0]--; /* the refused sector's plot was counted, too */
-    assert_all_targets_tracked(&scene);
+    assert_targets_tracked_with_all_hits(&scene);
 }
 
 /*
@@ -268,7 +268,7 @@ static void sectors_in_the_wrong_order_see_targets_once(void **state)
                 }
             }
             assert_int_equal(tracker.counters.scans_retrodicted, TURNS);
-            assert_all_targets_tracked(&scene);
+            assert_targets_tracked_with_all_hits(&scene);
         }
     }
 }
@@ -351,7 +351,7 @@ static void sectors_of_a_turn_may_measure_different_things(void **state)
         struct scene scene = {.turning = i % 2 ? 1 : -1, .speed_mps = 80.0, .hidden = -1};
 
         fly_with_some_measurements(&scene, cases[i].range_rates, cases[i].heights);
-        assert_all_targets_tracked(&scene);
+        assert_targets_tracked_with_all_hits(&scene);
     }
 }
 

@@ -90,7 +90,7 @@ static void true_place_of(const struct scene *scene, int target, double t_s, dou
     }
 }
 
-static uint32_t add_clutter(struct rho_plot *plots, uint32_t count, int more)
+static uint32_t add_one_clutter_plot(struct rho_plot *plots, uint32_t count, int more)
 {
     for (int i = 0; i < more; i++) {
         plots[count++] = (struct rho_plot){.x_m = (float)uniform(-1e6, 1e6),
@@ -119,7 +119,7 @@ static void step_sensor_scan(const struct scene *scene, int32_t sensor_id, doubl
                      : scene->fault == FAR_OFF ? 3000.0
                                                : 0.0;
 
-    scan.num_plots = add_clutter(plots, 0, clutter);
+    scan.num_plots = add_one_clutter_plot(plots, 0, clutter);
     for (int i = 0; i < TARGETS; i++) {
         double place_m[2], dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
 
@@ -131,7 +131,7 @@ static void step_sensor_scan(const struct scene *scene, int32_t sensor_id, doubl
                                                         .sigma_cross_m = (float)claim_m};
         }
     }
-    scan.num_plots = add_clutter(plots, scan.num_plots, clutter);
+    scan.num_plots = add_one_clutter_plot(plots, scan.num_plots, clutter);
     scan.plots = plots;
     assert_int_equal(rho_tracker_step(&tracker, &initiators[sensor_id - 1], &scan, &report),
                      RHO_OK);
@@ -228,7 +228,7 @@ static void a_biased_sensor_becomes_suspect_and_is_weighted_down(void **state)
 }
 
 /* The biased radar pulls the tracks, so the others appear biased as well, but less. */
-static void a_biased_sensor_is_found_at_any_claimed_noise(void **state)
+static void a_biased_sensor_is_found_in_every_random_run(void **state)
 {
     (void)state;
     for (seed = 1; seed <= 20; seed++) {
@@ -246,7 +246,7 @@ static void a_biased_sensor_is_found_at_any_claimed_noise(void **state)
  * Two witnesses of equal noise, or two coarser ones that are less biased, suffice; a claimed small
  * noise does not help.
  */
-static void of_three_unlike_sensors_only_the_biased_one_is_suspect(void **state)
+static void beside_a_biased_sensor_unlike_good_ones_are_not_suspect(void **state)
 {
     const struct scene scenes[] = {
         {.sigma_m = {0.0, 50.0, 30.0, 100.0}, .claim_m = 15.0, .shift_m = 120.0},
@@ -512,8 +512,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agreeing_sensors_are_never_suspect),
         cmocka_unit_test(a_biased_sensor_becomes_suspect_and_is_weighted_down),
-        cmocka_unit_test(a_biased_sensor_is_found_at_any_claimed_noise),
-        cmocka_unit_test(of_three_unlike_sensors_only_the_biased_one_is_suspect),
+        cmocka_unit_test(a_biased_sensor_is_found_in_every_random_run),
+        cmocka_unit_test(beside_a_biased_sensor_unlike_good_ones_are_not_suspect),
         cmocka_unit_test(a_biased_sensor_claiming_less_noise_is_mostly_found),
         cmocka_unit_test(a_sensor_3_km_off_starts_no_second_tracks),
         cmocka_unit_test(a_blind_sensor_ends_no_track),

@@ -456,7 +456,7 @@ static float learned_notch(void)
     return known.notch_mps;
 }
 
-static void start_flights(void)
+static void start_tracker_for_tangential_passes(void)
 {
     use_usual_configs(17);
     config.v_max_mps = initiation.v_max_mps = 200.0f;
@@ -471,7 +471,7 @@ static void an_unstated_notch_is_learned(void **state)
     if (!RHO_DOPPLER_NOTCH) {
         skip();
     }
-    start_flights();
+    start_tracker_for_tangential_passes();
     for (int k = 0; k < 1500; k++) {
         step_tangential_passes(k, 12.0);
     }
@@ -498,12 +498,12 @@ static void a_notch_is_learned_only_while_there_is_one(void **state)
     if (!RHO_DOPPLER_NOTCH) {
         skip();
     }
-    start_flights();
+    start_tracker_for_tangential_passes();
     for (int k = 0; k < 1500; k++) {
         step_tangential_passes(k, 0.0);
         assert_true(learned_notch() == 0.0f);
     }
-    start_flights();
+    start_tracker_for_tangential_passes();
     for (int k = 0; k < 1500; k++) {
         step_tangential_passes(k, 12.0);
     }

@@ -271,7 +271,7 @@ static void tentative_tracks_end_when_one_in_a_hundred_is_true(void **state)
 /*
  * A missed track that has moved stays, as tentative, with up to three clutter plots in its gate.
  */
-static void missed_tracks_are_kept_tentative_only_in_little_clutter(void **state)
+static void in_little_clutter_missed_tracks_become_tentative_not_ended(void **state)
 {
     const double sigma_m = sqrt(3.0 / (3.14159265 * 9.0 * 1e-8));
     (void)state;
@@ -441,7 +441,7 @@ static void tracks_near_an_image_end(void **state)
 
 #define WORK_MAX 1600000u
 
-static uint32_t work_share_after(void (*phase)(struct step *step))
+static uint32_t work_share_given_to_phase(void (*phase)(struct step *step))
 {
     start_step();
     tracker.config.work_max = WORK_MAX;
@@ -454,15 +454,19 @@ static uint32_t work_share_after(void (*phase)(struct step *step))
 static void each_phase_has_its_share_of_work(void **state)
 {
     (void)state;
-    assert_int_equal(work_share_after(rho_tracker_begin_phase_with_share_per_track), WORK_MAX / 4);
+    assert_int_equal(work_share_given_to_phase(rho_tracker_begin_phase_with_share_per_track),
+                     WORK_MAX / 4);
     if (RHO_MAX_ECHOES > 0) {
-        assert_int_equal(work_share_after(rho_tracker_predict_clutter_at_plots), WORK_MAX / 8);
-        assert_int_equal(work_share_after(rho_tracker_learn_second_plots_and_end_duplicates),
-                         WORK_MAX / 16);
+        assert_int_equal(work_share_given_to_phase(rho_tracker_predict_clutter_at_plots),
+                         WORK_MAX / 8);
+        assert_int_equal(
+            work_share_given_to_phase(rho_tracker_learn_second_plots_and_end_duplicates),
+            WORK_MAX / 16);
     }
     if (RHO_MAX_REFLECTORS > 0) {
-        assert_int_equal(work_share_after(rho_tracker_mark_image_plots_as_ghosts), WORK_MAX / 16);
-        assert_int_equal(work_share_after(rho_tracker_end_image_tracks), WORK_MAX / 16);
+        assert_int_equal(work_share_given_to_phase(rho_tracker_mark_image_plots_as_ghosts),
+                         WORK_MAX / 16);
+        assert_int_equal(work_share_given_to_phase(rho_tracker_end_image_tracks), WORK_MAX / 16);
     }
     /* work reserved after the search, with and without images */
     start_step();
@@ -509,7 +513,7 @@ static void a_scan_is_claimed_in_four_parts_at_most(void **state)
 }
 
 /* Scores are limited to a million nat, so that they can be added. */
-static void scores_beyond_a_million_nat_are_unsound(void **state)
+static void scores_and_thresholds_beyond_a_million_nat_are_unsound(void **state)
 {
     (void)state;
     assert_true(rho_tracker_is_score_in_range(1000000000) &&
@@ -539,7 +543,7 @@ int main(void)
         cmocka_unit_test(clutter_counts_are_averaged_over_ten_scans),
         cmocka_unit_test(clutter_density_has_a_least_area_and_value),
         cmocka_unit_test(tentative_tracks_end_when_one_in_a_hundred_is_true),
-        cmocka_unit_test(missed_tracks_are_kept_tentative_only_in_little_clutter),
+        cmocka_unit_test(in_little_clutter_missed_tracks_become_tentative_not_ended),
         cmocka_unit_test(plots_four_sigmas_beyond_the_range_are_covered),
         cmocka_unit_test(tracks_stay_in_the_notch_for_five_minutes_at_most),
         cmocka_unit_test(a_look_in_the_notch_has_a_small_pd),
@@ -552,7 +556,7 @@ int main(void)
         cmocka_unit_test(each_phase_has_its_share_of_work),
         cmocka_unit_test(work_for_excluded_areas_is_counted),
         cmocka_unit_test(a_scan_is_claimed_in_four_parts_at_most),
-        cmocka_unit_test(scores_beyond_a_million_nat_are_unsound),
+        cmocka_unit_test(scores_and_thresholds_beyond_a_million_nat_are_unsound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -168,10 +168,10 @@ static void a_bearing_ends_coasting_of_a_track(void **state)
 }
 
 static void expect_refused(struct rho_track track, const struct rho_track_bearing *bearing,
-                           enum rho_status status)
+                           enum rho_status expected_error)
 {
     const struct rho_track before = track;
-    assert_int_equal(rho_track_update_bearing(&track, bearing, &model, 100), status);
+    assert_int_equal(rho_track_update_bearing(&track, bearing, &model, 100), expected_error);
     assert_memory_equal(&track, &before, sizeof track);
 }
 

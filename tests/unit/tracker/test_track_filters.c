@@ -58,7 +58,7 @@ static struct rho_track start_track(void)
     return track;
 }
 
-static unsigned count_hypotheses_in_use(void)
+static unsigned count_hypotheses_of_all_slots(void)
 {
     unsigned nodes = 0;
     for (unsigned slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
@@ -77,12 +77,12 @@ static void the_model_selects_the_filter_of_a_track(void **state)
         set_filter((enum rho_track_filter)filter);
         struct rho_track track = start_track();
         assert_int_equal(track.filter, filter);
-        assert_int_equal(count_hypotheses_in_use(), filter == RHO_TRACK_HYPOTHESES ? 1 : 0);
+        assert_int_equal(count_hypotheses_of_all_slots(), filter == RHO_TRACK_HYPOTHESES ? 1 : 0);
         assert_int_equal(track.time_us, 3 * SCAN_US);
         assert_float_equal(track.kalman.state[0], 600.0f, 2.0f);
         assert_float_equal(track.kalman.state[3], 200.0f, 2.0f);
         rho_track_free_hypotheses(&track, &model);
-        assert_int_equal(count_hypotheses_in_use(), 0);
+        assert_int_equal(count_hypotheses_of_all_slots(), 0);
     }
     /* with a pool of hypotheses, input estimation is not used */
     set_filter(RHO_TRACK_HYPOTHESES);
@@ -107,9 +107,9 @@ static void a_start_from_an_estimate_uses_the_models_filter(void **state)
         struct rho_track_plot next = plot_of_scan(4);
         assert_int_equal(rho_track_predict(&track, next.time_us, &model), RHO_OK);
         assert_int_equal(rho_track_update_by_plot(&track, &next, &model, 0), RHO_OK);
-        assert_int_equal(count_hypotheses_in_use() > 0, filter == RHO_TRACK_HYPOTHESES);
+        assert_int_equal(count_hypotheses_of_all_slots() > 0, filter == RHO_TRACK_HYPOTHESES);
         rho_track_free_hypotheses(&track, &model);
-        assert_int_equal(count_hypotheses_in_use(), 0);
+        assert_int_equal(count_hypotheses_of_all_slots(), 0);
     }
 }
 
@@ -157,7 +157,7 @@ static void a_refused_start_gives_its_slot_back(void **state)
         plots[2].time_us = INT64_MAX; /* no filter can predict to this time */
         assert_int_not_equal(rho_track_start(&track, 1, plots, 4, &model, 0), RHO_OK);
         assert_memory_equal(&track, &before, sizeof track);
-        assert_int_equal(count_hypotheses_in_use(), 0);
+        assert_int_equal(count_hypotheses_of_all_slots(), 0);
     }
 }
 
@@ -208,7 +208,7 @@ static void commit_and_settle_need_a_filter_of_hypotheses(void **state)
         rho_track_merge_estimates(&track, 9 * SCAN_US, &model);
         rho_track_free_hypotheses(&track, &model);
         assert_memory_equal(&track, &before, sizeof track);
-        assert_int_equal(count_hypotheses_in_use(), 0);
+        assert_int_equal(count_hypotheses_of_all_slots(), 0);
     }
     set_filter(RHO_TRACK_HYPOTHESES);
     struct rho_track track = start_track();
@@ -301,7 +301,7 @@ static void settling_a_closed_slot_changes_nothing(void **state)
     assert_int_not_equal(rho_track_predict(&track, 5 * SCAN_US, &model), RHO_OK);
     assert_memory_equal(&track, &before, sizeof track);
     rho_track_free_hypotheses(&track, &model); /* freed a second time */
-    assert_int_equal(count_hypotheses_in_use(), 0);
+    assert_int_equal(count_hypotheses_of_all_slots(), 0);
 }
 
 /* ---- every filter updated by a caller -------------------------------------------------------- */

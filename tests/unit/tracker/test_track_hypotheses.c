@@ -72,7 +72,8 @@ static int is_plot_in_gate(uint16_t slot, int scan, const struct rho_plot *plot,
     return rho_hypotheses_score_plot(&pool, slot, &seen, time_us, 0, LOG_PD, &clutter, &gain_nat);
 }
 
-static void commit_plot(uint16_t slot, int scan, const struct rho_plot *plot, uint32_t measures)
+static void extend_hypotheses_by_plot(uint16_t slot, int scan, const struct rho_plot *plot,
+                                      uint32_t measures)
 {
     const struct rho_hypotheses_scan at = {.time_us = (int64_t)scan * SCAN_US,
                                            .measures = measures,
@@ -95,7 +96,7 @@ static void a_hypothesis_without_height_accepts_any_height(void **state)
     const uint16_t slot = open_slot();
     const struct rho_plot low = plot_at(2.0f, -3.0f, 500.0f), high = plot_at(0.0f, 4.0f, 90000.0f);
     assert_int_equal(is_plot_in_gate(slot, 1, &low, RHO_MEASURES_Z, &reach), 1);
-    commit_plot(slot, 1, &low, RHO_MEASURES_Z);
+    extend_hypotheses_by_plot(slot, 1, &low, RHO_MEASURES_Z);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
     assert_int_equal(is_plot_in_gate(slot, 2, &high, RHO_MEASURES_Z, &reach), 1);
     assert_int_equal(rho_hypotheses_is_in_box(&pool, slot, &reach, &high, RHO_MEASURES_Z), 1);
@@ -113,7 +114,7 @@ static void a_bearing_drops_hypotheses_it_contradicts(void **state)
     const uint16_t slot = open_slot();
     const struct rho_plot aside = plot_at(0.0f, 60.0f, 0.0f);
     assert_int_equal(is_plot_in_gate(slot, 2, &aside, 0, &reach), 1);
-    commit_plot(slot, 2, &aside, 0);
+    extend_hypotheses_by_plot(slot, 2, &aside, 0);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
     assert_int_equal(
         rho_hypotheses_update_bearing(&pool, slot, 2 * SCAN_US, -5000.0f, 0.0f, -0.02f, 1e-3f),
@@ -134,7 +135,7 @@ static void a_bearing_undefined_for_a_hypothesis_does_not_favour_it(void **state
     const struct rho_plot plot = plot_at(50.0f, 0.0f, 0.0f);
     const uint16_t slot = open_slot();
     assert_int_equal(is_plot_in_gate(slot, 1, &plot, 0, &reach), 1);
-    commit_plot(slot, 1, &plot, 0);
+    extend_hypotheses_by_plot(slot, 1, &plot, 0);
     assert_int_equal(rho_hypotheses_predict(&pool, slot, 2 * SCAN_US), RHO_OK);
     assert_int_equal(rho_hypotheses_count(&pool, slot), 2);
     const struct rho_hypothesis best = *rho_hypotheses_at(&pool, slot, 0);
@@ -249,7 +250,7 @@ static void late_scans_without_plots_claim_none(void **state)
 #define NUM_ABREAST 6
 
 /* Pseudo-random numbers -1 .. 1. */
-static float draw_uniform(void)
+static float draw_uniform_minus_1_to_1(void)
 {
     static uint32_t seed = 1;
     seed = seed * 1103515245u + 12345u;
@@ -260,7 +261,8 @@ static void step_targets_abreast(int k, float gap_m)
 {
     struct rho_plot plots[NUM_ABREAST];
     for (int i = 0; i < NUM_ABREAST; i++) {
-        const float x_m = 30.0f * draw_uniform(), y_m = 30.0f * draw_uniform();
+        const float x_m = 30.0f * draw_uniform_minus_1_to_1(),
+                    y_m = 30.0f * draw_uniform_minus_1_to_1();
         plots[i] = plot_at(200.0f * (float)k + x_m, gap_m * (float)i + y_m, 0.0f);
         plots[i].sigma_range_m = plots[i].sigma_cross_m = 30.0f;
     }

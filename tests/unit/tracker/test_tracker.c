@@ -18,7 +18,7 @@ static struct rho_report report, other_report;
 static struct rho_plot plots[RHO_MAX_PLOTS + 50];
 static uint32_t num_plots, seed = 5;
 
-static uint32_t random_bits(void)
+static uint32_t random_24_bits(void)
 {
     seed = seed * 1664525u + 1013904223u;
     return seed >> 8;
@@ -26,7 +26,7 @@ static uint32_t random_bits(void)
 
 static float uniform(float from, float to)
 {
-    return from + (to - from) * (float)random_bits() / 16777216.0f;
+    return from + (to - from) * (float)random_24_bits() / 16777216.0f;
 }
 
 /* rate: false tracks an hour; 0: tracks start and are confirmed with a score of 0. */
@@ -406,7 +406,7 @@ static void starts_without_room_in_the_table_are_counted(void **state)
 static float hostile_number(void)
 {
     static const float odd[] = {NAN, INFINITY, -INFINITY, 3.4e38f, -3.4e38f, 1e-45f, 0.0f, 2.0e6f};
-    return random_bits() % 8 == 0 ? odd[random_bits() % 8] : uniform(-5000.0f, 5000.0f);
+    return random_24_bits() % 8 == 0 ? odd[random_24_bits() % 8] : uniform(-5000.0f, 5000.0f);
 }
 
 static void add_hostile_plot(void)
@@ -417,11 +417,11 @@ static void add_hostile_plot(void)
     plot->vx_mps = hostile_number() * 0.1f;
     plot->vy_mps = hostile_number() * 0.1f;
     plot->vz_mps = hostile_number();
-    plot->sigma_mps = random_bits() % 4 ? 5.0f : hostile_number();
-    plot->sigma_up_m = random_bits() % 4 ? 20.0f : hostile_number();
-    if (random_bits() % 8 == 0) {
+    plot->sigma_mps = random_24_bits() % 4 ? 5.0f : hostile_number();
+    plot->sigma_up_m = random_24_bits() % 4 ? 20.0f : hostile_number();
+    if (random_24_bits() % 8 == 0) {
         plot->sigma_range_m = plot->sigma_cross_m = hostile_number();
-        plot->offset_us = (int32_t)(random_bits() * 300u);
+        plot->offset_us = (int32_t)(random_24_bits() * 300u);
     }
 }
 
@@ -443,12 +443,12 @@ static void hostile_plots_leave_reports_finite(void **state)
     int64_t time_us = -50000000;
     start_tracker();
     for (int k = 0; k < 3000; k++) {
-        for (uint32_t i = random_bits() % 30; i > 0; i--) {
+        for (uint32_t i = random_24_bits() % 30; i > 0; i--) {
             add_hostile_plot();
         }
         struct rho_scan scan = {.time_us = time_us,
-                                .sensor_id = (int32_t)(random_bits() % 3),
-                                .measures = random_bits() % 8,
+                                .sensor_id = (int32_t)(random_24_bits() % 3),
+                                .measures = random_24_bits() % 8,
                                 .num_plots = num_plots,
                                 .plots = plots};
         memset(&report, 0xee, sizeof report);
@@ -456,7 +456,7 @@ static void hostile_plots_leave_reports_finite(void **state)
         check_fate_sums(&scan);
         check_reports_finite();
         num_plots = 0;
-        time_us += random_bits() % 16 == 0 ? -1000000 : (int64_t)(random_bits() % 4000000);
+        time_us += random_24_bits() % 16 == 0 ? -1000000 : (int64_t)(random_24_bits() % 4000000);
     }
     assert_true(tracker.counters.scans_late > 0);
 }

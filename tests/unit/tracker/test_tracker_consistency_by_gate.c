@@ -32,7 +32,7 @@ static void set_up_gate(unsigned way, uint64_t seed)
  * Four targets that meet in the middle, two side by side, two that turn; seen with misses among
  * clutter.
  */
-static void add_targets(void)
+static void set_eight_targets_of_scene(void)
 {
     static const struct target targets[] = {
         {-4000.0, -4000.0, 3000.0, 200.0, 0.7854, 0.0, 0.0, 0.0},
@@ -52,10 +52,10 @@ static void add_targets(void)
 
 enum { FLAT, OWN_TIMES, HEIGHTS, POLAR, VELOCITIES, SECTORS, ALL_OF_IT, DENSE, NUM_KINDS };
 
-static void set_up_variant(int kind)
+static void set_up_scene_variant(int kind)
 {
     int all = kind == ALL_OF_IT;
-    add_targets();
+    set_eight_targets_of_scene();
     scene.turn_s = kind == OWN_TIMES || all ? 0.9 : 0.0;
     scene.measures |= kind == HEIGHTS || all ? RHO_MEASURES_Z : 0u;
     scene.sigma_cross_m = kind == POLAR || all ? 60.0 : 0.0;
@@ -90,7 +90,7 @@ static void every_gate_keeps_counters_and_pool_consistent(void **state)
         for (int kind = 0; kind < NUM_KINDS; kind++) {
             unsigned most = 0, followed = 0;
             set_up_gate(way, 100 + (uint64_t)kind);
-            set_up_variant(kind);
+            set_up_scene_variant(kind);
             begin_tracker();
             for (int k = 0; k < NUM_SCANS; k++) {
                 step_tracker(k);
@@ -100,7 +100,8 @@ static void every_gate_keeps_counters_and_pool_consistent(void **state)
                 }
             }
             for (unsigned i = 0; i < scene.num_targets; i++) {
-                followed += follower_of(i, scene.interval_s * (NUM_SCANS - 1), 300.0) != NULL;
+                followed += confirmed_track_nearest_to_target(i, scene.interval_s * (NUM_SCANS - 1),
+                                                              300.0) != NULL;
             }
             /* measured: all targets, but for one that turns in dense clutter */
             assert_true(followed + (kind == DENSE && ways[way].gate != RHO_TRACKER_BEST) >=
@@ -126,7 +127,7 @@ static uint64_t random_then;
 static void start_scene_of_all_variants(unsigned way)
 {
     set_up_gate(way, 9);
-    set_up_variant(ALL_OF_IT);
+    set_up_scene_variant(ALL_OF_IT);
     begin_tracker();
 }
 
@@ -176,7 +177,7 @@ static void replays_and_snapshots_give_identical_bytes(void **state)
  * A too late scan changes counters alone; its report shows the tracks at its time, and later scans
  * are unaffected.
  */
-static void too_late_scans_report_past_tracks_and_change_nothing(void **state)
+static void too_late_scans_change_nothing_and_report_at_their_time(void **state)
 {
     (void)state;
     for (unsigned way = 0; way < NUM_WAYS; way++) {
@@ -289,7 +290,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_gate_keeps_counters_and_pool_consistent),
         cmocka_unit_test(replays_and_snapshots_give_identical_bytes),
-        cmocka_unit_test(too_late_scans_report_past_tracks_and_change_nothing),
+        cmocka_unit_test(too_late_scans_change_nothing_and_report_at_their_time),
         cmocka_unit_test(bad_configurations_of_gates_are_refused),
         cmocka_unit_test(limits_of_configuration_ranges_are_accepted),
         cmocka_unit_test(the_default_gate_is_best),

@@ -45,7 +45,7 @@ static void step_scan(uint32_t measures)
     time_s += SCAN_S;
 }
 
-static void add_clutter_plots(int count, uint32_t measures)
+static void step_scan_of_clutter(int count, uint32_t measures)
 {
     for (int i = 0; i < count; i++) {
         struct rho_plot *plot = add_plot(uniform(0.0, side_m), uniform(0.0, side_m), 10.0, 10.0);
@@ -57,7 +57,7 @@ static void add_clutter_plots(int count, uint32_t measures)
     step_scan(measures);
 }
 
-static unsigned count_confirmed(void)
+static unsigned count_tracks_confirmed_so_far(void)
 {
     return tracker.counters.tracks_confirmed;
 }
@@ -71,9 +71,9 @@ static void very_dense_clutter_at_the_start_confirms_nothing(void **state)
     for (int run = 0; run < 4; run++) {
         start_tracker(1826.0, 1);
         for (int k = 0; k < 6; k++) {
-            add_clutter_plots(poisson(50.0) + poisson(50.0) + poisson(50.0) + poisson(50.0), 0);
+            step_scan_of_clutter(poisson(50.0) + poisson(50.0) + poisson(50.0) + poisson(50.0), 0);
         }
-        sum += count_confirmed();
+        sum += count_tracks_confirmed_so_far();
     }
     assert_int_equal(sum, 0);
 }
@@ -88,9 +88,9 @@ static void a_plot_far_out_does_not_lower_the_clutter_density(void **state)
         if (k == 20) {
             add_plot(1.9e6, 1.9e6, 10.0, 10.0);
         }
-        add_clutter_plots(poisson(10.0), 0);
+        step_scan_of_clutter(poisson(10.0), 0);
     }
-    assert_true(count_confirmed() <= 4); /* expected number 0.3 */
+    assert_true(count_tracks_confirmed_so_far() <= 4); /* expected number 0.3 */
 }
 
 static void a_pause_does_not_lower_the_clutter_density(void **state)
@@ -102,9 +102,9 @@ static void a_pause_does_not_lower_the_clutter_density(void **state)
         start_tracker(10000.0, 0);
         for (int k = 0; k < 32; k++) {
             time_s += k == 20 ? 600.0 : 0.0;
-            add_clutter_plots(poisson(50.0) + poisson(50.0), 0);
+            step_scan_of_clutter(poisson(50.0) + poisson(50.0), 0);
         }
-        sum += count_confirmed();
+        sum += count_tracks_confirmed_so_far();
     }
     assert_true(sum <= 2); /* expected number 0.1 */
 }
@@ -119,9 +119,9 @@ static void sensors_of_different_measurements_keep_the_false_track_rate(void **s
         start_tracker(10000.0, 1);
         for (int k = 0; k < 600; k++) {
             sensor_id = k % 2;
-            add_clutter_plots(poisson(30.0), k % 2 ? more : 0);
+            step_scan_of_clutter(poisson(30.0), k % 2 ? more : 0);
         }
-        assert_true(count_confirmed() <= 5); /* expected number 0.3 */
+        assert_true(count_tracks_confirmed_so_far() <= 5); /* expected number 0.3 */
     }
 }
 
@@ -139,7 +139,7 @@ static void a_narrow_sector_keeps_the_false_track_rate(void **state)
         }
         step_scan(0);
     }
-    assert_true(count_confirmed() <= 5); /* expected number 0.8 */
+    assert_true(count_tracks_confirmed_so_far() <= 5); /* expected number 0.8 */
 }
 
 int main(void)

@@ -22,12 +22,12 @@ struct figures {
 
 static void note_track(struct figures *figures, int k)
 {
-    const struct rho_track_report *track = follower_of(0, k, 200.0);
+    const struct rho_track_report *track = confirmed_track_nearest_to_target(0, k, 200.0);
     if (track == NULL) {
         figures->lost++;
         return;
     }
-    struct target at = target_at(&scene.target[0], k);
+    struct target at = target_on_its_turning_path_at(&scene.target[0], k);
     double across_mps2 = cos(at.course_rad) * (double)track->accel_mps2[1] -
                          sin(at.course_rad) * (double)track->accel_mps2[0];
     assert_float_equal(track->accel_mps2[2], 0.0f, 0.0f);
@@ -163,7 +163,8 @@ static unsigned count_runs_with_identities_kept(uint8_t gate, float accel_max_mp
         for (int k = 0; k < 68; k++) {
             step_tracker(k);
             for (unsigned i = 0; i < 2; i++) {
-                const struct rho_track_report *track = follower_of(i, k, k < 60 ? 25.0 : 50.0);
+                const struct rho_track_report *track =
+                    confirmed_track_nearest_to_target(i, k, k < 60 ? 25.0 : 50.0);
                 ids[i] = k == 8 && track ? track->track_id : ids[i];
                 same += k == 67 && track && track->track_id == ids[i];
             }
@@ -244,7 +245,8 @@ static unsigned count_runs_followed_through_pull(uint8_t gate, double interval_s
         begin_tracker();
         for (int k = 0; k < 60; k++) {
             step_tracker(k);
-            const struct rho_track_report *track = follower_of(0, interval_s * k, 150.0);
+            const struct rho_track_report *track =
+                confirmed_track_nearest_to_target(0, interval_s * k, 150.0);
             track_id = k == 19 && track ? track->track_id : track_id;
             kept += k == 59 && track && track->track_id == track_id;
         }
@@ -300,7 +302,7 @@ static unsigned count_targets_followed_in_crowd(uint8_t gate, uint64_t seed, uns
             tracker.hypotheses.num_free < *least_free ? tracker.hypotheses.num_free : *least_free;
     }
     for (unsigned i = 0; i < scene.num_targets; i++) {
-        followed += follower_of(i, 2.0 * 39.0, 400.0) != NULL;
+        followed += confirmed_track_nearest_to_target(i, 2.0 * 39.0, 400.0) != NULL;
     }
     assert_int_equal(tracker.counters.updates_refused, 0);
     return followed;

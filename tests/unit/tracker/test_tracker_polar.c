@@ -50,12 +50,12 @@ static double uniform(double from, double to)
 }
 
 /* A random error of variance 1, uniform. */
-static double draw_error(void)
+static double draw_uniform_error_of_variance_1(void)
 {
     return noise * uniform(-1.7320508, 1.7320508);
 }
 
-static struct target target_at(const struct target *target, double t_s)
+static struct target target_on_its_turning_path_at(const struct target *target, double t_s)
 {
     struct target moved = *target;
     moved.x_m += target->vx_mps * t_s;
@@ -64,11 +64,11 @@ static struct target target_at(const struct target *target, double t_s)
 }
 
 /* When the antenna points at the target in the turn that begins at t_s, in whole microseconds. */
-static double antenna_meets_target_s(const struct target *target, double t_s)
+static double from_turn_start_to_target_s(const struct target *target, double t_s)
 {
     double offset_s = 0.0;
     for (int i = 0; i < 8; i++) {
-        struct target then = target_at(target, t_s + offset_s);
+        struct target then = target_on_its_turning_path_at(target, t_s + offset_s);
         double turned = atan2(then.y_m - radar.y_m, then.x_m - radar.x_m) / TURN_RAD;
         offset_s = TURN_S * (turned - floor(turned));
     }
@@ -78,19 +78,20 @@ static double antenna_meets_target_s(const struct target *target, double t_s)
 /* Adds the plot of a target in turn k. Without heights the target is level with the radar. */
 static void add_target_plot(const struct target *target, int k)
 {
-    double met_s = antenna_meets_target_s(target, TURN_S * k);
-    struct target then = target_at(target, TURN_S * k + met_s);
+    double met_s = from_turn_start_to_target_s(target, TURN_S * k);
+    struct target then = target_on_its_turning_path_at(target, TURN_S * k + met_s);
     double dx_m = then.x_m - radar.x_m, dy_m = then.y_m - radar.y_m;
     double dz_m = (measures & RHO_MEASURES_Z) ? then.z_m - radar.z_m : 0.0;
     double range_m = sqrt(dx_m * dx_m + dy_m * dy_m + dz_m * dz_m);
     double rate_mps = (dx_m * then.vx_mps + dy_m * then.vy_mps) / range_m;
     struct rho_polar_plot polar = {
         .offset_us = (int32_t)lround((met_s - scan_after_s) * 1e6),
-        .range_m = (float)(range_m + sigma_range_m * draw_error()),
-        .azimuth_rad =
-            (float)remainder(atan2(dy_m, dx_m) + sigma_azimuth_rad * draw_error(), TURN_RAD),
-        .elevation_rad = (float)(asin(dz_m / range_m) + sigma_azimuth_rad * draw_error()),
-        .range_rate_mps = (float)(rate_mps + sigma_rate_mps * draw_error()),
+        .range_m = (float)(range_m + sigma_range_m * draw_uniform_error_of_variance_1()),
+        .azimuth_rad = (float)remainder(
+            atan2(dy_m, dx_m) + sigma_azimuth_rad * draw_uniform_error_of_variance_1(), TURN_RAD),
+        .elevation_rad =
+            (float)(asin(dz_m / range_m) + sigma_azimuth_rad * draw_uniform_error_of_variance_1()),
+        .range_rate_mps = (float)(rate_mps + sigma_rate_mps * draw_uniform_error_of_variance_1()),
         .sigma_range_m = (float)sigma_range_m,
         .sigma_azimuth_rad = (float)sigma_azimuth_rad,
         .sigma_elevation_rad = (float)sigma_azimuth_rad,
@@ -204,7 +205,7 @@ static long track_score_mnat(void)
 static double nees_of_place(const struct target *target, int k)
 {
     const struct rho_track_report *track = only_track();
-    struct target truth = target_at(target, scan_time_s(k));
+    struct target truth = target_on_its_turning_path_at(target, scan_time_s(k));
     double dx_m = track->state[0] - truth.x_m, dy_m = track->state[1] - truth.y_m;
     const float *p = track->covariance;
     double xx = p[RHO_AT(0, 0)], xy = p[RHO_AT(1, 0)], yy = p[RHO_AT(1, 1)];
@@ -257,7 +258,8 @@ static void check_estimate_against_truth(const struct target *target, int k)
  * NEES over two dimensions averages 1; the tracker allows for manoeuvres that do not happen, so it
  * is lower.
  */
-static double mean_nees_following(uint32_t measured, enum rho_tracker_gate gate)
+static double radial_velocity_variance_after_following(uint32_t measured,
+                                                       enum rho_tracker_gate gate)
 {
     const struct target target = {20000.0, -9000.0, 6000.0, -120.0, 110.0};
     double sum = 0.0;
@@ -292,9 +294,10 @@ static void polar_plots_are_tracked_with_and_without_range_rate(void **state)
     (void)state;
     for (int i = 0; i < 2; i++) {
         for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
-            double without = mean_nees_following(heights[i], (enum rho_tracker_gate)gate);
-            double with = mean_nees_following(heights[i] | RHO_MEASURES_RANGE_RATE,
-                                              (enum rho_tracker_gate)gate);
+            double without =
+                radial_velocity_variance_after_following(heights[i], (enum rho_tracker_gate)gate);
+            double with = radial_velocity_variance_after_following(
+                heights[i] | RHO_MEASURES_RANGE_RATE, (enum rho_tracker_gate)gate);
             print_message("gate %d: along the line of sight: %.2f, %.2f m/s\n", gate, sqrt(without),
                           sqrt(with));
             assert_true(with < 1.5);
@@ -307,7 +310,7 @@ static void polar_plots_are_tracked_with_and_without_range_rate(void **state)
 static void check_state(const struct target *target, int k)
 {
     const struct rho_track_report *track = only_track();
-    struct target truth = target_at(target, scan_time_s(k));
+    struct target truth = target_on_its_turning_path_at(target, scan_time_s(k));
     assert_float_equal(track->state[0], truth.x_m, 1.0);
     assert_float_equal(track->state[1], truth.y_m, 1.0);
     assert_float_equal(track->state[3], truth.vx_mps, 0.5);
@@ -351,7 +354,7 @@ static void update_age_counts_from_the_plots_own_time(void **state)
     check_state(&late, 3);
     track_target(&late, 4, 8);
     int32_t last_us =
-        (int32_t)lround(1e6 * (7.0 * TURN_S + antenna_meets_target_s(&late, 7.0 * TURN_S)));
+        (int32_t)lround(1e6 * (7.0 * TURN_S + from_turn_start_to_target_s(&late, 7.0 * TURN_S)));
     for (int k = 8; k < 10; k++) {
         step_turn(k);
         check_state(&late, k);
@@ -497,7 +500,7 @@ static void scans_of_a_low_pd_sensor_elsewhere_end_no_track(void **state)
     assert_int_equal(report.num_tracks, 1);
 }
 
-static void add_clutter(int count)
+static void add_one_clutter_plot(int count)
 {
     for (int i = 0; i < count; i++) {
         plots[num_plots++] = (struct rho_plot){.x_m = (float)uniform(-4e4, 4e4),
@@ -518,7 +521,7 @@ static void hits_add_less_score_among_more_clutter(void **state)
     assert_int_equal(rho_tracker_set_sensor(&world.tracker, &noisy), RHO_OK);
     for (int k = 0; k < 20; k++) {
         add_target_plot(target, k);
-        add_clutter(k % 2 ? 40 : 1);
+        add_one_clutter_plot(k % 2 ? 40 : 1);
         radar.sensor_id = k % 2 ? 2 : 1;
         step_turn(k);
     }
@@ -613,7 +616,7 @@ static void a_radar_on_a_moving_ship_tracks(void **state)
             add_target_plot(&target, k);
             step_turn(k);
             if (k >= 3) {
-                struct target truth = target_at(&target, scan_time_s(k));
+                struct target truth = target_on_its_turning_path_at(&target, scan_time_s(k));
                 assert_int_equal(only_track()->hits, k + 1);
                 assert_float_equal(only_track()->state[0], truth.x_m, 3.0);
                 assert_float_equal(only_track()->state[1], truth.y_m, 3.0);
@@ -701,7 +704,8 @@ static void plots_with_bad_numbers_are_invalid_and_counted(void **state)
     assert_int_equal(world.tracker.counters.plots_in, 9 + bad);
     assert_int_equal(only_track()->hits, 9);
     /* bad plots change nothing in the tracker */
-    assert_true(fabs(only_track()->state[0] - target_at(&early, scan_time_s(8)).x_m) < 5.0);
+    assert_true(fabs(only_track()->state[0] -
+                     target_on_its_turning_path_at(&early, scan_time_s(8)).x_m) < 5.0);
     track_target(&early, 9, 12);
     assert_int_equal(only_track()->hits, 12);
 }
@@ -722,9 +726,9 @@ static void values_of_unmeasured_fields_do_not_make_a_plot_invalid(void **state)
  * Sectors that look elsewhere, moves, clutter, targets that leave: 40 turns, starting from memory
  * filled with any byte.
  */
-static void run_forty_turns(int before, struct rho_report reports[40])
+static void run_forty_turns(int fill_byte, struct rho_report reports[40])
 {
-    garbage = before;
+    garbage = fill_byte;
     memset(&world, garbage, sizeof world);
     memset(plots, garbage, sizeof plots);
     start_tracker(RHO_MEASURES_RANGE_RATE);

@@ -341,7 +341,7 @@ static void a_wall_in_line_with_a_configured_one_is_learned_behind_a_gap(void **
 /*
  * Before, one wall was learned; then one is configured: it goes first, and the learned one is kept.
  */
-static void configured_walls_replace_as_many_learned_ones(void **state)
+static void a_wall_configured_later_goes_first_and_learned_ones_stay(void **state)
 {
     static const struct rho_reflector told = {-300.0f, -40.0f, 300.0f, -40.0f};
     struct rho_reflector wall;
@@ -523,7 +523,7 @@ int main(void)
         cmocka_unit_test(a_car_behind_a_learned_wall_is_tracked),
         cmocka_unit_test(configured_walls_stay_and_are_not_learned_again),
         cmocka_unit_test(a_wall_in_line_with_a_configured_one_is_learned_behind_a_gap),
-        cmocka_unit_test(configured_walls_replace_as_many_learned_ones),
+        cmocka_unit_test(a_wall_configured_later_goes_first_and_learned_ones_stay),
         cmocka_unit_test(a_wall_that_is_gone_is_forgotten),
         cmocka_unit_test(a_snapshot_keeps_walls),
         cmocka_unit_test(invalid_lines_are_found_unsound),

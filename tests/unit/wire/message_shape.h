@@ -44,14 +44,14 @@ struct message_shape {
 
 /* ---- bits of a number, in memory and on the wire --------------------------------------------- */
 
-static inline uint64_t load_bits(const void *at, unsigned width)
+static inline uint64_t load_bits(const void *at, unsigned width_bytes)
 {
     uint8_t v8;
     uint16_t v16;
     uint32_t v32;
     uint64_t v64;
 
-    switch (width) {
+    switch (width_bytes) {
     case 1:
         memcpy(&v8, at, 1);
         return v8;

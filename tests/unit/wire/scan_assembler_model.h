@@ -118,8 +118,9 @@ static inline int model_find_stray(const struct model_source *source,
 }
 
 static inline enum model_verdict
-model_judge_newer_number(const struct model_source *source,
-                         const struct rho_scan_assembler_place *place, wide ahead, int64_t now_us)
+model_judge_time_step_of_newer_number(const struct model_source *source,
+                                      const struct rho_scan_assembler_place *place, wide ahead,
+                                      int64_t now_us)
 {
     wide took = (wide)place->time_us - source->place.time_us;
     wide usual = ahead * source->interval_us, silent = model_elapsed_us(source->heard_us, now_us);
@@ -152,15 +153,16 @@ static inline int model_is_skipped_number(const struct model_source *source, int
 }
 
 /* Whether a scan is not too old after the scans already given. */
-static inline int model_is_in_time(int kind, int64_t time_us)
+static inline int model_is_within_late_max_of_last_given(int kind, int64_t time_us)
 {
     wide late_max = kind == RHO_SCAN_ASSEMBLER_BEARINGS ? 0 : model.config.late_max_us;
 
     return !model.has_out || (wide)model.out_us - time_us <= late_max;
 }
 
-static inline int model_is_useful_late_scan(const struct model_source *source,
-                                            const struct rho_scan_assembler_place *place)
+static inline int
+model_is_timely_scan_of_skipped_number(const struct model_source *source,
+                                       const struct rho_scan_assembler_place *place)
 {
     wide behind = model_numbers_ahead(source->place.scan, place->scan);
     wide before = (wide)source->place.time_us - place->time_us;
@@ -168,7 +170,7 @@ static inline int model_is_useful_late_scan(const struct model_source *source,
 
     return source->off == 0 && model_is_skipped_number(source, place->scan) && before > 0 &&
            before + 10000 >= usual - usual / 4 && before <= usual + usual / 2 + 10000 &&
-           model_is_in_time(source->kind, place->time_us);
+           model_is_within_late_max_of_last_given(source->kind, place->time_us);
 }
 
 /* No older number of the 31 before the newest has come, or the scan continues a stray. */
@@ -208,14 +210,14 @@ static inline enum model_verdict model_judge_scan(const struct model_source *sou
     if (place->epoch != source->place.epoch || ahead > RHO_SCAN_ASSEMBLER_SKIP_MAX || ahead < -31) {
         verdict = M_NUMBER;
     } else if (ahead > 0) {
-        verdict = model_judge_newer_number(source, place, ahead, now_us);
+        verdict = model_judge_time_step_of_newer_number(source, place, ahead, now_us);
     } else if (ahead < 0 && place->time_us > source->place.time_us) {
         verdict = M_NUMBER;
     } else if (model_time_difference_us(place->time_us, source->place.time_us) >
                model.config.jump_max_us) {
         verdict = M_TIME;
     } else {
-        verdict = model_is_useful_late_scan(source, place) ? M_SKIPPED : M_LATE;
+        verdict = model_is_timely_scan_of_skipped_number(source, place) ? M_SKIPPED : M_LATE;
         for (unsigned i = 0; i < source->num_numbers; i++) {
             verdict = source->numbers[i] == place->scan ? M_DOUBLE : verdict;
         }
@@ -414,8 +416,8 @@ static inline int model_is_outvoted(const struct model_source *source, int64_t t
  * Whether a restart is in the past, though not before the scans given, while no other sensor tells
  * the time.
  */
-static inline int model_is_restart_in_past(const struct model_source *source, int64_t time_us,
-                                           int64_t now_us)
+static inline int model_is_lone_restart_before_given_scans(const struct model_source *source,
+                                                           int64_t time_us, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
@@ -451,7 +453,7 @@ static inline int model_wins_clock_vote(const struct model_source *source, int64
            model_time_difference_us(model.clock_us, now_us) > model_clock_tolerance_us();
 }
 
-static inline void model_set_clock(int64_t time_us, int64_t now_us)
+static inline void model_restart_on_new_clock(int64_t time_us, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         struct model_source *source = &model.sources[i];
@@ -476,7 +478,8 @@ static inline int model_update_clock(struct model_source *source, int64_t time_u
                                      enum model_verdict verdict, int64_t now_us)
 {
     if (model_is_outvoted(source, time_us, now_us) ||
-        (verdict == M_FOLLOW && model_is_restart_in_past(source, time_us, now_us))) {
+        (verdict == M_FOLLOW &&
+         model_is_lone_restart_before_given_scans(source, time_us, now_us))) {
         source->off = verdict == M_FOLLOW && source->off < model.config.follow_scans
                           ? model.config.follow_scans
                           : source->off + (source->off < UINT8_MAX);
@@ -484,7 +487,7 @@ static inline int model_update_clock(struct model_source *source, int64_t time_u
             !model_wins_clock_vote(source, time_us, now_us)) {
             return 0;
         }
-        model_set_clock(time_us, now_us);
+        model_restart_on_new_clock(time_us, now_us);
     }
     source->off = 0;
     model.clock_us =
@@ -549,7 +552,7 @@ static inline void model_end_scans_of(const struct model_source *source)
     }
 }
 
-static inline void model_forget_numbers_of(const struct model_source *source)
+static inline void model_wait_for_no_scan_before_those_of(const struct model_source *source)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         model.scans[i].is_alone |= model.scans[i].source == source;
@@ -578,7 +581,7 @@ static inline struct model_source *model_find_place_for_source(int64_t now_us)
 static inline void model_add_source(struct model_source *room, const struct look *look)
 {
     model_end_scans_of(room);
-    model_forget_numbers_of(room);
+    model_wait_for_no_scan_before_those_of(room);
     memset(room, 0, sizeof *room);
     room->used = 1;
     room->kind = look->kind;
@@ -626,7 +629,7 @@ static inline void model_add_part(struct model_scan *scan, const struct look *lo
 }
 
 /* Newcomers together may begin one scan between two scans of other sensors. */
-static inline int model_may_newcomer_begin(int is_new)
+static inline int model_take_newcomers_turn_to_begin_scan(int is_new)
 {
     if (is_new && model.newcomers > 0) {
         model.counters.messages_flooded++;
@@ -647,7 +650,7 @@ static inline void model_begin_scan(struct model_source *source, const struct lo
     } else {
         model_end_scans_of(source);
         if (verdict == M_FOLLOW) {
-            model_forget_numbers_of(source);
+            model_wait_for_no_scan_before_those_of(source);
         }
         model_accept_scan(source, &place, verdict, now_us);
     }
@@ -656,7 +659,7 @@ static inline void model_begin_scan(struct model_source *source, const struct lo
         model.counters.clock_jumps++;
         return;
     }
-    if (verdict != M_SKIPPED && !model_may_newcomer_begin(is_new)) {
+    if (verdict != M_SKIPPED && !model_take_newcomers_turn_to_begin_scan(is_new)) {
         source->has_no_turn = 1;
         return;
     }
@@ -757,7 +760,7 @@ static inline struct model_scan *model_scan_given_for_room(int64_t now_us)
     return whole ? whole : model_scan_of_weak_sensor(now_us);
 }
 
-static inline int model_is_late_scan(const struct model_scan *scan)
+static inline int model_is_waiting_scan_of_skipped_number(const struct model_scan *scan)
 {
     return (scan->state == M_OPEN || scan->state == M_WHOLE) && scan->is_late;
 }
@@ -772,7 +775,7 @@ static inline int model_has_open_late_scan(const struct model_source *source)
     return count > 0;
 }
 
-static inline void model_drop_scan_for_room(int is_new, int64_t now_us)
+static inline void model_drop_early_or_late_scan_for_room(int is_new, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct model_scan *scan = &model.scans[i];
@@ -781,7 +784,7 @@ static inline void model_drop_scan_for_room(int is_new, int64_t now_us)
 
         int is_elder_s = is_new && !model_is_newcomer(scan->source, now_us);
 
-        if (is_early || (model_is_late_scan(scan) && !is_elder_s)) {
+        if (is_early || (model_is_waiting_scan_of_skipped_number(scan) && !is_elder_s)) {
             model.counters.sensors_no_room += (uint32_t)is_early;
             scan->state = M_FREE;
             return;
@@ -794,7 +797,8 @@ static inline void model_drop_too_late_scans(void)
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct model_scan *scan = &model.scans[i];
 
-        if (model_is_late_scan(scan) && !model_is_in_time(scan->kind, scan->place.time_us)) {
+        if (model_is_waiting_scan_of_skipped_number(scan) &&
+            !model_is_within_late_max_of_last_given(scan->kind, scan->place.time_us)) {
             scan->state = M_FREE;
         }
     }
@@ -828,7 +832,7 @@ static inline enum rho_status model_take_part(const struct look *look, int64_t n
         return RHO_OK;
     }
     if (verdict == M_SKIPPED) {
-        if (model_may_newcomer_begin(is_new)) {
+        if (model_take_newcomers_turn_to_begin_scan(is_new)) {
             model.counters.scans_late++;
             if (model_scan_in_state(M_FREE) &&
                 (parts_of(look) == 1 || !model_has_open_late_scan(source))) {
@@ -842,7 +846,7 @@ static inline enum rho_status model_take_part(const struct look *look, int64_t n
         return RHO_OK;
     }
     if (!model_scan_in_state(M_FREE)) {
-        model_drop_scan_for_room(is_new, now_us);
+        model_drop_early_or_late_scan_for_room(is_new, now_us);
     }
     if (!model_scan_in_state(M_FREE)) {
         int may_cut =
@@ -884,7 +888,7 @@ static inline int model_any_scan_was_held(int64_t now_us)
     return count > 0;
 }
 
-static inline int model_are_others_past(const struct model_scan *scan, int64_t now_us)
+static inline int model_is_no_older_scan_expected(const struct model_scan *scan, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct model_source *other = &model.sources[i];
@@ -941,7 +945,8 @@ static inline const struct model_scan *model_next_scan(int64_t now_us, int *is_r
                open->place.time_us < scan->place.time_us) {
         model_end_scan(open); /* it would be late after the given scan */
         scan = open;
-    } else if (scan && !model_any_scan_was_held(now_us) && !model_are_others_past(scan, now_us)) {
+    } else if (scan && !model_any_scan_was_held(now_us) &&
+               !model_is_no_older_scan_expected(scan, now_us)) {
         return NULL;
     }
     model.is_pressed = 0;

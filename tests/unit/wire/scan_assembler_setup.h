@@ -230,7 +230,7 @@ static inline unsigned take_all_items(int64_t now_us)
 }
 
 /* Counters must have exactly these values; fields that are not named are 0. */
-static inline void expect_counter_changes(struct rho_scan_assembler_counters want)
+static inline void expect_counters_are(struct rho_scan_assembler_counters want)
 {
     const uint32_t *is = (const uint32_t *)&assembler.counters, *must = (const uint32_t *)&want;
 
@@ -241,6 +241,6 @@ static inline void expect_counter_changes(struct rho_scan_assembler_counters wan
     }
 }
 
-#define COUNTERS_ARE(...) expect_counter_changes((struct rho_scan_assembler_counters){__VA_ARGS__})
+#define COUNTERS_ARE(...) expect_counters_are((struct rho_scan_assembler_counters){__VA_ARGS__})
 
 #endif

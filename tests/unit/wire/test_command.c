@@ -18,7 +18,7 @@ static struct rho_report report, report_before;
 static struct rho_message_command_answer answer;
 
 /* One step without plots. */
-static void start_tracker(void)
+static void start_tracker_and_step_without_plots(void)
 {
     struct rho_tracker_config config;
     const struct rho_scan scan = {.time_us = 5000000, .sensor_id = 3};
@@ -29,7 +29,7 @@ static void start_tracker(void)
 }
 
 /* Runs a command; its answer repeats number and action, and has the step's time. */
-static enum rho_status run_command(struct rho_message_command command)
+static enum rho_status run_command_and_check_answer(struct rho_message_command command)
 {
     command.number = 77;
     memset(&answer, 0xee, sizeof answer);
@@ -59,48 +59,49 @@ static struct rho_message_command command_to_start_at(float x_m)
 static void commands_are_run_and_answered(void **state)
 {
     (void)state;
-    start_tracker();
-    assert_int_equal(run_command(command_to_start_at(100.0f)), RHO_OK);
+    start_tracker_and_step_without_plots();
+    assert_int_equal(run_command_and_check_answer(command_to_start_at(100.0f)), RHO_OK);
     assert_int_equal(answer.track_id, 1);
-    assert_int_equal(run_command(command_to_start_at(900.0f)), RHO_OK);
+    assert_int_equal(run_command_and_check_answer(command_to_start_at(900.0f)), RHO_OK);
     assert_int_equal(answer.track_id, 2);
     assert_int_equal(report.num_tracks, 2);
     assert_true(report.tracks[1].state[0] > 899.0f && report.tracks[1].state[0] < 901.0f);
     assert_true(report.tracks[1].state[4] < -39.0f && report.tracks[1].state[4] > -41.0f);
 
-    assert_int_equal(run_command((struct rho_message_command){
+    assert_int_equal(run_command_and_check_answer((struct rho_message_command){
                          .action = RHO_MESSAGE_COMMAND_RENUMBER, .track_id = 1, .new_id = 9}),
                      RHO_OK);
     assert_int_equal(answer.track_id, 9);
     assert_int_equal(report.tracks[1].track_id, 9);
 
-    assert_int_equal(run_command((struct rho_message_command){.action = RHO_MESSAGE_COMMAND_FREEZE,
-                                                              .track_id = 9}),
+    assert_int_equal(run_command_and_check_answer((struct rho_message_command){
+                         .action = RHO_MESSAGE_COMMAND_FREEZE, .track_id = 9}),
                      RHO_OK);
     assert_int_equal(answer.track_id, 9);
     assert_int_equal(tracker.tracks[1].is_frozen, 1);
-    assert_int_equal(run_command((struct rho_message_command){.action = RHO_MESSAGE_COMMAND_THAW,
-                                                              .track_id = 9}),
+    assert_int_equal(run_command_and_check_answer((struct rho_message_command){
+                         .action = RHO_MESSAGE_COMMAND_THAW, .track_id = 9}),
                      RHO_OK);
     assert_int_equal(tracker.tracks[1].is_frozen, 0);
 
-    assert_int_equal(run_command((struct rho_message_command){.action = RHO_MESSAGE_COMMAND_DROP,
-                                                              .track_id = 9}),
+    assert_int_equal(run_command_and_check_answer((struct rho_message_command){
+                         .action = RHO_MESSAGE_COMMAND_DROP, .track_id = 9}),
                      RHO_OK);
     assert_int_equal(answer.track_id, 9);
     assert_int_equal(report.num_tracks, 1);
 
-    assert_int_equal(run_command((struct rho_message_command){.action = RHO_MESSAGE_COMMAND_EXCLUDE,
-                                                              .x_m = -1.0f,
-                                                              .y_m = -2.0f,
-                                                              .x_max_m = 3.0f,
-                                                              .y_max_m = 4.0f}),
+    assert_int_equal(run_command_and_check_answer(
+                         (struct rho_message_command){.action = RHO_MESSAGE_COMMAND_EXCLUDE,
+                                                      .x_m = -1.0f,
+                                                      .y_m = -2.0f,
+                                                      .x_max_m = 3.0f,
+                                                      .y_max_m = 4.0f}),
                      RHO_OK);
     assert_int_equal(answer.track_id, 0);
     assert_int_equal(tracker.num_excluded, 1);
     const struct rho_extent area = {-1.0f, 3.0f, -2.0f, 4.0f};
     assert_memory_equal(&tracker.excluded[0], &area, sizeof area);
-    assert_int_equal(run_command((struct rho_message_command){
+    assert_int_equal(run_command_and_check_answer((struct rho_message_command){
                          .action = RHO_MESSAGE_COMMAND_INCLUDE, .x_m = 3.0f, .y_m = -2.0f}),
                      RHO_OK);
     assert_int_equal(tracker.num_excluded, 0);
@@ -121,12 +122,12 @@ static void refused_commands_change_nothing(void **state)
     };
     const struct rho_message_command drop = {.action = RHO_MESSAGE_COMMAND_DROP, .track_id = 1};
     (void)state;
-    start_tracker();
-    assert_int_equal(run_command(command_to_start_at(100.0f)), RHO_OK);
+    start_tracker_and_step_without_plots();
+    assert_int_equal(run_command_and_check_answer(command_to_start_at(100.0f)), RHO_OK);
     memcpy(&tracker_before, &tracker, sizeof tracker);
     memcpy(&report_before, &report, sizeof report);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        assert_int_equal(run_command(bad[i]), RHO_ERROR_VALUE);
+        assert_int_equal(run_command_and_check_answer(bad[i]), RHO_ERROR_VALUE);
         assert_int_equal(answer.track_id, 0);
     }
     assert_int_equal(rho_command_run(NULL, &tracker, &report, &answer), RHO_ERROR_NULL);

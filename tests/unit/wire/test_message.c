@@ -41,7 +41,7 @@ static void init_kit(struct kit *kit, size_t type)
 }
 
 /* Fills kit->message at random, and kit->bytes with its encoding. */
-static void fill_kit(struct kit *kit, int count)
+static void fill_kit_with_random_bits(struct kit *kit, int count)
 {
     memset(kit->message, 0, sizeof kit->message);
     fill_with_random_bits(kit->shape, kit->message, count, &kit->state);
@@ -126,7 +126,7 @@ static void the_fingerprint_tells_the_message_type(void **state)
     assert_int_equal(rho_message_type_of(NULL, 8), RHO_NUM_MESSAGE_TYPES);
     FOR_EACH_MESSAGE(kit)
     {
-        fill_kit(&kit, kit.shape->most);
+        fill_kit_with_random_bits(&kit, kit.shape->most);
         assert_int_equal(rho_message_type_of(kit.bytes, kit.size), kit.type);
         assert_int_equal(rho_message_type_of(kit.bytes, 8), kit.type);
         assert_int_equal(rho_message_type_of(kit.bytes, 7), RHO_NUM_MESSAGE_TYPES);
@@ -180,7 +180,7 @@ static void members_are_encoded_in_order_big_endian(void **state)
     FOR_EACH_MESSAGE(kit)
     {
         for (int k = 0; k < RANDOM_MESSAGES; k++) {
-            fill_kit(&kit, draw_count(kit.shape, &kit.state));
+            fill_kit_with_random_bits(&kit, draw_count(kit.shape, &kit.state));
             memset(bytes, MESSAGE_PATTERN, sizeof bytes);
             assert_int_equal(kit.codec->encode(kit.message, bytes, sizeof bytes, &size), RHO_OK);
             assert_int_equal(size, kit.size);
@@ -199,7 +199,7 @@ static void members_survive_encode_and_decode(void **state)
     FOR_EACH_MESSAGE(kit)
     {
         for (int k = 0; k < RANDOM_MESSAGES; k++) {
-            fill_kit(&kit, draw_count(kit.shape, &kit.state));
+            fill_kit_with_random_bits(&kit, draw_count(kit.shape, &kit.state));
             memset(kit.other, MESSAGE_PATTERN, sizeof kit.other);
             assert_int_equal(decode_from_exact_memory(&kit, kit.bytes, kit.size, kit.other),
                              RHO_OK);
@@ -224,7 +224,7 @@ static void buffers_need_no_alignment(void **state)
     FOR_EACH_MESSAGE(kit)
     {
         for (size_t shift = 0; shift < 8; shift++) {
-            fill_kit(&kit, kit.shape->most);
+            fill_kit_with_random_bits(&kit, kit.shape->most);
             assert_int_equal(
                 kit.codec->encode(kit.message, bytes + shift, MESSAGE_BYTES_MAX, &size), RHO_OK);
             assert_memory_equal(bytes + shift, kit.bytes, kit.size);
@@ -283,7 +283,7 @@ static void decoding_null_pointers_is_refused(void **state)
     (void)state;
     FOR_EACH_MESSAGE(kit)
     {
-        fill_kit(&kit, kit.shape->most);
+        fill_kit_with_random_bits(&kit, kit.shape->most);
         assert_int_equal(kit.codec->decode(NULL, kit.size, kit.other), RHO_ERROR_NULL);
         assert_int_equal(kit.codec->decode(NULL, 0, kit.other), RHO_ERROR_NULL);
         assert_int_equal(kit.codec->decode(kit.bytes, kit.size, NULL), RHO_ERROR_NULL);
@@ -300,7 +300,7 @@ static void truncated_messages_are_refused(void **state)
     {
         for (int count = 0; count <= kit.shape->most;
              count += kit.shape->most > 2 ? kit.shape->most / 2 : 1) {
-            fill_kit(&kit, count);
+            fill_kit_with_random_bits(&kit, count);
             for (size_t size = 0; size < kit.size; size++) {
                 assert_decode_refused(&kit, kit.bytes, size, RHO_ERROR_SHORT);
             }
@@ -318,7 +318,7 @@ static void extra_bytes_behind_a_message_are_refused(void **state)
     FOR_EACH_MESSAGE(kit)
     {
         for (int count = 0; count <= kit.shape->most; count++) {
-            fill_kit(&kit, count);
+            fill_kit_with_random_bits(&kit, count);
             memcpy(bytes, kit.bytes, kit.size);
             for (size_t i = 0; i < NUM(more); i++) {
                 assert_decode_refused(&kit, bytes, kit.size + more[i], RHO_ERROR_TRAILING);
@@ -334,7 +334,7 @@ static void a_wrong_fingerprint_is_refused(void **state)
     (void)state;
     FOR_EACH_MESSAGE(kit)
     {
-        fill_kit(&kit, kit.shape->most);
+        fill_kit_with_random_bits(&kit, kit.shape->most);
         for (unsigned bit = 0; bit < 64; bit++) {
             kit.bytes[bit / 8] ^= (uint8_t)(1u << bit % 8);
             assert_decode_refused(&kit, kit.bytes, kit.size, RHO_ERROR_TYPE);
@@ -372,7 +372,7 @@ static void counts_beyond_the_list_are_refused_by_decode(void **state)
                            65535,
                            65536 - kit.shape->most};
 
-        fill_kit(&kit, kit.shape->most);
+        fill_kit_with_random_bits(&kit, kit.shape->most);
         memcpy(bytes, kit.bytes, kit.size);
         for (size_t i = 0; i < NUM(bad); i++) {
             const size_t size = kit.head_bytes + (size_t)bad[i] * kit.element_bytes;
@@ -413,7 +413,7 @@ static void encode_refuses_null_pointers(void **state)
     FOR_EACH_MESSAGE(kit)
     {
         memset(bytes, MESSAGE_PATTERN, sizeof bytes);
-        fill_kit(&kit, kit.shape->most);
+        fill_kit_with_random_bits(&kit, kit.shape->most);
         assert_int_equal(kit.codec->encode(NULL, bytes, sizeof bytes, &size), RHO_ERROR_NULL);
         assert_int_equal(kit.codec->encode(kit.message, NULL, sizeof bytes, &size), RHO_ERROR_NULL);
         assert_int_equal(kit.codec->encode(kit.message, bytes, sizeof bytes, NULL), RHO_ERROR_NULL);
@@ -431,7 +431,7 @@ static void encode_refuses_every_too_small_buffer(void **state)
     (void)state;
     FOR_EACH_MESSAGE(kit)
     {
-        fill_kit(&kit, kit.shape->most);
+        fill_kit_with_random_bits(&kit, kit.shape->most);
         for (size_t capacity = 0; capacity < kit.size; capacity++) {
             assert_not_encoded(&kit, capacity, RHO_ERROR_CAPACITY);
         }
@@ -451,7 +451,7 @@ static void encode_and_validate_refuse_counts_beyond_the_list(void **state)
         const int bad[] = {-1,     kit.shape->most + 1, 256 + kit.shape->most, 32767,
                            -32768, -kit.shape->most};
 
-        fill_kit(&kit, kit.shape->most);
+        fill_kit_with_random_bits(&kit, kit.shape->most);
         fill_with_valid_numbers(kit.shape, kit.message, kit.shape->most, &kit.state);
         for (size_t i = 0; i < NUM(bad); i++) {
             struct rho_message_place place = {9999, 99};
@@ -675,7 +675,7 @@ static void a_message_is_complete_after_each_added_element(void **state)
     FOR_EACH_LIST(kit)
     {
         memset(buffer, MESSAGE_PATTERN, sizeof buffer);
-        fill_kit(&kit, kit.shape->most);
+        fill_kit_with_random_bits(&kit, kit.shape->most);
         copy_head_members(&kit, head);
         assert_int_equal(kit.codec->begin(&writer, buffer, sizeof buffer, head), RHO_OK);
         for (int i = 0; i < kit.shape->most; i++) {
@@ -709,7 +709,7 @@ static void a_full_buffer_takes_no_more_elements(void **state)
     (void)state;
     FOR_EACH_LIST(kit)
     {
-        fill_kit(&kit, kit.shape->most);
+        fill_kit_with_random_bits(&kit, kit.shape->most);
         copy_head_members(&kit, head);
         for (int k = 0; k < 4; k++) {
             for (size_t more = 0; more < kit.element_bytes; more += kit.element_bytes - 1) {
@@ -745,7 +745,7 @@ static void a_refused_begin_writes_nothing(void **state)
     {
         memset(buffer, MESSAGE_PATTERN, sizeof buffer);
         memset(&writer, MESSAGE_PATTERN, sizeof writer);
-        fill_kit(&kit, 0);
+        fill_kit_with_random_bits(&kit, 0);
         copy_head_members(&kit, head);
         for (size_t capacity = 0; capacity < kit.head_bytes; capacity++) {
             assert_int_equal(kit.codec->begin(&writer, buffer, capacity, head), RHO_ERROR_CAPACITY);
@@ -790,7 +790,7 @@ static void elements_of_another_message_are_refused(void **state)
     FOR_EACH_LIST(kit)
     {
         memset(buffer, MESSAGE_PATTERN, sizeof buffer);
-        fill_kit(&kit, 1);
+        fill_kit_with_random_bits(&kit, 1);
         copy_head_members(&kit, head);
         assert_int_equal(kit.codec->begin(&writer, buffer, sizeof buffer, head), RHO_OK);
         assert_int_equal(kit.codec->add(&writer, message_element(kit.shape, kit.message, 0)),

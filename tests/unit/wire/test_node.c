@@ -44,7 +44,7 @@ static struct rho_node_config node_config_of(uint16_t waiting_max)
                                     .epoch = EPOCH};
 }
 
-static void init_tracker(void)
+static void init_tracker_and_initiator(void)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start;
@@ -71,7 +71,7 @@ static void init_all_objects(void)
     rho_frames_config_default(&gather);
     rho_passive_config_default(&search);
     init_assembler();
-    init_tracker();
+    init_tracker_and_initiator();
     memset(&report, 0, sizeof report);
     assert_int_equal(rho_frames_init(&frames, sizeof frames, &gather), RHO_OK);
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &search), RHO_OK);
@@ -98,7 +98,7 @@ static void run_due_work_until(int64_t until_us)
         done[length] = "-SFR"[due];
         done[length + 1] = '\0';
         if (due == RHO_NODE_RESTART) {
-            init_tracker();
+            init_tracker_and_initiator();
             node.epoch++;
         } else {
             assert_int_equal(rho_node_step(&node, &initiator), RHO_OK);
@@ -118,7 +118,8 @@ static void take_message(const char *prefix, int sensor_id, const uint8_t *data,
 }
 
 /* Sends a radar's polar scan with one plot; scan numbers are seconds. */
-static void send_polar_scan(int16_t sensor_id, int32_t scan, int64_t time_us, int16_t num_parts)
+static void send_first_part_of_polar_scan(int16_t sensor_id, int32_t scan, int64_t time_us,
+                                          int16_t num_parts)
 {
     static struct rho_message_polar_scan message;
     uint8_t bytes[RHO_MESSAGE_POLAR_SCAN_MAX_SIZE];
@@ -208,7 +209,7 @@ static void scans_are_stepped_and_published(void **state)
     start_node(WAITING);
     assert_int_equal(rho_node_step(&node, &initiator), RHO_ERROR_STATE);
     for (int32_t k = 0; k < 3; k++, now_us += SECOND_US) {
-        send_polar_scan(1, k, now_us, 1);
+        send_first_part_of_polar_scan(1, k, now_us, 1);
     }
     assert_string_equal(done, "SSS");
     assert_int_equal(node.counters.steps, 3);
@@ -239,7 +240,7 @@ static void the_status_holds_mean_and_longest_step_time(void **state)
 
     (void)state;
     start_node(WAITING);
-    send_polar_scan(1, 0, now_us, 1);
+    send_first_part_of_polar_scan(1, 0, now_us, 1);
     rho_node_count_time(&node, 30);
     rho_node_count_time(&node, 10);
     rho_node_status(&node, &initiator, &status);
@@ -256,7 +257,7 @@ static void the_status_holds_mean_and_longest_step_time(void **state)
     assert_int_equal(work.work_max, tracker.config.work_max);
 }
 
-static void sensor_messages_go_out_in_turn(void **state)
+static void learned_values_of_sensors_are_sent_in_turn(void **state)
 {
     struct rho_message_learned learned = {.sensor_id = 77};
 
@@ -285,11 +286,11 @@ static void a_full_assembler_gives_one_scan_to_make_room(void **state)
     (void)state;
     start_node(WAITING);
     for (int16_t sensor = 1; sensor <= RHO_MAX_OPEN_SCANS; sensor++) {
-        send_polar_scan(sensor, 0, now_us + sensor, 2);
+        send_first_part_of_polar_scan(sensor, 0, now_us + sensor, 2);
     }
     assert_string_equal(done, "");
     assert_true(rho_node_due_us(&node) == now_us + assembler.config.hold_us);
-    send_polar_scan(RHO_MAX_OPEN_SCANS + 1, 0, now_us + RHO_MAX_OPEN_SCANS + 1, 2);
+    send_first_part_of_polar_scan(RHO_MAX_OPEN_SCANS + 1, 0, now_us + RHO_MAX_OPEN_SCANS + 1, 2);
     assert_string_equal(done, "S");
     assert_int_equal(node.counters.scans_early, 1);
     now_us += SECOND_US;
@@ -309,17 +310,17 @@ static void silent_sensors_make_room_for_others(void **state)
     (void)state;
     start_node(WAITING);
     for (int16_t sensor = 1; sensor <= RHO_MAX_SENSORS; sensor++, now_us += 10) {
-        send_polar_scan(sensor, 0, now_us, 1);
+        send_first_part_of_polar_scan(sensor, 0, now_us, 1);
     }
     for (int32_t k = 1; k <= 2; k++) {
         now_us += step_us;
-        send_polar_scan(1, k, now_us, 1);
+        send_first_part_of_polar_scan(1, k, now_us, 1);
     }
     now_us += 10;
     assert_true(2 * step_us > assembler.config.jump_max_us);
     assert_int_equal(tracker.num_sensors, RHO_MAX_SENSORS);
     assert_int_equal(node.counters.sensors_forgotten, 0);
-    send_polar_scan(RHO_MAX_SENSORS + 1, 0, now_us, 1);
+    send_first_part_of_polar_scan(RHO_MAX_SENSORS + 1, 0, now_us, 1);
     run_due_work_until(INT64_MAX);
     assert_int_equal(node.counters.sensors_forgotten, RHO_MAX_SENSORS - 1);
     assert_int_equal(tracker.num_sensors, 2);
@@ -333,7 +334,7 @@ static void a_scan_of_a_sensor_without_room_is_refused(void **state)
     (void)state;
     start_node(WAITING);
     for (int16_t sensor = 1; sensor <= RHO_MAX_SENSORS; sensor++) {
-        send_polar_scan(sensor, 0, now_us, 1);
+        send_first_part_of_polar_scan(sensor, 0, now_us, 1);
         assembler.sources[sensor - 1].heard_us = now_us;
     }
     run_due_work_until(INT64_MAX);
@@ -363,14 +364,14 @@ static void scans_older_than_a_loaded_snapshot_restart_the_node(void **state)
 
     (void)state;
     start_node(WAITING);
-    send_polar_scan(1, 0, now_us, 1);
+    send_first_part_of_polar_scan(1, 0, now_us, 1);
     for (int is_older = 0; is_older < 2; is_older++) {
         init_assembler();
         assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
         node.is_restored = 1;
         done[0] = '\0';
         now_us -= is_older ? assembler.config.jump_max_us + 2 * SECOND_US : -SECOND_US;
-        send_polar_scan(1, 0, now_us, 1);
+        send_first_part_of_polar_scan(1, 0, now_us, 1);
         assert_string_equal(done, is_older ? "RS" : "S");
         assert_int_equal(node.counters.restarts, is_older);
         assert_int_equal(node.epoch, EPOCH + is_older);
@@ -409,11 +410,11 @@ static void scans_wait_for_an_open_frame_of_bearings(void **state)
         start_node(room);
         assembler.config.hold_us = 0;
         send_bearing(1, 0.0f, 0, now_us);
-        send_polar_scan(5, 0, now_us + 10, 1);
+        send_first_part_of_polar_scan(5, 0, now_us + 10, 1);
         assert_string_equal(done, room > 0 ? "" : "FS");
-        send_polar_scan(5, 1, now_us + 20, 1);
+        send_first_part_of_polar_scan(5, 1, now_us + 20, 1);
         assert_string_equal(done, "FSS");
-        send_polar_scan(5, 2, now_us + 30, 1);
+        send_first_part_of_polar_scan(5, 2, now_us + 30, 1);
         run_due_work_until(INT64_MAX);
         assert_string_equal(done, "FSSS");
     }
@@ -456,7 +457,7 @@ static void a_node_without_frames_refuses_bearings(void **state)
     config.passive = NULL;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
     send_bearing(1, 0.0f, 0, now_us);
-    send_polar_scan(5, 0, now_us + 10, 1);
+    send_first_part_of_polar_scan(5, 0, now_us + 10, 1);
     run_due_work_until(INT64_MAX);
     assert_string_equal(done, "S");
     assert_int_equal(node.counters.bearings_refused, 1);
@@ -490,7 +491,7 @@ int main(void)
         cmocka_unit_test(frames_are_stepped_for_a_caller_with_its_own_search),
         cmocka_unit_test(scans_are_stepped_and_published),
         cmocka_unit_test(the_status_holds_mean_and_longest_step_time),
-        cmocka_unit_test(sensor_messages_go_out_in_turn),
+        cmocka_unit_test(learned_values_of_sensors_are_sent_in_turn),
         cmocka_unit_test(a_full_assembler_gives_one_scan_to_make_room),
         cmocka_unit_test(silent_sensors_make_room_for_others),
         cmocka_unit_test(a_scan_of_a_sensor_without_room_is_refused),

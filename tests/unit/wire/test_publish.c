@@ -468,7 +468,7 @@ static void the_work_message_holds_the_trackers_work(void **state)
 }
 
 /* Three targets come, are seen and go, the first one at the beginning or at the end. */
-static void track_three_passing_targets(int is_first)
+static void check_status_while_three_targets_come_and_go(int is_first)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config initiator_config;
@@ -512,8 +512,8 @@ static void track_three_passing_targets(int is_first)
 static void ended_tracks_are_not_counted_in_the_status(void **state)
 {
     (void)state;
-    track_three_passing_targets(0);
-    track_three_passing_targets(1);
+    check_status_while_three_targets_come_and_go(0);
+    check_status_while_three_targets_come_and_go(1);
 }
 
 int main(void)

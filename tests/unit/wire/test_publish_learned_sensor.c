@@ -22,7 +22,7 @@ static void describe_sensor(int32_t sensor_id, float pd, float range_max_m)
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
 }
 
-static void start_tracker(void)
+static void start_tracker_with_two_sensors(void)
 {
     struct rho_tracker_config config;
 
@@ -54,7 +54,7 @@ static struct rho_message_learned publish_and_read_sensor(unsigned place)
 static void before_learning_values_are_as_stated(void **state)
 {
     (void)state;
-    start_tracker();
+    start_tracker_with_two_sensors();
     const struct rho_message_learned learned = publish_and_read_sensor(0);
     assert_int_equal(learned.utime, 1234567);
     assert_int_equal(learned.sensor_id, 3);
@@ -78,7 +78,7 @@ static void before_learning_values_are_as_stated(void **state)
 static void learned_values_sent_are_those_in_use(void **state)
 {
     (void)state;
-    start_tracker();
+    start_tracker_with_two_sensors();
     tracker.learned[0].log_noise[0] = 1.3862944f;
     tracker.learned[0].innovations = 900;
     tracker.learned[0].looks[0] = 500;
@@ -102,7 +102,7 @@ static void rows_without_a_sensor_fill_no_message(void **state)
     struct rho_message_learned learned = {.sensor_id = 77};
 
     (void)state;
-    start_tracker();
+    start_tracker_with_two_sensors();
     assert_int_equal(rho_publish_learned(&tracker, 2, &learned), 0);
     assert_int_equal(rho_publish_learned(NULL, 0, &learned), 0);
     assert_int_equal(rho_publish_learned(&tracker, 0, NULL), 0);

@@ -124,7 +124,7 @@ static void expect_intact_at_least(unsigned percent_least)
     }
 }
 
-static void damaged_copies_after_the_originals_change_nothing(void **state)
+static void damaged_copies_after_the_originals_harm_few_scans(void **state)
 {
     const struct radar *const radars[] = {&radar, &direction_finder};
 
@@ -165,7 +165,7 @@ static void damaged_copies_before_the_originals_hide_few_scans(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(damaged_copies_after_the_originals_change_nothing),
+        cmocka_unit_test(damaged_copies_after_the_originals_harm_few_scans),
         cmocka_unit_test(damaged_copies_before_the_originals_hide_few_scans),
     };
 

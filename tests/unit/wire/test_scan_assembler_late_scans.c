@@ -46,7 +46,7 @@ static void hold_0_waits_for_no_skipped_scan(void **state)
     expect_next_scan(7 * SECOND_US, 1, 6 * SECOND_US);
 }
 
-static void a_scan_later_than_hold_is_given_late(void **state)
+static void a_scan_later_than_hold_is_given_after_newer_ones(void **state)
 {
     (void)state;
     start_with_scans(5);
@@ -223,7 +223,7 @@ static void late_bearings_are_refused(void **state)
  * Scans 1 .. 5 of sensors 1 and 2, one a second; then 9 of sensor 1, or its first part, so that 8
  * is waited for.
  */
-static void start_two_sensors(int16_t num_parts)
+static void start_two_sensors_and_skip_to_scan_9(int16_t num_parts)
 {
     struct look look = late_part(9, 0);
 
@@ -253,7 +253,7 @@ static void others_wait_only_for_a_skipped_scan_that_may_be_older(void **state)
         for (int16_t num_parts = 1; num_parts <= 2; num_parts++) {
             struct look other = {.time_us = cases[i].time_us, .scan = 6, .sensor_id = 2};
 
-            start_two_sensors(num_parts);
+            start_two_sensors_and_skip_to_scan_9(num_parts);
             take_message(&other, 9 * SECOND_US);
             assert_int_equal(rho_scan_assembler_next(&assembler, 9 * SECOND_US, &item),
                              !cases[i].waits);
@@ -272,7 +272,7 @@ static void numbers_before_a_late_scan_are_not_waited_for(void **state)
     struct look other = {.time_us = 8 * SECOND_US - 1, .scan = 6, .sensor_id = 2};
 
     (void)state;
-    start_two_sensors(1);
+    start_two_sensors_and_skip_to_scan_9(1);
     take_late_scan(8, 9 * SECOND_US); /* scan 7 may still come */
     expect_no_scan(9 * SECOND_US);    /* sensor 2 may still send an older scan */
     if (RHO_MAX_OPEN_SCANS > 2) {
@@ -424,7 +424,7 @@ int main(void)
         cmocka_unit_test(two_swapped_scans_are_given_in_order),
         cmocka_unit_test(a_lost_scan_number_is_waited_for_once),
         cmocka_unit_test(hold_0_waits_for_no_skipped_scan),
-        cmocka_unit_test(a_scan_later_than_hold_is_given_late),
+        cmocka_unit_test(a_scan_later_than_hold_is_given_after_newer_ones),
         cmocka_unit_test(scans_later_than_late_max_are_refused),
         cmocka_unit_test(late_scans_whose_time_does_not_fit_their_number_are_refused),
         cmocka_unit_test(scans_before_the_first_received_one_are_refused),

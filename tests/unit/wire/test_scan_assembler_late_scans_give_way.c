@@ -30,7 +30,7 @@ static void late_scans_take_no_room_of_other_scans(void **state)
  * Sensor 1 sends scans 1 .. 9, one a second, and sensor 9, with wrong numbers, a hundred a second.
  * Returns the last number of sensor 9.
  */
-static int32_t start_with_wrongly_numbered_sensor(const struct rho_scan_assembler_config *config)
+static int32_t start_with_slow_and_fast_sensor(const struct rho_scan_assembler_config *config)
 {
     int32_t scan = 0;
 
@@ -49,7 +49,7 @@ static int32_t start_with_wrongly_numbered_sensor(const struct rho_scan_assemble
  * Sends first parts of a scan of sensor 9 far ahead and of the numbers that it skipped, all with
  * times after 10 s.
  */
-static struct look send_wrong_numbers(int32_t last, int64_t now_us)
+static struct look send_scan_far_ahead_and_those_skipped(int32_t last, int64_t now_us)
 {
     struct look look = {.scan = last + 32,
                         .time_us = 9990000 + 32 * 10000,
@@ -72,12 +72,12 @@ static void wrong_scan_numbers_end_no_incomplete_scan(void **state)
 {
     const struct rho_scan_assembler_config config = usual_config();
     const int64_t now_us = 10 * SECOND_US;
-    const int32_t last = start_with_wrongly_numbered_sensor(&config);
+    const int32_t last = start_with_slow_and_fast_sensor(&config);
     struct look look = late_part(10, 0), more;
 
     (void)state;
     take_message(&look, now_us);
-    more = send_wrong_numbers(last, now_us);
+    more = send_scan_far_ahead_and_those_skipped(last, now_us);
     /* at most one waits for its parts, and none without room */
     assert_int_equal(assembler.counters.scans_accepted, 9 + 9 * 99 + 2 + (RHO_MAX_OPEN_SCANS > 2));
     assert_int_equal(assembler.counters.scans_late, 30);
@@ -123,7 +123,8 @@ static void wrong_scan_numbers_block_no_other_sensor(void **state)
     (void)state;
     for (int is_held = 0; is_held < 2; is_held++) {
         config.hold_us = is_held * HOLD_US;
-        (void)send_wrong_numbers(start_with_wrongly_numbered_sensor(&config), 10 * SECOND_US);
+        (void)send_scan_far_ahead_and_those_skipped(start_with_slow_and_fast_sensor(&config),
+                                                    10 * SECOND_US);
         for (int32_t i = 1; i <= 5; i++) {
             int64_t now_us = (10 + 4 * i) * SECOND_US;
 

@@ -219,7 +219,7 @@ static void after_the_radar_falls_silent_a_newcomer_is_accepted(void **state)
     assert_int_equal(assembler.out_us, now_us);
 }
 
-static void sensors_of_a_record_are_no_newcomers(void **state)
+static void when_a_record_is_played_no_sensor_is_a_newcomer(void **state)
 {
     struct rho_scan_assembler_config config = usual_config();
 
@@ -374,7 +374,7 @@ int main(void)
         cmocka_unit_test(newcomers_heard_for_long_vote_on_the_clock),
         cmocka_unit_test(an_honest_newcomer_loses_no_scan),
         cmocka_unit_test(after_the_radar_falls_silent_a_newcomer_is_accepted),
-        cmocka_unit_test(sensors_of_a_record_are_no_newcomers),
+        cmocka_unit_test(when_a_record_is_played_no_sensor_is_a_newcomer),
         cmocka_unit_test(newcomers_share_a_limit_of_plots_and_scans),
         cmocka_unit_test(all_parts_of_a_newcomers_refused_scan_are_refused),
         cmocka_unit_test(a_newcomers_noise_is_at_least_that_of_the_config),

@@ -130,7 +130,7 @@ static void noise_comes_from_message_else_sensor_else_default(void **state)
     }
 }
 
-static void gives_other_describes_unknown_sensors_by_the_config(void **state)
+static void with_gives_other_items_describe_unknown_sensors(void **state)
 {
     const struct rho_message_plot plot = {.x_m = 0};
     struct rho_scan_assembler_config config = usual_config();
@@ -379,7 +379,7 @@ static void a_scan_of_a_clock_ahead_waits_for_older_ones(void **state)
     }
 }
 
-static void times_beyond_their_limit_are_refused(void **state)
+static void times_beyond_the_limit_without_bias_are_refused(void **state)
 {
     struct rho_scan_assembler_sensor known = known_sensor();
     const int64_t times_us[] = {-RHO_LIMIT_TIME_US, RHO_LIMIT_TIME_US};
@@ -404,14 +404,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_plot_keeps_its_values),
         cmocka_unit_test(noise_comes_from_message_else_sensor_else_default),
-        cmocka_unit_test(gives_other_describes_unknown_sensors_by_the_config),
+        cmocka_unit_test(with_gives_other_items_describe_unknown_sensors),
         cmocka_unit_test(polar_plots_are_converted_as_by_measurement),
         cmocka_unit_test(plots_without_a_place_keep_their_row_and_are_invalid),
         cmocka_unit_test(bearings_are_corrected_by_the_sensors_biases),
         cmocka_unit_test(noise_of_bearings_comes_from_message_else_default),
         cmocka_unit_test(scans_are_sorted_by_time_without_clock_bias),
         cmocka_unit_test(a_scan_of_a_clock_ahead_waits_for_older_ones),
-        cmocka_unit_test(times_beyond_their_limit_are_refused),
+        cmocka_unit_test(times_beyond_the_limit_without_bias_are_refused),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -128,7 +128,7 @@ static void a_new_epoch_is_accepted_at_its_third_scan(void **state)
     COUNTERS_ARE(.scans_accepted = 7, .scans_bad = 2, .sensor_restarts = 1);
 }
 
-static void numbers_that_fall_back_are_accepted_without_a_new_epoch(void **state)
+static void three_scans_of_other_numbers_prove_a_restart(void **state)
 {
     static const int32_t to[] = {-1000, 480, 1, 2000, INT32_MIN};
 
@@ -423,7 +423,7 @@ int main(void)
         cmocka_unit_test(old_scan_numbers_are_double_or_late),
         cmocka_unit_test(received_numbers_are_remembered_31_back),
         cmocka_unit_test(a_new_epoch_is_accepted_at_its_third_scan),
-        cmocka_unit_test(numbers_that_fall_back_are_accepted_without_a_new_epoch),
+        cmocka_unit_test(three_scans_of_other_numbers_prove_a_restart),
         cmocka_unit_test(a_record_played_again_is_accepted_as_a_restart),
         cmocka_unit_test(scans_refused_at_a_restart_may_be_sent_again),
         cmocka_unit_test(delayed_copies_of_scans_are_no_restart),

@@ -350,7 +350,7 @@ static void step_bearings(int k, unsigned sensors, unsigned targets)
     assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_OK);
 }
 
-static void start_with_bearings(void)
+static void start_with_passive_paper(void)
 {
     struct rho_passive_paper_config of_paper;
     use_usual_configs(6);
@@ -365,7 +365,7 @@ static void ghost_matrices_are_of_the_newest_frame(void **state)
     struct rho_message_ghost_matrix of;
     struct rho_ghost_matrix matrix;
     unsigned pruned = 0;
-    start_with_bearings();
+    start_with_passive_paper();
     show_kinds(1u << RHO_SHOW_GHOSTS, 1000);
     for (int k = 0; k < 6; k++) {
         step_bearings(k, SENSORS, 2);
@@ -420,7 +420,7 @@ static void a_large_ghost_matrix_is_sent_in_parts(void **state)
     const unsigned parts =
         (all + RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS - 1) / RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS;
     unsigned elements = 0;
-    start_with_bearings();
+    start_with_passive_paper();
     show_kinds(1u << RHO_SHOW_GHOSTS, 1000);
     step_bearings(0, 2, RHO_MAX_BEARINGS);
     collect_messages(1, 0);
@@ -444,7 +444,7 @@ static void bearing_accumulators_are_sent_for_all_pairs_and_each_pair(void **sta
     (void)state;
     static struct rho_message_accumulator of;
     static struct rho_message_plane plane;
-    start_with_bearings();
+    start_with_passive_paper();
     show_kinds(1u << RHO_SHOW_VOTES, 1000);
     for (int k = 0; k < 8; k++) {
         step_bearings(k, SENSORS, 1);

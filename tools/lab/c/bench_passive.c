@@ -89,7 +89,7 @@ static void record_simulated_bearing_frames(struct recording *recording, const s
 {
     struct parameters parameters;
     parameters_set_defaults(&parameters);
-    suggest_passive_parameters(&parameters);
+    suggest_passive_scenario_parameters(&parameters);
     parameters_suggest(&parameters, PARAMETER_SIGMA_RAD, job->sigma_rad);
     const struct scenario_bearings of = {
         .num_sensors = job->sensors, .num_targets = job->targets, .false_mean = 1.0};

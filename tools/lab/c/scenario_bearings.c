@@ -75,7 +75,7 @@ static struct scenario_plan plan_passive(const struct scenario_bearings *of,
     return plan;
 }
 
-void suggest_passive_parameters(struct parameters *parameters)
+void suggest_passive_scenario_parameters(struct parameters *parameters)
 {
     const struct {
         enum parameter_id id;

@@ -83,7 +83,7 @@ struct scenario_bearings {
  * Suggests parameters of a passive scenario (eight scans with misses), and simulates targets that
  * approach the origin and the bearings that sensors there measure (scenario_bearings.c).
  */
-void suggest_passive_parameters(struct parameters *parameters);
+void suggest_passive_scenario_parameters(struct parameters *parameters);
 struct simulation *simulate_passive(const struct scenario_bearings *of,
                                     const struct parameters *parameters, uint64_t seed,
                                     uint64_t run);
