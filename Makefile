@@ -144,7 +144,7 @@ $(BUILD)/program/%.o: %.c Makefile
 
 # The shipped scenes as texts in the program.
 $(BUILD)/program/scenes.c: $(scenes) Makefile
-	@mkdir -p $(@D) && { echo '#include "scene/scene_load_file_or_shipped.h"'; \
+	@mkdir -p $(@D) && { echo '#include "scene/scene_shipped.h"'; \
 	  echo 'const struct shipped_scene shipped_scenes[] = {'; \
 	  for file in $(scenes); do \
 	    echo "{\"$$(basename $$file .json)\","; \

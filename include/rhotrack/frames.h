@@ -154,7 +154,10 @@ RHO_MUST_CHECK enum rho_status rho_frames_init(struct rho_frames *frames, size_t
 RHO_MUST_CHECK enum rho_status rho_frames_push(struct rho_frames *frames,
                                                const struct rho_bearing_scan *scan);
 
-/* Closes the open frame, if there is one. Errors: NULL, STATE. Constant cost. */
+/*
+ * Closes the open frame of bearing scans, if there is one, without waiting for more sensors.
+ * Errors: NULL, STATE. Constant cost.
+ */
 RHO_MUST_CHECK enum rho_status rho_frames_close(struct rho_frames *frames);
 
 /*

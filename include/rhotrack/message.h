@@ -489,7 +489,10 @@ const char *rho_message_plane_row_field(const struct rho_message_place *place);
 
 /* ---- plot_t ---- */
 
-/* One plot of a plot_scan_t: a position, and what else its kind states. Unmeasured values are 0. */
+/*
+ * One plot of a plot_scan_t: a position, and the other values that its kind states. Unmeasured
+ * values are 0.
+ */
 
 #define RHO_MESSAGE_PLOT_FINGERPRINT UINT64_C(0x788ad26d7448d55b)
 #define RHO_MESSAGE_PLOT_MAX_SIZE 48u

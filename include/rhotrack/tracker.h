@@ -250,7 +250,7 @@ struct rho_tracker_learned {
      * there, which is used as if it were stated (gate best); its looks do not count in the rings
      */
     unsigned blind_rates : 5;       /* intervals of the learned notch; 0: no notch */
-    unsigned used_rates : 5;        /* intervals of the notch in the sensor's notch_mps */
+    unsigned used_rates : 5;        /* those that the sensor's notch_mps covers now; 0: none */
     unsigned notches_forgotten : 2; /* false notches so far; after three none is learned */
     uint8_t rate_looks[RHO_LEARN_RATES], rate_hits[RHO_LEARN_RATES]; /* halved at 250 */
     /*

@@ -155,7 +155,7 @@ enum rho_status rho_input_update_range_rate(struct rho_input *input,
     if (input == NULL || config == NULL) {
         return RHO_ERROR_NULL;
     }
-    rho_input_estimate(input, &corrected);
+    rho_input_get_corrected_estimate(input, &corrected);
     if (!rho_kalman_linearise_range_rate(&corrected, sensor, rate_mps, variance, &seen) ||
         !rho_kalman_can_unfold_range_rate(&corrected, sensor, &seen)) {
         return RHO_OK;
@@ -178,7 +178,7 @@ enum rho_status rho_input_update_bearing(struct rho_input *input,
     if (!rho_is_finite(bearing_rad) || !(sigma_rad > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
-    rho_input_estimate(input, &corrected);
+    rho_input_get_corrected_estimate(input, &corrected);
     if (!rho_kalman_linearise_bearing(&corrected, x_m, y_m, bearing_rad, sigma_rad, &seen)) {
         return RHO_OK;
     }

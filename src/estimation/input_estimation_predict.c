@@ -127,7 +127,7 @@ static void add_input_effects(struct rho_kalman *estimate, const struct rho_inpu
     }
 }
 
-void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estimate)
+void rho_input_get_corrected_estimate(const struct rho_input *input, struct rho_kalman *estimate)
 {
     *estimate = input->bare;
     add_input_effects(estimate, input, input->present);
@@ -230,7 +230,7 @@ static int are_estimate_variances_in_limit(const struct rho_input *input, float 
     if (!input->present || most <= ADDED_EASILY) {
         return 1;
     }
-    rho_input_estimate(input, &estimate);
+    rho_input_get_corrected_estimate(input, &estimate);
     for (int i = 0; i < NUM_STATES; i++) {
         if (!(estimate.covariance[RHO_AT(i, i)] <= RHO_KALMAN_VARIANCE_MAX)) {
             return 0;

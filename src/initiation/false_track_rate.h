@@ -73,8 +73,8 @@ struct false_tracks {
 void rho_initiator_model_false_tracks(const struct search *search, struct false_tracks *model);
 
 /*
- * Expected number of false tracks of one search whose score reaches s_nat at once, and which had
- * not reached start_nat before. Counting ends at `stop_at_sum`; FLT_MAX counts all.
+ * Expected number of false tracks of one search whose score reaches score_nat at once, and which
+ * had not reached start_nat before. Counting ends at `stop_at_sum`; FLT_MAX counts all.
  */
 float rho_initiator_false_sets_newly_above(const struct false_tracks *model, float score_nat,
                                            float start_nat, float stop_at_sum);

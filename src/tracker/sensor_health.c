@@ -88,8 +88,8 @@ static float stated_pd_of_sensor(const struct rho_tracker *tracker, int32_t sens
 }
 
 /* True where the sensor sees too few of the tracks that other sensors have seen. */
-static int has_low_seen_share(const struct rho_tracker *tracker,
-                              const struct rho_tracker_look *look)
+static int does_sensor_see_too_few_tracks_of_others(const struct rho_tracker *tracker,
+                                                    const struct rho_tracker_look *look)
 {
     return look->watched >= COMPARED_MIN &&
            look->seen_share < SHARE_LOW * stated_pd_of_sensor(tracker, look->sensor_id);
@@ -101,8 +101,8 @@ static int are_sensor_plots_too_far_from_tracks(const struct rho_tracker_look *l
     return look->watched_hits >= COMPARED_MIN && look->distance2 > CHI2_HIGH;
 }
 
-static int has_good_seen_share(const struct rho_tracker *tracker,
-                               const struct rho_tracker_look *look)
+static int does_sensor_see_enough_tracks_of_others(const struct rho_tracker *tracker,
+                                                   const struct rho_tracker_look *look)
 {
     return look->watched >= COMPARED_MIN &&
            look->seen_share > SHARE_GOOD * stated_pd_of_sensor(tracker, look->sensor_id);
@@ -111,7 +111,7 @@ static int has_good_seen_share(const struct rho_tracker *tracker,
 static int agrees_with_tracks(const struct rho_tracker *tracker,
                               const struct rho_tracker_look *look)
 {
-    return has_good_seen_share(tracker, look) && look->distance2 < CHI2_GOOD;
+    return does_sensor_see_enough_tracks_of_others(tracker, look) && look->distance2 < CHI2_GOOD;
 }
 
 /*
@@ -152,7 +152,8 @@ static struct witnesses count_sensors_witnessing_bias(const struct step *step,
     struct witnesses witnesses = {0, 0, 0, 0};
     for (unsigned i = 0; i < tracker->num_looks; i++) {
         const struct rho_tracker_look *other = &tracker->looks[i];
-        if (other == look || other->is_suspect || !has_good_seen_share(tracker, other) ||
+        if (other == look || other->is_suspect ||
+            !does_sensor_see_enough_tracks_of_others(tracker, other) ||
             step->time_us - other->time_us > RHO_TRACKER_SILENT_US) {
             continue;
         }
@@ -169,7 +170,7 @@ static struct witnesses count_sensors_witnessing_bias(const struct step *step,
  * True where two witnesses of one kind speak against a biased sensor. One finer and one coarser
  * sensor are not enough: the finer may have pulled the tracks, and the coarser cannot tell.
  */
-static int are_enough_witnesses(const struct witnesses *witnesses)
+static int are_enough_sensors_witnessing_bias(const struct witnesses *witnesses)
 {
     return witnesses->agreeing >= 2 || witnesses->equal >= 2 || witnesses->coarser >= 2;
 }
@@ -185,8 +186,9 @@ static void suspect_or_trust_sensor(struct step *step, struct rho_tracker_look *
     if (look->is_suspect && (agrees_with_tracks(tracker, look) || witnesses.num == 0)) {
         look->is_suspect = 0;
     } else if (!look->is_suspect &&
-               ((has_low_seen_share(tracker, look) && witnesses.num >= 1) ||
-                (are_sensor_plots_too_far_from_tracks(look) && are_enough_witnesses(&witnesses)))) {
+               ((does_sensor_see_too_few_tracks_of_others(tracker, look) && witnesses.num >= 1) ||
+                (are_sensor_plots_too_far_from_tracks(look) &&
+                 are_enough_sensors_witnessing_bias(&witnesses)))) {
         look->is_suspect = 1;
         tracker->counters.sensors_suspected = rho_count(tracker->counters.sensors_suspected, 1);
     }

@@ -203,7 +203,7 @@ static enum rho_status predict_and_update_kalman(struct rho_track *track,
 /* Copies the estimate of the input estimation filter, and its inputs, to the track. */
 static void copy_input_estimate_to_track(struct rho_track *track)
 {
-    rho_input_estimate(&track->input, &track->kalman);
+    rho_input_get_corrected_estimate(&track->input, &track->kalman);
     for (int axis = 0; axis < 3; axis++) {
         int is_present = (track->input.present >> axis & 1u) != 0;
         track->accel_mps2[axis] = is_present ? track->input.input_mps2[axis] : 0.0f;

@@ -64,8 +64,8 @@ static int find_sight_crossing(const struct rho_sensor *sensor,
 
 /*
  * True where two tracks may be a target and its image: beside each other, equally fast along the
- * line whose direction their velocities give, the line between the sensor and the image only. Fills
- * the line half way between the two.
+ * line whose direction their velocities give, sensor and target on one side of it and the image on
+ * the other. Fills the line half way between the two.
  */
 static int may_be_image_pair(const struct rho_sensor *sensor, const struct rho_track_report *target,
                              const struct rho_track_report *image, struct mirror_line *mirror)

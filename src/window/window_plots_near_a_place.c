@@ -90,14 +90,15 @@ static void update_nearest_plot(struct nearest *best, const struct rho_window_sc
 }
 
 /*
- * Least displacement along one axis of a place with this speed, over the offsets of a scan's plots.
+ * Least and largest displacement along one axis, at this velocity, over the offsets of the times of
+ * a scan's plots from the scan's own.
  */
-static float least_shift_m(const struct rho_window_scan *scan, float v_mps)
+static float least_shift_over_plot_offsets_m(const struct rho_window_scan *scan, float v_mps)
 {
     return v_mps * (v_mps > 0.0f ? scan->offset_min_s : scan->offset_max_s);
 }
 
-static float largest_shift_m(const struct rho_window_scan *scan, float v_mps)
+static float largest_shift_over_plot_offsets_m(const struct rho_window_scan *scan, float v_mps)
 {
     return v_mps * (v_mps > 0.0f ? scan->offset_max_s : scan->offset_min_s);
 }
@@ -106,10 +107,11 @@ static struct rho_window_bins bins_around_gate(const struct rho_window_scan *sca
                                                float y_m, float vx_mps, float vy_mps,
                                                float gate_radius_m)
 {
-    return rho_window_bins_under(scan, x_m - gate_radius_m + least_shift_m(scan, vx_mps),
-                                 x_m + gate_radius_m + largest_shift_m(scan, vx_mps),
-                                 y_m - gate_radius_m + least_shift_m(scan, vy_mps),
-                                 y_m + gate_radius_m + largest_shift_m(scan, vy_mps));
+    return rho_window_bins_under(
+        scan, x_m - gate_radius_m + least_shift_over_plot_offsets_m(scan, vx_mps),
+        x_m + gate_radius_m + largest_shift_over_plot_offsets_m(scan, vx_mps),
+        y_m - gate_radius_m + least_shift_over_plot_offsets_m(scan, vy_mps),
+        y_m + gate_radius_m + largest_shift_over_plot_offsets_m(scan, vy_mps));
 }
 
 int rho_window_nearest_plot_in_sigmas_isotropic(const struct rho_window_scan *scan,

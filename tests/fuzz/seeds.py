@@ -47,7 +47,8 @@ def write_configs(folder):
     seeds.mkdir(parents=True, exist_ok=True)
     words = {
         "nht_reading": "c", "vote": "counts", "prune": "literal", "initiators": "sensor",
-        "gate": "hough", "input_model": "physical", "asterix_scans": "turn", "planes": "xy+xz"
+        "gate": "hough", "input_model": "physical", "asterix_scans": "turn", "planes": "xy+xz",
+        "method": "mht", "bearings_method": "passive-paper"
     }
     files = {
         "words": "".join(f"{name} = {word}\n"

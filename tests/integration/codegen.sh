@@ -71,6 +71,10 @@ changed "a member's name" 's/snr_db/snr_dB/' src/wire/message_and_member_names.c
 changed "a member's type" 's/float   snr_db/int32_t snr_db/' include/rhotrack/message.h
 changed "a member's range" 's/-1000 \.\. 1000/-1000 .. 1001/' src/wire/message_types.c
 changed 'a comment' 's/east, m/eastwards, m/' include/rhotrack/message.h
+fresh
+sed -i 's,^    int32_t dt_us.*,&\n    // what follows,' "$copy/tree/lcm_types/plot_t.lcm"
+codegen --check
+expect 'a comment in a line and column of its own belongs to no member' 0
 
 fresh
 rm "$copy/tree/src/wire/message_types.c"
@@ -134,6 +138,13 @@ refuse 'a constant that is no number' 5 'no constant that is understood' 'const 
 refuse 'a choice that is no constant' 5 's: C is no constant of odd_t' 'int8_t s; // one {C}'
 refuse 'a choice beyond 30' 6 's: C is not within 0 .. 30' 'const int8_t C = 31;' \
     'int8_t s; // one {C}'
+refuse 'a range before other words' 5 'x: no range [min .. max]' 'int32_t x; // [0 .. 1] m'
+refuse 'choices before other words' 6 'x: no range [min .. max]' 'const int8_t A = 1;' \
+    'int8_t x; // {A} now'
+refuse 'a range that a later line ends' 5 'x: no range of int32_t: 2 .. 1' 'int32_t x; // m' \
+    '           // [2 .. 1]'
+refuse 'words in a line of their own behind a range' 5 'x: no range [min .. max]' \
+    'int32_t x; // m [1 .. 2]' '           // too'
 refuse 'a range that is none' 5 'x: no range [min .. max]' 'int32_t x; // m [0..1]'
 refuse 'a range the wrong way round' 5 'x: no range of int32_t: 2 .. 1' 'int32_t x; // [2 .. 1]'
 refuse 'a range beyond the type' 5 'x: no range of int8_t: 0 .. 128' 'int8_t x; // [0 .. 128]'
@@ -165,7 +176,7 @@ expect 'a package without a name' 1 'plot_t.lcm:1: package rhotrack is missing'
 
 heading() { # what, text, the first line of plot_t.lcm behind its licence
     fresh
-    sed -i "2s,.*,$3," "$copy/tree/lcm_types/plot_t.lcm"
+    sed -i "2s,.*,$3,; 3d" "$copy/tree/lcm_types/plot_t.lcm"
     codegen
     expect "$1" 1 "lcm_types/plot_t.lcm:1: $2"
 }

@@ -161,9 +161,9 @@ check 'received_s: numbers are in the order of time, rows in that of reception' 
     back.csv
 
 # ---- columns ----
-cat >all.csv <<END
-t_s,sensor_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,sigma_m,sigma_mps,snr_db,scan,epoch,\
-sector_from_rad,sector_to_rad,note
+printf '%s' 't_s,sensor_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,sigma_m,sigma_mps,snr_db,' >all.csv
+cat >>all.csv <<'END'
+scan,epoch,sector_from_rad,sector_to_rad,note
 -1.5,-32768,,,,,,,,,,-2147483648,2147483647,-1,2,opens
 -1.25,-32768,1.1,-2.2,-0,4,5,6,0.1,,12.5,-2147483648,2147483647,-1,2,a
 0.000001,-32768,2000000,0,1e-30,4,5,6,,100000,,-2147483648,2147483647,-1,2,b
@@ -171,11 +171,10 @@ sector_from_rad,sector_to_rad,note
 END
 check 'all columns of plots' there_and_back all.csv
 check 'all columns of plots: values' same_values all.csv back.csv note
-cat >all.csv <<END
-t_s,sensor_id,range_m,azimuth_rad,elevation_rad,range_rate_mps,snr_db,\
-sensor_x_m,sensor_y_m,sensor_z_m,\
-sigma_range_m,sigma_azimuth_rad,sigma_elevation_rad,sigma_range_rate_mps,\
-sector_from_rad,sector_to_rad
+printf '%s' 't_s,sensor_id,range_m,azimuth_rad,elevation_rad,range_rate_mps,snr_db,' \
+    'sensor_x_m,sensor_y_m,sensor_z_m,sigma_range_m,sigma_azimuth_rad,sigma_elevation_rad,' >all.csv
+cat >>all.csv <<'END'
+sigma_range_rate_mps,sector_from_rad,sector_to_rad
 1,2,100,3.1415927,1.5,-3,,10,20,30,5,0.01,0.02,0.5,0,1
 1,2,101,-3.1415927,-1.5,3,7,10,20,30,6,0.01,0.02,0.5,0,1
 1,2,102,0,0,0,,10,20,30,6,0.03,0.02,0.5,0,1

@@ -35,11 +35,16 @@ table=$(printf '| %0120d |\\n```\\n%0120d\\n```' 0 0)
 check 'long lines of code and tables are none' seen README.md "$table\\n$(printf '%0101d' 0)" \
     ': 101 columns'
 check 'and are not named' test "$(grep -c columns said)" -eq 1
-for code in code.c code.py Makefile tests/code.sh; do
-    mkdir -p documents/tests
-    printf '%0100d\n%0101d\n' 0 0 >"documents/$code"
+mkdir -p documents/tests/vectors documents/build-other
+for code in code.c code.py code.sh code.java page.js page.html type_t.lcm Makefile \
+    CMakeLists.txt; do
+    printf '%0100d\n%0101d\n' 0 0 >"documents/tests/$code"
     "$gate" documents >said
-    check "of code they are: $code" matches "$(cat said)" "$code:2: 101 columns"
-    rm "documents/$code"
+    check "of code they are: $code" matches "$(cat said)" "tests/$code:2: 101 columns"
+    rm "documents/tests/$code"
 done
+for data in plots.csv scene.json tests/vectors/made.h page.min.js build-other/code.c; do
+    printf '%0101d\n' 0 >"documents/$data"
+done
+check "not of data, others' code, build folders" "$gate" documents
 finish

@@ -65,7 +65,7 @@ static inline struct rho_plot *add_plot(double x_m, double y_m, double sigma_ran
     return &plots[num_plots++];
 }
 
-static inline void add_one_clutter_plot(const struct rho_extent *area, int count)
+static inline void add_clutter_plots(const struct rho_extent *area, int count)
 {
     for (int i = 0; i < count; i++) {
         double x_m = uniform(area->x_min_m, area->x_max_m);

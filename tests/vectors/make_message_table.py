@@ -29,9 +29,15 @@ TOP = """\
 
 
 def comments_on_one_line(text):
-    """The text with each comment on one line, as lines of comment go on with the one before."""
-    return re.sub(r"(//.*)((?:\n *//.*)+)", lambda found: found.group(1) + re.sub(
-        r"\n *//", "", found.group(2)), text)
+    """The text with each comment on one line: lines of comment in its column belong to it."""
+    lines = []
+    for line in text.splitlines():
+        at = line.find("//")
+        if at >= 0 and not line[:at].strip() and lines and lines[-1].find("//") == at:
+            lines[-1] += line[at + 2:]
+        else:
+            lines.append(line)
+    return "\n".join(lines)
 
 
 class Struct:

@@ -80,8 +80,8 @@ def exit_with_error(path, line, text):
 
 
 def take_range_from_comment(field):
-    """Takes the range or the choices off the end of a field's comment. False where the end of the
-    comment looks like one, but is none."""
+    """Takes the range or the choices off the end of a field's comment. False where something in the
+    comment looks like one, but is none, or is not at its end."""
     ranged = re.search(r"\[(\S+) \.\. ([^\]]+)\]$", field.comment)
     chosen = re.search(r"\{([^}]+)\}$", field.comment)
     if ranged:
@@ -91,7 +91,7 @@ def take_range_from_comment(field):
     for found in (ranged, chosen):
         if found:
             field.comment = field.comment[:found.start()].strip().rstrip(",;")
-    return bool(ranged or chosen) or not field.comment.endswith(("]", "}"))
+    return not re.search(r"[]}]$|\[\S+ \.\. |\{\w", field.comment)
 
 
 def parse_field(path, number, code, comment):
@@ -123,15 +123,16 @@ def parse_constants(path, number, code):
 
 
 def lines_of_code_and_comment(path):
-    """Lines of a file as (number, code, comment). Lines of comment right behind a member or a
-    constant go on with its own comment."""
-    lines = []
+    """Lines of a file as (number, code, comment). A line of comment below a member goes on with its
+    comment where it begins in the same column; elsewhere it is about what follows."""
+    lines, column = [], -1
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-        code, _, comment = (part.strip() for part in line.partition("//"))
-        if comment and not code and lines and lines[-1][1].endswith(";"):
-            lines[-1][2] = f"{lines[-1][2]} {comment}".lstrip()
-        else:
-            lines.append([number, code, comment])
+        code, slashes, comment = (part.strip() for part in line.partition("//"))
+        if slashes and not code and line.index("//") == column:
+            lines[-1][2] += f" {comment}"
+            continue
+        lines.append([number, code, comment])
+        column = line.index("//") if slashes and code else -1
     return lines
 
 

@@ -17,9 +17,10 @@ HOME = pathlib.Path(__file__).resolve().parent.parent.parent
 NOT_WRITTEN = {"CHANGELOG.md", "tools/lab/CLAIMS.md", "tools/lab/MEASUREMENTS.md"}
 # Most words of README.md (outside code and tables), of DESIGN.md, of all documents; most columns.
 README_MOST, DESIGN_MOST, ALL_MOST, COLUMNS = 1200, 14000, 26000, 100
-CODE = re.compile(r"\.(c|cpp|h|py|sh|bash|java|js|css|lcm|mk|cmake)$|^\.ci/run$"
+CODE = re.compile(r"\.(c|cpp|h|py|sh|bash|java|js|css|html|lcm|mk|cmake)$|^\.ci/run$"
                   r"|(^|/)(Makefile|CMakeLists\.txt)$")
-NO_CODE = re.compile(r"build|\.git/|tests/vectors/.*\.h|.*\.min\.js$")  # data, and others' code
+# what is built, data, others' code
+NO_CODE = re.compile(r"build[^/]*/|\.git/|tests/vectors/.*\.h|.*\.min\.js$")
 FOREIGN = {
     "stdio.h", "stdbool.h", "stdlib.h", "stdint.h", "stddef.h", "string.h", "math.h", "errno.h",
     "limits.h", "float.h"

@@ -74,7 +74,7 @@ static void estimate_state_and_keep_last_two_velocities(void)
 {
     struct rho_kalman estimate;
     rho_input_test_and_end_inputs(&input, &config);
-    rho_input_estimate(&input, &estimate);
+    rho_input_get_corrected_estimate(&input, &estimate);
     memcpy(before_mps, newest_mps, sizeof before_mps);
     memcpy(newest_mps, &estimate.state[3], sizeof newest_mps);
 }

@@ -148,8 +148,7 @@ def results_of(papers):
 
 def judged_row(row, figures, results):
     """(verdict, our figures as text, reason)."""
-    values = {name: table.figure(row, figures, experiment, path)
-              for name, experiment, path in row.measured}
+    values = {name: table.figure(row, figures, of, path) for name, of, path in row.measured}
     unknown = [name for name, value in values.items() if value is None]
     ours, why = row.texts.get("shown", ""), row.texts.get("why", "")
     if "definition" in row.texts:

@@ -7,8 +7,7 @@ Scene crossing (Table 1 of Fan et al.: three targets, seven scans, P_D .99) in m
 clutter, one batch (`rhotrack initiate`): once with the work_max of the shipped full node, once
 without a limit. A target is found where a track is within 30 m of it at the last scan. `not tried`
 is the share of the plots of which not all pairs were tried. Thresholds are those of experiment
-initiation.
-The node's scans hold 256 plots, so that the densest window is beyond it anyhow.
+initiation. The node's scans hold 256 plots, so that the densest window is beyond it anyhow.
 """
 import csv
 import json

@@ -23,7 +23,7 @@
  *     rho_input_predict(&input, &config, dt_s);
  *     rho_input_update_position(&input, &config, &measurement);   further measurements follow
  *     rho_input_test_and_end_inputs(&input, &config);                 once per scan with a plot
- *     rho_input_estimate(&input, &kalman);                        at any time
+ *     rho_input_get_corrected_estimate(&input, &kalman);                        at any time
  *
  * Source: the input estimation of "a novel tracking algorithm by integrating the Kalman filter,
  * input estimation, and clutter elimination algorithm to track maneuvering targets in cluttered
@@ -145,7 +145,7 @@ RHO_MUST_CHECK enum rho_status rho_input_update_position(struct rho_input *input
 /*
  * Updates with a range rate, linearised at the corrected estimate. Errors: as
  * rho_kalman_update_range_rate.
- * Cost: rho_input_estimate and rho_input_update_filter_by_row. Stack: 740 bytes.
+ * Cost: rho_input_get_corrected_estimate and rho_input_update_filter_by_row. Stack: 740 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_input_update_range_rate(struct rho_input *input,
                                                            const struct rho_input_config *config,
@@ -176,12 +176,12 @@ void rho_input_test_and_end_inputs(struct rho_input *input, const struct rho_inp
  * instructions, 2100 coupled.
  * Stack: 160 bytes.
  */
-void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estimate);
+void rho_input_get_corrected_estimate(const struct rho_input *input, struct rho_kalman *estimate);
 
 /*
  * Fills *estimate with the corrected estimate for a gate: an axis without input may have got one
  * since the last plot, so that an input of 0 with variance V(0) is included. Cost as
- * rho_input_estimate, stack as above.
+ * rho_input_get_corrected_estimate, stack as above.
  */
 void rho_input_estimate_with_all_inputs(const struct rho_input *input, struct rho_kalman *estimate);
 

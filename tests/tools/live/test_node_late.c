@@ -138,7 +138,7 @@ static int compare_reception_times(const void *a, const void *b)
 /*
  * lag_us: delay of an out-of-order scan after its radar's next scan; below 0: all scans in order.
  */
-static void plan_scans(struct live *live, int16_t sensors, int64_t lag_us)
+static void plan_receptions_some_out_of_order(struct live *live, int16_t sensors, int64_t lag_us)
 {
     for (int16_t sensor_id = 1; sensor_id <= sensors; sensor_id++) {
         struct random random = random_start(1000 + live->seed, (uint64_t)sensor_id, 0);
@@ -219,7 +219,7 @@ static void run_node(struct live *live, uint64_t seed, int16_t sensors, int64_t 
     for (int i = 0; i < ROUNDS; i++) {
         live->sum_m2[i] = (double)NAN;
     }
-    plan_scans(live, sensors, lag_us);
+    plan_receptions_some_out_of_order(live, sensors, lag_us);
     for (unsigned i = 0; i < live->num_events; i++) {
         while (node_core_due_us(live->core) < live->events[i].received_us) {
             node_core_tick(live->core, node_core_due_us(live->core));

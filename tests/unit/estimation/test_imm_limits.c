@@ -76,7 +76,7 @@ static struct rho_plot plot_at(float x_m, float y_m, float z_m, float sigma_m)
 
 /*
  * Tries a Cholesky factorisation of the open elements in double precision, their variances raised
- * by `share`.
+ * by that share.
  */
 static int is_positive_definite(int n, const float *covariance, double variances_raised_by_share)
 {

@@ -16,8 +16,11 @@
 
 static const struct rho_sensor radar = {.pd = 0.9f, .range_max_m = 1e5f, .notch_mps = 2.0f};
 
-/* A target 1 km east that recedes at rate_mps, in the manoeuvring model at more_mps more. */
-static struct rho_imm filter_receding_at(float rate_mps, float more_mps)
+/*
+ * A target 1 km east that recedes at rate_mps, in the manoeuvring model at manoeuvring_more_mps
+ * more.
+ */
+static struct rho_imm filter_receding_at(float rate_mps, float manoeuvring_more_mps)
 {
     struct rho_imm_model model;
     struct rho_kalman estimate = {.state = {1000.0f, 0.0f, 0.0f, rate_mps, 20.0f, 0.0f}};
@@ -29,7 +32,7 @@ static struct rho_imm filter_receding_at(float rate_mps, float more_mps)
     rho_imm_model_default(&model, 5.0f, 50.0f);
     rho_imm_start(&imm, &model, &estimate);
     imm.probability = 0.25f;
-    imm.state[3] += more_mps;
+    imm.state[3] += manoeuvring_more_mps;
     return imm;
 }
 

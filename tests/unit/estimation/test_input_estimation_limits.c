@@ -266,7 +266,7 @@ static void without_input_estimation_it_equals_the_kalman_filter(void **state)
         assert_int_equal(rho_input_update_range_rate(&input, &config, NULL, 20.0f, 4.0f), RHO_OK);
         assert_int_equal(rho_kalman_update_range_rate(&kalman, NULL, 20.0f, 4.0f), RHO_OK);
         rho_input_test_and_end_inputs(&input, &config);
-        rho_input_estimate(&input, &estimate);
+        rho_input_get_corrected_estimate(&input, &estimate);
         assert_memory_equal(&estimate, &kalman, sizeof kalman);
     }
     assert_int_equal(input.present, 0);
@@ -529,7 +529,7 @@ static void assert_valid_filter(const struct rho_input *input)
     }
     rho_input_estimate_with_all_inputs(input, &estimate);
     assert_true(is_positive_definite(&estimate));
-    rho_input_estimate(input, &estimate);
+    rho_input_get_corrected_estimate(input, &estimate);
     assert_true(is_positive_definite(&estimate));
     for (int i = 0; i < PACKED; ++i) {
         assert_true(isfinite(estimate.covariance[i]));

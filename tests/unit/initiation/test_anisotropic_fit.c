@@ -26,7 +26,7 @@ static void search_window_of_three_targets_in_clutter(int window, double sigma_c
         path[i][2] = v_mps * cos(heading), path[i][3] = v_mps * sin(heading);
     }
     for (int k = 0; k < SCANS; k++) {
-        add_one_clutter_plot(&config.area, 40);
+        add_clutter_plots(&config.area, 40);
         for (int i = 0; i < 3; i++) {
             double t_s = SCAN_S * (k - 3);
             add_plot(path[i][0] + path[i][2] * t_s + 10.0 * normal(),

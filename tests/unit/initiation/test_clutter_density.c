@@ -40,7 +40,7 @@ static void search_two_sensors(int first, int second)
     struct rho_initiator_config config = test_config();
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
-        add_one_clutter_plot(&around, k % 2 ? second : first);
+        add_clutter_plots(&around, k % 2 ? second : first);
         push_scan((struct rho_scan){.sensor_id = k % 2 ? 2 : 1}, SCAN_S * k, NULL);
     }
     search_window(RHO_SEARCH_BATCH);
@@ -81,7 +81,7 @@ static void a_single_sensor_and_unknown_ones_have_the_mean_density(void **state)
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         /* a single sensor's scans may differ without making it several sensors */
-        add_one_clutter_plot(&around, 5 * k);
+        add_clutter_plots(&around, 5 * k);
         push_scan((struct rho_scan){.sensor_id = -7}, SCAN_S * k, NULL);
     }
     search_window(RHO_SEARCH_BATCH);

@@ -64,7 +64,7 @@ static void push_next_scan(void)
 static void push_scans_with_hot_spot(int scans, int hot)
 {
     for (int k = 0; k < scans; k++) {
-        add_one_clutter_plot(&around, COLD_PLOTS);
+        add_clutter_plots(&around, COLD_PLOTS);
         add_spot(clutter_memory_cell_middle_m(5000.0), clutter_memory_cell_middle_m(5000.0), hot);
         push_next_scan();
     }
@@ -348,7 +348,7 @@ static void hot_spots_are_learned_anew_after_the_area_has_grown(void **state)
     push_scans_over_area_with_hot_spot(1e4, 100);
     assert_true(density_at(5e3, 5e3) > 10.0 * density_at(-5e3, -5e3));
     for (int k = 0; k < 40; k++) {
-        add_one_clutter_plot(&(struct rho_extent){-1e5f, 1e5f, -1e5f, 1e5f}, COLD_PLOTS);
+        add_clutter_plots(&(struct rho_extent){-1e5f, 1e5f, -1e5f, 1e5f}, COLD_PLOTS);
         push_next_scan();
     }
     search_window(RHO_SEARCH_NEWEST);

@@ -39,7 +39,7 @@ static void search_even_clutter(int radars)
     random_state = 5;
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
-        add_one_clutter_plot(&square, CLUTTER);
+        add_clutter_plots(&square, CLUTTER);
         for (int i = 0; i < TARGETS; i++) {
             double x_m = -4000.0 + 80.0 * SCAN_S * k + 10.0 * normal();
             double y_m = 1800.0 * i - 6500.0 + 10.0 * normal();
@@ -101,7 +101,7 @@ static void misses_of_a_radar_outside_its_range_do_not_count(void **state)
     random_state = 5;
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
-        add_one_clutter_plot(&square, CLUTTER);
+        add_clutter_plots(&square, CLUTTER);
         add_plot_in_even_scans(k, 6500.0);
         push_scan_of_radar(k, 1 + k % 2, k % 2 ? &second : &first);
     }
@@ -118,7 +118,7 @@ static void fewer_votes_start_a_track_in_thin_clutter(void **state)
     random_state = 5;
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
-        add_one_clutter_plot(&south, CLUTTER);
+        add_clutter_plots(&south, CLUTTER);
         add_plot_in_even_scans(k, 6000.0);
         push_scan_of_radar(k, 1, &radar);
     }

@@ -39,7 +39,7 @@ static void push_clutter_and_targets(const struct rho_initiator_config *config, 
     random_state = 3;
     start_initiator(config);
     for (int k = 0; k < SCANS; k++) {
-        add_one_clutter_plot(&config->area, count);
+        add_clutter_plots(&config->area, count);
         for (int i = 0; i < targets && i <= k; i++) {
             double y_m = -2000.0 + 1000.0 * i + 8.0 * normal();
             add_plot(100.0 * scan_s * (k - 3) + 8.0 * normal(), y_m, 10.0, 10.0);
@@ -273,7 +273,7 @@ static void search_with_range_rates(uint32_t measures, int count)
     random_state = 3;
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
-        add_one_clutter_plot(&square, count);
+        add_clutter_plots(&square, count);
         for (uint32_t i = 0; i < num_plots; i++) {
             plots[i].range_rate_mps = (float)uniform(-400.0, 400.0);
             plots[i].sigma_range_rate_mps = 1.0f;
@@ -327,7 +327,7 @@ static double false_tracks_an_hour(int scans, double mean, uint32_t measures)
         struct rho_scan scan = {
             .time_us = (int64_t)(SCAN_S * 1e6) * k, .measures = measures, .plots = plots};
         num_plots = 0;
-        add_one_clutter_plot(&config.area, poisson(mean));
+        add_clutter_plots(&config.area, poisson(mean));
         for (uint32_t i = 0; i < num_plots; i++) {
             plots[i].sigma_cross_m = measures ? 100.0f : 10.0f;
             plots[i].z_m = (float)uniform(0.0, 20000.0);
@@ -484,7 +484,7 @@ static void a_pause_counts_as_three_intervals(void **state)
     random_state = 3;
     start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
-        add_one_clutter_plot(&config.area, 25);
+        add_clutter_plots(&config.area, 25);
         push_plots(SCAN_S * k + (k == SCANS - 1 ? 30.0 : 0.0));
     }
     search_window(RHO_SEARCH_NEWEST);

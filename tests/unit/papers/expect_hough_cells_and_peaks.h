@@ -428,7 +428,7 @@ static inline size_t choose_from_listed(void)
     return choose_peaks(result.num_peaks);
 }
 
-static inline void list_peaks_of_whole_plane(size_t num)
+static inline void expect_peaks_as_listed(size_t num)
 {
     assert_int_equal(result.num_peaks, num);
     for (size_t i = 0; i < num; i++) {

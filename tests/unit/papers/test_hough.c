@@ -163,7 +163,7 @@ static void hough_votes_agree_with_double_precision(void **state)
         config.keeps_all_cells = 0;
         size_t num = choose_from_listed();
         find_peaks();
-        list_peaks_of_whole_plane(num);
+        expect_peaks_as_listed(num);
     }
 }
 
@@ -201,7 +201,7 @@ struct voters {
 
 static struct voters voters;
 
-static void add_voter(unsigned plot, int is_sure)
+static void note_expected_voter_of_peak(unsigned plot, int is_sure)
 {
     voters.plots[plot] = 1;
     voters.is_sure &= is_sure;
@@ -228,8 +228,8 @@ static void add_voters_of_pair(const struct pair *pair, const struct pairs *kern
         getting ? vote_bounds_of_pair(pair, kernels) : (struct vote_bounds){0.0, 0.0, 0.0};
     if (bounds.most > 0.0) {
         int is_sure = num == 1 && bounds.least > 0.0;
-        add_voter(pair->a, is_sure);
-        add_voter(pair->b, is_sure);
+        note_expected_voter_of_peak(pair->a, is_sure);
+        note_expected_voter_of_peak(pair->b, is_sure);
     }
 }
 
@@ -254,7 +254,7 @@ static void add_voters_of_plots(struct rho_accumulator_peak peak)
         double rho = (double)x_m[i] * cos(theta) + (double)y_m[i] * sin(theta);
         double at = (rho + (double)config.rho_max_m) / (double)config.rho_cell_m - peak.rho_cell;
         if (at > -4e-3 && at < 1.0 + 4e-3) {
-            add_voter(i, at > 4e-3 && at < 1.0 - 4e-3);
+            note_expected_voter_of_peak(i, at > 4e-3 && at < 1.0 - 4e-3);
         }
     }
 }

@@ -32,7 +32,7 @@ static void compare_cells_and_peaks(void)
     config.keeps_all_cells = 0;
     size_t num = choose_from_listed();
     find_peaks();
-    list_peaks_of_whole_plane(num);
+    expect_peaks_as_listed(num);
 }
 
 static void votes_in_clutter_agree_with_double_precision(void **state)

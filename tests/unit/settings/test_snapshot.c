@@ -53,7 +53,7 @@ static size_t image_bytes;
  * ---- scenes -----------------------------------------------------------------------------------
  */
 
-static double target_on_its_turning_path_at(int target, double t_s, int axis)
+static double target_coordinate_at_m(int target, double t_s, int axis)
 {
     const double from_m[TARGETS][2] = {{-12e3, 9e3}, {9e3, 12e3}, {2e3, 14e3}, {-9e3, 16e3}};
     const double speed_mps[TARGETS][2] = {{180, 40}, {-150, 20}, {60, -90}, {30, 160}};
@@ -98,8 +98,8 @@ static void add_scan(double t_s, int32_t sensor_id, double from_rad, double to_r
     for (int target = 0; target < TARGETS; target++) {
         const int32_t offset_us = (int32_t)uniform(0.0, 1e5);
         const double own_s = t_s + offset_us * 1e-6;
-        double x_m = target_on_its_turning_path_at(target, own_s, 0),
-               y_m = target_on_its_turning_path_at(target, own_s, 1);
+        double x_m = target_coordinate_at_m(target, own_s, 0),
+               y_m = target_coordinate_at_m(target, own_s, 1);
         const int is_seen = uniform(0.0, 1.0) < 0.9;
         x_m += 25.0 * normal();
         y_m += 25.0 * normal();
@@ -123,9 +123,8 @@ static void add_frame(double t_s)
                                           .sensor_id = 10 + sensor,
                                           .x_m = sensor ? 8e3f : -8e3f};
         for (int target = 0; target < TARGETS; target++) {
-            const double bearing_rad =
-                atan2(target_on_its_turning_path_at(target, t_s, 1),
-                      target_on_its_turning_path_at(target, t_s, 0) - look->x_m);
+            const double bearing_rad = atan2(target_coordinate_at_m(target, t_s, 1),
+                                             target_coordinate_at_m(target, t_s, 0) - look->x_m);
             if (uniform(0.0, 1.0) < 0.9) {
                 event->bearings[sensor][look->num_bearings++] = (struct rho_bearing){
                     .bearing_rad = (float)(bearing_rad + 0.002 * normal()), .sigma_rad = 0.002f};

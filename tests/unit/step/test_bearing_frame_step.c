@@ -87,7 +87,7 @@ static void only_candidates_above_ln_100_start_tracks(void **state)
 }
 
 /*
- * Target unseen in the frames whose bit is set in `missing`; the full batch finds it, and a track
+ * Target unseen in the frames whose bit is set; the full batch finds it, and a track
  * starts or not.
  */
 static void expect_starts_with_missing_frames(unsigned missing_frame_bits, int starts)

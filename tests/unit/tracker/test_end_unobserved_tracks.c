@@ -18,7 +18,7 @@ static void step_empty_scan(int32_t sensor_id, double t_s, float from_rad, float
 
 /*
  * A radar looks west every ten seconds for two minutes, then only east, where the target is, every
- * second, and is silent from `silent_s` on. Returns seconds until its track ends.
+ * second, and is silent from `silent_from_s` on. Returns seconds until its track ends.
  */
 static double seconds_until_track_ends(double silent_from_s)
 {
@@ -119,7 +119,10 @@ static void a_tracks_hit_interval_falls_fast_and_rises_slowly(void **state)
 
 /* ---- limits of unobserved time --------------------------------------------------------------- */
 
-/* A confirmed track 10 km east, seen at 0 s by sensor 1, which looks every 4 s up to range_m. */
+/*
+ * A confirmed track 10 km east, seen at 0 s by sensor 1, which looks every 4 s up to
+ * sensor_range_max_m.
+ */
 static struct rho_track *make_confirmed_track(float sensor_range_max_m, uint8_t misses)
 {
     const struct rho_sensor sensor = {

@@ -103,7 +103,7 @@ static void where_tracks_end_early_more_hits_are_needed(void **state)
         last += n >= 20 ? reported : 0;
     }
     assert_true(tracker.ended_early > 10.0f);
-    assert_true(first > 8);    /* turns that each was reported for */
+    assert_true(first > 8);    /* turns in which the first four were reported, in all */
     assert_int_equal(last, 0); /* the last one was never confirmed */
     const int reported = count_turns_reporting_short_lived_target(-20000.0, -30000.0, 20);
     assert_in_range(reported, 12, 17); /* a real target is confirmed some turns later */

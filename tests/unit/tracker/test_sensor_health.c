@@ -90,7 +90,7 @@ static void true_place_of(const struct scene *scene, int target, double t_s, dou
     }
 }
 
-static uint32_t add_one_clutter_plot(struct rho_plot *plots, uint32_t count, int more)
+static uint32_t add_clutter_plots(struct rho_plot *plots, uint32_t count, int more)
 {
     for (int i = 0; i < more; i++) {
         plots[count++] = (struct rho_plot){.x_m = (float)uniform(-1e6, 1e6),
@@ -119,7 +119,7 @@ static void step_sensor_scan(const struct scene *scene, int32_t sensor_id, doubl
                      : scene->fault == FAR_OFF ? 3000.0
                                                : 0.0;
 
-    scan.num_plots = add_one_clutter_plot(plots, 0, clutter);
+    scan.num_plots = add_clutter_plots(plots, 0, clutter);
     for (int i = 0; i < TARGETS; i++) {
         double place_m[2], dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
 
@@ -131,7 +131,7 @@ static void step_sensor_scan(const struct scene *scene, int32_t sensor_id, doubl
                                                         .sigma_cross_m = (float)claim_m};
         }
     }
-    scan.num_plots = add_one_clutter_plot(plots, scan.num_plots, clutter);
+    scan.num_plots = add_clutter_plots(plots, scan.num_plots, clutter);
     scan.plots = plots;
     assert_int_equal(rho_tracker_step(&tracker, &initiators[sensor_id - 1], &scan, &report),
                      RHO_OK);

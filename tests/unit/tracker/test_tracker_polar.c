@@ -55,7 +55,7 @@ static double draw_uniform_error_of_variance_1(void)
     return noise * uniform(-1.7320508, 1.7320508);
 }
 
-static struct target target_on_its_turning_path_at(const struct target *target, double t_s)
+static struct target target_moved_straight_to(const struct target *target, double t_s)
 {
     struct target moved = *target;
     moved.x_m += target->vx_mps * t_s;
@@ -68,7 +68,7 @@ static double from_turn_start_to_target_s(const struct target *target, double t_
 {
     double offset_s = 0.0;
     for (int i = 0; i < 8; i++) {
-        struct target then = target_on_its_turning_path_at(target, t_s + offset_s);
+        struct target then = target_moved_straight_to(target, t_s + offset_s);
         double turned = atan2(then.y_m - radar.y_m, then.x_m - radar.x_m) / TURN_RAD;
         offset_s = TURN_S * (turned - floor(turned));
     }
@@ -79,7 +79,7 @@ static double from_turn_start_to_target_s(const struct target *target, double t_
 static void add_target_plot(const struct target *target, int k)
 {
     double met_s = from_turn_start_to_target_s(target, TURN_S * k);
-    struct target then = target_on_its_turning_path_at(target, TURN_S * k + met_s);
+    struct target then = target_moved_straight_to(target, TURN_S * k + met_s);
     double dx_m = then.x_m - radar.x_m, dy_m = then.y_m - radar.y_m;
     double dz_m = (measures & RHO_MEASURES_Z) ? then.z_m - radar.z_m : 0.0;
     double range_m = sqrt(dx_m * dx_m + dy_m * dy_m + dz_m * dz_m);
@@ -205,7 +205,7 @@ static long track_score_mnat(void)
 static double nees_of_place(const struct target *target, int k)
 {
     const struct rho_track_report *track = only_track();
-    struct target truth = target_on_its_turning_path_at(target, scan_time_s(k));
+    struct target truth = target_moved_straight_to(target, scan_time_s(k));
     double dx_m = track->state[0] - truth.x_m, dy_m = track->state[1] - truth.y_m;
     const float *p = track->covariance;
     double xx = p[RHO_AT(0, 0)], xy = p[RHO_AT(1, 0)], yy = p[RHO_AT(1, 1)];
@@ -310,7 +310,7 @@ static void polar_plots_are_tracked_with_and_without_range_rate(void **state)
 static void check_state(const struct target *target, int k)
 {
     const struct rho_track_report *track = only_track();
-    struct target truth = target_on_its_turning_path_at(target, scan_time_s(k));
+    struct target truth = target_moved_straight_to(target, scan_time_s(k));
     assert_float_equal(track->state[0], truth.x_m, 1.0);
     assert_float_equal(track->state[1], truth.y_m, 1.0);
     assert_float_equal(track->state[3], truth.vx_mps, 0.5);
@@ -500,7 +500,7 @@ static void scans_of_a_low_pd_sensor_elsewhere_end_no_track(void **state)
     assert_int_equal(report.num_tracks, 1);
 }
 
-static void add_one_clutter_plot(int count)
+static void add_clutter_plots(int count)
 {
     for (int i = 0; i < count; i++) {
         plots[num_plots++] = (struct rho_plot){.x_m = (float)uniform(-4e4, 4e4),
@@ -521,7 +521,7 @@ static void hits_add_less_score_among_more_clutter(void **state)
     assert_int_equal(rho_tracker_set_sensor(&world.tracker, &noisy), RHO_OK);
     for (int k = 0; k < 20; k++) {
         add_target_plot(target, k);
-        add_one_clutter_plot(k % 2 ? 40 : 1);
+        add_clutter_plots(k % 2 ? 40 : 1);
         radar.sensor_id = k % 2 ? 2 : 1;
         step_turn(k);
     }
@@ -616,7 +616,7 @@ static void a_radar_on_a_moving_ship_tracks(void **state)
             add_target_plot(&target, k);
             step_turn(k);
             if (k >= 3) {
-                struct target truth = target_on_its_turning_path_at(&target, scan_time_s(k));
+                struct target truth = target_moved_straight_to(&target, scan_time_s(k));
                 assert_int_equal(only_track()->hits, k + 1);
                 assert_float_equal(only_track()->state[0], truth.x_m, 3.0);
                 assert_float_equal(only_track()->state[1], truth.y_m, 3.0);
@@ -704,8 +704,8 @@ static void plots_with_bad_numbers_are_invalid_and_counted(void **state)
     assert_int_equal(world.tracker.counters.plots_in, 9 + bad);
     assert_int_equal(only_track()->hits, 9);
     /* bad plots change nothing in the tracker */
-    assert_true(fabs(only_track()->state[0] -
-                     target_on_its_turning_path_at(&early, scan_time_s(8)).x_m) < 5.0);
+    assert_true(
+        fabs(only_track()->state[0] - target_moved_straight_to(&early, scan_time_s(8)).x_m) < 5.0);
     track_target(&early, 9, 12);
     assert_int_equal(only_track()->hits, 12);
 }

@@ -16,7 +16,7 @@ static void start_assembler_and_scan_numbers(void)
 }
 
 /* Takes the sensor's next scan and gives all scans held. Returns whether it was accepted. */
-static int is_next_scan_accepted(int16_t sensor_id, int64_t time_us, int64_t now_us)
+static int push_next_scan(int16_t sensor_id, int64_t time_us, int64_t now_us)
 {
     uint32_t before = assembler.counters.scans_accepted;
     struct look look = {.time_us = time_us, .scan = ++numbers[sensor_id], .sensor_id = sensor_id};
@@ -37,7 +37,7 @@ static void push_scans_of_sensors(unsigned sensors, int64_t from, int64_t to, in
 {
     for (int64_t t = from; t < to; t++) {
         for (unsigned s = 0; s < sensors; s++) {
-            assert_true(is_next_scan_accepted((int16_t)s, t * SECOND_US, t * SECOND_US + off_us));
+            assert_true(push_next_scan((int16_t)s, t * SECOND_US, t * SECOND_US + off_us));
         }
     }
 }
@@ -52,8 +52,7 @@ static void a_lone_sensor_may_jump_in_time_with_a_restart(void **state)
         start_assembler_and_scan_numbers();
         push_scans_of_sensors(1, 0, 5, 0);
         for (int64_t t = 5; t < 10; t++) {
-            assert_int_equal(is_next_scan_accepted(0, t * SECOND_US + jumps_us[i], t * SECOND_US),
-                             t >= 7);
+            assert_int_equal(push_next_scan(0, t * SECOND_US + jumps_us[i], t * SECOND_US), t >= 7);
             assert_int_equal(restarts, t >= 7);
         }
         COUNTERS_ARE(.scans_accepted = 8, .clock_jumps = 2, .sensor_restarts = 1);
@@ -66,10 +65,10 @@ static void a_first_message_of_the_far_future_blocks_no_sensor(void **state)
     for (unsigned sensors = 1; sensors <= 2; sensors++) {
         start_assembler_and_scan_numbers();
         /* without any other sensor, any time is accepted */
-        assert_true(is_next_scan_accepted(7, INT64_C(4000000000000000000), 0));
+        assert_true(push_next_scan(7, INT64_C(4000000000000000000), 0));
         for (int64_t t = 0; t < 8; t++) {
             for (unsigned s = 0; s < sensors; s++) {
-                int is_in = is_next_scan_accepted((int16_t)s, t * SECOND_US, t * SECOND_US);
+                int is_in = push_next_scan((int16_t)s, t * SECOND_US, t * SECOND_US);
                 assert_int_equal(is_in, t > 2 || (t == 2 && s == 0) || (t == 2 && s == 1));
             }
         }
@@ -83,10 +82,9 @@ static void a_wrong_clock_from_the_start_is_outvoted(void **state)
     (void)state;
     start_assembler_and_scan_numbers();
     for (int64_t t = 0; t < 20; t++) {
-        int is_wrong_in =
-            is_next_scan_accepted(7, t * SECOND_US + HOUR_US, t * SECOND_US + 5 * HOUR_US);
-        int is_0_in = is_next_scan_accepted(0, t * SECOND_US, t * SECOND_US + 5 * HOUR_US);
-        int is_1_in = is_next_scan_accepted(1, t * SECOND_US, t * SECOND_US + 5 * HOUR_US);
+        int is_wrong_in = push_next_scan(7, t * SECOND_US + HOUR_US, t * SECOND_US + 5 * HOUR_US);
+        int is_0_in = push_next_scan(0, t * SECOND_US, t * SECOND_US + 5 * HOUR_US);
+        int is_1_in = push_next_scan(1, t * SECOND_US, t * SECOND_US + 5 * HOUR_US);
 
         assert_int_equal(is_wrong_in, t < 3);
         assert_int_equal(is_0_in, t > 2);
@@ -108,11 +106,11 @@ static void a_sensor_jumping_ahead_or_back_changes_nothing(void **state)
             push_scans_of_sensors(good + 1, 0, 5, 0);
             for (int64_t t = 5; t < 200; t++) {
                 for (unsigned s = 0; s < good; s++) {
-                    assert_true(is_next_scan_accepted((int16_t)s, t * SECOND_US, t * SECOND_US));
+                    assert_true(push_next_scan((int16_t)s, t * SECOND_US, t * SECOND_US));
                     assert_int_equal(given_us, t * SECOND_US);
                 }
-                assert_false(is_next_scan_accepted((int16_t)good, t * SECOND_US + jumps_us[i],
-                                                   t * SECOND_US));
+                assert_false(
+                    push_next_scan((int16_t)good, t * SECOND_US + jumps_us[i], t * SECOND_US));
             }
             assert_int_equal(restarts, 0);
             assert_int_equal(assembler.counters.clock_jumps + assembler.counters.scans_late +
@@ -129,8 +127,8 @@ static void a_new_sensor_five_seconds_ahead_changes_nothing(void **state)
     start_assembler_and_scan_numbers();
     push_scans_of_sensors(1, 0, 5, 0);
     for (int64_t t = 5; t < 100; t++) {
-        assert_false(is_next_scan_accepted(3, t * SECOND_US + 5 * SECOND_US, t * SECOND_US));
-        assert_true(is_next_scan_accepted(0, t * SECOND_US, t * SECOND_US));
+        assert_false(push_next_scan(3, t * SECOND_US + 5 * SECOND_US, t * SECOND_US));
+        assert_true(push_next_scan(0, t * SECOND_US, t * SECOND_US));
     }
     COUNTERS_ARE(.scans_accepted = 100, .clock_jumps = 95);
 }
@@ -145,10 +143,10 @@ static void a_slowly_drifting_sensor_does_not_move_the_clock(void **state)
     start_assembler_and_scan_numbers();
     push_scans_of_sensors(2, 0, 5, 0);
     for (int64_t t = 5; t < 100; t++) {
-        assert_true(is_next_scan_accepted(0, t * SECOND_US, t * SECOND_US));
-        assert_true(is_next_scan_accepted(1, t * SECOND_US, t * SECOND_US));
+        assert_true(push_next_scan(0, t * SECOND_US, t * SECOND_US));
+        assert_true(push_next_scan(1, t * SECOND_US, t * SECOND_US));
         lead_us += 400000;
-        refused += !is_next_scan_accepted(3, t * SECOND_US + lead_us, t * SECOND_US);
+        refused += !push_next_scan(3, t * SECOND_US + lead_us, t * SECOND_US);
     }
     assert_in_range(refused, 80, 90);
     assert_int_equal(restarts, 0);
@@ -160,9 +158,9 @@ static void the_majority_moves_the_clock(void **state)
     start_assembler_and_scan_numbers();
     push_scans_of_sensors(3, 0, 5, 0);
     for (int64_t t = 5; t < 20; t++) { /* two of three sensors jump */
-        int is_0 = is_next_scan_accepted(0, t * SECOND_US, t * SECOND_US + 100 * HOUR_US);
-        int is_1 = is_next_scan_accepted(1, t * SECOND_US + HOUR_US, t * SECOND_US + 100 * HOUR_US);
-        int is_2 = is_next_scan_accepted(2, t * SECOND_US + HOUR_US, t * SECOND_US + 100 * HOUR_US);
+        int is_0 = push_next_scan(0, t * SECOND_US, t * SECOND_US + 100 * HOUR_US);
+        int is_1 = push_next_scan(1, t * SECOND_US + HOUR_US, t * SECOND_US + 100 * HOUR_US);
+        int is_2 = push_next_scan(2, t * SECOND_US + HOUR_US, t * SECOND_US + 100 * HOUR_US);
 
         assert_int_equal(is_0, t <= 7);
         assert_int_equal(is_1, t > 7);
@@ -171,11 +169,10 @@ static void the_majority_moves_the_clock(void **state)
     assert_int_equal(restarts, 1);
     assert_int_equal(assembler.counters.sensor_restarts, 2);
     for (int64_t t = 20; t < 25; t++) { /* and the third one follows */
-        int is_0 = is_next_scan_accepted(0, t * SECOND_US + HOUR_US, t * SECOND_US + 100 * HOUR_US);
+        int is_0 = push_next_scan(0, t * SECOND_US + HOUR_US, t * SECOND_US + 100 * HOUR_US);
 
         assert_int_equal(is_0, t >= 22);
-        assert_true(
-            is_next_scan_accepted(1, t * SECOND_US + HOUR_US, t * SECOND_US + 100 * HOUR_US));
+        assert_true(push_next_scan(1, t * SECOND_US + HOUR_US, t * SECOND_US + 100 * HOUR_US));
     }
     assert_int_equal(restarts, 1);
 }
@@ -191,8 +188,8 @@ static void sensors_set_together_move_the_clock_once(void **state)
             push_scans_of_sensors(sensors, 0, 5, 7 * HOUR_US);
             for (int64_t t = 5; t < 30; t++) {
                 for (unsigned s = 0; s < sensors; s++) {
-                    (void)is_next_scan_accepted((int16_t)s, t * SECOND_US + jumps_us[i],
-                                                t * SECOND_US + 7 * HOUR_US);
+                    (void)push_next_scan((int16_t)s, t * SECOND_US + jumps_us[i],
+                                         t * SECOND_US + 7 * HOUR_US);
                 }
             }
             assert_int_equal(restarts <= 1, 1);
@@ -211,10 +208,8 @@ static void of_two_sensors_the_one_near_the_reception_clock_is_followed(void **s
         start_assembler_and_scan_numbers();
         for (int64_t t = 0; t < 20; t++) {
             int64_t off_us = 18 * SECOND_US;
-            int is_0 =
-                is_next_scan_accepted(0, t * SECOND_US + (wrong == 0 ? off_us : 0), t * SECOND_US);
-            int is_1 =
-                is_next_scan_accepted(1, t * SECOND_US + (wrong == 1 ? off_us : 0), t * SECOND_US);
+            int is_0 = push_next_scan(0, t * SECOND_US + (wrong == 0 ? off_us : 0), t * SECOND_US);
+            int is_1 = push_next_scan(1, t * SECOND_US + (wrong == 1 ? off_us : 0), t * SECOND_US);
 
             if (t >= 5) {
                 assert_int_equal(is_0, wrong == 1);
@@ -231,8 +226,8 @@ static void the_first_sensor_decides_if_both_are_as_near_the_reception_clock(voi
     (void)state;
     start_assembler_and_scan_numbers();
     for (int64_t t = 0; t < 20; t++) {
-        assert_true(is_next_scan_accepted(0, t * SECOND_US + 3200000, t * SECOND_US));
-        assert_int_equal(is_next_scan_accepted(1, t * SECOND_US - 3200000, t * SECOND_US), t == 0);
+        assert_true(push_next_scan(0, t * SECOND_US + 3200000, t * SECOND_US));
+        assert_int_equal(push_next_scan(1, t * SECOND_US - 3200000, t * SECOND_US), t == 0);
     }
     COUNTERS_ARE(.scans_accepted = 21, .clock_jumps = 19);
 }
@@ -242,8 +237,8 @@ static void the_first_sensor_decides_if_the_reception_clock_is_far_from_both(voi
     (void)state;
     start_assembler_and_scan_numbers();
     for (int64_t t = 0; t < 20; t++) {
-        assert_true(is_next_scan_accepted(0, t * SECOND_US + HOUR_US, t * SECOND_US + 9 * HOUR_US));
-        assert_false(is_next_scan_accepted(1, t * SECOND_US, t * SECOND_US + 9 * HOUR_US));
+        assert_true(push_next_scan(0, t * SECOND_US + HOUR_US, t * SECOND_US + 9 * HOUR_US));
+        assert_false(push_next_scan(1, t * SECOND_US, t * SECOND_US + 9 * HOUR_US));
     }
     COUNTERS_ARE(.scans_accepted = 20, .clock_jumps = 20);
 }
@@ -254,7 +249,7 @@ static void a_gone_sensor_has_no_vote_on_the_clock(void **state)
     start_assembler_and_scan_numbers();
     push_scans_of_sensors(2, 0, 5, 0);
     for (int64_t t = 5; t < 60; t++) { /* sensor 0 is silent, sensor 1 is ahead */
-        (void)is_next_scan_accepted(1, t * SECOND_US + HOUR_US, t * SECOND_US);
+        (void)push_next_scan(1, t * SECOND_US + HOUR_US, t * SECOND_US);
     }
     assert_int_equal(restarts, 1);
     assert_in_range(assembler.counters.clock_jumps, 29, 32);
@@ -266,8 +261,8 @@ static void a_silent_sensor_keeps_its_vote_for_jump_max(void **state)
     for (int more_us = 0; more_us < 2; more_us++) {
         start_assembler_and_scan_numbers();
         push_scans_of_sensors(1, 0, 5, 0);
-        assert_int_equal(
-            is_next_scan_accepted(1, -6 * SECOND_US, 4 * SECOND_US + JUMP_US + more_us), more_us);
+        assert_int_equal(push_next_scan(1, -6 * SECOND_US, 4 * SECOND_US + JUMP_US + more_us),
+                         more_us);
     }
 }
 
@@ -281,11 +276,11 @@ static void the_first_scan_on_a_new_clock_is_marked_restart(void **state)
     push_scans_of_sensors(3, 0, 5, 0);
     for (int64_t t = 5; t < 7; t++) {
         for (int16_t s = 0; s < 3; s++) {
-            assert_false(is_next_scan_accepted(s, t * SECOND_US + HOUR_US, t * SECOND_US));
+            assert_false(push_next_scan(s, t * SECOND_US + HOUR_US, t * SECOND_US));
         }
     }
     /* one sensor alone against two */
-    assert_false(is_next_scan_accepted(0, 7 * SECOND_US + HOUR_US - 9, 7 * SECOND_US));
+    assert_false(push_next_scan(0, 7 * SECOND_US + HOUR_US - 9, 7 * SECOND_US));
     first.scan = ++numbers[1];
     take_message(&first, 7 * SECOND_US); /* two sensors against one */
     older.scan = ++numbers[2];
@@ -353,7 +348,7 @@ static void sensors_with_usual_delays_are_never_off_the_clock(void **state)
                 int is_silent = s == 4 && t / (40 * SECOND_US) % 2;
 
                 if (age_us >= 0 && time_us % interval_us[s] == 0 && !is_silent) {
-                    (void)is_next_scan_accepted(s, time_us, t + clocks_us[c]);
+                    (void)push_next_scan(s, time_us, t + clocks_us[c]);
                 }
             }
         }
@@ -372,14 +367,14 @@ static void a_record_played_ten_times_as_fast_is_accepted(void **state)
     start_assembler_and_scan_numbers();
     for (int64_t t = 0; t < 1000; t++) {
         for (int16_t s = 0; s < 3; s++) {
-            assert_true(is_next_scan_accepted(s, t * SECOND_US + s * 100000, t * SECOND_US / 10));
+            assert_true(push_next_scan(s, t * SECOND_US + s * 100000, t * SECOND_US / 10));
         }
     }
     assert_int_equal(restarts, 0);
     start_assembler_and_scan_numbers();
     for (int64_t t = 0; t < 1000; t++) { /* or without a reception clock */
         for (int16_t s = 0; s < 3; s++) {
-            assert_true(is_next_scan_accepted(s, t * SECOND_US + s * 100000, 0));
+            assert_true(push_next_scan(s, t * SECOND_US + s * 100000, 0));
         }
     }
 }
@@ -394,9 +389,9 @@ static void a_lone_sensor_restarting_in_the_past_sets_the_clock(void **state)
         numbers[0] = 500;
         for (int64_t t = 20; t < 24; t++) {
             if (with_others) {
-                assert_true(is_next_scan_accepted(1, t * SECOND_US, t * SECOND_US));
+                assert_true(push_next_scan(1, t * SECOND_US, t * SECOND_US));
             }
-            assert_int_equal(is_next_scan_accepted(0, (t - 3) * SECOND_US, t * SECOND_US), t >= 22);
+            assert_int_equal(push_next_scan(0, (t - 3) * SECOND_US, t * SECOND_US), t >= 22);
         }
         assert_int_equal(restarts, with_others ? 0 : 1);
     }
@@ -410,8 +405,8 @@ static void sensors_of_a_record_played_again_set_the_clock(void **state)
     push_scans_of_sensors(2, 0, 20, 0);
     numbers[0] = numbers[1] = 100;
     for (int64_t t = 0; t < 10; t++) {
-        (void)is_next_scan_accepted(0, t * SECOND_US, (t + 20) * SECOND_US);
-        assert_int_equal(is_next_scan_accepted(1, t * SECOND_US, (t + 20) * SECOND_US), t >= 2);
+        (void)push_next_scan(0, t * SECOND_US, (t + 20) * SECOND_US);
+        assert_int_equal(push_next_scan(1, t * SECOND_US, (t + 20) * SECOND_US), t >= 2);
     }
     assert_int_equal(restarts, 1);
     assert_int_equal(assembler.counters.scans_accepted, 40 + 7 + 8);

@@ -186,7 +186,7 @@ class InputEstimation:
     def estimate(self) -> Kalman:
         """The corrected estimate."""
         estimate = Kalman()
-        lib.rho_input_estimate(self.struct, estimate.struct)
+        lib.rho_input_get_corrected_estimate(self.struct, estimate.struct)
         return estimate
 
     @property

@@ -172,9 +172,9 @@ static struct calibrate_segments track_and_cut_segments(struct register_data *da
 }
 
 /* Score of a noise factor: fitted segments minus segments that fit no parabola. */
-static double segments_minus_left_out(const struct calibrate_segments *segments)
+static double fitted_minus_unfitted_segments(const struct calibrate_segments *segments)
 {
-    return (double)segments->num_segments - (double)segments->num_left_out;
+    return (double)segments->num_segments - (double)segments->num_unfitted;
 }
 
 /*
@@ -199,8 +199,8 @@ static struct calibrate_segments track_with_best_plot_sigma_factor(struct regist
 
         scale_plot_sigmas(radar, tried / factor);
         segments = track_and_cut_segments(data, radar_number, is_isotropic, pipeline);
-        if (segments_minus_left_out(&segments) >
-            TRY_BETTER * fmax(segments_minus_left_out(&best), 1.0)) {
+        if (fitted_minus_unfitted_segments(&segments) >
+            TRY_BETTER * fmax(fitted_minus_unfitted_segments(&best), 1.0)) {
             calibrate_segments_free(&best);
             best = segments;
             factor = tried;
@@ -223,7 +223,7 @@ static bool has_noise_converged(const struct calibrate_figure *before,
 static bool are_enough_segments(const struct calibrate_segments *segments)
 {
     return segments->num_segments >= SEGMENTS_MIN &&
-           segments->num_segments > segments->num_left_out;
+           segments->num_segments > segments->num_unfitted;
 }
 
 /*
@@ -516,7 +516,7 @@ static void estimate_noise_pd_clutter_and_turn_of_radar(struct register_data *da
     out->turns = turns.count;
     out->tracks = data->num_tracks;
     out->segments = segments.num_segments;
-    out->segments_left_out = segments.num_left_out;
+    out->segments_left_out = segments.num_unfitted;
     out->area_km2 = covered_area_km2(radar, out->is_isotropic);
     out->figures[CALIBRATE_TURN] = estimate_turn_time(&turns);
     out->figures[CALIBRATE_CLUTTER] = estimate_clutter(data, radar_number, &turns);

@@ -237,7 +237,7 @@ static void cut_track_into_segments(const struct register_data *data, size_t tra
             continue;
         }
         if (!fit_segment_and_add_residuals(data, track, first, is_isotropic, &path, segments)) {
-            segments->num_left_out++;
+            segments->num_unfitted++;
             continue;
         }
         segments->segments =

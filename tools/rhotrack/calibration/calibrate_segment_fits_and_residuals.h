@@ -26,7 +26,7 @@ struct calibrate_segment {
 
 struct calibrate_segments {
     size_t num_segments, segments_room, num_residuals, residuals_room;
-    size_t num_left_out; /* segments that fit neither a line nor a parabola */
+    size_t num_unfitted; /* segments that fit neither a line nor a parabola */
     struct calibrate_segment *segments;
     struct residual *residuals;
 };

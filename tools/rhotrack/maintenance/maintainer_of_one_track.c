@@ -155,7 +155,7 @@ static void record_estimated_velocity(struct maintainer *maintainer)
 {
     struct rho_kalman kalman;
 
-    rho_input_estimate(&maintainer->input, &kalman);
+    rho_input_get_corrected_estimate(&maintainer->input, &kalman);
     for (int i = 0; i < AXES; i++) {
         maintainer->before_mps[i] = maintainer->newest_mps[i];
         maintainer->newest_mps[i] = kalman.state[i + 3];
@@ -231,7 +231,7 @@ void maintainer_predicted_place(const struct maintainer *maintainer, double plac
         maintainer_hypotheses_predicted_place(maintainer->best, place_m);
         return;
     }
-    rho_input_estimate(&maintainer->predicted, &kalman);
+    rho_input_get_corrected_estimate(&maintainer->predicted, &kalman);
     for (int i = 0; i < AXES; i++) {
         place_m[i] = (double)kalman.state[i];
     }
@@ -502,7 +502,7 @@ void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_
     }
     *estimate =
         (struct maintainer_estimate){.maneuver_probability = now.present != 0, .num_hypotheses = 1};
-    rho_input_estimate(&now, &estimate->kalman);
+    rho_input_get_corrected_estimate(&now, &estimate->kalman);
     for (int i = 0; i < AXES; i++) {
         estimate->accel_mps2[i] = now.present & (1u << i) ? now.input_mps2[i] : 0.0f;
     }

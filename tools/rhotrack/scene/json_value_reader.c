@@ -256,7 +256,7 @@ static bool parse_path_step(const char **path, char key[KEY_BYTES], int *index)
     return is_number && (*path)[-1] == ']';
 }
 
-static cJSON *member_by_step(cJSON *item, const char *key, int index)
+static cJSON *child_at_path_step(cJSON *item, const char *key, int index)
 {
     if (index >= 0) {
         return cJSON_IsArray(item) ? cJSON_GetArrayItem(item, index) : NULL;
@@ -264,7 +264,7 @@ static cJSON *member_by_step(cJSON *item, const char *key, int index)
     return cJSON_IsObject(item) ? cJSON_GetObjectItemCaseSensitive(item, key) : NULL;
 }
 
-static bool set_member_by_step(cJSON *item, const char *key, int index, cJSON *value)
+static bool set_child_at_path_step(cJSON *item, const char *key, int index, cJSON *value)
 {
     if (index < 0) {
         return cJSON_IsObject(item) && (cJSON_ReplaceItemInObjectCaseSensitive(item, key, value) ||
@@ -324,13 +324,13 @@ void json_assign_by_path(struct json_file *file, const char *assignment)
         if (*path == '=') {
             break;
         }
-        below = member_by_step(item, key, index);
+        below = child_at_path_step(item, key, index);
         if (!below) {
             fail_unknown_path(assignment, item, key);
         }
         item = below;
     }
-    if (!set_member_by_step(item, key, index, value)) {
+    if (!set_child_at_path_step(item, key, index, value)) {
         fail_unknown_path(assignment, item, key);
     }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene/scene_load_file_or_shipped.h"
+#include "scene/scene_shipped.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 
 #include "base/common.h"
 #include "base/portable_math.h"
-#include "scene/scene_birds_towers_sea_spikes_clutter.h"
+#include "scene/scene_objects_seen_repeatedly.h"
 
 #define RANGE_LEAST_M 0.01 /* shortest range that a plot gets: the last digit in the file */
 /*

@@ -68,6 +68,7 @@ static void format_sum_of_choices(const char *words, unsigned sum,
 {
     size_t length = 0;
 
+    buffer[0] = '\0';
     for (; sum && length < PARAMETER_VALUE_BYTES; sum >>= 1) {
         size_t bytes = strcspn(words, "|");
 

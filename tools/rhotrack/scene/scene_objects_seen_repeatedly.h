@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_birds_towers_sea_spikes_clutter: objects of a scene that sensors detect repeatedly:
+ * scene_objects_seen_repeatedly: objects of a scene that sensors detect repeatedly:
  * targets, towers, birds, sea spikes and second-time-around echoes.
  */
-#ifndef RHOTRACK_TOOL_SCENE_BIRDS_TOWERS_SEA_SPIKES_CLUTTER_H
-#define RHOTRACK_TOOL_SCENE_BIRDS_TOWERS_SEA_SPIKES_CLUTTER_H
+#ifndef RHOTRACK_TOOL_SCENE_OBJECTS_SEEN_REPEATEDLY_H
+#define RHOTRACK_TOOL_SCENE_OBJECTS_SEEN_REPEATEDLY_H
 
 #include "scene/scene.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_load_file_or_shipped: table of the scene files of tools/scenes, compiled into the program
+ * scene_shipped: table of the scene files of tools/scenes, compiled into the program
  * by the Makefile.
  */
-#ifndef RHOTRACK_TOOL_SCENE_LOAD_FILE_OR_SHIPPED_H
-#define RHOTRACK_TOOL_SCENE_LOAD_FILE_OR_SHIPPED_H
+#ifndef RHOTRACK_TOOL_SCENE_SHIPPED_H
+#define RHOTRACK_TOOL_SCENE_SHIPPED_H
 
 struct shipped_scene {
     const char *name, *text;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene/scene_birds_towers_sea_spikes_clutter.h"
+#include "scene/scene_objects_seen_repeatedly.h"
 
 #include <math.h>
 #include <stdlib.h>
