@@ -101,8 +101,8 @@ def write(path, results, alarms, longs, options, columns, rows_of, consistency):
         ]
     if longs:
         from parts import endurance_hour_by_hour
-        table = html.escape(endurance_hour_by_hour.table(longs))
-        body += ["<h2>Hour by hour</h2>", f"<pre>{table}</pre>"]
+        hours = html.escape(endurance_hour_by_hour.table(longs))
+        body += ["<h2>Hour by hour</h2>", f"<pre>{hours}</pre>"]
     text = (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         f"<title>rhotrack: real skies</title>\n"
