@@ -112,70 +112,64 @@ page() {
     cat <<HTML
 <!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>rhotrack: real radar plots in clutter</title>
-<style>body{font:16px/1.5 system-ui,Helvetica,Arial,sans-serif;color:#222;max-width:72rem;\
+<style>body{font:16px/1.5 system-ui,Helvetica,Arial,sans-serif;color:#222;max-width:72rem;
 margin:2rem auto;padding:0 1rem}
 h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px solid #ccc}
-table{border-collapse:collapse;margin:1rem 0}\
+table{border-collapse:collapse;margin:1rem 0}
 th,td{padding:.25rem .8rem;text-align:right;border-bottom:1px solid #e4e4e4}
 th{border-bottom:2px solid #888}.b{border-left:2px solid #bbb}
 figure{margin:1.5rem 0}img{max-width:100%;height:auto}figcaption{color:#555}</style></head><body>
 <h1>Three real aircraft among 100 clutter plots a scan</h1>
-<p>Seven scans of a single radar, 10 s apart: $plots plots, of which 21 are the aircraft's. \
-The tracker reads them scan by
-scan; a track needs five scans' votes, so the first report is at the fifth scan. \
-One scan takes $mean_us us here.</p>
+<p>Seven scans of a single radar, 10 s apart: $plots plots, of which 21 are the aircraft's. The
+tracker reads them scan by scan; a track needs five scans' votes, so the first report is at the
+fifth scan. One scan takes $mean_us us here.</p>
 <table><tr><th colspan="7">track at the last scan</th><th colspan="6" class="b">truth</th></tr>
-<tr><th>track</th><th>from s</th><th>plots</th>\
+<tr><th>track</th><th>from s</th><th>plots</th>
 <th>x km</th><th>y km</th><th>m/s</th><th>heading °</th>
-<th class="b">target</th><th>x km</th><th>y km</th><th>m/s</th><th>heading °</th>\
+<th class="b">target</th><th>x km</th><th>y km</th><th>m/s</th><th>heading °</th>
 <th>error m</th></tr>
 $(compare "$row")</table>
 <p>Targets tracked: $(figure targets_found) of $(figure targets). Tracks without a target a scan:
 $(figure false_per_scan). Mean error of the tracks' positions (rms): $(figure rmse_m) m.</p>
 <h2>Plots and tracks</h2>
-<figure><img src="map.svg" alt="Map of plots, truth and tracks">\
-<figcaption>Each track begins on the line that five scans
-voted for (dotted) and follows the aircraft (circles); \
-the grey plots are clutter.</figcaption></figure>
+<figure><img src="map.svg" alt="Map of plots, truth and tracks">
+<figcaption>Each track begins on the line that five scans voted for (dotted) and follows the
+aircraft (circles); the grey plots are clutter.</figcaption></figure>
 <p><a href="map.html">The same to zoom and to play</a>, with the history of each track.</p>
 <h2>Parameter space</h2>
-<figure><img src="parameter-space.svg" alt="Votes over rho and theta, with the tracks' lines">\
-<figcaption>Every plot votes for
-all lines through it, a sinusoid; the tracks' lines (circles) are not where most curves cross, \
-but where plots of
-different scans agree on place and time.</figcaption></figure>
+<figure><img src="parameter-space.svg" alt="Votes over rho and theta, with the tracks' lines">
+<figcaption>Every plot votes for all lines through it, a sinusoid; the tracks' lines (circles) are
+not where most curves cross, but where plots of different scans agree on place and
+time.</figcaption></figure>
 <h2>Plots by time</h2>
-<figure><img src="scans.svg" alt="Plots coloured by time">\
-<figcaption>What the radar delivers: all plots, coloured by their
-scan's time.</figcaption></figure>
+<figure><img src="scans.svg" alt="Plots coloured by time">
+<figcaption>What the radar delivers: all plots, coloured by their scan's
+time.</figcaption></figure>
 <h2>Errors</h2>
-<figure><img src="errors.svg" alt="Position errors over time">\
-<figcaption>Distance from each aircraft's plot to its track,
-from confirmation on.</figcaption></figure>
+<figure><img src="errors.svg" alt="Position errors over time">
+<figcaption>Distance from each aircraft's plot to its track, from confirmation
+on.</figcaption></figure>
 <h1>Two vessels in a harbour</h1>
-<p>Two recordings of a turning marine radar on a small ferry, 1.68 s a turn, \
-in a harbour of quays, buoys, wakes and other boats: scenarios 2
-and 16 of the <a href="https://github.com/Autoferry/sensor_fusion_dataset">\
-Autoferry sensor fusion data set</a> of NTNU (CC0). Two
-vessels carried a satellite receiver, which is the truth here. \
-The tracker is told that plots err by 7 m and that
-boats go up to 15 m/s and pull 1 m/s²; a track within 40 m of a vessel counts as its.</p>
-<table><tr><th>scene</th><th>turns</th><th>plots</th>\
+<p>Two recordings of a turning marine radar on a small ferry, 1.68 s a turn, in a harbour of quays,
+buoys, wakes and other boats: scenarios 2 and 16 of the
+<a href="https://github.com/Autoferry/sensor_fusion_dataset">Autoferry sensor fusion data set</a>
+of NTNU (CC0). Two vessels carried a satellite receiver, which is the truth here. The tracker is
+told that plots err by 7 m and that boats go up to 15 m/s and pull 1 m/s²; a track within 40 m of a
+vessel counts as its.</p>
+<table><tr><th>scene</th><th>turns</th><th>plots</th>
 <th>vessels tracked</th><th>of their time</th><th>switches</th>
 <th>error m (rms)</th><th>other tracks a turn</th></tr>
 $(harbour "$harbour_row")</table>
-<p>Other tracks are those of boats, quays and buoys without truth, and of clutter: \
-the recording does not tell them apart.</p>
-<figure><img src="harbour-2.svg" alt="Map of plots, truth and tracks in the harbour, scene 2">\
-<figcaption>Scene 2: a research vessel and
-a leisure craft cross before the ferry, one in the other's shadow. \
-Truth is drawn as black circles under
-their tracks; the ferry lies at (-400, -30). \
+<p>Other tracks are those of boats, quays and buoys without truth, and of clutter: the recording
+does not tell them apart.</p>
+<figure><img src="harbour-2.svg" alt="Map of plots, truth and tracks in the harbour, scene 2">
+<figcaption>Scene 2: a research vessel and a leisure craft cross before the ferry, one in the
+other's shadow. Truth is drawn as black circles under their tracks; the ferry lies at (-400, -30).
 Of what is seen beyond them there is no truth.</figcaption></figure>
-<figure><img src="harbour-16.svg" alt="Map of plots, truth and tracks in the harbour, scene 16">\
-<figcaption>Scene 16: two boats come from
-both sides and pass round the ferry, close to each other.</figcaption></figure>
-<p>To zoom and to play: <a href="harbour-2.html">scene 2</a>, \
+<figure><img src="harbour-16.svg" alt="Map of plots, truth and tracks in the harbour, scene 16">
+<figcaption>Scene 16: two boats come from both sides and pass round the ferry, close to each
+other.</figcaption></figure>
+<p>To zoom and to play: <a href="harbour-2.html">scene 2</a>,
 <a href="harbour-16.html">scene 16</a>.</p>
 </body></html>
 HTML

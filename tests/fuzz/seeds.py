@@ -54,13 +54,12 @@ def write_configs(folder):
         "words": "".join(f"{name} = {word}\n"
                          for name, word in words.items()) + "sensors_allowed = 1, 2 -3\n"
     }
+    numbers = [row for row in rows if row[4] == "1" and row[0] not in words]
     for i, name in enumerate(("default", "least", "most")):
         files[name] = "; a comment\n[rhotrack]\n" + "".join(
-            f"{row[0]} = {row[1 + i]}\n" for row in rows
-            if row[4] == "1" and row[0] not in words and not row[1 + i].startswith("RHO"))
-    for row in rows:
-        if row[4] == "1" and row[0] not in words and not row[3].startswith("RHO"):
-            files[f"most-{row[0]}"] = f"{row[0]} = {row[3]}\n"
+            f"{row[0]} = {row[1 + i]}\n" for row in numbers if not row[1 + i].startswith("RHO"))
+    for name, _, _, most, _ in numbers:
+        files[f"most-{name}"] = f"{name} = {most}\n"
     for i, name in enumerate(("sensor-least", "sensor-most")):
         files[name] = "range_max_m=9e4\n[sensor 3]\n" + "".join(
             f"{row[0]} = {row[1 + i]}\n"

@@ -12,16 +12,6 @@
 #define SPEED_MPS 150.0
 #define TURN_S 4.0
 
-static void start_tracker(uint64_t seed)
-{
-    use_usual_configs(seed);
-    initiation.scans = 7;
-    initiation.min_scans = 0;
-    initiation.false_tracks_per_hour = 1.0f;
-    config.accel_max_mps2 = 20.0f;
-    begin_tracker();
-}
-
 /*
  * Adds a target's plot with P_D 0.9, and with probability `second` another one up to 6 sigmas off
  * on each axis.
@@ -80,7 +70,7 @@ static void a_target_with_second_plots_has_one_track(void **state)
     (void)state;
     int others = 0, switches = 0;
     for (uint64_t seed = 1; seed <= 5; seed++) {
-        start_tracker(seed);
+        begin_tracker_by_rate(seed);
         for (int k = 0; k < 120; k++) {
             see_targets(k, 0.3);
             see_clutter();
@@ -102,7 +92,7 @@ static void a_target_with_second_plots_has_one_track(void **state)
 static void without_second_plots_the_learned_rate_is_low(void **state)
 {
     (void)state;
-    start_tracker(1);
+    begin_tracker_by_rate(1);
     for (int k = 0; k < 120; k++) {
         see_targets(k, 0.0);
         see_clutter();
@@ -119,7 +109,7 @@ static void two_targets_abreast_keep_two_tracks(void **state)
     (void)state;
     int both = 0;
     for (uint64_t seed = 1; seed <= 3; seed++) {
-        start_tracker(seed);
+        begin_tracker_by_rate(seed);
         for (int k = 0; k < 120; k++) {
             const double x_m = -30000.0 + SPEED_MPS * TURN_S * k;
             see_targets(k, 0.3);
@@ -142,7 +132,7 @@ static void a_separating_target_gets_a_track(void **state)
     (void)state;
     int found = 0;
     for (uint64_t seed = 1; seed <= 10; seed++) {
-        start_tracker(seed);
+        begin_tracker_by_rate(seed);
         for (int k = 0; k <= 65; k++) {
             const double x_m = -30000.0 + SPEED_MPS * TURN_S * k;
             see_targets(k, 0.3);

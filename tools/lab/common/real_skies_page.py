@@ -3,27 +3,24 @@
 import html
 import os
 
-STYLE = """body{font:16px/1.5 system-ui,Helvetica,Arial,sans-serif;color:#222;max-width:72rem;\
+STYLE = """body{font:16px/1.5 system-ui,Helvetica,Arial,sans-serif;color:#222;max-width:72rem;
 margin:2rem auto;padding:0 1rem}
 h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px solid #ccc}
-table{border-collapse:collapse;margin:1rem 0}\
+table{border-collapse:collapse;margin:1rem 0}
 th,td{padding:.25rem .8rem;text-align:right;border-bottom:1px solid #eee}
 th{border-bottom:2px solid #888}td.n,td.w{text-align:left}tr.first td{border-top:1px solid #888}
 .oracle,.goal{color:#666}.missed{color:#b00020;font-weight:600}.met{color:#1a7f37}
 figure{margin:1.5rem 0}img{max-width:100%;height:auto}figcaption{color:#555}"""
 
-INTRODUCTION = """<p>Each scene is simulated with {runs} seeds from {seed}, tracked and scored \
-against the truth; figures are means
-&plusmn; standard errors. The oracle is a Kalman filter or IMM that is told which plots are whose: \
-a reference, not a bound.
-Goals of completeness, false tracks and switches are bars: green ones are met within two standard \
-errors, red ones are not.
-Delays are in scans from a target's first visibility to its first track.</p>"""
+INTRODUCTION = """<p>Each scene is simulated with {runs} seeds from {seed}, tracked and scored
+against the truth; figures are means &plusmn; standard errors. The oracle is a Kalman filter or IMM
+that is told which plots are whose: a reference, not a bound. Goals of completeness, false tracks
+and switches are bars: green ones are met within two standard errors, red ones are not. Delays are
+in scans from a target's first visibility to its first track.</p>"""
 
-CONSISTENCY = """<p>NEES (normalised estimation error squared) of place and velocity over what it \
-is where covariances are right: above 1
-they are too small; and shares inside the ellipse of 95 %. A track that coasts counts as that \
-alone; else its target turns, or not.</p>"""
+CONSISTENCY = """<p>NEES (normalised estimation error squared) of place and velocity over what it
+is where covariances are right: above 1 they are too small; and shares inside the ellipse of 95 %. A
+track that coasts counts as that alone; else its target turns, or not.</p>"""
 
 CAPTION = "Seed {seed}: plots grey, truth green, tracks blue, tracks without a target red."
 
