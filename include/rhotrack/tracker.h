@@ -194,9 +194,8 @@ struct rho_tracker_strips {
     uint16_t plots[RHO_PLOT_STRIPS > 1 ? RHO_MAX_PLOTS : 1]; /* rows of plots, strip by strip */
 };
 
-/* Record of a sensor that has sent scans: its newest scan, and its health (RHO_SECTORS). */
+/* A sensor's newest scan, and its health (RHO_SECTORS). */
 struct rho_tracker_look {
-    int32_t sensor_id;
     float sector_from_rad, sector_to_rad;
     int64_t time_us;
     /* thresholds of its initiator's last search: to start, to confirm a track; 0, 0: no search */
@@ -262,11 +261,28 @@ struct rho_tracker_learned {
 
 /* Scan interval of a sensor, measured in one direction. */
 struct rho_tracker_pace {
-    int32_t sensor_id;
+    int32_t is_heard;  /* the sensor has sent a scan */
     float azimuth_rad; /* the direction: scans whose sector holds it are timed */
     float interval_s;  /* smoothed time between such scans; 0: not known yet */
     float x_m, y_m;    /* place of the sensor */
     int64_t time_us;   /* time of the last such scan */
+};
+
+/*
+ * All that a tracker holds of one sensor. A sensor that is heard without a description has a row,
+ * too, as long as there is room: a described sensor takes the place of the undescribed one that was
+ * heard longest ago, and so does a new undescribed one.
+ */
+struct rho_tracker_sensor {
+    /*
+     * the description, with the noise factors and the notch that were learned; of a sensor that was
+     * not described sensor_id alone
+     */
+    struct rho_sensor sensor;
+    struct rho_tracker_learned learned; /* of a described sensor */
+    struct rho_tracker_pace pace;
+    struct rho_tracker_look look; /* count 0: it has sent no scan of plots */
+    struct rho_second_plots second_plots;
 };
 
 /* Groups of a scan's plots, each of one target (body.h); valid within a step only. */
@@ -300,30 +316,25 @@ struct rho_tracker {
     float unclaimed_plots;
     float unclaimed_bearings; /* mean per scan of a passive sensor */
     struct rho_extent extent; /* rectangle that holds all valid plots so far */
-    uint16_t num_sensors;
+    uint16_t num_sensors;     /* described sensors: the first rows of `sensors` */
+    uint16_t num_rows;   /* rows of `sensors` in use; further ones are of undescribed sensors */
     uint16_t num_tracks; /* live tracks, in the order of their identities */
     uint16_t looks_max;  /* largest number of scans in a frame so far; 1 before any frame */
     struct rho_tracker_config config;
     struct rho_tracker_counters counters;
     struct rho_tracker_work work;
-    struct rho_sensor sensors[RHO_MAX_SENSORS];
-    struct rho_tracker_learned learned[RHO_MAX_SENSORS]; /* in the order of `sensors` */
+    struct rho_tracker_sensor sensors[RHO_MAX_SENSORS];
     /* counts that fade in half an hour: tracks that misses ended early; that reached 16 hits */
     float ended_early, established;
     /* seconds of established tracks, fading, too: not surely manoeuvring; surely manoeuvring */
     float straight_s, turning_s;
     float wanted_per_hour; /* false_tracks_per_hour of the last initiator */
     int64_t counted_us;    /* time at which the counts above were faded last */
-    uint32_t num_paces;
-    struct rho_tracker_pace paces[RHO_MAX_SENSORS]; /* of the sensors that were heard last */
-    uint32_t num_looks;
-    struct rho_tracker_look looks[RHO_MAX_SENSORS]; /* of the sensors that were heard last */
     struct rho_track tracks[RHO_MAX_TRACKS];
     struct rho_assignment assignment;
     struct rho_hypotheses hypotheses; /* pool of all tracks' hypotheses (gate best) */
     struct rho_tracker_strips strips;
     struct rho_clutter_map clutter_map;
-    struct rho_second_plots second_plots[RHO_MAX_SENSORS]; /* of the sensors that came first */
     uint16_t num_reflectors;
     uint16_t num_excluded;
     struct rho_reflector reflectors[RHO_MAX_REFLECTORS > 0 ? RHO_MAX_REFLECTORS : 1];
@@ -451,8 +462,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_known_of(const struct rho_tracker *tr
                                                     struct rho_tracker_known *known);
 
 /*
- * Record of a sensor's newest scan and health; NULL: the sensor has sent no scans, or
- * RHO_MAX_SENSORS other sensors have sent scans since. Cost: RHO_MAX_SENSORS.
+ * Record of a sensor's newest scan of plots and its health; NULL: the sensor has sent none, or other
+ * sensors have taken its row (struct rho_tracker_sensor). Cost: RHO_MAX_SENSORS.
  */
 const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
                                                    int32_t sensor_id);

@@ -209,7 +209,7 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
         return status;
     }
     if (RHO_SECTORS) {
-        const struct rho_tracker_look *look = rho_tracker_find_look_of_scan_sensor(&step);
+        const struct rho_tracker_look *look = rho_tracker_look_of(tracker, scan.sensor_id);
         step.look = look ? look->count : 0;
         rho_tracker_record_seeing_sensor(&step, &track);
     }

@@ -246,8 +246,11 @@ static void claim_and_update_look_by_look(struct step *step)
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &frame->scans[i];
         struct look look = validate_bearings_and_make_look(step, scan, first);
-        rho_tracker_update_scan_interval(step->tracker, scan->sensor_id, &look.sensor,
-                                         step->time_us, scan->sector_from_rad, scan->sector_to_rad);
+        struct rho_tracker_sensor *row = rho_tracker_hear_sensor(step->tracker, scan->sensor_id);
+        if (row) {
+            rho_tracker_update_scan_interval(&row->pace, &look.sensor, step->time_us,
+                                             scan->sector_from_rad, scan->sector_to_rad);
+        }
         step->sensor = &look.sensor;
         rho_tracker_set_log_pd_of_step(step);
         assign_bearings_of_look(step, &look);

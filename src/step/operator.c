@@ -35,14 +35,17 @@ static enum rho_status find_track_and_resume_step(struct rho_tracker *tracker, u
 
 /* ---- start ----------------------------------------------------------------------------------- */
 
-/* Identity of the sensor with the newest scan. */
+/* Identity of the sensor with the newest scan; 0: none was heard. */
 static int32_t last_heard_sensor_id(const struct rho_tracker *tracker)
 {
-    const struct rho_tracker_pace *newest = &tracker->paces[0];
-    for (unsigned i = 1; i < tracker->num_paces; i++) {
-        newest = tracker->paces[i].time_us > newest->time_us ? &tracker->paces[i] : newest;
+    const struct rho_tracker_sensor *newest = 0;
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        const struct rho_tracker_sensor *row = &tracker->sensors[i];
+        if (row->pace.is_heard && (!newest || row->pace.time_us > newest->pace.time_us)) {
+            newest = row;
+        }
     }
-    return newest->sensor_id;
+    return newest ? newest->sensor.sensor_id : 0;
 }
 
 enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,

@@ -37,19 +37,18 @@ static enum rho_status check_step_inputs(const struct rho_tracker *tracker,
 /* Sets the step's sensor with its pd, notch and noise, and notes the scan in its history. */
 static void apply_sensor_to_step(struct step *step)
 {
-    const unsigned place = rho_tracker_index_of_sensor(step->tracker, step->scan->sensor_id);
-    if (place < step->tracker->num_sensors) {
-        step->sensor = &step->tracker->sensors[place];
-        step->learned = &step->tracker->learned[place];
+    step->row = rho_tracker_hear_sensor(step->tracker, step->scan->sensor_id);
+    if (step->row && step->row < &step->tracker->sensors[step->tracker->num_sensors]) {
+        step->sensor = &step->row->sensor;
+        step->learned = &step->row->learned;
     }
     rho_tracker_set_log_pd_of_step(step);
     if (RHO_SECTORS) {
         rho_tracker_record_look_and_antenna_turning(step);
     }
-    if (!step->is_late) {
-        rho_tracker_update_scan_interval(step->tracker, step->scan->sensor_id, step->sensor,
-                                         step->time_us, step->scan->sector_from_rad,
-                                         step->scan->sector_to_rad);
+    if (!step->is_late && step->row) {
+        rho_tracker_update_scan_interval(&step->row->pace, step->sensor, step->time_us,
+                                         step->scan->sector_from_rad, step->scan->sector_to_rad);
     }
     if (RHO_DOPPLER_NOTCH) {
         rho_tracker_apply_learned_notch(step);

@@ -652,9 +652,10 @@ static float scan_share_of_turn_of_all_sensors(const struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     float sensors = 0.0f;
-    for (unsigned i = 0; i < tracker->num_paces; i++) {
-        const float silent_s = rho_seconds_between(tracker->paces[i].time_us, step->time_us);
-        sensors += silent_s < SILENT_S ? 1.0f : 0.0f;
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        const struct rho_tracker_pace *pace = &tracker->sensors[i].pace;
+        const float silent_s = rho_seconds_between(pace->time_us, step->time_us);
+        sensors += pace->is_heard && silent_s < SILENT_S ? 1.0f : 0.0f;
     }
     return 1.0f / ((RHO_SECTORS ? rho_tracker_scans_per_turn(step) : 1.0f) *
                    (sensors > 1.0f ? sensors : 1.0f));

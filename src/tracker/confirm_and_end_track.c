@@ -59,7 +59,7 @@ static float largest_miss_loss_of_sensors(const struct step *step)
 {
     float loss = -step->log_miss;
     for (unsigned i = 0; i < step->tracker->num_sensors; i++) {
-        float other = -rho_log(1.0f - step->tracker->sensors[i].pd);
+        float other = -rho_log(1.0f - step->tracker->sensors[i].sensor.pd);
         loss = other > loss ? other : loss;
     }
     return loss;

@@ -16,8 +16,6 @@
  * track is hit less often, the time between its hits counts instead: a sensor that steers its beam
  * freely looks in some directions more often than in others.
  */
-#include <string.h>
-
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
@@ -58,38 +56,6 @@
 
 /* ---- how often sensors look ------------------------------------------------------------------ */
 
-static struct rho_tracker_pace *find_pace_of_sensor(struct rho_tracker *tracker, int32_t sensor_id)
-{
-    for (unsigned i = 0; i < tracker->num_paces; i++) {
-        if (tracker->paces[i].sensor_id == sensor_id) {
-            return &tracker->paces[i];
-        }
-    }
-    return 0;
-}
-
-/* A free entry for a new sensor; in a full table that of the sensor heard longest ago. */
-static struct rho_tracker_pace *add_pace_or_replace_oldest(struct rho_tracker *tracker)
-{
-    struct rho_tracker_pace *oldest = &tracker->paces[0];
-    if (tracker->num_paces < RHO_MAX_SENSORS) {
-        return &tracker->paces[tracker->num_paces++];
-    }
-    for (unsigned i = 1; i < tracker->num_paces; i++) {
-        oldest = tracker->paces[i].time_us < oldest->time_us ? &tracker->paces[i] : oldest;
-    }
-    return oldest;
-}
-
-void rho_tracker_remove_scan_interval(struct rho_tracker *tracker, int32_t sensor_id)
-{
-    struct rho_tracker_pace *pace = find_pace_of_sensor(tracker, sensor_id);
-    if (pace) {
-        *pace = tracker->paces[--tracker->num_paces];
-        memset(&tracker->paces[tracker->num_paces], 0, sizeof *pace);
-    }
-}
-
 static void smooth_scan_interval(struct rho_tracker_pace *pace, float gap_s)
 {
     if (!(pace->interval_s > 0.0f)) {
@@ -100,17 +66,14 @@ static void smooth_scan_interval(struct rho_tracker_pace *pace, float gap_s)
     pace->interval_s += INTERVAL_SMOOTHING * ((gap_s < most_s ? gap_s : most_s) - pace->interval_s);
 }
 
-void rho_tracker_update_scan_interval(struct rho_tracker *tracker, int32_t sensor_id,
+void rho_tracker_update_scan_interval(struct rho_tracker_pace *pace,
                                       const struct rho_sensor *sensor, int64_t time_us,
                                       float sector_from_rad, float sector_to_rad)
 {
     const float middle_rad = rho_angle_wrap(
         sector_from_rad + 0.5f * rho_angle_sector_width(sector_from_rad, sector_to_rad));
-    struct rho_tracker_pace *pace = find_pace_of_sensor(tracker, sensor_id);
-    if (!pace) {
-        pace = add_pace_or_replace_oldest(tracker);
-        memset(pace, 0, sizeof *pace); /* clears the padding, too, as snapshots hold it */
-        pace->sensor_id = sensor_id;
+    if (!pace->is_heard) {
+        pace->is_heard = 1;
         pace->azimuth_rad = middle_rad;
         pace->time_us = time_us;
     }
@@ -136,16 +99,15 @@ struct expected_looks {
     float scans_per_s; /* total scan rate of the sensors that saw the track last */
 };
 
-/* True where the sensor's coverage holds a place; a sensor without description covers all. */
-static int may_sensor_see_place(const struct rho_tracker *tracker,
-                                const struct rho_tracker_pace *pace, float x_m, float y_m)
+/* True where the sensor's coverage holds a place; an undescribed sensor covers all. */
+static int may_sensor_see_place(const struct rho_tracker *tracker, unsigned row, float x_m,
+                                float y_m)
 {
-    const struct rho_sensor *known = rho_tracker_find_sensor(tracker, pace->sensor_id);
-    if (!known) {
-        return 1;
-    }
+    const struct rho_sensor *known = &tracker->sensors[row].sensor;
+    const struct rho_tracker_pace *pace = &tracker->sensors[row].pace;
     /* the sensor of bearing scans may be elsewhere than described: the place moves along */
-    return rho_measurement_covers(known, 0.0f, 0.0f, x_m + (known->x_m - pace->x_m),
+    return row >= tracker->num_sensors ||
+           rho_measurement_covers(known, 0.0f, 0.0f, x_m + (known->x_m - pace->x_m),
                                   y_m + (known->y_m - pace->y_m));
 }
 
@@ -164,10 +126,14 @@ static struct expected_looks expected_look_interval_and_rate_at_track(const stru
     const float dt_s = rho_seconds_between(track->time_us, step->time_us);
     const float x_m = state[0] + state[3] * dt_s, y_m = state[1] + state[4] * dt_s;
     struct expected_looks wait = {0, track->seen_every_s, 0.0f};
-    for (unsigned i = 0; i < tracker->num_paces; i++) {
-        const struct rho_tracker_pace *pace = &tracker->paces[i];
-        const int is_seen = may_sensor_see_place(tracker, pace, x_m, y_m);
-        const int is_last = is_among_last_seeing_sensors(track, pace->sensor_id);
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        const struct rho_tracker_pace *pace = &tracker->sensors[i].pace;
+        if (!pace->is_heard) {
+            continue;
+        }
+        const int is_seen = may_sensor_see_place(tracker, i, x_m, y_m);
+        const int is_last =
+            is_among_last_seeing_sensors(track, tracker->sensors[i].sensor.sensor_id);
         const float interval_s =
             pace->interval_s > track->seen_every_s ? pace->interval_s : track->seen_every_s;
         if ((is_seen || is_last) && interval_s > wait.interval_s) {

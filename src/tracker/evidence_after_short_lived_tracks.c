@@ -105,8 +105,12 @@ void rho_tracker_fade_track_counts_set_evidence_need(struct step *step)
     if (step->initiator) {
         tracker->wanted_per_hour = step->initiator->config.false_tracks_per_hour;
     }
-    const float sensors = tracker->num_paces > 1 ? (float)tracker->num_paces : 1.0f;
-    const float wanted = tracker->wanted_per_hour * sensors * (MEMORY_S / 3600.0f);
+    float sensors = 0.0f;
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        sensors += tracker->sensors[i].pace.is_heard ? 1.0f : 0.0f;
+    }
+    const float wanted =
+        tracker->wanted_per_hour * rho_larger(sensors, 1.0f) * (MEMORY_S / 3600.0f);
     const float excess =
         tracker->ended_early - wanted - EXCESS_SIGMAS * rho_sqrt(tracker->ended_early);
     step->miss_nat = learned_evidence_lost_per_miss_nat(tracker);

@@ -12,8 +12,6 @@
  *                  '----|---'   previous sector takes none here. One without a plot is missed
  *                               in the sector in which the antenna passes the end of its gate
  */
-#include <string.h>
-
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
@@ -21,22 +19,6 @@
 
 /* Half width of a track's gate across the line of sight, standard deviations of its place. */
 #define GATE_SIGMAS 3.0f
-
-/* Index of a sensor's record in tracker->looks; num_looks where it has none. */
-static unsigned look_index_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
-{
-    unsigned place = 0;
-    while (place < tracker->num_looks && tracker->looks[place].sensor_id != sensor_id) {
-        place++;
-    }
-    return place;
-}
-
-static struct rho_tracker_look *find_look_of_sensor(struct rho_tracker *tracker, int32_t sensor_id)
-{
-    const unsigned place = look_index_of_sensor(tracker, sensor_id);
-    return place < tracker->num_looks ? &tracker->looks[place] : 0;
-}
 
 /* Clears in all tracks that this sensor saw them: the count of its scans begins anew. */
 static void forget_sensor_in_tracks(struct rho_tracker *tracker, int32_t sensor_id)
@@ -49,52 +31,16 @@ static void forget_sensor_in_tracks(struct rho_tracker *tracker, int32_t sensor_
     }
 }
 
-/* Adds a record for a new sensor; in a full table it replaces the sensor with the oldest scan. */
-static struct rho_tracker_look *add_look_or_replace_oldest(struct rho_tracker *tracker,
-                                                           int32_t sensor_id)
-{
-    struct rho_tracker_look *oldest = &tracker->looks[0];
-    for (unsigned i = 1; i < tracker->num_looks; i++) {
-        oldest = tracker->looks[i].time_us < oldest->time_us ? &tracker->looks[i] : oldest;
-    }
-    if (tracker->num_looks < RHO_MAX_SENSORS) {
-        oldest = &tracker->looks[tracker->num_looks++];
-    }
-    forget_sensor_in_tracks(tracker, sensor_id);
-    *oldest = (struct rho_tracker_look){.sensor_id = sensor_id};
-    return oldest;
-}
-
-const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
-                                                   int32_t sensor_id)
-{
-    const unsigned place = tracker ? look_index_of_sensor(tracker, sensor_id) : 0;
-    return tracker && place < tracker->num_looks ? &tracker->looks[place] : 0;
-}
-
-struct rho_tracker_look *rho_tracker_find_look_of_scan_sensor(struct step *step)
-{
-    return find_look_of_sensor(step->tracker, step->scan->sensor_id);
-}
-
-void rho_tracker_remove_look_of_sensor(struct rho_tracker *tracker, int32_t sensor_id)
-{
-    struct rho_tracker_look *look = find_look_of_sensor(tracker, sensor_id);
-    if (look) {
-        *look = tracker->looks[--tracker->num_looks];
-        memset(&tracker->looks[tracker->num_looks], 0, sizeof *look);
-    }
-}
-
 void rho_tracker_record_look_and_antenna_turning(struct step *step)
 {
     const struct rho_scan *scan = step->scan;
-    struct rho_tracker_look *look = rho_tracker_find_look_of_scan_sensor(step);
-    if (step->is_late) {
+    struct rho_tracker_look *look = step->row ? &step->row->look : 0;
+    if (!look || step->is_late) {
         return;
     }
-    look = look ? look : add_look_or_replace_oldest(step->tracker, scan->sensor_id);
-    if (look->count > 0) {
+    if (look->count == 0) {
+        forget_sensor_in_tracks(step->tracker, scan->sensor_id);
+    } else {
         const unsigned ends =
             rho_angle_continued_ends(look->sector_from_rad, look->sector_to_rad,
                                      scan->sector_from_rad, scan->sector_to_rad, 0.0f);
@@ -117,13 +63,12 @@ void rho_tracker_record_look_and_antenna_turning(struct step *step)
 void rho_tracker_merge_sensor_thresholds(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_tracker_look *own = rho_tracker_find_look_of_scan_sensor(step);
-    if (own) {
-        own->start_mnat = step->initiator->start_mnat;
-        own->confirm_mnat = step->initiator->confirm_mnat;
+    if (step->row) {
+        step->row->look.start_mnat = step->initiator->start_mnat;
+        step->row->look.confirm_mnat = step->initiator->confirm_mnat;
     }
-    for (unsigned i = 0; i < tracker->num_looks; i++) {
-        const struct rho_tracker_look *look = &tracker->looks[i];
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        const struct rho_tracker_look *look = &tracker->sensors[i].look;
         if (step->time_us - look->time_us > RHO_TRACKER_SILENT_US ||
             (look->start_mnat == 0 && look->confirm_mnat == 0)) {
             continue;
@@ -220,22 +165,11 @@ int rho_tracker_is_among_last_two_sensors(const struct rho_track *track, int32_t
 
 /* ---- snapshots ------------------------------------------------------------------------------- */
 
-int rho_tracker_has_sound_looks(const struct rho_tracker *tracker)
+int rho_tracker_is_sound_look(const struct rho_tracker_look *look)
 {
-    if (tracker->num_looks > RHO_MAX_SENSORS) {
-        return 0;
-    }
-    for (unsigned i = 0; i < tracker->num_looks; i++) {
-        const struct rho_tracker_look *look = &tracker->looks[i];
-        if (!rho_angle_are_sector_ends_valid(look->sector_from_rad, look->sector_to_rad) ||
-            !rho_is_stored_time(look->time_us) ||
-            !rho_tracker_is_score_in_range(look->start_mnat) ||
-            !rho_tracker_is_score_in_range(look->confirm_mnat) ||
-            !rho_is_within(look->seen_share, 0.0f, 1e9f) ||
-            !rho_is_within(look->distance2, 0.0f, 1e30f) ||
-            !rho_is_within(look->sigma_m, 0.0f, 1e9f)) {
-            return 0;
-        }
-    }
-    return 1;
+    return rho_angle_are_sector_ends_valid(look->sector_from_rad, look->sector_to_rad) &&
+           rho_is_stored_time(look->time_us) && rho_tracker_is_score_in_range(look->start_mnat) &&
+           rho_tracker_is_score_in_range(look->confirm_mnat) &&
+           rho_is_within(look->seen_share, 0.0f, 1e9f) &&
+           rho_is_within(look->distance2, 0.0f, 1e30f) && rho_is_within(look->sigma_m, 0.0f, 1e9f);
 }

@@ -4,8 +4,6 @@
  * of second plots of the same target, learns how often those come, and ends the younger of two
  * tracks of one target.
  */
-#include <string.h>
-
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/recurring_clutter_map_operations.h"
@@ -54,37 +52,6 @@ static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
 #define LOG_TWO 0.69314718f
 
 /* ---- learned rates --------------------------------------------------------------------------- */
-
-/* Finds the sensor's table of second plots, or gives it a free one. NULL: all tables are in use. */
-static struct rho_second_plots *find_or_claim_table(struct rho_tracker *tracker, int32_t sensor_id)
-{
-    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        struct rho_second_plots *table = &tracker->second_plots[i];
-        if (!(table->looks > 0.0f)) {
-            table->sensor_id = sensor_id;
-            return table;
-        }
-        if (table->sensor_id == sensor_id) {
-            return table;
-        }
-    }
-    return 0;
-}
-
-/* Frees a sensor's table of second plots; the last table in use takes its place. */
-void rho_tracker_remove_second_plots_of_sensor(struct rho_tracker *tracker, int32_t sensor_id)
-{
-    struct rho_second_plots *tables = tracker->second_plots;
-    unsigned num = 0, place = RHO_MAX_SENSORS;
-    while (num < RHO_MAX_SENSORS && tables[num].looks > 0.0f) {
-        place = tables[num].sensor_id == sensor_id ? num : place;
-        num++;
-    }
-    if (place < num) {
-        tables[place] = tables[num - 1u];
-        memset(&tables[num - 1u], 0, sizeof tables[0]);
-    }
-}
 
 static float second_plot_rate(const struct rho_second_plots *table, const struct rho_track *track)
 {
@@ -427,7 +394,7 @@ static void count_plot_not_tried(struct step *step)
 void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_second_plots *table = find_or_claim_table(tracker, step->scan->sensor_id);
+    struct rho_second_plots *table = step->row ? &step->row->second_plots : 0;
     struct second_plot_sums found = {.plots = 0.0f};
     float looks = 0.0f;
     if (!table || step->is_late || step->num_inputs > RHO_MAX_PLOTS) {
@@ -505,8 +472,9 @@ void rho_tracker_raise_window_clutter_near_start(struct step *step,
     struct rho_window *window = &step->initiator->window;
     for (unsigned m = 0; m < window->num_scans; m++) {
         struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        const unsigned sensor = rho_tracker_row_of(step->tracker, scan->sensor.sensor_id);
         const struct rho_second_plots *table =
-            find_or_claim_table(step->tracker, scan->sensor.sensor_id);
+            sensor < step->tracker->num_rows ? &step->tracker->sensors[sensor].second_plots : 0;
         if (((unsigned)candidate->mask >> m & 1u) && table &&
             rho_tracker_is_phase_work_spent(step)) {
             count_plot_not_tried(step);
@@ -527,18 +495,15 @@ int rho_tracker_has_sound_track_second_plots(const struct rho_track *track)
            rho_are_finite(&track->second_share, 1);
 }
 
-int rho_tracker_has_sound_second_plot_tables(const struct rho_tracker *tracker)
+int rho_tracker_is_sound_second_plots(const struct rho_second_plots *table)
 {
-    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        const struct rho_second_plots *table = &tracker->second_plots[i];
-        if (!rho_is_within(table->looks, 0.0f, 1e9f) || !rho_is_within(table->plots, 0.0f, 1e9f)) {
+    if (!rho_is_within(table->looks, 0.0f, 1e9f) || !rho_is_within(table->plots, 0.0f, 1e9f)) {
+        return 0;
+    }
+    for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {
+        if (!rho_is_within(table->along[bin], 0.0f, 1e9f) ||
+            !rho_is_within(table->across[bin], 0.0f, 1e9f)) {
             return 0;
-        }
-        for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {
-            if (!rho_is_within(table->along[bin], 0.0f, 1e9f) ||
-                !rho_is_within(table->across[bin], 0.0f, 1e9f)) {
-                return 0;
-            }
         }
     }
     return 1;

@@ -81,37 +81,17 @@ static void add_track_to_seen_share_and_mean_nis(const struct step *step,
     }
 }
 
-static float stated_pd_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id)
+static float stated_pd(const struct rho_tracker *tracker, const struct rho_tracker_sensor *row)
 {
-    const struct rho_sensor *sensor = rho_tracker_find_sensor(tracker, sensor_id);
-    return sensor ? sensor->pd : tracker->config.pd;
+    return row < &tracker->sensors[tracker->num_sensors] ? row->sensor.pd : tracker->config.pd;
 }
 
-/* True where the sensor sees too few of the tracks that other sensors have seen. */
-static int does_sensor_see_too_few_tracks_of_others(const struct rho_tracker *tracker,
-                                                    const struct rho_tracker_look *look)
+/* True where a sensor sees enough of the tracks that other sensors have seen. */
+static int sees_enough_tracks(const struct rho_tracker *tracker,
+                              const struct rho_tracker_sensor *row)
 {
-    return look->watched >= COMPARED_MIN &&
-           look->seen_share < SHARE_LOW * stated_pd_of_sensor(tracker, look->sensor_id);
-}
-
-/* True where the sensor's plots are on average too far from the tracks' predictions. */
-static int are_sensor_plots_too_far_from_tracks(const struct rho_tracker_look *look)
-{
-    return look->watched_hits >= COMPARED_MIN && look->distance2 > CHI2_HIGH;
-}
-
-static int does_sensor_see_enough_tracks_of_others(const struct rho_tracker *tracker,
-                                                   const struct rho_tracker_look *look)
-{
-    return look->watched >= COMPARED_MIN &&
-           look->seen_share > SHARE_GOOD * stated_pd_of_sensor(tracker, look->sensor_id);
-}
-
-static int agrees_with_tracks(const struct rho_tracker *tracker,
-                              const struct rho_tracker_look *look)
-{
-    return does_sensor_see_enough_tracks_of_others(tracker, look) && look->distance2 < CHI2_GOOD;
+    return row->look.watched >= COMPARED_MIN &&
+           row->look.seen_share > SHARE_GOOD * stated_pd(tracker, row);
 }
 
 /*
@@ -145,53 +125,52 @@ static void count_witness(struct witnesses *witnesses, const struct rho_tracker_
     }
 }
 
-static struct witnesses count_sensors_witnessing_bias(const struct step *step,
-                                                      const struct rho_tracker_look *look)
+static struct witnesses count_witnesses(const struct step *step,
+                                        const struct rho_tracker_sensor *row)
 {
     const struct rho_tracker *tracker = step->tracker;
     struct witnesses witnesses = {0, 0, 0, 0};
-    for (unsigned i = 0; i < tracker->num_looks; i++) {
-        const struct rho_tracker_look *other = &tracker->looks[i];
-        if (other == look || other->is_suspect ||
-            !does_sensor_see_enough_tracks_of_others(tracker, other) ||
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        const struct rho_tracker_look *other = &tracker->sensors[i].look;
+        if (other == &row->look || other->is_suspect ||
+            !sees_enough_tracks(tracker, &tracker->sensors[i]) ||
             step->time_us - other->time_us > RHO_TRACKER_SILENT_US) {
             continue;
         }
         const int does_agree = other->distance2 < CHI2_GOOD;
         witnesses.num += does_agree ? 1u : 0u;
-        if (does_agree || other->distance2 < RIGHTER * look->distance2) {
-            count_witness(&witnesses, other, look, does_agree);
+        if (does_agree || other->distance2 < RIGHTER * row->look.distance2) {
+            count_witness(&witnesses, other, &row->look, does_agree);
         }
     }
     return witnesses;
 }
 
 /*
- * True where two witnesses of one kind speak against a biased sensor. One finer and one coarser
- * sensor are not enough: the finer may have pulled the tracks, and the coarser cannot tell.
+ * Makes the scan's sensor suspect, or trusts it again. Where two sensors see the same targets in
+ * different places, a third one has to tell which of both is biased: two witnesses of one kind
+ * speak against it. One finer and one coarser sensor are not enough, as the finer may have pulled
+ * the tracks, and the coarser cannot tell.
  */
-static int are_enough_sensors_witnessing_bias(const struct witnesses *witnesses)
-{
-    return witnesses->agreeing >= 2 || witnesses->equal >= 2 || witnesses->coarser >= 2;
-}
-
-/*
- * Makes the sensor suspect, or trusts it again. Where two sensors see the same targets in different
- * places, a third one has to tell which of both is biased.
- */
-static void suspect_or_trust_sensor(struct step *step, struct rho_tracker_look *look)
+static void suspect_or_trust(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    const struct witnesses witnesses = count_sensors_witnessing_bias(step, look);
-    if (look->is_suspect && (agrees_with_tracks(tracker, look) || witnesses.num == 0)) {
+    const struct rho_tracker_sensor *row = step->row;
+    struct rho_tracker_look *look = &step->row->look;
+    const struct witnesses witnesses = count_witnesses(step, row);
+    const int agrees = sees_enough_tracks(tracker, row) && look->distance2 < CHI2_GOOD;
+    const int sees_too_few =
+        look->watched >= COMPARED_MIN && look->seen_share < SHARE_LOW * stated_pd(tracker, row);
+    const int is_biased =
+        look->watched_hits >= COMPARED_MIN && look->distance2 > CHI2_HIGH &&
+        (witnesses.agreeing >= 2 || witnesses.equal >= 2 || witnesses.coarser >= 2);
+    if (look->is_suspect && (agrees || witnesses.num == 0)) {
         look->is_suspect = 0;
-    } else if (!look->is_suspect &&
-               ((does_sensor_see_too_few_tracks_of_others(tracker, look) && witnesses.num >= 1) ||
-                (are_sensor_plots_too_far_from_tracks(look) &&
-                 are_enough_sensors_witnessing_bias(&witnesses)))) {
+    } else if (!look->is_suspect && ((sees_too_few && witnesses.num >= 1) || is_biased)) {
         look->is_suspect = 1;
         tracker->counters.sensors_suspected = rho_count(tracker->counters.sensors_suspected, 1);
     }
+    step->is_suspect = look->is_suspect;
 }
 
 /*
@@ -210,29 +189,22 @@ static int can_track_show_bias(const struct step *step, unsigned row)
 void rho_tracker_update_sensor_health(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_tracker_look *look = rho_tracker_find_look_of_scan_sensor(step);
-    if (!look) {
-        return;
-    }
-    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+    for (unsigned row = 0; row < tracker->num_tracks && step->row; row++) {
         if (can_track_show_bias(step, row)) {
-            add_track_to_seen_share_and_mean_nis(step, look, row);
+            add_track_to_seen_share_and_mean_nis(step, &step->row->look, row);
         }
     }
-    if (!step->has_more_parts) {
-        suspect_or_trust_sensor(step, look);
-        step->is_suspect = look->is_suspect;
+    if (step->row && !step->has_more_parts) {
+        suspect_or_trust(step);
     }
 }
 
 float rho_tracker_update_suspect_and_sigma_factor(struct step *step)
 {
-    struct rho_tracker_look *look = rho_tracker_find_look_of_scan_sensor(step);
-    if (look) {
-        suspect_or_trust_sensor(step, look); /* the witnesses may be silent by now */
+    if (step->row) {
+        suspect_or_trust(step); /* the witnesses may be silent by now */
     }
-    step->is_suspect = look && look->is_suspect;
     /* the NIS, a ratio of variances, multiplies sigmas: a bias pulls tracks more than noise does */
-    const float shown = step->is_suspect ? look->distance2 : 1.0f;
+    const float shown = step->is_suspect ? step->row->look.distance2 : 1.0f;
     return shown < 1.0f ? 1.0f : shown < FACTOR_MAX ? shown : FACTOR_MAX;
 }

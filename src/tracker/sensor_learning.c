@@ -140,8 +140,7 @@ void rho_tracker_write_noise_factors(const struct step *step, float suspicion,
 void rho_tracker_apply_learned_noise(struct step *step, float suspicion)
 {
     if (RHO_SIGMAS_VARY && step->learned) {
-        rho_tracker_write_noise_factors(
-            step, suspicion, &step->tracker->sensors[step->learned - step->tracker->learned]);
+        rho_tracker_write_noise_factors(step, suspicion, &step->row->sensor);
     }
 }
 
@@ -345,7 +344,7 @@ void rho_tracker_apply_learned_notch(struct step *step)
     struct rho_tracker_learned *learned = step->learned;
     if (learned && is_sensor_learning_on(&step->tracker->config) && is_notch_learning_on(step)) {
         learned->used_rates = learned->blind_rates;
-        step->tracker->sensors[learned - step->tracker->learned].notch_mps =
+        step->row->sensor.notch_mps =
             learned->used_rates > 0 ? upper_range_rate_of_intervals_mps(learned->used_rates) : 0.0f;
     }
 }
@@ -620,12 +619,13 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
     if (!tracker || !known) {
         return RHO_ERROR_NULL;
     }
-    const struct rho_sensor *sensor =
-        rho_tracker_is_ready(tracker) ? rho_tracker_find_sensor(tracker, sensor_id) : 0;
-    if (!sensor) {
+    const unsigned row =
+        rho_tracker_is_ready(tracker) ? rho_tracker_row_of(tracker, sensor_id) : RHO_MAX_SENSORS;
+    if (row >= tracker->num_sensors) {
         return RHO_ERROR_STATE;
     }
-    const struct rho_tracker_learned *learned = &tracker->learned[sensor - tracker->sensors];
+    const struct rho_sensor *sensor = &tracker->sensors[row].sensor;
+    const struct rho_tracker_learned *learned = &tracker->sensors[row].learned;
     const int is_blind = RHO_DOPPLER_NOTCH && learned->blind_rates > 0 &&
                          is_notch_unstated_or_learned(sensor, learned);
     *known = (struct rho_tracker_known){

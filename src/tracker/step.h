@@ -46,7 +46,9 @@ struct step {
     const struct rho_frame *frame;
     struct rho_passive *passive;
     struct rho_report *report;
-    const struct rho_sensor *sensor;     /* the scan's sensor; NULL: not described */
+    const struct rho_sensor *sensor; /* the scan's sensor; NULL: not described */
+    /* the row of the scan's sensor; NULL: the table is full of described sensors, or a frame */
+    struct rho_tracker_sensor *row;
     struct rho_tracker_learned *learned; /* of this sensor; NULL: not described, or a frame */
     int is_suspect;                      /* the scan's sensor contradicts the others */
     uint16_t look;                       /* count of the sensor's scans; 0: not known */
@@ -161,14 +163,14 @@ static inline uint32_t rho_tracker_max_num_plots_near(const struct step *step,
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
-/*
- * sensor_lookup_and_validity.c: descriptions of sensors. Index in tracker->sensors; num_sensors:
- * not described
- */
-unsigned rho_tracker_index_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id);
+/* sensors.c: index of a sensor's row in tracker->sensors; num_rows: it has none */
+unsigned rho_tracker_row_of(const struct rho_tracker *tracker, int32_t sensor_id);
+/* Row of a sensor that sends a scan; NULL: all rows are of other, described sensors. */
+struct rho_tracker_sensor *rho_tracker_hear_sensor(struct rho_tracker *tracker, int32_t sensor_id);
 const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
                                                  int32_t sensor_id); /* NULL: not described */
 int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor);
+int rho_tracker_has_sound_sensors(const struct rho_tracker *tracker);
 
 /*
  * coverage_of_tracks_by_scan.c: true where a plot, within its noise, is in the sensor's stated
@@ -193,10 +195,7 @@ int rho_tracker_may_count_miss(const struct step *step, const struct rho_track *
  * one_look_per_turn_across_sectors.c (RHO_SECTORS): how the sectors of one turn follow each other
  */
 #define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
-/* The record (tracker->looks) of the scan's sensor; NULL where there is none. */
-struct rho_tracker_look *rho_tracker_find_look_of_scan_sensor(struct step *step);
-void rho_tracker_remove_look_of_sensor(struct rho_tracker *tracker, int32_t sensor_id);
-int rho_tracker_has_sound_looks(const struct rho_tracker *tracker);
+int rho_tracker_is_sound_look(const struct rho_tracker_look *look);
 /* Records the scan's sector and time for its sensor, and finds which way the antenna turns. */
 void rho_tracker_record_look_and_antenna_turning(struct step *step);
 /* Stores in a track with a plot of this scan that the scan's sensor saw it last. */
@@ -538,8 +537,7 @@ int rho_tracker_is_known_moving_target(const struct rho_track *track);
  * younger of two tracks of one target
  */
 void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step);
-void rho_tracker_remove_second_plots_of_sensor(struct rho_tracker *tracker, int32_t sensor_id);
-int rho_tracker_has_sound_second_plot_tables(const struct rho_tracker *tracker);
+int rho_tracker_is_sound_second_plots(const struct rho_second_plots *table);
 int rho_tracker_has_sound_track_second_plots(const struct rho_track *track);
 /*
  * After a start: raises the clutter density at the window's plots near the candidate's plots, as
@@ -635,9 +633,8 @@ void rho_tracker_reset_manoeuvre_interval_after_silence(struct rho_tracker *trac
                                                         int64_t time_us);
 
 /* end_unobserved_tracks.c: scan intervals of sensors, and tracks that no sensor looks at */
-void rho_tracker_remove_scan_interval(struct rho_tracker *tracker, int32_t sensor_id);
 /* Measures the scan interval of a sensor, which is at the origin if NULL. */
-void rho_tracker_update_scan_interval(struct rho_tracker *tracker, int32_t sensor_id,
+void rho_tracker_update_scan_interval(struct rho_tracker_pace *pace,
                                       const struct rho_sensor *sensor, int64_t time_us,
                                       float sector_from_rad, float sector_to_rad);
 /*

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * tracker_setup: initialises and reconfigures a tracker, and adds and removes descriptions of
- * sensors. src/step/step.c processes a scan.
+ * tracker_setup: initialises and reconfigures a tracker. src/step/step.c processes a scan.
  */
 #include "rhotrack/tracker.h"
 
@@ -142,57 +141,6 @@ enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
     tracker->config = *config;
     if (RHO_MAX_ECHOES > 0) {
         tracker->clutter_map.v_min_mps = config->v_min_mps;
-    }
-    return RHO_OK;
-}
-
-enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct rho_sensor *sensor)
-{
-    if (!tracker || !sensor) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
-    }
-    if (!rho_tracker_is_usable_sensor(sensor)) {
-        return RHO_ERROR_CONFIG;
-    }
-    const unsigned place = rho_tracker_index_of_sensor(tracker, sensor->sensor_id);
-    if (place == RHO_MAX_SENSORS) {
-        return RHO_ERROR_CAPACITY;
-    }
-    tracker->sensors[place] = *sensor;
-    if (place == tracker->num_sensors) {
-        memset(&tracker->learned[place], 0, sizeof tracker->learned[place]);
-    }
-    tracker->num_sensors =
-        (uint16_t)(place < tracker->num_sensors ? tracker->num_sensors : place + 1u);
-    return RHO_OK;
-}
-
-enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t sensor_id)
-{
-    if (!tracker) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker)) {
-        return RHO_ERROR_STATE;
-    }
-    const unsigned place = rho_tracker_index_of_sensor(tracker, sensor_id);
-    if (place == tracker->num_sensors) {
-        return RHO_ERROR_STATE;
-    }
-    tracker->num_sensors--;
-    tracker->sensors[place] = tracker->sensors[tracker->num_sensors];
-    memset(&tracker->sensors[tracker->num_sensors], 0, sizeof tracker->sensors[0]);
-    tracker->learned[place] = tracker->learned[tracker->num_sensors];
-    memset(&tracker->learned[tracker->num_sensors], 0, sizeof tracker->learned[0]);
-    rho_tracker_remove_scan_interval(tracker, sensor_id);
-    if (RHO_SECTORS) {
-        rho_tracker_remove_look_of_sensor(tracker, sensor_id);
-    }
-    if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_remove_second_plots_of_sensor(tracker, sensor_id);
     }
     return RHO_OK;
 }

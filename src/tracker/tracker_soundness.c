@@ -93,38 +93,6 @@ static int has_sound_tracks(const struct rho_tracker *tracker)
            (rho_hypotheses_is_sound(&tracker->hypotheses) && has_no_shared_slots(tracker));
 }
 
-/* ---- sensors --------------------------------------------------------------------------------- */
-
-static int has_sound_sensors(const struct rho_tracker *tracker)
-{
-    if (tracker->num_sensors > RHO_MAX_SENSORS) {
-        return 0;
-    }
-    for (unsigned i = 0; i < tracker->num_sensors; i++) {
-        if (!rho_tracker_is_usable_sensor(&tracker->sensors[i]) ||
-            !rho_tracker_is_sound_learned(&tracker->learned[i])) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-static int has_sound_paces(const struct rho_tracker *tracker)
-{
-    if (tracker->num_paces > RHO_MAX_SENSORS) {
-        return 0;
-    }
-    for (unsigned i = 0; i < tracker->num_paces; i++) {
-        const struct rho_tracker_pace *pace = &tracker->paces[i];
-        if (!rho_is_within(pace->azimuth_rad, -10.0f, 10.0f) ||
-            !rho_is_within(pace->interval_s, 0.0f, 1e13f) || !rho_is_coordinate(pace->x_m) ||
-            !rho_is_coordinate(pace->y_m) || !rho_is_stored_time(pace->time_us)) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 /* ---- all ------------------------------------------------------------------------------------- */
 
 static int are_corners_within_coordinate_limits(const struct rho_extent *extent)
@@ -148,12 +116,11 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_is_within(tracker->wanted_per_hour, 0.0f, 1e9f) &&
            rho_is_within(tracker->established, 0.0f, 1e9f) &&
            rho_is_stored_time(tracker->counted_us) &&
-           are_corners_within_coordinate_limits(&tracker->extent) && has_sound_sensors(tracker) &&
-           has_sound_paces(tracker) && (!RHO_SECTORS || rho_tracker_has_sound_looks(tracker)) &&
+           are_corners_within_coordinate_limits(&tracker->extent) &&
+           rho_tracker_has_sound_sensors(tracker) &&
            (RHO_MAX_REFLECTORS == 0 || rho_tracker_has_sound_reflectors(tracker)) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || rho_tracker_has_sound_excluded_areas(tracker)) &&
            (!RHO_BODIES || rho_tracker_has_sound_bodies(tracker)) &&
-           (RHO_MAX_ECHOES == 0 || (rho_tracker_has_sound_clutter_map(tracker) &&
-                                    rho_tracker_has_sound_second_plot_tables(tracker))) &&
+           (RHO_MAX_ECHOES == 0 || rho_tracker_has_sound_clutter_map(tracker)) &&
            has_sound_tracks(tracker);
 }

@@ -99,7 +99,7 @@ static void make_tracker_forget_silent_sensors(struct rho_node *node)
     struct rho_tracker *tracker = node->config.tracker;
 
     for (unsigned i = tracker->num_sensors; i-- > 0;) {
-        int32_t sensor_id = tracker->sensors[i].sensor_id;
+        int32_t sensor_id = tracker->sensors[i].sensor.sensor_id;
 
         if (!is_sensor_heard_lately(node, sensor_id) &&
             rho_tracker_forget_sensor(tracker, sensor_id) == RHO_OK) {

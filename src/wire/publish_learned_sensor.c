@@ -11,7 +11,7 @@ int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
 {
     struct rho_tracker_known known;
     const struct rho_sensor *sensor =
-        tracker && place < tracker->num_sensors ? &tracker->sensors[place] : NULL;
+        tracker && place < tracker->num_sensors ? &tracker->sensors[place].sensor : NULL;
 
     if (!learned || !sensor || rho_tracker_known_of(tracker, sensor->sensor_id, &known) != RHO_OK) {
         return 0;

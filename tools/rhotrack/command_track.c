@@ -305,10 +305,10 @@ static void print_summary(const struct tracking *tracking,
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
-    for (uint32_t i = 0; i < tracking->pipeline.tracker->num_looks; i++) {
-        if (tracking->pipeline.tracker->looks[i].is_suspect) {
+    for (uint32_t i = 0; i < tracking->pipeline.tracker->num_rows; i++) {
+        if (tracking->pipeline.tracker->sensors[i].look.is_suspect) {
             fprintf(stderr, ", sensor %" PRId32 " contradicts the others",
-                    tracking->pipeline.tracker->looks[i].sensor_id);
+                    tracking->pipeline.tracker->sensors[i].sensor.sensor_id);
         }
     }
     learned_report_print(tracking->pipeline.tracker, tracking->pipeline.learning, stderr);
@@ -363,11 +363,14 @@ static cJSON *sensor_health_json(const struct rho_tracker *tracker)
 {
     cJSON *list = cJSON_CreateArray();
 
-    for (uint32_t i = 0; i < tracker->num_looks; i++) {
-        const struct rho_tracker_look *look = &tracker->looks[i];
-        cJSON *object = cJSON_CreateObject();
+    for (uint32_t i = 0; i < tracker->num_rows; i++) {
+        const struct rho_tracker_look *look = &tracker->sensors[i].look;
 
-        cJSON_AddNumberToObject(object, "sensor_id", look->sensor_id);
+        if (look->count == 0) {
+            continue; /* a sensor of bearings, or one that was never heard */
+        }
+        cJSON *object = cJSON_CreateObject();
+        cJSON_AddNumberToObject(object, "sensor_id", tracker->sensors[i].sensor.sensor_id);
         cJSON_AddNumberToObject(object, "seen_share", (double)look->seen_share);
         cJSON_AddNumberToObject(object, "distance2", (double)look->distance2);
         cJSON_AddBoolToObject(object, "is_doubted", look->is_suspect);

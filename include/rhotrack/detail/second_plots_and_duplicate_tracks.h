@@ -29,8 +29,7 @@
 
 /* Statistics of one sensor's second plots: sums, halved now and then. */
 struct rho_second_plots {
-    int32_t sensor_id;
-    float looks; /* claimed plots of confirmed tracks; 0: the table is free */
+    float looks; /* claimed plots of confirmed tracks */
     float plots; /* second plots near these claimed plots */
     float along[RHO_SECOND_BINS], across[RHO_SECOND_BINS]; /* second plots by distance */
 };

@@ -171,11 +171,10 @@ static void a_radar_that_stops_sharing_keeps_its_scans(void **state)
 static bool share_a_window(float first_s, float second_s)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        struct rho_tracker_pace *pace = &chain.tracker->paces[i];
+        struct rho_tracker_pace *pace = &chain.tracker->sensors[i].pace;
+        const int32_t id = chain.tracker->sensors[i].sensor.sensor_id;
 
-        pace->interval_s = pace->sensor_id == 1   ? first_s
-                           : pace->sensor_id == 2 ? second_s
-                                                  : pace->interval_s;
+        pace->interval_s = id == 1 ? first_s : id == 2 ? second_s : pace->interval_s;
     }
     return initiator_of(1) == initiator_of(2);
 }

@@ -103,7 +103,7 @@ static void a_truck_of_several_plots_has_one_track(void **state)
          * the noise of a group is mostly the spread over the body, so no sensor noise is learned
          * from it
          */
-        assert_true(tracker.learned[0].log_noise[0] == 0.0f);
+        assert_true(tracker.sensors[0].learned.log_noise[0] == 0.0f);
         const double off_m =
             (double)report.tracks[0].state[0] - truck.x_m - truck.vx_mps * STEP_S * 149;
         assert_true(fabs(off_m) < 1.0);

@@ -31,7 +31,10 @@ static void start_tracker(uint32_t measures)
 static void begin_step_with_plots(void)
 {
     scan.num_plots = num_plots;
+    tracker.num_rows = 1;
+    tracker.sensors[0].sensor.sensor_id = 1;
     at = (struct step){.tracker = &tracker,
+                       .row = tracker.sensors,
                        .time_us = 4000000,
                        .scan = &scan,
                        .report = &report,
@@ -221,9 +224,10 @@ static void sensors_silent_for_a_minute_do_not_count(void **state)
         start_tracker(0);
         begin_step_with_plots();
         at.time_us = 100000000;
-        tracker.num_paces = 2;
-        tracker.paces[0].time_us = at.time_us;
-        tracker.paces[1].time_us = at.time_us - (i ? 61000000 : 59000000);
+        tracker.num_rows = 2;
+        tracker.sensors[0].pace = (struct rho_tracker_pace){.is_heard = 1, .time_us = at.time_us};
+        tracker.sensors[1].pace.is_heard = 1;
+        tracker.sensors[1].pace.time_us = at.time_us - (i ? 61000000 : 59000000);
         const float before = clutter_map()->scans_to_blocks;
         rho_tracker_update_clutter_map(&at);
         assert_float_equal(before - clutter_map()->scans_to_blocks, i ? 1.0 : 0.5, 1e-6);

@@ -70,7 +70,7 @@ static double interval_learned_from_scans_at(const double *at_s, int num)
     for (int i = 0; i < num; i++) {
         step_empty_scan(1, at_s[i], 0.0f, 0.0f);
     }
-    return (double)tracker.paces[0].interval_s;
+    return (double)tracker.sensors[0].pace.interval_s;
 }
 
 /* The newest interval weighs a quarter, and counts as twice the mean at most. */
@@ -131,9 +131,10 @@ static struct rho_track *make_confirmed_track(float sensor_range_max_m, uint8_t 
     use_usual_configs(1);
     begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
-    tracker.num_tracks = tracker.num_paces = 1;
-    tracker.paces[0].sensor_id = 1;
-    tracker.paces[0].interval_s = 4.0f;
+    tracker.num_tracks = tracker.num_rows = 1;
+    tracker.sensors[0].sensor.sensor_id = 1;
+    tracker.sensors[0].pace.is_heard = 1;
+    tracker.sensors[0].pace.interval_s = 4.0f;
     *track = (struct rho_track){.track_id = 1,
                                 .status = RHO_TRACK_CONFIRMED,
                                 .plot = -1,

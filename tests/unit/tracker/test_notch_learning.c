@@ -33,7 +33,7 @@ static struct rho_tracker_learned *start_with_looks_at(double speed_mps)
         step_look_at_speed(speed_mps);
     }
     assert_int_equal(report.num_tracks, 1);
-    struct rho_tracker_learned *learned = &tracker.learned[0];
+    struct rho_tracker_learned *learned = &tracker.sensors[0].learned;
     memset(learned->rate_looks, 0, sizeof learned->rate_looks);
     memset(learned->rate_hits, 0, sizeof learned->rate_hits);
     return learned;
@@ -52,7 +52,7 @@ static struct rho_tracker_learned *start_with_slow_counts(unsigned intervals, un
 /* Intervals in the notch after the look that makes the TOP interval have so many looks and hits. */
 static unsigned notch_intervals_after_top_counts(unsigned top_looks, unsigned top_hits)
 {
-    struct rho_tracker_learned *learned = &tracker.learned[0];
+    struct rho_tracker_learned *learned = &tracker.sensors[0].learned;
     learned->rate_looks[TOP] = (uint8_t)(top_looks - 1u);
     learned->rate_hits[TOP] = (uint8_t)(top_hits - 1u);
     step_look_at_speed(75.0);
@@ -110,7 +110,7 @@ static void a_notch_is_rarer_than_chance_by_four_standard_deviations(void **stat
     start_with_slow_counts(8, 3, 0)->rate_hits[0] = 1;
     assert_int_equal(notch_intervals_after_top_counts(FEW, FEW / 2), 8);
     start_with_slow_counts(8, 3, 0)->rate_hits[0] = 3;
-    tracker.learned[0].rate_hits[1] = 1;
+    tracker.sensors[0].learned.rate_hits[1] = 1;
     assert_int_equal(notch_intervals_after_top_counts(FEW, FEW / 2), 0);
 }
 

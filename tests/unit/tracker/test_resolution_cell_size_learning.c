@@ -201,7 +201,7 @@ static void the_cell_is_learned_by_fisher_scoring(void **state)
     config.learn_noise_min = config.learn_noise_max = 1.0f;
     start_tracker();
     for (int k = 0; k < 6000; k++) {
-        struct rho_tracker_learned *learned = &tracker.learned[0];
+        struct rho_tracker_learned *learned = &tracker.sensors[0].learned;
         const double half_m = half_gap_at(k, 160.0);
         if (k > APPROACH) {
             /* the cell as if pairs had been seen as one in between */
@@ -267,15 +267,16 @@ static void invalid_learned_cells_make_a_tracker_unsound(void **state)
     } wrong[] = {{NAN, 1.0f}, {4.3f, 1.0f}, {-4.3f, 1.0f}, {0.0f, -1.0f}, {0.0f, 201.0f}};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         for (int axis = 0; axis < 2; axis++) {
-            tracker.learned[0].log_cell[axis] = wrong[i].nat;
-            tracker.learned[0].cell_weight[axis] = wrong[i].weight;
+            tracker.sensors[0].learned.log_cell[axis] = wrong[i].nat;
+            tracker.sensors[0].learned.cell_weight[axis] = wrong[i].weight;
             assert_false(rho_tracker_is_sound(&tracker));
-            tracker.learned[0].log_cell[axis] = tracker.learned[0].cell_weight[axis] = 0.0f;
+            tracker.sensors[0].learned.log_cell[axis] =
+                tracker.sensors[0].learned.cell_weight[axis] = 0.0f;
         }
     }
-    tracker.learned[0].log_cell[0] = -4.1f;
-    tracker.learned[0].log_cell[1] = 4.1f;
-    tracker.learned[0].cell_weight[0] = 199.0f;
+    tracker.sensors[0].learned.log_cell[0] = -4.1f;
+    tracker.sensors[0].learned.log_cell[1] = 4.1f;
+    tracker.sensors[0].learned.cell_weight[0] = 199.0f;
     assert_true(rho_tracker_is_sound(&tracker));
     /* 2.355 sigmas is the unit of the logarithm */
     assert_true(fabs((double)known_of_sensor().resolution_range_sigmas - 2.35482 * exp(-2.05)) <

@@ -61,7 +61,7 @@ static int count_confirmed_tracks_near(double x_m, double y_m, double far_m)
 
 static float second_plots_per_look(void)
 {
-    const struct rho_second_plots *table = &tracker.second_plots[0];
+    const struct rho_second_plots *table = &tracker.sensors[0].second_plots;
     return table->looks > 0.0f ? table->plots / table->looks : 0.0f;
 }
 
@@ -179,7 +179,10 @@ static void start_with_tracks(unsigned num_tracks)
     }
     scan = (struct rho_scan){.sensor_id = 1, .plots = plots};
     tracker.clutter_map.is_looked = 1;
+    tracker.num_rows = 1;
+    tracker.sensors[0].sensor.sensor_id = 1;
     at = (struct step){.tracker = &tracker,
+                       .row = tracker.sensors,
                        .scan = &scan,
                        .report = &report,
                        .sensor = &radar,
@@ -236,14 +239,14 @@ static void expect_close(double is, double wanted)
 
 static struct rho_second_plots *second_plot_table(void)
 {
-    return &tracker.second_plots[0];
+    return &tracker.sensors[0].second_plots;
 }
 
 static void fill_second_plot_table(float looks)
 {
     static const float along[RHO_SECOND_BINS] = {2.0f, 1.0f, 1.0f, 0.5f, 0.5f, 0.5f, 0.3f, 0.2f};
     struct rho_second_plots *table = second_plot_table();
-    *table = (struct rho_second_plots){.sensor_id = 1, .looks = looks, .plots = 6.0f};
+    *table = (struct rho_second_plots){.looks = looks, .plots = 6.0f};
     for (int bin = 0; bin < RHO_SECOND_BINS; bin++) {
         table->along[bin] = along[bin];
         table->across[bin] = along[RHO_SECOND_BINS - 1 - bin];

@@ -324,7 +324,7 @@ static void a_sensor_no_longer_biased_is_trusted_again(void **state)
         assert_in_range(scene.last_suspect, 59, 75);
         assert_in_range(scene.lost, 0, LOST_MAX);
         assert_int_equal(scene.tracks_most, TARGETS);
-        assert_true(tracker.sensors[0].sigma_range_percent <= 150);
+        assert_true(tracker.sensors[0].sensor.sigma_range_percent <= 150);
     }
 }
 
@@ -416,9 +416,9 @@ static int is_suspect_after(double t_s)
     for (int32_t id = SENSORS_MAX; id >= 1; id--) {
         step_empty_scan(id, SENSORS_MAX - id);
     }
-    for (unsigned i = 0; i < tracker.num_looks; i++) {
-        struct rho_tracker_look *look = &tracker.looks[i];
-        const struct rho_tracker_look *as = &seen[look->sensor_id - 1];
+    for (unsigned i = 0; i < tracker.num_rows; i++) {
+        struct rho_tracker_look *look = &tracker.sensors[i].look;
+        const struct rho_tracker_look *as = &seen[tracker.sensors[i].sensor.sensor_id - 1];
         look->watched = as->watched;
         look->watched_hits = as->watched_hits;
         look->seen_share = as->seen_share;
@@ -503,7 +503,7 @@ static void a_suspect_sensor_gets_the_noise_it_shows(void **state)
         seen[0].seen_share = 0.1f;
         seen[0].distance2 = shown[i];
         assert_int_equal(is_suspect_after(1.0), 1);
-        assert_int_equal(tracker.sensors[0].sigma_range_percent, percent[i]);
+        assert_int_equal(tracker.sensors[0].sensor.sigma_range_percent, percent[i]);
     }
 }
 

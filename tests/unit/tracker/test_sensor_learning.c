@@ -124,7 +124,7 @@ static void a_sensor_as_stated_keeps_its_values(void **state)
             assert_float_equal(known.pd[ring], 0.9f, 0.03f);
         }
         assert_true(known.innovations >= 300 && known.looks >= 1000);
-        assert_int_equal(tracker.sensors[0].sigma_range_percent, 100);
+        assert_int_equal(tracker.sensors[0].sensor.sigma_range_percent, 100);
     }
 }
 
@@ -142,7 +142,8 @@ static void noise_is_learned_along_and_across(void **state)
         const struct rho_tracker_known known = known_after(&radar, 150);
         assert_between((double)known.range_factor * claims[i], 0.82, 1.18);
         assert_between((double)known.cross_factor * claims[i], 0.82, 1.18);
-        assert_between(tracker.sensors[0].sigma_cross_percent * 0.01 * claims[i], 0.82, 1.18);
+        assert_between(tracker.sensors[0].sensor.sigma_cross_percent * 0.01 * claims[i], 0.82,
+                       1.18);
     }
 }
 
@@ -273,7 +274,7 @@ static void gate_nearest_learns_no_sensor_values(void **state)
     assert_int_equal(known.innovations, 0);
     assert_int_equal(known.looks, 0);
     assert_float_equal(known.pd[4], 0.95f, 0.0f);
-    assert_int_equal(tracker.sensors[0].sigma_range_percent, 100);
+    assert_int_equal(tracker.sensors[0].sensor.sigma_range_percent, 100);
 }
 
 /* Gone targets do not lower the P_D of the others; a P_D above the stated one is not learned. */
@@ -333,8 +334,8 @@ static struct rho_tracker_known known_of_sensor(void)
  */
 static float learned_pd_after(unsigned looks, unsigned hits)
 {
-    tracker.learned[0].looks[2] = (uint16_t)looks;
-    tracker.learned[0].hits[2] = (uint16_t)hits;
+    tracker.sensors[0].learned.looks[2] = (uint16_t)looks;
+    tracker.sensors[0].learned.hits[2] = (uint16_t)hits;
     return known_of_sensor().pd[2];
 }
 
@@ -356,7 +357,7 @@ static void learned_pd_has_priors_and_a_threshold(void **state)
     (void)state;
     start_tracker(90);
     describe_sensor(&as_stated);
-    tracker.learned[0].is_lowered = 1u << 2;
+    tracker.sensors[0].learned.is_lowered = 1u << 2;
     for (unsigned hits = 20; hits <= 54; hits++) {
         double sigma, pd = expected_pd(60.0, hits, &sigma);
         const double expected = pd + 2.5 * sigma < 0.9 ? pd + sigma : 0.9;
@@ -366,8 +367,9 @@ static void learned_pd_has_priors_and_a_threshold(void **state)
 
 static float learned_noise_factor_after(unsigned innovations, double log_noise)
 {
-    tracker.learned[0].innovations = (uint16_t)innovations;
-    tracker.learned[0].log_noise[0] = tracker.learned[0].log_noise[1] = (float)log_noise;
+    tracker.sensors[0].learned.innovations = (uint16_t)innovations;
+    tracker.sensors[0].learned.log_noise[0] = tracker.sensors[0].learned.log_noise[1] =
+        (float)log_noise;
     return known_of_sensor().range_factor;
 }
 
@@ -394,15 +396,15 @@ static void learned_counts_have_limits(void **state)
     (void)state;
     start_tracker(92);
     describe_sensor(&as_stated);
-    const struct rho_tracker_learned none = tracker.learned[0];
+    const struct rho_tracker_learned none = tracker.sensors[0].learned;
     (void)learned_noise_factor_after(1000, 4.6);
     (void)learned_pd_after(1000, 1000);
     assert_true(rho_tracker_is_sound(&tracker));
     for (int i = 0; i < 3; i++) {
-        tracker.learned[0] = none;
-        tracker.learned[0].log_noise[1] = i == 0 ? 4.7f : 0.0f;
-        tracker.learned[0].innovations = i == 1 ? 1001 : 0;
-        tracker.learned[0].looks[2] = i == 2 ? 1001 : 0;
+        tracker.sensors[0].learned = none;
+        tracker.sensors[0].learned.log_noise[1] = i == 0 ? 4.7f : 0.0f;
+        tracker.sensors[0].learned.innovations = i == 1 ? 1001 : 0;
+        tracker.sensors[0].learned.looks[2] = i == 2 ? 1001 : 0;
         assert_false(rho_tracker_is_sound(&tracker));
     }
 }
@@ -489,7 +491,7 @@ static void an_unstated_notch_is_learned(void **state)
         .sensor_id = SENSOR, .pd = 0.9f, .range_max_m = RANGE_MAX_M, .notch_mps = 5.0f};
     assert_int_equal(rho_tracker_set_sensor(&tracker, &told), RHO_OK);
     step_tangential_passes(2100, 12.0);
-    assert_true(tracker.sensors[0].notch_mps == 5.0f && learned_notch() == 0.0f);
+    assert_true(tracker.sensors[0].sensor.notch_mps == 5.0f && learned_notch() == 0.0f);
 }
 
 static void a_notch_is_learned_only_while_there_is_one(void **state)
@@ -512,7 +514,7 @@ static void a_notch_is_learned_only_while_there_is_one(void **state)
         step_tangential_passes(k, 0.0);
     }
     assert_true(learned_notch() == 0.0f);
-    assert_true(tracker.sensors[0].notch_mps == 0.0f);
+    assert_true(tracker.sensors[0].sensor.notch_mps == 0.0f);
 }
 
 int main(void)

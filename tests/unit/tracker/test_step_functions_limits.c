@@ -23,7 +23,10 @@ static void start_step(void)
     tracker.unclaimed_plots = 100.0f; /* on an area of 100 by 100 km */
     tracker.extent = (struct rho_extent){-50000.0f, 50000.0f, -50000.0f, 50000.0f};
     scan = (struct rho_scan){.sensor_id = 1, .plots = plots};
+    tracker.num_rows = 1;
+    tracker.sensors[0].sensor.sensor_id = 1;
     at = (struct step){.tracker = &tracker,
+                       .row = tracker.sensors,
                        .time_us = 100000000,
                        .scan = &scan,
                        .report = &report,
@@ -65,21 +68,23 @@ static void add_plot_at(double x_m, double y_m)
 #if RHO_SECTORS
 
 /* The radar and three others: all see what they should, with the same noise. */
-static struct rho_tracker_look *make_agreeing_looks(void)
+static struct rho_tracker_sensor *make_agreeing_sensors(void)
 {
     start_step();
-    tracker.num_looks = 4;
+    tracker.num_rows = 4;
     for (int i = 0; i < 4; i++) {
-        tracker.looks[i] = (struct rho_tracker_look){.sensor_id = 1 + i,
-                                                     .time_us = at.time_us,
-                                                     .seen_share = 0.9f,
-                                                     .distance2 = 1.0f,
-                                                     .sigma_m = 10.0f,
-                                                     .watched = 16,
-                                                     .watched_hits = 16};
+        tracker.sensors[i].sensor.sensor_id = 1 + i;
+        tracker.sensors[i].look = (struct rho_tracker_look){.count = 1,
+                                                            .time_us = at.time_us,
+                                                            .seen_share = 0.9f,
+                                                            .distance2 = 1.0f,
+                                                            .sigma_m = 10.0f,
+                                                            .watched = 16,
+                                                            .watched_hits = 16};
     }
     tracker.config.pd = 0.9f;
-    return tracker.looks;
+    at.row = tracker.sensors;
+    return tracker.sensors;
 }
 
 static int is_sensor_suspect(void)
@@ -96,14 +101,14 @@ static void a_sensor_that_sees_too_little_is_suspect(void **state)
 {
     (void)state;
     for (int i = 0; i < 8; i++) {
-        struct rho_tracker_look *looks = make_agreeing_looks();
-        looks[0].seen_share = i == 1 ? 0.28f : 0.26f;
-        looks[0].watched = i == 2 ? 11 : 12;
-        tracker.num_looks = 2;
-        looks[1].watched = i == 3 ? 11 : 12;
-        looks[1].seen_share = i == 4 ? 0.53f : 0.55f;
-        looks[1].distance2 = i == 5 ? 2.6f : 2.4f;
-        looks[1].time_us = at.time_us - (i == 6 ? 61000000 : 59000000);
+        struct rho_tracker_sensor *sensors = make_agreeing_sensors();
+        sensors[0].look.seen_share = i == 1 ? 0.28f : 0.26f;
+        sensors[0].look.watched = i == 2 ? 11 : 12;
+        tracker.num_rows = 2;
+        sensors[1].look.watched = i == 3 ? 11 : 12;
+        sensors[1].look.seen_share = i == 4 ? 0.53f : 0.55f;
+        sensors[1].look.distance2 = i == 5 ? 2.6f : 2.4f;
+        sensors[1].look.time_us = at.time_us - (i == 6 ? 61000000 : 59000000);
         assert_int_equal(is_sensor_suspect(), i == 0 || i == 7);
     }
 }
@@ -116,11 +121,11 @@ static void a_biased_sensor_is_suspect(void **state)
 {
     (void)state;
     for (int i = 0; i < 4; i++) {
-        struct rho_tracker_look *looks = make_agreeing_looks();
-        looks[0].distance2 = i == 1 ? 3.9f : 4.1f;
-        looks[0].watched_hits = i == 2 ? 11 : 12;
-        tracker.num_looks = 3;
-        looks[2].is_suspect = i == 3;
+        struct rho_tracker_sensor *sensors = make_agreeing_sensors();
+        sensors[0].look.distance2 = i == 1 ? 3.9f : 4.1f;
+        sensors[0].look.watched_hits = i == 2 ? 11 : 12;
+        tracker.num_rows = 3;
+        sensors[2].look.is_suspect = i == 3;
         assert_int_equal(is_sensor_suspect(), i == 0);
     }
 }
@@ -130,10 +135,10 @@ static void less_biased_sensors_are_witnesses(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct rho_tracker_look *looks = make_agreeing_looks();
-        tracker.num_looks = 3;
-        looks[0].distance2 = 5.0f;
-        looks[1].distance2 = looks[2].distance2 = i ? 3.6f : 3.4f;
+        struct rho_tracker_sensor *sensors = make_agreeing_sensors();
+        tracker.num_rows = 3;
+        sensors[0].look.distance2 = 5.0f;
+        sensors[1].look.distance2 = sensors[2].look.distance2 = i ? 3.6f : 3.4f;
         assert_int_equal(is_sensor_suspect(), !i);
     }
 }
@@ -143,10 +148,10 @@ static void witnesses_have_at_most_1_9_times_the_noise(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct rho_tracker_look *looks = make_agreeing_looks();
-        tracker.num_looks = 3;
-        looks[0].distance2 = 5.0f;
-        looks[1].sigma_m = i ? 19.5f : 18.5f;
+        struct rho_tracker_sensor *sensors = make_agreeing_sensors();
+        tracker.num_rows = 3;
+        sensors[0].look.distance2 = 5.0f;
+        sensors[1].look.sigma_m = i ? 19.5f : 18.5f;
         assert_int_equal(is_sensor_suspect(), !i);
     }
 }
@@ -158,10 +163,10 @@ static void a_suspect_sensor_that_agrees_is_trusted_again(void **state)
     static const float factors[] = {1.0f, 2.6f, 1.0f, 19.0f, 20.0f};
     (void)state;
     for (int i = 0; i < 5; i++) {
-        struct rho_tracker_look *looks = make_agreeing_looks();
-        looks[0].is_suspect = 1;
-        looks[0].distance2 = distance2[i];
-        looks[0].seen_share = shares[i];
+        struct rho_tracker_sensor *sensors = make_agreeing_sensors();
+        sensors[0].look.is_suspect = 1;
+        sensors[0].look.distance2 = distance2[i];
+        sensors[0].look.seen_share = shares[i];
         assert_float_equal(rho_tracker_update_suspect_and_sigma_factor(&at), factors[i], 1e-6);
         assert_int_equal(at.is_suspect, i > 0);
     }
@@ -172,9 +177,9 @@ static void sensor_health_averages_the_last_sixteen_looks(void **state)
 {
     (void)state;
     for (int is_seen = 0; is_seen < 2; is_seen++) {
-        struct rho_tracker_look *looks = make_agreeing_looks();
+        struct rho_tracker_sensor *sensors = make_agreeing_sensors();
         struct rho_track *track = make_track(0.0, 10.0);
-        looks[0].seen_share = 0.8f;
+        sensors[0].look.seen_share = 0.8f;
         track->is_shared = 1;
         track->sensor_id = 2;
         add_plot_at(20000.0, 5000.0);
@@ -184,9 +189,9 @@ static void sensor_health_averages_the_last_sixteen_looks(void **state)
         }
         rho_tracker_solve_assignment(&at);
         rho_tracker_update_sensor_health(&at);
-        assert_int_equal(looks[0].watched, 16);
-        assert_float_equal(looks[0].seen_share, 0.8 + (is_seen - 0.8) / 16.0, 1e-6);
-        assert_float_equal(looks[0].distance2, is_seen ? 1.0 + 8.0 / 16.0 : 1.0, 1e-6);
+        assert_int_equal(sensors[0].look.watched, 16);
+        assert_float_equal(sensors[0].look.seen_share, 0.8 + (is_seen - 0.8) / 16.0, 1e-6);
+        assert_float_equal(sensors[0].look.distance2, is_seen ? 1.0 + 8.0 / 16.0 : 1.0, 1e-6);
     }
 }
 
@@ -213,11 +218,11 @@ static void thresholds_of_silent_sensors_are_left_out(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        struct rho_tracker_look *looks = make_agreeing_looks();
-        looks[1].time_us = at.time_us - (i ? 61000000 : 59000000);
-        looks[1].start_mnat = -5000;
-        looks[1].confirm_mnat = 9000;
-        tracker.num_looks = 2;
+        struct rho_tracker_sensor *sensors = make_agreeing_sensors();
+        sensors[1].look.time_us = at.time_us - (i ? 61000000 : 59000000);
+        sensors[1].look.start_mnat = -5000;
+        sensors[1].look.confirm_mnat = 9000;
+        tracker.num_rows = 2;
         at.initiator = &initiator;
         initiator.start_mnat = tracker.start_mnat = 1000;
         initiator.confirm_mnat = tracker.confirm_mnat = 4000;

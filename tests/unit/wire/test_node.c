@@ -341,10 +341,10 @@ static void a_scan_of_a_sensor_without_room_is_refused(void **state)
     done[0] = '\0';
     /* the tracker's table is full of sensors that the assembler hears under other numbers */
     for (int i = 0; i < RHO_MAX_SENSORS; i++) {
-        assembler.sources[i].sensor_id = (int16_t)tracker.sensors[i].sensor_id;
+        assembler.sources[i].sensor_id = (int16_t)tracker.sensors[i].sensor.sensor_id;
     }
     node.item = (struct rho_scan_assembler_item){.kind = RHO_SCAN_ASSEMBLER_PLOTS};
-    node.item.sensor = tracker.sensors[0];
+    node.item.sensor = tracker.sensors[0].sensor;
     node.item.sensor.sensor_id = RHO_MAX_SENSORS + 1;
     node.item.has_sensor = 1;
     node.item.scan.num_plots = 5;
@@ -444,7 +444,7 @@ static void passive_sensors_have_the_range_of_the_initiation(void **state)
     node.config.passive_range_max_m = 90000.0f;
     send_bearing(1, 0.0f, 0, now_us);
     assert_int_equal(tracker.num_sensors, 1);
-    assert_true(tracker.sensors[0].range_max_m <= 90000.0f);
+    assert_true(tracker.sensors[0].sensor.range_max_m <= 90000.0f);
 }
 
 static void a_node_without_frames_refuses_bearings(void **state)

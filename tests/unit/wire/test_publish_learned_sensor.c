@@ -79,13 +79,13 @@ static void learned_values_sent_are_those_in_use(void **state)
 {
     (void)state;
     start_tracker_with_two_sensors();
-    tracker.learned[0].log_noise[0] = 1.3862944f;
-    tracker.learned[0].innovations = 900;
-    tracker.learned[0].looks[0] = 500;
-    tracker.learned[0].hits[0] = 375;
-    tracker.learned[0].looks[5] = 800;
-    tracker.learned[0].hits[5] = 300;
-    tracker.learned[0].is_lowered = 1u << 5;
+    tracker.sensors[0].learned.log_noise[0] = 1.3862944f;
+    tracker.sensors[0].learned.innovations = 900;
+    tracker.sensors[0].learned.looks[0] = 500;
+    tracker.sensors[0].learned.hits[0] = 375;
+    tracker.sensors[0].learned.looks[5] = 800;
+    tracker.sensors[0].learned.hits[5] = 300;
+    tracker.sensors[0].learned.is_lowered = 1u << 5;
     const struct rho_message_learned learned = publish_and_read_sensor(0);
     assert_int_equal(learned.innovations, 900);
     assert_int_equal(learned.looks, 1300);

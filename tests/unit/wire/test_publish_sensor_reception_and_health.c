@@ -140,14 +140,16 @@ static void only_sensors_of_plots_are_marked_suspect(void **state)
     (void)state;
     fill_sources(3);
     assembler.sources[2].sensor_id = 101; /* a sensor of bearings */
-    tracker.num_looks = 2;
-    tracker.looks[0] = (struct rho_tracker_look){.sensor_id = 55, .is_suspect = 1};
-    tracker.looks[1] = (struct rho_tracker_look){.sensor_id = 101,
-                                                 .seen_share = 0.75f,
-                                                 .distance2 = 9.0f,
-                                                 .watched = 16,
-                                                 .watched_hits = 12,
-                                                 .is_suspect = 1};
+    tracker.num_rows = 2;
+    tracker.sensors[0].sensor.sensor_id = 55;
+    tracker.sensors[0].look = (struct rho_tracker_look){.count = 1, .is_suspect = 1};
+    tracker.sensors[1].sensor.sensor_id = 101;
+    tracker.sensors[1].look = (struct rho_tracker_look){.count = 1,
+                                                        .seen_share = 0.75f,
+                                                        .distance2 = 9.0f,
+                                                        .watched = 16,
+                                                        .watched_hits = 12,
+                                                        .is_suspect = 1};
     publish_and_read_part(&tracker, 0);
     assert_int_equal(list.num_sensors, 3);
     assert_int_equal(list.sensors[0].is_doubted + list.sensors[0].watched, 0);

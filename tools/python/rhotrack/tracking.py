@@ -132,7 +132,7 @@ class Tracker:
         tracker, found = self._pipeline.tracker, {}
         known = ffi.new("struct rho_tracker_known *")
         for i in range(tracker.num_sensors):
-            sensor_id = tracker.sensors[i].sensor_id
+            sensor_id = tracker.sensors[i].sensor.sensor_id
             if lib.rho_tracker_known_of(tracker, sensor_id, known) == lib.RHO_OK:
                 found[sensor_id] = plain(known[0])
         return found

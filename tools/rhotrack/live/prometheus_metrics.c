@@ -331,7 +331,7 @@ static void write_learned(FILE *out, const struct prometheus_metrics_source *sou
     unsigned count = 0;
 
     for (uint32_t i = 0; i < tracker->num_sensors; i++) {
-        learned[count].sensor_id = tracker->sensors[i].sensor_id;
+        learned[count].sensor_id = tracker->sensors[i].sensor.sensor_id;
         count += rho_tracker_known_of(tracker, learned[count].sensor_id, &learned[count].known) ==
                  RHO_OK;
     }

@@ -23,7 +23,7 @@ void learned_report_print(const struct rho_tracker *tracker,
                           const struct rho_reflector_learning *walls, FILE *to)
 {
     for (uint32_t i = 0; i < tracker->num_sensors; i++) {
-        const struct rho_sensor *sensor = &tracker->sensors[i];
+        const struct rho_sensor *sensor = &tracker->sensors[i].sensor;
         struct rho_tracker_known known;
         float least = sensor->pd;
 
@@ -52,7 +52,7 @@ struct cJSON *learned_report_sensors_json(const struct rho_tracker *tracker)
     cJSON *list = cJSON_CreateArray();
 
     for (uint32_t i = 0; i < tracker->num_sensors; i++) {
-        const struct rho_sensor *sensor = &tracker->sensors[i];
+        const struct rho_sensor *sensor = &tracker->sensors[i].sensor;
         cJSON *object = cJSON_CreateObject(), *rings = cJSON_CreateArray();
         struct rho_tracker_known known;
 

@@ -28,9 +28,9 @@
 /* Interval between a sensor's scans; 0: not known yet. */
 static float sensor_scan_interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
 {
-    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        if (tracker->paces[i].sensor_id == sensor_id) {
-            return tracker->paces[i].interval_s;
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        if (tracker->sensors[i].sensor.sensor_id == sensor_id) {
+            return tracker->sensors[i].pace.interval_s;
         }
     }
     return 0.0f;
@@ -84,10 +84,10 @@ int32_t pipeline_window_sensor_id(const struct pipeline *pipeline, const struct 
         return scan->sensor_id;
     }
     for (unsigned i = 0; i < tracker->num_sensors; i++) {
-        const struct rho_sensor *one = &tracker->sensors[i];
+        const struct rho_sensor *one = &tracker->sensors[i].sensor;
 
         for (unsigned j = i + 1; j < tracker->num_sensors && !is_paired[i]; j++) {
-            const struct rho_sensor *other = &tracker->sensors[j];
+            const struct rho_sensor *other = &tracker->sensors[j].sensor;
 
             is_paired[i] = !is_paired[j] && may_sensor_share_window(pipeline, one->sensor_id) &&
                            may_sensor_share_window(pipeline, other->sensor_id) &&

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * sensors: the table of sensors, one row a sensor. Described sensors have the first rows, in the
+ * order of their descriptions; sensors that were only heard have the rows behind them.
+ */
+#include <string.h>
+
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/doppler_notch.h"
+#include "rhotrack/detail/measurement.h"
+#include "step.h"
+
+unsigned rho_tracker_row_of(const struct rho_tracker *tracker, int32_t sensor_id)
+{
+    unsigned row = 0;
+    while (row < tracker->num_rows && tracker->sensors[row].sensor.sensor_id != sensor_id) {
+        row++;
+    }
+    return row;
+}
+
+const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
+                                                 int32_t sensor_id)
+{
+    const unsigned row = rho_tracker_row_of(tracker, sensor_id);
+    return row < tracker->num_sensors ? &tracker->sensors[row].sensor : 0;
+}
+
+const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
+                                                   int32_t sensor_id)
+{
+    const unsigned row = tracker ? rho_tracker_row_of(tracker, sensor_id) : 0;
+    return tracker && row < tracker->num_rows && tracker->sensors[row].look.count > 0
+               ? &tracker->sensors[row].look
+               : 0;
+}
+
+int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor)
+{
+    return rho_measurement_has_valid_place_and_biases(sensor) &&
+           rho_is_within(sensor->pd, 0.01f, 0.999f) &&
+           rho_is_within(sensor->range_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
+           rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
+           sensor->range_min_m < sensor->range_max_m &&
+           (!RHO_DOPPLER_NOTCH || rho_notch_is_valid(sensor)) &&
+           (!RHO_SHARES_PLOTS || rho_tracker_has_usable_resolution_cell(sensor)) &&
+           rho_angle_are_sector_ends_valid(sensor->sector_from_rad, sensor->sector_to_rad);
+}
+
+/*
+ * A cleared row for a new sensor, behind all others: in a full table that of the undescribed sensor
+ * heard longest ago. num_rows RHO_MAX_SENSORS: all rows are of described sensors.
+ */
+static unsigned make_row(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    unsigned row = tracker->num_rows;
+    if (row == RHO_MAX_SENSORS) {
+        row = tracker->num_sensors;
+        for (unsigned i = row + 1u; i < RHO_MAX_SENSORS; i++) {
+            row = tracker->sensors[i].pace.time_us < tracker->sensors[row].pace.time_us ? i : row;
+        }
+    } else {
+        tracker->num_rows++;
+    }
+    if (row < RHO_MAX_SENSORS) {
+        /* clears the padding, too, as snapshots hold it */
+        memset(&tracker->sensors[row], 0, sizeof tracker->sensors[row]);
+        tracker->sensors[row].sensor.sensor_id = sensor_id;
+    }
+    return row;
+}
+
+struct rho_tracker_sensor *rho_tracker_hear_sensor(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    unsigned row = rho_tracker_row_of(tracker, sensor_id);
+    row = row < tracker->num_rows ? row : make_row(tracker, sensor_id);
+    return row < RHO_MAX_SENSORS ? &tracker->sensors[row] : 0;
+}
+
+static void swap_rows(struct rho_tracker_sensor *one, struct rho_tracker_sensor *other)
+{
+    unsigned char *a = (unsigned char *)one, *b = (unsigned char *)other;
+    for (size_t i = 0; i < sizeof *one && one != other; i++) {
+        const unsigned char byte = a[i];
+        a[i] = b[i];
+        b[i] = byte;
+    }
+}
+
+enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct rho_sensor *sensor)
+{
+    if (!tracker || !sensor) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!rho_tracker_is_usable_sensor(sensor)) {
+        return RHO_ERROR_CONFIG;
+    }
+    unsigned row = rho_tracker_row_of(tracker, sensor->sensor_id);
+    if (row >= tracker->num_sensors) {
+        if (tracker->num_sensors == RHO_MAX_SENSORS) {
+            return RHO_ERROR_CAPACITY;
+        }
+        row = row < tracker->num_rows ? row : make_row(tracker, sensor->sensor_id);
+        swap_rows(&tracker->sensors[row], &tracker->sensors[tracker->num_sensors]);
+        row = tracker->num_sensors++;
+    }
+    tracker->sensors[row].sensor = *sensor;
+    return RHO_OK;
+}
+
+enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t sensor_id)
+{
+    if (!tracker) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    const unsigned row = rho_tracker_row_of(tracker, sensor_id);
+    if (row >= tracker->num_sensors) {
+        return RHO_ERROR_STATE;
+    }
+    struct rho_tracker_sensor *rows = tracker->sensors;
+    tracker->num_sensors--;
+    tracker->num_rows--;
+    swap_rows(&rows[row], &rows[tracker->num_sensors]);
+    swap_rows(&rows[tracker->num_sensors], &rows[tracker->num_rows]);
+    memset(&rows[tracker->num_rows], 0, sizeof rows[0]);
+    return RHO_OK;
+}
+
+static int is_sound_row(const struct rho_tracker_sensor *row, int is_described)
+{
+    const struct rho_tracker_pace *pace = &row->pace;
+    return (!is_described || rho_tracker_is_usable_sensor(&row->sensor)) &&
+           rho_tracker_is_sound_learned(&row->learned) &&
+           rho_is_within(pace->azimuth_rad, -10.0f, 10.0f) &&
+           rho_is_within(pace->interval_s, 0.0f, 1e13f) && rho_is_coordinate(pace->x_m) &&
+           rho_is_coordinate(pace->y_m) && rho_is_stored_time(pace->time_us) &&
+           (!RHO_SECTORS || rho_tracker_is_sound_look(&row->look)) &&
+           (RHO_MAX_ECHOES == 0 || rho_tracker_is_sound_second_plots(&row->second_plots));
+}
+
+int rho_tracker_has_sound_sensors(const struct rho_tracker *tracker)
+{
+    if (tracker->num_sensors > tracker->num_rows || tracker->num_rows > RHO_MAX_SENSORS) {
+        return 0;
+    }
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        if (!is_sound_row(&tracker->sensors[i], i < tracker->num_sensors)) {
+            return 0;
+        }
+    }
+    return 1;
+}
