@@ -41,9 +41,8 @@ enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker, float leng
 }
 
 /* Moves bodies to the rows of their tracks, drops those of ended tracks, and starts new ones. */
-void rho_tracker_align_bodies_with_tracks(struct step *step)
+void rho_tracker_align_bodies_with_tracks(struct rho_tracker *tracker)
 {
-    struct rho_tracker *tracker = step->tracker;
     struct rho_bodies *bodies = &tracker->bodies;
     unsigned from = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
@@ -61,7 +60,7 @@ void rho_tracker_align_bodies_with_tracks(struct step *step)
     bodies->count = tracker->num_tracks;
 }
 
-int rho_tracker_range_rate_residual(const struct step *step, const struct rho_scan *scan,
+int rho_tracker_range_rate_residual(const struct rho_look *look, const struct rho_scan *scan,
                                     const struct rho_track *track, const struct rho_plot *plot,
                                     struct range_rate_residual *rate)
 {
@@ -70,13 +69,13 @@ int rho_tracker_range_rate_residual(const struct step *step, const struct rho_sc
     const float state[6] = {plot->x_m, plot->y_m, plot->z_m, velocity[0], velocity[1], velocity[2]};
     if (!(scan->measures & RHO_MEASURES_RANGE_RATE) ||
         !rho_measurement_predict_range_rate(
-            state, step->sensor, (scan->measures & RHO_MEASURES_Z) != 0, row, &rate_mps)) {
+            state, look->sensor, (scan->measures & RHO_MEASURES_Z) != 0, row, &rate_mps)) {
         return 0;
     }
     rate->sight_line[0] = row[3];
     rate->sight_line[1] = row[4];
     rate->mps =
-        rho_measurement_range_rate_innovation_mps(step->sensor, plot->range_rate_mps, rate_mps);
+        rho_measurement_range_rate_innovation_mps(look->sensor, plot->range_rate_mps, rate_mps);
     const float turned_mps = (row[3] * row[1] - row[4] * row[0]) * plot->sigma_cross_m;
     rate->line_turn_m2ps2 = turned_mps * turned_mps;
     rate->variance_m2ps2 =
@@ -84,49 +83,50 @@ int rho_tracker_range_rate_residual(const struct step *step, const struct rho_sc
     return 1;
 }
 
-int rho_tracker_locate_on_body_is_rate_usable(const struct step *step, const struct rho_scan *scan,
-                                              unsigned row, unsigned plot, struct body_plot *at)
+int rho_tracker_locate_on_body_is_rate_usable(const struct rho_look *look,
+                                              const struct rho_scan *scan, unsigned row,
+                                              unsigned plot, struct body_plot *at)
 {
-    const struct rho_body_filter *body = &step->tracker->bodies.of[row];
-    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_body_filter *body = &look->tracker->bodies.of[row];
+    const struct rho_track *track = &look->tracker->tracks[row];
     const struct rho_plot *seen = &scan->plots[plot];
-    const float after_s = rho_seconds_between(track->time_us, step->time_us + seen->offset_us);
+    const float after_s = rho_seconds_between(track->time_us, look->time_us + seen->offset_us);
     const float *state = track->kalman.state;
     *at = (struct body_plot){.dx_m = seen->x_m - state[RHO_X] - after_s * state[RHO_VX],
                              .dy_m = seen->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
     at->along_m = body->cos_heading * at->dx_m + body->sin_heading * at->dy_m;
     at->across_m = body->cos_heading * at->dy_m - body->sin_heading * at->dx_m;
-    return rho_tracker_range_rate_residual(step, scan, track, seen, &at->rate);
+    return rho_tracker_range_rate_residual(look, scan, track, seen, &at->rate);
 }
 
-void rho_tracker_rotate_plot_noise_to_body_axes(const struct step *step,
+void rho_tracker_rotate_plot_noise_to_body_axes(const struct rho_look *look,
                                                 const struct rho_body_filter *body,
                                                 const struct rho_plot *plot, float axes[3])
 {
     struct rho_measurement seen;
     float noise[6];
-    rho_measurement_from_plot(plot, 0, step->sensor, &seen);
+    rho_measurement_from_plot(plot, 0, look->sensor, &seen);
     rho_measurement_covariance(&seen, noise);
     rho_body_rotate_covariance(body, noise, axes);
 }
 
 /* Sums squared places of a track's plots and the variances of their noise, in the body's axes. */
-static void sum_plots_of_body(const struct step *step, const struct rho_scan *scan, unsigned row,
-                              struct rho_body_look *look)
+static void sum_plots_of_body(const struct rho_look *look, const struct rho_scan *scan,
+                              unsigned row, struct rho_body_look *seen)
 {
-    const struct rho_bodies *bodies = &step->tracker->bodies;
+    const struct rho_bodies *bodies = &look->tracker->bodies;
     struct body_plot at;
     float axes[3];
-    for (unsigned i = bodies->groups.first[step->tracker->tracks[row].plot]; i != RHO_NO_ROW;
+    for (unsigned i = bodies->groups.first[look->tracker->tracks[row].plot]; i != RHO_NO_ROW;
          i = bodies->groups.next[i]) {
-        (void)!rho_tracker_locate_on_body_is_rate_usable(step, scan, row, i, &at);
-        rho_tracker_rotate_plot_noise_to_body_axes(step, &bodies->of[row], &scan->plots[i], axes);
-        look->num_plots++;
-        look->along_m2 += at.along_m * at.along_m;
-        look->across_m2 += at.across_m * at.across_m;
-        look->cross_m2 += at.along_m * at.across_m;
-        look->noise_along_m2 += axes[0];
-        look->noise_across_m2 += axes[2];
+        (void)!rho_tracker_locate_on_body_is_rate_usable(look, scan, row, i, &at);
+        rho_tracker_rotate_plot_noise_to_body_axes(look, &bodies->of[row], &scan->plots[i], axes);
+        seen->num_plots++;
+        seen->along_m2 += at.along_m * at.along_m;
+        seen->across_m2 += at.across_m * at.across_m;
+        seen->cross_m2 += at.along_m * at.across_m;
+        seen->noise_along_m2 += axes[0];
+        seen->noise_across_m2 += axes[2];
     }
 }
 
@@ -139,22 +139,22 @@ void rho_tracker_set_body_heading(struct rho_tracker *tracker, unsigned row)
     rho_body_set_heading_if_moving(&tracker->bodies.of[row], &kalman->state[RHO_VX], velocity);
 }
 
-void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
+void rho_tracker_update_bodies(struct rho_tracker *tracker, const struct rho_look *look,
+                               const struct rho_scan *scan)
 {
-    struct rho_tracker *tracker = step->tracker;
-    rho_tracker_align_bodies_with_tracks(step);
-    if (step->is_late) {
+    rho_tracker_align_bodies_with_tracks(tracker);
+    if (look->is_late) {
         return; /* tracks have returned to the newest time, with another heading than at the scan */
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         const struct rho_track *track = &tracker->tracks[row];
-        struct rho_body_look look = {0};
+        struct rho_body_look seen = {0};
         if (track->plot < 0) {
             continue;
         }
         rho_tracker_set_body_heading(tracker, row);
-        sum_plots_of_body(step, scan, row, &look);
-        rho_body_add_plots(&tracker->bodies.of[row], &look);
+        sum_plots_of_body(look, scan, row, &seen);
+        rho_body_add_plots(&tracker->bodies.of[row], &seen);
     }
 }
 

@@ -102,23 +102,23 @@ struct look_sums {
     float first_m, last_m, noise_m2; /* along the body: extreme places, largest plot variance */
 };
 
-static struct look_sums sum_look_of_body(const struct step *step, const struct rho_scan *scan,
+static struct look_sums sum_look_of_body(const struct rho_look *look, const struct rho_scan *scan,
                                          unsigned row)
 {
-    const struct rho_bodies *bodies = &step->tracker->bodies;
+    const struct rho_bodies *bodies = &look->tracker->bodies;
     struct look_sums sums = {.first_m = 1e9f, .last_m = -1e9f};
     const struct rho_groups *groups = &bodies->groups;
     struct body_plot at;
     float axes[3];
     for (unsigned i = rho_tracker_first_uncontested_plot(
-             groups, groups->first[step->tracker->tracks[row].plot]);
+             groups, groups->first[look->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
         const struct rho_plot *plot = &scan->plots[i];
-        if (!rho_tracker_locate_on_body_is_rate_usable(step, scan, row, i, &at) &&
+        if (!rho_tracker_locate_on_body_is_rate_usable(look, scan, row, i, &at) &&
             (scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue; /* a plot at the sensor has no line of sight */
         }
-        rho_tracker_rotate_plot_noise_to_body_axes(step, &bodies->of[row], plot, axes);
+        rho_tracker_rotate_plot_noise_to_body_axes(look, &bodies->of[row], plot, axes);
         const float far_m = at.rate.sight_line[0] * at.dx_m + at.rate.sight_line[1] * at.dy_m,
                     side_m = at.rate.sight_line[0] * at.dy_m - at.rate.sight_line[1] * at.dx_m;
         sums.n += 1.0f;
@@ -142,42 +142,42 @@ static struct look_sums sum_look_of_body(const struct step *step, const struct r
 }
 
 /* Turn rate that one sigma of the velocity across the line of sight adds to range rates, rad/s. */
-static float apparent_turn_sigma_radps(const struct step *step, const struct rho_track *track)
+static float apparent_turn_sigma_radps(const struct rho_look *look, const struct rho_track *track)
 {
-    const float x_m = track->kalman.state[RHO_X] - (step->sensor ? step->sensor->x_m : 0.0f),
-                y_m = track->kalman.state[RHO_Y] - (step->sensor ? step->sensor->y_m : 0.0f);
+    const float x_m = track->kalman.state[RHO_X] - (look->sensor ? look->sensor->x_m : 0.0f),
+                y_m = track->kalman.state[RHO_Y] - (look->sensor ? look->sensor->y_m : 0.0f);
     return rho_track_sigma_mps(track) / (rho_sqrt(x_m * x_m + y_m * y_m) + 1.0f);
 }
 
-static int is_longer_than_any_body(const struct step *step, const struct look_sums *sums)
+static int is_longer_than_any_body(const struct rho_tracker *tracker, const struct look_sums *sums)
 {
     return sums->last_m - sums->first_m >
-           step->tracker->bodies.length_max_m + LONG_SIGMAS * rho_sqrt(sums->noise_m2);
+           tracker->bodies.length_max_m + LONG_SIGMAS * rho_sqrt(sums->noise_m2);
 }
 
-void rho_tracker_add_body_split_evidence(const struct step *step, const struct rho_scan *scan,
-                                         unsigned row)
+void rho_tracker_add_body_split_evidence(struct rho_tracker *tracker, const struct rho_look *look,
+                                         const struct rho_scan *scan, unsigned row)
 {
-    struct rho_body_filter *body = &step->tracker->bodies.of[row];
+    struct rho_body_filter *body = &tracker->bodies.of[row];
     struct rho_body_doubt *doubt = &body->doubt;
-    const struct look_sums sums = sum_look_of_body(step, scan, row);
+    const struct look_sums sums = sum_look_of_body(look, scan, row);
     const float passed_s =
-        doubt->looks > 0.0f ? rho_seconds_between(doubt->time_us, step->time_us) : 0.0f;
+        doubt->looks > 0.0f ? rho_seconds_between(doubt->time_us, look->time_us) : 0.0f;
     if (sums.n < 2.0f || !body->has_heading) {
         return;
     }
     const float mean = 1.0f / sums.n;
-    doubt->time_us = step->time_us;
+    doubt->time_us = look->time_us;
     fade_doubt_by_one_look(doubt, body, passed_s);
-    doubt->long_looks += is_longer_than_any_body(step, &sums) ? 1.0f : 0.0f;
-    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE) || body->plots < RHO_BODY_NEW_PLOTS) {
+    doubt->long_looks += is_longer_than_any_body(tracker, &sums) ? 1.0f : 0.0f;
+    if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE) || body->plots < RHO_BODY_NEW_PLOTS) {
         return; /* the velocity of a new track is too uncertain for its range rates to be judged */
     }
     doubt->steady_looks += 1.0f;
     doubt->plots_beyond_one += sums.n - 1.0f;
     doubt->far_m2 += sums.far2 - mean * sums.far * sums.far;
     const float side_m2 = sums.side2 - mean * sums.side * sums.side;
-    const float turned_radps = apparent_turn_sigma_radps(step, &step->tracker->tracks[row]);
+    const float turned_radps = apparent_turn_sigma_radps(look, &tracker->tracks[row]);
     doubt->side_m2 += side_m2;
     doubt->unknown_m2ps2 +=
         turned_radps * turned_radps * side_m2 + (1.0f - mean) * sums.line_turn_m2ps2;
@@ -215,11 +215,12 @@ static int parts_move_apart(const struct rho_body_filter *body)
            explained > turn_radps * turn_radps * side_m2 + UNKNOWN_SHARE * doubt->unknown_m2ps2;
 }
 
-enum rho_body_split rho_tracker_find_body_split_reason(const struct step *step, unsigned row)
+enum rho_body_split rho_tracker_find_body_split_reason(const struct rho_tracker *tracker,
+                                                       unsigned row)
 {
-    const struct rho_body_doubt *doubt = &step->tracker->bodies.of[row].doubt;
+    const struct rho_body_doubt *doubt = &tracker->bodies.of[row].doubt;
     if (doubt->long_looks > LONG_LOOKS && doubt->long_looks > LONG_SHARE * doubt->looks) {
         return RHO_BODY_TOO_LONG;
     }
-    return parts_move_apart(&step->tracker->bodies.of[row]) ? RHO_BODY_MOVES_APART : RHO_BODY_ONE;
+    return parts_move_apart(&tracker->bodies.of[row]) ? RHO_BODY_MOVES_APART : RHO_BODY_ONE;
 }

@@ -31,11 +31,11 @@ struct body_offset {
     float along_m, across_m;
 };
 
-static struct body_offset absolute_offset_of_track_on_body(const struct step *step, unsigned row,
-                                                           unsigned other)
+static struct body_offset absolute_offset_of_track_on_body(const struct rho_tracker *tracker,
+                                                           unsigned row, unsigned other)
 {
-    const struct rho_track *tracks = step->tracker->tracks;
-    const struct rho_body_filter *body = &step->tracker->bodies.of[row];
+    const struct rho_track *tracks = tracker->tracks;
+    const struct rho_body_filter *body = &tracker->bodies.of[row];
     const float dx_m = tracks[other].kalman.state[RHO_X] - tracks[row].kalman.state[RHO_X],
                 dy_m = tracks[other].kalman.state[RHO_Y] - tracks[row].kalman.state[RHO_Y];
     const float along_m = body->cos_heading * dx_m + body->sin_heading * dy_m,
@@ -54,38 +54,37 @@ static int move_alike(const struct rho_track *one, const struct rho_track *other
 }
 
 /* True where two bodies with known headings overlap by half on both axes. */
-static int do_bodies_overlap(const struct step *step, unsigned row, unsigned other)
+static int do_bodies_overlap(const struct rho_tracker *tracker, unsigned row, unsigned other)
 {
-    const struct rho_body_filter *one = &step->tracker->bodies.of[row],
-                                 *two = &step->tracker->bodies.of[other];
-    const struct body_offset offset = absolute_offset_of_track_on_body(step, row, other);
+    const struct rho_body_filter *one = &tracker->bodies.of[row], *two = &tracker->bodies.of[other];
+    const struct body_offset offset = absolute_offset_of_track_on_body(tracker, row, other);
     /* a quarter of both lengths, each sqrt(12 variance): 0.866 = sqrt(12) / 4 */
     return one->has_heading && two->has_heading &&
            offset.along_m <= 0.866f * (rho_sqrt(one->along_m2) + rho_sqrt(two->along_m2)) &&
            offset.across_m <= 0.866f * (rho_sqrt(one->across_m2) + rho_sqrt(two->across_m2));
 }
 
-static int may_own_plots_and_has_few_hits(const struct step *step, unsigned row)
+static int may_own_plots_and_has_few_hits(const struct rho_look *look, unsigned row)
 {
-    return rho_tracker_may_own_group_of_plots(step, row) &&
-           step->tracker->tracks[row].hits < NEW_HITS;
+    return rho_tracker_may_own_group_of_plots(look, row) &&
+           look->tracker->tracks[row].hits < NEW_HITS;
 }
 
 /* True where two tracks are near in x and y: a cheap test before that in the body's axes. */
-static int are_tracks_near(const struct step *step, unsigned row, unsigned other)
+static int are_tracks_near(const struct rho_tracker *tracker, unsigned row, unsigned other)
 {
-    const float *one = step->tracker->tracks[row].kalman.state,
-                *two = step->tracker->tracks[other].kalman.state;
-    const float most_m = (NEW_ALONG_SHARE + NEW_ACROSS_SHARE) * step->tracker->bodies.length_max_m,
+    const float *one = tracker->tracks[row].kalman.state,
+                *two = tracker->tracks[other].kalman.state;
+    const float most_m = (NEW_ALONG_SHARE + NEW_ACROSS_SHARE) * tracker->bodies.length_max_m,
                 dx_m = two[RHO_X] - one[RHO_X], dy_m = two[RHO_Y] - one[RHO_Y];
     return dx_m <= most_m && dx_m >= -most_m && dy_m <= most_m && dy_m >= -most_m;
 }
 
-static int may_be_one_body(const struct step *step, unsigned row, unsigned other)
+static int may_be_one_body(const struct rho_tracker *tracker, unsigned row, unsigned other)
 {
-    const struct rho_bodies *bodies = &step->tracker->bodies;
-    const struct rho_track *tracks = step->tracker->tracks;
-    const struct body_offset offset = absolute_offset_of_track_on_body(step, row, other);
+    const struct rho_bodies *bodies = &tracker->bodies;
+    const struct rho_track *tracks = tracker->tracks;
+    const struct body_offset offset = absolute_offset_of_track_on_body(tracker, row, other);
     const float turned_m = TURNED_SIGMAS * bodies->of[row].heading_sigma_rad * offset.along_m;
     return bodies->of[row].has_heading &&
            offset.along_m <= NEW_ALONG_SHARE * bodies->length_max_m &&
@@ -97,7 +96,7 @@ static int may_be_one_body(const struct step *step, unsigned row, unsigned other
 static void end_track_and_move_plots(struct step *step, unsigned stays, unsigned ends)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
+    for (uint32_t i = 0; i < step->look.num_gated; i++) {
         if (groups->owner[i] == ends) {
             groups->owner[i] = (uint16_t)stays;
         }
@@ -105,7 +104,7 @@ static void end_track_and_move_plots(struct step *step, unsigned stays, unsigned
             groups->contender[i] = RHO_NO_ROW;
         }
     }
-    rho_tracker_spend_work(step, step->num_gated / RHO_WORK_PASSED_A_UNIT);
+    rho_tracker_spend_work(&step->work, step->look.num_gated / RHO_WORK_PASSED_A_UNIT);
     rho_tracker_end_track(step, &step->tracker->tracks[ends]);
 }
 
@@ -115,24 +114,25 @@ static void count_overlaps_and_end_younger(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     const struct rho_groups *groups = &tracker->bodies.groups;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (rho_tracker_may_own_group_of_plots(step, row)) {
+        if (rho_tracker_may_own_group_of_plots(&step->look, row)) {
             tracker->bodies.of[row].doubt.doubled *= 1.0f - 1.0f / MEMORY_SCANS;
         }
     }
-    for (uint32_t i = 0; i < step->num_gated; i++) {
+    for (uint32_t i = 0; i < step->look.num_gated; i++) {
         const unsigned one = groups->owner[i], other = groups->contender[i];
         if (one == RHO_NO_ROW || other == RHO_NO_ROW) {
             continue;
         }
         const unsigned older = one < other ? one : other, younger = one + other - older;
         struct rho_body_doubt *doubt = &tracker->bodies.of[younger].doubt;
-        if (doubt->doubled_us == step->time_us || !rho_tracker_may_own_group_of_plots(step, one) ||
-            !rho_tracker_may_own_group_of_plots(step, other) ||
-            !do_bodies_overlap(step, older, younger) ||
+        if (doubt->doubled_us == step->look.time_us ||
+            !rho_tracker_may_own_group_of_plots(&step->look, one) ||
+            !rho_tracker_may_own_group_of_plots(&step->look, other) ||
+            !do_bodies_overlap(tracker, older, younger) ||
             !move_alike(&tracker->tracks[one], &tracker->tracks[other])) {
             continue;
         }
-        doubt->doubled_us = step->time_us;
+        doubt->doubled_us = step->look.time_us;
         doubt->doubled += 1.0f;
         if (doubt->doubled > DOUBLED_SCANS) {
             end_track_and_move_plots(step, older, younger);
@@ -146,13 +146,15 @@ static void end_one_of_each_two_new_duplicates(struct step *step)
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_track *tracks = tracker->tracks;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        int goes_on = may_own_plots_and_has_few_hits(step, row);
-        for (unsigned other = row + 1u;
-             goes_on && other < tracker->num_tracks && !rho_tracker_is_phase_work_spent(step);
+        int goes_on = may_own_plots_and_has_few_hits(&step->look, row);
+        for (unsigned other = row + 1u; goes_on && other < tracker->num_tracks &&
+                                        !rho_tracker_is_phase_work_spent(&step->work);
              other++) {
-            rho_tracker_spend_work(step, PASS_UNITS);
-            if (are_tracks_near(step, row, other) && may_own_plots_and_has_few_hits(step, other) &&
-                may_be_one_body(step, row, other) && move_alike(&tracks[row], &tracks[other])) {
+            rho_tracker_spend_work(&step->work, PASS_UNITS);
+            if (are_tracks_near(step->tracker, row, other) &&
+                may_own_plots_and_has_few_hits(&step->look, other) &&
+                may_be_one_body(step->tracker, row, other) &&
+                move_alike(&tracks[row], &tracks[other])) {
                 goes_on = tracks[row].hits >= tracks[other].hits;
                 end_track_and_move_plots(step, goes_on ? row : other, goes_on ? other : row);
             }
@@ -162,7 +164,7 @@ static void end_one_of_each_two_new_duplicates(struct step *step)
 
 void rho_tracker_end_duplicate_tracks(struct step *step)
 {
-    if (!step->is_late) {
+    if (!step->look.is_late) {
         count_overlaps_and_end_younger(step);
     }
     end_one_of_each_two_new_duplicates(step);

@@ -33,9 +33,9 @@
 #define PAIR_UNITS 2u
 #define PASS_UNITS 1u
 
-static float longest_body_m(const struct step *step)
+static float longest_body_m(const struct rho_tracker *tracker)
 {
-    return step->tracker->bodies.length_max_m;
+    return tracker->bodies.length_max_m;
 }
 
 /* ---- pairs of plots -------------------------------------------------------------------------- */
@@ -44,23 +44,23 @@ static float longest_body_m(const struct step *step)
  * True where one target may have both plots' range rates. Those of a rigid body differ only across
  * the line of sight, by its turn and by its unknown speed across the line of sight.
  */
-static int have_range_rates_of_one_body(const struct step *step, const struct rho_plot *one,
+static int have_range_rates_of_one_body(const struct rho_look *look, const struct rho_plot *one,
                                         const struct rho_plot *other)
 {
-    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
+    if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return 1;
     }
-    const float x_m = one->x_m - (step->sensor ? step->sensor->x_m : 0.0f),
-                y_m = one->y_m - (step->sensor ? step->sensor->y_m : 0.0f);
+    const float x_m = one->x_m - (look->sensor ? look->sensor->x_m : 0.0f),
+                y_m = one->y_m - (look->sensor ? look->sensor->y_m : 0.0f);
     const float dx_m = other->x_m - one->x_m, dy_m = other->y_m - one->y_m;
     const float range_m = rho_sqrt(x_m * x_m + y_m * y_m) + 1e-3f;
     const float side_m = (x_m * dy_m - y_m * dx_m) / range_m;
     const float most_m =
         rho_smaller((side_m < 0.0f ? -side_m : side_m) + one->sigma_cross_m + other->sigma_cross_m,
-                    APART_SHARE * longest_body_m(step));
-    const float across_radps = step->tracker->config.v_max_mps / (3.0f * range_m);
+                    APART_SHARE * longest_body_m(look->tracker));
+    const float across_radps = look->tracker->config.v_max_mps / (3.0f * range_m);
     const float off_mps = rho_measurement_range_rate_innovation_mps(
-        step->sensor, one->range_rate_mps, other->range_rate_mps);
+        look->sensor, one->range_rate_mps, other->range_rate_mps);
     const float variance =
         one->sigma_range_rate_mps * one->sigma_range_rate_mps +
         other->sigma_range_rate_mps * other->sigma_range_rate_mps +
@@ -69,14 +69,15 @@ static int have_range_rates_of_one_body(const struct step *step, const struct rh
 }
 
 /* True where one target can have given both plots, by distance and range rates. */
-static int may_be_plots_of_one_body(struct step *step, uint32_t one, uint32_t other)
+static int may_be_plots_of_one_body(const struct rho_look *look, struct rho_work *work,
+                                    uint32_t one, uint32_t other)
 {
-    const struct rho_plot *a = &step->scan->plots[one], *b = &step->scan->plots[other];
+    const struct rho_plot *a = &look->scan->plots[one], *b = &look->scan->plots[other];
     const float dx_m = a->x_m - b->x_m, dy_m = a->y_m - b->y_m;
     const float most_m =
-        longest_body_m(step) + APART_SIGMAS * (rho_plot_sigma_m(a) + rho_plot_sigma_m(b));
-    rho_tracker_spend_work(step, PAIR_UNITS);
-    return dx_m * dx_m + dy_m * dy_m <= most_m * most_m && have_range_rates_of_one_body(step, a, b);
+        longest_body_m(look->tracker) + APART_SIGMAS * (rho_plot_sigma_m(a) + rho_plot_sigma_m(b));
+    rho_tracker_spend_work(work, PAIR_UNITS);
+    return dx_m * dx_m + dy_m * dy_m <= most_m * most_m && have_range_rates_of_one_body(look, a, b);
 }
 
 /* ---- a track's body -------------------------------------------------------------------------- */
@@ -89,12 +90,13 @@ struct predicted_body {
     float rate_sigma_mps;
 };
 
-static struct predicted_body body_outline_and_place_variances(const struct step *step, unsigned row)
+static struct predicted_body body_outline_and_place_variances(const struct rho_tracker *tracker,
+                                                              unsigned row)
 {
-    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_track *track = &tracker->tracks[row];
     const float *p = track->kalman.covariance;
     const float place_m2[3] = {p[RHO_AT(0, 0)], p[RHO_AT(0, 1)], p[RHO_AT(1, 1)]};
-    struct predicted_body outline = {.body = &step->tracker->bodies.of[row],
+    struct predicted_body outline = {.body = &tracker->bodies.of[row],
                                      .track = track,
                                      .rate_sigma_mps = rho_track_sigma_mps(track)};
     rho_body_rotate_covariance(outline.body, place_m2, outline.place_m2);
@@ -109,33 +111,33 @@ static struct predicted_body body_outline_and_place_variances(const struct step 
 }
 
 /* Distance that a track moves between the scan's time and that of the plot farthest from it. */
-static float distance_moved_in_largest_plot_offset_m(const struct step *step,
+static float distance_moved_in_largest_plot_offset_m(const struct rho_look *look,
                                                      const struct predicted_body *outline)
 {
     const float vx_mps = outline->track->kalman.state[RHO_VX],
                 vy_mps = outline->track->kalman.state[RHO_VY];
-    return step->offset_max_s * rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
+    return look->offset_max_s * rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
 }
 
 /* Half side of a square about the track that holds the gate of its body in any direction. */
-static float half_search_box_m(const struct step *step, const struct predicted_body *outline)
+static float half_search_box_m(const struct rho_look *look, const struct predicted_body *outline)
 {
-    const float noise_m2 = step->sigma_max_m * step->sigma_max_m;
+    const float noise_m2 = look->sigma_max_m * look->sigma_max_m;
     return 1.5f * GATE_SIGMAS *
                rho_sqrt(rho_larger(outline->place_m2[0], outline->place_m2[2]) + noise_m2) +
-           distance_moved_in_largest_plot_offset_m(step, outline);
+           distance_moved_in_largest_plot_offset_m(look, outline);
 }
 
 /*
  * True where a plot's range rate, if measured, agrees with the track's velocity and a turn of the
  * body. Adds to the misfit -2 ln of the likelihood of the range rate.
  */
-static int range_rate_agrees_add_misfit(const struct step *step,
+static int range_rate_agrees_add_misfit(const struct rho_look *look,
                                         const struct predicted_body *outline,
                                         const struct rho_plot *plot, float apart_m, float *misfit)
 {
     struct range_rate_residual rate;
-    if (!rho_tracker_range_rate_residual(step, step->scan, outline->track, plot, &rate)) {
+    if (!rho_tracker_range_rate_residual(look, look->scan, outline->track, plot, &rate)) {
         return 1;
     }
     const float slack_mps =
@@ -149,7 +151,7 @@ static int range_rate_agrees_add_misfit(const struct step *step,
 }
 
 /* Returns 1 where a plot is in the gate of a body. *misfit: -2 ln of the plot's likelihood. */
-static int body_explains_plot(const struct step *step, const struct predicted_body *outline,
+static int body_explains_plot(const struct rho_look *look, const struct predicted_body *outline,
                               const struct rho_plot *plot, float *misfit)
 {
     float axes[3];
@@ -158,22 +160,22 @@ static int body_explains_plot(const struct step *step, const struct predicted_bo
     const float dx_m = plot->x_m - state[0] - after_s * state[3],
                 dy_m = plot->y_m - state[1] - after_s * state[4];
     const float along_m = c * dx_m + s * dy_m, across_m = c * dy_m - s * dx_m;
-    rho_tracker_rotate_plot_noise_to_body_axes(step, outline->body, plot, axes);
+    rho_tracker_rotate_plot_noise_to_body_axes(look, outline->body, plot, axes);
     const float along_m2 = outline->place_m2[0] + axes[0],
                 across_m2 = outline->place_m2[2] + axes[2];
     const float far = along_m * along_m / along_m2, wide = across_m * across_m / across_m2;
     *misfit = far + wide + rho_log(along_m2) + rho_log(across_m2);
     return far <= GATE_SIGMAS * GATE_SIGMAS && wide <= GATE_SIGMAS * GATE_SIGMAS &&
-           range_rate_agrees_add_misfit(step, outline, plot, rho_sqrt(dx_m * dx_m + dy_m * dy_m),
+           range_rate_agrees_add_misfit(look, outline, plot, rho_sqrt(dx_m * dx_m + dy_m * dy_m),
                                         misfit);
 }
 
 /* Plots in a square of the given half side about the track's place. */
-static struct plots_near plots_near_body(const struct step *step,
+static struct plots_near plots_near_body(const struct rho_tracker *tracker,
                                          const struct predicted_body *outline, float half_m)
 {
     const float *state = outline->track->kalman.state;
-    return rho_tracker_plots_near(step, state[0] - half_m, state[0] + half_m, state[1] - half_m,
+    return rho_tracker_plots_near(tracker, state[0] - half_m, state[0] + half_m, state[1] - half_m,
                                   state[1] + half_m);
 }
 
@@ -201,20 +203,21 @@ static void find_owners_of_plots_and_end_duplicates(struct step *step)
     struct rho_groups *groups = &step->tracker->bodies.groups;
     float misfit;
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        if (!rho_tracker_may_own_group_of_plots(step, row)) {
+        if (!rho_tracker_may_own_group_of_plots(&step->look, row)) {
             continue;
         }
-        const struct predicted_body outline = body_outline_and_place_variances(step, row);
-        struct plots_near near = plots_near_body(step, &outline, half_search_box_m(step, &outline));
-        for (uint32_t i; !rho_tracker_is_phase_work_spent(step) &&
-                         rho_tracker_next_plot_near(step, &near, &i);) {
-            const struct rho_plot *plot = &step->scan->plots[i];
+        const struct predicted_body outline = body_outline_and_place_variances(step->tracker, row);
+        struct plots_near near =
+            plots_near_body(step->tracker, &outline, half_search_box_m(&step->look, &outline));
+        for (uint32_t i; !rho_tracker_is_phase_work_spent(&step->work) &&
+                         rho_tracker_next_plot_near(&step->look, &near, &i);) {
+            const struct rho_plot *plot = &step->look.scan->plots[i];
             if (step->report->fates[i] != RHO_FATE_HELD ||
                 !rho_tracker_is_plot_within(&near, plot)) {
                 continue;
             }
-            rho_tracker_spend_work(step, TEST_UNITS);
-            if (body_explains_plot(step, &outline, plot, &misfit)) {
+            rho_tracker_spend_work(&step->work, TEST_UNITS);
+            if (body_explains_plot(&step->look, &outline, plot, &misfit)) {
                 assign_plot_to_better_body(groups, row, i, misfit);
             }
         }
@@ -239,11 +242,12 @@ static void add_plot_to_group(struct rho_groups *groups, unsigned group, uint32_
     groups->of[plot] = (uint16_t)group;
 }
 
-static int fits_all_in_group(struct step *step, unsigned group, uint32_t plot)
+static int fits_all_in_group(const struct rho_look *look, struct rho_work *work, unsigned group,
+                             uint32_t plot)
 {
-    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    const struct rho_groups *groups = &look->tracker->bodies.groups;
     for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
-        if (!may_be_plots_of_one_body(step, i, plot)) {
+        if (!may_be_plots_of_one_body(look, work, i, plot)) {
             return 0;
         }
     }
@@ -254,33 +258,36 @@ static int fits_all_in_group(struct step *step, unsigned group, uint32_t plot)
  * Adds plots of no track that may be of one target with all plots of the group. Plots in excluded
  * areas stay alone, as they start no track.
  */
-static void add_plots_that_fit_all_in_group(struct step *step, unsigned group)
+static void add_plots_that_fit_all_in_group(struct rho_tracker *tracker,
+                                            const struct rho_look *look, struct rho_work *work,
+                                            unsigned group)
 {
-    struct rho_groups *groups = &step->tracker->bodies.groups;
-    const struct rho_plot *plot = &step->scan->plots[groups->first[group]];
-    const float most_m = longest_body_m(step) + 2.0f * APART_SIGMAS * step->sigma_max_m;
-    struct plots_near near = rho_tracker_plots_near(step, plot->x_m - most_m, plot->x_m + most_m,
+    struct rho_groups *groups = &tracker->bodies.groups;
+    const struct rho_plot *plot = &look->scan->plots[groups->first[group]];
+    const float most_m = longest_body_m(tracker) + 2.0f * APART_SIGMAS * look->sigma_max_m;
+    struct plots_near near = rho_tracker_plots_near(tracker, plot->x_m - most_m, plot->x_m + most_m,
                                                     plot->y_m - most_m, plot->y_m + most_m);
     for (uint32_t i;
-         !rho_tracker_is_phase_work_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
-        rho_tracker_spend_work(step, PASS_UNITS);
-        if (step->report->fates[i] == RHO_FATE_HELD && groups->of[i] == RHO_NO_ROW &&
-            groups->owner[i] == RHO_NO_ROW && !rho_tracker_is_plot_excluded(step, i) &&
-            fits_all_in_group(step, group, i)) {
+         !rho_tracker_is_phase_work_spent(work) && rho_tracker_next_plot_near(look, &near, &i);) {
+        rho_tracker_spend_work(work, PASS_UNITS);
+        if (look->fates[i] == RHO_FATE_HELD && groups->of[i] == RHO_NO_ROW &&
+            groups->owner[i] == RHO_NO_ROW && !rho_tracker_is_plot_excluded(look, i) &&
+            fits_all_in_group(look, work, group, i)) {
             add_plot_to_group(groups, group, i);
         }
     }
 }
 
 /* Forms the groups, in the order of their first plots: one for each track, the others by place. */
-static void form_plot_groups(struct step *step)
+static void form_plot_groups(struct rho_tracker *tracker, const struct rho_look *look,
+                             struct rho_work *work)
 {
-    struct rho_groups *groups = &step->tracker->bodies.groups;
+    struct rho_groups *groups = &tracker->bodies.groups;
     uint16_t of_track[RHO_BODY_TRACKS];
-    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
         of_track[row] = RHO_NO_ROW;
     }
-    for (uint32_t i = 0; i < step->num_gated; i++) {
+    for (uint32_t i = 0; i < look->num_gated; i++) {
         const unsigned owner = groups->owner[i];
         if (groups->of[i] != RHO_NO_ROW) {
             continue;
@@ -292,9 +299,8 @@ static void form_plot_groups(struct step *step)
         begin_group(groups, i);
         if (owner != RHO_NO_ROW) {
             of_track[owner] = groups->of[i];
-        } else if (step->report->fates[i] == RHO_FATE_HELD &&
-                   !rho_tracker_is_plot_excluded(step, i)) {
-            add_plots_that_fit_all_in_group(step, groups->of[i]);
+        } else if (look->fates[i] == RHO_FATE_HELD && !rho_tracker_is_plot_excluded(look, i)) {
+            add_plots_that_fit_all_in_group(tracker, look, work, groups->of[i]);
         }
     }
 }
@@ -302,29 +308,30 @@ static void form_plot_groups(struct step *step)
 /* ---- a group as one plot --------------------------------------------------------------------- */
 
 /* Sum over a group's plots of the squared difference of range rates from the mean. */
-static float sum_of_squared_rate_errors(const struct step *step, unsigned group,
+static float sum_of_squared_rate_errors(const struct rho_look *look, unsigned group,
                                         const struct rho_plot *mean)
 {
-    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    const struct rho_groups *groups = &look->tracker->bodies.groups;
     float sum = 0.0f;
     for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
         const float off_mps = rho_measurement_range_rate_innovation_mps(
-            step->sensor, step->scan->plots[i].range_rate_mps, mean->range_rate_mps);
+            look->sensor, look->scan->plots[i].range_rate_mps, mean->range_rate_mps);
         sum += off_mps * off_mps;
     }
     return sum;
 }
 
 /* Mean of a group's plots, by differences from the first: sums of coordinates would be rounded. */
-static struct rho_plot mean_plot_of_group(const struct step *step, unsigned group, unsigned *count)
+static struct rho_plot mean_plot_of_group(const struct rho_look *look, unsigned group,
+                                          unsigned *count)
 {
-    const struct rho_groups *groups = &step->tracker->bodies.groups;
-    const struct rho_plot *first = &step->scan->plots[groups->first[group]];
+    const struct rho_groups *groups = &look->tracker->bodies.groups;
+    const struct rho_plot *first = &look->scan->plots[groups->first[group]];
     struct rho_plot mean = *first, sum = {0};
     float n = 0.0f, offset_us = 0.0f;
     *count = 0;
     for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
-        const struct rho_plot *plot = &step->scan->plots[i];
+        const struct rho_plot *plot = &look->scan->plots[i];
         offset_us += (float)(plot->offset_us - first->offset_us);
         sum.x_m += plot->x_m - first->x_m;
         sum.y_m += plot->y_m - first->y_m;
@@ -333,7 +340,7 @@ static struct rho_plot mean_plot_of_group(const struct step *step, unsigned grou
         sum.vy_mps += plot->vy_mps - first->vy_mps;
         sum.vz_mps += plot->vz_mps - first->vz_mps;
         sum.range_rate_mps += rho_measurement_range_rate_innovation_mps(
-            step->sensor, plot->range_rate_mps, first->range_rate_mps);
+            look->sensor, plot->range_rate_mps, first->range_rate_mps);
         n += 1.0f;
         ++*count;
     }
@@ -353,11 +360,11 @@ static struct rho_plot mean_plot_of_group(const struct step *step, unsigned grou
  * a track it is the share of the variance of a place that n plots leave; without, it is the spread
  * of the plots, with the prior as one plot more.
  */
-static void place_on_body_variance_of_group_mean(const struct step *step, unsigned group,
+static void place_on_body_variance_of_group_mean(const struct rho_look *look, unsigned group,
                                                  const struct rho_plot *mean, unsigned count,
                                                  float xx_yx_yy[3])
 {
-    const struct rho_bodies *bodies = &step->tracker->bodies;
+    const struct rho_bodies *bodies = &look->tracker->bodies;
     const struct rho_groups *groups = &bodies->groups;
     const unsigned owner = groups->owner[groups->first[group]];
     if (owner != RHO_NO_ROW) {
@@ -371,11 +378,11 @@ static void place_on_body_variance_of_group_mean(const struct step *step, unsign
         }
         return;
     }
-    xx_yx_yy[0] = xx_yx_yy[2] = rho_tracker_prior_place_variance_on_body_m2(step->tracker);
+    xx_yx_yy[0] = xx_yx_yy[2] = rho_tracker_prior_place_variance_on_body_m2(look->tracker);
     xx_yx_yy[1] = 0.0f;
     for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
-        const float dx_m = step->scan->plots[i].x_m - mean->x_m,
-                    dy_m = step->scan->plots[i].y_m - mean->y_m;
+        const float dx_m = look->scan->plots[i].x_m - mean->x_m,
+                    dy_m = look->scan->plots[i].y_m - mean->y_m;
         xx_yx_yy[0] += dx_m * dx_m;
         xx_yx_yy[1] += dx_m * dy_m;
         xx_yx_yy[2] += dy_m * dy_m;
@@ -392,18 +399,18 @@ static float sigma_within_limits(float sigma)
 }
 
 /* Makes one plot of a group: the mean, with the noise of the plots and of places on the body. */
-static void make_group_plot(const struct step *step, unsigned group, struct rho_plot *out)
+static void make_group_plot(const struct rho_look *look, unsigned group, struct rho_plot *out)
 {
     struct rho_measurement seen;
     float spread[3];
     unsigned count;
-    *out = mean_plot_of_group(step, group, &count);
-    if (step->report->fates[step->tracker->bodies.groups.first[group]] != RHO_FATE_HELD) {
+    *out = mean_plot_of_group(look, group, &count);
+    if (look->fates[look->tracker->bodies.groups.first[group]] != RHO_FATE_HELD) {
         return;
     }
     const float n = (float)count;
-    place_on_body_variance_of_group_mean(step, group, out, count, spread);
-    rho_measurement_from_plot(out, 0, step->sensor, &seen);
+    place_on_body_variance_of_group_mean(look, group, out, count, spread);
+    rho_measurement_from_plot(out, 0, look->sensor, &seen);
     const float c = seen.cos_azimuth, s = seen.sin_azimuth;
     const float along_m2 = c * c * spread[0] + 2.0f * c * s * spread[1] + s * s * spread[2];
     const float across_m2 = s * s * spread[0] - 2.0f * c * s * spread[1] + c * c * spread[2];
@@ -411,10 +418,10 @@ static void make_group_plot(const struct step *step, unsigned group, struct rho_
         sigma_within_limits(rho_sqrt((out->sigma_range_m * out->sigma_range_m + along_m2) / n));
     out->sigma_cross_m =
         sigma_within_limits(rho_sqrt((out->sigma_cross_m * out->sigma_cross_m + across_m2) / n));
-    if (step->scan->measures & RHO_MEASURES_RANGE_RATE) {
+    if (look->scan->measures & RHO_MEASURES_RANGE_RATE) {
         out->sigma_range_rate_mps =
             sigma_within_limits(rho_sqrt((out->sigma_range_rate_mps * out->sigma_range_rate_mps +
-                                          sum_of_squared_rate_errors(step, group, out) / n) /
+                                          sum_of_squared_rate_errors(look, group, out) / n) /
                                          n));
     }
 }
@@ -425,22 +432,23 @@ static void make_group_plot(const struct step *step, unsigned group, struct rho_
  * Clears the groups; fates are HELD for valid plots and INVALID for others. Finds the largest noise
  * and time offset of the valid plots.
  */
-static void clear_groups_set_fates_find_largest_noise(struct step *step)
+static void clear_groups_set_fates_find_largest_noise(struct rho_tracker *tracker,
+                                                      struct rho_look *look)
 {
-    struct rho_groups *groups = &step->tracker->bodies.groups;
+    struct rho_groups *groups = &tracker->bodies.groups;
     groups->count = 0;
-    step->sigma_max_m = step->offset_max_s = 0.0f;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        const struct rho_plot *plot = &step->scan->plots[i];
+    look->sigma_max_m = look->offset_max_s = 0.0f;
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        const struct rho_plot *plot = &look->scan->plots[i];
         const float offset_s = (float)plot->offset_us * 1e-6f;
-        const int is_valid = rho_measurement_is_valid_plot(plot, step->scan->measures);
+        const int is_valid = rho_measurement_is_valid_plot(plot, look->scan->measures);
         groups->of[i] = groups->next[i] = groups->owner[i] = RHO_NO_ROW;
         groups->contender[i] = RHO_NO_ROW;
-        step->report->fates[i] = (uint8_t)(is_valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
+        look->fates[i] = (uint8_t)(is_valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (is_valid) {
-            step->sigma_max_m = rho_larger(step->sigma_max_m, rho_plot_sigma_m(plot));
-            step->offset_max_s =
-                rho_larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
+            look->sigma_max_m = rho_larger(look->sigma_max_m, rho_plot_sigma_m(plot));
+            look->offset_max_s =
+                rho_larger(look->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
         }
     }
 }
@@ -448,34 +456,34 @@ static void clear_groups_set_fates_find_largest_noise(struct step *step)
 void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
-    rho_tracker_align_bodies_with_tracks(step);
-    clear_groups_set_fates_find_largest_noise(step);
-    rho_tracker_index_plots(step);
-    rho_tracker_begin_work_phase(step, RHO_WORK_GROUPS_SHARE);
+    rho_tracker_align_bodies_with_tracks(step->tracker);
+    clear_groups_set_fates_find_largest_noise(step->tracker, &step->look);
+    rho_tracker_index_plots(step->tracker, &step->look);
+    rho_tracker_begin_work_phase(step->tracker, &step->work, RHO_WORK_GROUPS_SHARE);
     find_owners_of_plots_and_end_duplicates(step);
-    form_plot_groups(step);
-    step->is_partial |= rho_tracker_is_phase_work_spent(step);
+    form_plot_groups(step->tracker, &step->look, &step->work);
+    step->work.is_partial |= rho_tracker_is_phase_work_spent(&step->work);
     for (unsigned group = 0; group < groups->count; group++) {
-        make_group_plot(step, group, &groups->plots[group]);
+        make_group_plot(&step->look, group, &groups->plots[group]);
     }
-    *grouped = *step->scan;
+    *grouped = *step->look.scan;
     grouped->plots = groups->plots;
     grouped->num_plots = groups->count;
-    step->scan = grouped;
-    step->num_inputs = step->num_gated = groups->count;
-    step->sigma_max_m = step->offset_max_s = 0.0f;
+    step->look.scan = grouped;
+    step->look.num_inputs = step->look.num_gated = groups->count;
+    step->look.sigma_max_m = step->look.offset_max_s = 0.0f;
 }
 
-void rho_tracker_ungroup_plots(struct step *step, const struct rho_scan *scan)
+void rho_tracker_ungroup_plots(struct rho_tracker *tracker, struct rho_look *look,
+                               const struct rho_scan *scan)
 {
-    struct rho_tracker *tracker = step->tracker;
     const struct rho_groups *groups = &tracker->bodies.groups;
-    step->scan = scan;
-    step->num_inputs = scan->num_plots;
-    step->num_gated = step->num_inputs < RHO_MAX_PLOTS ? step->num_inputs : RHO_MAX_PLOTS;
+    look->scan = scan;
+    look->num_inputs = scan->num_plots;
+    look->num_gated = look->num_inputs < RHO_MAX_PLOTS ? look->num_inputs : RHO_MAX_PLOTS;
     /* backwards, as the row of a group is at most that of its plots */
-    for (uint32_t i = step->num_gated; i-- > 0;) {
-        step->report->fates[i] = step->report->fates[groups->of[i]];
+    for (uint32_t i = look->num_gated; i-- > 0;) {
+        look->fates[i] = look->fates[groups->of[i]];
     }
     for (unsigned row = 0; RHO_BODIES && row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];

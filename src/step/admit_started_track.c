@@ -46,21 +46,22 @@ unsigned rho_tracker_copy_candidate_plots(struct rho_window *window,
  * Tentative tracks of low rank give way to new tracks. Rank is the score, or, after coast_scans_max
  * misses in a row, the score's fall from its maximum.
  */
-static int32_t rank_of_tentative_track(const struct step *step, const struct rho_track *track)
+static int32_t rank_of_tentative_track(const struct rho_tracker *tracker,
+                                       const struct rho_track *track)
 {
-    const int hides = track->misses_in_row >= step->tracker->config.coast_scans_max;
+    const int hides = track->misses_in_row >= tracker->config.coast_scans_max;
     return hides ? track->score_mnat - track->score_max_mnat : track->score_mnat;
 }
 
 /* Row of the lowest-ranked tentative track below the score; RHO_MAX_TRACKS: there is none. */
-static unsigned tentative_row_that_gives_way(const struct step *step, int32_t score_mnat)
+static unsigned tentative_row_that_gives_way(const struct rho_tracker *tracker, int32_t score_mnat)
 {
     unsigned lowest = RHO_MAX_TRACKS;
     for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
-        const struct rho_track *track = &step->tracker->tracks[i];
+        const struct rho_track *track = &tracker->tracks[i];
         if (track->status == RHO_TRACK_TENTATIVE &&
-            rank_of_tentative_track(step, track) < score_mnat) {
-            score_mnat = rank_of_tentative_track(step, track);
+            rank_of_tentative_track(tracker, track) < score_mnat) {
+            score_mnat = rank_of_tentative_track(tracker, track);
             lowest = i;
         }
     }
@@ -75,7 +76,7 @@ static int make_room_for_track(struct step *step, int32_t score_mnat)
         return 1;
     }
     tracker->counters.tracks_no_room = rho_count(tracker->counters.tracks_no_room, 1);
-    const unsigned lowest = tentative_row_that_gives_way(step, score_mnat);
+    const unsigned lowest = tentative_row_that_gives_way(tracker, score_mnat);
     if (lowest == RHO_MAX_TRACKS) {
         return 0;
     }
@@ -94,7 +95,7 @@ int rho_tracker_admit_track(struct step *step, struct rho_track *track,
 {
     struct rho_tracker *tracker = step->tracker;
     if (!make_room_for_track(step, track->score_mnat)) {
-        rho_track_free_hypotheses(track, &step->model);
+        rho_track_free_hypotheses(track, &step->look.model);
         return 0;
     }
     if (RHO_MAX_ECHOES > 0) {
@@ -103,7 +104,7 @@ int rho_tracker_admit_track(struct step *step, struct rho_track *track,
     if (RHO_SECTORS) {
         rho_tracker_store_track_time_before_late_scan(track);
     }
-    track->seen_us = step->time_us;
+    track->seen_us = step->look.time_us;
     rho_tracker_apply_thresholds(step, track, limits);
     tracker->tracks[tracker->num_tracks++] = *track;
     tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
@@ -134,8 +135,11 @@ enum rho_status rho_tracker_reopen_finished_step(struct rho_tracker *tracker,
         report->time_us != tracker->time_us) {
         return RHO_ERROR_STATE;
     }
-    *step = (struct step){.tracker = tracker, .report = report, .time_us = tracker->time_us};
-    rho_tracker_set_motion_model(step);
+    *step = (struct step){
+        .tracker = tracker,
+        .report = report,
+        .look = {.tracker = tracker, .fates = report->fates, .time_us = tracker->time_us}};
+    rho_tracker_set_motion_model(tracker, &step->look);
     return RHO_OK;
 }
 
@@ -147,9 +151,9 @@ static enum rho_status resume_step_for_start(struct rho_tracker *tracker, struct
     if (status != RHO_OK) {
         return status;
     }
-    rho_tracker_set_log_pd_of_step(step);
+    rho_tracker_set_log_pd_of_step(&step->look);
     return rho_tracker_is_score_in_range(score_mnat) &&
-                   score_mnat >= rho_tracker_track_limits(step).tentative_mnat
+                   score_mnat >= rho_tracker_track_limits(&step->look).tentative_mnat
                ? RHO_OK
                : RHO_ERROR_VALUE;
 }
@@ -163,7 +167,7 @@ static enum rho_status check_room_for_start(const struct step *step, int32_t sco
     struct rho_tracker *tracker = step->tracker;
     if (tracker->num_tracks < RHO_MAX_TRACKS ||
         (step->report->num_ended < RHO_MAX_TRACKS &&
-         tentative_row_that_gives_way(step, score_mnat) < RHO_MAX_TRACKS)) {
+         tentative_row_that_gives_way(tracker, score_mnat) < RHO_MAX_TRACKS)) {
         return RHO_OK;
     }
     tracker->counters.tracks_no_room = rho_count(tracker->counters.tracks_no_room, 1);
@@ -172,11 +176,11 @@ static enum rho_status check_room_for_start(const struct step *step, int32_t sco
 
 static enum rho_status admit_track_between_steps(struct step *step, struct rho_track *track)
 {
-    const struct rho_track_limits limits = rho_tracker_track_limits(step);
+    const struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
     if (!rho_tracker_admit_track(step, track, &limits)) {
         return RHO_ERROR_CAPACITY;
     }
-    rho_tracker_merge_estimates_per_track(step);
+    rho_tracker_merge_estimates_per_track(step->tracker, &step->look);
     rho_tracker_report_tracks(step);
     return RHO_OK;
 }
@@ -199,19 +203,19 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
     }
     const struct rho_scan scan = {.time_us = tracker->time_us,
                                   .sensor_id = plots[num_plots - 1].sensor_id};
-    step.scan = &scan;
+    step.look.scan = &scan;
     status = check_room_for_start(&step, score_mnat);
     if (status == RHO_OK) {
-        status = rho_track_start(&track, tracker->next_track_id, plots, num_plots, &step.model,
+        status = rho_track_start(&track, tracker->next_track_id, plots, num_plots, &step.look.model,
                                  score_mnat);
     }
     if (status != RHO_OK) {
         return status;
     }
     if (RHO_SECTORS) {
-        const struct rho_tracker_look *look = rho_tracker_look_of(tracker, scan.sensor_id);
-        step.look = look ? look->count : 0;
-        rho_tracker_record_seeing_sensor(&step, &track);
+        const struct rho_tracker_look *health = rho_tracker_look_of(tracker, scan.sensor_id);
+        step.look.count = health ? health->count : 0;
+        rho_tracker_record_seeing_sensor(&step.look, &track);
     }
     return admit_track_between_steps(&step, &track);
 }
@@ -265,17 +269,18 @@ enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
         status = check_room_for_start(&step, score_mnat);
     }
     if (status == RHO_OK) {
-        status = rho_track_start_estimate(&track, tracker->next_track_id, estimate, step.time_us,
-                                          sensor_id, hits, &step.model, score_mnat);
+        status =
+            rho_track_start_estimate(&track, tracker->next_track_id, estimate, step.look.time_us,
+                                     sensor_id, hits, &step.look.model, score_mnat);
     }
     return status == RHO_OK ? admit_track_between_steps(&step, &track) : status;
 }
 
-void rho_tracker_mark_unclaimed_no_room(struct step *step)
+void rho_tracker_mark_unclaimed_no_room(const struct rho_look *look)
 {
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] == RHO_FATE_HELD) {
-            step->report->fates[i] = RHO_FATE_NO_ROOM;
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD) {
+            look->fates[i] = RHO_FATE_NO_ROOM;
         }
     }
 }

@@ -13,11 +13,10 @@
 #define FAST_UPDATES 3   /* successive updates at such speeds that end a track */
 
 /* 1 where the track is surely slower than v_min_mps: it follows a standing object. */
-static int is_too_slow(const struct step *step, const struct rho_track *track)
+static int is_too_slow(const struct rho_tracker *tracker, const struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
-    const float least_mps =
-        step->tracker->config.v_min_mps - SLOW_SIGMAS * rho_track_sigma_mps(track);
+    const float least_mps = tracker->config.v_min_mps - SLOW_SIGMAS * rho_track_sigma_mps(track);
     return least_mps > 0.0f && velocity_mps[0] * velocity_mps[0] +
                                        velocity_mps[1] * velocity_mps[1] +
                                        velocity_mps[2] * velocity_mps[2] <
@@ -25,11 +24,11 @@ static int is_too_slow(const struct step *step, const struct rho_track *track)
 }
 
 /* Counts successive updates that leave a track faster than any target. 1: enough to end it. */
-static int count_too_fast_updates_are_enough_to_end(const struct step *step,
+static int count_too_fast_updates_are_enough_to_end(const struct rho_tracker *tracker,
                                                     struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
-    const float v_max_mps = step->tracker->config.v_max_mps;
+    const float v_max_mps = tracker->config.v_max_mps;
     const float speed2 = velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] +
                          velocity_mps[2] * velocity_mps[2];
     const float most_mps = FAST_SHARE * v_max_mps;
@@ -49,10 +48,11 @@ void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     const int is_unseen = rho_tracker_update_and_test_unobserved(step, track, is_missed, limits) ||
-                          rho_tracker_is_place_too_uncertain(step, track);
-    const int is_fast = count_too_fast_updates_are_enough_to_end(step, track);
+                          rho_tracker_is_place_too_uncertain(step->tracker, track);
+    const int is_fast = count_too_fast_updates_are_enough_to_end(step->tracker, track);
     rho_tracker_apply_thresholds(step, track, limits);
-    if (track->status != RHO_TRACK_FREE && (is_unseen || is_fast || is_too_slow(step, track))) {
+    if (track->status != RHO_TRACK_FREE &&
+        (is_unseen || is_fast || is_too_slow(step->tracker, track))) {
         counters->tracks_unseen = rho_count(counters->tracks_unseen, is_unseen ? 1 : 0);
         counters->tracks_too_fast =
             rho_count(counters->tracks_too_fast, is_fast && !is_unseen ? 1 : 0);
@@ -61,13 +61,13 @@ void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track
 }
 
 /* Counts a miss and lowers the score; hypotheses have taken the miss from their score already. */
-static void apply_miss_to_track(const struct step *step, struct rho_track *track)
+static void apply_miss_to_track(const struct rho_look *look, struct rho_track *track)
 {
     rho_track_count_miss(
         track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
                    ? 0
                    : rho_tracker_nat_to_mnat(
-                         -rho_tracker_log_pd_and_log_miss_of_track(step, track).log_miss));
+                         -rho_tracker_log_pd_and_log_miss_of_track(look, track).log_miss));
 }
 
 void rho_tracker_age(struct step *step)
@@ -76,24 +76,24 @@ void rho_tracker_age(struct step *step)
     if (RHO_MAX_ECHOES > 0) {
         rho_tracker_learn_second_plots_and_end_duplicates(step);
     }
-    const struct rho_track_limits limits = rho_tracker_track_limits(step);
+    const struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
     rho_tracker_fade_track_counts_set_evidence_need(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || rho_tracker_is_track_frozen(track)) {
             continue;
         }
-        int is_missed = track->plot < 0 && rho_tracker_is_track_in_view(step, row) &&
-                        rho_tracker_may_count_miss(step, track);
+        int is_missed = track->plot < 0 && rho_tracker_is_track_in_view(&step->look, row) &&
+                        rho_tracker_may_count_miss(&step->look, track);
         if (is_missed && rho_tracker_is_track_mostly_in_notch(track) && track->was_confirmed) {
             is_missed = 0;
-            rho_tracker_set_blind_track_coasting(step, track);
+            rho_tracker_set_blind_track_coasting(&step->look, track);
         }
         if (is_missed) {
-            apply_miss_to_track(step, track);
+            apply_miss_to_track(&step->look, track);
         }
         if (RHO_SECTORS) {
-            rho_tracker_record_seeing_sensor(step, track);
+            rho_tracker_record_seeing_sensor(&step->look, track);
         }
         rho_tracker_confirm_or_end_track(step, track, is_missed, &limits);
     }

@@ -20,11 +20,11 @@ static inline int is_usable_bearing(const struct rho_bearing *bearing)
  * Number of a scan's bearings that have a place in the report's fates and in the batch.
  *   first  place of the scan's first bearing among all bearings of the frame
  */
-static inline uint32_t num_bearings_with_room_in_fates(const struct step *step,
+static inline uint32_t num_bearings_with_room_in_fates(const struct rho_look *look,
                                                        const struct rho_bearing_scan *scan,
                                                        uint32_t first)
 {
-    const uint32_t room = first < step->num_gated ? step->num_gated - first : 0;
+    const uint32_t room = first < look->num_gated ? look->num_gated - first : 0;
     const uint32_t num = scan->num_bearings < room ? scan->num_bearings : room;
     return num < RHO_MAX_BEARINGS ? num : RHO_MAX_BEARINGS;
 }

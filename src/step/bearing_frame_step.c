@@ -78,7 +78,7 @@ static int is_bearing_covered_else_count_outside(struct step *step, const struct
 static void validate_bearings(struct step *step, uint32_t first, struct look *look)
 {
     look->fates = step->report->fates + (first < RHO_MAX_PLOTS ? first : 0);
-    look->num = num_bearings_with_room_in_fates(step, look->scan, first);
+    look->num = num_bearings_with_room_in_fates(&step->look, look->scan, first);
     for (uint32_t i = 0; i < look->num; i++) {
         look->fates[i] = (uint8_t)(is_usable_bearing(&look->scan->bearings[i]) &&
                                            is_bearing_covered_else_count_outside(step, look, i)
@@ -122,12 +122,12 @@ static int gate_and_score_bearing(const struct step *step, const struct look *lo
     struct rho_bearing bearing = look->scan->bearings[i];
     /* the update by an earlier look of the frame may have moved the track from the frame's time */
     bearing.offset_us = (int32_t)(bearing_time_us(look, i) - track->time_us);
-    rho_tracker_open_track_gate(step, track, 0, &gate);
+    rho_tracker_open_track_gate(&step->look, track, 0, &gate);
     if (!rho_gate_test_bearing(&gate, &bearing, look->scan->x_m, look->scan->y_m, &result)) {
         return 0;
     }
-    *gain_nat =
-        step->log_pd - 0.5f * (LOG_TWO_PI + result.log_det + result.distance2) - look->log_density;
+    *gain_nat = step->look.log_pd - 0.5f * (LOG_TWO_PI + result.log_det + result.distance2) -
+                look->log_density;
     return 1;
 }
 
@@ -138,7 +138,7 @@ static void offer_gated_bearings(struct step *step, const struct look *look, uns
     for (uint32_t i = 0; i < look->num; i++) {
         if (look->fates[i] == RHO_FATE_HELD &&
             gate_and_score_bearing(step, look, &tracker->tracks[row], i, &gain_nat)) {
-            rho_tracker_add_assignment_pair(step, row, i, gain_nat - step->log_miss);
+            rho_tracker_add_assignment_pair(tracker, row, i, gain_nat - step->look.log_miss);
         }
     }
 }
@@ -153,7 +153,7 @@ static void assign_bearings_of_look(struct step *step, const struct look *look)
             offer_gated_bearings(step, look, row);
         }
     }
-    rho_tracker_solve_assignment(step);
+    rho_tracker_solve_assignment(tracker);
 }
 
 static int update_track_by_bearing(struct step *step, const struct look *look,
@@ -171,8 +171,8 @@ static int update_track_by_bearing(struct step *step, const struct look *look,
         .row = (int16_t)i,
     };
     if (!gate_and_score_bearing(step, look, track, i, &gain_nat) ||
-        rho_track_update_bearing(track, &seen, &step->model, rho_tracker_nat_to_mnat(gain_nat)) !=
-            RHO_OK) {
+        rho_track_update_bearing(track, &seen, &step->look.model,
+                                 rho_tracker_nat_to_mnat(gain_nat)) != RHO_OK) {
         step->tracker->counters.updates_refused =
             rho_count(step->tracker->counters.updates_refused, 1);
         return 0;
@@ -196,9 +196,9 @@ static void update_or_penalise_tracks(struct step *step, const struct look *look
              update_track_by_bearing(step, look, track, (uint32_t)bearing))) {
             continue;
         }
-        if (rho_tracker_sector_covers_track_place(step, look->scan->sector_from_rad,
+        if (rho_tracker_sector_covers_track_place(&step->look, look->scan->sector_from_rad,
                                                   look->scan->sector_to_rad, track)) {
-            rho_track_lower_score(track, rho_tracker_nat_to_mnat(-step->log_miss));
+            rho_track_lower_score(track, rho_tracker_nat_to_mnat(-step->look.log_miss));
         }
     }
 }
@@ -219,7 +219,8 @@ static void merge_estimates_per_track(struct step *step)
 {
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         if (!rho_tracker_is_track_frozen(&step->tracker->tracks[i])) {
-            rho_track_merge_estimates(&step->tracker->tracks[i], step->time_us, &step->model);
+            rho_track_merge_estimates(&step->tracker->tracks[i], step->look.time_us,
+                                      &step->look.model);
         }
     }
 }
@@ -248,15 +249,15 @@ static void claim_and_update_look_by_look(struct step *step)
         struct look look = validate_bearings_and_make_look(step, scan, first);
         struct rho_tracker_sensor *row = rho_tracker_hear_sensor(step->tracker, scan->sensor_id);
         if (row) {
-            rho_tracker_update_scan_interval(&row->pace, &look.sensor, step->time_us,
+            rho_tracker_update_scan_interval(&row->pace, &look.sensor, step->look.time_us,
                                              scan->sector_from_rad, scan->sector_to_rad);
         }
-        step->sensor = &look.sensor;
-        rho_tracker_set_log_pd_of_step(step);
+        step->look.sensor = &look.sensor;
+        rho_tracker_set_log_pd_of_step(&step->look);
         assign_bearings_of_look(step, &look);
         update_or_penalise_tracks(step, &look);
         learn_unclaimed_bearing_count(step, &look);
-        step->sensor = 0;
+        step->look.sensor = 0;
         first = rho_count(first, scan->num_bearings);
     }
 }
@@ -267,11 +268,11 @@ static int is_looked_at_by_any_sensor(struct step *step, const struct rho_track 
     for (uint32_t i = 0; i < step->frame->num_scans && !is_seen; i++) {
         const struct rho_bearing_scan *scan = &step->frame->scans[i];
         struct rho_sensor sensor = sensor_of_bearing_scan(step, scan);
-        step->sensor = &sensor;
-        is_seen = rho_tracker_sector_covers_track_place(step, scan->sector_from_rad,
+        step->look.sensor = &sensor;
+        is_seen = rho_tracker_sector_covers_track_place(&step->look, scan->sector_from_rad,
                                                         scan->sector_to_rad, track);
     }
-    step->sensor = 0;
+    step->look.sensor = 0;
     return is_seen;
 }
 
@@ -289,7 +290,7 @@ static void count_misses_and_end_tracks(struct step *step)
             rho_track_count_miss(track, 0);
         }
     }
-    const struct rho_track_limits limits = rho_tracker_track_limits(step);
+    const struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
     rho_tracker_fade_track_counts_set_evidence_need(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
@@ -349,8 +350,8 @@ static void init_bearing_fates_and_default_pd(struct step *step)
     if (looks > tracker->looks_max) {
         tracker->looks_max = (uint16_t)looks;
     }
-    rho_tracker_set_log_pd_of_step(step); /* default pd: the step has no sensor yet */
-    memset(step->report->fates, RHO_FATE_NO_ROOM, step->num_gated);
+    rho_tracker_set_log_pd_of_step(&step->look); /* default pd: the step has no sensor yet */
+    memset(step->report->fates, RHO_FATE_NO_ROOM, step->look.num_gated);
 }
 
 enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_passive *passive,
@@ -377,8 +378,10 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
         .passive = passive,
         .frame = frame,
         .report = report,
-        .time_us = frame->time_us,
-        .num_inputs = count_bearings_of_frame(frame),
+        .look = {.tracker = tracker,
+                 .fates = report->fates,
+                 .time_us = frame->time_us,
+                 .num_inputs = count_bearings_of_frame(frame)},
     };
     if (rho_tracker_begin_step_unless_late(&step)) {
         init_bearing_fates_and_default_pd(&step);

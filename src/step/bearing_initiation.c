@@ -58,7 +58,7 @@ static void mark_ghost_bearings(struct step *step)
     uint32_t first = 0;
     for (uint32_t k = 0; k < step->frame->num_scans; k++) {
         const struct rho_bearing_scan *scan = &step->frame->scans[k];
-        uint32_t num = num_bearings_with_room_in_fates(step, scan, first);
+        uint32_t num = num_bearings_with_room_in_fates(&step->look, scan, first);
         for (uint32_t i = 0; i < num; i++) {
             uint8_t *fate = &step->report->fates[first + i];
             if (*fate == RHO_FATE_HELD && is_ghost_bearing(step, scan, i)) {
@@ -93,7 +93,8 @@ void rho_tracker_copy_frame_for_batch(const struct step *step, struct batch_fram
     held->frame.scans = held->scans;
     for (uint32_t i = 0; i < held->frame.num_scans; i++) {
         held->scans[i] = step->frame->scans[i];
-        held->scans[i].num_bearings = num_bearings_with_room_in_fates(step, &held->scans[i], first);
+        held->scans[i].num_bearings =
+            num_bearings_with_room_in_fates(&step->look, &held->scans[i], first);
         first = rho_count(first, step->frame->scans[i].num_bearings);
     }
     copy_fates_between_report_and_batch(step, held, 0);
@@ -148,9 +149,9 @@ static void start_found_track(struct step *step, const struct rho_passive_track 
     struct rho_kalman estimate;
     struct rho_track track;
     set_estimate_from_found_track(found, &estimate);
-    if (rho_track_start_estimate(&track, tracker->next_track_id, &estimate, step->time_us,
+    if (rho_track_start_estimate(&track, tracker->next_track_id, &estimate, step->look.time_us,
                                  last_sensor_of_found_track(step->passive, found),
-                                 (uint16_t)rho_count_bits(found->scans), &step->model,
+                                 (uint16_t)rho_count_bits(found->scans), &step->look.model,
                                  found->score_mnat) == RHO_OK &&
         rho_tracker_admit_track(step, &track, limits)) {
         tracker->counters.plots_initiated =
@@ -176,7 +177,7 @@ void rho_tracker_initiate_passive(struct step *step)
 {
     struct rho_passive *passive = step->passive;
     if (!RHO_SEARCHES || !passive) {
-        rho_tracker_mark_unclaimed_no_room(step);
+        rho_tracker_mark_unclaimed_no_room(&step->look);
         return;
     }
     push_frame_into_batch(step);
@@ -189,7 +190,7 @@ void rho_tracker_initiate_passive(struct step *step)
     (void)!rho_passive_search(passive);
     step->tracker->counters.candidates_dropped =
         rho_count(step->tracker->counters.candidates_dropped, passive->work.candidates_dropped);
-    struct rho_track_limits limits = rho_tracker_track_limits(step);
+    struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
     limits.confirm_mnat = passive->start_mnat;
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *found = &passive->tracks[i];

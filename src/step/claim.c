@@ -20,32 +20,31 @@
 /* ---- the plots of the scan ------------------------------------------------------------------- */
 
 /* Widens the bounds of plot noise and plot time offset, by which gates size their search boxes. */
-static void widen_noise_and_time_bounds(struct step *step, const struct rho_plot *plot)
+static void widen_noise_and_time_bounds(struct rho_look *look, const struct rho_plot *plot)
 {
     float offset_s = (float)plot->offset_us * 1e-6f;
-    const float factor = rho_measurement_sigma_factor_at_least_one(step->sensor);
-    step->sigma_max_m = rho_larger(step->sigma_max_m, factor * rho_plot_sigma_m(plot));
-    step->offset_max_s = rho_larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
-    if (step->scan->measures & RHO_MEASURES_Z) {
-        step->sigma_max_m = rho_larger(step->sigma_max_m, factor * plot->sigma_up_m);
+    const float factor = rho_measurement_sigma_factor_at_least_one(look->sensor);
+    look->sigma_max_m = rho_larger(look->sigma_max_m, factor * rho_plot_sigma_m(plot));
+    look->offset_max_s = rho_larger(look->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
+    if (look->scan->measures & RHO_MEASURES_Z) {
+        look->sigma_max_m = rho_larger(look->sigma_max_m, factor * plot->sigma_up_m);
     }
 }
 
 /* Sets each plot's fate: INVALID where it is malformed or outside of the coverage, else HELD. */
-static void validate_plots(struct step *step)
+static void validate_plots(struct rho_tracker *tracker, struct rho_look *look)
 {
-    struct rho_tracker *tracker = step->tracker;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        const struct rho_plot *plot = &step->scan->plots[i];
-        int valid = rho_measurement_is_valid_plot(plot, step->scan->measures);
-        if (valid && !rho_tracker_coverage_holds_plot(step->sensor, plot, step->scan->measures)) {
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        const struct rho_plot *plot = &look->scan->plots[i];
+        int valid = rho_measurement_is_valid_plot(plot, look->scan->measures);
+        if (valid && !rho_tracker_coverage_holds_plot(look->sensor, plot, look->scan->measures)) {
             valid = 0;
             tracker->counters.plots_outside = rho_count(tracker->counters.plots_outside, 1);
         }
-        step->report->fates[i] = (uint8_t)(valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
+        look->fates[i] = (uint8_t)(valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (valid) {
             rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);
-            widen_noise_and_time_bounds(step, plot);
+            widen_noise_and_time_bounds(look, plot);
         }
     }
 }
@@ -53,11 +52,11 @@ static void validate_plots(struct step *step)
 /* ---- tracks with a Kalman filter ------------------------------------------------------------- */
 
 /* Opens the Hough gate by the velocities of the track's last two estimates. 0: it has no gate. */
-static int open_hough_gate_by_last_two_velocities(const struct step *step,
+static int open_hough_gate_by_last_two_velocities(const struct rho_tracker *tracker,
                                                   const struct rho_track *track,
                                                   struct rho_gate_hough *hough)
 {
-    const struct rho_tracker_config *config = &step->tracker->config;
+    const struct rho_tracker_config *config = &tracker->config;
     uint8_t planes = config->planes;
     if (!rho_kalman_has_estimate_on_axis(&track->kalman, 2)) {
         planes = RHO_GATE_PLANE_XY;
@@ -70,19 +69,19 @@ static int open_hough_gate_by_last_two_velocities(const struct step *step,
 }
 
 /* The plot's measured velocity, or the one that leads from the track's last update to the plot. */
-static void velocity_implied_by_plot(const struct step *step, const struct rho_track *track,
+static void velocity_implied_by_plot(const struct rho_look *look, const struct rho_track *track,
                                      const struct rho_plot *plot, float velocity_mps[3])
 {
     const float measured_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
     const float place_m[3] = {plot->x_m, plot->y_m, plot->z_m};
-    const int has_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
-    float dt_s = rho_seconds_between(track->updated_us, step->time_us + plot->offset_us);
+    const int has_z = (look->scan->measures & RHO_MEASURES_Z) != 0;
+    float dt_s = rho_seconds_between(track->updated_us, look->time_us + plot->offset_us);
     for (int axis = 0; axis < 3; axis++) {
         velocity_mps[axis] = track->newest_mps[axis];
         if (axis == 2 && !has_z) {
             continue;
         }
-        if (step->scan->measures & RHO_MEASURES_VELOCITY) {
+        if (look->scan->measures & RHO_MEASURES_VELOCITY) {
             velocity_mps[axis] = measured_mps[axis];
         } else if (dt_s > 0.0f) {
             /* the newest velocity leads to the prediction; add the plot's offset from there */
@@ -96,24 +95,24 @@ static void velocity_implied_by_plot(const struct step *step, const struct rho_t
  * miss. The paper orders the plots of one track. Between tracks residuals are compared by their
  * ratio: by differences, a plot that fits no track could displace one that fits.
  */
-static float gain_by_hough_residual(const struct step *step, const struct rho_track *track,
+static float gain_by_hough_residual(const struct rho_look *look, const struct rho_track *track,
                                     const struct rho_gate_hough *hough, const struct rho_plot *plot)
 {
     float velocity_mps[3];
-    velocity_implied_by_plot(step, track, plot, velocity_mps);
+    velocity_implied_by_plot(look, track, plot, velocity_mps);
     return (track->status == RHO_TRACK_TENTATIVE ? HOUGH_TENTATIVE_NAT : HOUGH_CONFIRMED_NAT) *
            (HOUGH_GAIN_MAX -
             rho_log(HOUGH_RESIDUAL_MIN_MPS +
                     rho_gate_hough_velocity_distance_from_lines_mps(hough, velocity_mps)));
 }
 
-static int is_held_plot_in_box(const struct step *step, const struct rho_gate *gate,
+static int is_held_plot_in_box(const struct rho_look *look, const struct rho_gate *gate,
                                const float half_m[2], uint32_t i)
 {
-    const float dx_m = step->scan->plots[i].x_m - gate->predicted.state[0];
-    const float dy_m = step->scan->plots[i].y_m - gate->predicted.state[1];
+    const float dx_m = look->scan->plots[i].x_m - gate->predicted.state[0];
+    const float dy_m = look->scan->plots[i].y_m - gate->predicted.state[1];
     return dx_m <= half_m[0] && dx_m >= -half_m[0] && dy_m <= half_m[1] && dy_m >= -half_m[1] &&
-           step->report->fates[i] == RHO_FATE_HELD;
+           look->fates[i] == RHO_FATE_HELD;
 }
 
 /*
@@ -121,11 +120,11 @@ static int is_held_plot_in_box(const struct step *step, const struct rho_gate *g
  * outside the chi-square gate, as input estimation notices an input at the second plot only. Used
  * with measured velocities alone: by positions alone a far plot fits as well as a near one.
  */
-static void widen_box_for_hough_gate(const struct step *step, const struct rho_track *track,
+static void widen_box_for_hough_gate(const struct rho_look *look, const struct rho_track *track,
                                      float half_m[2])
 {
-    const struct rho_tracker_config *config = &step->tracker->config;
-    const float dt_s = rho_seconds_between(track->updated_us, step->time_us);
+    const struct rho_tracker_config *config = &look->tracker->config;
+    const float dt_s = rho_seconds_between(track->updated_us, look->time_us);
     for (int axis = 0; axis < 2; axis++) {
         half_m[axis] = config->hough_window_m > 0.0f
                            ? rho_larger(half_m[axis], config->hough_window_m)
@@ -133,89 +132,90 @@ static void widen_box_for_hough_gate(const struct step *step, const struct rho_t
     }
 }
 
-static void offer_gated_plots(struct step *step, unsigned row)
+static void offer_gated_plots(struct rho_tracker *tracker, const struct rho_look *look,
+                              struct rho_work *work, unsigned row)
 {
-    struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
     struct rho_gate gate;
     struct rho_gate_hough hough;
     struct rho_gate_result result;
     float half_m[2];
-    const float log_miss = rho_tracker_log_pd_and_log_miss_of_track(step, track).log_miss;
-    const float log_density = rho_tracker_log_clutter_density_at_track(step, track);
-    const int by_hough = open_hough_gate_by_last_two_velocities(step, track, &hough);
-    const int has_window = by_hough && (step->scan->measures & RHO_MEASURES_VELOCITY);
-    rho_tracker_open_track_gate(step, track, step->scan->measures, &gate);
-    rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
+    const float log_miss = rho_tracker_log_pd_and_log_miss_of_track(look, track).log_miss;
+    const float log_density = rho_tracker_log_clutter_density_at_track(look, track);
+    const int by_hough = open_hough_gate_by_last_two_velocities(tracker, track, &hough);
+    const int has_window = by_hough && (look->scan->measures & RHO_MEASURES_VELOCITY);
+    rho_tracker_open_track_gate(look, track, look->scan->measures, &gate);
+    rho_gate_box(&gate, look->sigma_max_m, look->offset_max_s, half_m);
     if (has_window) {
-        widen_box_for_hough_gate(step, track, half_m);
+        widen_box_for_hough_gate(look, track, half_m);
     }
     struct plots_near near = rho_tracker_plots_near(
-        step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
+        tracker, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
         gate.predicted.state[1] - half_m[1], gate.predicted.state[1] + half_m[1]);
     struct plots_near counted = near;
-    struct plot_choice choice = rho_tracker_begin_choice_of_plots_to_score(step, track);
-    for (uint32_t i; choice.most < rho_tracker_max_num_plots_near(step, &near) &&
-                     rho_tracker_next_plot_near(step, &counted, &i);) {
-        if (is_held_plot_in_box(step, &gate, half_m, i)) {
-            rho_tracker_count_plot_in_distance_octave(&choice, track, &step->scan->plots[i]);
+    struct plot_choice choice = rho_tracker_begin_choice_of_plots_to_score(look, work, track);
+    for (uint32_t i; choice.most < rho_tracker_max_num_plots_near(look, &near) &&
+                     rho_tracker_next_plot_near(look, &counted, &i);) {
+        if (is_held_plot_in_box(look, &gate, half_m, i)) {
+            rho_tracker_count_plot_in_distance_octave(&choice, track, &look->scan->plots[i]);
         }
     }
-    rho_tracker_limit_choice_to_nearest_plots(step, &choice);
-    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i);) {
-        const struct rho_plot *plot = &step->scan->plots[i];
-        if (is_held_plot_in_box(step, &gate, half_m, i) &&
-            rho_tracker_spend_score_work_if_plot_chosen(step, &choice, track, plot) &&
+    rho_tracker_limit_choice_to_nearest_plots(work, &choice);
+    for (uint32_t i; rho_tracker_next_plot_near(look, &near, &i);) {
+        const struct rho_plot *plot = &look->scan->plots[i];
+        if (is_held_plot_in_box(look, &gate, half_m, i) &&
+            rho_tracker_spend_score_work_if_plot_chosen(work, &choice, track, plot) &&
             (has_window || rho_gate_test(&gate, plot, &result))) {
             rho_tracker_add_assignment_pair(
-                step, row, i,
-                by_hough ? gain_by_hough_residual(step, track, &hough, plot)
-                         : rho_tracker_score_plot(step, track, &result, log_density, i) - log_miss);
+                tracker, row, i,
+                by_hough ? gain_by_hough_residual(look, track, &hough, plot)
+                         : rho_tracker_score_plot(look, track, &result, log_density, i) - log_miss);
         }
     }
 }
 
 /* ---- tracks with hypotheses ------------------------------------------------------------------ */
 
-static void offer_plots_scored_by_hypotheses(struct step *step, unsigned row)
+static void offer_plots_scored_by_hypotheses(struct rho_tracker *tracker,
+                                             const struct rho_look *look, struct rho_work *work,
+                                             unsigned row)
 {
-    const float log_miss = rho_tracker_log_miss_probability(step, &step->tracker->tracks[row]);
+    const float log_miss = rho_tracker_log_miss_probability(look, &tracker->tracks[row]);
     struct plot_scores scores;
     uint32_t plot;
     float gain_nat;
-    rho_tracker_begin_plot_scores(step, row, &scores);
-    while (rho_tracker_next_plot_score(step, &scores, &plot, &gain_nat)) {
+    rho_tracker_begin_plot_scores(tracker, look, work, row, &scores);
+    while (rho_tracker_next_plot_score(tracker, look, work, &scores, &plot, &gain_nat)) {
         if (gain_nat > log_miss) {
-            rho_tracker_add_assignment_pair(step, row, plot, gain_nat - log_miss);
+            rho_tracker_add_assignment_pair(tracker, row, plot, gain_nat - log_miss);
         }
     }
 }
 
 /* ---- the phase ------------------------------------------------------------------------------- */
 
-void rho_tracker_claim(struct step *step)
+void rho_tracker_claim(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
 {
-    struct rho_tracker *tracker = step->tracker;
-    validate_plots(step);
-    rho_tracker_index_plots(step);
-    if (RHO_CLAIMS_BEYOND && step->first_row > 0) {
-        rho_tracker_measure_density_of_held_plots(step);
+    validate_plots(tracker, look);
+    rho_tracker_index_plots(tracker, look);
+    if (RHO_CLAIMS_BEYOND && look->first_row > 0) {
+        rho_tracker_measure_density_of_held_plots(look);
     } else if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_predict_clutter_at_plots(step);
+        rho_tracker_predict_clutter_at_plots(tracker, look, work);
     }
     /* both counts are within the capacities: nothing to refuse */
-    (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
-    rho_tracker_begin_phase_with_share_per_track(step);
+    (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num_gated);
+    rho_tracker_begin_phase_with_share_per_track(look, work);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         if (tracker->tracks[row].status == RHO_TRACK_FREE ||
-            !rho_tracker_is_track_in_view(step, row)) {
+            !rho_tracker_is_track_in_view(look, row)) {
             continue;
         }
         if (RHO_TRACK_IS_BY(&tracker->tracks[row], RHO_TRACK_HYPOTHESES)) {
-            offer_plots_scored_by_hypotheses(step, row);
+            offer_plots_scored_by_hypotheses(tracker, look, work, row);
         } else {
-            offer_gated_plots(step, row);
+            offer_gated_plots(tracker, look, work, row);
         }
     }
-    rho_tracker_solve_assignment(step);
+    rho_tracker_solve_assignment(tracker);
 }

@@ -22,38 +22,39 @@ static void start_track_from_candidate(struct step *step, const struct rho_candi
     struct rho_tracker *tracker = step->tracker;
     struct rho_track_plot plots[RHO_MAX_SCANS];
     struct rho_track track;
-    unsigned n = rho_tracker_copy_candidate_plots(&step->initiator->window, candidate, plots);
-    if (rho_track_start(&track, tracker->next_track_id, plots, n, &step->model,
+    unsigned n = rho_tracker_copy_candidate_plots(&step->look.initiator->window, candidate, plots);
+    if (rho_track_start(&track, tracker->next_track_id, plots, n, &step->look.model,
                         candidate->score_mnat) != RHO_OK) {
         tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
         return;
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_sum_echo_returns_at_start(step, candidate, &track);
+        rho_tracker_sum_echo_returns_at_start(&step->look, candidate, &track);
     }
     if (RHO_SECTORS) {
-        rho_tracker_record_seeing_sensor(step, &track);
+        rho_tracker_record_seeing_sensor(&step->look, &track);
     }
     if (rho_tracker_admit_track(step, &track, limits)) {
-        tracker->counters.plots_initiated = rho_count(
-            tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
+        tracker->counters.plots_initiated =
+            rho_count(tracker->counters.plots_initiated,
+                      rho_initiator_consume(step->look.initiator, candidate));
         if (RHO_MAX_ECHOES > 0) {
-            rho_tracker_raise_window_clutter_near_start(step, candidate);
+            rho_tracker_raise_window_clutter_near_start(&step->look, &step->work, candidate);
         }
     }
 }
 
 /* Searches for candidates with plots of the newest scan, within the work that the step has left. */
-static void search_newest_scan(struct step *step)
+static void search_newest_scan(const struct rho_look *look, struct rho_work *work)
 {
-    struct rho_initiator *initiator = step->initiator;
+    struct rho_initiator *initiator = look->initiator;
     const struct rho_initiator_budget before = initiator->budget;
     (void)!rho_initiator_search_within(initiator, RHO_SEARCH_NEWEST,
-                                       rho_tracker_work_left_for_search(step));
-    step->work = rho_count(step->work, initiator->budget.work);
-    step->plots_not_tried = rho_count(step->plots_not_tried,
+                                       rho_tracker_work_left_for_search(look, work));
+    work->spent = rho_count(work->spent, initiator->budget.work);
+    work->plots_not_tried = rho_count(work->plots_not_tried,
                                       initiator->budget.plots_not_tried - before.plots_not_tried);
-    step->is_partial |= initiator->budget.partial_steps != before.partial_steps;
+    work->is_partial |= initiator->budget.partial_steps != before.partial_steps;
 }
 
 /*
@@ -62,37 +63,37 @@ static void search_newest_scan(struct step *step)
  */
 static void push_scan_into_window(struct step *step)
 {
-    struct rho_scan held = *step->scan;
+    struct rho_scan held = *step->look.scan;
     struct rho_sensor sensor;
-    held.num_plots = step->num_gated;
-    if (step->sensor) {
-        sensor = *step->sensor;
-        sensor.pd = rho_tracker_pd_over_all_ranges(step);
+    held.num_plots = step->look.num_gated;
+    if (step->look.sensor) {
+        sensor = *step->look.sensor;
+        sensor.pd = rho_tracker_pd_over_all_ranges(&step->look);
     }
-    (void)!rho_initiator_push(step->initiator, &held, step->sensor ? &sensor : 0,
+    (void)!rho_initiator_push(step->look.initiator, &held, step->look.sensor ? &sensor : 0,
                               step->report->fates, &step->tracker->counters.plots_clutter);
 }
 
 static void search_and_start_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_initiator *initiator = step->initiator;
+    struct rho_initiator *initiator = step->look.initiator;
     push_scan_into_window(step);
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_store_echo_ratios_in_window(step);
+        rho_tracker_store_echo_ratios_in_window(&step->look);
     }
-    search_newest_scan(step);
+    search_newest_scan(&step->look, &step->work);
     tracker->counters.candidates_dropped =
         rho_count(tracker->counters.candidates_dropped, initiator->work.candidates_dropped);
     tracker->start_mnat = initiator->start_mnat;
     tracker->confirm_mnat = initiator->confirm_mnat;
     if (RHO_SECTORS) {
-        rho_tracker_merge_sensor_thresholds(step);
+        rho_tracker_merge_sensor_thresholds(tracker, &step->look);
     }
-    const struct rho_track_limits limits = rho_tracker_track_limits(step);
-    rho_tracker_begin_work_phase(step, RHO_WORK_STARTS_SHARE);
+    const struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
+    rho_tracker_begin_work_phase(tracker, &step->work, RHO_WORK_STARTS_SHARE);
     /* a suspect sensor starts no tracks: plots of it alone are no evidence of a target */
-    for (unsigned i = 0; i < initiator->num_candidates && !step->is_suspect; i++) {
+    for (unsigned i = 0; i < initiator->num_candidates && !step->look.is_suspect; i++) {
         if (!is_newest_plot_used(initiator, &initiator->candidates[i])) {
             start_track_from_candidate(step, &initiator->candidates[i], &limits);
         }
@@ -101,13 +102,13 @@ static void search_and_start_tracks(struct step *step)
 
 void rho_tracker_initiate(struct step *step)
 {
-    if (RHO_SEARCHES && step->initiator) {
+    if (RHO_SEARCHES && step->look.initiator) {
         search_and_start_tracks(step);
     } else {
-        rho_tracker_mark_unclaimed_no_room(step);
+        rho_tracker_mark_unclaimed_no_room(&step->look);
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_update_clutter_map(step);
+        rho_tracker_update_clutter_map(step->tracker, &step->look);
     }
-    rho_tracker_smooth_unclaimed_count(step);
+    rho_tracker_smooth_unclaimed_count(step->tracker, &step->look);
 }

@@ -77,9 +77,9 @@ static void rotate_track_variances_to_line_of_sight(const struct rho_measurement
 }
 
 /* Fills the pair of a track without a plot and the old track with its likeliest plot. 0: none. */
-static int find_track_to_share_with(const struct step *step, unsigned row, struct track_pair *pair)
+static int find_track_to_share_with(struct rho_tracker *tracker, const struct rho_look *look,
+                                    unsigned row, struct track_pair *pair)
 {
-    struct rho_tracker *tracker = step->tracker;
     const struct rho_assignment *assignment = &tracker->assignment;
     int32_t least = 0;
     pair->second = &tracker->tracks[row];
@@ -92,31 +92,31 @@ static int find_track_to_share_with(const struct step *step, unsigned row, struc
             pair->plot = offer->column;
             pair->first = &tracker->tracks[owner];
             pair->gain_nat = 0.0f;
-            (void)rho_tracker_find_pair_gain(step, (unsigned)owner, offer->column, &pair->gain_nat);
+            (void)rho_tracker_find_pair_gain(look, (unsigned)owner, offer->column, &pair->gain_nat);
         }
     }
     if (least == 0) {
         return 0;
     }
-    rho_measurement_from_plot(&step->scan->plots[pair->plot], 0, step->sensor, &pair->seen);
+    rho_measurement_from_plot(&look->scan->plots[pair->plot], 0, look->sensor, &pair->seen);
     const float *from = pair->first->kalman.state, *to = pair->second->kalman.state;
     const float half_m[2] = {0.5f * (to[0] - from[0]), 0.5f * (to[1] - from[1])};
     rotate_to_line_of_sight(&pair->seen, half_m, pair->half_m);
-    rho_tracker_unresolved_variances_at_plot(step, &step->scan->plots[pair->plot], &pair->seen,
+    rho_tracker_unresolved_variances_at_plot(look, &look->scan->plots[pair->plot], &pair->seen,
                                              pair->near_m2);
     return 1;
 }
 
 /* Range rate of the second track less that of the first; 0 where the scan measures none. */
-static float predicted_range_rate_of_second_less_first_mps(const struct step *step,
+static float predicted_range_rate_of_second_less_first_mps(const struct rho_look *look,
                                                            const struct track_pair *pair)
 {
-    const int use_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
+    const int use_z = (look->scan->measures & RHO_MEASURES_Z) != 0;
     float row[6], first_mps, second_mps;
-    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE) ||
-        !rho_measurement_predict_range_rate(pair->first->kalman.state, step->sensor, use_z, row,
+    if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE) ||
+        !rho_measurement_predict_range_rate(pair->first->kalman.state, look->sensor, use_z, row,
                                             &first_mps) ||
-        !rho_measurement_predict_range_rate(pair->second->kalman.state, step->sensor, use_z, row,
+        !rho_measurement_predict_range_rate(pair->second->kalman.state, look->sensor, use_z, row,
                                             &second_mps)) {
         return 0.0f;
     }
@@ -127,10 +127,10 @@ static float predicted_range_rate_of_second_less_first_mps(const struct step *st
  * Plot minus the track's predicted position at the plot's own time, along the line of sight and
  * across it. The distance of the two targets is taken as constant meanwhile.
  */
-static void plot_offset_from_track(const struct step *step, const struct track_pair *pair,
+static void plot_offset_from_track(const struct rho_look *look, const struct track_pair *pair,
                                    const struct rho_track *track, float from_m[2])
 {
-    const struct rho_plot *plot = &step->scan->plots[pair->plot];
+    const struct rho_plot *plot = &look->scan->plots[pair->plot];
     const float after_s = (float)plot->offset_us * 1e-6f, *state = track->kalman.state;
     const float place_m[2] = {plot->x_m - state[RHO_X] - after_s * state[RHO_VX],
                               plot->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
@@ -144,22 +144,23 @@ static float unresolved_probability_on_axis(float unresolved_variance, float apa
     return rho_sqrt(unresolved_variance / spread2) * rho_exp(-0.5f * apart * apart / spread2);
 }
 
-static float unresolved_probability_by_range_rate(const struct step *step,
+static float unresolved_probability_by_range_rate(const struct rho_look *look,
                                                   const struct track_pair *pair)
 {
-    const float near_mps2 = rho_tracker_unresolved_range_rate_variance(step->sensor);
+    const float near_mps2 = rho_tracker_unresolved_range_rate_variance(look->sensor);
     const float first_mps = rho_track_sigma_mps(pair->first),
                 second_mps = rho_track_sigma_mps(pair->second);
     return near_mps2 > 0.0f
                ? unresolved_probability_on_axis(
-                     near_mps2, predicted_range_rate_of_second_less_first_mps(step, pair),
+                     near_mps2, predicted_range_rate_of_second_less_first_mps(look, pair),
                      first_mps * first_mps + second_mps * second_mps)
                : 1.0f;
 }
 
 /* Updates the learned resolution cell by a pair; is_one: probability that its plot is merged. */
-static void learn_resolution_cell_from_pair(struct step *step, const struct track_pair *pair,
-                                            const float both_m2[2], float is_one)
+static void learn_resolution_cell_from_pair(const struct rho_look *look,
+                                            const struct track_pair *pair, const float both_m2[2],
+                                            float is_one)
 {
     struct apart apart = {.is_one = is_one};
     for (int axis = 0; axis < 2; axis++) {
@@ -170,19 +171,19 @@ static void learn_resolution_cell_from_pair(struct step *step, const struct trac
         apart.of_one_m2[axis] = kept * (kept * apart_m * apart_m + both_m2[axis]);
         apart.of_two_m2[axis] = apart_m * apart_m + both_m2[axis];
     }
-    rho_tracker_learn_resolution_cell(step, &apart);
+    rho_tracker_learn_resolution_cell(look, &apart);
 }
 
 /*
  * 1 where a merged plot is likelier than a miss of the second target. *gain_nat: the plot's gain
  * for the second track. The pair also updates the learned resolution cell.
  */
-static int test_merged_plot_and_learn_cell(struct step *step, const struct track_pair *pair,
-                                           float *gain_nat)
+static int test_merged_plot_and_learn_cell(const struct rho_look *look,
+                                           const struct track_pair *pair, float *gain_nat)
 {
     float from_m[2], first_m2[2], second_m2[2], both_m2[2];
-    float merged = unresolved_probability_by_range_rate(step, pair), ratio_nat = 0.0f;
-    plot_offset_from_track(step, pair, pair->first, from_m);
+    float merged = unresolved_probability_by_range_rate(look, pair), ratio_nat = 0.0f;
+    plot_offset_from_track(look, pair, pair->first, from_m);
     rotate_track_variances_to_line_of_sight(&pair->seen, pair->first, first_m2);
     rotate_track_variances_to_line_of_sight(&pair->seen, pair->second, second_m2);
     for (int axis = 0; axis < 2; axis++) {
@@ -193,23 +194,23 @@ static int test_merged_plot_and_learn_cell(struct step *step, const struct track
         ratio_nat += half_m * (from_m[axis] - 0.5f * half_m) /
                      (pair->seen.variance_m2[axis] + first_m2[axis]);
     }
-    const float log_miss = rho_tracker_log_pd_and_log_miss_of_track(step, pair->second).log_miss;
+    const float log_miss = rho_tracker_log_pd_and_log_miss_of_track(look, pair->second).log_miss;
     *gain_nat = rho_larger(log_miss, rho_smaller(ratio_nat, GAIN_MAX_NAT));
     const float one = merged * rho_exp(ratio_nat), two = (1.0f - merged) * rho_exp(log_miss);
-    learn_resolution_cell_from_pair(step, pair, both_m2, one / (one + two));
+    learn_resolution_cell_from_pair(look, pair, both_m2, one / (one + two));
     return one > two;
 }
 
 /* Derives a track's own plot from a merged plot and the other track of the pair (top of file). */
-static struct rho_track_plot own_plot_from_merged(const struct step *step,
+static struct rho_track_plot own_plot_from_merged(const struct rho_look *look,
                                                   const struct track_pair *pair,
                                                   const struct rho_track *other)
 {
-    struct rho_track_plot part = rho_tracker_make_track_plot(step, pair->plot);
+    struct rho_track_plot part = rho_tracker_make_track_plot(look, pair->plot);
     const float c = pair->seen.cos_azimuth, s = pair->seen.sin_azimuth;
-    const float half_mps = 0.5f * predicted_range_rate_of_second_less_first_mps(step, pair);
+    const float half_mps = 0.5f * predicted_range_rate_of_second_less_first_mps(look, pair);
     float from_m[2], other_m2[2], farther_m[2], wider[2];
-    plot_offset_from_track(step, pair, other, from_m);
+    plot_offset_from_track(look, pair, other, from_m);
     rotate_track_variances_to_line_of_sight(&pair->seen, other, other_m2);
     for (int axis = 0; axis < 2; axis++) {
         const float noise_m2 =
@@ -229,38 +230,38 @@ static struct rho_track_plot own_plot_from_merged(const struct step *step,
     return part;
 }
 
-static int update_track_by_part_of_merged_plot(struct step *step, struct rho_track *track,
+static int update_track_by_part_of_merged_plot(const struct rho_look *look, struct rho_track *track,
                                                const struct rho_track_plot *part, float gain_nat)
 {
-    if (rho_track_update_by_plot(track, part, &step->model, rho_tracker_nat_to_mnat(gain_nat)) !=
+    if (rho_track_update_by_plot(track, part, &look->model, rho_tracker_nat_to_mnat(gain_nat)) !=
         RHO_OK) {
         return 0;
     }
     /* hypotheses are at the plot's own time: bring the track's estimate to the step's */
-    rho_track_merge_estimates(track, step->time_us, &step->model);
+    rho_track_merge_estimates(track, look->time_us, &look->model);
     return 1;
 }
 
-static void update_pair_by_merged_plot(struct step *step, const struct track_pair *pair,
+static void update_pair_by_merged_plot(const struct rho_look *look, const struct track_pair *pair,
                                        float gain_nat)
 {
     /* the older track gets the gain of an unmerged plot, the newer one that of sharing */
     const int second_is_older = pair->second < pair->first;
-    const struct rho_track_plot of_first = own_plot_from_merged(step, pair, pair->second),
-                                of_second = own_plot_from_merged(step, pair, pair->first);
+    const struct rho_track_plot of_first = own_plot_from_merged(look, pair, pair->second),
+                                of_second = own_plot_from_merged(look, pair, pair->first);
     /* where the second track refuses, the first goes on to take its plot alone */
-    if (update_track_by_part_of_merged_plot(step, pair->second, &of_second,
+    if (update_track_by_part_of_merged_plot(look, pair->second, &of_second,
                                             second_is_older ? pair->gain_nat : gain_nat)) {
-        step->report->fates[pair->plot] = RHO_FATE_CLAIMED;
-        (void)!update_track_by_part_of_merged_plot(step, pair->first, &of_first,
+        look->fates[pair->plot] = RHO_FATE_CLAIMED;
+        (void)!update_track_by_part_of_merged_plot(look, pair->first, &of_first,
                                                    second_is_older ? gain_nat : pair->gain_nat);
     }
 }
 
 /* Teaches the resolution cell by tracks with a plot each: resolved at the plots' distance. */
-static void learn_cell_from_resolved_pairs(struct step *step, unsigned row)
+static void learn_cell_from_resolved_pairs(struct rho_tracker *tracker, const struct rho_look *look,
+                                           unsigned row)
 {
-    struct rho_tracker *tracker = step->tracker;
     const struct rho_assignment *assignment = &tracker->assignment;
     const int own = rho_assignment_column(assignment, row);
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
@@ -270,24 +271,23 @@ static void learn_cell_from_resolved_pairs(struct step *step, unsigned row)
             !was_confirmed_and_is_not_yet_updated(&tracker->tracks[other])) {
             continue;
         }
-        const struct rho_plot *from = &step->scan->plots[own], *to = &step->scan->plots[column];
+        const struct rho_plot *from = &look->scan->plots[own], *to = &look->scan->plots[column];
         const float half_m[2] = {0.5f * (to->x_m - from->x_m), 0.5f * (to->y_m - from->y_m)};
         const float none_m2[2] = {0.0f, 0.0f};
         struct track_pair pair = {.first = &tracker->tracks[row],
                                   .second = &tracker->tracks[other]};
-        rho_measurement_from_plot(from, 0, step->sensor, &pair.seen);
+        rho_measurement_from_plot(from, 0, look->sensor, &pair.seen);
         rotate_to_line_of_sight(&pair.seen, half_m, pair.half_m);
-        rho_tracker_unresolved_variances_at_plot(step, from, &pair.seen, pair.near_m2);
-        learn_resolution_cell_from_pair(step, &pair, none_m2, 0.0f);
+        rho_tracker_unresolved_variances_at_plot(look, from, &pair.seen, pair.near_m2);
+        learn_resolution_cell_from_pair(look, &pair, none_m2, 0.0f);
     }
 }
 
-void rho_tracker_share_merged_plots(struct step *step)
+void rho_tracker_share_merged_plots(struct rho_tracker *tracker, const struct rho_look *look)
 {
-    struct rho_tracker *tracker = step->tracker;
     struct track_pair pair;
     float gain_nat;
-    if (step->has_more_parts) {
+    if (look->has_more_parts) {
         return; /* tracks may still be assigned plots of their own, in later parts of the scan */
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
@@ -298,10 +298,10 @@ void rho_tracker_share_merged_plots(struct step *step)
             continue;
         }
         if (has_own) {
-            learn_cell_from_resolved_pairs(step, row);
-        } else if (find_track_to_share_with(step, row, &pair) &&
-                   test_merged_plot_and_learn_cell(step, &pair, &gain_nat)) {
-            update_pair_by_merged_plot(step, &pair, gain_nat);
+            learn_cell_from_resolved_pairs(tracker, look, row);
+        } else if (find_track_to_share_with(tracker, look, row, &pair) &&
+                   test_merged_plot_and_learn_cell(look, &pair, &gain_nat)) {
+            update_pair_by_merged_plot(look, &pair, gain_nat);
         }
     }
 }

@@ -96,7 +96,7 @@ enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker, uint32_t tra
     rho_tracker_end_track(&step, track);
     rho_tracker_remove_ended_tracks(tracker);
     if (rho_tracker_has_bodies(tracker)) {
-        rho_tracker_align_bodies_with_tracks(&step);
+        rho_tracker_align_bodies_with_tracks(tracker);
     }
     tracker->counters.tracks_dropped = rho_count(tracker->counters.tracks_dropped, 1);
     rho_tracker_report_tracks(&step);
@@ -171,7 +171,7 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
         report->ended[report->num_ended++] = track_id;
     }
     if (rho_tracker_has_bodies(tracker)) {
-        rho_tracker_align_bodies_with_tracks(&step);
+        rho_tracker_align_bodies_with_tracks(tracker);
         tracker->bodies.of[track - tracker->tracks].track_id = new_id;
     }
     track->track_id = new_id;

@@ -69,10 +69,12 @@ static struct step step_from_report(struct rho_tracker *tracker, struct rho_repo
 {
     return (struct step){.tracker = tracker,
                          .report = report,
-                         .time_us = report->time_us,
-                         .num_inputs = report->num_plots,
-                         .num_gated =
-                             report->num_plots < RHO_MAX_PLOTS ? report->num_plots : RHO_MAX_PLOTS};
+                         .look = {.tracker = tracker,
+                                  .fates = report->fates,
+                                  .time_us = report->time_us,
+                                  .num_inputs = report->num_plots,
+                                  .num_gated = report->num_plots < RHO_MAX_PLOTS ? report->num_plots
+                                                                                 : RHO_MAX_PLOTS}};
 }
 
 static int has_stepped(const struct rho_tracker *tracker)
@@ -115,7 +117,7 @@ static enum rho_status push_plots_into_window(struct rho_paper_starts *starts,
     const struct rho_sensor *sensor = rho_tracker_find_sensor(step->tracker, scan->sensor_id);
     struct rho_scan held = *scan;
     uint8_t *fates = step->report->fates;
-    held.num_plots = held.num_plots < step->num_gated ? held.num_plots : step->num_gated;
+    held.num_plots = held.num_plots < step->look.num_gated ? held.num_plots : step->look.num_gated;
     const uint32_t before = count_inputs_with_fate(fates, held.num_plots, RHO_FATE_NO_ROOM);
     mark_no_room_as_held(fates, held.num_plots);
     enum rho_status status = rho_window_push(&starts->window, &held, sensor, fates,

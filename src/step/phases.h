@@ -16,9 +16,9 @@
  */
 int rho_tracker_begin_step_unless_late(struct step *step);
 /* Sets the step's motion model, the filter of new tracks, and the volumes of clutter densities. */
-void rho_tracker_set_motion_model(struct step *step);
+void rho_tracker_set_motion_model(struct rho_tracker *tracker, struct rho_look *look);
 /* Sets step->log_pd and step->log_miss by step->sensor, or by the tracker's default pd. */
-void rho_tracker_set_log_pd_of_step(struct step *step);
+void rho_tracker_set_log_pd_of_step(struct rho_look *look);
 int rho_tracker_is_usable_time(int64_t time_us);
 /* True where a time is before that of the tracker's newest step. */
 int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
@@ -29,10 +29,10 @@ void rho_tracker_predict(struct step *step);
 void rho_tracker_predict_or_end_track(struct step *step, struct rho_track *track);
 
 /* claim.c: gates the plots and assigns them to tracks; changes no track */
-void rho_tracker_claim(struct step *step);
+void rho_tracker_claim(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
 
 /* update.c: tracks take the plots that they were assigned */
-void rho_tracker_update(struct step *step);
+void rho_tracker_update(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
 
 /*
  * age.c: counts misses, confirms and ends tracks; rho_tracker_confirm_or_end_track confirms or ends
@@ -51,7 +51,8 @@ void rho_tracker_initiate_passive(struct step *step);
  * report.c: merges the hypotheses of each track into one estimate at the step's time; reports
  * fates, counters and tracks, or the tracks alone.
  */
-void rho_tracker_merge_estimates_per_track(struct step *step);
+void rho_tracker_merge_estimates_per_track(struct rho_tracker *tracker,
+                                           const struct rho_look *look);
 void rho_tracker_report(struct step *step);
 void rho_tracker_report_tracks(const struct step *step);
 
@@ -62,7 +63,7 @@ void rho_tracker_report_tracks(const struct step *step);
 void rho_tracker_claim_and_update_in_plot_parts(struct step *step);
 
 /* merged_plots.c: pairs of tracks share merged plots, before other tracks take their plots */
-void rho_tracker_share_merged_plots(struct step *step);
+void rho_tracker_share_merged_plots(struct rho_tracker *tracker, const struct rho_look *look);
 
 /* split_bodies.c: a track whose body is surely two targets becomes two tracks */
 void rho_tracker_split_tracks_of_two_targets(struct step *step, const struct rho_scan *scan);
@@ -85,6 +86,6 @@ unsigned rho_tracker_copy_candidate_plots(struct rho_window *window,
                                           const struct rho_candidate *candidate,
                                           struct rho_track_plot *plots);
 /* Without an initiator nothing holds unclaimed plots and bearings: HELD becomes NO_ROOM. */
-void rho_tracker_mark_unclaimed_no_room(struct step *step);
+void rho_tracker_mark_unclaimed_no_room(const struct rho_look *look);
 
 #endif

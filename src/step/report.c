@@ -10,12 +10,12 @@
  * Tracks at another time than the step's are left alone: the scan did not see them, or they started
  * at a plot's own time. The report moves a copy of their estimates.
  */
-void rho_tracker_merge_estimates_per_track(struct step *step)
+void rho_tracker_merge_estimates_per_track(struct rho_tracker *tracker, const struct rho_look *look)
 {
-    for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
-        struct rho_track *track = &step->tracker->tracks[i];
-        if (track->time_us == step->time_us && !rho_tracker_is_track_frozen(track)) {
-            rho_track_merge_estimates(track, step->time_us, &step->model);
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        struct rho_track *track = &tracker->tracks[i];
+        if (track->time_us == look->time_us && !rho_tracker_is_track_frozen(track)) {
+            rho_track_merge_estimates(track, look->time_us, &look->model);
         }
     }
 }
@@ -34,35 +34,35 @@ static void extrapolate_estimate(struct rho_track *at, float dt_s, float noise_d
 
 /* The track itself where it is at the step's time; else a copy, *at, moved to that time. */
 static const struct rho_track *
-track_at_step_time(const struct step *step, const struct rho_track *track, struct rho_track *at)
+track_at_step_time(const struct rho_look *look, const struct rho_track *track, struct rho_track *at)
 {
-    if (track->time_us == step->time_us) {
+    if (track->time_us == look->time_us) {
         return track;
     }
     *at = *track;
     /* a prediction back from a plot's own time adds no noise; neither way can be refused */
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        extrapolate_estimate(at, rho_seconds_between(track->time_us, step->time_us),
-                             step->model.noise_density);
+        extrapolate_estimate(at, rho_seconds_between(track->time_us, look->time_us),
+                             look->model.noise_density);
     } else {
-        (void)!rho_track_predict(at, step->time_us, &step->model);
+        (void)!rho_track_predict(at, look->time_us, &look->model);
     }
     return at;
 }
 
-static void report_track(const struct step *step, const struct rho_track *track,
+static void report_track(const struct rho_look *look, const struct rho_track *track,
                          struct rho_track_report *out)
 {
-    int64_t age_us = step->time_us - track->updated_us;
+    int64_t age_us = look->time_us - track->updated_us;
     struct rho_track moved;
-    const struct rho_track *at = track_at_step_time(step, track, &moved);
+    const struct rho_track *at = track_at_step_time(look, track, &moved);
     *out = (struct rho_track_report){
         .track_id = track->track_id,
         .status = (enum rho_track_status)track->status,
         .hits = track->hits,
         .misses = track->misses,
         .sensor_id = track->sensor_id,
-        .plot = rho_tracker_is_late(step->tracker, step->time_us) ? -1 : track->plot,
+        .plot = rho_tracker_is_late(look->tracker, look->time_us) ? -1 : track->plot,
         .update_age_us = age_us < 0           ? 0
                          : age_us < INT32_MAX ? (int32_t)age_us
                                               : INT32_MAX,
@@ -74,7 +74,7 @@ static void report_track(const struct step *step, const struct rho_track *track,
     };
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         out->num_hypotheses =
-            (uint16_t)rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
+            (uint16_t)rho_hypotheses_count(&look->tracker->hypotheses, track->slot);
     }
     memcpy(out->accel_mps2, at->accel_mps2, sizeof out->accel_mps2);
     memcpy(out->state, at->kalman.state, sizeof out->state);
@@ -89,20 +89,20 @@ static void count_plot_fates(const struct step *step)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     struct rho_report *report = step->report;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
+    for (uint32_t i = 0; i < step->look.num_gated; i++) {
         report->fates_total[report->fates[i]]++;
     }
-    uint32_t others = step->num_inputs - step->num_gated;
+    uint32_t others = step->look.num_inputs - step->look.num_gated;
     if (RHO_CLAIMS_BEYOND) {
         report->fates_total[RHO_FATE_CLAIMED] += step->num_beyond_claimed;
         report->fates_total[RHO_FATE_INVALID] += step->num_beyond_invalid;
         others -= step->num_beyond_claimed + step->num_beyond_invalid;
     }
-    report->fates_total[step->is_late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] += others;
+    report->fates_total[step->look.is_late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] += others;
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
         counters->fates[fate] = rho_count(counters->fates[fate], report->fates_total[fate]);
     }
-    counters->plots_in = rho_count(counters->plots_in, step->num_inputs);
+    counters->plots_in = rho_count(counters->plots_in, step->look.num_inputs);
 }
 
 void rho_tracker_report_tracks(const struct step *step)
@@ -111,7 +111,7 @@ void rho_tracker_report_tracks(const struct step *step)
     tracker->counters.hypotheses_cut = tracker->hypotheses.hypotheses_cut;
     step->report->num_tracks = tracker->num_tracks;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
-        report_track(step, &tracker->tracks[i], &step->report->tracks[i]);
+        report_track(&step->look, &tracker->tracks[i], &step->report->tracks[i]);
     }
 }
 

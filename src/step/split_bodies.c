@@ -24,9 +24,9 @@ struct body_side {
     float vx_mps, vy_mps; /* mean range-rate residual of the plots, as a velocity offset */
 };
 
-static int is_body_too_wide(const struct step *step, unsigned row)
+static int is_body_too_wide(const struct rho_tracker *tracker, unsigned row)
 {
-    const struct rho_bodies *bodies = &step->tracker->bodies;
+    const struct rho_bodies *bodies = &tracker->bodies;
     const float widest_m = WIDEST_SHARE * bodies->length_max_m;
     struct rho_body shape;
     if (bodies->of[row].plots < TOLD_PLOTS ||
@@ -50,48 +50,48 @@ static float separating_value(enum rho_body_split why, const struct body_plot *a
 #define WIDE_APART_SHARE 0.15f /* across the body, over the longest body's length */
 #define RATE_APART_SIGMAS 5.0f /* of range rates, over their sigma */
 
-static float least_separation(const struct step *step, enum rho_body_split why,
+static float least_separation(const struct rho_tracker *tracker, enum rho_body_split why,
                               float rate_sigma_mps)
 {
-    const float longest_m = step->tracker->bodies.length_max_m;
+    const float longest_m = tracker->bodies.length_max_m;
     return why == RHO_BODY_TOO_LONG   ? LONG_APART_SHARE * longest_m
            : why == RHO_BODY_TOO_WIDE ? WIDE_APART_SHARE * longest_m
                                       : RATE_APART_SIGMAS * rate_sigma_mps;
 }
 
 /* Middle between the outermost plots that are in no other track's gate. 0: they are too near. */
-static int find_dividing_value(const struct step *step, const struct rho_scan *scan, unsigned row,
-                               enum rho_body_split why, float *middle)
+static int find_dividing_value(const struct rho_look *look, const struct rho_scan *scan,
+                               unsigned row, enum rho_body_split why, float *middle)
 {
-    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    const struct rho_groups *groups = &look->tracker->bodies.groups;
     float least = 1e30f, most = -1e30f, rate_m2ps2 = 0.0f;
     struct body_plot at;
     for (unsigned i = rho_tracker_first_uncontested_plot(
-             groups, groups->first[step->tracker->tracks[row].plot]);
+             groups, groups->first[look->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
-        (void)!rho_tracker_locate_on_body_is_rate_usable(step, scan, row, i, &at);
+        (void)!rho_tracker_locate_on_body_is_rate_usable(look, scan, row, i, &at);
         least = rho_smaller(least, separating_value(why, &at));
         most = rho_larger(most, separating_value(why, &at));
         rate_m2ps2 = rho_larger(rate_m2ps2, at.rate.variance_m2ps2);
     }
     *middle = 0.5f * (least + most);
-    return most - least > least_separation(step, why, rho_sqrt(rate_m2ps2));
+    return most - least > least_separation(look->tracker, why, rho_sqrt(rate_m2ps2));
 }
 
 /* Sums the track's plots on either side of the middle to means. 0: they do not show two targets. */
-static int divide_plots_into_sides(const struct step *step, const struct rho_scan *scan,
+static int divide_plots_into_sides(const struct rho_look *look, const struct rho_scan *scan,
                                    unsigned row, enum rho_body_split why, struct body_side sides[2])
 {
-    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    const struct rho_groups *groups = &look->tracker->bodies.groups;
     float middle;
     struct body_plot at;
-    if (!find_dividing_value(step, scan, row, why, &middle)) {
+    if (!find_dividing_value(look, scan, row, why, &middle)) {
         return 0;
     }
     for (unsigned i = rho_tracker_first_uncontested_plot(
-             groups, groups->first[step->tracker->tracks[row].plot]);
+             groups, groups->first[look->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
-        (void)!rho_tracker_locate_on_body_is_rate_usable(step, scan, row, i, &at);
+        (void)!rho_tracker_locate_on_body_is_rate_usable(look, scan, row, i, &at);
         struct body_side *side = &sides[separating_value(why, &at) < middle];
         side->plots++;
         side->x_m += at.dx_m;
@@ -110,12 +110,12 @@ static int divide_plots_into_sides(const struct step *step, const struct rho_sca
 }
 
 /* Starts a track at the mean position and velocity of one side's plots. */
-static enum rho_status start_track_from_side(const struct step *step, const struct rho_track *track,
-                                             uint32_t track_id, const struct body_side *side,
-                                             struct rho_track *out)
+static enum rho_status start_track_from_side(const struct rho_look *look,
+                                             const struct rho_track *track, uint32_t track_id,
+                                             const struct body_side *side, struct rho_track *out)
 {
     const float mean_m2 =
-        rho_tracker_prior_place_variance_on_body_m2(step->tracker) / (float)side->plots;
+        rho_tracker_prior_place_variance_on_body_m2(look->tracker) / (float)side->plots;
     struct rho_kalman there = track->kalman;
     there.state[RHO_X] += side->x_m;
     there.state[RHO_Y] += side->y_m;
@@ -126,12 +126,11 @@ static enum rho_status start_track_from_side(const struct step *step, const stru
     there.covariance[RHO_AT(RHO_VX, RHO_VX)] += side->vx_mps * side->vx_mps;
     there.covariance[RHO_AT(RHO_VY, RHO_VY)] += side->vy_mps * side->vy_mps;
     return rho_track_start_estimate(out, track_id, &there, track->time_us, track->sensor_id,
-                                    track->hits, &step->model, track->score_mnat);
+                                    track->hits, &look->model, track->score_mnat);
 }
 
-static void restart_body_filter_at_prior(const struct step *step, unsigned row)
+static void restart_body_filter_at_prior(struct rho_tracker *tracker, unsigned row)
 {
-    struct rho_tracker *tracker = step->tracker;
     struct rho_body_filter *body = &tracker->bodies.of[row];
     rho_body_filter_init(body, tracker->tracks[row].track_id,
                          rho_tracker_prior_place_variance_on_body_m2(tracker));
@@ -145,17 +144,18 @@ static int split_track_in_two(struct step *step, unsigned row, const struct body
     struct rho_track *track = &tracker->tracks[row];
     struct rho_track stays, leaves;
     if (tracker->num_tracks == RHO_MAX_TRACKS ||
-        start_track_from_side(step, track, track->track_id, &sides[0], &stays) != RHO_OK) {
+        start_track_from_side(&step->look, track, track->track_id, &sides[0], &stays) != RHO_OK) {
         return 0;
     }
     const struct rho_track was = *track;
-    rho_track_free_hypotheses(track, &step->model);
+    rho_track_free_hypotheses(track, &step->look.model);
     *track = was;
     track->slot = stays.slot;
     track->kalman = stays.kalman;
     track->input = stays.input;
-    if (start_track_from_side(step, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
-        const struct rho_track_limits limits = rho_tracker_track_limits(step);
+    if (start_track_from_side(&step->look, &was, tracker->next_track_id, &sides[1], &leaves) ==
+        RHO_OK) {
+        const struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
         /* the new track is not established: it may still be an image in a wall (reflectors.h) */
         if (leaves.hits >= RHO_ESTABLISHED_HITS) {
             leaves.hits = RHO_ESTABLISHED_HITS - 1;
@@ -170,22 +170,22 @@ static int split_track_in_two(struct step *step, unsigned row, const struct body
 void rho_tracker_split_tracks_of_two_targets(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
-    for (unsigned row = 0; !step->is_late && row < tracker->bodies.count; row++) {
+    for (unsigned row = 0; !step->look.is_late && row < tracker->bodies.count; row++) {
         const unsigned num_tracks = tracker->num_tracks;
         struct body_side sides[2] = {{0}, {0}};
         if (tracker->tracks[row].plot < 0) {
             continue;
         }
-        rho_tracker_add_body_split_evidence(step, scan, row);
-        const enum rho_body_split why = is_body_too_wide(step, row)
+        rho_tracker_add_body_split_evidence(tracker, &step->look, scan, row);
+        const enum rho_body_split why = is_body_too_wide(tracker, row)
                                             ? RHO_BODY_TOO_WIDE
-                                            : rho_tracker_find_body_split_reason(step, row);
-        if (why != RHO_BODY_ONE && divide_plots_into_sides(step, scan, row, why, sides) &&
+                                            : rho_tracker_find_body_split_reason(tracker, row);
+        if (why != RHO_BODY_ONE && divide_plots_into_sides(&step->look, scan, row, why, sides) &&
             split_track_in_two(step, row, sides)) {
-            restart_body_filter_at_prior(step, row);
+            restart_body_filter_at_prior(tracker, row);
             if (tracker->num_tracks > num_tracks) {
-                rho_tracker_align_bodies_with_tracks(step);
-                restart_body_filter_at_prior(step, num_tracks);
+                rho_tracker_align_bodies_with_tracks(tracker);
+                restart_body_filter_at_prior(tracker, num_tracks);
             }
         }
     }

@@ -35,39 +35,39 @@ static enum rho_status check_step_inputs(const struct rho_tracker *tracker,
 }
 
 /* Sets the step's sensor with its pd, notch and noise, and notes the scan in its history. */
-static void apply_sensor_to_step(struct step *step)
+static void apply_sensor_to_step(struct rho_tracker *tracker, struct rho_look *look)
 {
-    step->row = rho_tracker_hear_sensor(step->tracker, step->scan->sensor_id);
-    if (step->row && step->row < &step->tracker->sensors[step->tracker->num_sensors]) {
-        step->sensor = &step->row->sensor;
-        step->learned = &step->row->learned;
+    look->row = rho_tracker_hear_sensor(tracker, look->scan->sensor_id);
+    if (look->row && look->row < &tracker->sensors[tracker->num_sensors]) {
+        look->sensor = &look->row->sensor;
+        look->learned = &look->row->learned;
     }
-    rho_tracker_set_log_pd_of_step(step);
+    rho_tracker_set_log_pd_of_step(look);
     if (RHO_SECTORS) {
-        rho_tracker_record_look_and_antenna_turning(step);
+        rho_tracker_record_look_and_antenna_turning(tracker, look);
     }
-    if (!step->is_late && step->row) {
-        rho_tracker_update_scan_interval(&step->row->pace, step->sensor, step->time_us,
-                                         step->scan->sector_from_rad, step->scan->sector_to_rad);
+    if (!look->is_late && look->row) {
+        rho_tracker_update_scan_interval(&look->row->pace, look->sensor, look->time_us,
+                                         look->scan->sector_from_rad, look->scan->sector_to_rad);
     }
     if (RHO_DOPPLER_NOTCH) {
-        rho_tracker_apply_learned_notch(step);
+        rho_tracker_apply_learned_notch(look);
     }
     rho_tracker_apply_learned_noise(
-        step, RHO_SECTORS ? rho_tracker_update_suspect_and_sigma_factor(step) : 1.0f);
-    step->log_range_rates -=
-        rho_measurement_log_num_aliases(step->sensor, step->tracker->config.v_max_mps);
-    step->range_rates_mps = rho_exp(step->log_range_rates);
+        look, RHO_SECTORS ? rho_tracker_update_suspect_and_sigma_factor(tracker, look) : 1.0f);
+    look->log_range_rates -=
+        rho_measurement_log_num_aliases(look->sensor, tracker->config.v_max_mps);
+    look->range_rates_mps = rho_exp(look->log_range_rates);
 }
 
 /*
  * An out-of-sequence scan may start tracks where it is the newest one of its initiator: a radar
  * that is always late has an initiator of its own.
  */
-static int may_start_tracks(const struct step *step)
+static int may_start_tracks(const struct rho_look *look)
 {
-    return !step->is_late ||
-           (step->initiator && rho_initiator_accepts(step->initiator, step->time_us));
+    return !look->is_late ||
+           (look->initiator && rho_initiator_accepts(look->initiator, look->time_us));
 }
 
 enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiator *initiator,
@@ -78,56 +78,58 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         return status;
     }
     struct step step = {.tracker = tracker,
-                        .initiator = initiator,
-                        .scan = scan,
                         .report = report,
-                        .time_us = scan->time_us,
-                        .num_inputs = scan->num_plots};
+                        .look = {.tracker = tracker,
+                                 .initiator = initiator,
+                                 .scan = scan,
+                                 .fates = report->fates,
+                                 .time_us = scan->time_us,
+                                 .num_inputs = scan->num_plots}};
     if (rho_tracker_begin_step_unless_late(&step)) {
-        apply_sensor_to_step(&step);
+        apply_sensor_to_step(tracker, &step.look);
         rho_tracker_predict(&step);
-        if (rho_notch_sensor_has_notch(step.sensor)) {
+        if (rho_notch_sensor_has_notch(step.look.sensor)) {
             rho_tracker_set_notch_blind_percents(&step);
         }
         struct rho_scan grouped;
         if (rho_tracker_has_bodies(tracker)) {
             rho_tracker_group_plots(&step, &grouped);
         }
-        if (RHO_CLAIMS_BEYOND && step.num_inputs > RHO_MAX_PLOTS) {
+        if (RHO_CLAIMS_BEYOND && step.look.num_inputs > RHO_MAX_PLOTS) {
             rho_tracker_claim_and_update_in_plot_parts(
                 &step); /* claims and updates, part by part */
         } else {
-            rho_tracker_claim(&step);
-            rho_tracker_update(&step);
+            rho_tracker_claim(tracker, &step.look, &step.work);
+            rho_tracker_update(tracker, &step.look, &step.work);
         }
         rho_tracker_age(&step);
-        if (rho_notch_sensor_has_notch(step.sensor)) {
-            rho_tracker_clear_blind_percents(&step);
+        if (rho_notch_sensor_has_notch(step.look.sensor)) {
+            rho_tracker_clear_blind_percents(tracker);
         }
         const int has_images = RHO_MAX_REFLECTORS > 0 && tracker->num_reflectors > 0;
         if (has_images) {
-            rho_tracker_mark_image_plots_as_ghosts(&step);
+            rho_tracker_mark_image_plots_as_ghosts(&step.look, &step.work);
         }
         if (RHO_MAX_EXCLUDED_AREAS > 0 && tracker->num_excluded > 0) {
-            rho_tracker_mark_excluded_plots_as_ghosts(&step);
+            rho_tracker_mark_excluded_plots_as_ghosts(tracker, &step.look, &step.work);
         }
-        if (may_start_tracks(&step)) {
+        if (may_start_tracks(&step.look)) {
             rho_tracker_initiate(&step);
         } else if (RHO_SECTORS) {
-            rho_tracker_mark_unused_late_plots_stale(&step);
+            rho_tracker_mark_unused_late_plots_stale(&step.look);
         }
-        if (has_images && !step.is_late) {
+        if (has_images && !step.look.is_late) {
             rho_tracker_end_image_tracks(&step);
         }
-        if (RHO_SECTORS && step.is_late) {
+        if (RHO_SECTORS && step.look.is_late) {
             rho_tracker_return_tracks_to_newest_time(&step);
         } else {
-            rho_tracker_merge_estimates_per_track(&step);
+            rho_tracker_merge_estimates_per_track(tracker, &step.look);
         }
         if (rho_tracker_has_bodies(tracker)) {
-            rho_tracker_update_bodies(&step, scan);
+            rho_tracker_update_bodies(tracker, &step.look, scan);
             rho_tracker_split_tracks_of_two_targets(&step, scan);
-            rho_tracker_ungroup_plots(&step, scan);
+            rho_tracker_ungroup_plots(tracker, &step.look, scan);
         }
         rho_tracker_record_work(&step);
     }

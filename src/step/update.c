@@ -8,27 +8,28 @@
 /* ---- tracks with a Kalman filter ------------------------------------------------------------- */
 
 /* The plot's score for the track as it is now, in mnat; 0 where the plot is outside its gate. */
-static int32_t score_plot_in_gate(const struct step *step, const struct rho_track *track,
+static int32_t score_plot_in_gate(const struct rho_look *look, const struct rho_track *track,
                                   uint32_t plot)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
-    rho_tracker_open_track_gate(step, track, step->scan->measures, &gate);
-    if (!rho_gate_test(&gate, &step->scan->plots[plot], &result)) {
+    rho_tracker_open_track_gate(look, track, look->scan->measures, &gate);
+    if (!rho_gate_test(&gate, &look->scan->plots[plot], &result)) {
         return 0;
     }
     return rho_tracker_nat_to_mnat(rho_tracker_score_plot(
-        step, track, &result, rho_tracker_log_clutter_density_at_track(step, track), plot));
+        look, track, &result, rho_tracker_log_clutter_density_at_track(look, track), plot));
 }
 
-static void update_track_by_plot_or_count_refusal(struct step *step, struct rho_track *track,
-                                                  int plot)
+static void update_track_by_plot_or_count_refusal(struct rho_tracker *tracker,
+                                                  const struct rho_look *look,
+                                                  struct rho_track *track, int plot)
 {
-    struct rho_tracker_counters *counters = &step->tracker->counters;
-    const int32_t gain = score_plot_in_gate(step, track, (uint32_t)plot);
-    const struct rho_track_plot seen = rho_tracker_make_track_plot(step, plot);
-    if (rho_track_update_by_plot(track, &seen, &step->model, gain) == RHO_OK) {
-        step->report->fates[plot] = RHO_FATE_CLAIMED;
+    struct rho_tracker_counters *counters = &tracker->counters;
+    const int32_t gain = score_plot_in_gate(look, track, (uint32_t)plot);
+    const struct rho_track_plot seen = rho_tracker_make_track_plot(look, plot);
+    if (rho_track_update_by_plot(track, &seen, &look->model, gain) == RHO_OK) {
+        look->fates[plot] = RHO_FATE_CLAIMED;
     } else {
         counters->updates_refused = rho_count(counters->updates_refused, 1);
     }
@@ -40,11 +41,11 @@ static void update_track_by_plot_or_count_refusal(struct step *step, struct rho_
  * 1 where another track was assigned a plot that a hypothesis of this track has in its full list of
  * best plots. A plot that is not on the list may then be better than the remaining ones.
  */
-static int was_any_plot_of_full_list_taken(const struct step *step, unsigned row)
+static int was_any_plot_of_full_list_taken(const struct rho_tracker *tracker, unsigned row)
 {
-    const struct rho_hypotheses *pool = &step->tracker->hypotheses;
-    const int16_t *claims = step->tracker->assignment.column_row;
-    const uint16_t slot = step->tracker->tracks[row].slot;
+    const struct rho_hypotheses *pool = &tracker->hypotheses;
+    const int16_t *claims = tracker->assignment.column_row;
+    const uint16_t slot = tracker->tracks[row].slot;
     for (unsigned i = 0; i < rho_hypotheses_count(pool, slot); i++) {
         const struct rho_hypothesis *at = rho_hypotheses_at(pool, slot, i);
         for (unsigned k = 0;
@@ -59,13 +60,14 @@ static int was_any_plot_of_full_list_taken(const struct step *step, unsigned row
 }
 
 /* Lists each hypothesis's best plots anew, among plots that no other track was assigned. */
-static void rescore_unassigned_plots(struct step *step, unsigned row)
+static void rescore_unassigned_plots(struct rho_tracker *tracker, const struct rho_look *look,
+                                     struct rho_work *work, unsigned row)
 {
     struct plot_scores scores;
     uint32_t plot;
     float gain_nat;
-    rho_tracker_begin_plot_scores(step, row, &scores);
-    while (rho_tracker_next_plot_score(step, &scores, &plot, &gain_nat)) {
+    rho_tracker_begin_plot_scores(tracker, look, work, row, &scores);
+    while (rho_tracker_next_plot_score(tracker, look, work, &scores, &plot, &gain_nat)) {
     }
 }
 
@@ -73,34 +75,34 @@ static void rescore_unassigned_plots(struct step *step, unsigned row)
  * Hypotheses branch by all plots that no other track was assigned; the plot of the best hypothesis
  * is claimed. As the assignment is optimal, that is the assigned plot or none.
  */
-static void update_hypotheses_of_track(struct step *step, unsigned row)
+static void update_hypotheses_of_track(struct rho_tracker *tracker, const struct rho_look *look,
+                                       struct rho_work *work, unsigned row)
 {
-    struct rho_tracker *tracker = step->tracker;
     struct rho_track *track = &tracker->tracks[row];
     struct rho_assignment *assignment = &tracker->assignment;
     uint32_t refused = tracker->hypotheses.updates_refused;
-    const float log_miss = rho_tracker_log_miss_probability(step, track);
+    const float log_miss = rho_tracker_log_miss_probability(look, track);
     const int assigned = rho_assignment_column(assignment, row);
     const struct rho_hypotheses_scan scan = {
-        .time_us = step->time_us,
-        .measures = step->scan->measures,
-        .plots = step->scan->plots,
-        .sensor = step->sensor,
+        .time_us = look->time_us,
+        .measures = look->scan->measures,
+        .plots = look->scan->plots,
+        .sensor = look->sensor,
         .log_miss = log_miss,
-        .look = RHO_DOPPLER_NOTCH && track->blind_percent > 0 ? &step->notch_look : 0,
+        .look = RHO_DOPPLER_NOTCH && track->blind_percent > 0 ? &look->notch_look : 0,
         .claims = assignment->column_row,
         .own = (int16_t)row,
     };
     if (!(log_miss < 0.0f) && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
         return;
     }
-    if (was_any_plot_of_full_list_taken(step, row)) {
-        rescore_unassigned_plots(step, row);
+    if (was_any_plot_of_full_list_taken(tracker, row)) {
+        rescore_unassigned_plots(tracker, look, work, row);
     } else {
-        rho_tracker_release_work_share_of_one_track(step);
+        rho_tracker_release_work_share_of_one_track(work);
     }
     /* cannot fail: the track has hypotheses */
-    (void)!rho_track_commit_hypotheses_to_scan(track, &scan, step->scan->sensor_id, &step->model);
+    (void)!rho_track_commit_hypotheses_to_scan(track, &scan, look->scan->sensor_id, &look->model);
     refused = tracker->hypotheses.updates_refused - refused;
     tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, refused);
     if (assigned != RHO_ASSIGNMENT_NONE && assigned != track->plot) {
@@ -109,36 +111,35 @@ static void update_hypotheses_of_track(struct step *step, unsigned row)
     }
     if (track->plot >= 0) {
         assignment->column_row[track->plot] = (int16_t)row;
-        step->report->fates[track->plot] = RHO_FATE_CLAIMED;
+        look->fates[track->plot] = RHO_FATE_CLAIMED;
     }
 }
 
 /* ---- the phase ------------------------------------------------------------------------------- */
 
-void rho_tracker_update(struct step *step)
+void rho_tracker_update(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
 {
-    struct rho_tracker *tracker = step->tracker;
     if (RHO_SECTORS) {
-        rho_tracker_update_sensor_health(step);
+        rho_tracker_update_sensor_health(tracker, look);
     }
-    rho_tracker_learn_sensor(step);
-    rho_tracker_begin_phase_with_share_per_track(step);
+    rho_tracker_learn_sensor(tracker, look);
+    rho_tracker_begin_phase_with_share_per_track(look, work);
     if (RHO_SHARES_PLOTS) {
-        rho_tracker_share_merged_plots(step);
+        rho_tracker_share_merged_plots(tracker, look);
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         const int plot = rho_assignment_column(&tracker->assignment, row);
         const int may_wait =
-            RHO_CLAIMS_BEYOND && step->has_more_parts && plot == RHO_ASSIGNMENT_NONE;
+            RHO_CLAIMS_BEYOND && look->has_more_parts && plot == RHO_ASSIGNMENT_NONE;
         if (track->status == RHO_TRACK_FREE || track->plot >= 0 || may_wait ||
-            !rho_tracker_is_track_in_view(step, row)) {
+            !rho_tracker_is_track_in_view(look, row)) {
             continue;
         }
         if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-            update_hypotheses_of_track(step, row);
+            update_hypotheses_of_track(tracker, look, work, row);
         } else if (plot != RHO_ASSIGNMENT_NONE) {
-            update_track_by_plot_or_count_refusal(step, track, plot);
+            update_track_by_plot_or_count_refusal(tracker, look, track, plot);
         }
     }
 }

@@ -32,18 +32,18 @@
 #define BLIND_MAX_S 300.0f
 
 /* Probability that a look at the track is blind, as its range rate lies in the sensor's notch. */
-static float blind_look_probability(const struct step *step, const struct rho_track *track)
+static float blind_look_probability(const struct rho_look *look, const struct rho_track *track)
 {
-    const struct rho_hypotheses *pool = &step->tracker->hypotheses;
+    const struct rho_hypotheses *pool = &look->tracker->hypotheses;
     float sum = 0.0f, shares = 0.0f;
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        return rho_notch_blind_probability(step->sensor, track->kalman.state,
+        return rho_notch_blind_probability(look->sensor, track->kalman.state,
                                            track->kalman.covariance);
     }
     for (unsigned i = 0; i < rho_hypotheses_count(pool, track->slot); i++) {
         const struct rho_hypothesis *at = rho_hypotheses_at(pool, track->slot, i);
         shares += at->share;
-        sum += at->share * rho_imm_blind_probability(&at->imm, step->sensor);
+        sum += at->share * rho_imm_blind_probability(&at->imm, look->sensor);
     }
     return shares > 0.0f ? sum / shares : 0.0f;
 }
@@ -53,61 +53,62 @@ static float blind_look_probability(const struct step *step, const struct rho_tr
  */
 static uint8_t blind_percent_if_may_coast(const struct step *step, const struct rho_track *track)
 {
-    if (rho_seconds_between(track->updated_us, step->time_us) > BLIND_MAX_S ||
+    if (rho_seconds_between(track->updated_us, step->look.time_us) > BLIND_MAX_S ||
         rho_tracker_expected_clutter_in_gate(step, track) > BLIND_CLUTTER_MAX) {
         return 0;
     }
-    const float percent = 100.0f * blind_look_probability(step, track);
+    const float percent = 100.0f * blind_look_probability(&step->look, track);
     return (uint8_t)(percent < BLIND_PERCENT_MOST ? percent : BLIND_PERCENT_MOST);
 }
 
 void rho_tracker_set_notch_blind_percents(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    step->notch_look = (struct rho_notch_look){
-        .pd = rho_exp(step->log_pd),
-        .may_stand = tracker->config.v_min_mps <= step->sensor->notch_mps,
+    step->look.notch_look = (struct rho_notch_look){
+        .pd = rho_exp(step->look.log_pd),
+        .may_stand = tracker->config.v_min_mps <= step->look.sensor->notch_mps,
     };
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->status != RHO_TRACK_FREE && rho_tracker_is_track_in_view(step, row)) {
+        if (track->status != RHO_TRACK_FREE && rho_tracker_is_track_in_view(&step->look, row)) {
             track->blind_percent = blind_percent_if_may_coast(step, track);
         }
     }
 }
 
-void rho_tracker_clear_blind_percents(struct step *step)
+void rho_tracker_clear_blind_percents(struct rho_tracker *tracker)
 {
-    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        step->tracker->tracks[row].blind_percent = 0;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        tracker->tracks[row].blind_percent = 0;
     }
 }
 
-static int may_target_stand_still_in_notch(const struct step *step, const struct rho_track *track)
+static int may_target_stand_still_in_notch(const struct rho_look *look,
+                                           const struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
-    const float most_mps = RHO_NOTCH_STAND_WIDTHS * step->sensor->notch_mps;
+    const float most_mps = RHO_NOTCH_STAND_WIDTHS * look->sensor->notch_mps;
     return rho_tracker_is_track_mostly_in_notch(track) &&
            velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] <=
                most_mps * most_mps;
 }
 
-struct detection rho_tracker_detection_with_notch(const struct step *step,
+struct detection rho_tracker_detection_with_notch(const struct rho_look *look,
                                                   const struct rho_track *track)
 {
     const float blind = 0.01f * (float)track->blind_percent;
     const float seen =
-        rho_exp(rho_tracker_detection_without_notch(step, track).log_pd) * (1.0f - blind);
+        rho_exp(rho_tracker_detection_without_notch(look, track).log_pd) * (1.0f - blind);
     return (struct detection){rho_log(seen + NOTCH_PD * blind),
-                              may_target_stand_still_in_notch(step, track) ? STAND_MISS_NAT
+                              may_target_stand_still_in_notch(look, track) ? STAND_MISS_NAT
                                                                            : rho_log(1.0f - seen)};
 }
 
-void rho_tracker_set_blind_track_coasting(const struct step *step, struct rho_track *track)
+void rho_tracker_set_blind_track_coasting(const struct rho_look *look, struct rho_track *track)
 {
     track->status =
         (uint8_t)rho_track_next_status((enum rho_track_status)track->status, RHO_TRACK_MISS);
-    if (!step->is_late) {
-        track->seen_us = step->time_us;
+    if (!look->is_late) {
+        track->seen_us = look->time_us;
     }
 }

@@ -65,12 +65,12 @@
 
 /* ---- look ------------------------------------------------------------------------------------ */
 
-static float range_max_of_sensor(const struct step *step)
+static float range_max_of_sensor(const struct rho_look *look)
 {
-    if (step->sensor) {
-        return step->sensor->range_max_m;
+    if (look->sensor) {
+        return look->sensor->range_max_m;
     }
-    const struct rho_extent *extent = &step->tracker->extent;
+    const struct rho_extent *extent = &look->tracker->extent;
     const float width_m = rho_extent_width_m(extent, RHO_CLUTTER_SIDE_MIN_M);
     const float height_m = rho_extent_height_m(extent, RHO_CLUTTER_SIDE_MIN_M);
     return 0.5f * rho_sqrt(width_m * width_m + height_m * height_m);
@@ -85,31 +85,31 @@ struct exact_and_other_range_rate_ratios {
 };
 
 /* Normal density of a range rate's deviation, over the density of clutter uniform in all rates. */
-static float normal_over_uniform_rate(const struct step *step, float off_mps, float variance)
+static float normal_over_uniform_rate(const struct rho_look *look, float off_mps, float variance)
 {
     const float share = rho_exp(-0.5f * off_mps * off_mps / variance);
-    return share > 0.0f ? step->range_rates_mps * (share * rho_inverse_sqrt(RHO_TWO_PI * variance))
+    return share > 0.0f ? look->range_rates_mps * (share * rho_inverse_sqrt(RHO_TWO_PI * variance))
                         : 0.0f; /* most plots: exp() has underflowed */
 }
 
-float rho_tracker_range_rate_likelihood_ratio(const struct step *step, float off_mps,
+float rho_tracker_range_rate_likelihood_ratio(const struct rho_look *look, float off_mps,
                                               float variance)
 {
     return 1.0f - RATE_SHARE +
            RATE_SHARE *
-               normal_over_uniform_rate(step, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
+               normal_over_uniform_rate(look, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
 }
 
 static struct exact_and_other_range_rate_ratios
-exact_and_other_range_rate_ratios(const struct step *step, const struct rho_echo *echo,
+exact_and_other_range_rate_ratios(const struct rho_look *look, const struct rho_echo *echo,
                                   const struct echo_view *view, const struct rho_plot *plot)
 {
     const float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + echo->along[2];
     const float off_mps =
         plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
     return (struct exact_and_other_range_rate_ratios){
-        normal_over_uniform_rate(step, off_mps, variance),
-        rho_tracker_range_rate_likelihood_ratio(step, off_mps, variance)};
+        normal_over_uniform_rate(look, off_mps, variance),
+        rho_tracker_range_rate_likelihood_ratio(look, off_mps, variance)};
 }
 
 /* Learned share of echoes' plots that have exactly the range rate of the echo's own speed. */
@@ -120,30 +120,30 @@ static float share_of_exact_rates(const struct rho_clutter_map *map)
 }
 
 /* Likelihood ratio of a plot's range rate, echo against clutter of any rate; 1: not measured. */
-static float echo_rate_likelihood_ratio(const struct step *step, const struct rho_echo *echo,
+static float echo_rate_likelihood_ratio(const struct rho_look *look, const struct rho_echo *echo,
                                         const struct echo_view *view, const struct rho_plot *plot)
 {
-    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
+    if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
     }
     const struct exact_and_other_range_rate_ratios ratios =
-        exact_and_other_range_rate_ratios(step, echo, view, plot);
-    const float share = share_of_exact_rates(&step->tracker->clutter_map);
+        exact_and_other_range_rate_ratios(look, echo, view, plot);
+    const float share = share_of_exact_rates(&look->tracker->clutter_map);
     return share * ratios.exact + (1.0f - share) * ratios.other;
 }
 
 /* Learns from an echo's plot how often range rates are exactly those of the echo's own speed. */
-static void learn_exact_rate_share(struct step *step, const struct rho_echo *echo,
-                                   const struct rho_plot *plot)
+static void learn_exact_rate_share(struct rho_tracker *tracker, const struct rho_look *look,
+                                   const struct rho_echo *echo, const struct rho_plot *plot)
 {
-    struct rho_clutter_map *map = &step->tracker->clutter_map;
-    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
+    struct rho_clutter_map *map = &tracker->clutter_map;
+    if (!(look->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return;
     }
     const struct echo_view view =
-        rho_clutter_map_view_from_sensor(step->sensor, echo->x_m, echo->y_m);
+        rho_clutter_map_view_from_sensor(look->sensor, echo->x_m, echo->y_m);
     const struct exact_and_other_range_rate_ratios ratios =
-        exact_and_other_range_rate_ratios(step, echo, &view, plot);
+        exact_and_other_range_rate_ratios(look, echo, &view, plot);
     const float share = share_of_exact_rates(map);
     const float exact = share * ratios.exact;
     if (map->rate_plots >= RATE_PLOTS_REMEMBERED) {
@@ -155,7 +155,7 @@ static void learn_exact_rate_share(struct step *step, const struct rho_echo *ech
 }
 
 /* Density, at a given plot, of an echo's next plot if the echo returns; 0 outside of its gate. */
-static float echo_density_at(const struct step *step, const struct rho_echo *echo,
+static float echo_density_at(const struct rho_look *look, const struct rho_echo *echo,
                              const struct echo_view *view, const struct rho_plot *plot)
 {
     const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
@@ -168,37 +168,38 @@ static float echo_density_at(const struct step *step, const struct rho_echo *ech
         return 0.0f;
     }
     return rho_exp(-0.5f * chi2) * rho_inverse_sqrt(along_m2 * across_m2) / RHO_TWO_PI *
-           echo_rate_likelihood_ratio(step, echo, view, plot);
+           echo_rate_likelihood_ratio(look, echo, view, plot);
 }
 
-static void add_echo_density_at_plots(struct step *step, unsigned place)
+static void add_echo_density_at_plots(struct rho_tracker *tracker, const struct rho_look *look,
+                                      struct rho_work *work, unsigned place)
 {
-    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    struct rho_clutter_map *map = &tracker->clutter_map;
     struct rho_echo *echo = &map->echoes[place];
     struct echo_view view = {0.0f, 0.0f, 0.0f};
     float probability = -1.0f; /* of the echo's return; < 0: no plot near the echo yet */
-    const float sigma_m = step->sigma_max_m;
+    const float sigma_m = look->sigma_max_m;
     const float half_m =
         GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
-    struct plots_near near = rho_tracker_plots_near(step, echo->x_m - half_m, echo->x_m + half_m,
+    struct plots_near near = rho_tracker_plots_near(tracker, echo->x_m - half_m, echo->x_m + half_m,
                                                     echo->y_m - half_m, echo->y_m + half_m);
     const uint32_t units =
-        ECHO_UNITS + (step->scan->measures & RHO_MEASURES_RANGE_RATE ? RATE_UNITS : 0u);
+        ECHO_UNITS + (look->scan->measures & RHO_MEASURES_RANGE_RATE ? RATE_UNITS : 0u);
     uint32_t passed = 0;
-    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i); passed++) {
-        const struct rho_plot *plot = &step->scan->plots[i];
+    for (uint32_t i; rho_tracker_next_plot_near(look, &near, &i); passed++) {
+        const struct rho_plot *plot = &look->scan->plots[i];
         const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
-            step->report->fates[i] != RHO_FATE_HELD) {
+            look->fates[i] != RHO_FATE_HELD) {
             continue;
         }
         if (probability < 0.0f) {
-            view = rho_clutter_map_view_from_sensor(step->sensor, echo->x_m, echo->y_m);
+            view = rho_clutter_map_view_from_sensor(look->sensor, echo->x_m, echo->y_m);
             probability =
                 rho_clutter_map_return_probability(map, echo->region, echo->hits, echo->unseen);
         }
-        rho_tracker_spend_work(step, units);
-        const float density = probability * echo_density_at(step, echo, &view, plot);
+        rho_tracker_spend_work(work, units);
+        const float density = probability * echo_density_at(look, echo, &view, plot);
         if (!(density > 0.0f)) {
             continue;
         }
@@ -208,23 +209,24 @@ static void add_echo_density_at_plots(struct step *step, unsigned place)
             map->best_echo[i] = (uint16_t)place;
         }
     }
-    rho_tracker_spend_work(step, passed / RHO_WORK_PASSED_A_UNIT);
+    rho_tracker_spend_work(work, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
 /* Clears the echo's results of the last scan. Returns 1 where the new scan covers the echo. */
-static int clear_echo_results_and_test_coverage(const struct step *step, struct rho_echo *echo)
+static int clear_echo_results_and_test_coverage(const struct rho_look *look, struct rho_echo *echo)
 {
-    const struct rho_scan *scan = step->scan;
+    const struct rho_scan *scan = look->scan;
     echo->was_looked_at = 0;
     echo->plot = -1;
     echo->weight = 0.0f;
     return echo->hits > 0 && echo->sensor_id == scan->sensor_id &&
-           rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+           rho_measurement_covers(look->sensor, scan->sector_from_rad, scan->sector_to_rad,
                                   echo->x_m, echo->y_m);
 }
 
 /* Predicts the echo to the scan's time. Returns 0 where it is lost: its place becomes free. */
-static int predict_echo_or_drop_if_lost(struct step *step, struct rho_echo *echo, float range_max_m)
+static int predict_echo_or_drop_if_lost(const struct rho_look *look, struct rho_echo *echo,
+                                        float range_max_m)
 {
     echo->was_looked_at = 1;
     echo->unseen = (uint8_t)(echo->unseen < UINT8_MAX ? echo->unseen + 1 : UINT8_MAX);
@@ -234,9 +236,9 @@ static int predict_echo_or_drop_if_lost(struct step *step, struct rho_echo *echo
     }
     if (echo->region == UINT8_MAX || echo->unseen == 1) {
         echo->region =
-            rho_clutter_map_region_of_place(step->sensor, range_max_m, echo->x_m, echo->y_m);
+            rho_clutter_map_region_of_place(look->sensor, range_max_m, echo->x_m, echo->y_m);
     }
-    rho_clutter_map_predict_echo(echo, step->time_us);
+    rho_clutter_map_predict_echo(echo, look->time_us);
     if (!(echo->along[0] + echo->across[0] < UNKNOWN_SHARE * range_max_m * range_max_m)) {
         echo->hits = 0; /* the echo's place is unknown after a long silence of the sensor */
         return 0;
@@ -248,24 +250,26 @@ static int predict_echo_or_drop_if_lost(struct step *step, struct rho_echo *echo
  * Predicts the echoes that the scan covers, and adds their densities at plots. The next scan begins
  * with the echoes that were left out because the share of work was used up.
  */
-static void predict_echoes_and_add_densities(struct step *step, float range_max_m)
+static void predict_echoes_and_add_densities(struct rho_tracker *tracker,
+                                             const struct rho_look *look, struct rho_work *work,
+                                             float range_max_m)
 {
-    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    struct rho_clutter_map *map = &tracker->clutter_map;
     unsigned place = map->first_echo, left_out = 0;
-    rho_tracker_begin_work_phase(step, RHO_WORK_ECHOES_SHARE);
+    rho_tracker_begin_work_phase(tracker, work, RHO_WORK_ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
-        if (!clear_echo_results_and_test_coverage(step, &map->echoes[place])) {
+        if (!clear_echo_results_and_test_coverage(look, &map->echoes[place])) {
             continue;
         }
-        if (rho_tracker_is_phase_work_spent(step)) {
+        if (rho_tracker_is_phase_work_spent(work)) {
             map->first_echo = (uint16_t)(left_out == 0 ? place : map->first_echo);
             left_out++;
-        } else if (predict_echo_or_drop_if_lost(step, &map->echoes[place], range_max_m)) {
-            add_echo_density_at_plots(step, place);
+        } else if (predict_echo_or_drop_if_lost(look, &map->echoes[place], range_max_m)) {
+            add_echo_density_at_plots(tracker, look, work, place);
         }
     }
-    step->is_partial |= left_out > 0;
-    step->plots_not_tried = rho_count(step->plots_not_tried, left_out);
+    work->is_partial |= left_out > 0;
+    work->plots_not_tried = rho_count(work->plots_not_tried, left_out);
 }
 
 /* ---- strobes --------------------------------------------------------------------------------- */
@@ -276,11 +280,11 @@ struct direction {
     float range_m;
 };
 
-static struct direction azimuth_bin_and_range_of_plot(const struct step *step, uint32_t row)
+static struct direction azimuth_bin_and_range_of_plot(const struct rho_look *look, uint32_t row)
 {
-    const struct rho_plot *plot = &step->scan->plots[row];
+    const struct rho_plot *plot = &look->scan->plots[row];
     const struct echo_view view =
-        rho_clutter_map_view_from_sensor(step->sensor, plot->x_m, plot->y_m);
+        rho_clutter_map_view_from_sensor(look->sensor, plot->x_m, plot->y_m);
     const unsigned bin =
         (unsigned)(rho_clutter_map_azimuth_in_turns(&view) * (float)RHO_ECHO_STROBES);
     return (struct direction){bin < RHO_ECHO_STROBES ? bin : 0, view.range_m};
@@ -294,17 +298,18 @@ static unsigned eighth_of_range(float range_m, float range_max_m)
 }
 
 /* Counts held plots by direction, and marks the ranges that have any. Returns their number. */
-static float count_plots_by_direction_and_in_all(struct step *step, float range_max_m)
+static float count_plots_by_direction_and_in_all(struct rho_tracker *tracker,
+                                                 const struct rho_look *look, float range_max_m)
 {
-    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    struct rho_clutter_map *map = &tracker->clutter_map;
     float plots = 0.0f;
     memset(map->strobe_count, 0, sizeof map->strobe_count);
     memset(map->strobe_ranges, 0, sizeof map->strobe_ranges);
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] != RHO_FATE_HELD) {
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] != RHO_FATE_HELD) {
             continue;
         }
-        const struct direction at = azimuth_bin_and_range_of_plot(step, i);
+        const struct direction at = azimuth_bin_and_range_of_plot(look, i);
         map->strobe_count[at.bin]++;
         map->strobe_ranges[at.bin] |= (uint8_t)(1u << eighth_of_range(at.range_m, range_max_m));
         plots += 1.0f;
@@ -313,12 +318,12 @@ static float count_plots_by_direction_and_in_all(struct step *step, float range_
 }
 
 /* Width of the scan's sector, or of the sensor's stated sector where that is narrower, radians. */
-static float covered_sector_width(const struct step *step)
+static float covered_sector_width(const struct rho_look *look)
 {
     const float scan_rad =
-        rho_angle_sector_width(step->scan->sector_from_rad, step->scan->sector_to_rad);
-    const float sensor_rad = step->sensor ? rho_angle_sector_width(step->sensor->sector_from_rad,
-                                                                   step->sensor->sector_to_rad)
+        rho_angle_sector_width(look->scan->sector_from_rad, look->scan->sector_to_rad);
+    const float sensor_rad = look->sensor ? rho_angle_sector_width(look->sensor->sector_from_rad,
+                                                                   look->sensor->sector_to_rad)
                                           : scan_rad;
     return sensor_rad < scan_rad ? sensor_rad : scan_rad;
 }
@@ -327,10 +332,10 @@ static float covered_sector_width(const struct step *step)
  * Plots per radian and metre of range that a strobe in this direction and the two beside it adds; 0
  * where there is no strobe.
  */
-static float jammer_strobe_excess_density_or_zero(const struct step *step, unsigned bin,
+static float jammer_strobe_excess_density_or_zero(const struct rho_look *look, unsigned bin,
                                                   float plots, float range_max_m)
 {
-    const struct rho_clutter_map *map = &step->tracker->clutter_map;
+    const struct rho_clutter_map *map = &look->tracker->clutter_map;
     const unsigned bins[3] = {bin == 0 ? RHO_ECHO_STROBES - 1u : bin - 1u, bin,
                               bin + 1u == RHO_ECHO_STROBES ? 0 : bin + 1u};
     unsigned count = 0, ranges = 0;
@@ -342,7 +347,7 @@ static float jammer_strobe_excess_density_or_zero(const struct step *step, unsig
         return 0.0f; /* most directions have too few plots for a strobe */
     }
     const float width_rad = 3.0f * RHO_TWO_PI / (float)RHO_ECHO_STROBES;
-    const float others_rad = covered_sector_width(step) - width_rad;
+    const float others_rad = covered_sector_width(look) - width_rad;
     const float usual = others_rad > 0.0f ? (plots - (float)count) * width_rad / others_rad : plots;
     return (float)count > STROBE_PLOTS_MIN + STROBE_TIMES_USUAL * usual &&
                    rho_count_bits(ranges) >= STROBE_RANGES_MIN
@@ -351,15 +356,15 @@ static float jammer_strobe_excess_density_or_zero(const struct step *step, unsig
 }
 
 /* True where the scan has enough plots for a strobe, in enough eighths of the range. */
-static int may_have_strobes(const struct step *step, float range_max_m)
+static int may_have_strobes(const struct rho_look *look, float range_max_m)
 {
     float plots = 0.0f;
     unsigned ranges = 0;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] == RHO_FATE_HELD) {
-            const struct rho_plot *plot = &step->scan->plots[i];
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD) {
+            const struct rho_plot *plot = &look->scan->plots[i];
             const struct echo_view view =
-                rho_clutter_map_view_from_sensor(step->sensor, plot->x_m, plot->y_m);
+                rho_clutter_map_view_from_sensor(look->sensor, plot->x_m, plot->y_m);
             ranges |= 1u << eighth_of_range(view.range_m, range_max_m);
             plots += 1.0f;
         }
@@ -371,22 +376,23 @@ static int may_have_strobes(const struct step *step, float range_max_m)
  * Adds the clutter density of strobes at plots. A jammer's strobe lies in one direction, at all
  * ranges, and is too narrow for the initiator's density map.
  */
-static void add_strobe_densities(struct step *step, float range_max_m)
+static void add_strobe_densities(struct rho_tracker *tracker, const struct rho_look *look,
+                                 float range_max_m)
 {
-    struct rho_clutter_map *map = &step->tracker->clutter_map;
-    if (!may_have_strobes(step, range_max_m)) {
+    struct rho_clutter_map *map = &tracker->clutter_map;
+    if (!may_have_strobes(look, range_max_m)) {
         return;
     }
-    const float plots = count_plots_by_direction_and_in_all(step, range_max_m);
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] != RHO_FATE_HELD) {
+    const float plots = count_plots_by_direction_and_in_all(tracker, look, range_max_m);
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] != RHO_FATE_HELD) {
             continue;
         }
-        const struct direction at = azimuth_bin_and_range_of_plot(step, i);
+        const struct direction at = azimuth_bin_and_range_of_plot(look, i);
         float density = 0.0f;
         for (unsigned k = 0; k < 3; k++) { /* a plot at a strobe's edge may be one bin beside it */
             const float beside = jammer_strobe_excess_density_or_zero(
-                step, (at.bin + RHO_ECHO_STROBES + k - 1u) % RHO_ECHO_STROBES, plots, range_max_m);
+                look, (at.bin + RHO_ECHO_STROBES + k - 1u) % RHO_ECHO_STROBES, plots, range_max_m);
             density = beside > density ? beside : density;
         }
         if (density > 0.0f && at.range_m > 0.0f) {
@@ -401,15 +407,16 @@ static void add_strobe_densities(struct step *step, float range_max_m)
  * Gives each echo the plot of which it explains the largest share, and turns the density of echoes
  * and strobes at each plot into ln of how much denser than the background clutter is there.
  */
-static void match_echoes_and_take_log_ratios(struct step *step)
+static void match_echoes_and_take_log_ratios(struct rho_tracker *tracker,
+                                             const struct rho_look *look)
 {
-    struct rho_clutter_map *map = &step->tracker->clutter_map;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
+    struct rho_clutter_map *map = &tracker->clutter_map;
+    for (uint32_t i = 0; i < look->num_gated; i++) {
         if (!(map->denser[i] > 0.0f)) {
             continue;
         }
-        const struct rho_plot *plot = &step->scan->plots[i];
-        const float density = rho_tracker_background_density_at_plot(step, plot);
+        const struct rho_plot *plot = &look->scan->plots[i];
+        const float density = rho_tracker_background_density_at_plot(look, plot);
         if (map->best_per_m2[i] > 0.0f) {
             struct rho_echo *echo = &map->echoes[map->best_echo[i]];
             const float weight = map->best_per_m2[i] / (density + map->denser[i]);
@@ -422,38 +429,39 @@ static void match_echoes_and_take_log_ratios(struct step *step)
     }
 }
 
-void rho_tracker_predict_clutter_at_plots(struct step *step)
+void rho_tracker_predict_clutter_at_plots(struct rho_tracker *tracker, const struct rho_look *look,
+                                          struct rho_work *work)
 {
-    struct rho_clutter_map *map = &step->tracker->clutter_map;
-    map->is_looked = !step->is_late;
-    if (step->is_late) {
+    struct rho_clutter_map *map = &tracker->clutter_map;
+    map->is_looked = !look->is_late;
+    if (look->is_late) {
         return;
     }
-    map->time_us = step->time_us;
-    memset(map->denser, 0, step->num_gated * sizeof map->denser[0]);
-    memset(map->best_per_m2, 0, step->num_gated * sizeof map->best_per_m2[0]);
-    const float range_max_m = range_max_of_sensor(step);
-    predict_echoes_and_add_densities(step, range_max_m);
-    add_strobe_densities(step, range_max_m);
-    match_echoes_and_take_log_ratios(step);
+    map->time_us = look->time_us;
+    memset(map->denser, 0, look->num_gated * sizeof map->denser[0]);
+    memset(map->best_per_m2, 0, look->num_gated * sizeof map->best_per_m2[0]);
+    const float range_max_m = range_max_of_sensor(look);
+    predict_echoes_and_add_densities(tracker, look, work, range_max_m);
+    add_strobe_densities(tracker, look, range_max_m);
+    match_echoes_and_take_log_ratios(tracker, look);
 }
 
-float rho_tracker_log_echo_over_background_density(const struct step *step, uint32_t row)
+float rho_tracker_log_echo_over_background_density(const struct rho_look *look, uint32_t row)
 {
-    const struct rho_clutter_map *map = &step->tracker->clutter_map;
-    return map->is_looked && step->first_row == 0 ? map->denser[row] : 0.0f;
+    const struct rho_clutter_map *map = &look->tracker->clutter_map;
+    return map->is_looked && look->first_row == 0 ? map->denser[row] : 0.0f;
 }
 
 /* ---- keep ------------------------------------------------------------------------------------ */
 
-void rho_tracker_store_echo_ratios_in_window(struct step *step)
+void rho_tracker_store_echo_ratios_in_window(const struct rho_look *look)
 {
-    struct rho_window *window = &step->initiator->window;
-    const struct rho_clutter_map *map = &step->tracker->clutter_map;
+    struct rho_window *window = &look->initiator->window;
+    const struct rho_clutter_map *map = &look->tracker->clutter_map;
     struct rho_window_scan *scan = rho_window_scan_at(window, window->num_scans - 1u);
     for (unsigned i = 0; i < scan->num_plots && map->is_looked; i++) {
         const unsigned row = scan->marks[i] & RHO_WINDOW_ROW;
-        if (row >= step->num_gated) {
+        if (row >= look->num_gated) {
             continue; /* a plot of an earlier sector has its density ratio already */
         }
         const float repeats = RHO_WINDOW_REPEATS_PER_NAT * map->denser[row] + 0.5f;
@@ -463,10 +471,11 @@ void rho_tracker_store_echo_ratios_in_window(struct step *step)
 
 /* ---- plots of targets ------------------------------------------------------------------------ */
 
-void rho_tracker_sum_echo_returns_at_start(struct step *step, const struct rho_candidate *candidate,
+void rho_tracker_sum_echo_returns_at_start(const struct rho_look *look,
+                                           const struct rho_candidate *candidate,
                                            struct rho_track *track)
 {
-    struct rho_window *window = &step->initiator->window;
+    struct rho_window *window = &look->initiator->window;
     unsigned hits = 0;
     /* the newest scan's plot is counted when the map is updated */
     for (unsigned m = 0; m + 1u < window->num_scans; m++) {
@@ -501,10 +510,10 @@ static int has_left_its_start(const struct rho_track *track)
  * True where a track is of a target: it is as fast as v_min, or, where targets may stand still, it
  * has left its start place once, which is remembered in the track.
  */
-static int moves_as_target(const struct step *step, struct rho_track *track)
+static int moves_as_target(const struct rho_tracker *tracker, struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
-    const float v_min_mps = step->tracker->config.v_min_mps;
+    const float v_min_mps = tracker->config.v_min_mps;
     if (!track->was_confirmed || track->hits < TARGET_HITS) {
         return 0;
     }
@@ -515,14 +524,16 @@ static int moves_as_target(const struct step *step, struct rho_track *track)
                : track->has_moved != 0;
 }
 
-static void subtract_track_returns_from_map_counts(struct step *step, struct rho_track *track)
+static void subtract_track_returns_from_map_counts(struct rho_tracker *tracker,
+                                                   const struct rho_look *look,
+                                                   struct rho_track *track)
 {
     if (track->has_taken_back) {
         return;
     }
     rho_clutter_map_remove_returns(
-        &step->tracker->clutter_map,
-        rho_clutter_map_region_of_place(step->sensor, range_max_of_sensor(step),
+        &tracker->clutter_map,
+        rho_clutter_map_region_of_place(look->sensor, range_max_of_sensor(look),
                                         track->kalman.state[0], track->kalman.state[1]),
         track->returns);
     track->has_taken_back = 1;
@@ -550,21 +561,21 @@ static void add_echo_return_to_track(const struct rho_clutter_map *map, struct r
  * Sets the bits of plots of targets. The returns of such a track are removed from the map once;
  * other tracks fade theirs as the map does, and add the newest.
  */
-static void fade_track_returns_and_mark_target_plots(struct step *step, uint32_t *targets,
+static void fade_track_returns_and_mark_target_plots(struct rho_tracker *tracker,
+                                                     const struct rho_look *look, uint32_t *targets,
                                                      float turn_share)
 {
-    struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
             track->returns[c] *=
                 rho_clutter_map_decay_factor(turn_share); /* as the map's sums fade with time */
         }
-        if (track->plot < 0 || (uint32_t)track->plot >= step->num_gated) {
+        if (track->plot < 0 || (uint32_t)track->plot >= look->num_gated) {
             continue;
         }
-        if (moves_as_target(step, track)) {
-            subtract_track_returns_from_map_counts(step, track);
+        if (moves_as_target(tracker, track)) {
+            subtract_track_returns_from_map_counts(tracker, look, track);
             targets[track->plot / 32] |= 1u << track->plot % 32;
         } else {
             add_echo_return_to_track(&tracker->clutter_map, track);
@@ -577,10 +588,11 @@ static void fade_track_returns_and_mark_target_plots(struct step *step, uint32_t
  * targets may stand still, no echo is updated with a plot of a target. An echo faster than v_min is
  * dropped.
  */
-static void update_map_echoes_and_mark_taken_plots(struct step *step, const uint32_t *targets,
-                                                   uint32_t *taken)
+static void update_map_echoes_and_mark_taken_plots(struct rho_tracker *tracker,
+                                                   const struct rho_look *look,
+                                                   const uint32_t *targets, uint32_t *taken)
 {
-    struct rho_clutter_map *map = &step->tracker->clutter_map;
+    struct rho_clutter_map *map = &tracker->clutter_map;
     const float v_min2 = map->v_min_mps * map->v_min_mps;
     for (unsigned place = 0; place < RHO_ECHO_PLACES; place++) {
         struct rho_echo *echo = &map->echoes[place];
@@ -594,9 +606,9 @@ static void update_map_echoes_and_mark_taken_plots(struct step *step, const uint
         }
         if (is_seen && echo->weight > WEIGHT_MIN && !(by_target && !(v_min2 > 0.0f))) {
             if (!by_target && !echo->is_target) {
-                learn_exact_rate_share(step, echo, &step->scan->plots[echo->plot]);
+                learn_exact_rate_share(tracker, look, echo, &look->scan->plots[echo->plot]);
             }
-            rho_clutter_map_update_echo(echo, step->sensor, &step->scan->plots[echo->plot]);
+            rho_clutter_map_update_echo(echo, look->sensor, &look->scan->plots[echo->plot]);
             echo->is_target |= (uint8_t)by_target;
             taken[echo->plot / 32] |= 1u << echo->plot % 32;
             if (v_min2 > 0.0f && echo->hits >= 3 &&
@@ -608,27 +620,28 @@ static void update_map_echoes_and_mark_taken_plots(struct step *step, const uint
 }
 
 /* True of a valid plot of no echo and, where targets may stand still, of no target's track. */
-static int plot_becomes_echo(const struct step *step, const uint32_t *targets,
+static int plot_becomes_echo(const struct rho_look *look, const uint32_t *targets,
                              const uint32_t *taken, uint32_t row)
 {
-    const int may_stand = !(step->tracker->clutter_map.v_min_mps > 0.0f);
-    return step->report->fates[row] != RHO_FATE_INVALID && !is_row_in_set(taken, row) &&
+    const int may_stand = !(look->tracker->clutter_map.v_min_mps > 0.0f);
+    return look->fates[row] != RHO_FATE_INVALID && !is_row_in_set(taken, row) &&
            !(may_stand && is_row_in_set(targets, row));
 }
 
-static void start_echoes_at_plots_not_taken(struct step *step, const uint32_t *targets,
+static void start_echoes_at_plots_not_taken(struct rho_tracker *tracker,
+                                            const struct rho_look *look, const uint32_t *targets,
                                             const uint32_t *taken)
 {
-    struct rho_clutter_map *map = &step->tracker->clutter_map;
-    const float range_max_m = range_max_of_sensor(step);
+    struct rho_clutter_map *map = &tracker->clutter_map;
+    const float range_max_m = range_max_of_sensor(look);
     uint32_t num = 0;
     unsigned place = 0;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        num += plot_becomes_echo(step, targets, taken, i) ? 1u : 0u;
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        num += plot_becomes_echo(look, targets, taken, i) ? 1u : 0u;
     }
-    rho_clutter_map_free_places(map, num, step->time_us);
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (!plot_becomes_echo(step, targets, taken, i)) {
+    rho_clutter_map_free_places(map, num, look->time_us);
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (!plot_becomes_echo(look, targets, taken, i)) {
             continue;
         }
         while (place < RHO_ECHO_PLACES && map->echoes[place].hits > 0) {
@@ -638,40 +651,40 @@ static void start_echoes_at_plots_not_taken(struct step *step, const uint32_t *t
             map->echoes_dropped = rho_count(map->echoes_dropped, 1);
             continue;
         }
-        const struct rho_plot *plot = &step->scan->plots[i];
+        const struct rho_plot *plot = &look->scan->plots[i];
         struct rho_echo *echo = &map->echoes[place];
-        rho_clutter_map_start_echo(map, echo, step->scan->sensor_id, step->time_us, plot);
+        rho_clutter_map_start_echo(map, echo, look->scan->sensor_id, look->time_us, plot);
         echo->is_target = (uint8_t)is_row_in_set(targets, i);
         echo->region =
-            rho_clutter_map_region_of_place(step->sensor, range_max_m, plot->x_m, plot->y_m);
+            rho_clutter_map_region_of_place(look->sensor, range_max_m, plot->x_m, plot->y_m);
     }
 }
 
 /* Share of this scan in one turn of all sensors that are not silent. */
-static float scan_share_of_turn_of_all_sensors(const struct step *step)
+static float scan_share_of_turn_of_all_sensors(const struct rho_look *look)
 {
-    const struct rho_tracker *tracker = step->tracker;
+    const struct rho_tracker *tracker = look->tracker;
     float sensors = 0.0f;
     for (unsigned i = 0; i < tracker->num_rows; i++) {
         const struct rho_tracker_pace *pace = &tracker->sensors[i].pace;
-        const float silent_s = rho_seconds_between(pace->time_us, step->time_us);
+        const float silent_s = rho_seconds_between(pace->time_us, look->time_us);
         sensors += pace->is_heard && silent_s < SILENT_S ? 1.0f : 0.0f;
     }
-    return 1.0f / ((RHO_SECTORS ? rho_tracker_scans_per_turn(step) : 1.0f) *
+    return 1.0f / ((RHO_SECTORS ? rho_tracker_scans_per_turn(look) : 1.0f) *
                    (sensors > 1.0f ? sensors : 1.0f));
 }
 
-void rho_tracker_update_clutter_map(struct step *step)
+void rho_tracker_update_clutter_map(struct rho_tracker *tracker, const struct rho_look *look)
 {
     uint32_t targets[(RHO_MAX_PLOTS + 31) / 32] = {0}, taken[(RHO_MAX_PLOTS + 31) / 32] = {0};
-    if (!step->tracker->clutter_map.is_looked) {
+    if (!tracker->clutter_map.is_looked) {
         return;
     }
-    const float share = scan_share_of_turn_of_all_sensors(step);
-    fade_track_returns_and_mark_target_plots(step, targets, share);
-    update_map_echoes_and_mark_taken_plots(step, targets, taken);
-    start_echoes_at_plots_not_taken(step, targets, taken);
-    rho_clutter_map_age_counts(&step->tracker->clutter_map, share);
+    const float share = scan_share_of_turn_of_all_sensors(look);
+    fade_track_returns_and_mark_target_plots(tracker, look, targets, share);
+    update_map_echoes_and_mark_taken_plots(tracker, look, targets, taken);
+    start_echoes_at_plots_not_taken(tracker, look, targets, taken);
+    rho_clutter_map_age_counts(&tracker->clutter_map, share);
 }
 
 /* ---- the object ------------------------------------------------------------------------------ */

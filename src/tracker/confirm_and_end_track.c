@@ -29,7 +29,7 @@ void rho_tracker_end_track(struct step *step, struct rho_track *track)
     if (track->was_confirmed) {
         report->ended[report->num_ended++] = track->track_id;
     }
-    rho_track_free_hypotheses(track, &step->model);
+    rho_track_free_hypotheses(track, &step->look.model);
     track->status = RHO_TRACK_FREE;
     step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
 }
@@ -55,24 +55,24 @@ void rho_tracker_remove_ended_tracks(struct rho_tracker *tracker)
  * Largest loss of score by one miss, of all sensors. With the loss of the scan's own sensor alone,
  * a scan of a sensor with a low pd would lower the limit for the misses of a better one.
  */
-static float largest_miss_loss_of_sensors(const struct step *step)
+static float largest_miss_loss_of_sensors(const struct rho_look *look)
 {
-    float loss = -step->log_miss;
-    for (unsigned i = 0; i < step->tracker->num_sensors; i++) {
-        float other = -rho_log(1.0f - step->tracker->sensors[i].sensor.pd);
+    float loss = -look->log_miss;
+    for (unsigned i = 0; i < look->tracker->num_sensors; i++) {
+        float other = -rho_log(1.0f - look->tracker->sensors[i].sensor.pd);
         loss = other > loss ? other : loss;
     }
     return loss;
 }
 
-struct rho_track_limits rho_tracker_track_limits(const struct step *step)
+struct rho_track_limits rho_tracker_track_limits(const struct rho_look *look)
 {
-    const struct rho_tracker *tracker = step->tracker;
+    const struct rho_tracker *tracker = look->tracker;
     struct rho_track_limits limits = {
         .confirm_mnat = tracker->confirm_mnat,
         .doubt_mnat = LIFETIME_MNAT * (int32_t)tracker->looks_max,
         .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
-        .fall_mnat = rho_tracker_nat_to_mnat(largest_miss_loss_of_sensors(step) *
+        .fall_mnat = rho_tracker_nat_to_mnat(largest_miss_loss_of_sensors(look) *
                                              (float)tracker->config.coast_scans_max *
                                              (float)tracker->looks_max),
         .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
@@ -114,7 +114,7 @@ void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
     if (is_late || rho_tracker_lacks_evidence(step, track)) {
         own.doubt_mnat = 0;
     }
-    rho_tracker_count_if_newly_established(step, track);
+    rho_tracker_count_if_newly_established(step->tracker, track);
     if (rho_track_apply_thresholds(track, &own) == RHO_TRACK_FREE) {
         rho_tracker_count_if_ended_early(step, track);
         rho_tracker_end_track(step, track);

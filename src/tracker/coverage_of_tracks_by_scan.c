@@ -56,20 +56,20 @@ int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struc
 }
 
 /* True where the scan or the sensor covers a sector instead of the full circle. */
-static int covers_less_than_full_circle(const struct step *step)
+static int covers_less_than_full_circle(const struct rho_look *look)
 {
-    const struct rho_scan *scan = step->scan;
-    const struct rho_sensor *sensor = step->sensor;
+    const struct rho_scan *scan = look->scan;
+    const struct rho_sensor *sensor = look->sensor;
 
     return !rho_angle_is_circle(scan->sector_from_rad, scan->sector_to_rad) ||
            (sensor && !rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad));
 }
 
-static int is_near_scan_and_sensor_sectors(const struct step *step, float azimuth_rad,
+static int is_near_scan_and_sensor_sectors(const struct rho_look *look, float azimuth_rad,
                                            float margin_rad)
 {
-    const struct rho_scan *scan = step->scan;
-    const struct rho_sensor *sensor = step->sensor;
+    const struct rho_scan *scan = look->scan;
+    const struct rho_sensor *sensor = look->sensor;
 
     return is_near_sector(azimuth_rad, scan->sector_from_rad, scan->sector_to_rad, margin_rad) &&
            (!sensor || is_near_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad,
@@ -82,55 +82,55 @@ int rho_tracker_coverage_holds_bearing(const struct rho_sensor *sensor, float be
     return is_near_sector(bearing_rad, sensor->sector_from_rad, sensor->sector_to_rad, margin_rad);
 }
 
-int rho_tracker_may_scan_see_track(const struct step *step, const struct rho_track *track)
+int rho_tracker_may_scan_see_track(const struct rho_look *look, const struct rho_track *track)
 {
-    const struct rho_sensor *sensor = step->sensor;
+    const struct rho_sensor *sensor = look->sensor;
     const float *state = track->kalman.state;
     float dt_s, dx_m, dy_m, range_m, margin_m;
 
-    if (!sensor && !covers_less_than_full_circle(step)) {
+    if (!sensor && !covers_less_than_full_circle(look)) {
         return 1;
     }
-    dt_s = rho_seconds_between(track->time_us, step->time_us);
+    dt_s = rho_seconds_between(track->time_us, look->time_us);
     dx_m = state[0] + state[3] * dt_s - (sensor ? sensor->x_m : 0.0f);
     dy_m = state[1] + state[4] * dt_s - (sensor ? sensor->y_m : 0.0f);
     range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     if (sensor && range_m <= sensor->range_max_m && range_m >= sensor->range_min_m &&
-        !covers_less_than_full_circle(step)) {
+        !covers_less_than_full_circle(look)) {
         return 1;
     }
     dt_s = dt_s < 0.0f ? -dt_s : dt_s; /* the track's estimate may be newer than the scan */
     margin_m = MARGIN_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
-               step->tracker->config.accel_max_mps2 * dt_s * dt_s + MARGIN_SHARE * range_m;
+               look->tracker->config.accel_max_mps2 * dt_s * dt_s + MARGIN_SHARE * range_m;
     if (sensor &&
         (range_m - margin_m > sensor->range_max_m || range_m + margin_m < sensor->range_min_m)) {
         return 0;
     }
-    if (!(margin_m < range_m) || !covers_less_than_full_circle(step)) {
+    if (!(margin_m < range_m) || !covers_less_than_full_circle(look)) {
         return 1; /* plots of a track within the margin of the sensor may be in any direction */
     }
     /* upper bound of the angle that the margin subtends: asin(x) <= x pi / 2 for x in 0 .. 1 */
-    return is_near_scan_and_sensor_sectors(step, rho_atan2(dy_m, dx_m),
+    return is_near_scan_and_sensor_sectors(look, rho_atan2(dy_m, dx_m),
                                            margin_m / range_m * (0.5f * RHO_PI));
 }
 
-int rho_tracker_is_track_in_view(const struct step *step, unsigned row)
+int rho_tracker_is_track_in_view(const struct rho_look *look, unsigned row)
 {
-    return (step->in_view[row / 32] >> row % 32 & 1u) != 0;
+    return (look->in_view[row / 32] >> row % 32 & 1u) != 0;
 }
 
-int rho_tracker_sector_covers_track_place(const struct step *step, float sector_from_rad,
+int rho_tracker_sector_covers_track_place(const struct rho_look *look, float sector_from_rad,
                                           float sector_to_rad, const struct rho_track *track)
 {
-    return rho_measurement_covers(step->sensor, sector_from_rad, sector_to_rad,
+    return rho_measurement_covers(look->sensor, sector_from_rad, sector_to_rad,
                                   track->kalman.state[0], track->kalman.state[1]);
 }
 
-int rho_tracker_may_count_miss(const struct step *step, const struct rho_track *track)
+int rho_tracker_may_count_miss(const struct rho_look *look, const struct rho_track *track)
 {
     if (RHO_SECTORS) {
-        return !step->is_suspect && rho_tracker_has_antenna_passed_gate(step, track);
+        return !look->is_suspect && rho_tracker_has_antenna_passed_gate(look, track);
     }
-    return rho_tracker_sector_covers_track_place(step, step->scan->sector_from_rad,
-                                                 step->scan->sector_to_rad, track);
+    return rho_tracker_sector_covers_track_place(look, look->scan->sector_from_rad,
+                                                 look->scan->sector_to_rad, track);
 }

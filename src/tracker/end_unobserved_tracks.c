@@ -118,12 +118,12 @@ static int is_among_last_seeing_sensors(const struct rho_track *track, int32_t s
            (RHO_SECTORS && rho_tracker_is_among_last_two_sensors(track, sensor_id));
 }
 
-static struct expected_looks expected_look_interval_and_rate_at_track(const struct step *step,
+static struct expected_looks expected_look_interval_and_rate_at_track(const struct rho_look *look,
                                                                       const struct rho_track *track)
 {
-    const struct rho_tracker *tracker = step->tracker;
+    const struct rho_tracker *tracker = look->tracker;
     const float *state = track->kalman.state;
-    const float dt_s = rho_seconds_between(track->time_us, step->time_us);
+    const float dt_s = rho_seconds_between(track->time_us, look->time_us);
     const float x_m = state[0] + state[3] * dt_s, y_m = state[1] + state[4] * dt_s;
     struct expected_looks wait = {0, track->seen_every_s, 0.0f};
     for (unsigned i = 0; i < tracker->num_rows; i++) {
@@ -186,15 +186,15 @@ static void lower_score_to_tentative(struct rho_track *track, const struct rho_t
 int rho_tracker_update_and_test_unobserved(const struct step *step, struct rho_track *track,
                                            int is_missed, const struct rho_track_limits *limits)
 {
-    if (step->is_late) {
-        if (track->plot >= 0 && step->time_us > track->seen_us) {
-            track->seen_us = step->time_us;
+    if (step->look.is_late) {
+        if (track->plot >= 0 && step->look.time_us > track->seen_us) {
+            track->seen_us = step->look.time_us;
         }
         return 0;
     }
-    const struct expected_looks wait = expected_look_interval_and_rate_at_track(step, track);
+    const struct expected_looks wait = expected_look_interval_and_rate_at_track(&step->look, track);
     const float coast = (float)step->tracker->config.coast_scans_max;
-    const float unseen_s = rho_seconds_between(track->seen_us, step->time_us);
+    const float unseen_s = rho_seconds_between(track->seen_us, step->look.time_us);
     const int is_overdue =
         wait.interval_s > 0.0f && unseen_s >= (coast + OVERDUE) * wait.interval_s;
     if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
@@ -203,7 +203,7 @@ int rho_tracker_update_and_test_unobserved(const struct step *step, struct rho_t
         lower_score_to_tentative(track, limits);
     }
     if (track->plot >= 0) {
-        smooth_hit_interval(track, step->time_us);
+        smooth_hit_interval(track, step->look.time_us);
         return 0;
     }
     if (!wait.is_awaited && wait.scans_per_s > 0.0f) {
@@ -218,8 +218,9 @@ int rho_tracker_update_and_test_unobserved(const struct step *step, struct rho_t
 
 /* ---- places ---------------------------------------------------------------------------------- */
 
-int rho_tracker_is_place_too_uncertain(const struct step *step, const struct rho_track *track)
+int rho_tracker_is_place_too_uncertain(const struct rho_tracker *tracker,
+                                       const struct rho_track *track)
 {
-    const struct rho_sensor *sensor = rho_tracker_find_sensor(step->tracker, track->sensor_id);
+    const struct rho_sensor *sensor = rho_tracker_find_sensor(tracker, track->sensor_id);
     return sensor && rho_track_sigma_m(track) > UNKNOWN_SHARE * sensor->range_max_m;
 }

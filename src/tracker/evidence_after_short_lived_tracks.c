@@ -90,20 +90,20 @@ void rho_tracker_fade_track_counts_set_evidence_need(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (!(tracker->ended_early + tracker->established > 0.0f)) {
-        tracker->counted_us = step->time_us; /* no track was counted yet: nothing to fade */
-    } else if (step->time_us > tracker->counted_us) {
+        tracker->counted_us = step->look.time_us; /* no track was counted yet: nothing to fade */
+    } else if (step->look.time_us > tracker->counted_us) {
         const float kept =
-            rho_exp(-rho_seconds_between(tracker->counted_us, step->time_us) / MEMORY_S);
+            rho_exp(-rho_seconds_between(tracker->counted_us, step->look.time_us) / MEMORY_S);
         tracker->ended_early *= kept;
         tracker->established *= kept;
         tracker->straight_s *= kept;
         tracker->turning_s *= kept;
         rho_tracker_learn_manoeuvre_interval(
-            step, rho_seconds_between(tracker->counted_us, step->time_us));
-        tracker->counted_us = step->time_us;
+            tracker, &step->look, rho_seconds_between(tracker->counted_us, step->look.time_us));
+        tracker->counted_us = step->look.time_us;
     }
-    if (step->initiator) {
-        tracker->wanted_per_hour = step->initiator->config.false_tracks_per_hour;
+    if (step->look.initiator) {
+        tracker->wanted_per_hour = step->look.initiator->config.false_tracks_per_hour;
     }
     float sensors = 0.0f;
     for (unsigned i = 0; i < tracker->num_rows; i++) {
@@ -128,10 +128,11 @@ int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *
            evidence_of_target(step, track) < step->needed_nat;
 }
 
-void rho_tracker_count_if_newly_established(struct step *step, const struct rho_track *track)
+void rho_tracker_count_if_newly_established(struct rho_tracker *tracker,
+                                            const struct rho_track *track)
 {
     if (track->hits == RHO_ESTABLISHED_HITS && track->plot >= 0) {
-        step->tracker->established += 1.0f;
+        tracker->established += 1.0f;
     }
 }
 

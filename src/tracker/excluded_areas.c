@@ -75,10 +75,10 @@ int rho_tracker_has_sound_excluded_areas(const struct rho_tracker *tracker)
     return i == num;
 }
 
-int rho_tracker_is_in_excluded_area(const struct step *step, uint32_t plot)
+int rho_tracker_is_in_excluded_area(const struct rho_look *look, uint32_t plot)
 {
-    const struct rho_tracker *tracker = step->tracker;
-    const struct rho_plot *at = &step->scan->plots[plot];
+    const struct rho_tracker *tracker = look->tracker;
+    const struct rho_plot *at = &look->scan->plots[plot];
     unsigned k = 0;
     while (k < tracker->num_excluded && !area_contains(&tracker->excluded[k], at->x_m, at->y_m)) {
         k++;
@@ -86,13 +86,13 @@ int rho_tracker_is_in_excluded_area(const struct step *step, uint32_t plot)
     return k < tracker->num_excluded;
 }
 
-void rho_tracker_mark_excluded_plots_as_ghosts(struct step *step)
+void rho_tracker_mark_excluded_plots_as_ghosts(struct rho_tracker *tracker,
+                                               const struct rho_look *look, struct rho_work *work)
 {
-    struct rho_tracker *tracker = step->tracker;
-    rho_tracker_spend_work(step, step->num_gated * tracker->num_excluded / COMPARED_A_UNIT);
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] == RHO_FATE_HELD && rho_tracker_is_in_excluded_area(step, i)) {
-            step->report->fates[i] = RHO_FATE_GHOST;
+    rho_tracker_spend_work(work, look->num_gated * tracker->num_excluded / COMPARED_A_UNIT);
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD && rho_tracker_is_in_excluded_area(look, i)) {
+            look->fates[i] = RHO_FATE_GHOST;
             tracker->counters.plots_excluded = rho_count(tracker->counters.plots_excluded, 1);
         }
     }

@@ -18,11 +18,11 @@
 /* Radius of the circle that stands for a track's gate, standard deviations of the track's place. */
 #define GATE_SIGMAS 3.0f
 
-float rho_tracker_background_density(const struct step *step, float x_m, float y_m)
+float rho_tracker_background_density(const struct rho_look *look, float x_m, float y_m)
 {
-    const struct rho_tracker *tracker = step->tracker;
-    if (step->initiator) {
-        float density = rho_initiator_density(step->initiator, step->scan->sensor_id, x_m, y_m);
+    const struct rho_tracker *tracker = look->tracker;
+    if (look->initiator) {
+        float density = rho_initiator_density(look->initiator, look->scan->sensor_id, x_m, y_m);
         if (density > 0.0f) {
             return density;
         }
@@ -31,27 +31,28 @@ float rho_tracker_background_density(const struct step *step, float x_m, float y
     return (tracker->unclaimed_plots > 1.0f ? tracker->unclaimed_plots : 1.0f) / area_m2;
 }
 
-float rho_tracker_background_density_at_plot(const struct step *step, const struct rho_plot *plot)
+float rho_tracker_background_density_at_plot(const struct rho_look *look,
+                                             const struct rho_plot *plot)
 {
-    const float density = rho_tracker_background_density(step, plot->x_m, plot->y_m);
+    const float density = rho_tracker_background_density(look, plot->x_m, plot->y_m);
     return density > DENSITY_MIN ? density : DENSITY_MIN;
 }
 
-static float background_density_for_plots_part(const struct step *step, float x_m, float y_m)
+static float background_density_for_plots_part(const struct rho_look *look, float x_m, float y_m)
 {
-    float density = rho_tracker_background_density(step, x_m, y_m);
-    if (RHO_CLAIMS_BEYOND && step->part_share > 0.0f) {
-        density *= step->part_share;
-        density = step->part_per_m2 > density ? step->part_per_m2 : density;
+    float density = rho_tracker_background_density(look, x_m, y_m);
+    if (RHO_CLAIMS_BEYOND && look->part_share > 0.0f) {
+        density *= look->part_share;
+        density = look->part_per_m2 > density ? look->part_per_m2 : density;
     }
     return density;
 }
 
-float rho_tracker_log_clutter_density_at_track(const struct step *step,
+float rho_tracker_log_clutter_density_at_track(const struct rho_look *look,
                                                const struct rho_track *track)
 {
     return rho_log(
-        background_density_for_plots_part(step, track->kalman.state[0], track->kalman.state[1]));
+        background_density_for_plots_part(look, track->kalman.state[0], track->kalman.state[1]));
 }
 
 float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct rho_track *track)
@@ -61,7 +62,8 @@ float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct
     }
     const float sigma_m = rho_track_sigma_m(track);
     return 0.5f * RHO_TWO_PI * GATE_SIGMAS * GATE_SIGMAS * sigma_m * sigma_m *
-           background_density_for_plots_part(step, track->kalman.state[0], track->kalman.state[1]);
+           background_density_for_plots_part(&step->look, track->kalman.state[0],
+                                             track->kalman.state[1]);
 }
 
 /*
@@ -69,13 +71,13 @@ float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct
  * a later part is that of its held plots over their extent, or that of the first part times the
  * scan's plots over RHO_MAX_PLOTS, whichever is larger.
  */
-void rho_tracker_measure_density_of_held_plots(struct step *step)
+void rho_tracker_measure_density_of_held_plots(struct rho_look *look)
 {
     struct rho_extent extent = {0.0f, 0.0f, 0.0f, 0.0f};
     float num = 0.0f;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] == RHO_FATE_HELD) {
-            const struct rho_plot *plot = &step->scan->plots[i];
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD) {
+            const struct rho_plot *plot = &look->scan->plots[i];
             if (num < 1.0f) {
                 extent = (struct rho_extent){plot->x_m, plot->x_m, plot->y_m, plot->y_m};
             }
@@ -83,8 +85,8 @@ void rho_tracker_measure_density_of_held_plots(struct step *step)
             num += 1.0f;
         }
     }
-    step->part_per_m2 = num / rho_extent_area_m2(&extent, RHO_CLUTTER_SIDE_MIN_M);
-    step->part_share = (float)step->num_inputs / (float)RHO_MAX_PLOTS;
+    look->part_per_m2 = num / rho_extent_area_m2(&extent, RHO_CLUTTER_SIDE_MIN_M);
+    look->part_share = (float)look->num_inputs / (float)RHO_MAX_PLOTS;
 }
 
 void rho_tracker_smooth_mean(float *mean, float newest)
@@ -92,13 +94,13 @@ void rho_tracker_smooth_mean(float *mean, float newest)
     *mean += CLUTTER_SMOOTHING * (newest - *mean);
 }
 
-void rho_tracker_smooth_unclaimed_count(struct step *step)
+void rho_tracker_smooth_unclaimed_count(struct rho_tracker *tracker, const struct rho_look *look)
 {
     float unclaimed = 0.0f;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        uint8_t fate = step->report->fates[i];
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        uint8_t fate = look->fates[i];
         unclaimed += fate == RHO_FATE_HELD || fate == RHO_FATE_NO_ROOM ? 1.0f : 0.0f;
     }
-    rho_tracker_smooth_mean(&step->tracker->unclaimed_plots,
-                            unclaimed * (RHO_SECTORS ? rho_tracker_scans_per_turn(step) : 1.0f));
+    rho_tracker_smooth_mean(&tracker->unclaimed_plots,
+                            unclaimed * (RHO_SECTORS ? rho_tracker_scans_per_turn(look) : 1.0f));
 }

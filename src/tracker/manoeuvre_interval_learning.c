@@ -39,10 +39,10 @@ void rho_tracker_reset_manoeuvre_interval_after_silence(struct rho_tracker *trac
     }
 }
 
-void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s)
+void rho_tracker_learn_manoeuvre_interval(struct rho_tracker *tracker, const struct rho_look *look,
+                                          float dt_s)
 {
-    struct rho_tracker *tracker = step->tracker;
-    if (!RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) || !step->model.hypotheses || dt_s > LOOKED_S) {
+    if (!RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) || !look->model.hypotheses || dt_s > LOOKED_S) {
         return;
     }
     for (unsigned i = 0; i < tracker->num_tracks; i++) {

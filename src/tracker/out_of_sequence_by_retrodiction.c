@@ -18,19 +18,19 @@ int rho_tracker_is_late_max_usable(const struct rho_tracker_config *config)
     return rho_is_within(config->late_max_s, 0.0f, LATE_LIMIT_S);
 }
 
-int rho_tracker_accepts_late_scan(const struct step *step)
+int rho_tracker_accepts_late_scan(const struct rho_look *look)
 {
-    const struct rho_tracker *tracker = step->tracker;
-    const struct rho_tracker_look *look =
-        step->scan ? rho_tracker_look_of(tracker, step->scan->sensor_id) : 0;
-    const int is_double = look && look->count > 0 && look->time_us == step->time_us;
-    return step->scan && !is_double &&
-           rho_seconds_between(step->time_us, tracker->time_us) <= tracker->config.late_max_s;
+    const struct rho_tracker *tracker = look->tracker;
+    const struct rho_tracker_look *health =
+        look->scan ? rho_tracker_look_of(tracker, look->scan->sensor_id) : 0;
+    const int is_double = health && health->count > 0 && health->time_us == look->time_us;
+    return look->scan && !is_double &&
+           rho_seconds_between(look->time_us, tracker->time_us) <= tracker->config.late_max_s;
 }
 
-void rho_tracker_count_late_scan(struct step *step)
+void rho_tracker_count_late_scan(struct rho_tracker *tracker)
 {
-    struct rho_tracker_counters *counters = &step->tracker->counters;
+    struct rho_tracker_counters *counters = &tracker->counters;
     counters->scans_retrodicted = rho_count(counters->scans_retrodicted, 1);
 }
 
@@ -48,27 +48,27 @@ int rho_tracker_is_sound_stored_track_time(const struct rho_track *track)
  * Moves a track that an out-of-sequence scan moved back to its time before; other tracks stay.
  * Merges its estimates. Returns 0 where the filter refuses the move.
  */
-static int return_track_to_newest_time(struct step *step, struct rho_track *track)
+static int return_track_to_newest_time(const struct rho_look *look, struct rho_track *track)
 {
     const int was_ahead = track->ahead_us > track->time_us;
-    if (!was_ahead && track->time_us != step->time_us) {
+    if (!was_ahead && track->time_us != look->time_us) {
         return 1;
     }
     if (was_ahead && rho_track_return_to_time_it_was_moved_from(track, track->ahead_us,
-                                                                &step->model) != RHO_OK) {
+                                                                &look->model) != RHO_OK) {
         return 0;
     }
     if (!rho_tracker_is_track_frozen(track)) {
-        rho_track_merge_estimates(track, track->time_us, &step->model);
+        rho_track_merge_estimates(track, track->time_us, &look->model);
     }
     return 1;
 }
 
-void rho_tracker_mark_unused_late_plots_stale(struct step *step)
+void rho_tracker_mark_unused_late_plots_stale(const struct rho_look *look)
 {
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] == RHO_FATE_HELD) {
-            step->report->fates[i] = RHO_FATE_STALE;
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD) {
+            look->fates[i] = RHO_FATE_STALE;
         }
     }
 }
@@ -78,12 +78,12 @@ void rho_tracker_return_tracks_to_newest_time(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
-        if (!return_track_to_newest_time(step, &tracker->tracks[i])) {
+        if (!return_track_to_newest_time(&step->look, &tracker->tracks[i])) {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
             rho_tracker_end_track(step, &tracker->tracks[i]);
         }
     }
     rho_tracker_remove_ended_tracks(tracker);
-    step->time_us = tracker->time_us;
-    step->report->time_us = step->time_us;
+    step->look.time_us = tracker->time_us;
+    step->report->time_us = step->look.time_us;
 }

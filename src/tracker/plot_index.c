@@ -23,12 +23,12 @@ static unsigned strip_of_x(const struct rho_tracker_strips *strips, float x_m)
 }
 
 /* Lays the strips over the extent in x of the held plots. */
-static void lay_strips(struct rho_tracker_strips *strips, const struct step *step)
+static void lay_strips(const struct rho_look *look, struct rho_tracker_strips *strips)
 {
     float x_min_m = RHO_LIMIT_POSITION_M, x_max_m = -RHO_LIMIT_POSITION_M;
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] == RHO_FATE_HELD) {
-            const float x_m = step->scan->plots[i].x_m;
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD) {
+            const float x_m = look->scan->plots[i].x_m;
             x_min_m = x_m < x_min_m ? x_m : x_min_m;
             x_max_m = x_m > x_max_m ? x_m : x_max_m;
         }
@@ -41,80 +41,80 @@ static void lay_strips(struct rho_tracker_strips *strips, const struct step *ste
  * Counting sort. starts[s + 2] first counts the plots of strip s; after the sums starts[s + 1] is
  * where the next plot of strip s goes, and so ends as the start of strip s + 1.
  */
-static void sort_plots_by_strip(struct step *step)
+static void sort_plots_by_strip(struct rho_tracker *tracker, const struct rho_look *look)
 {
-    struct rho_tracker_strips *strips = &step->tracker->strips;
+    struct rho_tracker_strips *strips = &tracker->strips;
     uint16_t *starts = strips->starts;
-    lay_strips(strips, step);
+    lay_strips(look, strips);
     memset(starts, 0, sizeof strips->starts);
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] == RHO_FATE_HELD) {
-            starts[strip_of_x(strips, step->scan->plots[i].x_m) + 2u]++;
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD) {
+            starts[strip_of_x(strips, look->scan->plots[i].x_m) + 2u]++;
         }
     }
     for (unsigned s = 2; s < RHO_PLOT_STRIPS; s++) {
         starts[s + 1u] = (uint16_t)(starts[s + 1u] + starts[s]);
     }
-    for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (step->report->fates[i] == RHO_FATE_HELD) {
-            strips->plots[starts[strip_of_x(strips, step->scan->plots[i].x_m) + 1u]++] =
+    for (uint32_t i = 0; i < look->num_gated; i++) {
+        if (look->fates[i] == RHO_FATE_HELD) {
+            strips->plots[starts[strip_of_x(strips, look->scan->plots[i].x_m) + 1u]++] =
                 (uint16_t)i;
         }
     }
 }
 
-static void bound_plot_boxes(struct step *step)
+static void bound_plot_boxes(struct rho_look *look)
 {
-    step->plots_of_box = (step->num_gated + RHO_PLOT_BOXES - 1u) / RHO_PLOT_BOXES;
+    look->plots_of_box = (look->num_gated + RHO_PLOT_BOXES - 1u) / RHO_PLOT_BOXES;
     for (unsigned k = 0; k < RHO_PLOT_BOXES; k++) {
-        const uint32_t first = k * step->plots_of_box, end = first + step->plots_of_box;
+        const uint32_t first = k * look->plots_of_box, end = first + look->plots_of_box;
         struct plot_box box = {RHO_LIMIT_POSITION_M, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
                                -RHO_LIMIT_POSITION_M};
-        for (uint32_t i = first; i < end && i < step->num_gated; i++) {
-            const struct rho_plot *plot = &step->scan->plots[i];
-            if (step->report->fates[i] == RHO_FATE_HELD) {
+        for (uint32_t i = first; i < end && i < look->num_gated; i++) {
+            const struct rho_plot *plot = &look->scan->plots[i];
+            if (look->fates[i] == RHO_FATE_HELD) {
                 box.x_min_m = plot->x_m < box.x_min_m ? plot->x_m : box.x_min_m;
                 box.x_max_m = plot->x_m > box.x_max_m ? plot->x_m : box.x_max_m;
                 box.y_min_m = plot->y_m < box.y_min_m ? plot->y_m : box.y_min_m;
                 box.y_max_m = plot->y_m > box.y_max_m ? plot->y_m : box.y_max_m;
             }
         }
-        step->boxes[k] = box;
+        look->boxes[k] = box;
     }
 }
 
-void rho_tracker_index_plots(struct step *step)
+void rho_tracker_index_plots(struct rho_tracker *tracker, struct rho_look *look)
 {
     if (RHO_PLOT_STRIPS > 1) {
-        sort_plots_by_strip(step);
+        sort_plots_by_strip(tracker, look);
     } else {
-        bound_plot_boxes(step);
+        bound_plot_boxes(look);
     }
 }
 
-struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
-                                         float y_min_m, float y_max_m)
+struct plots_near rho_tracker_plots_near(const struct rho_tracker *tracker, float x_min_m,
+                                         float x_max_m, float y_min_m, float y_max_m)
 {
     struct plots_near near = {.within = {x_min_m, x_max_m, y_min_m, y_max_m}};
     if (RHO_PLOT_STRIPS > 1) {
-        const struct rho_tracker_strips *strips = &step->tracker->strips;
+        const struct rho_tracker_strips *strips = &tracker->strips;
         near.next = strips->starts[strip_of_x(strips, x_min_m)];
         near.end = strips->starts[strip_of_x(strips, x_max_m) + 1u];
     }
     return near;
 }
 
-int rho_tracker_next_box_near(const struct step *step, struct plots_near *near)
+int rho_tracker_next_box_near(const struct rho_look *look, struct plots_near *near)
 {
     const struct plot_box within = near->within;
     for (unsigned k = near->box; k < RHO_PLOT_BOXES; k++) {
-        const struct plot_box *box = &step->boxes[k];
+        const struct plot_box *box = &look->boxes[k];
         if (!(box->x_min_m > within.x_max_m || box->x_max_m < within.x_min_m ||
               box->y_min_m > within.y_max_m || box->y_max_m < within.y_min_m)) {
-            const uint32_t end = (k + 1u) * step->plots_of_box;
+            const uint32_t end = (k + 1u) * look->plots_of_box;
             near->box = k + 1u;
-            near->next = k * step->plots_of_box;
-            near->end = end < step->num_gated ? end : step->num_gated;
+            near->next = k * look->plots_of_box;
+            near->end = end < look->num_gated ? end : look->num_gated;
             return near->next < near->end;
         }
     }

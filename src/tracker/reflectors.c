@@ -168,62 +168,64 @@ int rho_reflector_mirror_state(const struct rho_reflector *reflector,
 }
 
 /* Computes the image of a track in a wall. Returns 0 where the sensor cannot see it. */
-static int make_image_of_track(struct step *step, unsigned reflector, const struct rho_track *track,
+static int make_image_of_track(const struct rho_look *look, struct rho_work *work,
+                               unsigned reflector, const struct rho_track *track,
                                struct rho_kalman *image)
 {
     float crossing_m;
-    rho_tracker_spend_work(step, IMAGE_UNITS);
-    return rho_reflector_mirror_state(&step->tracker->reflectors[reflector], step->sensor,
+    rho_tracker_spend_work(work, IMAGE_UNITS);
+    return rho_reflector_mirror_state(&look->tracker->reflectors[reflector], look->sensor,
                                       BESIDE_SIGMAS * rho_track_sigma_m(track), &track->kalman,
                                       image, &crossing_m);
 }
 
 /* True of a live track at the step's time with enough hits: the scan may also show its images. */
-static int may_have_images(const struct step *step, unsigned row)
+static int may_have_images(const struct rho_look *look, unsigned row)
 {
-    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_track *track = &look->tracker->tracks[row];
     return track->status != RHO_TRACK_FREE && track->hits >= IMAGED_HITS &&
-           track->time_us == step->time_us;
+           track->time_us == look->time_us;
 }
 
 /* ---- plots ----------------------------------------------------------------------------------- */
 
-static void mark_plots_at_image_as_ghosts(struct step *step, const struct rho_kalman *image)
+static void mark_plots_at_image_as_ghosts(const struct rho_look *look, struct rho_work *work,
+                                          const struct rho_kalman *image)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
     float half_m[2];
-    rho_gate_open(&gate, image, step->model.noise_density, step->sensor, step->scan->measures);
-    rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
+    rho_gate_open(&gate, image, look->model.noise_density, look->sensor, look->scan->measures);
+    rho_gate_box(&gate, look->sigma_max_m, look->offset_max_s, half_m);
     struct plots_near near = rho_tracker_plots_near(
-        step, image->state[RHO_X] - half_m[0], image->state[RHO_X] + half_m[0],
+        look->tracker, image->state[RHO_X] - half_m[0], image->state[RHO_X] + half_m[0],
         image->state[RHO_Y] - half_m[1], image->state[RHO_Y] + half_m[1]);
     for (uint32_t i;
-         rho_tracker_next_plot_near(step, &near, &i) && !rho_tracker_is_phase_work_spent(step);) {
-        const struct rho_plot *plot = &step->scan->plots[i];
+         rho_tracker_next_plot_near(look, &near, &i) && !rho_tracker_is_phase_work_spent(work);) {
+        const struct rho_plot *plot = &look->scan->plots[i];
         const float dx_m = plot->x_m - image->state[RHO_X], dy_m = plot->y_m - image->state[RHO_Y];
-        if (step->report->fates[i] == RHO_FATE_HELD && dx_m <= half_m[0] && dx_m >= -half_m[0] &&
+        if (look->fates[i] == RHO_FATE_HELD && dx_m <= half_m[0] && dx_m >= -half_m[0] &&
             dy_m <= half_m[1] && dy_m >= -half_m[1]) {
-            rho_tracker_spend_work(step, TEST_UNITS);
+            rho_tracker_spend_work(work, TEST_UNITS);
             if (rho_gate_test(&gate, plot, &result)) {
-                step->report->fates[i] = RHO_FATE_GHOST;
+                look->fates[i] = RHO_FATE_GHOST;
             }
         }
     }
 }
 
-void rho_tracker_mark_image_plots_as_ghosts(struct step *step)
+void rho_tracker_mark_image_plots_as_ghosts(const struct rho_look *look, struct rho_work *work)
 {
     struct rho_kalman image;
-    rho_tracker_begin_work_phase(step, RHO_WORK_IMAGES_SHARE);
-    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        for (unsigned i = 0; may_have_images(step, row) && i < step->tracker->num_reflectors; i++) {
-            if (rho_tracker_is_phase_work_spent(step)) {
-                step->is_partial = 1;
+    rho_tracker_begin_work_phase(look->tracker, work, RHO_WORK_IMAGES_SHARE);
+    for (unsigned row = 0; row < look->tracker->num_tracks; row++) {
+        for (unsigned i = 0; may_have_images(look, row) && i < look->tracker->num_reflectors; i++) {
+            if (rho_tracker_is_phase_work_spent(work)) {
+                work->is_partial = 1;
                 return;
             }
-            if (make_image_of_track(step, i, &step->tracker->tracks[row], &image)) {
-                mark_plots_at_image_as_ghosts(step, &image);
+            if (make_image_of_track(look, work, i, &look->tracker->tracks[row], &image)) {
+                mark_plots_at_image_as_ghosts(look, work, &image);
             }
         }
     }
@@ -231,10 +233,10 @@ void rho_tracker_mark_image_plots_as_ghosts(struct step *step)
 
 /* ---- tracks ---------------------------------------------------------------------------------- */
 
-static int may_be_image_track(const struct step *step, const struct rho_track *track)
+static int may_be_image_track(const struct rho_look *look, const struct rho_track *track)
 {
     const float looks = (float)track->hits + (float)track->misses;
-    return track->status != RHO_TRACK_FREE && track->time_us == step->time_us &&
+    return track->status != RHO_TRACK_FREE && track->time_us == look->time_us &&
            (!rho_tracker_has_hits_to_be_established(track) ||
             (float)track->hits < IMAGE_SHARE * looks);
 }
@@ -256,19 +258,19 @@ static int does_track_agree_with_image(const struct rho_track *track,
     return rho_linalg_gated_nis(4, s, off, IMAGE_CHI2, &chi2, &log_det);
 }
 
-static int is_image_of_other_track(struct step *step, unsigned row)
+static int is_image_of_other_track(const struct rho_look *look, struct rho_work *work, unsigned row)
 {
-    const struct rho_tracker *tracker = step->tracker;
+    const struct rho_tracker *tracker = look->tracker;
     struct rho_kalman image;
     for (unsigned other = 0; other < tracker->num_tracks; other++) {
         const struct rho_track *of = &tracker->tracks[other];
         for (unsigned i = 0;
-             other != row && may_have_images(step, other) && i < tracker->num_reflectors; i++) {
-            if (rho_tracker_is_phase_work_spent(step)) {
-                step->is_partial = 1;
+             other != row && may_have_images(look, other) && i < tracker->num_reflectors; i++) {
+            if (rho_tracker_is_phase_work_spent(work)) {
+                work->is_partial = 1;
                 return 0;
             }
-            if (make_image_of_track(step, i, of, &image) &&
+            if (make_image_of_track(look, work, i, of, &image) &&
                 does_track_agree_with_image(&tracker->tracks[row], &image)) {
                 return 1;
             }
@@ -280,10 +282,11 @@ static int is_image_of_other_track(struct step *step, unsigned row)
 void rho_tracker_end_image_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    rho_tracker_begin_work_phase(step, RHO_WORK_IMAGES_SHARE);
+    rho_tracker_begin_work_phase(tracker, &step->work, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (may_be_image_track(step, track) && is_image_of_other_track(step, row)) {
+        if (may_be_image_track(&step->look, track) &&
+            is_image_of_other_track(&step->look, &step->work, row)) {
             rho_tracker_end_track(step, track);
         }
     }

@@ -34,9 +34,9 @@
 /* Least probability 1 - p that two targets are resolved: rounding may leave 0, a divisor. */
 #define RESOLVED_EPSILON 1e-3f
 
-static float learned_log_cell_over_plot_variance(const struct step *step, int axis)
+static float learned_log_cell_over_plot_variance(const struct rho_look *look, int axis)
 {
-    return step->learned ? step->learned->log_cell[axis] : 0.0f;
+    return look->learned ? look->learned->log_cell[axis] : 0.0f;
 }
 
 static int is_cell_stated(const struct rho_sensor *sensor, int axis)
@@ -52,16 +52,17 @@ static float stated_cell_m(const struct rho_sensor *sensor, const struct rho_plo
                      : sensor->resolution_azimuth_rad * rho_sqrt(x_m * x_m + y_m * y_m);
 }
 
-void rho_tracker_unresolved_variances_at_plot(const struct step *step, const struct rho_plot *plot,
+void rho_tracker_unresolved_variances_at_plot(const struct rho_look *look,
+                                              const struct rho_plot *plot,
                                               const struct rho_measurement *seen, float near_m2[2])
 {
     for (int axis = 0; axis < 2; axis++) {
-        if (is_cell_stated(step->sensor, axis)) {
-            const float cell_m = stated_cell_m(step->sensor, plot, axis);
+        if (is_cell_stated(look->sensor, axis)) {
+            const float cell_m = stated_cell_m(look->sensor, plot, axis);
             near_m2[axis] = NEAR_OF_CELL * cell_m * cell_m;
         } else {
             near_m2[axis] = 4.0f * seen->variance_m2[axis] *
-                            rho_exp(learned_log_cell_over_plot_variance(step, axis));
+                            rho_exp(learned_log_cell_over_plot_variance(look, axis));
         }
     }
 }
@@ -81,11 +82,11 @@ int rho_tracker_has_usable_resolution_cell(const struct rho_sensor *sensor)
 
 /* ---- what pairs say -------------------------------------------------------------------------- */
 
-void rho_tracker_learn_resolution_cell(struct step *step, const struct apart *apart)
+void rho_tracker_learn_resolution_cell(const struct rho_look *look, const struct apart *apart)
 {
-    struct rho_tracker_learned *learned = step->learned;
+    struct rho_tracker_learned *learned = look->learned;
     float of_one[2], of_two[2], distance = 0.0f;
-    if (!learned || step->is_late || step->tracker->config.gate != RHO_TRACKER_BEST) {
+    if (!learned || look->is_late || look->tracker->config.gate != RHO_TRACKER_BEST) {
         return;
     }
     for (int axis = 0; axis < 2; axis++) {
@@ -97,7 +98,7 @@ void rho_tracker_learn_resolution_cell(struct step *step, const struct apart *ap
     const float odds = merged / rho_larger(1.0f - merged, RESOLVED_EPSILON);
     for (int axis = 0; axis < 2; axis++) {
         float *weight = &learned->cell_weight[axis], *nat = &learned->log_cell[axis];
-        if (is_cell_stated(step->sensor, axis)) {
+        if (is_cell_stated(look->sensor, axis)) {
             continue;
         }
         const float slope =

@@ -114,7 +114,7 @@ static float second_plot_density(const struct rho_second_plots *table, struct bi
 }
 
 /* Likelihood ratio of two plots' range rates, of one target against clutter of any range rate. */
-static float range_rate_ratio_one_target_to_clutter(const struct step *step, uint32_t measures,
+static float range_rate_ratio_one_target_to_clutter(const struct rho_look *look, uint32_t measures,
                                                     const struct rho_plot *first,
                                                     const struct rho_plot *second)
 {
@@ -122,7 +122,7 @@ static float range_rate_ratio_one_target_to_clutter(const struct step *step, uin
         return 1.0f;
     }
     return rho_tracker_range_rate_likelihood_ratio(
-        step, second->range_rate_mps - first->range_rate_mps,
+        look, second->range_rate_mps - first->range_rate_mps,
         first->sigma_range_rate_mps * first->sigma_range_rate_mps +
             second->sigma_range_rate_mps * second->sigma_range_rate_mps);
 }
@@ -163,35 +163,35 @@ static float probability_of_same_target_as_older(const struct rho_track *track)
  * Evidence for one target, ln, by a scan in which each of both tracks claimed a plot: the younger
  * track's plot is a second plot of the older's target, or of a target of its own.
  */
-static float one_target_evidence_by_two_plots(const struct step *step,
+static float one_target_evidence_by_two_plots(const struct rho_look *look,
                                               const struct rho_second_plots *table,
                                               unsigned older_row, unsigned row)
 {
-    const struct rho_track *older = &step->tracker->tracks[older_row];
-    const struct rho_track *track = &step->tracker->tracks[row];
-    const struct rho_plot *first = &step->scan->plots[older->plot];
-    const struct rho_plot *second = &step->scan->plots[track->plot];
-    const struct bin_offset offset = bin_offset_of_plots(step->sensor, first, second);
+    const struct rho_track *older = &look->tracker->tracks[older_row];
+    const struct rho_track *track = &look->tracker->tracks[row];
+    const struct rho_plot *first = &look->scan->plots[older->plot];
+    const struct rho_plot *second = &look->scan->plots[track->plot];
+    const struct bin_offset offset = bin_offset_of_plots(look->sensor, first, second);
     float gain_nat = 0.0f, ratio = 0.0f, swap_nat = 0.0f, own_nat = 0.0f;
-    (void)rho_tracker_find_pair_gain(step, row, track->plot, &gain_nat);
+    (void)rho_tracker_find_pair_gain(look, row, track->plot, &gain_nat);
     /*
      * the two plots may also be swapped: the younger track's plot is the first one of the only
      * target, or, with two targets, each made the other's plot
      */
     float ways = 1.0f, older_ways = 1.0f;
-    if (rho_tracker_find_pair_gain(step, older_row, older->plot, &own_nat) &&
-        rho_tracker_find_pair_gain(step, older_row, track->plot, &swap_nat)) {
+    if (rho_tracker_find_pair_gain(look, older_row, older->plot, &own_nat) &&
+        rho_tracker_find_pair_gain(look, older_row, track->plot, &swap_nat)) {
         float other_nat;
         older_ways += rho_exp(swap_nat - own_nat);
-        if (rho_tracker_find_pair_gain(step, row, older->plot, &other_nat)) {
+        if (rho_tracker_find_pair_gain(look, row, older->plot, &other_nat)) {
             ways += rho_exp(swap_nat - own_nat + other_nat - gain_nat);
         }
     }
     if (is_within_bins(offset)) {
         ratio = second_plot_rate(table, older) * second_plot_density(table, offset, first) *
-                range_rate_ratio_one_target_to_clutter(step, step->scan->measures, first, second) /
-                rho_tracker_background_density_at_plot(step, second) *
-                rho_exp(-rho_tracker_log_echo_over_background_density(step, (uint32_t)track->plot));
+                range_rate_ratio_one_target_to_clutter(look, look->scan->measures, first, second) /
+                rho_tracker_background_density_at_plot(look, second) *
+                rho_exp(-rho_tracker_log_echo_over_background_density(look, (uint32_t)track->plot));
     }
     return rho_log(1.0f + ratio) + rho_log(older_ways / ways) - gain_nat;
 }
@@ -200,31 +200,31 @@ static float one_target_evidence_by_two_plots(const struct step *step,
  * Evidence for one target, ln, by a scan in which one of both tracks has a plot, or both have the
  * same. A plot in both gates could be of either of two targets: two ways, which LOG_TWO counts.
  */
-static float one_target_evidence_by_one_plot(const struct step *step,
+static float one_target_evidence_by_one_plot(const struct rho_look *look,
                                              const struct rho_second_plots *table,
                                              unsigned older_row, unsigned row)
 {
-    const struct rho_track *older = &step->tracker->tracks[older_row];
-    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_track *older = &look->tracker->tracks[older_row];
+    const struct rho_track *track = &look->tracker->tracks[row];
     const int plot = older->plot >= 0 ? older->plot : track->plot;
     float gain_nat = 0.0f, older_gain_nat = 0.0f, nat = -second_plot_rate(table, older);
     if (older->plot == track->plot) {
         return SHARED_NAT;
     }
-    const int is_in_gate = rho_tracker_find_pair_gain(step, row, plot, &gain_nat);
+    const int is_in_gate = rho_tracker_find_pair_gain(look, row, plot, &gain_nat);
     const int is_in_olders_gate =
-        rho_tracker_find_pair_gain(step, older_row, plot, &older_gain_nat);
+        rho_tracker_find_pair_gain(look, older_row, plot, &older_gain_nat);
     if (older->plot < 0) {
         if (!is_in_olders_gate) {
             /*
              * at the older track's place it may be a second plot of its target, which is no
              * evidence; elsewhere it is the younger's target or clutter
              */
-            struct rho_plot place = step->scan->plots[plot];
+            struct rho_plot place = look->scan->plots[plot];
             place.x_m = older->kalman.state[0];
             place.y_m = older->kalman.state[1];
             return is_within_bins(
-                       bin_offset_of_plots(step->sensor, &place, &step->scan->plots[plot]))
+                       bin_offset_of_plots(look->sensor, &place, &look->scan->plots[plot]))
                        ? 0.0f
                        : -gain_nat;
         }
@@ -233,7 +233,7 @@ static float one_target_evidence_by_one_plot(const struct step *step,
     if (!is_in_gate) {
         return MISS_NAT;
     }
-    return nat - rho_tracker_log_pd_and_log_miss_of_track(step, track).log_miss -
+    return nat - rho_tracker_log_pd_and_log_miss_of_track(look, track).log_miss -
            (is_in_olders_gate ? LOG_TWO : 0.0f);
 }
 
@@ -259,15 +259,15 @@ static void test_and_end_younger_track(struct step *step, const struct rho_secon
     const unsigned older_row = (unsigned)(older - tracker->tracks);
     const float share = probability_of_same_target_as_older(track);
     older->second_share = share < older->second_share ? share : older->second_share;
-    if (!rho_tracker_is_track_in_view(step, row) ||
-        !rho_tracker_is_track_in_view(step, older_row) ||
-        !rho_tracker_may_count_miss(step, track) || !rho_tracker_may_count_miss(step, older) ||
-        (track->plot < 0 && older->plot < 0)) {
+    if (!rho_tracker_is_track_in_view(&step->look, row) ||
+        !rho_tracker_is_track_in_view(&step->look, older_row) ||
+        !rho_tracker_may_count_miss(&step->look, track) ||
+        !rho_tracker_may_count_miss(&step->look, older) || (track->plot < 0 && older->plot < 0)) {
         return;
     }
     const float nat = track->plot >= 0 && older->plot >= 0 && track->plot != older->plot
-                          ? one_target_evidence_by_two_plots(step, table, older_row, row)
-                          : one_target_evidence_by_one_plot(step, table, older_row, row);
+                          ? one_target_evidence_by_two_plots(&step->look, table, older_row, row)
+                          : one_target_evidence_by_one_plot(&step->look, table, older_row, row);
     add_evidence_of_same_target_as_older(track, nat);
     if (track->one_target_nat > ONE_TARGET_END_NAT) {
         track->one_target_nat = ONE_TARGET_END_NAT;
@@ -293,18 +293,18 @@ static int can_teach_second_plots(const struct rho_track *track)
  * Probability that a plot near the track's plot is its target's second one. Raises the density of
  * clutter at an unclaimed plot; a younger track that claimed the plot becomes one to be tested.
  */
-static float second_plot_probability_raise_density(struct step *step,
+static float second_plot_probability_raise_density(struct rho_tracker *tracker,
+                                                   const struct rho_look *look,
                                                    const struct rho_second_plots *table,
                                                    unsigned row, uint32_t other,
                                                    struct bin_offset offset)
 {
-    struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
-    const struct rho_plot *first = &step->scan->plots[track->plot];
-    const struct rho_plot *second = &step->scan->plots[other];
+    const struct rho_plot *first = &look->scan->plots[track->plot];
+    const struct rho_plot *second = &look->scan->plots[other];
     const int owner = tracker->assignment.column_row[other];
     float share = 1.0f;
-    if (step->report->fates[other] != RHO_FATE_HELD) {
+    if (look->fates[other] != RHO_FATE_HELD) {
         if (owner <= (int)row || tracker->tracks[owner].plot != (int)other ||
             tracker->config.gate == RHO_TRACKER_HOUGH) {
             /* no second plot: an older track's, or invalid; the Hough gate has no likelihoods */
@@ -315,51 +315,55 @@ static float second_plot_probability_raise_density(struct step *step,
             younger->older_id = track->track_id;
             younger->one_target_nat = 0.0f;
             add_evidence_of_same_target_as_older(
-                younger, one_target_evidence_by_two_plots(step, table, row, (unsigned)owner));
+                younger, one_target_evidence_by_two_plots(look, table, row, (unsigned)owner));
         }
         share = younger->older_id == track->track_id ? probability_of_same_target_as_older(younger)
                                                      : 0.0f;
     }
     const float ratio =
         second_plot_rate(table, track) * second_plot_density(table, offset, first) *
-        range_rate_ratio_one_target_to_clutter(step, step->scan->measures, first, second) /
-        rho_tracker_background_density_at_plot(step, second);
+        range_rate_ratio_one_target_to_clutter(look, look->scan->measures, first, second) /
+        rho_tracker_background_density_at_plot(look, second);
     float *denser = &tracker->clutter_map.denser[other];
     const float known = rho_exp(*denser);
-    if (step->report->fates[other] == RHO_FATE_HELD) {
+    if (look->fates[other] == RHO_FATE_HELD) {
         *denser = rho_log(known + ratio);
     }
     return share * ratio / (known + ratio);
 }
 
 /* Sums the probable second plots near a track's plot, and raises the clutter density at them. */
-static void sum_second_plots_and_raise_density_at_them(struct step *step,
+static void sum_second_plots_and_raise_density_at_them(struct rho_tracker *tracker,
+                                                       const struct rho_look *look,
+                                                       struct rho_work *work,
                                                        const struct rho_second_plots *table,
                                                        unsigned row, struct second_plot_sums *found)
 {
-    const struct rho_track *track = &step->tracker->tracks[row];
-    const struct rho_plot *first = &step->scan->plots[track->plot];
+    const struct rho_track *track = &tracker->tracks[row];
+    const struct rho_plot *first = &look->scan->plots[track->plot];
     const float half_m = NEAR_SIGMAS * 1.4142136f * rho_plot_sigma_m(first);
-    struct plots_near near = rho_tracker_plots_near(step, first->x_m - half_m, first->x_m + half_m,
-                                                    first->y_m - half_m, first->y_m + half_m);
+    struct plots_near near =
+        rho_tracker_plots_near(tracker, first->x_m - half_m, first->x_m + half_m,
+                               first->y_m - half_m, first->y_m + half_m);
     uint32_t passed = 0;
-    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i); passed++) {
-        const struct rho_plot *plot = &step->scan->plots[i];
+    for (uint32_t i; rho_tracker_next_plot_near(look, &near, &i); passed++) {
+        const struct rho_plot *plot = &look->scan->plots[i];
         const float dx_m = plot->x_m - first->x_m, dy_m = plot->y_m - first->y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
-            (int)i == track->plot || step->report->fates[i] == RHO_FATE_INVALID) {
+            (int)i == track->plot || look->fates[i] == RHO_FATE_INVALID) {
             continue;
         }
-        const struct bin_offset offset = bin_offset_of_plots(step->sensor, first, plot);
-        rho_tracker_spend_work(step, PAIR_UNITS);
+        const struct bin_offset offset = bin_offset_of_plots(look->sensor, first, plot);
+        rho_tracker_spend_work(work, PAIR_UNITS);
         if (is_within_bins(offset)) {
-            const float share = second_plot_probability_raise_density(step, table, row, i, offset);
+            const float share =
+                second_plot_probability_raise_density(tracker, look, table, row, i, offset);
             found->plots += share;
             found->along[offset.along] += share;
             found->across[offset.across] += share;
         }
     }
-    rho_tracker_spend_work(step, passed / RHO_WORK_PASSED_A_UNIT);
+    rho_tracker_spend_work(work, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
 static void add_second_plots_to_track(struct rho_track *track, float plots, float share)
@@ -385,19 +389,19 @@ static void add_second_plots_to_sensor(struct rho_second_plots *table,
 }
 
 /* Counts a claimed plot whose neighbours are not scored, as the share of work is used up. */
-static void count_plot_not_tried(struct step *step)
+static void count_plot_not_tried(struct rho_work *work)
 {
-    step->is_partial = 1;
-    step->plots_not_tried = rho_count(step->plots_not_tried, 1);
+    work->is_partial = 1;
+    work->plots_not_tried = rho_count(work->plots_not_tried, 1);
 }
 
 void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_second_plots *table = step->row ? &step->row->second_plots : 0;
+    struct rho_second_plots *table = step->look.row ? &step->look.row->second_plots : 0;
     struct second_plot_sums found = {.plots = 0.0f};
     float looks = 0.0f;
-    if (!table || step->is_late || step->num_inputs > RHO_MAX_PLOTS) {
+    if (!table || step->look.is_late || step->look.num_inputs > RHO_MAX_PLOTS) {
         return;
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
@@ -410,18 +414,19 @@ void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step)
             test_and_end_younger_track(step, table, row);
         }
     }
-    rho_tracker_begin_work_phase(step, RHO_WORK_SECOND_SHARE);
+    rho_tracker_begin_work_phase(tracker, &step->work, RHO_WORK_SECOND_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || track->plot < 0) {
             continue;
         }
-        if (rho_tracker_is_phase_work_spent(step)) {
-            count_plot_not_tried(step);
+        if (rho_tracker_is_phase_work_spent(&step->work)) {
+            count_plot_not_tried(&step->work);
             continue;
         }
         struct second_plot_sums near = {.plots = 0.0f};
-        sum_second_plots_and_raise_density_at_them(step, table, row, &near);
+        sum_second_plots_and_raise_density_at_them(tracker, &step->look, &step->work, table, row,
+                                                   &near);
         if (can_teach_second_plots(track)) {
             const float share = track->second_share;
             add_second_plots_to_track(track, near.plots, share);
@@ -440,7 +445,8 @@ void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step)
 
 /* ---- plots in the window --------------------------------------------------------------------- */
 
-static void raise_window_ratios_near_claimed_plot(struct step *step,
+static void raise_window_ratios_near_claimed_plot(const struct rho_look *look,
+                                                  struct rho_work *work,
                                                   const struct rho_second_plots *table,
                                                   struct rho_window_scan *scan, unsigned claimed)
 {
@@ -455,32 +461,32 @@ static void raise_window_ratios_near_claimed_plot(struct step *step,
         }
         const struct rho_plot plot = rho_window_unpack_plot(scan, i);
         const struct bin_offset offset = bin_offset_of_plots(sensor, &first, &plot);
-        rho_tracker_spend_work(step, PAIR_UNITS);
+        rho_tracker_spend_work(work, PAIR_UNITS);
         if (is_within_bins(offset)) {
             const float ratio =
                 second_plot_rate(table, 0) * second_plot_density(table, offset, &first) *
-                range_rate_ratio_one_target_to_clutter(step, scan->measures, &first, &plot) /
-                rho_tracker_background_density_at_plot(step, &plot);
+                range_rate_ratio_one_target_to_clutter(look, scan->measures, &first, &plot) /
+                rho_tracker_background_density_at_plot(look, &plot);
             scan->repeats[i] = add_ratio_to_coded_density_ratio(scan->repeats[i], ratio);
         }
     }
 }
 
-void rho_tracker_raise_window_clutter_near_start(struct step *step,
+void rho_tracker_raise_window_clutter_near_start(const struct rho_look *look, struct rho_work *work,
                                                  const struct rho_candidate *candidate)
 {
-    struct rho_window *window = &step->initiator->window;
+    struct rho_window *window = &look->initiator->window;
     for (unsigned m = 0; m < window->num_scans; m++) {
         struct rho_window_scan *scan = rho_window_scan_at(window, m);
-        const unsigned sensor = rho_tracker_row_of(step->tracker, scan->sensor.sensor_id);
+        const unsigned sensor = rho_tracker_row_of(look->tracker, scan->sensor.sensor_id);
         const struct rho_second_plots *table =
-            sensor < step->tracker->num_rows ? &step->tracker->sensors[sensor].second_plots : 0;
+            sensor < look->tracker->num_rows ? &look->tracker->sensors[sensor].second_plots : 0;
         if (((unsigned)candidate->mask >> m & 1u) && table &&
-            rho_tracker_is_phase_work_spent(step)) {
-            count_plot_not_tried(step);
+            rho_tracker_is_phase_work_spent(work)) {
+            count_plot_not_tried(work);
         } else if (((unsigned)candidate->mask >> m & 1u) && table) {
-            rho_tracker_spend_work(step, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
-            raise_window_ratios_near_claimed_plot(step, table, scan, candidate->plot[m]);
+            rho_tracker_spend_work(work, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
+            raise_window_ratios_near_claimed_plot(look, work, table, scan, candidate->plot[m]);
         }
     }
 }

@@ -44,40 +44,40 @@ static void add_to_running_mean(float *mean, float value, uint16_t *count)
     *mean += (value - *mean) / (float)*count;
 }
 
-static float nis_per_dimension_of_plot(const struct step *step, const struct rho_track *track,
+static float nis_per_dimension_of_plot(const struct rho_look *look, const struct rho_track *track,
                                        int plot)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
     struct rho_sensor sensor;
-    rho_tracker_open_track_gate(step, track, step->scan->measures, &gate);
-    if (gate.sensor && step->is_suspect) {
+    rho_tracker_open_track_gate(look, track, look->scan->measures, &gate);
+    if (gate.sensor && look->is_suspect) {
         /* the NIS with the learned noise, without the factor for a suspect sensor */
         sensor = *gate.sensor;
-        rho_tracker_write_noise_factors(step, 1.0f, &sensor);
+        rho_tracker_write_noise_factors(look, 1.0f, &sensor);
         gate.sensor = &sensor;
     }
-    if (!rho_gate_test(&gate, &step->scan->plots[plot], &result)) {
+    if (!rho_gate_test(&gate, &look->scan->plots[plot], &result)) {
         return CHI2_OUTSIDE;
     }
     return result.distance2 /
            (2.0f + (result.has_z ? 1.0f : 0.0f) + (result.has_range_rate ? 1.0f : 0.0f));
 }
 
-static void add_track_to_seen_share_and_mean_nis(const struct step *step,
-                                                 struct rho_tracker_look *look, unsigned row)
+static void add_track_to_seen_share_and_mean_nis(const struct rho_look *look,
+                                                 struct rho_tracker_look *health, unsigned row)
 {
-    const struct rho_tracker *tracker = step->tracker;
+    const struct rho_tracker *tracker = look->tracker;
     const struct rho_track *track = &tracker->tracks[row];
     const int plot = rho_assignment_column(&tracker->assignment, row);
     if (plot != RHO_ASSIGNMENT_NONE) {
-        add_to_running_mean(&look->seen_share, 1.0f, &look->watched);
-        look->sigma_m = rho_plot_sigma_m(&step->scan->plots[plot]);
-        add_to_running_mean(&look->distance2, nis_per_dimension_of_plot(step, track, plot),
-                            &look->watched_hits);
-    } else if (!step->has_more_parts && !rho_tracker_is_track_mostly_in_notch(track) &&
-               rho_tracker_has_antenna_passed_gate(step, track)) {
-        add_to_running_mean(&look->seen_share, 0.0f, &look->watched);
+        add_to_running_mean(&health->seen_share, 1.0f, &health->watched);
+        health->sigma_m = rho_plot_sigma_m(&look->scan->plots[plot]);
+        add_to_running_mean(&health->distance2, nis_per_dimension_of_plot(look, track, plot),
+                            &health->watched_hits);
+    } else if (!look->has_more_parts && !rho_tracker_is_track_mostly_in_notch(track) &&
+               rho_tracker_has_antenna_passed_gate(look, track)) {
+        add_to_running_mean(&health->seen_share, 0.0f, &health->watched);
     }
 }
 
@@ -98,10 +98,10 @@ static int sees_enough_tracks(const struct rho_tracker *tracker,
  * True where one sensor's noise is much larger. The NIS is in each sensor's own sigmas: plots of a
  * coarse sensor agree with any track, and a precise, biased sensor pulls the tracks to its plots.
  */
-static int is_coarser_sensor(const struct rho_tracker_look *look,
+static int is_coarser_sensor(const struct rho_tracker_look *health,
                              const struct rho_tracker_look *than)
 {
-    return look->sigma_m > COARSER * than->sigma_m;
+    return health->sigma_m > COARSER * than->sigma_m;
 }
 
 /* Numbers of sensors that are heard, not suspect, and see enough tracks. */
@@ -115,26 +115,26 @@ struct witnesses {
 };
 
 static void count_witness(struct witnesses *witnesses, const struct rho_tracker_look *other,
-                          const struct rho_tracker_look *look, int does_agree)
+                          const struct rho_tracker_look *health, int does_agree)
 {
-    if (is_coarser_sensor(other, look)) {
+    if (is_coarser_sensor(other, health)) {
         witnesses->coarser++;
     } else {
         witnesses->agreeing += does_agree ? 1u : 0u;
-        witnesses->equal += !is_coarser_sensor(look, other) ? 1u : 0u;
+        witnesses->equal += !is_coarser_sensor(health, other) ? 1u : 0u;
     }
 }
 
-static struct witnesses count_witnesses(const struct step *step,
+static struct witnesses count_witnesses(const struct rho_look *look,
                                         const struct rho_tracker_sensor *row)
 {
-    const struct rho_tracker *tracker = step->tracker;
+    const struct rho_tracker *tracker = look->tracker;
     struct witnesses witnesses = {0, 0, 0, 0};
     for (unsigned i = 0; i < tracker->num_rows; i++) {
         const struct rho_tracker_look *other = &tracker->sensors[i].look;
         if (other == &row->look || other->is_suspect ||
             !sees_enough_tracks(tracker, &tracker->sensors[i]) ||
-            step->time_us - other->time_us > RHO_TRACKER_SILENT_US) {
+            look->time_us - other->time_us > RHO_TRACKER_SILENT_US) {
             continue;
         }
         const int does_agree = other->distance2 < CHI2_GOOD;
@@ -152,59 +152,58 @@ static struct witnesses count_witnesses(const struct step *step,
  * speak against it. One finer and one coarser sensor are not enough, as the finer may have pulled
  * the tracks, and the coarser cannot tell.
  */
-static void suspect_or_trust(struct step *step)
+static void suspect_or_trust(struct rho_tracker *tracker, struct rho_look *look)
 {
-    struct rho_tracker *tracker = step->tracker;
-    const struct rho_tracker_sensor *row = step->row;
-    struct rho_tracker_look *look = &step->row->look;
-    const struct witnesses witnesses = count_witnesses(step, row);
-    const int agrees = sees_enough_tracks(tracker, row) && look->distance2 < CHI2_GOOD;
+    const struct rho_tracker_sensor *row = look->row;
+    struct rho_tracker_look *health = &look->row->look;
+    const struct witnesses witnesses = count_witnesses(look, row);
+    const int agrees = sees_enough_tracks(tracker, row) && health->distance2 < CHI2_GOOD;
     const int sees_too_few =
-        look->watched >= COMPARED_MIN && look->seen_share < SHARE_LOW * stated_pd(tracker, row);
+        health->watched >= COMPARED_MIN && health->seen_share < SHARE_LOW * stated_pd(tracker, row);
     const int is_biased =
-        look->watched_hits >= COMPARED_MIN && look->distance2 > CHI2_HIGH &&
+        health->watched_hits >= COMPARED_MIN && health->distance2 > CHI2_HIGH &&
         (witnesses.agreeing >= 2 || witnesses.equal >= 2 || witnesses.coarser >= 2);
-    if (look->is_suspect && (agrees || witnesses.num == 0)) {
-        look->is_suspect = 0;
-    } else if (!look->is_suspect && ((sees_too_few && witnesses.num >= 1) || is_biased)) {
-        look->is_suspect = 1;
+    if (health->is_suspect && (agrees || witnesses.num == 0)) {
+        health->is_suspect = 0;
+    } else if (!health->is_suspect && ((sees_too_few && witnesses.num >= 1) || is_biased)) {
+        health->is_suspect = 1;
         tracker->counters.sensors_suspected = rho_count(tracker->counters.sensors_suspected, 1);
     }
-    step->is_suspect = look->is_suspect;
+    look->is_suspect = health->is_suspect;
 }
 
 /*
  * True of a confirmed track in view that two sensors have seen, the last of them another one than
  * the scan's sensor and not suspect.
  */
-static int can_track_show_bias(const struct step *step, unsigned row)
+static int can_track_show_bias(const struct rho_look *look, unsigned row)
 {
-    const struct rho_track *track = &step->tracker->tracks[row];
-    const struct rho_tracker_look *last = rho_tracker_look_of(step->tracker, track->sensor_id);
+    const struct rho_track *track = &look->tracker->tracks[row];
+    const struct rho_tracker_look *last = rho_tracker_look_of(look->tracker, track->sensor_id);
     return track->status != RHO_TRACK_FREE && track->was_confirmed && track->is_shared &&
-           track->sensor_id != step->scan->sensor_id && !(last && last->is_suspect) &&
-           rho_tracker_is_track_in_view(step, row);
+           track->sensor_id != look->scan->sensor_id && !(last && last->is_suspect) &&
+           rho_tracker_is_track_in_view(look, row);
 }
 
-void rho_tracker_update_sensor_health(struct step *step)
+void rho_tracker_update_sensor_health(struct rho_tracker *tracker, struct rho_look *look)
 {
-    struct rho_tracker *tracker = step->tracker;
-    for (unsigned row = 0; row < tracker->num_tracks && step->row; row++) {
-        if (can_track_show_bias(step, row)) {
-            add_track_to_seen_share_and_mean_nis(step, &step->row->look, row);
+    for (unsigned row = 0; row < tracker->num_tracks && look->row; row++) {
+        if (can_track_show_bias(look, row)) {
+            add_track_to_seen_share_and_mean_nis(look, &look->row->look, row);
         }
     }
-    if (step->row && !step->has_more_parts) {
-        suspect_or_trust(step);
+    if (look->row && !look->has_more_parts) {
+        suspect_or_trust(tracker, look);
     }
 }
 
-float rho_tracker_update_suspect_and_sigma_factor(struct step *step)
+float rho_tracker_update_suspect_and_sigma_factor(struct rho_tracker *tracker,
+                                                  struct rho_look *look)
 {
-    if (step->row) {
-        suspect_or_trust(step); /* the witnesses may be silent by now */
+    if (look->row) {
+        suspect_or_trust(tracker, look); /* the witnesses may be silent by now */
     }
     /* the NIS, a ratio of variances, multiplies sigmas: a bias pulls tracks more than noise does */
-    const float shown = step->is_suspect ? step->row->look.distance2 : 1.0f;
+    const float shown = look->is_suspect ? look->row->look.distance2 : 1.0f;
     return shown < 1.0f ? 1.0f : shown < FACTOR_MAX ? shown : FACTOR_MAX;
 }

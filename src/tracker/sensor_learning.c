@@ -126,34 +126,34 @@ static uint16_t percent_of_factor(float factor)
     return (uint16_t)(100.0f * factor + 0.5f);
 }
 
-void rho_tracker_write_noise_factors(const struct step *step, float suspicion,
+void rho_tracker_write_noise_factors(const struct rho_look *look, float suspicion,
                                      struct rho_sensor *sensor)
 {
-    if (step->learned) {
+    if (look->learned) {
         sensor->sigma_range_percent =
-            percent_of_factor(suspicion * usable_sigma_factor(step->tracker, step->learned, 0));
+            percent_of_factor(suspicion * usable_sigma_factor(look->tracker, look->learned, 0));
         sensor->sigma_cross_percent =
-            percent_of_factor(suspicion * usable_sigma_factor(step->tracker, step->learned, 1));
+            percent_of_factor(suspicion * usable_sigma_factor(look->tracker, look->learned, 1));
     }
 }
 
-void rho_tracker_apply_learned_noise(struct step *step, float suspicion)
+void rho_tracker_apply_learned_noise(const struct rho_look *look, float suspicion)
 {
-    if (RHO_SIGMAS_VARY && step->learned) {
-        rho_tracker_write_noise_factors(step, suspicion, &step->row->sensor);
+    if (RHO_SIGMAS_VARY && look->learned) {
+        rho_tracker_write_noise_factors(look, suspicion, &look->row->sensor);
     }
 }
 
 /* ---- noise learned --------------------------------------------------------------------------- */
 
-static const struct rho_kalman *steady_filter_if_not_turning(const struct step *step,
+static const struct rho_kalman *steady_filter_if_not_turning(const struct rho_look *look,
                                                              const struct rho_track *track)
 {
-    const struct rho_hypotheses *pool = &step->tracker->hypotheses;
+    const struct rho_hypotheses *pool = &look->tracker->hypotheses;
     for (unsigned i = 0; i < rho_hypotheses_count(pool, track->slot); i++) {
         const struct rho_hypothesis *at = rho_hypotheses_at(pool, track->slot, i);
         if (at->weight_nat >= 0.0f) {
-            return at->time_us == step->time_us && at->imm.probability < MANEUVER_MAX
+            return at->time_us == look->time_us && at->imm.probability < MANEUVER_MAX
                        ? &at->imm.steady
                        : 0;
         }
@@ -221,12 +221,12 @@ static int update_log_noise(float *log_noise, float excess, float gain)
  * Learns a sensor's noise from a plot of a steady track. factors are those learned so far, on the
  * variances along the line of sight and across it.
  */
-static void learn_noise_from_plot(struct step *step, struct rho_track *track,
+static void learn_noise_from_plot(const struct rho_look *look, struct rho_track *track,
                                   const struct rho_plot *plot, const float factors[2])
 {
-    struct rho_tracker_learned *learned = step->learned;
-    const struct rho_kalman *steady = steady_filter_if_not_turning(step, track);
-    const float dx_m = plot->x_m - step->sensor->x_m, dy_m = plot->y_m - step->sensor->y_m;
+    struct rho_tracker_learned *learned = look->learned;
+    const struct rho_kalman *steady = steady_filter_if_not_turning(look, track);
+    const float dx_m = plot->x_m - look->sensor->x_m, dy_m = plot->y_m - look->sensor->y_m;
     const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     if (!steady || !(range_m > 1.0f)) {
         track->has_shown &= IS_MISSED;
@@ -234,8 +234,8 @@ static void learn_noise_from_plot(struct step *step, struct rho_track *track,
     }
     const float x = dx_m / range_m, y = dy_m / range_m;
     /* the noises along a rising line of sight and of the height, projected into the plane */
-    const int has_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
-    const float dz_m = has_z ? plot->z_m - step->sensor->z_m : 0.0f;
+    const int has_z = (look->scan->measures & RHO_MEASURES_Z) != 0;
+    const float dz_m = has_z ? plot->z_m - look->sensor->z_m : 0.0f;
     const float rise2 = dz_m * dz_m / (dz_m * dz_m + range_m * range_m);
     const float up_m2 = has_z ? rise2 * plot->sigma_up_m * plot->sigma_up_m : 0.0f;
     const float along_m2 = plot->sigma_range_m * plot->sigma_range_m;
@@ -333,18 +333,18 @@ static int is_notch_unstated_or_learned(const struct rho_sensor *sensor,
            (sensor->notch_mps >= learned_mps && sensor->notch_mps <= learned_mps);
 }
 
-static int is_notch_learning_on(const struct step *step)
+static int is_notch_learning_on(const struct rho_look *look)
 {
-    return RHO_DOPPLER_NOTCH && is_pd_learning_on(&step->tracker->config) &&
-           is_notch_unstated_or_learned(step->sensor, step->learned);
+    return RHO_DOPPLER_NOTCH && is_pd_learning_on(&look->tracker->config) &&
+           is_notch_unstated_or_learned(look->sensor, look->learned);
 }
 
-void rho_tracker_apply_learned_notch(struct step *step)
+void rho_tracker_apply_learned_notch(const struct rho_look *look)
 {
-    struct rho_tracker_learned *learned = step->learned;
-    if (learned && is_sensor_learning_on(&step->tracker->config) && is_notch_learning_on(step)) {
+    struct rho_tracker_learned *learned = look->learned;
+    if (learned && is_sensor_learning_on(&look->tracker->config) && is_notch_learning_on(look)) {
         learned->used_rates = learned->blind_rates;
-        step->row->sensor.notch_mps =
+        look->row->sensor.notch_mps =
             learned->used_rates > 0 ? upper_range_rate_of_intervals_mps(learned->used_rates) : 0.0f;
     }
 }
@@ -435,12 +435,12 @@ static void update_learned_notch(struct rho_tracker_learned *learned)
  * Counts a look in the interval of the track's range rate, and looks for a notch now and then.
  * Returns 1 where the interval is outside of the notch.
  */
-static int count_look_by_rate_and_test_outside_notch(struct step *step,
+static int count_look_by_rate_and_test_outside_notch(const struct rho_look *look,
                                                      const struct rho_track *track,
                                                      unsigned is_seen)
 {
-    struct rho_tracker_learned *learned = step->learned;
-    const unsigned rate = notch_learning_interval_of_range_rate(step->sensor, track);
+    struct rho_tracker_learned *learned = look->learned;
+    const unsigned rate = notch_learning_interval_of_range_rate(look->sensor, track);
     learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] + 1u);
     learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] + is_seen);
     if (learned->rate_looks[rate] >= RATE_LOOKS_MAX) {
@@ -455,45 +455,45 @@ static int count_look_by_rate_and_test_outside_notch(struct step *step,
 
 /* ---- pd of a look ---------------------------------------------------------------------------- */
 
-static int is_pd_lowered_in_any_ring(const struct step *step)
+static int is_pd_lowered_in_any_ring(const struct rho_look *look)
 {
-    return is_sensor_learning_on(&step->tracker->config) && step->learned &&
-           step->learned->is_lowered;
+    return is_sensor_learning_on(&look->tracker->config) && look->learned &&
+           look->learned->is_lowered;
 }
 
-struct detection rho_tracker_detection_without_notch(const struct step *step,
+struct detection rho_tracker_detection_without_notch(const struct rho_look *look,
                                                      const struct rho_track *track)
 {
-    const struct detection stated = {step->log_pd, step->log_miss};
-    if (!is_pd_lowered_in_any_ring(step)) {
+    const struct detection stated = {look->log_pd, look->log_miss};
+    if (!is_pd_lowered_in_any_ring(look)) {
         return stated;
     }
-    const unsigned ring = range_ring_of_track(step->sensor, track);
-    if (!(step->learned->is_lowered >> ring & 1u)) {
+    const unsigned ring = range_ring_of_track(look->sensor, track);
+    if (!(look->learned->is_lowered >> ring & 1u)) {
         return stated;
     }
     const float pd =
-        usable_pd_in_ring(&step->tracker->config, step->learned, step->sensor->pd, ring);
+        usable_pd_in_ring(&look->tracker->config, look->learned, look->sensor->pd, ring);
     return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
 }
 
-float rho_tracker_pd_over_all_ranges(const struct step *step)
+float rho_tracker_pd_over_all_ranges(const struct rho_look *look)
 {
-    const float stated = step->sensor->pd;
-    if (!is_pd_lowered_in_any_ring(step)) {
+    const float stated = look->sensor->pd;
+    if (!is_pd_lowered_in_any_ring(look)) {
         return stated;
     }
-    const struct pd_estimate all = estimate_pd_over_all_rings(step->learned, stated);
-    return lowered_or_stated_pd(&step->tracker->config, &all, stated);
+    const struct pd_estimate all = estimate_pd_over_all_rings(look->learned, stated);
+    return lowered_or_stated_pd(&look->tracker->config, &all, stated);
 }
 
-static void count_look_by_range_and_rate(struct step *step, const struct rho_track *track,
+static void count_look_by_range_and_rate(const struct rho_look *look, const struct rho_track *track,
                                          unsigned is_seen)
 {
-    struct rho_tracker_learned *learned = step->learned;
-    const unsigned ring = range_ring_of_track(step->sensor, track);
-    if (is_notch_learning_on(step) &&
-        !count_look_by_rate_and_test_outside_notch(step, track, is_seen)) {
+    struct rho_tracker_learned *learned = look->learned;
+    const unsigned ring = range_ring_of_track(look->sensor, track);
+    if (is_notch_learning_on(look) &&
+        !count_look_by_rate_and_test_outside_notch(look, track, is_seen)) {
         return;
     }
     learned->looks[ring] = (uint16_t)(learned->looks[ring] + 1u);
@@ -508,43 +508,43 @@ static void count_look_by_range_and_rate(struct step *step, const struct rho_tra
  * Counts the look that followed a hit when the same sensor next sees the track: as a miss where it
  * missed the track meanwhile, as a hit otherwise.
  */
-static void learn_pd_from_look(struct step *step, struct rho_track *track, int is_seen)
+static void learn_pd_from_look(const struct rho_look *look, struct rho_track *track, int is_seen)
 {
-    const int is_own = track->sensor_id == step->scan->sensor_id;
-    if (!is_pd_learning_on(&step->tracker->config)) {
+    const int is_own = track->sensor_id == look->scan->sensor_id;
+    if (!is_pd_learning_on(&look->tracker->config)) {
         return;
     }
     if (RHO_DOPPLER_NOTCH && track->blind_percent > BLIND_PERCENT_MAX) {
-        if (is_own && is_notch_learning_on(step)) {
-            (void)count_look_by_rate_and_test_outside_notch(step, track, is_seen != 0);
+        if (is_own && is_notch_learning_on(look)) {
+            (void)count_look_by_rate_and_test_outside_notch(look, track, is_seen != 0);
         }
         return;
     }
     if (is_seen && is_own) {
-        count_look_by_range_and_rate(step, track, track->has_shown & IS_MISSED ? 0u : 1u);
+        count_look_by_range_and_rate(look, track, track->has_shown & IS_MISSED ? 0u : 1u);
     }
     track->has_shown &= (uint8_t)~IS_MISSED;
     track->has_shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
 }
 
 /* Tests in one ring of range, another one each scan, whether the learned pd is below the stated. */
-static void update_lowered_pd_of_next_ring(struct step *step)
+static void update_lowered_pd_of_next_ring(const struct rho_look *look)
 {
-    struct rho_tracker_learned *learned = step->learned;
+    struct rho_tracker_learned *learned = look->learned;
     const float pd =
-        usable_pd_in_ring(&step->tracker->config, learned, step->sensor->pd, learned->ring);
+        usable_pd_in_ring(&look->tracker->config, learned, look->sensor->pd, learned->ring);
     const unsigned bit = 1u << learned->ring, others = learned->is_lowered & ~bit;
-    learned->is_lowered = (uint8_t)(others | (pd < step->sensor->pd ? bit : 0u));
+    learned->is_lowered = (uint8_t)(others | (pd < look->sensor->pd ? bit : 0u));
     learned->ring = (uint8_t)((learned->ring + 1u) % RHO_LEARN_RINGS);
 }
 
 /* ---- a scan ---------------------------------------------------------------------------------- */
 
-static int can_teach_sensor(const struct step *step, unsigned row)
+static int can_teach_sensor(const struct rho_look *look, unsigned row)
 {
-    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_track *track = &look->tracker->tracks[row];
     return track->status != RHO_TRACK_FREE && track->was_confirmed &&
-           rho_tracker_has_hits_to_be_established(track) && rho_tracker_is_track_in_view(step, row);
+           rho_tracker_has_hits_to_be_established(track) && rho_tracker_is_track_in_view(look, row);
 }
 
 static int can_teach_noise(const struct rho_track *track)
@@ -553,39 +553,38 @@ static int can_teach_noise(const struct rho_track *track)
            track->maneuver_probability < MANEUVER_MAX;
 }
 
-static int can_learn_from_scan(const struct step *step)
+static int can_learn_from_scan(const struct rho_look *look)
 {
-    return !step->is_suspect && !step->is_late && step->learned &&
-           is_sensor_learning_on(&step->tracker->config);
+    return !look->is_suspect && !look->is_late && look->learned &&
+           is_sensor_learning_on(&look->tracker->config);
 }
 
-void rho_tracker_learn_sensor(struct step *step)
+void rho_tracker_learn_sensor(struct rho_tracker *tracker, const struct rho_look *look)
 {
-    struct rho_tracker *tracker = step->tracker;
     /* with bodies no noise is learned: most of a group's noise is the extent of the body */
     const int has_noise =
         is_noise_learning_on(&tracker->config) && !rho_tracker_has_bodies(tracker);
-    if (!can_learn_from_scan(step)) {
+    if (!can_learn_from_scan(look)) {
         return;
     }
-    const float factors[2] = {rho_exp(step->learned->log_noise[0]),
-                              rho_exp(step->learned->log_noise[1])};
+    const float factors[2] = {rho_exp(look->learned->log_noise[0]),
+                              rho_exp(look->learned->log_noise[1])};
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (!can_teach_sensor(step, row)) {
+        if (!can_teach_sensor(look, row)) {
             continue;
         }
         const int plot = rho_assignment_column(&tracker->assignment, row);
         if (has_noise && plot != RHO_ASSIGNMENT_NONE && can_teach_noise(track)) {
-            learn_noise_from_plot(step, track, &step->scan->plots[plot], factors);
+            learn_noise_from_plot(look, track, &look->scan->plots[plot], factors);
         }
         if (plot != RHO_ASSIGNMENT_NONE ||
-            (!step->has_more_parts && rho_tracker_may_count_miss(step, track))) {
-            learn_pd_from_look(step, track, plot != RHO_ASSIGNMENT_NONE);
+            (!look->has_more_parts && rho_tracker_may_count_miss(look, track))) {
+            learn_pd_from_look(look, track, plot != RHO_ASSIGNMENT_NONE);
         }
     }
-    if (is_pd_learning_on(&tracker->config) && !step->has_more_parts) {
-        update_lowered_pd_of_next_ring(step);
+    if (is_pd_learning_on(&tracker->config) && !look->has_more_parts) {
+        update_lowered_pd_of_next_ring(look);
     }
 }
 

@@ -21,7 +21,7 @@
 
 /* Budget of the phase that runs, in units of work. */
 struct work_share {
-    uint32_t end, kept; /* step->work at which the phase ends; reserved for each waiting track */
+    uint32_t end, kept; /* spent at which the phase ends; reserved for each waiting track */
     unsigned waiting;   /* tracks of which no plots were scored yet */
 };
 
@@ -36,52 +36,67 @@ struct plot_box {
 /* Most parts of RHO_MAX_PLOTS plots in which a large scan is claimed; further plots are ignored. */
 #define RHO_TRACKER_PARTS_MAX 4u
 
-struct step {
-    struct rho_tracker *tracker;
-    int64_t time_us;
-    /* the scan of plots, and the initiator that starts tracks from its plots; NULL: none */
-    const struct rho_scan *scan;
-    struct rho_initiator *initiator;
-    /* or the frame of bearings, and the initiator for bearings; NULL: none */
-    const struct rho_frame *frame;
-    struct rho_passive *passive;
-    struct rho_report *report;
-    const struct rho_sensor *sensor; /* the scan's sensor; NULL: not described */
-    /* the row of the scan's sensor; NULL: the table is full of described sensors, or a frame */
+/* Work of a step, in units, and the budget of the phase that runs. */
+struct rho_work {
+    uint32_t spent, plots_not_tried; /* units so far; plots left out by the budget */
+    struct work_share share;         /* budget of the phase that runs */
+    int is_partial;                  /* the budget has left out something */
+};
+
+/*
+ * One sensor's detections at one time, as a step takes them: a scan of plots, a part of a large
+ * one, or one scan of a frame of bearings. Opened once, const for all that ask it.
+ */
+struct rho_look {
+    const struct rho_tracker *tracker; /* whose tracks it looks at */
+    const struct rho_scan *scan;       /* its plots; NULL: bearings */
+    uint8_t *fates;                    /* of its plots, those of the report */
+    /* the row of its sensor; NULL: the table is full of described sensors, or bearings */
     struct rho_tracker_sensor *row;
-    struct rho_tracker_learned *learned; /* of this sensor; NULL: not described, or a frame */
-    int is_suspect;                      /* the scan's sensor contradicts the others */
-    uint16_t look;                       /* count of the sensor's scans; 0: not known */
-    /* the scan's sector continues the previous one: 1 counter-clockwise, -1 clockwise; else 0 */
+    const struct rho_sensor *sensor;     /* its sensor as described; NULL: not described */
+    struct rho_tracker_learned *learned; /* of this sensor; NULL: not described, or bearings */
+    /* measures the density of clutter, and starts tracks from its plots; NULL: none */
+    struct rho_initiator *initiator;
+    struct rho_track_model
+        model; /* how tracks move to its time, and the filters that follow them */
+    int64_t time_us;
+    int is_suspect; /* its sensor contradicts the others */
+    uint16_t count; /* count of the sensor's scans; 0: not known */
+    /* its sector continues the previous one: 1 counter-clockwise, -1 clockwise; else 0 */
     float turning;
-    int is_late;         /* the scan is out of sequence: older than the newest step */
-    uint32_t num_inputs; /* plots or bearings of the step */
-    uint32_t num_gated;  /* inputs with a place in report->fates: the first RHO_MAX_PLOTS */
-    /* plots beyond RHO_MAX_PLOTS that were claimed, and that are invalid */
-    uint32_t num_beyond_claimed, num_beyond_invalid;
-    uint32_t first_row; /* row in the scan of the first plot of the part that is claimed now */
-    int has_more_parts; /* tracks without a plot may find one in a later part of the scan */
+    int is_late;         /* it is out of sequence: older than the newest step */
+    uint32_t num_inputs; /* plots or bearings */
+    uint32_t num_gated;  /* of these the ones with a place in fates: the first RHO_MAX_PLOTS */
+    uint32_t first_row;  /* row in the scan of the first plot of the part that is claimed now */
+    int has_more_parts;  /* tracks without a plot may find one in a later part of the scan */
     /* a later part's own clutter density; and the scan's plots over RHO_MAX_PLOTS, 0: first part */
     float part_per_m2, part_share;
-    /* largest noise on any axis, and largest time offset either way, of the scan's valid plots */
+    /* largest noise on any axis, and largest time offset either way, of the valid plots */
     float sigma_max_m, offset_max_s;
-    uint32_t work, plots_not_tried; /* units of work so far; plots left out by the budget */
-    struct work_share share;        /* budget of the phase that runs */
-    int is_partial;                 /* the budget has left out something */
-    /* bit i: track i is in the scan's field of view and was predicted */
+    /* bit i: track i is in the field of view and was predicted */
     uint32_t in_view[(RHO_MAX_TRACKS + 31) / 32];
     struct plot_box boxes[RHO_PLOT_BOXES]; /* bounding boxes of runs of successive plots */
     uint32_t plots_of_box;                 /* plots in each run */
-    struct rho_track_model model;
-    float log_pd;
-    float log_miss;                   /* ln(1 - pd) of the scan's sensor */
-    struct rho_notch_look notch_look; /* a look of the sensor with its Doppler notch; 0: no notch */
-    float needed_nat;                 /* evidence that a new track needs to be confirmed; 0: none */
-    float miss_nat;                   /* evidence that a miss takes from a new track */
+    float log_pd, log_miss;                /* ln of pd and of 1 - pd, outside of the notch */
+    struct rho_notch_look notch_look; /* what a sensor with a Doppler notch sees; 0: no notch */
     /* ln of the intervals in which clutter is uniform: height, m; velocity on one axis, m/s */
     float log_height, log_rates;
     float log_range_rates; /* ln of range_rates_mps */
     float range_rates_mps; /* interval of range rates in which clutter is uniform, m/s */
+};
+
+/* One step: predict, then for each look claim and update, then age, initiate and report. */
+struct step {
+    struct rho_tracker *tracker;
+    struct rho_report *report;
+    struct rho_passive *passive;   /* starts tracks from bearings; NULL: none, or plots */
+    const struct rho_frame *frame; /* the frame of bearings; NULL: plots */
+    struct rho_look look;          /* the look that is claimed now */
+    struct rho_work work;
+    float needed_nat; /* evidence that a new track needs to be confirmed; 0: none */
+    float miss_nat;   /* evidence that a miss takes from a new track */
+    /* plots beyond RHO_MAX_PLOTS that were claimed, and that are invalid */
+    uint32_t num_beyond_claimed, num_beyond_invalid;
 };
 
 static inline int rho_tracker_is_ready(const struct rho_tracker *tracker)
@@ -106,14 +121,14 @@ static inline int rho_tracker_is_score_in_range(int32_t mnat)
 void rho_tracker_set_late_max_default(struct rho_tracker_config *config);
 int rho_tracker_is_late_max_usable(const struct rho_tracker_config *config);
 /* True of an out-of-sequence scan within late_max_s that is not its sensor's newest one again. */
-int rho_tracker_accepts_late_scan(const struct step *step);
+int rho_tracker_accepts_late_scan(const struct rho_look *look);
 /* Counts an out-of-sequence scan that still updates tracks. */
-void rho_tracker_count_late_scan(struct step *step);
+void rho_tracker_count_late_scan(struct rho_tracker *tracker);
 /* Stores the track's time before an out-of-sequence scan moves the track back. */
 void rho_tracker_store_track_time_before_late_scan(struct rho_track *track);
 int rho_tracker_is_sound_stored_track_time(const struct rho_track *track);
 /* Gives the held plots of an out-of-sequence scan the fate STALE. */
-void rho_tracker_mark_unused_late_plots_stale(struct step *step);
+void rho_tracker_mark_unused_late_plots_stale(const struct rho_look *look);
 /* After an out-of-sequence scan: tracks, step and report return to the newest time. */
 void rho_tracker_return_tracks_to_newest_time(struct step *step);
 
@@ -129,19 +144,19 @@ struct plots_near {
 };
 
 /* Sorts the scan's held plots into strips, or bounds their boxes. */
-void rho_tracker_index_plots(struct step *step);
-struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
-                                         float y_min_m, float y_max_m);
-int rho_tracker_next_box_near(const struct step *step, struct plots_near *near);
+void rho_tracker_index_plots(struct rho_tracker *tracker, struct rho_look *look);
+struct plots_near rho_tracker_plots_near(const struct rho_tracker *tracker, float x_min_m,
+                                         float x_max_m, float y_min_m, float y_max_m);
+int rho_tracker_next_box_near(const struct rho_look *look, struct plots_near *near);
 
-static inline int rho_tracker_next_plot_near(const struct step *step, struct plots_near *near,
+static inline int rho_tracker_next_plot_near(const struct rho_look *look, struct plots_near *near,
                                              uint32_t *row)
 {
     if (near->next >= near->end &&
-        (RHO_PLOT_STRIPS > 1 || !rho_tracker_next_box_near(step, near))) {
+        (RHO_PLOT_STRIPS > 1 || !rho_tracker_next_box_near(look, near))) {
         return 0;
     }
-    *row = RHO_PLOT_STRIPS > 1 ? step->tracker->strips.plots[near->next] : near->next;
+    *row = RHO_PLOT_STRIPS > 1 ? look->tracker->strips.plots[near->next] : near->next;
     near->next++;
     return 1;
 }
@@ -155,10 +170,10 @@ static inline int rho_tracker_is_plot_within(const struct plots_near *near,
 }
 
 /* Upper bound of the number of plots that the iterator has still to give. */
-static inline uint32_t rho_tracker_max_num_plots_near(const struct step *step,
+static inline uint32_t rho_tracker_max_num_plots_near(const struct rho_look *look,
                                                       const struct plots_near *near)
 {
-    return RHO_PLOT_STRIPS > 1 ? near->end - near->next : step->num_gated;
+    return RHO_PLOT_STRIPS > 1 ? near->end - near->next : look->num_gated;
 }
 
 /* ---- sensors --------------------------------------------------------------------------------- */
@@ -182,14 +197,14 @@ int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struc
 int rho_tracker_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_rad,
                                        float margin_rad);
 /* True where the scan may see a track, by sector and range, with a margin. */
-int rho_tracker_may_scan_see_track(const struct step *step, const struct rho_track *track);
+int rho_tracker_may_scan_see_track(const struct rho_look *look, const struct rho_track *track);
 /* True where the scan may see the track of this row, as found when tracks were predicted. */
-int rho_tracker_is_track_in_view(const struct step *step, unsigned row);
+int rho_tracker_is_track_in_view(const struct rho_look *look, unsigned row);
 /* True where the sensor, looking at this sector, covers the track's place. */
-int rho_tracker_sector_covers_track_place(const struct step *step, float sector_from_rad,
+int rho_tracker_sector_covers_track_place(const struct rho_look *look, float sector_from_rad,
                                           float sector_to_rad, const struct rho_track *track);
 /* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
-int rho_tracker_may_count_miss(const struct step *step, const struct rho_track *track);
+int rho_tracker_may_count_miss(const struct rho_look *look, const struct rho_track *track);
 
 /*
  * one_look_per_turn_across_sectors.c (RHO_SECTORS): how the sectors of one turn follow each other
@@ -197,33 +212,35 @@ int rho_tracker_may_count_miss(const struct step *step, const struct rho_track *
 #define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
 int rho_tracker_is_sound_look(const struct rho_tracker_look *look);
 /* Records the scan's sector and time for its sensor, and finds which way the antenna turns. */
-void rho_tracker_record_look_and_antenna_turning(struct step *step);
+void rho_tracker_record_look_and_antenna_turning(struct rho_tracker *tracker,
+                                                 struct rho_look *look);
 /* Stores in a track with a plot of this scan that the scan's sensor saw it last. */
-void rho_tracker_record_seeing_sensor(const struct step *step, struct rho_track *track);
+void rho_tracker_record_seeing_sensor(const struct rho_look *look, struct rho_track *track);
 /* True of the two sensors that saw the track last. */
 int rho_tracker_is_among_last_two_sensors(const struct rho_track *track, int32_t sensor_id);
 /* Sets the tracker's thresholds: lowest start and highest confirm threshold of all sensors. */
-void rho_tracker_merge_sensor_thresholds(struct step *step);
+void rho_tracker_merge_sensor_thresholds(struct rho_tracker *tracker, const struct rho_look *look);
 /* True where the track claimed a plot in the previous sector of the same turn of the antenna. */
-int rho_tracker_was_seen_in_last_sector(const struct step *step, const struct rho_track *track);
+int rho_tracker_was_seen_in_last_sector(const struct rho_look *look, const struct rho_track *track);
 /*
  * True where the antenna has passed the end of the track's gate in this scan, or, with an antenna
  * that does not turn, the scan covers the track's place.
  */
-int rho_tracker_has_antenna_passed_gate(const struct step *step, const struct rho_track *track);
+int rho_tracker_has_antenna_passed_gate(const struct rho_look *look, const struct rho_track *track);
 /* Number of scans of this sector's width in one turn of the antenna; 1 where it does not turn. */
-float rho_tracker_scans_per_turn(const struct step *step);
+float rho_tracker_scans_per_turn(const struct rho_look *look);
 
 /* sensor_health.c (RHO_SECTORS): finds sensors that contradict the others */
 /* Decides whether the scan's sensor is suspect. Returns the factor on its plots' sigmas. */
-float rho_tracker_update_suspect_and_sigma_factor(struct step *step);
+float rho_tracker_update_suspect_and_sigma_factor(struct rho_tracker *tracker,
+                                                  struct rho_look *look);
 /* Compares the assigned plots with the tracks' predictions, before tracks are updated. */
-void rho_tracker_update_sensor_health(struct step *step);
+void rho_tracker_update_sensor_health(struct rho_tracker *tracker, struct rho_look *look);
 /* True where the scan's sensor is suspect and no other sensor has seen the track. */
-static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct step *step,
+static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct rho_look *look,
                                                              const struct rho_track *track)
 {
-    return step->is_suspect && !track->is_shared;
+    return look->is_suspect && !track->is_shared;
 }
 
 /*
@@ -231,17 +248,17 @@ static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct step *
  * set before plots are gated, and learned between assignment and update. suspicion: factor of
  * sensor_health on the sigmas of a suspect sensor, else 1
  */
-void rho_tracker_apply_learned_noise(struct step *step, float suspicion);
+void rho_tracker_apply_learned_noise(const struct rho_look *look, float suspicion);
 /* Writes the learned noise factors, times suspicion, into this description of the sensor. */
-void rho_tracker_write_noise_factors(const struct step *step, float suspicion,
+void rho_tracker_write_noise_factors(const struct rho_look *look, float suspicion,
                                      struct rho_sensor *sensor);
 /* (RHO_DOPPLER_NOTCH) Writes the learned notch into a description that states none. */
-void rho_tracker_apply_learned_notch(struct step *step);
+void rho_tracker_apply_learned_notch(const struct rho_look *look);
 /* Learns noise, pd and notch of the scan's sensor from this scan's plots and misses. */
-void rho_tracker_learn_sensor(struct step *step);
+void rho_tracker_learn_sensor(struct rho_tracker *tracker, const struct rho_look *look);
 int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
 /* Detection probability of the scan's sensor over all ranges, for its initiator. */
-float rho_tracker_pd_over_all_ranges(const struct step *step);
+float rho_tracker_pd_over_all_ranges(const struct rho_look *look);
 /*
  * ln of the probabilities that the sensor detects a target at the track's place and that it misses
  * it, outside of the Doppler notch
@@ -249,7 +266,7 @@ float rho_tracker_pd_over_all_ranges(const struct step *step);
 struct detection {
     float log_pd, log_miss;
 };
-struct detection rho_tracker_detection_without_notch(const struct step *step,
+struct detection rho_tracker_detection_without_notch(const struct rho_look *look,
                                                      const struct rho_track *track);
 
 /*
@@ -258,16 +275,16 @@ struct detection rho_tracker_detection_without_notch(const struct step *step,
  */
 void rho_tracker_set_notch_blind_percents(struct step *step);
 /* Sets blind_percent of all tracks to 0, at the end of a step. */
-void rho_tracker_clear_blind_percents(struct step *step);
+void rho_tracker_clear_blind_percents(struct rho_tracker *tracker);
 /* Probabilities, ln, of detection and miss of a track that may be in the sensor's notch. */
-struct detection rho_tracker_detection_with_notch(const struct step *step,
+struct detection rho_tracker_detection_with_notch(const struct rho_look *look,
                                                   const struct rho_track *track);
 static inline struct detection
-rho_tracker_log_pd_and_log_miss_of_track(const struct step *step, const struct rho_track *track)
+rho_tracker_log_pd_and_log_miss_of_track(const struct rho_look *look, const struct rho_track *track)
 {
     return RHO_DOPPLER_NOTCH && track->blind_percent > 0
-               ? rho_tracker_detection_with_notch(step, track)
-               : rho_tracker_detection_without_notch(step, track);
+               ? rho_tracker_detection_with_notch(look, track)
+               : rho_tracker_detection_without_notch(look, track);
 }
 /* True where at least half of the looks at the track are blind: no plot is no miss then. */
 static inline int rho_tracker_is_track_mostly_in_notch(const struct rho_track *track)
@@ -275,7 +292,7 @@ static inline int rho_tracker_is_track_mostly_in_notch(const struct rho_track *t
     return RHO_DOPPLER_NOTCH && track->blind_percent >= 50;
 }
 /* After a blind look without a plot: the track coasts, and counts as seen, not as missed. */
-void rho_tracker_set_blind_track_coasting(const struct step *step, struct rho_track *track);
+void rho_tracker_set_blind_track_coasting(const struct rho_look *look, struct rho_track *track);
 
 /* ---- images ---------------------------------------------------------------------------------- */
 
@@ -283,7 +300,7 @@ void rho_tracker_set_blind_track_coasting(const struct step *step, struct rho_tr
  * reflectors.c (RHO_MAX_REFLECTORS): gives unclaimed plots at the mirror images of tracks the fate
  * GHOST, before new tracks start
  */
-void rho_tracker_mark_image_plots_as_ghosts(struct step *step);
+void rho_tracker_mark_image_plots_as_ghosts(const struct rho_look *look, struct rho_work *work);
 /* Ends tracks that move as the mirror image of another track, after new tracks have started. */
 void rho_tracker_end_image_tracks(struct step *step);
 int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker);
@@ -293,11 +310,12 @@ int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker);
 /*
  * excluded_areas.c (RHO_MAX_EXCLUDED_AREAS): gives unclaimed plots in excluded areas the fate GHOST
  */
-void rho_tracker_mark_excluded_plots_as_ghosts(struct step *step);
-int rho_tracker_is_in_excluded_area(const struct step *step, uint32_t plot);
-static inline int rho_tracker_is_plot_excluded(const struct step *step, uint32_t plot)
+void rho_tracker_mark_excluded_plots_as_ghosts(struct rho_tracker *tracker,
+                                               const struct rho_look *look, struct rho_work *work);
+int rho_tracker_is_in_excluded_area(const struct rho_look *look, uint32_t plot);
+static inline int rho_tracker_is_plot_excluded(const struct rho_look *look, uint32_t plot)
 {
-    return RHO_MAX_EXCLUDED_AREAS > 0 && rho_tracker_is_in_excluded_area(step, plot);
+    return RHO_MAX_EXCLUDED_AREAS > 0 && rho_tracker_is_in_excluded_area(look, plot);
 }
 int rho_tracker_has_sound_excluded_areas(const struct rho_tracker *tracker);
 /* True of a track that an operator has frozen: it is in no scan's view, and does not age. */
@@ -314,7 +332,8 @@ static inline int rho_tracker_is_track_frozen(const struct rho_track *track)
  */
 int rho_tracker_has_usable_resolution_cell(const struct rho_sensor *sensor);
 /* Variances of such distances at a plot's place, along the line of sight and across it. */
-void rho_tracker_unresolved_variances_at_plot(const struct step *step, const struct rho_plot *plot,
+void rho_tracker_unresolved_variances_at_plot(const struct rho_look *look,
+                                              const struct rho_plot *plot,
                                               const struct rho_measurement *seen, float near_m2[2]);
 /* Variance of differences of range rate that are not resolved, (m/s)^2; 0: the rate is not used. */
 float rho_tracker_unresolved_range_rate_variance(const struct rho_sensor *sensor);
@@ -325,7 +344,7 @@ struct apart {
     float of_two_m2[2]; /* expected squared distance of the targets if it is of one of them */
     float near_m2[2];   /* variances by rho_tracker_unresolved_variances_at_plot */
 };
-void rho_tracker_learn_resolution_cell(struct step *step, const struct apart *apart);
+void rho_tracker_learn_resolution_cell(const struct rho_look *look, const struct apart *apart);
 /* Learned resolution cell on an axis, in sigmas of a plot; 0: not learned yet. */
 float rho_tracker_learned_cell_sigmas(const struct rho_tracker_learned *learned, int axis);
 int rho_tracker_is_sound_learned_cell(const struct rho_tracker_learned *learned);
@@ -348,13 +367,15 @@ static inline int rho_tracker_has_bodies(const struct rho_tracker *tracker)
  */
 void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped);
 /* Before the report: restores the scan, and turns fates and rows of groups into those of plots. */
-void rho_tracker_ungroup_plots(struct step *step, const struct rho_scan *scan);
+void rho_tracker_ungroup_plots(struct rho_tracker *tracker, struct rho_look *look,
+                               const struct rho_scan *scan);
 /* body_extents.c (RHO_BODIES): puts the bodies in the order of the tracks, with new ones added */
-void rho_tracker_align_bodies_with_tracks(struct step *step);
+void rho_tracker_align_bodies_with_tracks(struct rho_tracker *tracker);
 /* Sets the heading of a track's body to that of the track's velocity. */
 void rho_tracker_set_body_heading(struct rho_tracker *tracker, unsigned row);
 /* Updates each track's body with the plots of its group, before rho_tracker_ungroup_plots. */
-void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
+void rho_tracker_update_bodies(struct rho_tracker *tracker, const struct rho_look *look,
+                               const struct rho_scan *scan);
 /* A plot's range rate less that of a target at the plot's place with the track's velocity. */
 struct range_rate_residual {
     float mps;
@@ -363,7 +384,7 @@ struct range_rate_residual {
     float sight_line[2];   /* unit vector from the sensor to the plot, x and y */
 };
 /* Returns 0 where no range rate was measured, or the plot is at the sensor. */
-int rho_tracker_range_rate_residual(const struct step *step, const struct rho_scan *scan,
+int rho_tracker_range_rate_residual(const struct rho_look *look, const struct rho_scan *scan,
                                     const struct rho_track *track, const struct rho_plot *plot,
                                     struct range_rate_residual *rate);
 /*
@@ -375,11 +396,12 @@ struct body_plot {
     float dx_m, dy_m, along_m, across_m;
     struct range_rate_residual rate;
 };
-int rho_tracker_locate_on_body_is_rate_usable(const struct step *step, const struct rho_scan *scan,
-                                              unsigned row, unsigned plot, struct body_plot *at);
+int rho_tracker_locate_on_body_is_rate_usable(const struct rho_look *look,
+                                              const struct rho_scan *scan, unsigned row,
+                                              unsigned plot, struct body_plot *at);
 
 /* Variances of a plot's own noise in the axes of a body: along, cross, across. */
-void rho_tracker_rotate_plot_noise_to_body_axes(const struct step *step,
+void rho_tracker_rotate_plot_noise_to_body_axes(const struct rho_look *look,
                                                 const struct rho_body_filter *body,
                                                 const struct rho_plot *plot, float axes[3]);
 /* The first plot, from this one of a group on, that no other track contends for; or RHO_NO_ROW. */
@@ -400,16 +422,17 @@ enum rho_body_split {
     RHO_BODY_MOVES_APART /* range rates differ from part to part by more than a turn explains */
 };
 /* Adds this scan's plots of a track to the evidence that its body is two targets. */
-void rho_tracker_add_body_split_evidence(const struct step *step, const struct rho_scan *scan,
-                                         unsigned row);
+void rho_tracker_add_body_split_evidence(struct rho_tracker *tracker, const struct rho_look *look,
+                                         const struct rho_scan *scan, unsigned row);
 /* The reason, by that evidence, for which a track's body is two targets; or RHO_BODY_ONE. */
-enum rho_body_split rho_tracker_find_body_split_reason(const struct step *step, unsigned row);
+enum rho_body_split rho_tracker_find_body_split_reason(const struct rho_tracker *tracker,
+                                                       unsigned row);
 /* True of a live track in view within RHO_BODY_TRACKS: plots may be grouped for it. */
-static inline int rho_tracker_may_own_group_of_plots(const struct step *step, unsigned row)
+static inline int rho_tracker_may_own_group_of_plots(const struct rho_look *look, unsigned row)
 {
     return RHO_BODIES && row < RHO_BODY_TRACKS &&
-           step->tracker->tracks[row].status != RHO_TRACK_FREE &&
-           rho_tracker_is_track_in_view(step, row);
+           look->tracker->tracks[row].status != RHO_TRACK_FREE &&
+           rho_tracker_is_track_in_view(look, row);
 }
 /* duplicate_tracks.c: ends one of two tracks of one target; the other track gets its plots */
 void rho_tracker_end_duplicate_tracks(struct step *step);
@@ -447,54 +470,58 @@ struct plot_choice {
     uint16_t in_octave[RHO_WORK_OCTAVES]; /* plots counted in each octave */
 };
 /* Begins a phase in which tracks score plots, with a reserved share for each track in view. */
-void rho_tracker_begin_phase_with_share_per_track(struct step *step);
+void rho_tracker_begin_phase_with_share_per_track(const struct rho_look *look,
+                                                  struct rho_work *work);
 /* Begins a phase that may do work_max / divisor units of work. */
-void rho_tracker_begin_work_phase(struct step *step, uint32_t divisor);
-static inline void rho_tracker_spend_work(struct step *step, uint32_t units)
+void rho_tracker_begin_work_phase(const struct rho_tracker *tracker, struct rho_work *work,
+                                  uint32_t divisor);
+static inline void rho_tracker_spend_work(struct rho_work *work, uint32_t units)
 {
-    step->work = rho_count(step->work, units);
+    work->spent = rho_count(work->spent, units);
 }
 
 /* Releases the reserved share of one waiting track. */
-static inline void rho_tracker_release_work_share_of_one_track(struct step *step)
+static inline void rho_tracker_release_work_share_of_one_track(struct rho_work *work)
 {
-    step->share.waiting -= step->share.waiting > 0 ? 1u : 0u;
+    work->share.waiting -= work->share.waiting > 0 ? 1u : 0u;
 }
 
-static inline int rho_tracker_is_phase_work_spent(const struct step *step)
+static inline int rho_tracker_is_phase_work_spent(struct rho_work *work)
 {
-    return step->work > step->share.end;
+    return work->spent > work->share.end;
 }
 
-struct plot_choice rho_tracker_begin_choice_of_plots_to_score(struct step *step,
+struct plot_choice rho_tracker_begin_choice_of_plots_to_score(const struct rho_look *look,
+                                                              struct rho_work *work,
                                                               const struct rho_track *track);
 void rho_tracker_count_plot_in_distance_octave(struct plot_choice *choice,
                                                const struct rho_track *track,
                                                const struct rho_plot *plot);
-void rho_tracker_limit_choice_to_nearest_plots(struct step *step, struct plot_choice *choice);
+void rho_tracker_limit_choice_to_nearest_plots(struct rho_work *work, struct plot_choice *choice);
 /* True where a plot is chosen; its units of work are spent. */
-int rho_tracker_spend_score_work_if_plot_chosen(struct step *step, struct plot_choice *choice,
+int rho_tracker_spend_score_work_if_plot_chosen(struct rho_work *work, struct plot_choice *choice,
                                                 const struct rho_track *track,
                                                 const struct rho_plot *plot);
 /* Units of work that are left for the initiator's search; 0: no limit. */
-uint32_t rho_tracker_work_left_for_search(const struct step *step);
+uint32_t rho_tracker_work_left_for_search(const struct rho_look *look, struct rho_work *work);
 void rho_tracker_record_work(struct step *step);
 
 /* ---- clutter --------------------------------------------------------------------------------- */
 
 /* expected_clutter.c: density of clutter plots at a place, without echoes and strobes, 1/m^2 */
-float rho_tracker_background_density(const struct step *step, float x_m, float y_m);
+float rho_tracker_background_density(const struct rho_look *look, float x_m, float y_m);
 /* Density of clutter at a plot's place, without echoes and strobes, 1/m^2; above 0. */
-float rho_tracker_background_density_at_plot(const struct step *step, const struct rho_plot *plot);
+float rho_tracker_background_density_at_plot(const struct rho_look *look,
+                                             const struct rho_plot *plot);
 /* ln of the density of clutter at the track's place, in the part of the scan that is claimed. */
-float rho_tracker_log_clutter_density_at_track(const struct step *step,
+float rho_tracker_log_clutter_density_at_track(const struct rho_look *look,
                                                const struct rho_track *track);
 /* Clutter plots expected within three standard deviations of the track's place; 0 in a frame. */
 float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct rho_track *track);
 /* Measures the clutter density of a later part of the scan, from its held plots. */
-void rho_tracker_measure_density_of_held_plots(struct step *step);
+void rho_tracker_measure_density_of_held_plots(struct rho_look *look);
 /* Smooths the number of unclaimed plots, after new tracks have started. */
-void rho_tracker_smooth_unclaimed_count(struct step *step);
+void rho_tracker_smooth_unclaimed_count(struct rho_tracker *tracker, const struct rho_look *look);
 /* Moves a mean of ten scans by a tenth of its difference to the newest value. */
 void rho_tracker_smooth_mean(float *mean, float newest);
 
@@ -503,30 +530,32 @@ void rho_tracker_init_clutter_map(struct rho_tracker *tracker);
 int rho_tracker_has_sound_clutter_map(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_echo_returns(const struct rho_track *track);
 /* Computes the density of echoes and strobes at the plots of a scan (first part), before claims. */
-void rho_tracker_predict_clutter_at_plots(struct step *step);
+void rho_tracker_predict_clutter_at_plots(struct rho_tracker *tracker, const struct rho_look *look,
+                                          struct rho_work *work);
 /*
  * ln of the clutter density at a plot with echoes, strobes and second plots, over that without; 0
  * in later parts of a scan.
  */
-float rho_tracker_log_echo_over_background_density(const struct step *step, uint32_t row);
+float rho_tracker_log_echo_over_background_density(const struct rho_look *look, uint32_t row);
 /*
  * Stores rho_tracker_log_echo_over_background_density of the scan's plots with the held plots in
  * the window.
  */
-void rho_tracker_store_echo_ratios_in_window(struct step *step);
+void rho_tracker_store_echo_ratios_in_window(const struct rho_look *look);
 /* Updates the clutter map with the scan's plots, after new tracks have started. */
-void rho_tracker_update_clutter_map(struct step *step);
+void rho_tracker_update_clutter_map(struct rho_tracker *tracker, const struct rho_look *look);
 /*
  * Likelihood ratio of a range rate that is off_mps from the expected one, against clutter that is
  * uniform in all range rates. Half of such rates are taken to be as expected, with the variance and
  * that of 1 m/s, and half to be uniform, too.
  */
-float rho_tracker_range_rate_likelihood_ratio(const struct step *step, float off_mps,
+float rho_tracker_range_rate_likelihood_ratio(const struct rho_look *look, float off_mps,
                                               float variance);
 /* Stores the place where a track starts, to tell later whether it has moved. */
 void rho_tracker_store_start_place(struct rho_track *track);
 /* Sums into a new track the probabilities that its candidate's plots were returns of echoes. */
-void rho_tracker_sum_echo_returns_at_start(struct step *step, const struct rho_candidate *candidate,
+void rho_tracker_sum_echo_returns_at_start(const struct rho_look *look,
+                                           const struct rho_candidate *candidate,
                                            struct rho_track *track);
 /* True where a track was found to be of a moving target, and its returns left the clutter map. */
 int rho_tracker_is_known_moving_target(const struct rho_track *track);
@@ -543,7 +572,7 @@ int rho_tracker_has_sound_track_second_plots(const struct rho_track *track);
  * After a start: raises the clutter density at the window's plots near the candidate's plots, as
  * they may be second plots of the same target.
  */
-void rho_tracker_raise_window_clutter_near_start(struct step *step,
+void rho_tracker_raise_window_clutter_near_start(const struct rho_look *look, struct rho_work *work,
                                                  const struct rho_candidate *candidate);
 
 /* ---- plots and tracks ------------------------------------------------------------------------ */
@@ -552,30 +581,31 @@ void rho_tracker_raise_window_clutter_near_start(struct step *step,
 /* Converts nats to integer thousandths, within the range of the assignment's costs. */
 int32_t rho_tracker_nat_to_mnat(float nat);
 /* Makes the gate of a track about its merged estimate. measures: of the scan; 0 for bearings. */
-void rho_tracker_open_track_gate(const struct step *step, const struct rho_track *track,
+void rho_tracker_open_track_gate(const struct rho_look *look, const struct rho_track *track,
                                  uint32_t measures, struct rho_gate *gate);
 /*
  * Adds a track (row) and an input (column) as a pair to the assignment. gain_nat: score over that
  * of a miss; a pair always costs less than a miss.
  */
-void rho_tracker_add_assignment_pair(struct step *step, unsigned row, uint32_t column,
+void rho_tracker_add_assignment_pair(struct rho_tracker *tracker, unsigned row, uint32_t column,
                                      float gain_nat);
 /* Score of a pair over clutter. Returns 0 where the pair was not added; *gain_nat stays. */
-int rho_tracker_find_pair_gain(const struct step *step, unsigned row, int column, float *gain_nat);
+int rho_tracker_find_pair_gain(const struct rho_look *look, unsigned row, int column,
+                               float *gain_nat);
 /* Removes an ended track's row from the assignment, and moves later rows up by one. */
 void rho_tracker_remove_assignment_row(struct rho_tracker *tracker, unsigned row);
 
 /* Solves the assignment, and counts plots that were dropped for lack of room in gates. */
-void rho_tracker_solve_assignment(struct step *step);
+void rho_tracker_solve_assignment(struct rho_tracker *tracker);
 
 /*
  * Log-likelihood ratio of a plot in a track's Kalman gate, against clutter. log_density:
  * rho_tracker_log_clutter_density_at_track of the track
  */
-float rho_tracker_score_plot(const struct step *step, const struct rho_track *track,
+float rho_tracker_score_plot(const struct rho_look *look, const struct rho_track *track,
                              const struct rho_gate_result *result, float log_density, uint32_t row);
 /* ln of the probability of a miss; 0 where the scan counts no miss of the track. */
-float rho_tracker_log_miss_probability(const struct step *step, const struct rho_track *track);
+float rho_tracker_log_miss_probability(const struct rho_look *look, const struct rho_track *track);
 /*
  * Iterates over the plots near a track with hypotheses that are not assigned to another track, each
  * scored by every hypothesis; gain_nat is the score over clutter:
@@ -590,16 +620,18 @@ struct plot_scores {
     struct plots_near near;
     struct plot_choice choice;
 };
-void rho_tracker_begin_plot_scores(struct step *step, unsigned row, struct plot_scores *scores);
-int rho_tracker_next_plot_score(struct step *step, struct plot_scores *scores, uint32_t *plot,
+void rho_tracker_begin_plot_scores(struct rho_tracker *tracker, const struct rho_look *look,
+                                   struct rho_work *work, unsigned row, struct plot_scores *scores);
+int rho_tracker_next_plot_score(struct rho_tracker *tracker, const struct rho_look *look,
+                                struct rho_work *work, struct plot_scores *scores, uint32_t *plot,
                                 float *gain_nat);
 /* A plot of the scan with its time, sensor and row, as rho_track_update_by_plot takes it. */
-struct rho_track_plot rho_tracker_make_track_plot(const struct step *step, int row);
+struct rho_track_plot rho_tracker_make_track_plot(const struct rho_look *look, int row);
 
 /* ---- life cycle ------------------------------------------------------------------------------ */
 
 /* confirm_and_end_track.c: limits of score and misses that confirm and end the tracks of a step */
-struct rho_track_limits rho_tracker_track_limits(const struct step *step);
+struct rho_track_limits rho_tracker_track_limits(const struct rho_look *look);
 /* Confirms a track, makes it tentative or ends it, and counts it. */
 void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
                                   const struct rho_track_limits *limits);
@@ -619,7 +651,8 @@ void rho_tracker_fade_track_counts_set_evidence_need(struct step *step);
 /* True of a track that is not established and has less evidence than needed_nat. */
 int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track);
 /* Counts a track that becomes established in this step. */
-void rho_tracker_count_if_newly_established(struct step *step, const struct rho_track *track);
+void rho_tracker_count_if_newly_established(struct rho_tracker *tracker,
+                                            const struct rho_track *track);
 /* Counts an ended track if it ended early. */
 void rho_tracker_count_if_ended_early(struct step *step, const struct rho_track *track);
 
@@ -627,7 +660,8 @@ void rho_tracker_count_if_ended_early(struct step *step, const struct rho_track 
  * manoeuvre_interval_learning.c: mean time between manoeuvres; learned from established tracks over
  * dt_s
  */
-void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s);
+void rho_tracker_learn_manoeuvre_interval(struct rho_tracker *tracker, const struct rho_look *look,
+                                          float dt_s);
 /* Sets the mean time between manoeuvres to its default where no scan came for long. */
 void rho_tracker_reset_manoeuvre_interval_after_silence(struct rho_tracker *tracker,
                                                         int64_t time_us);
@@ -644,7 +678,8 @@ void rho_tracker_update_scan_interval(struct rho_tracker_pace *pace,
 int rho_tracker_update_and_test_unobserved(const struct step *step, struct rho_track *track,
                                            int is_missed, const struct rho_track_limits *limits);
 /* True where sigma of the track's place exceeds the maximum range of its last sensor. */
-int rho_tracker_is_place_too_uncertain(const struct step *step, const struct rho_track *track);
+int rho_tracker_is_place_too_uncertain(const struct rho_tracker *tracker,
+                                       const struct rho_track *track);
 
 /* tracker_setup.c: the filter that a configuration gives to tracks of plots */
 enum rho_track_filter rho_tracker_filter_of_config(const struct rho_tracker_config *config);

@@ -29,66 +29,69 @@
 #define GATE_UNITS 12u
 
 /* Number of parts of RHO_MAX_PLOTS plots in which a large scan is claimed, one phase each. */
-static uint32_t num_parts_to_claim_large_scan(const struct step *step)
+static uint32_t num_parts_to_claim_large_scan(const struct rho_look *look)
 {
-    const uint32_t parts = (step->num_inputs + RHO_MAX_PLOTS - 1u) / RHO_MAX_PLOTS;
+    const uint32_t parts = (look->num_inputs + RHO_MAX_PLOTS - 1u) / RHO_MAX_PLOTS;
     return !RHO_CLAIMS_BEYOND || parts < 1u ? 1u
            : parts < RHO_TRACKER_PARTS_MAX  ? parts
                                             : RHO_TRACKER_PARTS_MAX;
 }
 
-void rho_tracker_begin_work_phase(struct step *step, uint32_t divisor)
+void rho_tracker_begin_work_phase(const struct rho_tracker *tracker, struct rho_work *work,
+                                  uint32_t divisor)
 {
-    const uint32_t work_max = step->tracker->config.work_max;
-    step->share.end = work_max > 0 ? rho_count(step->work, work_max / divisor) : UINT32_MAX;
+    const uint32_t work_max = tracker->config.work_max;
+    work->share.end = work_max > 0 ? rho_count(work->spent, work_max / divisor) : UINT32_MAX;
 }
 
-void rho_tracker_begin_phase_with_share_per_track(struct step *step)
+void rho_tracker_begin_phase_with_share_per_track(const struct rho_look *look,
+                                                  struct rho_work *work)
 {
-    const struct rho_tracker *tracker = step->tracker;
-    const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts_to_claim_large_scan(step);
+    const struct rho_tracker *tracker = look->tracker;
+    const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts_to_claim_large_scan(look);
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         waiting += tracker->tracks[row].status != RHO_TRACK_FREE &&
-                   rho_tracker_is_track_in_view(step, row);
+                   rho_tracker_is_track_in_view(look, row);
     }
-    rho_tracker_begin_work_phase(step, part);
-    step->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
-    step->share.waiting = waiting;
+    rho_tracker_begin_work_phase(tracker, work, part);
+    work->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
+    work->share.waiting = waiting;
 }
 
-static uint32_t units_to_score_plot(const struct step *step, const struct rho_track *track)
+static uint32_t units_to_score_plot(const struct rho_look *look, const struct rho_track *track)
 {
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         return GATE_UNITS;
     }
-    uint32_t units = SCORE_UNITS + (step->offset_max_s > 0.0f ? MOVE_UNITS : 0u);
-    if (step->scan->measures & RHO_MEASURES_VELOCITY) {
-        units += step->scan->measures & RHO_MEASURES_Z ? VELOCITY_3D_UNITS : VELOCITY_UNITS;
+    uint32_t units = SCORE_UNITS + (look->offset_max_s > 0.0f ? MOVE_UNITS : 0u);
+    if (look->scan->measures & RHO_MEASURES_VELOCITY) {
+        units += look->scan->measures & RHO_MEASURES_Z ? VELOCITY_3D_UNITS : VELOCITY_UNITS;
     }
-    return units * rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
+    return units * rho_hypotheses_count(&look->tracker->hypotheses, track->slot);
 }
 
 /*
  * Units of work that the next waiting track may spend: its reserved share, and a part of the rest.
  */
-static uint32_t take_share_of_next_track(struct step *step)
+static uint32_t take_share_of_next_track(struct rho_work *work)
 {
-    struct work_share *share = &step->share;
+    struct work_share *share = &work->share;
     if (share->end == UINT32_MAX) {
         return UINT32_MAX;
     }
-    rho_tracker_release_work_share_of_one_track(step);
-    const uint32_t used = step->work + share->kept * (share->waiting + 1u);
+    rho_tracker_release_work_share_of_one_track(work);
+    const uint32_t used = work->spent + share->kept * (share->waiting + 1u);
     const unsigned others = share->waiting < FREE_PARTS - 1u ? share->waiting : FREE_PARTS - 1u;
     return share->kept + (used < share->end ? (share->end - used) / (others + 1u) : 0u);
 }
 
-struct plot_choice rho_tracker_begin_choice_of_plots_to_score(struct step *step,
+struct plot_choice rho_tracker_begin_choice_of_plots_to_score(const struct rho_look *look,
+                                                              struct rho_work *work,
                                                               const struct rho_track *track)
 {
-    struct plot_choice choice = {.units = units_to_score_plot(step, track)};
-    choice.most = take_share_of_next_track(step) / choice.units;
+    struct plot_choice choice = {.units = units_to_score_plot(look, track)};
+    choice.most = take_share_of_next_track(work) / choice.units;
     return choice;
 }
 
@@ -114,7 +117,7 @@ void rho_tracker_count_plot_in_distance_octave(struct plot_choice *choice,
     choice->num_near++;
 }
 
-void rho_tracker_limit_choice_to_nearest_plots(struct step *step, struct plot_choice *choice)
+void rho_tracker_limit_choice_to_nearest_plots(struct rho_work *work, struct plot_choice *choice)
 {
     uint32_t left = choice->most;
     if (choice->num_near <= choice->most) {
@@ -125,11 +128,11 @@ void rho_tracker_limit_choice_to_nearest_plots(struct step *step, struct plot_ch
         left -= choice->in_octave[choice->last++];
     }
     choice->of_last = left;
-    step->is_partial = 1;
-    step->plots_not_tried = rho_count(step->plots_not_tried, choice->num_near - choice->most);
+    work->is_partial = 1;
+    work->plots_not_tried = rho_count(work->plots_not_tried, choice->num_near - choice->most);
 }
 
-int rho_tracker_spend_score_work_if_plot_chosen(struct step *step, struct plot_choice *choice,
+int rho_tracker_spend_score_work_if_plot_chosen(struct rho_work *work, struct plot_choice *choice,
                                                 const struct rho_track *track,
                                                 const struct rho_plot *plot)
 {
@@ -140,20 +143,20 @@ int rho_tracker_spend_score_work_if_plot_chosen(struct step *step, struct plot_c
         }
         choice->of_last -= octave == choice->last ? 1u : 0u;
     }
-    rho_tracker_spend_work(step, choice->units);
+    rho_tracker_spend_work(work, choice->units);
     return 1;
 }
 
-uint32_t rho_tracker_work_left_for_search(const struct step *step)
+uint32_t rho_tracker_work_left_for_search(const struct rho_look *look, struct rho_work *work)
 {
-    const uint32_t most = step->initiator->config.work_max, all = step->tracker->config.work_max;
+    const uint32_t most = look->initiator->config.work_max, all = look->tracker->config.work_max;
     if (all == 0) {
         return most;
     }
-    const int has_images = RHO_MAX_REFLECTORS > 0 && step->tracker->num_reflectors > 0;
+    const int has_images = RHO_MAX_REFLECTORS > 0 && look->tracker->num_reflectors > 0;
     const uint32_t kept =
         all / RHO_WORK_STARTS_SHARE + (has_images ? all / RHO_WORK_IMAGES_SHARE : 0u);
-    const uint32_t used = rho_count(step->work, kept);
+    const uint32_t used = rho_count(work->spent, kept);
     const uint32_t left = all > used ? all - used : 1u; /* 1, as 0 would be no limit */
     return most > 0 && most < left ? most : left;
 }
@@ -161,9 +164,9 @@ uint32_t rho_tracker_work_left_for_search(const struct step *step)
 void rho_tracker_record_work(struct step *step)
 {
     struct rho_tracker_work *work = &step->tracker->work;
-    work->work = step->work;
+    work->work = step->work.spent;
     work->work_worst = work->work > work->work_worst ? work->work : work->work_worst;
-    work->partial_steps = rho_count(work->partial_steps, step->is_partial ? 1u : 0u);
-    work->plots_not_tried = rho_count(work->plots_not_tried, step->plots_not_tried);
-    step->report->is_partial = step->is_partial ? 1u : 0u;
+    work->partial_steps = rho_count(work->partial_steps, step->work.is_partial ? 1u : 0u);
+    work->plots_not_tried = rho_count(work->plots_not_tried, step->work.plots_not_tried);
+    step->report->is_partial = step->work.is_partial ? 1u : 0u;
 }
