@@ -4,7 +4,10 @@
  */
 #include "rhotrack/body.h"
 
+#include "../tracker/clutter.h"
+#include "../tracker/sensors.h"
 #include "../tracker/step.h"
+#include "bodies.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_extent_filter.h"
 #include "rhotrack/detail/measurement.h"
@@ -143,7 +146,7 @@ void rho_tracker_update_bodies(struct rho_tracker *tracker, const struct rho_loo
                                const struct rho_scan *scan)
 {
     rho_tracker_align_bodies_with_tracks(tracker);
-    if (look->is_late) {
+    if (!look->teaches) {
         return; /* tracks have returned to the newest time, with another heading than at the scan */
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {

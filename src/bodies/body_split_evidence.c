@@ -9,7 +9,10 @@
  * are told apart by range rates within a few seconds, long before they are resolved; two cars in
  * one lane, so near that they were taken for one truck, are told apart by their length.
  */
+#include "../tracker/clutter.h"
+#include "../tracker/sensors.h"
 #include "../tracker/step.h"
+#include "bodies.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_extent_filter.h"

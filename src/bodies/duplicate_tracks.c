@@ -6,7 +6,10 @@
  * bodies explain about equally well; the younger track ends when the overlap lasts. And a long
  * target that comes into view at once may start two tracks, one of which ends while both are new.
  */
+#include "../tracker/clutter.h"
+#include "../tracker/sensors.h"
 #include "../tracker/step.h"
+#include "bodies.h"
 #include "rhotrack/detail/approx.h"
 
 /* Scans with overlapping bodies after which the younger track ends, and the memory of the count. */
@@ -164,7 +167,7 @@ static void end_one_of_each_two_new_duplicates(struct step *step)
 
 void rho_tracker_end_duplicate_tracks(struct step *step)
 {
-    if (!step->look.is_late) {
+    if (step->look.teaches) {
         count_overlaps_and_end_younger(step);
     }
     end_one_of_each_two_new_duplicates(step);

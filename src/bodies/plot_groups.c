@@ -7,7 +7,10 @@
  * group of a plot never has a higher row than the plot. At the end of the step rows and fates are
  * turned into those of the plots again.
  */
+#include "../tracker/clutter.h"
+#include "../tracker/sensors.h"
 #include "../tracker/step.h"
+#include "bodies.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_extent_filter.h"
 #include "rhotrack/detail/measurement.h"
@@ -453,8 +456,10 @@ static void clear_groups_set_fates_find_largest_noise(struct rho_tracker *tracke
     }
 }
 
-void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped)
+void rho_tracker_group_plots(struct step *step)
 {
+    struct rho_scan *grouped = &step->grouped;
+    step->whole = step->look.scan;
     struct rho_groups *groups = &step->tracker->bodies.groups;
     rho_tracker_align_bodies_with_tracks(step->tracker);
     clear_groups_set_fates_find_largest_noise(step->tracker, &step->look);

@@ -102,7 +102,7 @@ int rho_tracker_admit_track(struct step *step, struct rho_track *track,
         rho_tracker_store_start_place(track);
     }
     if (RHO_SECTORS) {
-        rho_tracker_store_track_time_before_late_scan(track);
+        rho_tracker_keep_track_time(track);
     }
     track->seen_us = step->look.time_us;
     rho_tracker_apply_thresholds(step, track, limits);
@@ -180,7 +180,7 @@ static enum rho_status admit_track_between_steps(struct step *step, struct rho_t
     if (!rho_tracker_admit_track(step, track, &limits)) {
         return RHO_ERROR_CAPACITY;
     }
-    rho_tracker_merge_estimates_per_track(step->tracker, &step->look);
+    rho_step_merge_estimates(step);
     rho_tracker_report_tracks(step);
     return RHO_OK;
 }
@@ -276,11 +276,9 @@ enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
     return status == RHO_OK ? admit_track_between_steps(&step, &track) : status;
 }
 
-void rho_tracker_mark_unclaimed_no_room(const struct rho_look *look)
+void rho_tracker_replace_fates(const struct rho_look *look, enum rho_fate from, enum rho_fate to)
 {
     for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (look->fates[i] == RHO_FATE_HELD) {
-            look->fates[i] = RHO_FATE_NO_ROOM;
-        }
+        look->fates[i] = (uint8_t)(look->fates[i] == from ? to : look->fates[i]);
     }
 }

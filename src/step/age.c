@@ -4,6 +4,7 @@
  * tracks by their score, silence or speed.
  */
 #include "phases.h"
+#include "rhotrack/detail/doppler_notch.h"
 
 /* Standard deviations of a speed that is surely below the slowest target's. */
 #define SLOW_SIGMAS 3.0f
@@ -43,12 +44,13 @@ static int count_too_fast_updates_are_enough_to_end(const struct rho_tracker *tr
     return track->fast_in_row >= FAST_UPDATES;
 }
 
-void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track, int is_missed,
-                                      const struct rho_track_limits *limits)
+static void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track,
+                                             int is_missed, const struct rho_track_limits *limits)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
-    const int is_unseen = rho_tracker_update_and_test_unobserved(step, track, is_missed, limits) ||
-                          rho_tracker_is_place_too_uncertain(step->tracker, track);
+    const int is_unseen =
+        rho_tracker_update_and_test_unobserved(&step->look, track, is_missed, limits) ||
+        rho_tracker_is_place_too_uncertain(step->tracker, track);
     const int is_fast = count_too_fast_updates_are_enough_to_end(step->tracker, track);
     rho_tracker_apply_thresholds(step, track, limits);
     if (track->status != RHO_TRACK_FREE &&
@@ -60,42 +62,68 @@ void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track
     }
 }
 
-/* Counts a miss and lowers the score; hypotheses have taken the miss from their score already. */
-static void apply_miss_to_track(const struct rho_look *look, struct rho_track *track)
+/*
+ * A frame without a bearing of a track is one miss, however many sensors looked. The score is left
+ * alone: the update has lowered it for each sensor.
+ */
+static void count_misses_of_frame(struct step *step)
 {
+    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
+        struct rho_track *track = &step->tracker->tracks[row];
+        if (track->status != RHO_TRACK_FREE && !rho_tracker_is_track_frozen(track) &&
+            track->plot < 0 && rho_step_does_frame_cover(step, track)) {
+            rho_track_count_miss(track, 0);
+        }
+    }
+}
+
+/*
+ * Counts a miss of a track without a plot where the scan looked, and lowers the score; hypotheses
+ * have taken the miss from their score already. Returns 1 where the track is missed.
+ */
+static int count_miss_of_scan(const struct rho_look *look, struct rho_track *track, unsigned row)
+{
+    if (track->plot >= 0 || !rho_tracker_is_track_in_view(look, row) ||
+        !rho_tracker_may_count_miss(look, track)) {
+        return 0;
+    }
+    if (rho_tracker_is_track_mostly_in_notch(track) && track->was_confirmed) {
+        rho_tracker_set_blind_track_coasting(look, track);
+        return 0;
+    }
     rho_track_count_miss(
         track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
                    ? 0
                    : rho_tracker_nat_to_mnat(
                          -rho_tracker_log_pd_and_log_miss_of_track(look, track).log_miss));
+    return 1;
 }
 
-void rho_tracker_age(struct step *step)
+void rho_step_age(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    if (RHO_MAX_ECHOES > 0) {
+    const struct rho_look *look = &step->look;
+    if (step->frame) {
+        count_misses_of_frame(step);
+    } else if (RHO_MAX_ECHOES > 0) {
         rho_tracker_learn_second_plots_and_end_duplicates(step);
     }
-    const struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
+    const struct rho_track_limits limits = rho_tracker_track_limits(look);
     rho_tracker_fade_track_counts_set_evidence_need(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || rho_tracker_is_track_frozen(track)) {
             continue;
         }
-        int is_missed = track->plot < 0 && rho_tracker_is_track_in_view(&step->look, row) &&
-                        rho_tracker_may_count_miss(&step->look, track);
-        if (is_missed && rho_tracker_is_track_mostly_in_notch(track) && track->was_confirmed) {
-            is_missed = 0;
-            rho_tracker_set_blind_track_coasting(&step->look, track);
-        }
-        if (is_missed) {
-            apply_miss_to_track(&step->look, track);
-        }
-        if (RHO_SECTORS) {
-            rho_tracker_record_seeing_sensor(&step->look, track);
+        const int is_missed = step->frame ? track->plot < 0 && track->misses_in_row > 0
+                                          : count_miss_of_scan(look, track, row);
+        if (RHO_SECTORS && look->scan) {
+            rho_tracker_record_seeing_sensor(look, track);
         }
         rho_tracker_confirm_or_end_track(step, track, is_missed, &limits);
     }
     rho_tracker_remove_ended_tracks(tracker);
+    if (look->scan && rho_notch_sensor_has_notch(look->sensor)) {
+        rho_tracker_clear_blind_percents(tracker);
+    }
 }

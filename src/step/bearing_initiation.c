@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "bearing_frame_copied_into_batch.h"
+#include "batch_frame.h"
 #include "rhotrack/detail/bearing_crossing.h"
 
 /* Least margin of a found track over rival tracks of its bearings: ln of odds of 100 to 1. */
@@ -177,7 +177,7 @@ void rho_tracker_initiate_passive(struct step *step)
 {
     struct rho_passive *passive = step->passive;
     if (!RHO_SEARCHES || !passive) {
-        rho_tracker_mark_unclaimed_no_room(&step->look);
+        rho_tracker_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_NO_ROOM);
         return;
     }
     push_frame_into_batch(step);

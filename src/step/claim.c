@@ -194,14 +194,14 @@ static void offer_plots_scored_by_hypotheses(struct rho_tracker *tracker,
 
 /* ---- the phase ------------------------------------------------------------------------------- */
 
-void rho_tracker_claim(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
+void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
 {
-    validate_plots(tracker, look);
-    rho_tracker_index_plots(tracker, look);
-    if (RHO_CLAIMS_BEYOND && look->first_row > 0) {
-        rho_tracker_measure_density_of_held_plots(look);
-    } else if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_predict_clutter_at_plots(tracker, look, work);
+    if (look->bearings) {
+        rho_step_validate_bearings(tracker, look);
+    } else {
+        validate_plots(tracker, look);
+        rho_tracker_index_plots(tracker, look);
+        rho_tracker_open_clutter(tracker, look, work);
     }
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num_gated);
@@ -211,7 +211,9 @@ void rho_tracker_claim(struct rho_tracker *tracker, struct rho_look *look, struc
             !rho_tracker_is_track_in_view(look, row)) {
             continue;
         }
-        if (RHO_TRACK_IS_BY(&tracker->tracks[row], RHO_TRACK_HYPOTHESES)) {
+        if (look->bearings) {
+            rho_step_offer_bearings(tracker, look, row);
+        } else if (RHO_TRACK_IS_BY(&tracker->tracks[row], RHO_TRACK_HYPOTHESES)) {
             offer_plots_scored_by_hypotheses(tracker, look, work, row);
         } else {
             offer_gated_plots(tracker, look, work, row);

@@ -100,12 +100,32 @@ static void search_and_start_tracks(struct step *step)
     }
 }
 
-void rho_tracker_initiate(struct step *step)
+/* Must this plot go? A plot at the image of a track, or in an excluded area, starts no track. */
+static void withhold_plots(struct step *step)
 {
+    if (RHO_MAX_REFLECTORS > 0 && step->tracker->num_reflectors > 0) {
+        rho_tracker_mark_image_plots_as_ghosts(&step->look, &step->work);
+    }
+    if (RHO_MAX_EXCLUDED_AREAS > 0 && step->tracker->num_excluded > 0) {
+        rho_tracker_mark_excluded_plots_as_ghosts(step->tracker, &step->look, &step->work);
+    }
+}
+
+void rho_step_initiate(struct step *step)
+{
+    if (step->frame) {
+        rho_tracker_initiate_passive(step);
+        return;
+    }
+    withhold_plots(step);
+    if (!step->look.starts) {
+        rho_tracker_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_STALE);
+        return;
+    }
     if (RHO_SEARCHES && step->look.initiator) {
         search_and_start_tracks(step);
     } else {
-        rho_tracker_mark_unclaimed_no_room(&step->look);
+        rho_tracker_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_NO_ROOM);
     }
     if (RHO_MAX_ECHOES > 0) {
         rho_tracker_update_clutter_map(step->tracker, &step->look);

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#include "bearing_frame_copied_into_batch.h"
+#include "batch_frame.h"
 #include "phases.h"
 #include "rhotrack/detail/approx.h"
 

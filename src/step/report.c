@@ -7,14 +7,16 @@
 #include "phases.h"
 
 /*
- * Tracks at another time than the step's are left alone: the scan did not see them, or they started
- * at a plot's own time. The report moves a copy of their estimates.
+ * After a scan of plots, tracks at another time than the step's are left alone: the scan did not see
+ * them, or they started at a plot's own time. The report moves a copy of their estimates.
  */
-void rho_tracker_merge_estimates_per_track(struct rho_tracker *tracker, const struct rho_look *look)
+void rho_step_merge_estimates(struct step *step)
 {
-    for (unsigned i = 0; i < tracker->num_tracks; i++) {
-        struct rho_track *track = &tracker->tracks[i];
-        if (track->time_us == look->time_us && !rho_tracker_is_track_frozen(track)) {
+    const struct rho_look *look = &step->look;
+    for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
+        struct rho_track *track = &step->tracker->tracks[i];
+        if ((step->frame || track->time_us == look->time_us) &&
+            !rho_tracker_is_track_frozen(track)) {
             rho_track_merge_estimates(track, look->time_us, &look->model);
         }
     }
@@ -115,7 +117,7 @@ void rho_tracker_report_tracks(const struct step *step)
     }
 }
 
-void rho_tracker_report(struct step *step)
+void rho_step_report(struct step *step)
 {
     count_plot_fates(step);
     rho_tracker_report_tracks(step);

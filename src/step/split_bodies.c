@@ -170,7 +170,7 @@ static int split_track_in_two(struct step *step, unsigned row, const struct body
 void rho_tracker_split_tracks_of_two_targets(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
-    for (unsigned row = 0; !step->look.is_late && row < tracker->bodies.count; row++) {
+    for (unsigned row = 0; step->look.teaches && row < tracker->bodies.count; row++) {
         const unsigned num_tracks = tracker->num_tracks;
         struct body_side sides[2] = {{0}, {0}};
         if (tracker->tracks[row].plot < 0) {

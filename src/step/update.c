@@ -117,8 +117,12 @@ static void update_hypotheses_of_track(struct rho_tracker *tracker, const struct
 
 /* ---- the phase ------------------------------------------------------------------------------- */
 
-void rho_tracker_update(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
+void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
 {
+    if (look->bearings) {
+        rho_step_update_by_bearings(tracker, look);
+        return;
+    }
     if (RHO_SECTORS) {
         rho_tracker_update_sensor_health(tracker, look);
     }

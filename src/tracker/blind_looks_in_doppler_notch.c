@@ -9,8 +9,11 @@
  * or it was not seen for too long. Blind looks count neither for the sensor's health nor for its
  * learned pd.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/imm_notch.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Detection probability of a target in the Doppler notch. */
@@ -51,27 +54,27 @@ static float blind_look_probability(const struct rho_look *look, const struct rh
 /*
  * Per cent of blind looks; 0 where the track was unseen for too long or clutter would be claimed.
  */
-static uint8_t blind_percent_if_may_coast(const struct step *step, const struct rho_track *track)
+static uint8_t blind_percent_if_may_coast(const struct rho_look *look,
+                                          const struct rho_track *track)
 {
-    if (rho_seconds_between(track->updated_us, step->look.time_us) > BLIND_MAX_S ||
-        rho_tracker_expected_clutter_in_gate(step, track) > BLIND_CLUTTER_MAX) {
+    if (rho_seconds_between(track->updated_us, look->time_us) > BLIND_MAX_S ||
+        rho_tracker_expected_clutter_in_gate(look, track) > BLIND_CLUTTER_MAX) {
         return 0;
     }
-    const float percent = 100.0f * blind_look_probability(&step->look, track);
+    const float percent = 100.0f * blind_look_probability(look, track);
     return (uint8_t)(percent < BLIND_PERCENT_MOST ? percent : BLIND_PERCENT_MOST);
 }
 
-void rho_tracker_set_notch_blind_percents(struct step *step)
+void rho_tracker_set_notch_blind_percents(struct rho_tracker *tracker, struct rho_look *look)
 {
-    struct rho_tracker *tracker = step->tracker;
-    step->look.notch_look = (struct rho_notch_look){
-        .pd = rho_exp(step->look.log_pd),
-        .may_stand = tracker->config.v_min_mps <= step->look.sensor->notch_mps,
+    look->notch_look = (struct rho_notch_look){
+        .pd = rho_exp(look->log_pd),
+        .may_stand = tracker->config.v_min_mps <= look->sensor->notch_mps,
     };
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->status != RHO_TRACK_FREE && rho_tracker_is_track_in_view(&step->look, row)) {
-            track->blind_percent = blind_percent_if_may_coast(step, track);
+        if (track->status != RHO_TRACK_FREE && rho_tracker_is_track_in_view(look, row)) {
+            track->blind_percent = blind_percent_if_may_coast(look, track);
         }
     }
 }
@@ -93,12 +96,12 @@ static int may_target_stand_still_in_notch(const struct rho_look *look,
                most_mps * most_mps;
 }
 
-struct detection rho_tracker_detection_with_notch(const struct rho_look *look,
-                                                  const struct rho_track *track)
+struct detection rho_tracker_detection_in_notch(const struct rho_look *look,
+                                                const struct rho_track *track,
+                                                struct detection elsewhere)
 {
     const float blind = 0.01f * (float)track->blind_percent;
-    const float seen =
-        rho_exp(rho_tracker_detection_without_notch(look, track).log_pd) * (1.0f - blind);
+    const float seen = rho_exp(elsewhere.log_pd) * (1.0f - blind);
     return (struct detection){rho_log(seen + NOTCH_PD * blind),
                               may_target_stand_still_in_notch(look, track) ? STAND_MISS_NAT
                                                                            : rho_log(1.0f - seen)};
@@ -108,7 +111,7 @@ void rho_tracker_set_blind_track_coasting(const struct rho_look *look, struct rh
 {
     track->status =
         (uint8_t)rho_track_next_status((enum rho_track_status)track->status, RHO_TRACK_MISS);
-    if (!look->is_late) {
+    if (look->teaches) {
         track->seen_us = look->time_us;
     }
 }

@@ -15,10 +15,13 @@
  */
 #include <string.h>
 
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/recurring_clutter_map_operations.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Fewest hits of a track that is taken to be of a target; it must also move as targets do. */
@@ -433,8 +436,8 @@ void rho_tracker_predict_clutter_at_plots(struct rho_tracker *tracker, const str
                                           struct rho_work *work)
 {
     struct rho_clutter_map *map = &tracker->clutter_map;
-    map->is_looked = !look->is_late;
-    if (look->is_late) {
+    map->is_looked = look->teaches ? 1 : 0;
+    if (!look->teaches) {
         return;
     }
     map->time_us = look->time_us;

@@ -2,7 +2,10 @@
 /*
  * confirm_and_end_track: the end of a track, and the thresholds that confirm and end tracks.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/approx.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Wald's lower threshold below the start score, ln 100: loses one true track in a hundred. */
@@ -80,11 +83,11 @@ struct rho_track_limits rho_tracker_track_limits(const struct rho_look *look)
     return limits;
 }
 
-static int may_be_hidden_target(const struct step *step, const struct rho_track *track)
+static int may_be_hidden_target(const struct rho_look *look, const struct rho_track *track)
 {
     return rho_tracker_has_hits_to_be_established(track) &&
            (RHO_MAX_ECHOES == 0 || rho_tracker_is_known_moving_target(track)) &&
-           rho_tracker_expected_clutter_in_gate(step, track) <= HIDE_CLUTTER_MAX;
+           rho_tracker_expected_clutter_in_gate(look, track) <= HIDE_CLUTTER_MAX;
 }
 
 /*
@@ -106,12 +109,12 @@ void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
 {
     const uint8_t was_confirmed = track->was_confirmed;
     const int is_low = track->score_max_mnat - track->score_mnat > 2 * limits->doubt_mnat;
-    const int is_late = track->misses_in_row >= limits->misses_in_row_max;
+    const int is_missed_out = track->misses_in_row >= limits->misses_in_row_max;
     struct rho_track_limits own = *limits;
-    if ((is_low || is_late) && may_be_hidden_target(step, track)) {
+    if ((is_low || is_missed_out) && may_be_hidden_target(&step->look, track)) {
         keep_hidden_target_longer(track, &own);
     }
-    if (is_late || rho_tracker_lacks_evidence(step, track)) {
+    if (is_missed_out || rho_tracker_lacks_evidence(step, track)) {
         own.doubt_mnat = 0;
     }
     rho_tracker_count_if_newly_established(step->tracker, track);

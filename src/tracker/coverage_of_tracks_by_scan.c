@@ -8,9 +8,12 @@
  * with the uncertainty of the track's place, so that a track that no sensor sees is predicted in
  * the end, until its place is too uncertain to be of use.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
+#include "sensors.h"
 #include "step.h"
 
 /*
@@ -124,13 +127,4 @@ int rho_tracker_sector_covers_track_place(const struct rho_look *look, float sec
 {
     return rho_measurement_covers(look->sensor, sector_from_rad, sector_to_rad,
                                   track->kalman.state[0], track->kalman.state[1]);
-}
-
-int rho_tracker_may_count_miss(const struct rho_look *look, const struct rho_track *track)
-{
-    if (RHO_SECTORS) {
-        return !look->is_suspect && rho_tracker_has_antenna_passed_gate(look, track);
-    }
-    return rho_tracker_sector_covers_track_place(look, look->scan->sector_from_rad,
-                                                 look->scan->sector_to_rad, track);
 }

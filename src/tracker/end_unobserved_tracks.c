@@ -16,9 +16,12 @@
  * track is hit less often, the time between its hits counts instead: a sensor that steers its beam
  * freely looks in some directions more often than in others.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
+#include "sensors.h"
 #include "step.h"
 
 /*
@@ -183,27 +186,27 @@ static void lower_score_to_tentative(struct rho_track *track, const struct rho_t
     }
 }
 
-int rho_tracker_update_and_test_unobserved(const struct step *step, struct rho_track *track,
+int rho_tracker_update_and_test_unobserved(const struct rho_look *look, struct rho_track *track,
                                            int is_missed, const struct rho_track_limits *limits)
 {
-    if (step->look.is_late) {
-        if (track->plot >= 0 && step->look.time_us > track->seen_us) {
-            track->seen_us = step->look.time_us;
+    if (!look->teaches) {
+        if (track->plot >= 0 && look->time_us > track->seen_us) {
+            track->seen_us = look->time_us;
         }
         return 0;
     }
-    const struct expected_looks wait = expected_look_interval_and_rate_at_track(&step->look, track);
-    const float coast = (float)step->tracker->config.coast_scans_max;
-    const float unseen_s = rho_seconds_between(track->seen_us, step->look.time_us);
+    const struct expected_looks wait = expected_look_interval_and_rate_at_track(look, track);
+    const float coast = (float)look->tracker->config.coast_scans_max;
+    const float unseen_s = rho_seconds_between(track->seen_us, look->time_us);
     const int is_overdue =
         wait.interval_s > 0.0f && unseen_s >= (coast + OVERDUE) * wait.interval_s;
     if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
         (track->plot < 0 ? is_missed
-                         : rho_tracker_expected_clutter_in_gate(step, track) > DOUBTFUL_PLOTS)) {
+                         : rho_tracker_expected_clutter_in_gate(look, track) > DOUBTFUL_PLOTS)) {
         lower_score_to_tentative(track, limits);
     }
     if (track->plot >= 0) {
-        smooth_hit_interval(track, step->look.time_us);
+        smooth_hit_interval(track, look->time_us);
         return 0;
     }
     if (!wait.is_awaited && wait.scans_per_s > 0.0f) {

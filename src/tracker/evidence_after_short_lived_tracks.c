@@ -27,7 +27,10 @@
  * false track in twenty instead of ten, all targets would be confirmed later where aircraft come
  * and go.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/approx.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Detection probability of a seldom seen object that is no target, over that of a target. */

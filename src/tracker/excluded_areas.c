@@ -6,6 +6,9 @@
 
 #include <string.h>
 
+#include "clutter.h"
+#include "plots.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Comparisons of a plot with an area that cost one unit of work. */

@@ -5,8 +5,11 @@
  * The initiator measures the density of clutter. Where it has measured none, the density is the
  * number of unclaimed plots of a scan, smoothed over ten scans, over the area of all plots so far.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Weight of the newest scan in a smoothed count of plots: a memory of ten scans. */
@@ -55,15 +58,15 @@ float rho_tracker_log_clutter_density_at_track(const struct rho_look *look,
         background_density_for_plots_part(look, track->kalman.state[0], track->kalman.state[1]));
 }
 
-float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct rho_track *track)
+float rho_tracker_expected_clutter_in_gate(const struct rho_look *look,
+                                           const struct rho_track *track)
 {
-    if (step->frame) {
+    if (!look->scan) {
         return 0.0f;
     }
     const float sigma_m = rho_track_sigma_m(track);
     return 0.5f * RHO_TWO_PI * GATE_SIGMAS * GATE_SIGMAS * sigma_m * sigma_m *
-           background_density_for_plots_part(&step->look, track->kalman.state[0],
-                                             track->kalman.state[1]);
+           background_density_for_plots_part(look, track->kalman.state[0], track->kalman.state[1]);
 }
 
 /*
@@ -71,7 +74,7 @@ float rho_tracker_expected_clutter_in_gate(const struct step *step, const struct
  * a later part is that of its held plots over their extent, or that of the first part times the
  * scan's plots over RHO_MAX_PLOTS, whichever is larger.
  */
-void rho_tracker_measure_density_of_held_plots(struct rho_look *look)
+static void measure_density_of_part(struct rho_look *look)
 {
     struct rho_extent extent = {0.0f, 0.0f, 0.0f, 0.0f};
     float num = 0.0f;
@@ -87,6 +90,16 @@ void rho_tracker_measure_density_of_held_plots(struct rho_look *look)
     }
     look->part_per_m2 = num / rho_extent_area_m2(&extent, RHO_CLUTTER_SIDE_MIN_M);
     look->part_share = (float)look->num_inputs / (float)RHO_MAX_PLOTS;
+}
+
+void rho_tracker_open_clutter(struct rho_tracker *tracker, struct rho_look *look,
+                              struct rho_work *work)
+{
+    if (RHO_CLAIMS_BEYOND && look->first_row > 0) {
+        measure_density_of_part(look);
+    } else if (RHO_MAX_ECHOES > 0) {
+        rho_tracker_predict_clutter_at_plots(tracker, look, work);
+    }
 }
 
 void rho_tracker_smooth_mean(float *mean, float newest)

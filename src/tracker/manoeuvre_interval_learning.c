@@ -18,6 +18,9 @@
  * With steps of two a few tracks do not change the model of the others. After a silence calm_s is
  * 300 s again, as nothing was learned meanwhile.
  */
+#include "clutter.h"
+#include "plots.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Weight of the default mean time between manoeuvres, in manoeuvres seen. */

@@ -12,9 +12,12 @@
  *                  '----|---'   previous sector takes none here. One without a plot is missed
  *                               in the sector in which the antenna passes the end of its gate
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Half width of a track's gate across the line of sight, standard deviations of its place. */

@@ -4,6 +4,9 @@
  * Tracks are moved back to the scan's time without process noise, claim its plots, and return to
  * the newest time at the end of the step.
  */
+#include "clutter.h"
+#include "plots.h"
+#include "sensors.h"
 #include "step.h"
 
 #define LATE_LIMIT_S 60.0f
@@ -28,13 +31,7 @@ int rho_tracker_accepts_late_scan(const struct rho_look *look)
            rho_seconds_between(look->time_us, tracker->time_us) <= tracker->config.late_max_s;
 }
 
-void rho_tracker_count_late_scan(struct rho_tracker *tracker)
-{
-    struct rho_tracker_counters *counters = &tracker->counters;
-    counters->scans_retrodicted = rho_count(counters->scans_retrodicted, 1);
-}
-
-void rho_tracker_store_track_time_before_late_scan(struct rho_track *track)
+void rho_tracker_keep_track_time(struct rho_track *track)
 {
     track->ahead_us = track->time_us;
 }
@@ -64,19 +61,12 @@ static int return_track_to_newest_time(const struct rho_look *look, struct rho_t
     return 1;
 }
 
-void rho_tracker_mark_unused_late_plots_stale(const struct rho_look *look)
-{
-    for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (look->fates[i] == RHO_FATE_HELD) {
-            look->fates[i] = RHO_FATE_STALE;
-        }
-    }
-}
-
-/* Tracks return to the newest time, which the report then has; tracks that cannot return end. */
-void rho_tracker_return_tracks_to_newest_time(struct step *step)
+int rho_tracker_return_to_newest_time(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
+    if (!step->look.is_late) {
+        return 0;
+    }
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         if (!return_track_to_newest_time(&step->look, &tracker->tracks[i])) {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
@@ -86,4 +76,5 @@ void rho_tracker_return_tracks_to_newest_time(struct step *step)
     rho_tracker_remove_ended_tracks(tracker);
     step->look.time_us = tracker->time_us;
     step->report->time_us = step->look.time_us;
+    return 1;
 }

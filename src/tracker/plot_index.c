@@ -10,6 +10,9 @@
  */
 #include <string.h>
 
+#include "clutter.h"
+#include "plots.h"
+#include "sensors.h"
 #include "step.h"
 
 /* The strip that holds x; the first or the last one where x is outside of all strips. */

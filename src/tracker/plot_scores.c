@@ -3,7 +3,10 @@
  * plot_scores: log-likelihood ratio of a plot, a track's against clutter; and the pairs of a track
  * and a plot or bearing that enter the assignment.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/measurement.h"
+#include "sensors.h"
 #include "step.h"
 
 /* ---- offers ---------------------------------------------------------------------------------- */

@@ -7,9 +7,12 @@
 
 #include <string.h>
 
+#include "clutter.h"
 #include "mirror_state_in_wall.h"
+#include "plots.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
+#include "sensors.h"
 #include "step.h"
 
 /*

@@ -20,8 +20,11 @@
  * and the expectation of their squares is p / (1 - p) (d^2 / 2 n)^2, whose sum is the weight of the
  * estimate. l moves by the derivative over the weight (Fisher's scoring).
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Variance n over the squared resolution cell: 1 / (2 ln 2). */
@@ -86,7 +89,7 @@ void rho_tracker_learn_resolution_cell(const struct rho_look *look, const struct
 {
     struct rho_tracker_learned *learned = look->learned;
     float of_one[2], of_two[2], distance = 0.0f;
-    if (!learned || look->is_late || look->tracker->config.gate != RHO_TRACKER_BEST) {
+    if (!learned || !look->teaches || look->tracker->config.gate != RHO_TRACKER_BEST) {
         return;
     }
     for (int axis = 0; axis < 2; axis++) {

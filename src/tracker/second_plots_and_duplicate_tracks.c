@@ -4,9 +4,12 @@
  * of second plots of the same target, learns how often those come, and ends the younger of two
  * tracks of one target.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/recurring_clutter_map_operations.h"
+#include "sensors.h"
 #include "step.h"
 
 /*
@@ -401,7 +404,7 @@ void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step)
     struct rho_second_plots *table = step->look.row ? &step->look.row->second_plots : 0;
     struct second_plot_sums found = {.plots = 0.0f};
     float looks = 0.0f;
-    if (!table || step->look.is_late || step->look.num_inputs > RHO_MAX_PLOTS) {
+    if (!table || !step->look.teaches || step->look.num_inputs > RHO_MAX_PLOTS) {
         return;
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {

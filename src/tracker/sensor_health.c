@@ -8,7 +8,10 @@
  * its plots' sigmas are multiplied by their mean NIS. It is still compared, and is trusted again
  * when it agrees with the tracks.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/approx.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Memory of a sensor's running means, in looks or hits, and the least number that is decided by. */

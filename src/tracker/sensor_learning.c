@@ -21,9 +21,12 @@
  * misses. Of several misses in a row the first alone is counted, so that the learned pd is rather
  * too high; it is never above the stated one.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/detail/measurement.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Largest probability of the manoeuvring model at which a track teaches the sensor's noise. */
@@ -134,13 +137,6 @@ void rho_tracker_write_noise_factors(const struct rho_look *look, float suspicio
             percent_of_factor(suspicion * usable_sigma_factor(look->tracker, look->learned, 0));
         sensor->sigma_cross_percent =
             percent_of_factor(suspicion * usable_sigma_factor(look->tracker, look->learned, 1));
-    }
-}
-
-void rho_tracker_apply_learned_noise(const struct rho_look *look, float suspicion)
-{
-    if (RHO_SIGMAS_VARY && look->learned) {
-        rho_tracker_write_noise_factors(look, suspicion, &look->row->sensor);
     }
 }
 
@@ -461,10 +457,10 @@ static int is_pd_lowered_in_any_ring(const struct rho_look *look)
            look->learned->is_lowered;
 }
 
-struct detection rho_tracker_detection_without_notch(const struct rho_look *look,
-                                                     const struct rho_track *track)
+struct detection rho_tracker_detection_by_range(const struct rho_look *look,
+                                                const struct rho_track *track,
+                                                struct detection stated)
 {
-    const struct detection stated = {look->log_pd, look->log_miss};
     if (!is_pd_lowered_in_any_ring(look)) {
         return stated;
     }
@@ -555,7 +551,7 @@ static int can_teach_noise(const struct rho_track *track)
 
 static int can_learn_from_scan(const struct rho_look *look)
 {
-    return !look->is_suspect && !look->is_late && look->learned &&
+    return !look->is_suspect && look->teaches && look->learned &&
            is_sensor_learning_on(&look->tracker->config);
 }
 

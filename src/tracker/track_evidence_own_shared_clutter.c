@@ -5,7 +5,10 @@
  */
 #include <string.h>
 
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/approx.h"
+#include "sensors.h"
 #include "step.h"
 
 #define NAT_PER_MNAT 0.001f

@@ -6,8 +6,11 @@
 
 #include <string.h>
 
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
+#include "sensors.h"
 #include "step.h"
 
 #define ALL_PLANES (RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ)

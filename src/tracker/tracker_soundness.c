@@ -3,7 +3,10 @@
  * tracker_soundness: tests whether a tracker of unknown origin, as a loaded snapshot, is safe to
  * use: its counts are in range and its numbers are finite and within their limits.
  */
+#include "clutter.h"
+#include "plots.h"
 #include "rhotrack/detail/angle.h"
+#include "sensors.h"
 #include "step.h"
 
 /* Slots of the hypotheses' pool that are checked in one pass over the tracks. */

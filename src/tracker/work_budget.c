@@ -12,6 +12,9 @@
  * before the search, and another is reserved for tracks of images after it. The search has the
  * rest.
  */
+#include "clutter.h"
+#include "plots.h"
+#include "sensors.h"
 #include "step.h"
 
 /* 1 / share of a phase that is reserved for the tracks, and 1 / share of the rest for one track. */
@@ -161,12 +164,13 @@ uint32_t rho_tracker_work_left_for_search(const struct rho_look *look, struct rh
     return most > 0 && most < left ? most : left;
 }
 
-void rho_tracker_record_work(struct step *step)
+void rho_tracker_record_work(struct rho_tracker *tracker, const struct rho_work *work,
+                             struct rho_report *report)
 {
-    struct rho_tracker_work *work = &step->tracker->work;
-    work->work = step->work.spent;
-    work->work_worst = work->work > work->work_worst ? work->work : work->work_worst;
-    work->partial_steps = rho_count(work->partial_steps, step->work.is_partial ? 1u : 0u);
-    work->plots_not_tried = rho_count(work->plots_not_tried, step->work.plots_not_tried);
-    step->report->is_partial = step->work.is_partial ? 1u : 0u;
+    struct rho_tracker_work *sum = &tracker->work;
+    sum->work = work->spent;
+    sum->work_worst = sum->work > sum->work_worst ? sum->work : sum->work_worst;
+    sum->partial_steps = rho_count(sum->partial_steps, work->is_partial ? 1u : 0u);
+    sum->plots_not_tried = rho_count(sum->plots_not_tried, work->plots_not_tried);
+    report->is_partial = work->is_partial ? 1u : 0u;
 }

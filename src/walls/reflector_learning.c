@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "../tracker/mirror_state_in_wall.h"
+#include "../tracker/sensors.h"
 #include "../tracker/step.h"
 #include "learned_wall_line_arithmetic.h"
 #include "rhotrack/detail/angle.h"

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bearing_frame_copied_into_batch: usable bearings of a frame (the scans of all passive sensors at
+ * batch_frame: usable bearings of a frame (the scans of all passive sensors at
  * one time), and the frame in the form that a batch takes. Private to the step and the initiation
  * of bearings.
  */
-#ifndef RHOTRACK_BEARING_FRAME_COPIED_INTO_BATCH_H
-#define RHOTRACK_BEARING_FRAME_COPIED_INTO_BATCH_H
+#ifndef RHOTRACK_BATCH_FRAME_H
+#define RHOTRACK_BATCH_FRAME_H
 
 #include "phases.h"
 #include "rhotrack/detail/measurement.h"

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * begin: begins a step of plots or of bearings: the report, the motion model, the order of time, and
+ * what is known of the sensor of a scan of plots.
+ */
+#include <string.h>
+
+#include "phases.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/measurement.h"
+
+/* The white acceleration noise of tracks: half of accel_max_mps2, kept up for a second. */
+#define ACCEL_SHARE 0.5f
+#define ACCEL_TIME_S 1.0f
+
+int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us)
+{
+    return tracker->has_time && time_us < tracker->time_us;
+}
+
+int rho_tracker_is_usable_time(int64_t time_us)
+{
+    return time_us <= RHO_LIMIT_TIME_US && time_us >= -RHO_LIMIT_TIME_US;
+}
+
+void rho_tracker_set_log_pd_of_step(struct rho_look *look)
+{
+    float pd = look->sensor ? look->sensor->pd : look->tracker->config.pd;
+    look->log_pd = rho_log(pd);
+    look->log_miss = rho_log(1.0f - pd);
+}
+
+void rho_tracker_set_motion_model(struct rho_tracker *tracker, struct rho_look *look)
+{
+    float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
+    look->log_height = rho_log(RHO_CLUTTER_HEIGHT_M);
+    look->log_rates = rho_log(2.0f * tracker->config.v_max_mps);
+    look->log_range_rates = look->log_rates;
+    look->model.speed_sigma_mps = tracker->config.v_max_mps;
+    look->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
+    if (rho_tracker_filter_of_config(&tracker->config) == RHO_TRACK_HYPOTHESES) {
+        look->model.hypotheses = &tracker->hypotheses;
+    } else if (tracker->config.input.is_estimated) {
+        look->model.input = &tracker->config.input;
+    }
+}
+
+/* Sets the look's sensor with its pd, notch and noise, and notes the scan in its history. */
+static void open_sensor(struct rho_tracker *tracker, struct rho_look *look)
+{
+    look->row = rho_tracker_hear_sensor(tracker, look->scan->sensor_id);
+    if (look->row && look->row < &tracker->sensors[tracker->num_sensors]) {
+        look->sensor = &look->row->sensor;
+        look->learned = &look->row->learned;
+    }
+    rho_tracker_set_log_pd_of_step(look);
+    if (RHO_SECTORS) {
+        rho_tracker_record_look_and_antenna_turning(tracker, look);
+    }
+    if (look->teaches && look->row) {
+        rho_tracker_update_scan_interval(&look->row->pace, look->sensor, look->time_us,
+                                         look->scan->sector_from_rad, look->scan->sector_to_rad);
+    }
+    rho_tracker_open_noise(tracker, look);
+    look->log_range_rates -=
+        rho_measurement_log_num_aliases(look->sensor, tracker->config.v_max_mps);
+    look->range_rates_mps = rho_exp(look->log_range_rates);
+}
+
+/*
+ * Puts the step into the order of time. An out-of-sequence scan teaches nothing, and may start
+ * tracks where it is the newest one of its initiator: a radar that is always late has an initiator
+ * of its own. 0: the inputs are too old, and become STALE.
+ */
+static int open_time(struct rho_tracker *tracker, struct rho_look *look)
+{
+    look->is_late = rho_tracker_is_late(tracker, look->time_us);
+    look->teaches = !look->is_late;
+    look->starts = !look->is_late ||
+                   (look->initiator && rho_initiator_accepts(look->initiator, look->time_us));
+    if (look->is_late && !(RHO_SECTORS && rho_tracker_accepts_late_scan(look))) {
+        memset(look->fates, RHO_FATE_STALE, look->num_gated);
+        tracker->counters.scans_late = rho_count(tracker->counters.scans_late, 1);
+        return 0;
+    }
+    tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
+    if (RHO_SECTORS && look->is_late) {
+        tracker->counters.scans_retrodicted = rho_count(tracker->counters.scans_retrodicted, 1);
+        return 1;
+    }
+    rho_tracker_reset_manoeuvre_interval_after_silence(tracker, look->time_us);
+    tracker->time_us = look->time_us;
+    tracker->has_time = 1;
+    return 1;
+}
+
+int rho_step_begin(struct step *step)
+{
+    struct rho_report *report = step->report;
+    struct rho_look *look = &step->look;
+    look->num_gated = look->num_inputs < RHO_MAX_PLOTS ? look->num_inputs : RHO_MAX_PLOTS;
+    memset(report, 0, sizeof *report);
+    report->time_us = look->time_us;
+    report->num_plots = look->num_inputs;
+    rho_tracker_set_motion_model(step->tracker, look);
+    if (!open_time(step->tracker, look)) {
+        return 0;
+    }
+    if (step->frame) {
+        rho_step_begin_frame(step);
+    } else {
+        open_sensor(step->tracker, look);
+    }
+    return 1;
+}

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * look: one sensor's detections at one time, as features see them, and the work of a step.
+ * Private to the rooms from src/tracker on.
+ *
+ * Options of config.h: every build compiles every function, and callers test the option first
+ * (`if (RHO_SECTORS)`), so that the linker leaves out functions that a build does not need.
+ */
+#ifndef RHOTRACK_LOOK_H
+#define RHOTRACK_LOOK_H
+
+#include "rhotrack/tracker.h"
+
+#define RHO_TRACKER_MAGIC 0x5452434bu /* "TRCK" */
+
+#define LOG_TWO_PI 1.83787707f
+
+/* Least side of the area over which unclaimed plots are spread for a clutter density. */
+#define RHO_CLUTTER_SIDE_MIN_M 1000.0f
+
+/* Budget of the phase that runs, in units of work. */
+struct work_share {
+    uint32_t end, kept; /* spent at which the phase ends; reserved for each waiting track */
+    unsigned waiting;   /* tracks of which no plots were scored yet */
+};
+
+/* A rectangle of places, sides included. */
+struct plot_box {
+    float x_min_m, x_max_m, y_min_m, y_max_m;
+};
+
+/* Runs of successive plots with a bounding box each, where the plot index has one strip. */
+#define RHO_PLOT_BOXES 8
+
+/* Most parts of RHO_MAX_PLOTS plots in which a large scan is claimed; further plots are ignored. */
+#define RHO_TRACKER_PARTS_MAX 4u
+
+/* Work of a step, in units, and the budget of the phase that runs. */
+struct rho_work {
+    uint32_t spent, plots_not_tried; /* units so far; plots left out by the budget */
+    struct work_share share;         /* budget of the phase that runs */
+    int is_partial;                  /* the budget has left out something */
+};
+
+/*
+ * One sensor's detections at one time, as a step takes them: a scan of plots, a part of a large
+ * one, or one scan of a frame of bearings. Opened once, const for all that ask it.
+ */
+struct rho_look {
+    const struct rho_tracker *tracker;       /* whose tracks it looks at */
+    const struct rho_scan *scan;             /* its plots; NULL: bearings */
+    const struct rho_bearing_scan *bearings; /* its bearings; NULL: plots, or no look is open */
+    uint8_t *fates;                          /* of its plots or bearings, those of the report */
+    /* the row of its sensor; NULL: the table is full of described sensors, or bearings */
+    struct rho_tracker_sensor *row;
+    const struct rho_sensor *sensor;     /* its sensor as described; NULL: not described */
+    struct rho_tracker_learned *learned; /* of this sensor; NULL: not described, or bearings */
+    /* measures the density of clutter, and starts tracks from its plots; NULL: none */
+    struct rho_initiator *initiator;
+    struct rho_track_model
+        model; /* how tracks move to its time, and the filters that follow them */
+    int64_t time_us;
+    int is_suspect; /* its sensor contradicts the others */
+    uint16_t count; /* count of the sensor's scans; 0: not known */
+    /* its sector continues the previous one: 1 counter-clockwise, -1 clockwise; else 0 */
+    float turning;
+    int is_late; /* it is out of sequence: older than the newest step */
+    int teaches; /* it changes what is learned, and what tracks remember: not out of sequence */
+    int starts;  /* tracks may start from its plots */
+    uint32_t num_inputs; /* plots or bearings */
+    uint32_t num_gated;  /* of these the ones with a place in fates: the first RHO_MAX_PLOTS */
+    uint32_t first_row;  /* row in the scan of the first plot of the part that is claimed now */
+    int has_more_parts;  /* tracks without a plot may find one in a later part of the scan */
+    /* a later part's own clutter density; and the scan's plots over RHO_MAX_PLOTS, 0: first part */
+    float part_per_m2, part_share;
+    /* largest noise on any axis, and largest time offset either way, of the valid plots */
+    float sigma_max_m, offset_max_s;
+    /* bit i: track i is in the field of view and was predicted */
+    uint32_t in_view[(RHO_MAX_TRACKS + 31) / 32];
+    struct plot_box boxes[RHO_PLOT_BOXES]; /* bounding boxes of runs of successive plots */
+    uint32_t plots_of_box;                 /* plots in each run */
+    float log_pd, log_miss;                /* ln of pd and of 1 - pd, outside of the notch */
+    float log_false_bearings;              /* ln of the density of false bearings a radian */
+    struct rho_notch_look notch_look; /* what a sensor with a Doppler notch sees; 0: no notch */
+    /* ln of the intervals in which clutter is uniform: height, m; velocity on one axis, m/s */
+    float log_height, log_rates;
+    float log_range_rates; /* ln of range_rates_mps */
+    float range_rates_mps; /* interval of range rates in which clutter is uniform, m/s */
+};
+
+static inline int rho_tracker_is_ready(const struct rho_tracker *tracker)
+{
+    return tracker->magic == RHO_TRACKER_MAGIC;
+}
+
+/* Largest track score either way, mnat: sums of two scores fit 32 bits. */
+#define RHO_SCORE_MAX_MNAT 1000000000
+
+static inline int rho_tracker_is_score_in_range(int32_t mnat)
+{
+    return mnat >= -RHO_SCORE_MAX_MNAT && mnat <= RHO_SCORE_MAX_MNAT;
+}
+
+/* True of a track that an operator has frozen: it is in no scan's view, and does not age. */
+static inline int rho_tracker_is_track_frozen(const struct rho_track *track)
+{
+    return RHO_MAX_EXCLUDED_AREAS > 0 && track->is_frozen;
+}
+
+/* True where targets may give several plots a scan (rho_tracker_set_body_max). */
+static inline int rho_tracker_has_bodies(const struct rho_tracker *tracker)
+{
+    return RHO_BODIES && tracker->bodies.length_max_m > 0.0f;
+}
+/* body_extents.c of src/bodies */
+int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker);
+
+#endif

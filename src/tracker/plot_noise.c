@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * plot_noise: how noisy is a plot? The plot states its sigmas. Contributors, in their order: the
+ * sensor's learned notch and noise, and the factor of a suspect sensor.
+ */
+#include "clutter.h"
+#include "plots.h"
+#include "sensors.h"
+#include "step.h"
+
+void rho_tracker_open_noise(struct rho_tracker *tracker, struct rho_look *look)
+{
+    if (RHO_DOPPLER_NOTCH) {
+        rho_tracker_apply_learned_notch(look);
+    }
+    const float suspicion =
+        RHO_SECTORS ? rho_tracker_update_suspect_and_sigma_factor(tracker, look) : 1.0f;
+    if (RHO_SIGMAS_VARY && look->learned) {
+        rho_tracker_write_noise_factors(look, suspicion, &look->row->sensor);
+    }
+}
