@@ -342,7 +342,7 @@ quick_scripts := $(wildcard $(quick_scripts)) \
                  $(addprefix tools/gates/,layers.py tested.py library_needs_no_heap_or_stdio.sh \
                    extract_example.sh)
 # What the embedded profile leaves out is tested in the other one.
-left_out := tracker/test_track_evidence_own_shared_clutter bodies/test_body_extents \
+left_out := tracker/test_track_evidence bodies/test_body_extents \
             bodies/test_body_split_evidence bodies/test_plot_groups step/test_split_bodies
 quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) \
                   $(filter-out $(BUILD)/tests/lab/%,$(tool_programs)) \

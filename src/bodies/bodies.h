@@ -17,17 +17,17 @@
  * plot_groups.c (RHO_BODIES): after tracks were predicted, replaces the step's scan by `grouped`,
  * with one plot for each group
  */
-void rho_tracker_group_plots(struct step *step);
+void rho_bodies_group(struct step *step);
 /* Before the report: restores the scan, and turns fates and rows of groups into those of plots. */
-void rho_tracker_ungroup_plots(struct rho_tracker *tracker, struct rho_look *look,
-                               const struct rho_scan *scan);
+void rho_bodies_ungroup(struct rho_tracker *tracker, struct rho_look *look,
+                        const struct rho_scan *scan);
 /* body_extents.c (RHO_BODIES): puts the bodies in the order of the tracks, with new ones added */
-void rho_tracker_align_bodies_with_tracks(struct rho_tracker *tracker);
+void rho_bodies_align(struct rho_tracker *tracker);
 /* Sets the heading of a track's body to that of the track's velocity. */
-void rho_tracker_set_body_heading(struct rho_tracker *tracker, unsigned row);
-/* Updates each track's body with the plots of its group, before rho_tracker_ungroup_plots. */
-void rho_tracker_update_bodies(struct rho_tracker *tracker, const struct rho_look *look,
-                               const struct rho_scan *scan);
+void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row);
+/* Updates each track's body with the plots of its group, before rho_bodies_ungroup. */
+void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
+                       const struct rho_scan *scan);
 /* A plot's range rate less that of a target at the plot's place with the track's velocity. */
 struct range_rate_residual {
     float mps;
@@ -36,29 +36,26 @@ struct range_rate_residual {
     float sight_line[2];   /* unit vector from the sensor to the plot, x and y */
 };
 /* Returns 0 where no range rate was measured, or the plot is at the sensor. */
-int rho_tracker_range_rate_residual(const struct rho_look *look, const struct rho_scan *scan,
-                                    const struct rho_track *track, const struct rho_plot *plot,
-                                    struct range_rate_residual *rate);
+int rho_bodies_rate_residual(const struct rho_look *look, const struct rho_scan *scan,
+                             const struct rho_track *track, const struct rho_plot *plot,
+                             struct range_rate_residual *rate);
 /*
  * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
- * rate by rho_tracker_range_rate_residual, whose result rho_tracker_locate_on_body_is_rate_usable
+ * rate by rho_bodies_rate_residual, whose result rho_bodies_locate_plot
  * returns.
  */
 struct body_plot {
     float dx_m, dy_m, along_m, across_m;
     struct range_rate_residual rate;
 };
-int rho_tracker_locate_on_body_is_rate_usable(const struct rho_look *look,
-                                              const struct rho_scan *scan, unsigned row,
-                                              unsigned plot, struct body_plot *at);
+int rho_bodies_locate_plot(const struct rho_look *look, const struct rho_scan *scan, unsigned row,
+                           unsigned plot, struct body_plot *at);
 
 /* Variances of a plot's own noise in the axes of a body: along, cross, across. */
-void rho_tracker_rotate_plot_noise_to_body_axes(const struct rho_look *look,
-                                                const struct rho_body_filter *body,
-                                                const struct rho_plot *plot, float axes[3]);
+void rho_bodies_noise_axes(const struct rho_look *look, const struct rho_body_filter *body,
+                           const struct rho_plot *plot, float axes[3]);
 /* The first plot, from this one of a group on, that no other track contends for; or RHO_NO_ROW. */
-static inline unsigned rho_tracker_first_uncontested_plot(const struct rho_groups *groups,
-                                                          unsigned plot)
+static inline unsigned rho_bodies_next_own_plot(const struct rho_groups *groups, unsigned plot)
 {
     while (plot != RHO_NO_ROW && groups->contender[plot] != RHO_NO_ROW) {
         plot = groups->next[plot];
@@ -74,21 +71,19 @@ enum rho_body_split {
     RHO_BODY_MOVES_APART /* range rates differ from part to part by more than a turn explains */
 };
 /* Adds this scan's plots of a track to the evidence that its body is two targets. */
-void rho_tracker_add_body_split_evidence(struct rho_tracker *tracker, const struct rho_look *look,
-                                         const struct rho_scan *scan, unsigned row);
+void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *look,
+                          const struct rho_scan *scan, unsigned row);
 /* The reason, by that evidence, for which a track's body is two targets; or RHO_BODY_ONE. */
-enum rho_body_split rho_tracker_find_body_split_reason(const struct rho_tracker *tracker,
-                                                       unsigned row);
+enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, unsigned row);
 /* True of a live track in view within RHO_BODY_TRACKS: plots may be grouped for it. */
-static inline int rho_tracker_may_own_group_of_plots(const struct rho_look *look, unsigned row)
+static inline int rho_bodies_may_own(const struct rho_look *look, unsigned row)
 {
     return RHO_BODIES && row < RHO_BODY_TRACKS &&
-           look->tracker->tracks[row].status != RHO_TRACK_FREE &&
-           rho_tracker_is_track_in_view(look, row);
+           look->tracker->tracks[row].status != RHO_TRACK_FREE && rho_look_has_in_view(look, row);
 }
 /* duplicate_tracks.c: ends one of two tracks of one target; the other track gets its plots */
-void rho_tracker_end_duplicate_tracks(struct step *step);
+void rho_bodies_end_duplicates(struct step *step);
 /* Prior variance of a place on a body, on each axis. */
-float rho_tracker_prior_place_variance_on_body_m2(const struct rho_tracker *tracker);
+float rho_bodies_prior_m2(const struct rho_tracker *tracker);
 
 #endif

@@ -19,7 +19,7 @@
 /* Least variance of a place on a body in a sound tracker, far below that of the least prior. */
 #define LEAST_M2 1e-7f
 
-float rho_tracker_prior_place_variance_on_body_m2(const struct rho_tracker *tracker)
+float rho_bodies_prior_m2(const struct rho_tracker *tracker)
 {
     const float length_m = rho_larger(PRIOR_SHARE * tracker->bodies.length_max_m, PRIOR_LEAST_M);
     return length_m * length_m / 12.0f;
@@ -44,7 +44,7 @@ enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker, float leng
 }
 
 /* Moves bodies to the rows of their tracks, drops those of ended tracks, and starts new ones. */
-void rho_tracker_align_bodies_with_tracks(struct rho_tracker *tracker)
+void rho_bodies_align(struct rho_tracker *tracker)
 {
     struct rho_bodies *bodies = &tracker->bodies;
     unsigned from = 0;
@@ -56,16 +56,15 @@ void rho_tracker_align_bodies_with_tracks(struct rho_tracker *tracker)
         if (from < bodies->count) {
             bodies->of[row] = bodies->of[from++];
         } else {
-            rho_body_filter_init(&bodies->of[row], track->track_id,
-                                 rho_tracker_prior_place_variance_on_body_m2(tracker));
+            rho_body_filter_init(&bodies->of[row], track->track_id, rho_bodies_prior_m2(tracker));
         }
     }
     bodies->count = tracker->num_tracks;
 }
 
-int rho_tracker_range_rate_residual(const struct rho_look *look, const struct rho_scan *scan,
-                                    const struct rho_track *track, const struct rho_plot *plot,
-                                    struct range_rate_residual *rate)
+int rho_bodies_rate_residual(const struct rho_look *look, const struct rho_scan *scan,
+                             const struct rho_track *track, const struct rho_plot *plot,
+                             struct range_rate_residual *rate)
 {
     float row[6], rate_mps;
     const float *velocity = &track->kalman.state[RHO_VX];
@@ -86,9 +85,8 @@ int rho_tracker_range_rate_residual(const struct rho_look *look, const struct rh
     return 1;
 }
 
-int rho_tracker_locate_on_body_is_rate_usable(const struct rho_look *look,
-                                              const struct rho_scan *scan, unsigned row,
-                                              unsigned plot, struct body_plot *at)
+int rho_bodies_locate_plot(const struct rho_look *look, const struct rho_scan *scan, unsigned row,
+                           unsigned plot, struct body_plot *at)
 {
     const struct rho_body_filter *body = &look->tracker->bodies.of[row];
     const struct rho_track *track = &look->tracker->tracks[row];
@@ -99,12 +97,11 @@ int rho_tracker_locate_on_body_is_rate_usable(const struct rho_look *look,
                              .dy_m = seen->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
     at->along_m = body->cos_heading * at->dx_m + body->sin_heading * at->dy_m;
     at->across_m = body->cos_heading * at->dy_m - body->sin_heading * at->dx_m;
-    return rho_tracker_range_rate_residual(look, scan, track, seen, &at->rate);
+    return rho_bodies_rate_residual(look, scan, track, seen, &at->rate);
 }
 
-void rho_tracker_rotate_plot_noise_to_body_axes(const struct rho_look *look,
-                                                const struct rho_body_filter *body,
-                                                const struct rho_plot *plot, float axes[3])
+void rho_bodies_noise_axes(const struct rho_look *look, const struct rho_body_filter *body,
+                           const struct rho_plot *plot, float axes[3])
 {
     struct rho_measurement seen;
     float noise[6];
@@ -122,8 +119,8 @@ static void sum_plots_of_body(const struct rho_look *look, const struct rho_scan
     float axes[3];
     for (unsigned i = bodies->groups.first[look->tracker->tracks[row].plot]; i != RHO_NO_ROW;
          i = bodies->groups.next[i]) {
-        (void)!rho_tracker_locate_on_body_is_rate_usable(look, scan, row, i, &at);
-        rho_tracker_rotate_plot_noise_to_body_axes(look, &bodies->of[row], &scan->plots[i], axes);
+        (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
+        rho_bodies_noise_axes(look, &bodies->of[row], &scan->plots[i], axes);
         seen->num_plots++;
         seen->along_m2 += at.along_m * at.along_m;
         seen->across_m2 += at.across_m * at.across_m;
@@ -133,7 +130,7 @@ static void sum_plots_of_body(const struct rho_look *look, const struct rho_scan
     }
 }
 
-void rho_tracker_set_body_heading(struct rho_tracker *tracker, unsigned row)
+void rho_bodies_set_heading(struct rho_tracker *tracker, unsigned row)
 {
     const struct rho_kalman *kalman = &tracker->tracks[row].kalman;
     const float *p = kalman->covariance;
@@ -142,10 +139,10 @@ void rho_tracker_set_body_heading(struct rho_tracker *tracker, unsigned row)
     rho_body_set_heading_if_moving(&tracker->bodies.of[row], &kalman->state[RHO_VX], velocity);
 }
 
-void rho_tracker_update_bodies(struct rho_tracker *tracker, const struct rho_look *look,
-                               const struct rho_scan *scan)
+void rho_bodies_update(struct rho_tracker *tracker, const struct rho_look *look,
+                       const struct rho_scan *scan)
 {
-    rho_tracker_align_bodies_with_tracks(tracker);
+    rho_bodies_align(tracker);
     if (!look->teaches) {
         return; /* tracks have returned to the newest time, with another heading than at the scan */
     }
@@ -155,7 +152,7 @@ void rho_tracker_update_bodies(struct rho_tracker *tracker, const struct rho_loo
         if (track->plot < 0) {
             continue;
         }
-        rho_tracker_set_body_heading(tracker, row);
+        rho_bodies_set_heading(tracker, row);
         sum_plots_of_body(look, scan, row, &seen);
         rho_body_add_plots(&tracker->bodies.of[row], &seen);
     }
@@ -200,7 +197,7 @@ static int is_sound_doubt(const struct rho_body_doubt *doubt)
     return is_sound;
 }
 
-int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker)
+int rho_bodies_are_sound(const struct rho_tracker *tracker)
 {
     const struct rho_bodies *bodies = &tracker->bodies;
     if (bodies->count > RHO_MAX_TRACKS || bodies->groups.count > RHO_MAX_PLOTS ||

@@ -113,15 +113,15 @@ static struct look_sums sum_look_of_body(const struct rho_look *look, const stru
     const struct rho_groups *groups = &bodies->groups;
     struct body_plot at;
     float axes[3];
-    for (unsigned i = rho_tracker_first_uncontested_plot(
-             groups, groups->first[look->tracker->tracks[row].plot]);
-         i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
+    for (unsigned i =
+             rho_bodies_next_own_plot(groups, groups->first[look->tracker->tracks[row].plot]);
+         i != RHO_NO_ROW; i = rho_bodies_next_own_plot(groups, groups->next[i])) {
         const struct rho_plot *plot = &scan->plots[i];
-        if (!rho_tracker_locate_on_body_is_rate_usable(look, scan, row, i, &at) &&
+        if (!rho_bodies_locate_plot(look, scan, row, i, &at) &&
             (scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue; /* a plot at the sensor has no line of sight */
         }
-        rho_tracker_rotate_plot_noise_to_body_axes(look, &bodies->of[row], plot, axes);
+        rho_bodies_noise_axes(look, &bodies->of[row], plot, axes);
         const float far_m = at.rate.sight_line[0] * at.dx_m + at.rate.sight_line[1] * at.dy_m,
                     side_m = at.rate.sight_line[0] * at.dy_m - at.rate.sight_line[1] * at.dx_m;
         sums.n += 1.0f;
@@ -158,8 +158,8 @@ static int is_longer_than_any_body(const struct rho_tracker *tracker, const stru
            tracker->bodies.length_max_m + LONG_SIGMAS * rho_sqrt(sums->noise_m2);
 }
 
-void rho_tracker_add_body_split_evidence(struct rho_tracker *tracker, const struct rho_look *look,
-                                         const struct rho_scan *scan, unsigned row)
+void rho_bodies_add_doubt(struct rho_tracker *tracker, const struct rho_look *look,
+                          const struct rho_scan *scan, unsigned row)
 {
     struct rho_body_filter *body = &tracker->bodies.of[row];
     struct rho_body_doubt *doubt = &body->doubt;
@@ -218,8 +218,7 @@ static int parts_move_apart(const struct rho_body_filter *body)
            explained > turn_radps * turn_radps * side_m2 + UNKNOWN_SHARE * doubt->unknown_m2ps2;
 }
 
-enum rho_body_split rho_tracker_find_body_split_reason(const struct rho_tracker *tracker,
-                                                       unsigned row)
+enum rho_body_split rho_bodies_split_reason(const struct rho_tracker *tracker, unsigned row)
 {
     const struct rho_body_doubt *doubt = &tracker->bodies.of[row].doubt;
     if (doubt->long_looks > LONG_LOOKS && doubt->long_looks > LONG_SHARE * doubt->looks) {

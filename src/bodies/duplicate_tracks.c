@@ -69,8 +69,7 @@ static int do_bodies_overlap(const struct rho_tracker *tracker, unsigned row, un
 
 static int may_own_plots_and_has_few_hits(const struct rho_look *look, unsigned row)
 {
-    return rho_tracker_may_own_group_of_plots(look, row) &&
-           look->tracker->tracks[row].hits < NEW_HITS;
+    return rho_bodies_may_own(look, row) && look->tracker->tracks[row].hits < NEW_HITS;
 }
 
 /* True where two tracks are near in x and y: a cheap test before that in the body's axes. */
@@ -107,8 +106,8 @@ static void end_track_and_move_plots(struct step *step, unsigned stays, unsigned
             groups->contender[i] = RHO_NO_ROW;
         }
     }
-    rho_tracker_spend_work(&step->work, step->look.num_gated / RHO_WORK_PASSED_A_UNIT);
-    rho_tracker_end_track(step, &step->tracker->tracks[ends]);
+    rho_work_spend(&step->work, step->look.num_gated / RHO_WORK_PASSED_A_UNIT);
+    rho_life_end(step, &step->tracker->tracks[ends]);
 }
 
 /* Counts scans in which bodies overlap; the younger track ends after DOUBLED_SCANS of these. */
@@ -117,7 +116,7 @@ static void count_overlaps_and_end_younger(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     const struct rho_groups *groups = &tracker->bodies.groups;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (rho_tracker_may_own_group_of_plots(&step->look, row)) {
+        if (rho_bodies_may_own(&step->look, row)) {
             tracker->bodies.of[row].doubt.doubled *= 1.0f - 1.0f / MEMORY_SCANS;
         }
     }
@@ -128,9 +127,8 @@ static void count_overlaps_and_end_younger(struct step *step)
         }
         const unsigned older = one < other ? one : other, younger = one + other - older;
         struct rho_body_doubt *doubt = &tracker->bodies.of[younger].doubt;
-        if (doubt->doubled_us == step->look.time_us ||
-            !rho_tracker_may_own_group_of_plots(&step->look, one) ||
-            !rho_tracker_may_own_group_of_plots(&step->look, other) ||
+        if (doubt->doubled_us == step->look.time_us || !rho_bodies_may_own(&step->look, one) ||
+            !rho_bodies_may_own(&step->look, other) ||
             !do_bodies_overlap(tracker, older, younger) ||
             !move_alike(&tracker->tracks[one], &tracker->tracks[other])) {
             continue;
@@ -150,10 +148,9 @@ static void end_one_of_each_two_new_duplicates(struct step *step)
     const struct rho_track *tracks = tracker->tracks;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         int goes_on = may_own_plots_and_has_few_hits(&step->look, row);
-        for (unsigned other = row + 1u; goes_on && other < tracker->num_tracks &&
-                                        !rho_tracker_is_phase_work_spent(&step->work);
-             other++) {
-            rho_tracker_spend_work(&step->work, PASS_UNITS);
+        for (unsigned other = row + 1u;
+             goes_on && other < tracker->num_tracks && !rho_work_is_spent(&step->work); other++) {
+            rho_work_spend(&step->work, PASS_UNITS);
             if (are_tracks_near(step->tracker, row, other) &&
                 may_own_plots_and_has_few_hits(&step->look, other) &&
                 may_be_one_body(step->tracker, row, other) &&
@@ -165,7 +162,7 @@ static void end_one_of_each_two_new_duplicates(struct step *step)
     }
 }
 
-void rho_tracker_end_duplicate_tracks(struct step *step)
+void rho_bodies_end_duplicates(struct step *step)
 {
     if (step->look.teaches) {
         count_overlaps_and_end_younger(step);

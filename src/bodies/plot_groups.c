@@ -79,7 +79,7 @@ static int may_be_plots_of_one_body(const struct rho_look *look, struct rho_work
     const float dx_m = a->x_m - b->x_m, dy_m = a->y_m - b->y_m;
     const float most_m =
         longest_body_m(look->tracker) + APART_SIGMAS * (rho_plot_sigma_m(a) + rho_plot_sigma_m(b));
-    rho_tracker_spend_work(work, PAIR_UNITS);
+    rho_work_spend(work, PAIR_UNITS);
     return dx_m * dx_m + dy_m * dy_m <= most_m * most_m && have_range_rates_of_one_body(look, a, b);
 }
 
@@ -140,7 +140,7 @@ static int range_rate_agrees_add_misfit(const struct rho_look *look,
                                         const struct rho_plot *plot, float apart_m, float *misfit)
 {
     struct range_rate_residual rate;
-    if (!rho_tracker_range_rate_residual(look, look->scan, outline->track, plot, &rate)) {
+    if (!rho_bodies_rate_residual(look, look->scan, outline->track, plot, &rate)) {
         return 1;
     }
     const float slack_mps =
@@ -163,7 +163,7 @@ static int body_explains_plot(const struct rho_look *look, const struct predicte
     const float dx_m = plot->x_m - state[0] - after_s * state[3],
                 dy_m = plot->y_m - state[1] - after_s * state[4];
     const float along_m = c * dx_m + s * dy_m, across_m = c * dy_m - s * dx_m;
-    rho_tracker_rotate_plot_noise_to_body_axes(look, outline->body, plot, axes);
+    rho_bodies_noise_axes(look, outline->body, plot, axes);
     const float along_m2 = outline->place_m2[0] + axes[0],
                 across_m2 = outline->place_m2[2] + axes[2];
     const float far = along_m * along_m / along_m2, wide = across_m * across_m / across_m2;
@@ -178,8 +178,8 @@ static struct plots_near plots_near_body(const struct rho_tracker *tracker,
                                          const struct predicted_body *outline, float half_m)
 {
     const float *state = outline->track->kalman.state;
-    return rho_tracker_plots_near(tracker, state[0] - half_m, state[0] + half_m, state[1] - half_m,
-                                  state[1] + half_m);
+    return rho_plots_near(tracker, state[0] - half_m, state[0] + half_m, state[1] - half_m,
+                          state[1] + half_m);
 }
 
 /* Gives the plot to this track if its body explains it better than that of the present owner. */
@@ -206,26 +206,25 @@ static void find_owners_of_plots_and_end_duplicates(struct step *step)
     struct rho_groups *groups = &step->tracker->bodies.groups;
     float misfit;
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        if (!rho_tracker_may_own_group_of_plots(&step->look, row)) {
+        if (!rho_bodies_may_own(&step->look, row)) {
             continue;
         }
         const struct predicted_body outline = body_outline_and_place_variances(step->tracker, row);
         struct plots_near near =
             plots_near_body(step->tracker, &outline, half_search_box_m(&step->look, &outline));
-        for (uint32_t i; !rho_tracker_is_phase_work_spent(&step->work) &&
-                         rho_tracker_next_plot_near(&step->look, &near, &i);) {
+        for (uint32_t i;
+             !rho_work_is_spent(&step->work) && rho_plots_next(&step->look, &near, &i);) {
             const struct rho_plot *plot = &step->look.scan->plots[i];
-            if (step->report->fates[i] != RHO_FATE_HELD ||
-                !rho_tracker_is_plot_within(&near, plot)) {
+            if (step->report->fates[i] != RHO_FATE_HELD || !rho_plots_is_within(&near, plot)) {
                 continue;
             }
-            rho_tracker_spend_work(&step->work, TEST_UNITS);
+            rho_work_spend(&step->work, TEST_UNITS);
             if (body_explains_plot(&step->look, &outline, plot, &misfit)) {
                 assign_plot_to_better_body(groups, row, i, misfit);
             }
         }
     }
-    rho_tracker_end_duplicate_tracks(step);
+    rho_bodies_end_duplicates(step);
 }
 
 /* ---- groups ---------------------------------------------------------------------------------- */
@@ -268,13 +267,12 @@ static void add_plots_that_fit_all_in_group(struct rho_tracker *tracker,
     struct rho_groups *groups = &tracker->bodies.groups;
     const struct rho_plot *plot = &look->scan->plots[groups->first[group]];
     const float most_m = longest_body_m(tracker) + 2.0f * APART_SIGMAS * look->sigma_max_m;
-    struct plots_near near = rho_tracker_plots_near(tracker, plot->x_m - most_m, plot->x_m + most_m,
-                                                    plot->y_m - most_m, plot->y_m + most_m);
-    for (uint32_t i;
-         !rho_tracker_is_phase_work_spent(work) && rho_tracker_next_plot_near(look, &near, &i);) {
-        rho_tracker_spend_work(work, PASS_UNITS);
+    struct plots_near near = rho_plots_near(tracker, plot->x_m - most_m, plot->x_m + most_m,
+                                            plot->y_m - most_m, plot->y_m + most_m);
+    for (uint32_t i; !rho_work_is_spent(work) && rho_plots_next(look, &near, &i);) {
+        rho_work_spend(work, PASS_UNITS);
         if (look->fates[i] == RHO_FATE_HELD && groups->of[i] == RHO_NO_ROW &&
-            groups->owner[i] == RHO_NO_ROW && !rho_tracker_is_plot_excluded(look, i) &&
+            groups->owner[i] == RHO_NO_ROW && !rho_areas_exclude(look, i) &&
             fits_all_in_group(look, work, group, i)) {
             add_plot_to_group(groups, group, i);
         }
@@ -302,7 +300,7 @@ static void form_plot_groups(struct rho_tracker *tracker, const struct rho_look 
         begin_group(groups, i);
         if (owner != RHO_NO_ROW) {
             of_track[owner] = groups->of[i];
-        } else if (look->fates[i] == RHO_FATE_HELD && !rho_tracker_is_plot_excluded(look, i)) {
+        } else if (look->fates[i] == RHO_FATE_HELD && !rho_areas_exclude(look, i)) {
             add_plots_that_fit_all_in_group(tracker, look, work, groups->of[i]);
         }
     }
@@ -381,7 +379,7 @@ static void place_on_body_variance_of_group_mean(const struct rho_look *look, un
         }
         return;
     }
-    xx_yx_yy[0] = xx_yx_yy[2] = rho_tracker_prior_place_variance_on_body_m2(look->tracker);
+    xx_yx_yy[0] = xx_yx_yy[2] = rho_bodies_prior_m2(look->tracker);
     xx_yx_yy[1] = 0.0f;
     for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
         const float dx_m = look->scan->plots[i].x_m - mean->x_m,
@@ -456,18 +454,18 @@ static void clear_groups_set_fates_find_largest_noise(struct rho_tracker *tracke
     }
 }
 
-void rho_tracker_group_plots(struct step *step)
+void rho_bodies_group(struct step *step)
 {
     struct rho_scan *grouped = &step->grouped;
     step->whole = step->look.scan;
     struct rho_groups *groups = &step->tracker->bodies.groups;
-    rho_tracker_align_bodies_with_tracks(step->tracker);
+    rho_bodies_align(step->tracker);
     clear_groups_set_fates_find_largest_noise(step->tracker, &step->look);
-    rho_tracker_index_plots(step->tracker, &step->look);
-    rho_tracker_begin_work_phase(step->tracker, &step->work, RHO_WORK_GROUPS_SHARE);
+    rho_plots_index(step->tracker, &step->look);
+    rho_work_begin_phase(step->tracker, &step->work, RHO_WORK_GROUPS_SHARE);
     find_owners_of_plots_and_end_duplicates(step);
     form_plot_groups(step->tracker, &step->look, &step->work);
-    step->work.is_partial |= rho_tracker_is_phase_work_spent(&step->work);
+    step->work.is_partial |= rho_work_is_spent(&step->work);
     for (unsigned group = 0; group < groups->count; group++) {
         make_group_plot(&step->look, group, &groups->plots[group]);
     }
@@ -479,8 +477,8 @@ void rho_tracker_group_plots(struct step *step)
     step->look.sigma_max_m = step->look.offset_max_s = 0.0f;
 }
 
-void rho_tracker_ungroup_plots(struct rho_tracker *tracker, struct rho_look *look,
-                               const struct rho_scan *scan)
+void rho_bodies_ungroup(struct rho_tracker *tracker, struct rho_look *look,
+                        const struct rho_scan *scan)
 {
     const struct rho_groups *groups = &tracker->bodies.groups;
     look->scan = scan;

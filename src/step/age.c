@@ -44,21 +44,20 @@ static int count_too_fast_updates_are_enough_to_end(const struct rho_tracker *tr
     return track->fast_in_row >= FAST_UPDATES;
 }
 
-static void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track,
-                                             int is_missed, const struct rho_track_limits *limits)
+void rho_step_confirm_or_end(struct step *step, struct rho_track *track, int is_missed,
+                             const struct rho_track_limits *limits)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
-    const int is_unseen =
-        rho_tracker_update_and_test_unobserved(&step->look, track, is_missed, limits) ||
-        rho_tracker_is_place_too_uncertain(step->tracker, track);
+    const int is_unseen = rho_unseen_update(&step->look, track, is_missed, limits) ||
+                          rho_unseen_is_lost(step->tracker, track);
     const int is_fast = count_too_fast_updates_are_enough_to_end(step->tracker, track);
-    rho_tracker_apply_thresholds(step, track, limits);
+    rho_life_apply(step, track, limits);
     if (track->status != RHO_TRACK_FREE &&
         (is_unseen || is_fast || is_too_slow(step->tracker, track))) {
         counters->tracks_unseen = rho_count(counters->tracks_unseen, is_unseen ? 1 : 0);
         counters->tracks_too_fast =
             rho_count(counters->tracks_too_fast, is_fast && !is_unseen ? 1 : 0);
-        rho_tracker_end_track(step, track);
+        rho_life_end(step, track);
     }
 }
 
@@ -70,8 +69,8 @@ static void count_misses_of_frame(struct step *step)
 {
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
         struct rho_track *track = &step->tracker->tracks[row];
-        if (track->status != RHO_TRACK_FREE && !rho_tracker_is_track_frozen(track) &&
-            track->plot < 0 && rho_step_does_frame_cover(step, track)) {
+        if (track->status != RHO_TRACK_FREE && !rho_track_is_frozen(track) && track->plot < 0 &&
+            rho_step_does_frame_cover(step, track)) {
             rho_track_count_miss(track, 0);
         }
     }
@@ -83,19 +82,16 @@ static void count_misses_of_frame(struct step *step)
  */
 static int count_miss_of_scan(const struct rho_look *look, struct rho_track *track, unsigned row)
 {
-    if (track->plot >= 0 || !rho_tracker_is_track_in_view(look, row) ||
-        !rho_tracker_may_count_miss(look, track)) {
+    if (track->plot >= 0 || !rho_look_has_in_view(look, row) || !rho_look_may_miss(look, track)) {
         return 0;
     }
-    if (rho_tracker_is_track_mostly_in_notch(track) && track->was_confirmed) {
-        rho_tracker_set_blind_track_coasting(look, track);
+    if (rho_notch_is_mostly_blind(track) && track->was_confirmed) {
+        rho_notch_coast(look, track);
         return 0;
     }
-    rho_track_count_miss(
-        track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
-                   ? 0
-                   : rho_tracker_nat_to_mnat(
-                         -rho_tracker_log_pd_and_log_miss_of_track(look, track).log_miss));
+    rho_track_count_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
+                                    ? 0
+                                    : rho_score_to_mnat(-rho_look_detection(look, track).log_miss));
     return 1;
 }
 
@@ -106,24 +102,24 @@ void rho_step_age(struct step *step)
     if (step->frame) {
         count_misses_of_frame(step);
     } else if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_learn_second_plots_and_end_duplicates(step);
+        rho_second_plots_take_look(step);
     }
-    const struct rho_track_limits limits = rho_tracker_track_limits(look);
-    rho_tracker_fade_track_counts_set_evidence_need(step);
+    const struct rho_track_limits limits = rho_life_limits(look);
+    rho_evidence_update(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->status == RHO_TRACK_FREE || rho_tracker_is_track_frozen(track)) {
+        if (track->status == RHO_TRACK_FREE || rho_track_is_frozen(track)) {
             continue;
         }
         const int is_missed = step->frame ? track->plot < 0 && track->misses_in_row > 0
                                           : count_miss_of_scan(look, track, row);
         if (RHO_SECTORS && look->scan) {
-            rho_tracker_record_seeing_sensor(look, track);
+            rho_turn_note_seen(look, track);
         }
-        rho_tracker_confirm_or_end_track(step, track, is_missed, &limits);
+        rho_step_confirm_or_end(step, track, is_missed, &limits);
     }
-    rho_tracker_remove_ended_tracks(tracker);
+    rho_life_remove_ended(tracker);
     if (look->scan && rho_notch_sensor_has_notch(look->sensor)) {
-        rho_tracker_clear_blind_percents(tracker);
+        rho_notch_clear_tracks(tracker);
     }
 }

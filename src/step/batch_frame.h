@@ -37,7 +37,7 @@ struct batch_frame {
 };
 
 /* bearing_initiation.c: fills *held from step->frame; copies its fates back to the report */
-void rho_tracker_copy_frame_for_batch(const struct step *step, struct batch_frame *held);
-void rho_tracker_copy_fates_to_report_from_batch(const struct step *step, struct batch_frame *held);
+void rho_step_frame_to_batch(const struct step *step, struct batch_frame *held);
+void rho_step_batch_to_report(const struct step *step, struct batch_frame *held);
 
 #endif

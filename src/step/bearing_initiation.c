@@ -86,7 +86,7 @@ static void copy_fates_between_report_and_batch(const struct step *step, struct 
     }
 }
 
-void rho_tracker_copy_frame_for_batch(const struct step *step, struct batch_frame *held)
+void rho_step_frame_to_batch(const struct step *step, struct batch_frame *held)
 {
     uint32_t first = 0;
     held->frame = *step->frame;
@@ -100,7 +100,7 @@ void rho_tracker_copy_frame_for_batch(const struct step *step, struct batch_fram
     copy_fates_between_report_and_batch(step, held, 0);
 }
 
-void rho_tracker_copy_fates_to_report_from_batch(const struct step *step, struct batch_frame *held)
+void rho_step_batch_to_report(const struct step *step, struct batch_frame *held)
 {
     copy_fates_between_report_and_batch(step, held, 1);
 }
@@ -108,10 +108,10 @@ void rho_tracker_copy_fates_to_report_from_batch(const struct step *step, struct
 static void push_frame_into_batch(struct step *step)
 {
     struct batch_frame held;
-    rho_tracker_copy_frame_for_batch(step, &held);
+    rho_step_frame_to_batch(step, &held);
     /* cannot fail: rho_tracker_step_frame has asked whether the batch accepts the frame */
     (void)!rho_passive_push(step->passive, &held.frame, held.fates);
-    rho_tracker_copy_fates_to_report_from_batch(step, &held);
+    rho_step_batch_to_report(step, &held);
 }
 
 /* Copies a found track's x, y, vx and vy, and their covariance, into an estimate of three axes. */
@@ -153,7 +153,7 @@ static void start_found_track(struct step *step, const struct rho_passive_track 
                                  last_sensor_of_found_track(step->passive, found),
                                  (uint16_t)rho_count_bits(found->scans), &step->look.model,
                                  found->score_mnat) == RHO_OK &&
-        rho_tracker_admit_track(step, &track, limits)) {
+        rho_step_admit(step, &track, limits)) {
         tracker->counters.plots_initiated =
             rho_count(tracker->counters.plots_initiated, rho_passive_consume(step->passive, found));
     }
@@ -173,11 +173,11 @@ static int is_seen_in_last_two_scans(const struct rho_passive *passive,
  * Only a full batch is searched: in a shorter one ghosts may still move on straight lines. A
  * started track has the evidence of a whole batch, and is confirmed at once.
  */
-void rho_tracker_initiate_passive(struct step *step)
+void rho_step_initiate_bearings(struct step *step)
 {
     struct rho_passive *passive = step->passive;
     if (!RHO_SEARCHES || !passive) {
-        rho_tracker_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_NO_ROOM);
+        rho_step_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_NO_ROOM);
         return;
     }
     push_frame_into_batch(step);
@@ -190,7 +190,7 @@ void rho_tracker_initiate_passive(struct step *step)
     (void)!rho_passive_search(passive);
     step->tracker->counters.candidates_dropped =
         rho_count(step->tracker->counters.candidates_dropped, passive->work.candidates_dropped);
-    struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
+    struct rho_track_limits limits = rho_life_limits(&step->look);
     limits.confirm_mnat = passive->start_mnat;
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *found = &passive->tracks[i];

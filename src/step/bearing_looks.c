@@ -21,7 +21,7 @@ void rho_step_begin_frame(struct step *step)
     if (looks > tracker->looks_max) {
         tracker->looks_max = (uint16_t)looks;
     }
-    rho_tracker_set_log_pd_of_step(&step->look); /* default pd: no sensor's look is open yet */
+    rho_step_set_pd(&step->look); /* default pd: no sensor's look is open yet */
     memset(step->look.fates, RHO_FATE_NO_ROOM, step->look.num_gated);
 }
 
@@ -29,7 +29,7 @@ void rho_step_begin_frame(struct step *step)
 static struct rho_sensor sensor_of_bearing_scan(const struct step *step,
                                                 const struct rho_bearing_scan *scan)
 {
-    const struct rho_sensor *known = rho_tracker_find_sensor(step->tracker, scan->sensor_id);
+    const struct rho_sensor *known = rho_sensors_find(step->tracker, scan->sensor_id);
     struct rho_sensor sensor = {.sensor_id = scan->sensor_id,
                                 .pd = step->tracker->config.pd,
                                 .range_max_m = 2.0f * RHO_LIMIT_POSITION_M};
@@ -75,18 +75,18 @@ void rho_step_open_bearings(struct step *step, const struct rho_bearing_scan *sc
                             struct rho_sensor *sensor)
 {
     struct rho_look *look = &step->look;
-    struct rho_tracker_sensor *row = rho_tracker_hear_sensor(step->tracker, scan->sensor_id);
+    struct rho_tracker_sensor *row = rho_sensors_hear(step->tracker, scan->sensor_id);
     *sensor = sensor_of_bearing_scan(step, scan);
     if (row) {
-        rho_tracker_update_scan_interval(&row->pace, sensor, look->time_us, scan->sector_from_rad,
-                                         scan->sector_to_rad);
+        rho_pace_update(&row->pace, sensor, look->time_us, scan->sector_from_rad,
+                        scan->sector_to_rad);
     }
     look->bearings = scan;
     look->sensor = sensor;
     look->log_false_bearings = log_false_bearing_density(step, scan);
     look->num_gated = num_bearings_with_room_in_fates(look, scan, first);
     look->fates = step->report->fates + (first < RHO_MAX_PLOTS ? first : 0);
-    rho_tracker_set_log_pd_of_step(look);
+    rho_step_set_pd(look);
 }
 
 void rho_step_validate_bearings(struct rho_tracker *tracker, const struct rho_look *look)
@@ -94,8 +94,8 @@ void rho_step_validate_bearings(struct rho_tracker *tracker, const struct rho_lo
     for (uint32_t i = 0; i < look->num_gated; i++) {
         const struct rho_bearing *bearing = &look->bearings->bearings[i];
         int is_valid = is_usable_bearing(bearing);
-        if (is_valid && !rho_tracker_coverage_holds_bearing(look->sensor, bearing->bearing_rad,
-                                                            BEARING_SIGMAS * bearing->sigma_rad)) {
+        if (is_valid && !rho_coverage_holds_bearing(look->sensor, bearing->bearing_rad,
+                                                    BEARING_SIGMAS * bearing->sigma_rad)) {
             is_valid = 0;
             tracker->counters.plots_outside = rho_count(tracker->counters.plots_outside, 1);
         }
@@ -116,7 +116,7 @@ static int score_bearing(const struct rho_look *look, const struct rho_track *tr
     struct rho_bearing bearing = scan->bearings[i];
     /* the update by an earlier look of the frame may have moved the track from the frame's time */
     bearing.offset_us = (int32_t)(scan->time_us + bearing.offset_us - track->time_us);
-    rho_tracker_open_track_gate(look, track, 0, &gate);
+    rho_score_open_gate(look, track, 0, &gate);
     if (!rho_gate_test_bearing(&gate, &bearing, scan->x_m, scan->y_m, &result)) {
         return 0;
     }
@@ -131,7 +131,7 @@ void rho_step_offer_bearings(struct rho_tracker *tracker, const struct rho_look 
     for (uint32_t i = 0; i < look->num_gated; i++) {
         if (look->fates[i] == RHO_FATE_HELD &&
             score_bearing(look, &tracker->tracks[row], i, &gain_nat)) {
-            rho_tracker_add_assignment_pair(tracker, row, i, gain_nat - look->log_miss);
+            rho_score_add_pair(tracker, row, i, gain_nat - look->log_miss);
         }
     }
 }
@@ -151,7 +151,7 @@ static int update_by_bearing(struct rho_tracker *tracker, const struct rho_look 
         .row = (int16_t)i,
     };
     if (!score_bearing(look, track, i, &gain_nat) ||
-        rho_track_update_bearing(track, &seen, &look->model, rho_tracker_nat_to_mnat(gain_nat)) !=
+        rho_track_update_bearing(track, &seen, &look->model, rho_score_to_mnat(gain_nat)) !=
             RHO_OK) {
         tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
         return 0;
@@ -170,18 +170,18 @@ void rho_step_update_by_bearings(struct rho_tracker *tracker, const struct rho_l
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         const int bearing = rho_assignment_column(&tracker->assignment, row);
-        if (track->status == RHO_TRACK_FREE || !rho_tracker_is_track_in_view(look, row) ||
+        if (track->status == RHO_TRACK_FREE || !rho_look_has_in_view(look, row) ||
             (bearing != RHO_ASSIGNMENT_NONE &&
              update_by_bearing(tracker, look, track, (uint32_t)bearing))) {
             continue;
         }
-        if (rho_tracker_sector_covers_track_place(look, look->bearings->sector_from_rad,
-                                                  look->bearings->sector_to_rad, track)) {
-            rho_track_lower_score(track, rho_tracker_nat_to_mnat(-look->log_miss));
+        if (rho_coverage_holds_track(look, look->bearings->sector_from_rad,
+                                     look->bearings->sector_to_rad, track)) {
+            rho_track_lower_score(track, rho_score_to_mnat(-look->log_miss));
         }
     }
     for (uint32_t i = 0; i < look->num_gated; i++) {
         unclaimed += look->fates[i] == RHO_FATE_HELD ? 1.0f : 0.0f;
     }
-    rho_tracker_smooth_mean(&tracker->unclaimed_bearings, unclaimed);
+    rho_clutter_smooth_mean(&tracker->unclaimed_bearings, unclaimed);
 }

@@ -13,24 +13,24 @@
 #define ACCEL_SHARE 0.5f
 #define ACCEL_TIME_S 1.0f
 
-int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us)
+int rho_step_is_late(const struct rho_tracker *tracker, int64_t time_us)
 {
     return tracker->has_time && time_us < tracker->time_us;
 }
 
-int rho_tracker_is_usable_time(int64_t time_us)
+int rho_step_is_usable_time(int64_t time_us)
 {
     return time_us <= RHO_LIMIT_TIME_US && time_us >= -RHO_LIMIT_TIME_US;
 }
 
-void rho_tracker_set_log_pd_of_step(struct rho_look *look)
+void rho_step_set_pd(struct rho_look *look)
 {
     float pd = look->sensor ? look->sensor->pd : look->tracker->config.pd;
     look->log_pd = rho_log(pd);
     look->log_miss = rho_log(1.0f - pd);
 }
 
-void rho_tracker_set_motion_model(struct rho_tracker *tracker, struct rho_look *look)
+void rho_step_set_model(struct rho_tracker *tracker, struct rho_look *look)
 {
     float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
     look->log_height = rho_log(RHO_CLUTTER_HEIGHT_M);
@@ -38,7 +38,7 @@ void rho_tracker_set_motion_model(struct rho_tracker *tracker, struct rho_look *
     look->log_range_rates = look->log_rates;
     look->model.speed_sigma_mps = tracker->config.v_max_mps;
     look->model.noise_density = accel_mps2 * accel_mps2 * ACCEL_TIME_S;
-    if (rho_tracker_filter_of_config(&tracker->config) == RHO_TRACK_HYPOTHESES) {
+    if (rho_tracker_filter(&tracker->config) == RHO_TRACK_HYPOTHESES) {
         look->model.hypotheses = &tracker->hypotheses;
     } else if (tracker->config.input.is_estimated) {
         look->model.input = &tracker->config.input;
@@ -48,20 +48,20 @@ void rho_tracker_set_motion_model(struct rho_tracker *tracker, struct rho_look *
 /* Sets the look's sensor with its pd, notch and noise, and notes the scan in its history. */
 static void open_sensor(struct rho_tracker *tracker, struct rho_look *look)
 {
-    look->row = rho_tracker_hear_sensor(tracker, look->scan->sensor_id);
+    look->row = rho_sensors_hear(tracker, look->scan->sensor_id);
     if (look->row && look->row < &tracker->sensors[tracker->num_sensors]) {
         look->sensor = &look->row->sensor;
         look->learned = &look->row->learned;
     }
-    rho_tracker_set_log_pd_of_step(look);
+    rho_step_set_pd(look);
     if (RHO_SECTORS) {
-        rho_tracker_record_look_and_antenna_turning(tracker, look);
+        rho_turn_note_look(tracker, look);
     }
     if (look->teaches && look->row) {
-        rho_tracker_update_scan_interval(&look->row->pace, look->sensor, look->time_us,
-                                         look->scan->sector_from_rad, look->scan->sector_to_rad);
+        rho_pace_update(&look->row->pace, look->sensor, look->time_us, look->scan->sector_from_rad,
+                        look->scan->sector_to_rad);
     }
-    rho_tracker_open_noise(tracker, look);
+    rho_look_open_noise(tracker, look);
     look->log_range_rates -=
         rho_measurement_log_num_aliases(look->sensor, tracker->config.v_max_mps);
     look->range_rates_mps = rho_exp(look->log_range_rates);
@@ -74,11 +74,11 @@ static void open_sensor(struct rho_tracker *tracker, struct rho_look *look)
  */
 static int open_time(struct rho_tracker *tracker, struct rho_look *look)
 {
-    look->is_late = rho_tracker_is_late(tracker, look->time_us);
+    look->is_late = rho_step_is_late(tracker, look->time_us);
     look->teaches = !look->is_late;
     look->starts = !look->is_late ||
                    (look->initiator && rho_initiator_accepts(look->initiator, look->time_us));
-    if (look->is_late && !(RHO_SECTORS && rho_tracker_accepts_late_scan(look))) {
+    if (look->is_late && !(RHO_SECTORS && rho_retrodiction_accepts(look))) {
         memset(look->fates, RHO_FATE_STALE, look->num_gated);
         tracker->counters.scans_late = rho_count(tracker->counters.scans_late, 1);
         return 0;
@@ -88,7 +88,7 @@ static int open_time(struct rho_tracker *tracker, struct rho_look *look)
         tracker->counters.scans_retrodicted = rho_count(tracker->counters.scans_retrodicted, 1);
         return 1;
     }
-    rho_tracker_reset_manoeuvre_interval_after_silence(tracker, look->time_us);
+    rho_manoeuvres_reset(tracker, look->time_us);
     tracker->time_us = look->time_us;
     tracker->has_time = 1;
     return 1;
@@ -102,7 +102,7 @@ int rho_step_begin(struct step *step)
     memset(report, 0, sizeof *report);
     report->time_us = look->time_us;
     report->num_plots = look->num_inputs;
-    rho_tracker_set_motion_model(step->tracker, look);
+    rho_step_set_model(step->tracker, look);
     if (!open_time(step->tracker, look)) {
         return 0;
     }

@@ -37,7 +37,7 @@ static void validate_plots(struct rho_tracker *tracker, struct rho_look *look)
     for (uint32_t i = 0; i < look->num_gated; i++) {
         const struct rho_plot *plot = &look->scan->plots[i];
         int valid = rho_measurement_is_valid_plot(plot, look->scan->measures);
-        if (valid && !rho_tracker_coverage_holds_plot(look->sensor, plot, look->scan->measures)) {
+        if (valid && !rho_coverage_holds_plot(look->sensor, plot, look->scan->measures)) {
             valid = 0;
             tracker->counters.plots_outside = rho_count(tracker->counters.plots_outside, 1);
         }
@@ -140,36 +140,36 @@ static void offer_gated_plots(struct rho_tracker *tracker, const struct rho_look
     struct rho_gate_hough hough;
     struct rho_gate_result result;
     float half_m[2];
-    const float log_miss = rho_tracker_log_pd_and_log_miss_of_track(look, track).log_miss;
-    const float log_density = rho_tracker_log_clutter_density_at_track(look, track);
+    const float log_miss = rho_look_detection(look, track).log_miss;
+    const float log_density = rho_clutter_log_at_track(look, track);
     const int by_hough = open_hough_gate_by_last_two_velocities(tracker, track, &hough);
     const int has_window = by_hough && (look->scan->measures & RHO_MEASURES_VELOCITY);
-    rho_tracker_open_track_gate(look, track, look->scan->measures, &gate);
+    rho_score_open_gate(look, track, look->scan->measures, &gate);
     rho_gate_box(&gate, look->sigma_max_m, look->offset_max_s, half_m);
     if (has_window) {
         widen_box_for_hough_gate(look, track, half_m);
     }
-    struct plots_near near = rho_tracker_plots_near(
+    struct plots_near near = rho_plots_near(
         tracker, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
         gate.predicted.state[1] - half_m[1], gate.predicted.state[1] + half_m[1]);
     struct plots_near counted = near;
-    struct plot_choice choice = rho_tracker_begin_choice_of_plots_to_score(look, work, track);
-    for (uint32_t i; choice.most < rho_tracker_max_num_plots_near(look, &near) &&
-                     rho_tracker_next_plot_near(look, &counted, &i);) {
+    struct plot_choice choice = rho_work_begin_choice(look, work, track);
+    for (uint32_t i;
+         choice.most < rho_plots_max_near(look, &near) && rho_plots_next(look, &counted, &i);) {
         if (is_held_plot_in_box(look, &gate, half_m, i)) {
-            rho_tracker_count_plot_in_distance_octave(&choice, track, &look->scan->plots[i]);
+            rho_work_count_plot(&choice, track, &look->scan->plots[i]);
         }
     }
-    rho_tracker_limit_choice_to_nearest_plots(work, &choice);
-    for (uint32_t i; rho_tracker_next_plot_near(look, &near, &i);) {
+    rho_work_limit_choice(work, &choice);
+    for (uint32_t i; rho_plots_next(look, &near, &i);) {
         const struct rho_plot *plot = &look->scan->plots[i];
         if (is_held_plot_in_box(look, &gate, half_m, i) &&
-            rho_tracker_spend_score_work_if_plot_chosen(work, &choice, track, plot) &&
+            rho_work_take_plot(work, &choice, track, plot) &&
             (has_window || rho_gate_test(&gate, plot, &result))) {
-            rho_tracker_add_assignment_pair(
-                tracker, row, i,
-                by_hough ? gain_by_hough_residual(look, track, &hough, plot)
-                         : rho_tracker_score_plot(look, track, &result, log_density, i) - log_miss);
+            rho_score_add_pair(tracker, row, i,
+                               by_hough ? gain_by_hough_residual(look, track, &hough, plot)
+                                        : rho_score_plot(look, track, &result, log_density, i) -
+                                              log_miss);
         }
     }
 }
@@ -180,14 +180,14 @@ static void offer_plots_scored_by_hypotheses(struct rho_tracker *tracker,
                                              const struct rho_look *look, struct rho_work *work,
                                              unsigned row)
 {
-    const float log_miss = rho_tracker_log_miss_probability(look, &tracker->tracks[row]);
+    const float log_miss = rho_score_log_miss(look, &tracker->tracks[row]);
     struct plot_scores scores;
     uint32_t plot;
     float gain_nat;
-    rho_tracker_begin_plot_scores(tracker, look, work, row, &scores);
-    while (rho_tracker_next_plot_score(tracker, look, work, &scores, &plot, &gain_nat)) {
+    rho_score_begin(tracker, look, work, row, &scores);
+    while (rho_score_next(tracker, look, work, &scores, &plot, &gain_nat)) {
         if (gain_nat > log_miss) {
-            rho_tracker_add_assignment_pair(tracker, row, plot, gain_nat - log_miss);
+            rho_score_add_pair(tracker, row, plot, gain_nat - log_miss);
         }
     }
 }
@@ -200,15 +200,14 @@ void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct r
         rho_step_validate_bearings(tracker, look);
     } else {
         validate_plots(tracker, look);
-        rho_tracker_index_plots(tracker, look);
-        rho_tracker_open_clutter(tracker, look, work);
+        rho_plots_index(tracker, look);
+        rho_clutter_open(tracker, look, work);
     }
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num_gated);
-    rho_tracker_begin_phase_with_share_per_track(look, work);
+    rho_work_begin_shares(look, work);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (tracker->tracks[row].status == RHO_TRACK_FREE ||
-            !rho_tracker_is_track_in_view(look, row)) {
+        if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_look_has_in_view(look, row)) {
             continue;
         }
         if (look->bearings) {
@@ -219,5 +218,5 @@ void rho_step_claim(struct rho_tracker *tracker, struct rho_look *look, struct r
             offer_gated_plots(tracker, look, work, row);
         }
     }
-    rho_tracker_solve_assignment(tracker);
+    rho_score_solve(tracker);
 }

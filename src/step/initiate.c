@@ -22,24 +22,24 @@ static void start_track_from_candidate(struct step *step, const struct rho_candi
     struct rho_tracker *tracker = step->tracker;
     struct rho_track_plot plots[RHO_MAX_SCANS];
     struct rho_track track;
-    unsigned n = rho_tracker_copy_candidate_plots(&step->look.initiator->window, candidate, plots);
+    unsigned n = rho_step_candidate_plots(&step->look.initiator->window, candidate, plots);
     if (rho_track_start(&track, tracker->next_track_id, plots, n, &step->look.model,
                         candidate->score_mnat) != RHO_OK) {
         tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
         return;
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_sum_echo_returns_at_start(&step->look, candidate, &track);
+        rho_echoes_sum_returns(&step->look, candidate, &track);
     }
     if (RHO_SECTORS) {
-        rho_tracker_record_seeing_sensor(&step->look, &track);
+        rho_turn_note_seen(&step->look, &track);
     }
-    if (rho_tracker_admit_track(step, &track, limits)) {
+    if (rho_step_admit(step, &track, limits)) {
         tracker->counters.plots_initiated =
             rho_count(tracker->counters.plots_initiated,
                       rho_initiator_consume(step->look.initiator, candidate));
         if (RHO_MAX_ECHOES > 0) {
-            rho_tracker_raise_window_clutter_near_start(&step->look, &step->work, candidate);
+            rho_second_plots_raise_window(&step->look, &step->work, candidate);
         }
     }
 }
@@ -50,7 +50,7 @@ static void search_newest_scan(const struct rho_look *look, struct rho_work *wor
     struct rho_initiator *initiator = look->initiator;
     const struct rho_initiator_budget before = initiator->budget;
     (void)!rho_initiator_search_within(initiator, RHO_SEARCH_NEWEST,
-                                       rho_tracker_work_left_for_search(look, work));
+                                       rho_work_left_for_search(look, work));
     work->spent = rho_count(work->spent, initiator->budget.work);
     work->plots_not_tried = rho_count(work->plots_not_tried,
                                       initiator->budget.plots_not_tried - before.plots_not_tried);
@@ -68,7 +68,7 @@ static void push_scan_into_window(struct step *step)
     held.num_plots = step->look.num_gated;
     if (step->look.sensor) {
         sensor = *step->look.sensor;
-        sensor.pd = rho_tracker_pd_over_all_ranges(&step->look);
+        sensor.pd = rho_learning_mean_pd(&step->look);
     }
     (void)!rho_initiator_push(step->look.initiator, &held, step->look.sensor ? &sensor : 0,
                               step->report->fates, &step->tracker->counters.plots_clutter);
@@ -80,7 +80,7 @@ static void search_and_start_tracks(struct step *step)
     struct rho_initiator *initiator = step->look.initiator;
     push_scan_into_window(step);
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_store_echo_ratios_in_window(&step->look);
+        rho_echoes_store_ratios(&step->look);
     }
     search_newest_scan(&step->look, &step->work);
     tracker->counters.candidates_dropped =
@@ -88,10 +88,10 @@ static void search_and_start_tracks(struct step *step)
     tracker->start_mnat = initiator->start_mnat;
     tracker->confirm_mnat = initiator->confirm_mnat;
     if (RHO_SECTORS) {
-        rho_tracker_merge_sensor_thresholds(tracker, &step->look);
+        rho_turn_merge_thresholds(tracker, &step->look);
     }
-    const struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
-    rho_tracker_begin_work_phase(tracker, &step->work, RHO_WORK_STARTS_SHARE);
+    const struct rho_track_limits limits = rho_life_limits(&step->look);
+    rho_work_begin_phase(tracker, &step->work, RHO_WORK_STARTS_SHARE);
     /* a suspect sensor starts no tracks: plots of it alone are no evidence of a target */
     for (unsigned i = 0; i < initiator->num_candidates && !step->look.is_suspect; i++) {
         if (!is_newest_plot_used(initiator, &initiator->candidates[i])) {
@@ -104,31 +104,31 @@ static void search_and_start_tracks(struct step *step)
 static void withhold_plots(struct step *step)
 {
     if (RHO_MAX_REFLECTORS > 0 && step->tracker->num_reflectors > 0) {
-        rho_tracker_mark_image_plots_as_ghosts(&step->look, &step->work);
+        rho_images_mark_plots(&step->look, &step->work);
     }
     if (RHO_MAX_EXCLUDED_AREAS > 0 && step->tracker->num_excluded > 0) {
-        rho_tracker_mark_excluded_plots_as_ghosts(step->tracker, &step->look, &step->work);
+        rho_areas_mark_plots(step->tracker, &step->look, &step->work);
     }
 }
 
 void rho_step_initiate(struct step *step)
 {
     if (step->frame) {
-        rho_tracker_initiate_passive(step);
+        rho_step_initiate_bearings(step);
         return;
     }
     withhold_plots(step);
     if (!step->look.starts) {
-        rho_tracker_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_STALE);
+        rho_step_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_STALE);
         return;
     }
     if (RHO_SEARCHES && step->look.initiator) {
         search_and_start_tracks(step);
     } else {
-        rho_tracker_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_NO_ROOM);
+        rho_step_replace_fates(&step->look, RHO_FATE_HELD, RHO_FATE_NO_ROOM);
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_update_clutter_map(step->tracker, &step->look);
+        rho_echoes_update(step->tracker, &step->look);
     }
-    rho_tracker_smooth_unclaimed_count(step->tracker, &step->look);
+    rho_clutter_count_unclaimed(step->tracker, &step->look);
 }

@@ -38,7 +38,7 @@ static void exclude_assigned_tracks(struct step *step)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         const int had = rho_assignment_column(&tracker->assignment, i) != RHO_ASSIGNMENT_NONE;
-        if (rho_tracker_is_track_in_view(&step->look, i) && (track->plot >= 0 || had)) {
+        if (rho_look_has_in_view(&step->look, i) && (track->plot >= 0 || had)) {
             track->plot =
                 (int16_t)(track->plot < 0 ? -1 : track->plot + (int32_t)step->look.first_row);
             step->look.in_view[i / 32] &= ~(1u << i % 32);
@@ -104,10 +104,10 @@ void rho_step_take_looks(struct step *step)
         return;
     }
     if (rho_notch_sensor_has_notch(look->sensor)) {
-        rho_tracker_set_notch_blind_percents(step->tracker, look);
+        rho_notch_mark_tracks(step->tracker, look);
     }
-    if (rho_tracker_has_bodies(step->tracker)) {
-        rho_tracker_group_plots(step);
+    if (rho_bodies_are_used(step->tracker)) {
+        rho_bodies_group(step);
     }
     if (RHO_CLAIMS_BEYOND && look->num_inputs > RHO_MAX_PLOTS) {
         take_parts(step);

@@ -7,7 +7,7 @@
  * take the plot. So crossing tracks keep their velocities, and tracks in formation go on.
  *
  * Two targets d apart along the line of sight are unresolved with probability e^-(d^2 / 2 n), and
- * the same holds across it (resolution_cell_size_learning.c has n); d has the variance c of both
+ * the same holds across it (resolution_cell.c has n); d has the variance c of both
  * tracks' places. The probability `merged` is the product of the factors of both axes, and of the
  * range rates where the sensor resolves them:
  *     root(n / (n + c)) e^-(d^2 / 2 (n + c))
@@ -92,7 +92,7 @@ static int find_track_to_share_with(struct rho_tracker *tracker, const struct rh
             pair->plot = offer->column;
             pair->first = &tracker->tracks[owner];
             pair->gain_nat = 0.0f;
-            (void)rho_tracker_find_pair_gain(look, (unsigned)owner, offer->column, &pair->gain_nat);
+            (void)rho_score_pair_gain(look, (unsigned)owner, offer->column, &pair->gain_nat);
         }
     }
     if (least == 0) {
@@ -102,8 +102,7 @@ static int find_track_to_share_with(struct rho_tracker *tracker, const struct rh
     const float *from = pair->first->kalman.state, *to = pair->second->kalman.state;
     const float half_m[2] = {0.5f * (to[0] - from[0]), 0.5f * (to[1] - from[1])};
     rotate_to_line_of_sight(&pair->seen, half_m, pair->half_m);
-    rho_tracker_unresolved_variances_at_plot(look, &look->scan->plots[pair->plot], &pair->seen,
-                                             pair->near_m2);
+    rho_cell_variances_at(look, &look->scan->plots[pair->plot], &pair->seen, pair->near_m2);
     return 1;
 }
 
@@ -147,7 +146,7 @@ static float unresolved_probability_on_axis(float unresolved_variance, float apa
 static float unresolved_probability_by_range_rate(const struct rho_look *look,
                                                   const struct track_pair *pair)
 {
-    const float near_mps2 = rho_tracker_unresolved_range_rate_variance(look->sensor);
+    const float near_mps2 = rho_cell_rate_variance(look->sensor);
     const float first_mps = rho_track_sigma_mps(pair->first),
                 second_mps = rho_track_sigma_mps(pair->second);
     return near_mps2 > 0.0f
@@ -171,7 +170,7 @@ static void learn_resolution_cell_from_pair(const struct rho_look *look,
         apart.of_one_m2[axis] = kept * (kept * apart_m * apart_m + both_m2[axis]);
         apart.of_two_m2[axis] = apart_m * apart_m + both_m2[axis];
     }
-    rho_tracker_learn_resolution_cell(look, &apart);
+    rho_cell_learn(look, &apart);
 }
 
 /*
@@ -194,7 +193,7 @@ static int test_merged_plot_and_learn_cell(const struct rho_look *look,
         ratio_nat += half_m * (from_m[axis] - 0.5f * half_m) /
                      (pair->seen.variance_m2[axis] + first_m2[axis]);
     }
-    const float log_miss = rho_tracker_log_pd_and_log_miss_of_track(look, pair->second).log_miss;
+    const float log_miss = rho_look_detection(look, pair->second).log_miss;
     *gain_nat = rho_larger(log_miss, rho_smaller(ratio_nat, GAIN_MAX_NAT));
     const float one = merged * rho_exp(ratio_nat), two = (1.0f - merged) * rho_exp(log_miss);
     learn_resolution_cell_from_pair(look, pair, both_m2, one / (one + two));
@@ -206,7 +205,7 @@ static struct rho_track_plot own_plot_from_merged(const struct rho_look *look,
                                                   const struct track_pair *pair,
                                                   const struct rho_track *other)
 {
-    struct rho_track_plot part = rho_tracker_make_track_plot(look, pair->plot);
+    struct rho_track_plot part = rho_score_track_plot(look, pair->plot);
     const float c = pair->seen.cos_azimuth, s = pair->seen.sin_azimuth;
     const float half_mps = 0.5f * predicted_range_rate_of_second_less_first_mps(look, pair);
     float from_m[2], other_m2[2], farther_m[2], wider[2];
@@ -233,7 +232,7 @@ static struct rho_track_plot own_plot_from_merged(const struct rho_look *look,
 static int update_track_by_part_of_merged_plot(const struct rho_look *look, struct rho_track *track,
                                                const struct rho_track_plot *part, float gain_nat)
 {
-    if (rho_track_update_by_plot(track, part, &look->model, rho_tracker_nat_to_mnat(gain_nat)) !=
+    if (rho_track_update_by_plot(track, part, &look->model, rho_score_to_mnat(gain_nat)) !=
         RHO_OK) {
         return 0;
     }
@@ -278,12 +277,12 @@ static void learn_cell_from_resolved_pairs(struct rho_tracker *tracker, const st
                                   .second = &tracker->tracks[other]};
         rho_measurement_from_plot(from, 0, look->sensor, &pair.seen);
         rotate_to_line_of_sight(&pair.seen, half_m, pair.half_m);
-        rho_tracker_unresolved_variances_at_plot(look, from, &pair.seen, pair.near_m2);
+        rho_cell_variances_at(look, from, &pair.seen, pair.near_m2);
         learn_resolution_cell_from_pair(look, &pair, none_m2, 0.0f);
     }
 }
 
-void rho_tracker_share_merged_plots(struct rho_tracker *tracker, const struct rho_look *look)
+void rho_step_share_merged(struct rho_tracker *tracker, const struct rho_look *look)
 {
     struct track_pair pair;
     float gain_nat;

@@ -24,7 +24,7 @@ static enum rho_status find_track_and_resume_step(struct rho_tracker *tracker, u
     if (!tracker || !report) {
         return RHO_ERROR_NULL;
     }
-    const enum rho_status status = rho_tracker_reopen_finished_step(tracker, report, step);
+    const enum rho_status status = rho_step_reopen(tracker, report, step);
     if (status != RHO_OK) {
         return status;
     }
@@ -93,13 +93,13 @@ enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker, uint32_t tra
     if (!has_room_for_ended(report)) {
         return RHO_ERROR_CAPACITY;
     }
-    rho_tracker_end_track(&step, track);
-    rho_tracker_remove_ended_tracks(tracker);
-    if (rho_tracker_has_bodies(tracker)) {
-        rho_tracker_align_bodies_with_tracks(tracker);
+    rho_life_end(&step, track);
+    rho_life_remove_ended(tracker);
+    if (rho_bodies_are_used(tracker)) {
+        rho_bodies_align(tracker);
     }
     tracker->counters.tracks_dropped = rho_count(tracker->counters.tracks_dropped, 1);
-    rho_tracker_report_tracks(&step);
+    rho_step_report_tracks(&step);
     return RHO_OK;
 }
 
@@ -108,7 +108,7 @@ static void swap_tracks_and_bodies(struct rho_tracker *tracker, unsigned row, un
     const struct rho_track track = tracker->tracks[row];
     tracker->tracks[row] = tracker->tracks[other];
     tracker->tracks[other] = track;
-    if (rho_tracker_has_bodies(tracker)) {
+    if (rho_bodies_are_used(tracker)) {
         const struct rho_body_filter body = tracker->bodies.of[row];
         tracker->bodies.of[row] = tracker->bodies.of[other];
         tracker->bodies.of[other] = body;
@@ -170,8 +170,8 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
     if (track->was_confirmed) {
         report->ended[report->num_ended++] = track_id;
     }
-    if (rho_tracker_has_bodies(tracker)) {
-        rho_tracker_align_bodies_with_tracks(tracker);
+    if (rho_bodies_are_used(tracker)) {
+        rho_bodies_align(tracker);
         tracker->bodies.of[track - tracker->tracks].track_id = new_id;
     }
     track->track_id = new_id;
@@ -181,7 +181,7 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
     }
     move_track_to_id_order(tracker, (unsigned)(track - tracker->tracks));
     tracker->next_track_id = tracker->next_track_id > new_id ? tracker->next_track_id : new_id + 1u;
-    rho_tracker_report_tracks(&step);
+    rho_step_report_tracks(&step);
     return RHO_OK;
 }
 
@@ -203,7 +203,7 @@ enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker, uint32_t t
     if (track->status == RHO_TRACK_TENTATIVE) {
         return RHO_ERROR_STATE;
     }
-    if (rho_tracker_is_track_frozen(track) == (is_frozen != 0)) {
+    if (rho_track_is_frozen(track) == (is_frozen != 0)) {
         return RHO_OK;
     }
     track->is_frozen = is_frozen != 0;
@@ -213,6 +213,6 @@ enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker, uint32_t t
     /* the frozen time does not count as silence of the target */
     track->seen_us = tracker->time_us;
     track->misses_in_row = 0;
-    rho_tracker_report_tracks(&step);
+    rho_step_report_tracks(&step);
     return RHO_OK;
 }

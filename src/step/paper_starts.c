@@ -114,7 +114,7 @@ static uint32_t count_inputs_with_fate(const uint8_t *fates, uint32_t num, enum 
 static enum rho_status push_plots_into_window(struct rho_paper_starts *starts,
                                               const struct step *step, const struct rho_scan *scan)
 {
-    const struct rho_sensor *sensor = rho_tracker_find_sensor(step->tracker, scan->sensor_id);
+    const struct rho_sensor *sensor = rho_sensors_find(step->tracker, scan->sensor_id);
     struct rho_scan held = *scan;
     uint8_t *fates = step->report->fates;
     held.num_plots = held.num_plots < step->look.num_gated ? held.num_plots : step->look.num_gated;
@@ -228,7 +228,7 @@ static void start_track_from_line(struct rho_paper_starts *starts, struct rho_tr
         starts->work.short_lines = rho_count(starts->work.short_lines, 1);
         return;
     }
-    const unsigned num = rho_tracker_copy_candidate_plots(&starts->window, &candidate, plots);
+    const unsigned num = rho_step_candidate_plots(&starts->window, &candidate, plots);
     if (rho_tracker_start_track(tracker, plots, num, 0, report) == RHO_OK) {
         peak->track_id = newest_track_id(tracker);
         mark_plots_used(starts, &candidate, &tracker->counters);
@@ -339,7 +339,7 @@ enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct r
     if (report->time_us != tracker->time_us || frame->num_scans > RHO_MAX_PASSIVE_SENSORS) {
         return RHO_OK;
     }
-    rho_tracker_copy_frame_for_batch(&step, &held);
+    rho_step_frame_to_batch(&step, &held);
     const uint32_t num = num_bearings_in_frame(&held);
     const uint32_t before = count_inputs_with_fate(held.fates, num, RHO_FATE_NO_ROOM);
     mark_no_room_as_held(held.fates, num);
@@ -347,7 +347,7 @@ enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct r
     if (status != RHO_OK) {
         return status;
     }
-    rho_tracker_copy_fates_to_report_from_batch(&step, &held);
+    rho_step_batch_to_report(&step, &held);
     recount_no_room_as_held(&step,
                             before - count_inputs_with_fate(held.fates, num, RHO_FATE_NO_ROOM));
     if (paper->batch.num_scans == paper->batch.scans_max) {

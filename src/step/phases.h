@@ -18,12 +18,12 @@
  */
 int rho_step_begin(struct step *step);
 /* Sets the step's motion model, the filter of new tracks, and the volumes of clutter densities. */
-void rho_tracker_set_motion_model(struct rho_tracker *tracker, struct rho_look *look);
+void rho_step_set_model(struct rho_tracker *tracker, struct rho_look *look);
 /* Sets log_pd and log_miss by the look's sensor, or by the tracker's default pd. */
-void rho_tracker_set_log_pd_of_step(struct rho_look *look);
-int rho_tracker_is_usable_time(int64_t time_us);
+void rho_step_set_pd(struct rho_look *look);
+int rho_step_is_usable_time(int64_t time_us);
 /* True where a time is before that of the tracker's newest step. */
-int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
+int rho_step_is_late(const struct rho_tracker *tracker, int64_t time_us);
 
 /* predict.c: moves the tracks that a look can see to the time of the step */
 void rho_step_predict(struct step *step);
@@ -47,13 +47,15 @@ void rho_step_update_by_bearings(struct rho_tracker *tracker, const struct rho_l
 /* True where any sensor of the frame covers the track's place. */
 int rho_step_does_frame_cover(const struct step *step, const struct rho_track *track);
 
-/* age.c: counts misses, confirms and ends tracks */
+/* age.c: counts misses, confirms and ends tracks; or confirms or ends one, its miss counted */
 void rho_step_age(struct step *step);
+void rho_step_confirm_or_end(struct step *step, struct rho_track *track, int is_missed,
+                             const struct rho_track_limits *limits);
 
 /* initiate.c: tracks start from unclaimed plots; the clutter map and counts are updated */
 void rho_step_initiate(struct step *step);
 /* bearing_initiation.c: tracks start from unclaimed bearings */
-void rho_tracker_initiate_passive(struct step *step);
+void rho_step_initiate_bearings(struct step *step);
 
 /* settle.c: brings the tracks to the time that the report has */
 void rho_step_settle(struct step *step);
@@ -64,32 +66,31 @@ void rho_step_settle(struct step *step);
  */
 void rho_step_merge_estimates(struct step *step);
 void rho_step_report(struct step *step);
-void rho_tracker_report_tracks(const struct step *step);
+void rho_step_report_tracks(const struct step *step);
 
 /* merged_plots.c: pairs of tracks share merged plots, before other tracks take their plots */
-void rho_tracker_share_merged_plots(struct rho_tracker *tracker, const struct rho_look *look);
+void rho_step_share_merged(struct rho_tracker *tracker, const struct rho_look *look);
 
 /* split_bodies.c: a track whose body is surely two targets becomes two tracks */
-void rho_tracker_split_tracks_of_two_targets(struct step *step, const struct rho_scan *scan);
+void rho_step_split_bodies(struct step *step, const struct rho_scan *scan);
 
 /*
- * admit_started_track.c: adds a started track to the tracker's; returns 0 where there is no room,
+ * track_starts.c: adds a started track to the tracker's; returns 0 where there is no room,
  * and the track has ended. A full tracker ends its lowest tentative track for a track of a higher
  * score.
  */
-int rho_tracker_admit_track(struct step *step, struct rho_track *track,
-                            const struct rho_track_limits *limits);
+int rho_step_admit(struct step *step, struct rho_track *track,
+                   const struct rho_track_limits *limits);
 /*
  * Makes *step from the newest step and its report, for changes of tracks between two steps. STATE:
  * the tracker has made no step, or the report is of another one.
  */
-enum rho_status rho_tracker_reopen_finished_step(struct rho_tracker *tracker,
-                                                 struct rho_report *report, struct step *step);
+enum rho_status rho_step_reopen(struct rho_tracker *tracker, struct rho_report *report,
+                                struct step *step);
 /* Copies a candidate's plots from the window in the order of their scans; returns their number. */
-unsigned rho_tracker_copy_candidate_plots(struct rho_window *window,
-                                          const struct rho_candidate *candidate,
-                                          struct rho_track_plot *plots);
+unsigned rho_step_candidate_plots(struct rho_window *window, const struct rho_candidate *candidate,
+                                  struct rho_track_plot *plots);
 /* Gives all inputs of the look with one fate another. */
-void rho_tracker_replace_fates(const struct rho_look *look, enum rho_fate from, enum rho_fate to);
+void rho_step_replace_fates(const struct rho_look *look, enum rho_fate from, enum rho_fate to);
 
 #endif

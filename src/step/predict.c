@@ -15,13 +15,13 @@ void rho_step_predict(struct step *step)
         struct rho_track *track = &tracker->tracks[i];
         track->plot = -1;
         if (RHO_SECTORS) {
-            rho_tracker_keep_track_time(track);
+            rho_retrodiction_keep_time(track);
         }
         if (rho_look_may_see(look, track)) {
             look->in_view[i / 32] |= 1u << i % 32;
             /* the prediction fails where the covariance has grown beyond its limits */
             if (rho_track_predict(track, look->time_us, &look->model) != RHO_OK) {
-                rho_tracker_end_track(step, track);
+                rho_life_end(step, track);
             }
         }
     }

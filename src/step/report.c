@@ -15,8 +15,7 @@ void rho_step_merge_estimates(struct step *step)
     const struct rho_look *look = &step->look;
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         struct rho_track *track = &step->tracker->tracks[i];
-        if ((step->frame || track->time_us == look->time_us) &&
-            !rho_tracker_is_track_frozen(track)) {
+        if ((step->frame || track->time_us == look->time_us) && !rho_track_is_frozen(track)) {
             rho_track_merge_estimates(track, look->time_us, &look->model);
         }
     }
@@ -64,7 +63,7 @@ static void report_track(const struct rho_look *look, const struct rho_track *tr
         .hits = track->hits,
         .misses = track->misses,
         .sensor_id = track->sensor_id,
-        .plot = rho_tracker_is_late(look->tracker, look->time_us) ? -1 : track->plot,
+        .plot = rho_step_is_late(look->tracker, look->time_us) ? -1 : track->plot,
         .update_age_us = age_us < 0           ? 0
                          : age_us < INT32_MAX ? (int32_t)age_us
                                               : INT32_MAX,
@@ -107,7 +106,7 @@ static void count_plot_fates(const struct step *step)
     counters->plots_in = rho_count(counters->plots_in, step->look.num_inputs);
 }
 
-void rho_tracker_report_tracks(const struct step *step)
+void rho_step_report_tracks(const struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     tracker->counters.hypotheses_cut = tracker->hypotheses.hypotheses_cut;
@@ -120,5 +119,5 @@ void rho_tracker_report_tracks(const struct step *step)
 void rho_step_report(struct step *step)
 {
     count_plot_fates(step);
-    rho_tracker_report_tracks(step);
+    rho_step_report_tracks(step);
 }

@@ -10,14 +10,14 @@ void rho_step_settle(struct step *step)
     const struct rho_look *look = &step->look;
     if (RHO_MAX_REFLECTORS > 0 && step->tracker->num_reflectors > 0 && look->scan &&
         look->teaches) {
-        rho_tracker_end_image_tracks(step);
+        rho_images_end_tracks(step);
     }
-    if (!(RHO_SECTORS && rho_tracker_return_to_newest_time(step))) {
+    if (!(RHO_SECTORS && rho_retrodiction_return(step))) {
         rho_step_merge_estimates(step);
     }
-    if (look->scan && rho_tracker_has_bodies(step->tracker)) {
-        rho_tracker_update_bodies(step->tracker, look, step->whole);
-        rho_tracker_split_tracks_of_two_targets(step, step->whole);
-        rho_tracker_ungroup_plots(step->tracker, &step->look, step->whole);
+    if (look->scan && rho_bodies_are_used(step->tracker)) {
+        rho_bodies_update(step->tracker, look, step->whole);
+        rho_step_split_bodies(step, step->whole);
+        rho_bodies_ungroup(step->tracker, &step->look, step->whole);
     }
 }

@@ -66,10 +66,10 @@ static int find_dividing_value(const struct rho_look *look, const struct rho_sca
     const struct rho_groups *groups = &look->tracker->bodies.groups;
     float least = 1e30f, most = -1e30f, rate_m2ps2 = 0.0f;
     struct body_plot at;
-    for (unsigned i = rho_tracker_first_uncontested_plot(
-             groups, groups->first[look->tracker->tracks[row].plot]);
-         i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
-        (void)!rho_tracker_locate_on_body_is_rate_usable(look, scan, row, i, &at);
+    for (unsigned i =
+             rho_bodies_next_own_plot(groups, groups->first[look->tracker->tracks[row].plot]);
+         i != RHO_NO_ROW; i = rho_bodies_next_own_plot(groups, groups->next[i])) {
+        (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
         least = rho_smaller(least, separating_value(why, &at));
         most = rho_larger(most, separating_value(why, &at));
         rate_m2ps2 = rho_larger(rate_m2ps2, at.rate.variance_m2ps2);
@@ -88,10 +88,10 @@ static int divide_plots_into_sides(const struct rho_look *look, const struct rho
     if (!find_dividing_value(look, scan, row, why, &middle)) {
         return 0;
     }
-    for (unsigned i = rho_tracker_first_uncontested_plot(
-             groups, groups->first[look->tracker->tracks[row].plot]);
-         i != RHO_NO_ROW; i = rho_tracker_first_uncontested_plot(groups, groups->next[i])) {
-        (void)!rho_tracker_locate_on_body_is_rate_usable(look, scan, row, i, &at);
+    for (unsigned i =
+             rho_bodies_next_own_plot(groups, groups->first[look->tracker->tracks[row].plot]);
+         i != RHO_NO_ROW; i = rho_bodies_next_own_plot(groups, groups->next[i])) {
+        (void)!rho_bodies_locate_plot(look, scan, row, i, &at);
         struct body_side *side = &sides[separating_value(why, &at) < middle];
         side->plots++;
         side->x_m += at.dx_m;
@@ -114,8 +114,7 @@ static enum rho_status start_track_from_side(const struct rho_look *look,
                                              const struct rho_track *track, uint32_t track_id,
                                              const struct body_side *side, struct rho_track *out)
 {
-    const float mean_m2 =
-        rho_tracker_prior_place_variance_on_body_m2(look->tracker) / (float)side->plots;
+    const float mean_m2 = rho_bodies_prior_m2(look->tracker) / (float)side->plots;
     struct rho_kalman there = track->kalman;
     there.state[RHO_X] += side->x_m;
     there.state[RHO_Y] += side->y_m;
@@ -132,9 +131,8 @@ static enum rho_status start_track_from_side(const struct rho_look *look,
 static void restart_body_filter_at_prior(struct rho_tracker *tracker, unsigned row)
 {
     struct rho_body_filter *body = &tracker->bodies.of[row];
-    rho_body_filter_init(body, tracker->tracks[row].track_id,
-                         rho_tracker_prior_place_variance_on_body_m2(tracker));
-    rho_tracker_set_body_heading(tracker, row);
+    rho_body_filter_init(body, tracker->tracks[row].track_id, rho_bodies_prior_m2(tracker));
+    rho_bodies_set_heading(tracker, row);
 }
 
 /* Splits a track into its own, at side 0, and a new one, at side 1. 0: there is no room for it. */
@@ -155,19 +153,19 @@ static int split_track_in_two(struct step *step, unsigned row, const struct body
     track->input = stays.input;
     if (start_track_from_side(&step->look, &was, tracker->next_track_id, &sides[1], &leaves) ==
         RHO_OK) {
-        const struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
+        const struct rho_track_limits limits = rho_life_limits(&step->look);
         /* the new track is not established: it may still be an image in a wall (reflectors.h) */
         if (leaves.hits >= RHO_ESTABLISHED_HITS) {
             leaves.hits = RHO_ESTABLISHED_HITS - 1;
         }
         leaves.status = was.status;
         leaves.was_confirmed = was.was_confirmed;
-        (void)!rho_tracker_admit_track(step, &leaves, &limits);
+        (void)!rho_step_admit(step, &leaves, &limits);
     }
     return 1;
 }
 
-void rho_tracker_split_tracks_of_two_targets(struct step *step, const struct rho_scan *scan)
+void rho_step_split_bodies(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = 0; step->look.teaches && row < tracker->bodies.count; row++) {
@@ -176,15 +174,15 @@ void rho_tracker_split_tracks_of_two_targets(struct step *step, const struct rho
         if (tracker->tracks[row].plot < 0) {
             continue;
         }
-        rho_tracker_add_body_split_evidence(tracker, &step->look, scan, row);
+        rho_bodies_add_doubt(tracker, &step->look, scan, row);
         const enum rho_body_split why = is_body_too_wide(tracker, row)
                                             ? RHO_BODY_TOO_WIDE
-                                            : rho_tracker_find_body_split_reason(tracker, row);
+                                            : rho_bodies_split_reason(tracker, row);
         if (why != RHO_BODY_ONE && divide_plots_into_sides(&step->look, scan, row, why, sides) &&
             split_track_in_two(step, row, sides)) {
             restart_body_filter_at_prior(tracker, row);
             if (tracker->num_tracks > num_tracks) {
-                rho_tracker_align_bodies_with_tracks(tracker);
+                rho_bodies_align(tracker);
                 restart_body_filter_at_prior(tracker, num_tracks);
             }
         }

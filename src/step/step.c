@@ -14,7 +14,7 @@ static void run_step(struct step *step)
         rho_step_age(step);
         rho_step_initiate(step);
         rho_step_settle(step);
-        rho_tracker_record_work(step->tracker, &step->work, step->report);
+        rho_work_record(step->tracker, &step->work, step->report);
     }
     rho_step_report(step);
 }
@@ -33,14 +33,13 @@ static enum rho_status check_scan(const struct rho_tracker *tracker,
         return RHO_ERROR_CONFIG;
     }
     if (!rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad) ||
-        !rho_tracker_is_usable_time(scan->time_us)) {
+        !rho_step_is_usable_time(scan->time_us)) {
         return RHO_ERROR_VALUE;
     }
     /* a time before the newest step need not fit: the largest time tests that it is ready */
-    return !initiator ||
-                   rho_initiator_accepts(initiator, rho_tracker_is_late(tracker, scan->time_us)
-                                                        ? RHO_LIMIT_TIME_US
-                                                        : scan->time_us)
+    return !initiator || rho_initiator_accepts(initiator, rho_step_is_late(tracker, scan->time_us)
+                                                              ? RHO_LIMIT_TIME_US
+                                                              : scan->time_us)
                ? RHO_OK
                : RHO_ERROR_STATE;
 }
@@ -79,7 +78,7 @@ static enum rho_status check_frame(const struct rho_tracker *tracker,
     if (frame->num_scans > 0 && !frame->scans) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_tracker_is_usable_time(frame->time_us)) {
+    if (!rho_step_is_usable_time(frame->time_us)) {
         return RHO_ERROR_VALUE;
     }
     for (uint32_t i = 0; i < frame->num_scans; i++) {
@@ -89,13 +88,13 @@ static enum rho_status check_frame(const struct rho_tracker *tracker,
         }
         if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m) ||
             !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad) ||
-            !rho_tracker_is_usable_time(scan->time_us) ||
+            !rho_step_is_usable_time(scan->time_us) ||
             scan->time_us - frame->time_us > RHO_LIMIT_OFFSET_US ||
             scan->time_us - frame->time_us < -RHO_LIMIT_OFFSET_US) {
             return RHO_ERROR_VALUE;
         }
     }
-    return passive && !rho_tracker_is_late(tracker, frame->time_us)
+    return passive && !rho_step_is_late(tracker, frame->time_us)
                ? rho_passive_accepts(passive, frame)
                : RHO_OK;
 }

@@ -13,12 +13,12 @@ static int32_t score_plot_in_gate(const struct rho_look *look, const struct rho_
 {
     struct rho_gate gate;
     struct rho_gate_result result;
-    rho_tracker_open_track_gate(look, track, look->scan->measures, &gate);
+    rho_score_open_gate(look, track, look->scan->measures, &gate);
     if (!rho_gate_test(&gate, &look->scan->plots[plot], &result)) {
         return 0;
     }
-    return rho_tracker_nat_to_mnat(rho_tracker_score_plot(
-        look, track, &result, rho_tracker_log_clutter_density_at_track(look, track), plot));
+    return rho_score_to_mnat(
+        rho_score_plot(look, track, &result, rho_clutter_log_at_track(look, track), plot));
 }
 
 static void update_track_by_plot_or_count_refusal(struct rho_tracker *tracker,
@@ -27,7 +27,7 @@ static void update_track_by_plot_or_count_refusal(struct rho_tracker *tracker,
 {
     struct rho_tracker_counters *counters = &tracker->counters;
     const int32_t gain = score_plot_in_gate(look, track, (uint32_t)plot);
-    const struct rho_track_plot seen = rho_tracker_make_track_plot(look, plot);
+    const struct rho_track_plot seen = rho_score_track_plot(look, plot);
     if (rho_track_update_by_plot(track, &seen, &look->model, gain) == RHO_OK) {
         look->fates[plot] = RHO_FATE_CLAIMED;
     } else {
@@ -66,8 +66,8 @@ static void rescore_unassigned_plots(struct rho_tracker *tracker, const struct r
     struct plot_scores scores;
     uint32_t plot;
     float gain_nat;
-    rho_tracker_begin_plot_scores(tracker, look, work, row, &scores);
-    while (rho_tracker_next_plot_score(tracker, look, work, &scores, &plot, &gain_nat)) {
+    rho_score_begin(tracker, look, work, row, &scores);
+    while (rho_score_next(tracker, look, work, &scores, &plot, &gain_nat)) {
     }
 }
 
@@ -81,7 +81,7 @@ static void update_hypotheses_of_track(struct rho_tracker *tracker, const struct
     struct rho_track *track = &tracker->tracks[row];
     struct rho_assignment *assignment = &tracker->assignment;
     uint32_t refused = tracker->hypotheses.updates_refused;
-    const float log_miss = rho_tracker_log_miss_probability(look, track);
+    const float log_miss = rho_score_log_miss(look, track);
     const int assigned = rho_assignment_column(assignment, row);
     const struct rho_hypotheses_scan scan = {
         .time_us = look->time_us,
@@ -99,7 +99,7 @@ static void update_hypotheses_of_track(struct rho_tracker *tracker, const struct
     if (was_any_plot_of_full_list_taken(tracker, row)) {
         rescore_unassigned_plots(tracker, look, work, row);
     } else {
-        rho_tracker_release_work_share_of_one_track(work);
+        rho_work_release_share(work);
     }
     /* cannot fail: the track has hypotheses */
     (void)!rho_track_commit_hypotheses_to_scan(track, &scan, look->scan->sensor_id, &look->model);
@@ -124,12 +124,12 @@ void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct 
         return;
     }
     if (RHO_SECTORS) {
-        rho_tracker_update_sensor_health(tracker, look);
+        rho_health_compare(tracker, look);
     }
-    rho_tracker_learn_sensor(tracker, look);
-    rho_tracker_begin_phase_with_share_per_track(look, work);
+    rho_learning_take_look(tracker, look);
+    rho_work_begin_shares(look, work);
     if (RHO_SHARES_PLOTS) {
-        rho_tracker_share_merged_plots(tracker, look);
+        rho_step_share_merged(tracker, look);
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
@@ -137,7 +137,7 @@ void rho_step_update(struct rho_tracker *tracker, struct rho_look *look, struct 
         const int may_wait =
             RHO_CLAIMS_BEYOND && look->has_more_parts && plot == RHO_ASSIGNMENT_NONE;
         if (track->status == RHO_TRACK_FREE || track->plot >= 0 || may_wait ||
-            !rho_tracker_is_track_in_view(look, row)) {
+            !rho_look_has_in_view(look, row)) {
             continue;
         }
         if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {

@@ -9,58 +9,52 @@
 #include "look.h"
 
 /* expected_clutter.c: density of clutter plots at a place, without echoes and strobes, 1/m^2 */
-float rho_tracker_background_density(const struct rho_look *look, float x_m, float y_m);
+float rho_clutter_background(const struct rho_look *look, float x_m, float y_m);
 /* Density of clutter at a plot's place, without echoes and strobes, 1/m^2; above 0. */
-float rho_tracker_background_density_at_plot(const struct rho_look *look,
-                                             const struct rho_plot *plot);
+float rho_clutter_background_at(const struct rho_look *look, const struct rho_plot *plot);
 /* ln of the density of clutter at the track's place, in the part of the scan that is claimed. */
-float rho_tracker_log_clutter_density_at_track(const struct rho_look *look,
-                                               const struct rho_track *track);
+float rho_clutter_log_at_track(const struct rho_look *look, const struct rho_track *track);
 /* Clutter plots expected within three standard deviations of the track's place; 0 in a frame. */
-float rho_tracker_expected_clutter_in_gate(const struct rho_look *look,
-                                           const struct rho_track *track);
+float rho_clutter_in_gate(const struct rho_look *look, const struct rho_track *track);
 /* Opens the look's clutter, before claims: echoes at its plots, or the density of a later part. */
-void rho_tracker_open_clutter(struct rho_tracker *tracker, struct rho_look *look,
-                              struct rho_work *work);
+void rho_clutter_open(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
 /* Smooths the number of unclaimed plots, after new tracks have started. */
-void rho_tracker_smooth_unclaimed_count(struct rho_tracker *tracker, const struct rho_look *look);
+void rho_clutter_count_unclaimed(struct rho_tracker *tracker, const struct rho_look *look);
 /* Moves a mean of ten scans by a tenth of its difference to the newest value. */
-void rho_tracker_smooth_mean(float *mean, float newest);
+void rho_clutter_smooth_mean(float *mean, float newest);
 
-/* clutter_map_in_step.c (RHO_MAX_ECHOES): the clutter map in a step */
-void rho_tracker_init_clutter_map(struct rho_tracker *tracker);
-int rho_tracker_has_sound_clutter_map(const struct rho_tracker *tracker);
-int rho_tracker_has_sound_echo_returns(const struct rho_track *track);
+/* echo_clutter.c (RHO_MAX_ECHOES): the clutter map in a step */
+void rho_echoes_init(struct rho_tracker *tracker);
+int rho_echoes_are_sound(const struct rho_tracker *tracker);
+int rho_echoes_is_sound_track(const struct rho_track *track);
 /* Computes the density of echoes and strobes at the plots of a scan (first part), before claims. */
-void rho_tracker_predict_clutter_at_plots(struct rho_tracker *tracker, const struct rho_look *look,
-                                          struct rho_work *work);
+void rho_echoes_predict(struct rho_tracker *tracker, const struct rho_look *look,
+                        struct rho_work *work);
 /*
  * ln of the clutter density at a plot with echoes, strobes and second plots, over that without; 0
  * in later parts of a scan.
  */
-float rho_tracker_log_echo_over_background_density(const struct rho_look *look, uint32_t row);
+float rho_echoes_log_ratio_at(const struct rho_look *look, uint32_t row);
 /*
- * Stores rho_tracker_log_echo_over_background_density of the scan's plots with the held plots in
+ * Stores rho_echoes_log_ratio_at of the scan's plots with the held plots in
  * the window.
  */
-void rho_tracker_store_echo_ratios_in_window(const struct rho_look *look);
+void rho_echoes_store_ratios(const struct rho_look *look);
 /* Updates the clutter map with the scan's plots, after new tracks have started. */
-void rho_tracker_update_clutter_map(struct rho_tracker *tracker, const struct rho_look *look);
+void rho_echoes_update(struct rho_tracker *tracker, const struct rho_look *look);
 /*
  * Likelihood ratio of a range rate that is off_mps from the expected one, against clutter that is
  * uniform in all range rates. Half of such rates are taken to be as expected, with the variance and
  * that of 1 m/s, and half to be uniform, too.
  */
-float rho_tracker_range_rate_likelihood_ratio(const struct rho_look *look, float off_mps,
-                                              float variance);
+float rho_echoes_rate_ratio(const struct rho_look *look, float off_mps, float variance);
 /* Stores the place where a track starts, to tell later whether it has moved. */
-void rho_tracker_store_start_place(struct rho_track *track);
+void rho_echoes_store_start(struct rho_track *track);
 /* Sums into a new track the probabilities that its candidate's plots were returns of echoes. */
-void rho_tracker_sum_echo_returns_at_start(const struct rho_look *look,
-                                           const struct rho_candidate *candidate,
-                                           struct rho_track *track);
+void rho_echoes_sum_returns(const struct rho_look *look, const struct rho_candidate *candidate,
+                            struct rho_track *track);
 /* True where a track was found to be of a moving target, and its returns left the clutter map. */
-int rho_tracker_is_known_moving_target(const struct rho_track *track);
+int rho_echoes_is_moving_target(const struct rho_track *track);
 
 /*
  * second_plots_and_duplicate_tracks.c (RHO_MAX_ECHOES): near claimed plots, before tracks age,
@@ -68,14 +62,14 @@ int rho_tracker_is_known_moving_target(const struct rho_track *track);
  * younger of two tracks of one target
  */
 struct step;
-void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step);
-int rho_tracker_is_sound_second_plots(const struct rho_second_plots *table);
-int rho_tracker_has_sound_track_second_plots(const struct rho_track *track);
+void rho_second_plots_take_look(struct step *step);
+int rho_second_plots_are_sound(const struct rho_second_plots *table);
+int rho_second_plots_is_sound_track(const struct rho_track *track);
 /*
  * After a start: raises the clutter density at the window's plots near the candidate's plots, as
  * they may be second plots of the same target.
  */
-void rho_tracker_raise_window_clutter_near_start(const struct rho_look *look, struct rho_work *work,
-                                                 const struct rho_candidate *candidate);
+void rho_second_plots_raise_window(const struct rho_look *look, struct rho_work *work,
+                                   const struct rho_candidate *candidate);
 
 #endif

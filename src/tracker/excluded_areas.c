@@ -68,7 +68,7 @@ enum rho_status rho_tracker_include_place(struct rho_tracker *tracker, float x_m
     return RHO_OK;
 }
 
-int rho_tracker_has_sound_excluded_areas(const struct rho_tracker *tracker)
+int rho_areas_are_sound(const struct rho_tracker *tracker)
 {
     const int num = tracker->num_excluded;
     int i = 0;
@@ -78,7 +78,7 @@ int rho_tracker_has_sound_excluded_areas(const struct rho_tracker *tracker)
     return i == num;
 }
 
-int rho_tracker_is_in_excluded_area(const struct rho_look *look, uint32_t plot)
+int rho_areas_hold_plot(const struct rho_look *look, uint32_t plot)
 {
     const struct rho_tracker *tracker = look->tracker;
     const struct rho_plot *at = &look->scan->plots[plot];
@@ -89,12 +89,12 @@ int rho_tracker_is_in_excluded_area(const struct rho_look *look, uint32_t plot)
     return k < tracker->num_excluded;
 }
 
-void rho_tracker_mark_excluded_plots_as_ghosts(struct rho_tracker *tracker,
-                                               const struct rho_look *look, struct rho_work *work)
+void rho_areas_mark_plots(struct rho_tracker *tracker, const struct rho_look *look,
+                          struct rho_work *work)
 {
-    rho_tracker_spend_work(work, look->num_gated * tracker->num_excluded / COMPARED_A_UNIT);
+    rho_work_spend(work, look->num_gated * tracker->num_excluded / COMPARED_A_UNIT);
     for (uint32_t i = 0; i < look->num_gated; i++) {
-        if (look->fates[i] == RHO_FATE_HELD && rho_tracker_is_in_excluded_area(look, i)) {
+        if (look->fates[i] == RHO_FATE_HELD && rho_areas_hold_plot(look, i)) {
             look->fates[i] = RHO_FATE_GHOST;
             tracker->counters.plots_excluded = rho_count(tracker->counters.plots_excluded, 1);
         }

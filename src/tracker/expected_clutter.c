@@ -21,7 +21,7 @@
 /* Radius of the circle that stands for a track's gate, standard deviations of the track's place. */
 #define GATE_SIGMAS 3.0f
 
-float rho_tracker_background_density(const struct rho_look *look, float x_m, float y_m)
+float rho_clutter_background(const struct rho_look *look, float x_m, float y_m)
 {
     const struct rho_tracker *tracker = look->tracker;
     if (look->initiator) {
@@ -34,16 +34,15 @@ float rho_tracker_background_density(const struct rho_look *look, float x_m, flo
     return (tracker->unclaimed_plots > 1.0f ? tracker->unclaimed_plots : 1.0f) / area_m2;
 }
 
-float rho_tracker_background_density_at_plot(const struct rho_look *look,
-                                             const struct rho_plot *plot)
+float rho_clutter_background_at(const struct rho_look *look, const struct rho_plot *plot)
 {
-    const float density = rho_tracker_background_density(look, plot->x_m, plot->y_m);
+    const float density = rho_clutter_background(look, plot->x_m, plot->y_m);
     return density > DENSITY_MIN ? density : DENSITY_MIN;
 }
 
 static float background_density_for_plots_part(const struct rho_look *look, float x_m, float y_m)
 {
-    float density = rho_tracker_background_density(look, x_m, y_m);
+    float density = rho_clutter_background(look, x_m, y_m);
     if (RHO_CLAIMS_BEYOND && look->part_share > 0.0f) {
         density *= look->part_share;
         density = look->part_per_m2 > density ? look->part_per_m2 : density;
@@ -51,15 +50,13 @@ static float background_density_for_plots_part(const struct rho_look *look, floa
     return density;
 }
 
-float rho_tracker_log_clutter_density_at_track(const struct rho_look *look,
-                                               const struct rho_track *track)
+float rho_clutter_log_at_track(const struct rho_look *look, const struct rho_track *track)
 {
     return rho_log(
         background_density_for_plots_part(look, track->kalman.state[0], track->kalman.state[1]));
 }
 
-float rho_tracker_expected_clutter_in_gate(const struct rho_look *look,
-                                           const struct rho_track *track)
+float rho_clutter_in_gate(const struct rho_look *look, const struct rho_track *track)
 {
     if (!look->scan) {
         return 0.0f;
@@ -92,28 +89,27 @@ static void measure_density_of_part(struct rho_look *look)
     look->part_share = (float)look->num_inputs / (float)RHO_MAX_PLOTS;
 }
 
-void rho_tracker_open_clutter(struct rho_tracker *tracker, struct rho_look *look,
-                              struct rho_work *work)
+void rho_clutter_open(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
 {
     if (RHO_CLAIMS_BEYOND && look->first_row > 0) {
         measure_density_of_part(look);
     } else if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_predict_clutter_at_plots(tracker, look, work);
+        rho_echoes_predict(tracker, look, work);
     }
 }
 
-void rho_tracker_smooth_mean(float *mean, float newest)
+void rho_clutter_smooth_mean(float *mean, float newest)
 {
     *mean += CLUTTER_SMOOTHING * (newest - *mean);
 }
 
-void rho_tracker_smooth_unclaimed_count(struct rho_tracker *tracker, const struct rho_look *look)
+void rho_clutter_count_unclaimed(struct rho_tracker *tracker, const struct rho_look *look)
 {
     float unclaimed = 0.0f;
     for (uint32_t i = 0; i < look->num_gated; i++) {
         uint8_t fate = look->fates[i];
         unclaimed += fate == RHO_FATE_HELD || fate == RHO_FATE_NO_ROOM ? 1.0f : 0.0f;
     }
-    rho_tracker_smooth_mean(&tracker->unclaimed_plots,
-                            unclaimed * (RHO_SECTORS ? rho_tracker_scans_per_turn(look) : 1.0f));
+    rho_clutter_smooth_mean(&tracker->unclaimed_plots,
+                            unclaimed * (RHO_SECTORS ? rho_turn_num_scans(look) : 1.0f));
 }

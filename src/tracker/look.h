@@ -102,17 +102,17 @@ static inline int rho_tracker_is_score_in_range(int32_t mnat)
 }
 
 /* True of a track that an operator has frozen: it is in no scan's view, and does not age. */
-static inline int rho_tracker_is_track_frozen(const struct rho_track *track)
+static inline int rho_track_is_frozen(const struct rho_track *track)
 {
     return RHO_MAX_EXCLUDED_AREAS > 0 && track->is_frozen;
 }
 
 /* True where targets may give several plots a scan (rho_tracker_set_body_max). */
-static inline int rho_tracker_has_bodies(const struct rho_tracker *tracker)
+static inline int rho_bodies_are_used(const struct rho_tracker *tracker)
 {
     return RHO_BODIES && tracker->bodies.length_max_m > 0.0f;
 }
 /* body_extents.c of src/bodies */
-int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker);
+int rho_bodies_are_sound(const struct rho_tracker *tracker);
 
 #endif

@@ -86,7 +86,7 @@ static void bound_plot_boxes(struct rho_look *look)
     }
 }
 
-void rho_tracker_index_plots(struct rho_tracker *tracker, struct rho_look *look)
+void rho_plots_index(struct rho_tracker *tracker, struct rho_look *look)
 {
     if (RHO_PLOT_STRIPS > 1) {
         sort_plots_by_strip(tracker, look);
@@ -95,8 +95,8 @@ void rho_tracker_index_plots(struct rho_tracker *tracker, struct rho_look *look)
     }
 }
 
-struct plots_near rho_tracker_plots_near(const struct rho_tracker *tracker, float x_min_m,
-                                         float x_max_m, float y_min_m, float y_max_m)
+struct plots_near rho_plots_near(const struct rho_tracker *tracker, float x_min_m, float x_max_m,
+                                 float y_min_m, float y_max_m)
 {
     struct plots_near near = {.within = {x_min_m, x_max_m, y_min_m, y_max_m}};
     if (RHO_PLOT_STRIPS > 1) {
@@ -107,7 +107,7 @@ struct plots_near rho_tracker_plots_near(const struct rho_tracker *tracker, floa
     return near;
 }
 
-int rho_tracker_next_box_near(const struct rho_look *look, struct plots_near *near)
+int rho_plots_next_box(const struct rho_look *look, struct plots_near *near)
 {
     const struct plot_box within = near->within;
     for (unsigned k = near->box; k < RHO_PLOT_BOXES; k++) {

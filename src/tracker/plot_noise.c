@@ -8,14 +8,13 @@
 #include "sensors.h"
 #include "step.h"
 
-void rho_tracker_open_noise(struct rho_tracker *tracker, struct rho_look *look)
+void rho_look_open_noise(struct rho_tracker *tracker, struct rho_look *look)
 {
     if (RHO_DOPPLER_NOTCH) {
-        rho_tracker_apply_learned_notch(look);
+        rho_learning_apply_notch(look);
     }
-    const float suspicion =
-        RHO_SECTORS ? rho_tracker_update_suspect_and_sigma_factor(tracker, look) : 1.0f;
+    const float suspicion = RHO_SECTORS ? rho_health_sigma_factor(tracker, look) : 1.0f;
     if (RHO_SIGMAS_VARY && look->learned) {
-        rho_tracker_write_noise_factors(look, suspicion, &look->row->sensor);
+        rho_learning_write_noise(look, suspicion, &look->row->sensor);
     }
 }

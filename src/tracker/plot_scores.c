@@ -11,7 +11,7 @@
 
 /* ---- offers ---------------------------------------------------------------------------------- */
 
-int32_t rho_tracker_nat_to_mnat(float nat)
+int32_t rho_score_to_mnat(float nat)
 {
     float mnat = nat * 1000.0f;
     if (!(mnat > -(float)RHO_ASSIGNMENT_COST_MAX)) {
@@ -20,8 +20,8 @@ int32_t rho_tracker_nat_to_mnat(float nat)
     return mnat < (float)RHO_ASSIGNMENT_COST_MAX ? (int32_t)mnat : RHO_ASSIGNMENT_COST_MAX;
 }
 
-void rho_tracker_open_track_gate(const struct rho_look *look, const struct rho_track *track,
-                                 uint32_t measures, struct rho_gate *gate)
+void rho_score_open_gate(const struct rho_look *look, const struct rho_track *track,
+                         uint32_t measures, struct rho_gate *gate)
 {
     struct rho_kalman expected;
     rho_track_estimate_for_gate(track, &expected);
@@ -31,21 +31,18 @@ void rho_tracker_open_track_gate(const struct rho_look *look, const struct rho_t
                   look->sensor, measures);
 }
 
-void rho_tracker_add_assignment_pair(struct rho_tracker *tracker, unsigned row, uint32_t column,
-                                     float gain_nat)
+void rho_score_add_pair(struct rho_tracker *tracker, unsigned row, uint32_t column, float gain_nat)
 {
-    int32_t gain = rho_tracker_nat_to_mnat(gain_nat);
+    int32_t gain = rho_score_to_mnat(gain_nat);
     (void)!rho_assignment_offer_pair(&tracker->assignment, row, column, gain > 1 ? -gain : -1);
 }
 
-int rho_tracker_find_pair_gain(const struct rho_look *look, unsigned row, int column,
-                               float *gain_nat)
+int rho_score_pair_gain(const struct rho_look *look, unsigned row, int column, float *gain_nat)
 {
     const struct rho_assignment *assignment = &look->tracker->assignment;
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
         if (assignment->pairs[row][i].column == column) {
-            *gain_nat = rho_tracker_log_pd_and_log_miss_of_track(look, &look->tracker->tracks[row])
-                            .log_miss -
+            *gain_nat = rho_look_detection(look, &look->tracker->tracks[row]).log_miss -
                         0.001f * (float)assignment->pairs[row][i].cost;
             return 1;
         }
@@ -53,7 +50,7 @@ int rho_tracker_find_pair_gain(const struct rho_look *look, unsigned row, int co
     return 0;
 }
 
-void rho_tracker_solve_assignment(struct rho_tracker *tracker)
+void rho_score_solve(struct rho_tracker *tracker)
 {
     rho_assignment_solve(&tracker->assignment);
     tracker->counters.gate_plots_dropped =
@@ -83,24 +80,22 @@ static float log_likelihood_ratio(const struct rho_look *look, const struct rho_
 
 static float log_echo_density_ratio(const struct rho_look *look, uint32_t plot_row)
 {
-    return RHO_MAX_ECHOES > 0 ? rho_tracker_log_echo_over_background_density(look, plot_row) : 0.0f;
+    return RHO_MAX_ECHOES > 0 ? rho_echoes_log_ratio_at(look, plot_row) : 0.0f;
 }
 
-float rho_tracker_score_plot(const struct rho_look *look, const struct rho_track *track,
-                             const struct rho_gate_result *result, float log_density, uint32_t row)
+float rho_score_plot(const struct rho_look *look, const struct rho_track *track,
+                     const struct rho_gate_result *result, float log_density, uint32_t row)
 {
-    return rho_tracker_log_pd_and_log_miss_of_track(look, track).log_pd +
+    return rho_look_detection(look, track).log_pd +
            log_likelihood_ratio(look, result, log_density + log_echo_density_ratio(look, row));
 }
 
-float rho_tracker_log_miss_probability(const struct rho_look *look, const struct rho_track *track)
+float rho_score_log_miss(const struct rho_look *look, const struct rho_track *track)
 {
-    return rho_tracker_may_count_miss(look, track)
-               ? rho_tracker_log_pd_and_log_miss_of_track(look, track).log_miss
-               : 0.0f;
+    return rho_look_may_miss(look, track) ? rho_look_detection(look, track).log_miss : 0.0f;
 }
 
-struct rho_track_plot rho_tracker_make_track_plot(const struct rho_look *look, int plot_row)
+struct rho_track_plot rho_score_track_plot(const struct rho_look *look, int plot_row)
 {
     const struct rho_plot *plot = &look->scan->plots[plot_row];
     return (struct rho_track_plot){
@@ -125,8 +120,8 @@ static struct plots_near plots_near_track(const struct rho_look *look,
 {
     const float slack_m = rho_hypotheses_box_margin_m(&look->tracker->hypotheses, track->slot, box,
                                                       look->sigma_max_m, look->offset_max_s);
-    return rho_tracker_plots_near(look->tracker, box->x_min_m - slack_m, box->x_max_m + slack_m,
-                                  box->y_min_m - slack_m, box->y_max_m + slack_m);
+    return rho_plots_near(look->tracker, box->x_min_m - slack_m, box->x_max_m + slack_m,
+                          box->y_min_m - slack_m, box->y_max_m + slack_m);
 }
 
 /* True where each box of the plot index holds one plot, so that the box decides on the plot. */
@@ -145,7 +140,7 @@ static int is_unassigned_and_near(const struct rho_look *look, struct plot_score
     const struct rho_tracker *tracker = look->tracker;
     const struct rho_plot *plot = &look->scan->plots[i];
     const int owner = tracker->assignment.column_row[i];
-    return (is_one_plot_per_index_box(look) || rho_tracker_is_plot_within(&scores->near, plot)) &&
+    return (is_one_plot_per_index_box(look) || rho_plots_is_within(&scores->near, plot)) &&
            look->fates[i] == RHO_FATE_HELD && !(owner >= 0 && owner != (int)scores->track_row) &&
            rho_hypotheses_is_in_box(&tracker->hypotheses, tracker->tracks[scores->track_row].slot,
                                     &scores->box, plot, look->scan->measures);
@@ -155,25 +150,24 @@ static void choose_plots_to_score(const struct rho_look *look, struct rho_work *
                                   const struct rho_track *track, struct plot_scores *scores)
 {
     struct plots_near counted = scores->near;
-    scores->choice = rho_tracker_begin_choice_of_plots_to_score(look, work, track);
-    for (uint32_t i; scores->choice.most < rho_tracker_max_num_plots_near(look, &scores->near) &&
-                     rho_tracker_next_plot_near(look, &counted, &i);) {
+    scores->choice = rho_work_begin_choice(look, work, track);
+    for (uint32_t i; scores->choice.most < rho_plots_max_near(look, &scores->near) &&
+                     rho_plots_next(look, &counted, &i);) {
         if (is_unassigned_and_near(look, scores, i)) {
-            rho_tracker_count_plot_in_distance_octave(&scores->choice, track,
-                                                      &look->scan->plots[i]);
+            rho_work_count_plot(&scores->choice, track, &look->scan->plots[i]);
         }
     }
-    rho_tracker_limit_choice_to_nearest_plots(work, &scores->choice);
+    rho_work_limit_choice(work, &scores->choice);
 }
 
-void rho_tracker_begin_plot_scores(struct rho_tracker *tracker, const struct rho_look *look,
-                                   struct rho_work *work, unsigned row, struct plot_scores *scores)
+void rho_score_begin(struct rho_tracker *tracker, const struct rho_look *look,
+                     struct rho_work *work, unsigned row, struct plot_scores *scores)
 {
     const struct rho_track *track = &tracker->tracks[row];
     scores->track_row = row;
-    scores->log_pd = rho_tracker_log_pd_and_log_miss_of_track(look, track).log_pd;
+    scores->log_pd = rho_look_detection(look, track).log_pd;
     scores->clutter = (struct rho_hypotheses_clutter){
-        .log_per_m2 = rho_tracker_log_clutter_density_at_track(look, track),
+        .log_per_m2 = rho_clutter_log_at_track(look, track),
         .log_per_m = -look->log_height,
         .log_per_mps = -look->log_rates,
         .log_per_range_rate = -look->log_range_rates,
@@ -184,16 +178,15 @@ void rho_tracker_begin_plot_scores(struct rho_tracker *tracker, const struct rho
     choose_plots_to_score(look, work, track, scores);
 }
 
-int rho_tracker_next_plot_score(struct rho_tracker *tracker, const struct rho_look *look,
-                                struct rho_work *work, struct plot_scores *scores, uint32_t *plot,
-                                float *gain_nat)
+int rho_score_next(struct rho_tracker *tracker, const struct rho_look *look, struct rho_work *work,
+                   struct plot_scores *scores, uint32_t *plot, float *gain_nat)
 {
     const struct rho_track *track = &tracker->tracks[scores->track_row];
     struct rho_imm_plot seen;
-    while (rho_tracker_next_plot_near(look, &scores->near, plot)) {
+    while (rho_plots_next(look, &scores->near, plot)) {
         const struct rho_plot *at = &look->scan->plots[*plot];
         if (!is_unassigned_and_near(look, scores, *plot) ||
-            !rho_tracker_spend_score_work_if_plot_chosen(work, &scores->choice, track, at)) {
+            !rho_work_take_plot(work, &scores->choice, track, at)) {
             continue;
         }
         rho_imm_prepare_plot(&seen, at, look->scan->measures, look->sensor);

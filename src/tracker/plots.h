@@ -10,8 +10,8 @@
 
 /*
  * plot_index.c: iterates over rows of plots, a superset of the held plots in a rectangle:
- *     struct plots_near near = rho_tracker_plots_near(step, x_min_m, x_max_m, y_min_m, y_max_m);
- *     for (uint32_t row; rho_tracker_next_plot_near(step, &near, &row);)
+ *     struct plots_near near = rho_plots_near(step, x_min_m, x_max_m, y_min_m, y_max_m);
+ *     for (uint32_t row; rho_plots_next(step, &near, &row);)
  */
 struct plots_near {
     uint32_t next, end;     /* places in the strip or box that is read */
@@ -20,16 +20,15 @@ struct plots_near {
 };
 
 /* Sorts the scan's held plots into strips, or bounds their boxes. */
-void rho_tracker_index_plots(struct rho_tracker *tracker, struct rho_look *look);
-struct plots_near rho_tracker_plots_near(const struct rho_tracker *tracker, float x_min_m,
-                                         float x_max_m, float y_min_m, float y_max_m);
-int rho_tracker_next_box_near(const struct rho_look *look, struct plots_near *near);
+void rho_plots_index(struct rho_tracker *tracker, struct rho_look *look);
+struct plots_near rho_plots_near(const struct rho_tracker *tracker, float x_min_m, float x_max_m,
+                                 float y_min_m, float y_max_m);
+int rho_plots_next_box(const struct rho_look *look, struct plots_near *near);
 
-static inline int rho_tracker_next_plot_near(const struct rho_look *look, struct plots_near *near,
-                                             uint32_t *row)
+static inline int rho_plots_next(const struct rho_look *look, struct plots_near *near,
+                                 uint32_t *row)
 {
-    if (near->next >= near->end &&
-        (RHO_PLOT_STRIPS > 1 || !rho_tracker_next_box_near(look, near))) {
+    if (near->next >= near->end && (RHO_PLOT_STRIPS > 1 || !rho_plots_next_box(look, near))) {
         return 0;
     }
     *row = RHO_PLOT_STRIPS > 1 ? look->tracker->strips.plots[near->next] : near->next;
@@ -38,16 +37,15 @@ static inline int rho_tracker_next_plot_near(const struct rho_look *look, struct
 }
 
 /* True where a plot is in the iterator's rectangle, sides included. */
-static inline int rho_tracker_is_plot_within(const struct plots_near *near,
-                                             const struct rho_plot *plot)
+static inline int rho_plots_is_within(const struct plots_near *near, const struct rho_plot *plot)
 {
     return plot->x_m >= near->within.x_min_m && plot->x_m <= near->within.x_max_m &&
            plot->y_m >= near->within.y_min_m && plot->y_m <= near->within.y_max_m;
 }
 
 /* Upper bound of the number of plots that the iterator has still to give. */
-static inline uint32_t rho_tracker_max_num_plots_near(const struct rho_look *look,
-                                                      const struct plots_near *near)
+static inline uint32_t rho_plots_max_near(const struct rho_look *look,
+                                          const struct plots_near *near)
 {
     return RHO_PLOT_STRIPS > 1 ? near->end - near->next : look->num_gated;
 }
@@ -80,78 +78,72 @@ struct plot_choice {
     uint16_t in_octave[RHO_WORK_OCTAVES]; /* plots counted in each octave */
 };
 /* Begins a phase in which tracks score plots, with a reserved share for each track in view. */
-void rho_tracker_begin_phase_with_share_per_track(const struct rho_look *look,
-                                                  struct rho_work *work);
+void rho_work_begin_shares(const struct rho_look *look, struct rho_work *work);
 /* Begins a phase that may do work_max / divisor units of work. */
-void rho_tracker_begin_work_phase(const struct rho_tracker *tracker, struct rho_work *work,
-                                  uint32_t divisor);
-static inline void rho_tracker_spend_work(struct rho_work *work, uint32_t units)
+void rho_work_begin_phase(const struct rho_tracker *tracker, struct rho_work *work,
+                          uint32_t divisor);
+static inline void rho_work_spend(struct rho_work *work, uint32_t units)
 {
     work->spent = rho_count(work->spent, units);
 }
 
 /* Releases the reserved share of one waiting track. */
-static inline void rho_tracker_release_work_share_of_one_track(struct rho_work *work)
+static inline void rho_work_release_share(struct rho_work *work)
 {
     work->share.waiting -= work->share.waiting > 0 ? 1u : 0u;
 }
 
-static inline int rho_tracker_is_phase_work_spent(struct rho_work *work)
+static inline int rho_work_is_spent(struct rho_work *work)
 {
     return work->spent > work->share.end;
 }
 
-struct plot_choice rho_tracker_begin_choice_of_plots_to_score(const struct rho_look *look,
-                                                              struct rho_work *work,
-                                                              const struct rho_track *track);
-void rho_tracker_count_plot_in_distance_octave(struct plot_choice *choice,
-                                               const struct rho_track *track,
-                                               const struct rho_plot *plot);
-void rho_tracker_limit_choice_to_nearest_plots(struct rho_work *work, struct plot_choice *choice);
+struct plot_choice rho_work_begin_choice(const struct rho_look *look, struct rho_work *work,
+                                         const struct rho_track *track);
+void rho_work_count_plot(struct plot_choice *choice, const struct rho_track *track,
+                         const struct rho_plot *plot);
+void rho_work_limit_choice(struct rho_work *work, struct plot_choice *choice);
 /* True where a plot is chosen; its units of work are spent. */
-int rho_tracker_spend_score_work_if_plot_chosen(struct rho_work *work, struct plot_choice *choice,
-                                                const struct rho_track *track,
-                                                const struct rho_plot *plot);
+int rho_work_take_plot(struct rho_work *work, struct plot_choice *choice,
+                       const struct rho_track *track, const struct rho_plot *plot);
 /* Units of work that are left for the initiator's search; 0: no limit. */
-uint32_t rho_tracker_work_left_for_search(const struct rho_look *look, struct rho_work *work);
+uint32_t rho_work_left_for_search(const struct rho_look *look, struct rho_work *work);
 /* Adds the work of a step to the tracker's, and tells the report whether it was partial. */
-void rho_tracker_record_work(struct rho_tracker *tracker, const struct rho_work *work,
-                             struct rho_report *report);
+void rho_work_record(struct rho_tracker *tracker, const struct rho_work *work,
+                     struct rho_report *report);
 
 /* plot_scores.c: scores of pairs of a track and a plot or bearing, for the assignment */
 /* Converts nats to integer thousandths, within the range of the assignment's costs. */
-int32_t rho_tracker_nat_to_mnat(float nat);
+int32_t rho_score_to_mnat(float nat);
 /* Makes the gate of a track about its merged estimate. measures: of the scan; 0 for bearings. */
-void rho_tracker_open_track_gate(const struct rho_look *look, const struct rho_track *track,
-                                 uint32_t measures, struct rho_gate *gate);
+void rho_score_open_gate(const struct rho_look *look, const struct rho_track *track,
+                         uint32_t measures, struct rho_gate *gate);
 /*
  * Adds a track (row) and an input (column) as a pair to the assignment. gain_nat: score over that
  * of a miss; a pair always costs less than a miss.
  */
-void rho_tracker_add_assignment_pair(struct rho_tracker *tracker, unsigned row, uint32_t column,
-                                     float gain_nat);
+void rho_score_add_pair(struct rho_tracker *tracker, unsigned row, uint32_t column, float gain_nat);
 /* Score of a pair over clutter. Returns 0 where the pair was not added; *gain_nat stays. */
-int rho_tracker_find_pair_gain(const struct rho_look *look, unsigned row, int column,
-                               float *gain_nat);
+int rho_score_pair_gain(const struct rho_look *look, unsigned row, int column, float *gain_nat);
 /* Removes an ended track's row from the assignment, and moves later rows up by one. */
-void rho_tracker_remove_assignment_row(struct rho_tracker *tracker, unsigned row);
+void rho_score_remove_row(struct rho_tracker *tracker, unsigned row);
 
 /* Solves the assignment, and counts plots that were dropped for lack of room in gates. */
-void rho_tracker_solve_assignment(struct rho_tracker *tracker);
+void rho_score_solve(struct rho_tracker *tracker);
 
 /*
  * Log-likelihood ratio of a plot in a track's Kalman gate, against clutter. log_density:
- * rho_tracker_log_clutter_density_at_track of the track
+ * rho_clutter_log_at_track of the track
  */
-float rho_tracker_score_plot(const struct rho_look *look, const struct rho_track *track,
-                             const struct rho_gate_result *result, float log_density, uint32_t row);
+float rho_score_plot(const struct rho_look *look, const struct rho_track *track,
+                     const struct rho_gate_result *result, float log_density, uint32_t row);
 /* ln of the probability of a miss; 0 where the scan counts no miss of the track. */
-float rho_tracker_log_miss_probability(const struct rho_look *look, const struct rho_track *track);
+float rho_score_log_miss(const struct rho_look *look, const struct rho_track *track);
 /*
  * Iterates over the plots near a track with hypotheses that are not assigned to another track, each
  * scored by every hypothesis; gain_nat is the score over clutter:
- *     rho_tracker_begin_plot_scores(step, row, &scores);
- *     while (rho_tracker_next_plot_score(step, &scores, &plot, &gain_nat))
+ *     rho_score_begin(step, row, &scores);
+ *     while (rho_score_next(step, &scores, &plot, &gain_nat))
  */
 struct plot_scores {
     unsigned track_row;
@@ -161,12 +153,11 @@ struct plot_scores {
     struct plots_near near;
     struct plot_choice choice;
 };
-void rho_tracker_begin_plot_scores(struct rho_tracker *tracker, const struct rho_look *look,
-                                   struct rho_work *work, unsigned row, struct plot_scores *scores);
-int rho_tracker_next_plot_score(struct rho_tracker *tracker, const struct rho_look *look,
-                                struct rho_work *work, struct plot_scores *scores, uint32_t *plot,
-                                float *gain_nat);
+void rho_score_begin(struct rho_tracker *tracker, const struct rho_look *look,
+                     struct rho_work *work, unsigned row, struct plot_scores *scores);
+int rho_score_next(struct rho_tracker *tracker, const struct rho_look *look, struct rho_work *work,
+                   struct plot_scores *scores, uint32_t *plot, float *gain_nat);
 /* A plot of the scan with its time, sensor and row, as rho_track_update_by_plot takes it. */
-struct rho_track_plot rho_tracker_make_track_plot(const struct rho_look *look, int row);
+struct rho_track_plot rho_score_track_plot(const struct rho_look *look, int row);
 
 #endif

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "clutter.h"
-#include "mirror_state_in_wall.h"
+#include "mirror_state.h"
 #include "plots.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
@@ -79,7 +79,7 @@ enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tracker,
     return RHO_OK;
 }
 
-int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker)
+int rho_images_are_sound(const struct rho_tracker *tracker)
 {
     return tracker->num_reflectors <= RHO_MAX_REFLECTORS &&
            are_usable_walls(tracker->reflectors, tracker->num_reflectors);
@@ -176,7 +176,7 @@ static int make_image_of_track(const struct rho_look *look, struct rho_work *wor
                                struct rho_kalman *image)
 {
     float crossing_m;
-    rho_tracker_spend_work(work, IMAGE_UNITS);
+    rho_work_spend(work, IMAGE_UNITS);
     return rho_reflector_mirror_state(&look->tracker->reflectors[reflector], look->sensor,
                                       BESIDE_SIGMAS * rho_track_sigma_m(track), &track->kalman,
                                       image, &crossing_m);
@@ -200,16 +200,15 @@ static void mark_plots_at_image_as_ghosts(const struct rho_look *look, struct rh
     float half_m[2];
     rho_gate_open(&gate, image, look->model.noise_density, look->sensor, look->scan->measures);
     rho_gate_box(&gate, look->sigma_max_m, look->offset_max_s, half_m);
-    struct plots_near near = rho_tracker_plots_near(
+    struct plots_near near = rho_plots_near(
         look->tracker, image->state[RHO_X] - half_m[0], image->state[RHO_X] + half_m[0],
         image->state[RHO_Y] - half_m[1], image->state[RHO_Y] + half_m[1]);
-    for (uint32_t i;
-         rho_tracker_next_plot_near(look, &near, &i) && !rho_tracker_is_phase_work_spent(work);) {
+    for (uint32_t i; rho_plots_next(look, &near, &i) && !rho_work_is_spent(work);) {
         const struct rho_plot *plot = &look->scan->plots[i];
         const float dx_m = plot->x_m - image->state[RHO_X], dy_m = plot->y_m - image->state[RHO_Y];
         if (look->fates[i] == RHO_FATE_HELD && dx_m <= half_m[0] && dx_m >= -half_m[0] &&
             dy_m <= half_m[1] && dy_m >= -half_m[1]) {
-            rho_tracker_spend_work(work, TEST_UNITS);
+            rho_work_spend(work, TEST_UNITS);
             if (rho_gate_test(&gate, plot, &result)) {
                 look->fates[i] = RHO_FATE_GHOST;
             }
@@ -217,13 +216,13 @@ static void mark_plots_at_image_as_ghosts(const struct rho_look *look, struct rh
     }
 }
 
-void rho_tracker_mark_image_plots_as_ghosts(const struct rho_look *look, struct rho_work *work)
+void rho_images_mark_plots(const struct rho_look *look, struct rho_work *work)
 {
     struct rho_kalman image;
-    rho_tracker_begin_work_phase(look->tracker, work, RHO_WORK_IMAGES_SHARE);
+    rho_work_begin_phase(look->tracker, work, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < look->tracker->num_tracks; row++) {
         for (unsigned i = 0; may_have_images(look, row) && i < look->tracker->num_reflectors; i++) {
-            if (rho_tracker_is_phase_work_spent(work)) {
+            if (rho_work_is_spent(work)) {
                 work->is_partial = 1;
                 return;
             }
@@ -240,8 +239,7 @@ static int may_be_image_track(const struct rho_look *look, const struct rho_trac
 {
     const float looks = (float)track->hits + (float)track->misses;
     return track->status != RHO_TRACK_FREE && track->time_us == look->time_us &&
-           (!rho_tracker_has_hits_to_be_established(track) ||
-            (float)track->hits < IMAGE_SHARE * looks);
+           (!rho_life_is_established(track) || (float)track->hits < IMAGE_SHARE * looks);
 }
 
 /* True where a track agrees with an image in horizontal place and velocity. */
@@ -269,7 +267,7 @@ static int is_image_of_other_track(const struct rho_look *look, struct rho_work 
         const struct rho_track *of = &tracker->tracks[other];
         for (unsigned i = 0;
              other != row && may_have_images(look, other) && i < tracker->num_reflectors; i++) {
-            if (rho_tracker_is_phase_work_spent(work)) {
+            if (rho_work_is_spent(work)) {
                 work->is_partial = 1;
                 return 0;
             }
@@ -282,16 +280,16 @@ static int is_image_of_other_track(const struct rho_look *look, struct rho_work 
     return 0;
 }
 
-void rho_tracker_end_image_tracks(struct step *step)
+void rho_images_end_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    rho_tracker_begin_work_phase(tracker, &step->work, RHO_WORK_IMAGES_SHARE);
+    rho_work_begin_phase(tracker, &step->work, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (may_be_image_track(&step->look, track) &&
             is_image_of_other_track(&step->look, &step->work, row)) {
-            rho_tracker_end_track(step, track);
+            rho_life_end(step, track);
         }
     }
-    rho_tracker_remove_ended_tracks(tracker);
+    rho_life_remove_ended(tracker);
 }

@@ -124,10 +124,9 @@ static float range_rate_ratio_one_target_to_clutter(const struct rho_look *look,
     if (!(measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
     }
-    return rho_tracker_range_rate_likelihood_ratio(
-        look, second->range_rate_mps - first->range_rate_mps,
-        first->sigma_range_rate_mps * first->sigma_range_rate_mps +
-            second->sigma_range_rate_mps * second->sigma_range_rate_mps);
+    return rho_echoes_rate_ratio(look, second->range_rate_mps - first->range_rate_mps,
+                                 first->sigma_range_rate_mps * first->sigma_range_rate_mps +
+                                     second->sigma_range_rate_mps * second->sigma_range_rate_mps);
 }
 
 /* Adds a density ratio to a window plot's stored one, both coded as ln in steps of `repeats`. */
@@ -176,25 +175,25 @@ static float one_target_evidence_by_two_plots(const struct rho_look *look,
     const struct rho_plot *second = &look->scan->plots[track->plot];
     const struct bin_offset offset = bin_offset_of_plots(look->sensor, first, second);
     float gain_nat = 0.0f, ratio = 0.0f, swap_nat = 0.0f, own_nat = 0.0f;
-    (void)rho_tracker_find_pair_gain(look, row, track->plot, &gain_nat);
+    (void)rho_score_pair_gain(look, row, track->plot, &gain_nat);
     /*
      * the two plots may also be swapped: the younger track's plot is the first one of the only
      * target, or, with two targets, each made the other's plot
      */
     float ways = 1.0f, older_ways = 1.0f;
-    if (rho_tracker_find_pair_gain(look, older_row, older->plot, &own_nat) &&
-        rho_tracker_find_pair_gain(look, older_row, track->plot, &swap_nat)) {
+    if (rho_score_pair_gain(look, older_row, older->plot, &own_nat) &&
+        rho_score_pair_gain(look, older_row, track->plot, &swap_nat)) {
         float other_nat;
         older_ways += rho_exp(swap_nat - own_nat);
-        if (rho_tracker_find_pair_gain(look, row, older->plot, &other_nat)) {
+        if (rho_score_pair_gain(look, row, older->plot, &other_nat)) {
             ways += rho_exp(swap_nat - own_nat + other_nat - gain_nat);
         }
     }
     if (is_within_bins(offset)) {
         ratio = second_plot_rate(table, older) * second_plot_density(table, offset, first) *
                 range_rate_ratio_one_target_to_clutter(look, look->scan->measures, first, second) /
-                rho_tracker_background_density_at_plot(look, second) *
-                rho_exp(-rho_tracker_log_echo_over_background_density(look, (uint32_t)track->plot));
+                rho_clutter_background_at(look, second) *
+                rho_exp(-rho_echoes_log_ratio_at(look, (uint32_t)track->plot));
     }
     return rho_log(1.0f + ratio) + rho_log(older_ways / ways) - gain_nat;
 }
@@ -214,9 +213,8 @@ static float one_target_evidence_by_one_plot(const struct rho_look *look,
     if (older->plot == track->plot) {
         return SHARED_NAT;
     }
-    const int is_in_gate = rho_tracker_find_pair_gain(look, row, plot, &gain_nat);
-    const int is_in_olders_gate =
-        rho_tracker_find_pair_gain(look, older_row, plot, &older_gain_nat);
+    const int is_in_gate = rho_score_pair_gain(look, row, plot, &gain_nat);
+    const int is_in_olders_gate = rho_score_pair_gain(look, older_row, plot, &older_gain_nat);
     if (older->plot < 0) {
         if (!is_in_olders_gate) {
             /*
@@ -236,8 +234,7 @@ static float one_target_evidence_by_one_plot(const struct rho_look *look,
     if (!is_in_gate) {
         return MISS_NAT;
     }
-    return nat - rho_tracker_log_pd_and_log_miss_of_track(look, track).log_miss -
-           (is_in_olders_gate ? LOG_TWO : 0.0f);
+    return nat - rho_look_detection(look, track).log_miss - (is_in_olders_gate ? LOG_TWO : 0.0f);
 }
 
 static void add_evidence_of_same_target_as_older(struct rho_track *track, float nat)
@@ -262,10 +259,9 @@ static void test_and_end_younger_track(struct step *step, const struct rho_secon
     const unsigned older_row = (unsigned)(older - tracker->tracks);
     const float share = probability_of_same_target_as_older(track);
     older->second_share = share < older->second_share ? share : older->second_share;
-    if (!rho_tracker_is_track_in_view(&step->look, row) ||
-        !rho_tracker_is_track_in_view(&step->look, older_row) ||
-        !rho_tracker_may_count_miss(&step->look, track) ||
-        !rho_tracker_may_count_miss(&step->look, older) || (track->plot < 0 && older->plot < 0)) {
+    if (!rho_look_has_in_view(&step->look, row) || !rho_look_has_in_view(&step->look, older_row) ||
+        !rho_look_may_miss(&step->look, track) || !rho_look_may_miss(&step->look, older) ||
+        (track->plot < 0 && older->plot < 0)) {
         return;
     }
     const float nat = track->plot >= 0 && older->plot >= 0 && track->plot != older->plot
@@ -275,7 +271,7 @@ static void test_and_end_younger_track(struct step *step, const struct rho_secon
     if (track->one_target_nat > ONE_TARGET_END_NAT) {
         track->one_target_nat = ONE_TARGET_END_NAT;
         if (older->plot >= 0) {
-            rho_tracker_end_track(step, track);
+            rho_life_end(step, track);
         }
     }
 }
@@ -326,7 +322,7 @@ static float second_plot_probability_raise_density(struct rho_tracker *tracker,
     const float ratio =
         second_plot_rate(table, track) * second_plot_density(table, offset, first) *
         range_rate_ratio_one_target_to_clutter(look, look->scan->measures, first, second) /
-        rho_tracker_background_density_at_plot(look, second);
+        rho_clutter_background_at(look, second);
     float *denser = &tracker->clutter_map.denser[other];
     const float known = rho_exp(*denser);
     if (look->fates[other] == RHO_FATE_HELD) {
@@ -345,11 +341,10 @@ static void sum_second_plots_and_raise_density_at_them(struct rho_tracker *track
     const struct rho_track *track = &tracker->tracks[row];
     const struct rho_plot *first = &look->scan->plots[track->plot];
     const float half_m = NEAR_SIGMAS * 1.4142136f * rho_plot_sigma_m(first);
-    struct plots_near near =
-        rho_tracker_plots_near(tracker, first->x_m - half_m, first->x_m + half_m,
-                               first->y_m - half_m, first->y_m + half_m);
+    struct plots_near near = rho_plots_near(tracker, first->x_m - half_m, first->x_m + half_m,
+                                            first->y_m - half_m, first->y_m + half_m);
     uint32_t passed = 0;
-    for (uint32_t i; rho_tracker_next_plot_near(look, &near, &i); passed++) {
+    for (uint32_t i; rho_plots_next(look, &near, &i); passed++) {
         const struct rho_plot *plot = &look->scan->plots[i];
         const float dx_m = plot->x_m - first->x_m, dy_m = plot->y_m - first->y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
@@ -357,7 +352,7 @@ static void sum_second_plots_and_raise_density_at_them(struct rho_tracker *track
             continue;
         }
         const struct bin_offset offset = bin_offset_of_plots(look->sensor, first, plot);
-        rho_tracker_spend_work(work, PAIR_UNITS);
+        rho_work_spend(work, PAIR_UNITS);
         if (is_within_bins(offset)) {
             const float share =
                 second_plot_probability_raise_density(tracker, look, table, row, i, offset);
@@ -366,7 +361,7 @@ static void sum_second_plots_and_raise_density_at_them(struct rho_tracker *track
             found->across[offset.across] += share;
         }
     }
-    rho_tracker_spend_work(work, passed / RHO_WORK_PASSED_A_UNIT);
+    rho_work_spend(work, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
 static void add_second_plots_to_track(struct rho_track *track, float plots, float share)
@@ -398,7 +393,7 @@ static void count_plot_not_tried(struct rho_work *work)
     work->plots_not_tried = rho_count(work->plots_not_tried, 1);
 }
 
-void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step)
+void rho_second_plots_take_look(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_second_plots *table = step->look.row ? &step->look.row->second_plots : 0;
@@ -417,13 +412,13 @@ void rho_tracker_learn_second_plots_and_end_duplicates(struct step *step)
             test_and_end_younger_track(step, table, row);
         }
     }
-    rho_tracker_begin_work_phase(tracker, &step->work, RHO_WORK_SECOND_SHARE);
+    rho_work_begin_phase(tracker, &step->work, RHO_WORK_SECOND_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE || track->plot < 0) {
             continue;
         }
-        if (rho_tracker_is_phase_work_spent(&step->work)) {
+        if (rho_work_is_spent(&step->work)) {
             count_plot_not_tried(&step->work);
             continue;
         }
@@ -464,31 +459,30 @@ static void raise_window_ratios_near_claimed_plot(const struct rho_look *look,
         }
         const struct rho_plot plot = rho_window_unpack_plot(scan, i);
         const struct bin_offset offset = bin_offset_of_plots(sensor, &first, &plot);
-        rho_tracker_spend_work(work, PAIR_UNITS);
+        rho_work_spend(work, PAIR_UNITS);
         if (is_within_bins(offset)) {
             const float ratio =
                 second_plot_rate(table, 0) * second_plot_density(table, offset, &first) *
                 range_rate_ratio_one_target_to_clutter(look, scan->measures, &first, &plot) /
-                rho_tracker_background_density_at_plot(look, &plot);
+                rho_clutter_background_at(look, &plot);
             scan->repeats[i] = add_ratio_to_coded_density_ratio(scan->repeats[i], ratio);
         }
     }
 }
 
-void rho_tracker_raise_window_clutter_near_start(const struct rho_look *look, struct rho_work *work,
-                                                 const struct rho_candidate *candidate)
+void rho_second_plots_raise_window(const struct rho_look *look, struct rho_work *work,
+                                   const struct rho_candidate *candidate)
 {
     struct rho_window *window = &look->initiator->window;
     for (unsigned m = 0; m < window->num_scans; m++) {
         struct rho_window_scan *scan = rho_window_scan_at(window, m);
-        const unsigned sensor = rho_tracker_row_of(look->tracker, scan->sensor.sensor_id);
+        const unsigned sensor = rho_sensors_row(look->tracker, scan->sensor.sensor_id);
         const struct rho_second_plots *table =
             sensor < look->tracker->num_rows ? &look->tracker->sensors[sensor].second_plots : 0;
-        if (((unsigned)candidate->mask >> m & 1u) && table &&
-            rho_tracker_is_phase_work_spent(work)) {
+        if (((unsigned)candidate->mask >> m & 1u) && table && rho_work_is_spent(work)) {
             count_plot_not_tried(work);
         } else if (((unsigned)candidate->mask >> m & 1u) && table) {
-            rho_tracker_spend_work(work, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
+            rho_work_spend(work, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
             raise_window_ratios_near_claimed_plot(look, work, table, scan, candidate->plot[m]);
         }
     }
@@ -496,7 +490,7 @@ void rho_tracker_raise_window_clutter_near_start(const struct rho_look *look, st
 
 /* ---- snapshots ------------------------------------------------------------------------------- */
 
-int rho_tracker_has_sound_track_second_plots(const struct rho_track *track)
+int rho_second_plots_is_sound_track(const struct rho_track *track)
 {
     return rho_is_within(track->second_looks, 0.0f, 1e6f) &&
            rho_is_within(track->second_plots, 0.0f, 1e6f) &&
@@ -504,7 +498,7 @@ int rho_tracker_has_sound_track_second_plots(const struct rho_track *track)
            rho_are_finite(&track->second_share, 1);
 }
 
-int rho_tracker_is_sound_second_plots(const struct rho_second_plots *table)
+int rho_second_plots_are_sound(const struct rho_second_plots *table)
 {
     if (!rho_is_within(table->looks, 0.0f, 1e9f) || !rho_is_within(table->plots, 0.0f, 1e9f)) {
         return 0;

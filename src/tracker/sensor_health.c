@@ -53,11 +53,11 @@ static float nis_per_dimension_of_plot(const struct rho_look *look, const struct
     struct rho_gate gate;
     struct rho_gate_result result;
     struct rho_sensor sensor;
-    rho_tracker_open_track_gate(look, track, look->scan->measures, &gate);
+    rho_score_open_gate(look, track, look->scan->measures, &gate);
     if (gate.sensor && look->is_suspect) {
         /* the NIS with the learned noise, without the factor for a suspect sensor */
         sensor = *gate.sensor;
-        rho_tracker_write_noise_factors(look, 1.0f, &sensor);
+        rho_learning_write_noise(look, 1.0f, &sensor);
         gate.sensor = &sensor;
     }
     if (!rho_gate_test(&gate, &look->scan->plots[plot], &result)) {
@@ -78,8 +78,8 @@ static void add_track_to_seen_share_and_mean_nis(const struct rho_look *look,
         health->sigma_m = rho_plot_sigma_m(&look->scan->plots[plot]);
         add_to_running_mean(&health->distance2, nis_per_dimension_of_plot(look, track, plot),
                             &health->watched_hits);
-    } else if (!look->has_more_parts && !rho_tracker_is_track_mostly_in_notch(track) &&
-               rho_tracker_has_antenna_passed_gate(look, track)) {
+    } else if (!look->has_more_parts && !rho_notch_is_mostly_blind(track) &&
+               rho_turn_has_passed(look, track)) {
         add_to_running_mean(&health->seen_share, 0.0f, &health->watched);
     }
 }
@@ -185,10 +185,10 @@ static int can_track_show_bias(const struct rho_look *look, unsigned row)
     const struct rho_tracker_look *last = rho_tracker_look_of(look->tracker, track->sensor_id);
     return track->status != RHO_TRACK_FREE && track->was_confirmed && track->is_shared &&
            track->sensor_id != look->scan->sensor_id && !(last && last->is_suspect) &&
-           rho_tracker_is_track_in_view(look, row);
+           rho_look_has_in_view(look, row);
 }
 
-void rho_tracker_update_sensor_health(struct rho_tracker *tracker, struct rho_look *look)
+void rho_health_compare(struct rho_tracker *tracker, struct rho_look *look)
 {
     for (unsigned row = 0; row < tracker->num_tracks && look->row; row++) {
         if (can_track_show_bias(look, row)) {
@@ -200,8 +200,7 @@ void rho_tracker_update_sensor_health(struct rho_tracker *tracker, struct rho_lo
     }
 }
 
-float rho_tracker_update_suspect_and_sigma_factor(struct rho_tracker *tracker,
-                                                  struct rho_look *look)
+float rho_health_sigma_factor(struct rho_tracker *tracker, struct rho_look *look)
 {
     if (look->row) {
         suspect_or_trust(tracker, look); /* the witnesses may be silent by now */

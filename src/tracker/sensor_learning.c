@@ -129,8 +129,8 @@ static uint16_t percent_of_factor(float factor)
     return (uint16_t)(100.0f * factor + 0.5f);
 }
 
-void rho_tracker_write_noise_factors(const struct rho_look *look, float suspicion,
-                                     struct rho_sensor *sensor)
+void rho_learning_write_noise(const struct rho_look *look, float suspicion,
+                              struct rho_sensor *sensor)
 {
     if (look->learned) {
         sensor->sigma_range_percent =
@@ -335,7 +335,7 @@ static int is_notch_learning_on(const struct rho_look *look)
            is_notch_unstated_or_learned(look->sensor, look->learned);
 }
 
-void rho_tracker_apply_learned_notch(const struct rho_look *look)
+void rho_learning_apply_notch(const struct rho_look *look)
 {
     struct rho_tracker_learned *learned = look->learned;
     if (learned && is_sensor_learning_on(&look->tracker->config) && is_notch_learning_on(look)) {
@@ -457,9 +457,8 @@ static int is_pd_lowered_in_any_ring(const struct rho_look *look)
            look->learned->is_lowered;
 }
 
-struct detection rho_tracker_detection_by_range(const struct rho_look *look,
-                                                const struct rho_track *track,
-                                                struct detection stated)
+struct detection rho_learning_detection(const struct rho_look *look, const struct rho_track *track,
+                                        struct detection stated)
 {
     if (!is_pd_lowered_in_any_ring(look)) {
         return stated;
@@ -473,7 +472,7 @@ struct detection rho_tracker_detection_by_range(const struct rho_look *look,
     return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
 }
 
-float rho_tracker_pd_over_all_ranges(const struct rho_look *look)
+float rho_learning_mean_pd(const struct rho_look *look)
 {
     const float stated = look->sensor->pd;
     if (!is_pd_lowered_in_any_ring(look)) {
@@ -540,7 +539,7 @@ static int can_teach_sensor(const struct rho_look *look, unsigned row)
 {
     const struct rho_track *track = &look->tracker->tracks[row];
     return track->status != RHO_TRACK_FREE && track->was_confirmed &&
-           rho_tracker_has_hits_to_be_established(track) && rho_tracker_is_track_in_view(look, row);
+           rho_life_is_established(track) && rho_look_has_in_view(look, row);
 }
 
 static int can_teach_noise(const struct rho_track *track)
@@ -555,11 +554,10 @@ static int can_learn_from_scan(const struct rho_look *look)
            is_sensor_learning_on(&look->tracker->config);
 }
 
-void rho_tracker_learn_sensor(struct rho_tracker *tracker, const struct rho_look *look)
+void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look)
 {
     /* with bodies no noise is learned: most of a group's noise is the extent of the body */
-    const int has_noise =
-        is_noise_learning_on(&tracker->config) && !rho_tracker_has_bodies(tracker);
+    const int has_noise = is_noise_learning_on(&tracker->config) && !rho_bodies_are_used(tracker);
     if (!can_learn_from_scan(look)) {
         return;
     }
@@ -575,7 +573,7 @@ void rho_tracker_learn_sensor(struct rho_tracker *tracker, const struct rho_look
             learn_noise_from_plot(look, track, &look->scan->plots[plot], factors);
         }
         if (plot != RHO_ASSIGNMENT_NONE ||
-            (!look->has_more_parts && rho_tracker_may_count_miss(look, track))) {
+            (!look->has_more_parts && rho_look_may_miss(look, track))) {
             learn_pd_from_look(look, track, plot != RHO_ASSIGNMENT_NONE);
         }
     }
@@ -586,7 +584,7 @@ void rho_tracker_learn_sensor(struct rho_tracker *tracker, const struct rho_look
 
 /* ---- what is known --------------------------------------------------------------------------- */
 
-int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned)
+int rho_learning_is_sound(const struct rho_tracker_learned *learned)
 {
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
         if (learned->hits[ring] > learned->looks[ring] || learned->looks[ring] > LOOKS_MAX) {
@@ -601,7 +599,7 @@ int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned)
     }
     return (!RHO_DOPPLER_NOTCH ||
             (learned->blind_rates <= RHO_LEARN_RATES && learned->used_rates <= RHO_LEARN_RATES)) &&
-           (!RHO_SHARES_PLOTS || rho_tracker_is_sound_learned_cell(learned)) &&
+           (!RHO_SHARES_PLOTS || rho_cell_is_sound(learned)) &&
            rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&
@@ -615,7 +613,7 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
         return RHO_ERROR_NULL;
     }
     const unsigned row =
-        rho_tracker_is_ready(tracker) ? rho_tracker_row_of(tracker, sensor_id) : RHO_MAX_SENSORS;
+        rho_tracker_is_ready(tracker) ? rho_sensors_row(tracker, sensor_id) : RHO_MAX_SENSORS;
     if (row >= tracker->num_sensors) {
         return RHO_ERROR_STATE;
     }
@@ -628,10 +626,8 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
         .range_factor = usable_sigma_factor(tracker, learned, 0),
         .cross_factor = usable_sigma_factor(tracker, learned, 1),
         .innovations = learned->innovations,
-        .resolution_range_sigmas =
-            RHO_SHARES_PLOTS ? rho_tracker_learned_cell_sigmas(learned, 0) : 0.0f,
-        .resolution_cross_sigmas =
-            RHO_SHARES_PLOTS ? rho_tracker_learned_cell_sigmas(learned, 1) : 0.0f,
+        .resolution_range_sigmas = RHO_SHARES_PLOTS ? rho_cell_learned_sigmas(learned, 0) : 0.0f,
+        .resolution_cross_sigmas = RHO_SHARES_PLOTS ? rho_cell_learned_sigmas(learned, 1) : 0.0f,
     };
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
         known->pd[ring] = learned->is_lowered >> ring & 1u

@@ -13,7 +13,7 @@
 #include "sensors.h"
 #include "step.h"
 
-unsigned rho_tracker_row_of(const struct rho_tracker *tracker, int32_t sensor_id)
+unsigned rho_sensors_row(const struct rho_tracker *tracker, int32_t sensor_id)
 {
     unsigned row = 0;
     while (row < tracker->num_rows && tracker->sensors[row].sensor.sensor_id != sensor_id) {
@@ -22,23 +22,22 @@ unsigned rho_tracker_row_of(const struct rho_tracker *tracker, int32_t sensor_id
     return row;
 }
 
-const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
-                                                 int32_t sensor_id)
+const struct rho_sensor *rho_sensors_find(const struct rho_tracker *tracker, int32_t sensor_id)
 {
-    const unsigned row = rho_tracker_row_of(tracker, sensor_id);
+    const unsigned row = rho_sensors_row(tracker, sensor_id);
     return row < tracker->num_sensors ? &tracker->sensors[row].sensor : 0;
 }
 
 const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
                                                    int32_t sensor_id)
 {
-    const unsigned row = tracker ? rho_tracker_row_of(tracker, sensor_id) : 0;
+    const unsigned row = tracker ? rho_sensors_row(tracker, sensor_id) : 0;
     return tracker && row < tracker->num_rows && tracker->sensors[row].look.count > 0
                ? &tracker->sensors[row].look
                : 0;
 }
 
-int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor)
+int rho_sensors_is_usable(const struct rho_sensor *sensor)
 {
     return rho_measurement_has_valid_place_and_biases(sensor) &&
            rho_is_within(sensor->pd, 0.01f, 0.999f) &&
@@ -46,7 +45,7 @@ int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor)
            rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            sensor->range_min_m < sensor->range_max_m &&
            (!RHO_DOPPLER_NOTCH || rho_notch_is_valid(sensor)) &&
-           (!RHO_SHARES_PLOTS || rho_tracker_has_usable_resolution_cell(sensor)) &&
+           (!RHO_SHARES_PLOTS || rho_cell_is_usable(sensor)) &&
            rho_angle_are_sector_ends_valid(sensor->sector_from_rad, sensor->sector_to_rad);
 }
 
@@ -73,9 +72,9 @@ static unsigned make_row(struct rho_tracker *tracker, int32_t sensor_id)
     return row;
 }
 
-struct rho_tracker_sensor *rho_tracker_hear_sensor(struct rho_tracker *tracker, int32_t sensor_id)
+struct rho_tracker_sensor *rho_sensors_hear(struct rho_tracker *tracker, int32_t sensor_id)
 {
-    unsigned row = rho_tracker_row_of(tracker, sensor_id);
+    unsigned row = rho_sensors_row(tracker, sensor_id);
     row = row < tracker->num_rows ? row : make_row(tracker, sensor_id);
     return row < RHO_MAX_SENSORS ? &tracker->sensors[row] : 0;
 }
@@ -98,10 +97,10 @@ enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct
     if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    if (!rho_tracker_is_usable_sensor(sensor)) {
+    if (!rho_sensors_is_usable(sensor)) {
         return RHO_ERROR_CONFIG;
     }
-    unsigned row = rho_tracker_row_of(tracker, sensor->sensor_id);
+    unsigned row = rho_sensors_row(tracker, sensor->sensor_id);
     if (row >= tracker->num_sensors) {
         if (tracker->num_sensors == RHO_MAX_SENSORS) {
             return RHO_ERROR_CAPACITY;
@@ -122,7 +121,7 @@ enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t s
     if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    const unsigned row = rho_tracker_row_of(tracker, sensor_id);
+    const unsigned row = rho_sensors_row(tracker, sensor_id);
     if (row >= tracker->num_sensors) {
         return RHO_ERROR_STATE;
     }
@@ -138,16 +137,16 @@ enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t s
 static int is_sound_row(const struct rho_tracker_sensor *row, int is_described)
 {
     const struct rho_tracker_pace *pace = &row->pace;
-    return (!is_described || rho_tracker_is_usable_sensor(&row->sensor)) &&
-           rho_tracker_is_sound_learned(&row->learned) &&
+    return (!is_described || rho_sensors_is_usable(&row->sensor)) &&
+           rho_learning_is_sound(&row->learned) &&
            rho_is_within(pace->azimuth_rad, -10.0f, 10.0f) &&
            rho_is_within(pace->interval_s, 0.0f, 1e13f) && rho_is_coordinate(pace->x_m) &&
            rho_is_coordinate(pace->y_m) && rho_is_stored_time(pace->time_us) &&
-           (!RHO_SECTORS || rho_tracker_is_sound_look(&row->look)) &&
-           (RHO_MAX_ECHOES == 0 || rho_tracker_is_sound_second_plots(&row->second_plots));
+           (!RHO_SECTORS || rho_turn_is_sound(&row->look)) &&
+           (RHO_MAX_ECHOES == 0 || rho_second_plots_are_sound(&row->second_plots));
 }
 
-int rho_tracker_has_sound_sensors(const struct rho_tracker *tracker)
+int rho_sensors_are_sound(const struct rho_tracker *tracker)
 {
     if (tracker->num_sensors > tracker->num_rows || tracker->num_rows > RHO_MAX_SENSORS) {
         return 0;

@@ -9,31 +9,28 @@
 #include "sight.h"
 
 /* sensors.c: index of a sensor's row in tracker->sensors; num_rows: it has none */
-unsigned rho_tracker_row_of(const struct rho_tracker *tracker, int32_t sensor_id);
+unsigned rho_sensors_row(const struct rho_tracker *tracker, int32_t sensor_id);
 /* Row of a sensor that sends a scan; NULL: all rows are of other, described sensors. */
-struct rho_tracker_sensor *rho_tracker_hear_sensor(struct rho_tracker *tracker, int32_t sensor_id);
-const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
-                                                 int32_t sensor_id); /* NULL: not described */
-int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor);
-int rho_tracker_has_sound_sensors(const struct rho_tracker *tracker);
+struct rho_tracker_sensor *rho_sensors_hear(struct rho_tracker *tracker, int32_t sensor_id);
+const struct rho_sensor *rho_sensors_find(const struct rho_tracker *tracker,
+                                          int32_t sensor_id); /* NULL: not described */
+int rho_sensors_is_usable(const struct rho_sensor *sensor);
+int rho_sensors_are_sound(const struct rho_tracker *tracker);
 
 /* plot_noise.c: sets the noise and the notch of the look's sensor, before plots are gated */
-void rho_tracker_open_noise(struct rho_tracker *tracker, struct rho_look *look);
+void rho_look_open_noise(struct rho_tracker *tracker, struct rho_look *look);
 
 /* unseen_tracks.c: measures the scan interval of a sensor, which is at the origin if NULL */
-void rho_tracker_update_scan_interval(struct rho_tracker_pace *pace,
-                                      const struct rho_sensor *sensor, int64_t time_us,
-                                      float sector_from_rad, float sector_to_rad);
+void rho_pace_update(struct rho_tracker_pace *pace, const struct rho_sensor *sensor,
+                     int64_t time_us, float sector_from_rad, float sector_to_rad);
 
 /* sensor_health.c (RHO_SECTORS): finds sensors that contradict the others */
 /* Decides whether the scan's sensor is suspect. Returns the factor on its plots' sigmas. */
-float rho_tracker_update_suspect_and_sigma_factor(struct rho_tracker *tracker,
-                                                  struct rho_look *look);
+float rho_health_sigma_factor(struct rho_tracker *tracker, struct rho_look *look);
 /* Compares the assigned plots with the tracks' predictions, before tracks are updated. */
-void rho_tracker_update_sensor_health(struct rho_tracker *tracker, struct rho_look *look);
+void rho_health_compare(struct rho_tracker *tracker, struct rho_look *look);
 /* True where the scan's sensor is suspect and no other sensor has seen the track. */
-static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct rho_look *look,
-                                                             const struct rho_track *track)
+static inline int rho_health_hides_track(const struct rho_look *look, const struct rho_track *track)
 {
     return look->is_suspect && !track->is_shared;
 }
@@ -44,41 +41,39 @@ static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct rho_lo
  * sensor_health on the sigmas of a suspect sensor, else 1
  */
 /* Writes the learned noise factors, times suspicion, into this description of the sensor. */
-void rho_tracker_write_noise_factors(const struct rho_look *look, float suspicion,
-                                     struct rho_sensor *sensor);
+void rho_learning_write_noise(const struct rho_look *look, float suspicion,
+                              struct rho_sensor *sensor);
 /* (RHO_DOPPLER_NOTCH) Writes the learned notch into a description that states none. */
-void rho_tracker_apply_learned_notch(const struct rho_look *look);
+void rho_learning_apply_notch(const struct rho_look *look);
 /* Learns noise, pd and notch of the scan's sensor from this scan's plots and misses. */
-void rho_tracker_learn_sensor(struct rho_tracker *tracker, const struct rho_look *look);
-int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
+void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look);
+int rho_learning_is_sound(const struct rho_tracker_learned *learned);
 /* Detection probability of the scan's sensor over all ranges, for its initiator. */
-float rho_tracker_pd_over_all_ranges(const struct rho_look *look);
+float rho_learning_mean_pd(const struct rho_look *look);
 /* Detection of a track by its ring of range, where pd is learned to be lower; else as stated. */
-struct detection rho_tracker_detection_by_range(const struct rho_look *look,
-                                                const struct rho_track *track,
-                                                struct detection stated);
+struct detection rho_learning_detection(const struct rho_look *look, const struct rho_track *track,
+                                        struct detection stated);
 
 /*
- * resolution_cell_size_learning.c (RHO_SHARES_PLOTS): distances at which a sensor does not resolve
+ * resolution_cell.c (RHO_SHARES_PLOTS): distances at which a sensor does not resolve
  * two targets
  */
-int rho_tracker_has_usable_resolution_cell(const struct rho_sensor *sensor);
+int rho_cell_is_usable(const struct rho_sensor *sensor);
 /* Variances of such distances at a plot's place, along the line of sight and across it. */
-void rho_tracker_unresolved_variances_at_plot(const struct rho_look *look,
-                                              const struct rho_plot *plot,
-                                              const struct rho_measurement *seen, float near_m2[2]);
+void rho_cell_variances_at(const struct rho_look *look, const struct rho_plot *plot,
+                           const struct rho_measurement *seen, float near_m2[2]);
 /* Variance of differences of range rate that are not resolved, (m/s)^2; 0: the rate is not used. */
-float rho_tracker_unresolved_range_rate_variance(const struct rho_sensor *sensor);
+float rho_cell_rate_variance(const struct rho_sensor *sensor);
 /* A pair of near tracks that the resolution cell is learned from; [2]: along, across. */
 struct apart {
     float is_one;       /* probability that a plot is merged, of both targets */
     float of_one_m2[2]; /* expected squared distance of the targets if it is merged */
     float of_two_m2[2]; /* expected squared distance of the targets if it is of one of them */
-    float near_m2[2];   /* variances by rho_tracker_unresolved_variances_at_plot */
+    float near_m2[2];   /* variances by rho_cell_variances_at */
 };
-void rho_tracker_learn_resolution_cell(const struct rho_look *look, const struct apart *apart);
+void rho_cell_learn(const struct rho_look *look, const struct apart *apart);
 /* Learned resolution cell on an axis, in sigmas of a plot; 0: not learned yet. */
-float rho_tracker_learned_cell_sigmas(const struct rho_tracker_learned *learned, int axis);
-int rho_tracker_is_sound_learned_cell(const struct rho_tracker_learned *learned);
+float rho_cell_learned_sigmas(const struct rho_tracker_learned *learned, int axis);
+int rho_cell_is_sound(const struct rho_tracker_learned *learned);
 
 #endif

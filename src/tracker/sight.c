@@ -10,27 +10,25 @@
 
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track)
 {
-    return !rho_tracker_is_track_frozen(track) &&
-           (!look->scan || (rho_tracker_may_scan_see_track(look, track) &&
-                            !(RHO_SECTORS && rho_tracker_was_seen_in_last_sector(look, track)) &&
-                            !rho_tracker_is_only_seen_by_suspect_sensor(look, track)));
+    return !rho_track_is_frozen(track) &&
+           (!look->scan || (rho_coverage_may_see(look, track) &&
+                            !(RHO_SECTORS && rho_turn_saw_before(look, track)) &&
+                            !rho_health_hides_track(look, track)));
 }
 
-int rho_tracker_may_count_miss(const struct rho_look *look, const struct rho_track *track)
+int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track)
 {
     if (RHO_SECTORS) {
-        return !look->is_suspect && rho_tracker_has_antenna_passed_gate(look, track);
+        return !look->is_suspect && rho_turn_has_passed(look, track);
     }
-    return rho_tracker_sector_covers_track_place(look, look->scan->sector_from_rad,
-                                                 look->scan->sector_to_rad, track);
+    return rho_coverage_holds_track(look, look->scan->sector_from_rad, look->scan->sector_to_rad,
+                                    track);
 }
 
-struct detection rho_tracker_log_pd_and_log_miss_of_track(const struct rho_look *look,
-                                                          const struct rho_track *track)
+struct detection rho_look_detection(const struct rho_look *look, const struct rho_track *track)
 {
     const struct detection stated = {look->log_pd, look->log_miss};
-    const struct detection learned = rho_tracker_detection_by_range(look, track, stated);
-    return RHO_DOPPLER_NOTCH && track->blind_percent > 0
-               ? rho_tracker_detection_in_notch(look, track, learned)
-               : learned;
+    const struct detection learned = rho_learning_detection(look, track, stated);
+    return RHO_DOPPLER_NOTCH && track->blind_percent > 0 ? rho_notch_detection(look, track, learned)
+                                                         : learned;
 }

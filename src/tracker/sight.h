@@ -14,72 +14,69 @@
  */
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track);
 /* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
-int rho_tracker_may_count_miss(const struct rho_look *look, const struct rho_track *track);
+int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track);
 /* ln of the probabilities that the sensor detects a target at the track's place or misses it. */
 struct detection {
     float log_pd, log_miss;
 };
-struct detection rho_tracker_log_pd_and_log_miss_of_track(const struct rho_look *look,
-                                                          const struct rho_track *track);
+struct detection rho_look_detection(const struct rho_look *look, const struct rho_track *track);
 
 /*
- * coverage_of_tracks_by_scan.c: true where a plot, within its noise, is in the sensor's stated
+ * coverage.c: true where a plot, within its noise, is in the sensor's stated
  * coverage. sensor NULL: it covers all
  */
-int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
-                                    uint32_t measures);
+int rho_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
+                            uint32_t measures);
 /* True where a bearing is in the sensor's stated sector, or nearer to it than the margin. */
-int rho_tracker_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_rad,
-                                       float margin_rad);
+int rho_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_rad,
+                               float margin_rad);
 /* True where the scan may see a track, by sector and range, with a margin. */
-int rho_tracker_may_scan_see_track(const struct rho_look *look, const struct rho_track *track);
+int rho_coverage_may_see(const struct rho_look *look, const struct rho_track *track);
 /* True where the scan may see the track of this row, as found when tracks were predicted. */
-int rho_tracker_is_track_in_view(const struct rho_look *look, unsigned row);
+int rho_look_has_in_view(const struct rho_look *look, unsigned row);
 /* True where the sensor, looking at this sector, covers the track's place. */
-int rho_tracker_sector_covers_track_place(const struct rho_look *look, float sector_from_rad,
-                                          float sector_to_rad, const struct rho_track *track);
+int rho_coverage_holds_track(const struct rho_look *look, float sector_from_rad,
+                             float sector_to_rad, const struct rho_track *track);
 
 /*
- * one_look_per_turn_across_sectors.c (RHO_SECTORS): how the sectors of one turn follow each other
+ * sector_turns.c (RHO_SECTORS): how the sectors of one turn follow each other
  */
 #define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
-int rho_tracker_is_sound_look(const struct rho_tracker_look *look);
+int rho_turn_is_sound(const struct rho_tracker_look *look);
 /* Records the scan's sector and time for its sensor, and finds which way the antenna turns. */
-void rho_tracker_record_look_and_antenna_turning(struct rho_tracker *tracker,
-                                                 struct rho_look *look);
+void rho_turn_note_look(struct rho_tracker *tracker, struct rho_look *look);
 /* Stores in a track with a plot of this scan that the scan's sensor saw it last. */
-void rho_tracker_record_seeing_sensor(const struct rho_look *look, struct rho_track *track);
+void rho_turn_note_seen(const struct rho_look *look, struct rho_track *track);
 /* True of the two sensors that saw the track last. */
-int rho_tracker_is_among_last_two_sensors(const struct rho_track *track, int32_t sensor_id);
+int rho_turn_was_seen_by(const struct rho_track *track, int32_t sensor_id);
 /* Sets the tracker's thresholds: lowest start and highest confirm threshold of all sensors. */
-void rho_tracker_merge_sensor_thresholds(struct rho_tracker *tracker, const struct rho_look *look);
+void rho_turn_merge_thresholds(struct rho_tracker *tracker, const struct rho_look *look);
 /* True where the track claimed a plot in the previous sector of the same turn of the antenna. */
-int rho_tracker_was_seen_in_last_sector(const struct rho_look *look, const struct rho_track *track);
+int rho_turn_saw_before(const struct rho_look *look, const struct rho_track *track);
 /*
  * True where the antenna has passed the end of the track's gate in this scan, or, with an antenna
  * that does not turn, the scan covers the track's place.
  */
-int rho_tracker_has_antenna_passed_gate(const struct rho_look *look, const struct rho_track *track);
+int rho_turn_has_passed(const struct rho_look *look, const struct rho_track *track);
 /* Number of scans of this sector's width in one turn of the antenna; 1 where it does not turn. */
-float rho_tracker_scans_per_turn(const struct rho_look *look);
+float rho_turn_num_scans(const struct rho_look *look);
 
 /*
- * blind_looks_in_doppler_notch.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Sets
+ * blind_looks.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Sets
  * blind_percent of the tracks in view, before plots are scored
  */
-void rho_tracker_set_notch_blind_percents(struct rho_tracker *tracker, struct rho_look *look);
+void rho_notch_mark_tracks(struct rho_tracker *tracker, struct rho_look *look);
 /* Sets blind_percent of all tracks to 0, at the end of a step. */
-void rho_tracker_clear_blind_percents(struct rho_tracker *tracker);
+void rho_notch_clear_tracks(struct rho_tracker *tracker);
 /* Detection of a track that may be in the sensor's notch; elsewhere: outside of the notch. */
-struct detection rho_tracker_detection_in_notch(const struct rho_look *look,
-                                                const struct rho_track *track,
-                                                struct detection elsewhere);
+struct detection rho_notch_detection(const struct rho_look *look, const struct rho_track *track,
+                                     struct detection elsewhere);
 /* True where at least half of the looks at the track are blind: no plot is no miss then. */
-static inline int rho_tracker_is_track_mostly_in_notch(const struct rho_track *track)
+static inline int rho_notch_is_mostly_blind(const struct rho_track *track)
 {
     return RHO_DOPPLER_NOTCH && track->blind_percent >= 50;
 }
 /* After a blind look without a plot: the track coasts, and counts as seen, not as missed. */
-void rho_tracker_set_blind_track_coasting(const struct rho_look *look, struct rho_track *track);
+void rho_notch_coast(const struct rho_look *look, struct rho_track *track);
 
 #endif

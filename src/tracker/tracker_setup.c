@@ -18,7 +18,7 @@
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */
 typedef char rho_assert_tracker_ram[sizeof(struct rho_tracker) <= RHO_RAM_TRACKER_BYTES ? 1 : -1];
 
-enum rho_track_filter rho_tracker_filter_of_config(const struct rho_tracker_config *config)
+enum rho_track_filter rho_tracker_filter(const struct rho_tracker_config *config)
 {
     if (config->gate == RHO_TRACKER_BEST) {
         return RHO_TRACK_HYPOTHESES;
@@ -42,25 +42,25 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
         .theta_cell_rad = 5.0f * (RHO_PI / 180.0f),
     };
     if (RHO_SECTORS) {
-        rho_tracker_set_late_max_default(config);
+        rho_retrodiction_default(config);
     }
     rho_input_config_default(&config->input);
     config->input.is_estimated = (RHO_FILTERS) == 1 << RHO_TRACK_INPUT;
 }
 
-int rho_tracker_is_usable_config(const struct rho_tracker_config *config)
+int rho_tracker_is_usable(const struct rho_tracker_config *config)
 {
     return rho_is_within(config->pd, 0.01f, 0.999f) &&
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) &&
            rho_is_within(config->steady_s, 0.0f, 1e5f) &&
            rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
-           (!RHO_SECTORS || rho_tracker_is_late_max_usable(config)) &&
+           (!RHO_SECTORS || rho_retrodiction_is_usable(config)) &&
            rho_is_within(config->learn_noise_min, 0.1f, 1.0f) &&
            rho_is_within(config->learn_noise_max, 1.0f, 10.0f) &&
            rho_is_within(config->learn_pd_min, 0.1f, 1.0f) && config->coast_scans_max >= 1 &&
            config->coast_scans_max <= UINT8_MAX && config->gate < RHO_NUM_TRACKER_GATES &&
-           RHO_HAS_FILTER(rho_tracker_filter_of_config(config)) &&
+           RHO_HAS_FILTER(rho_tracker_filter(config)) &&
            (config->gate != RHO_TRACKER_BEST || RHO_MAX_HYPOTHESES > RHO_MAX_TRACKS) &&
            (config->gate != RHO_TRACKER_HOUGH || RHO_HAS_FILTER(RHO_TRACK_INPUT)) &&
            (!RHO_HAS_FILTER(RHO_TRACK_INPUT) || rho_input_is_usable(&config->input)) &&
@@ -96,7 +96,7 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     if (size != sizeof *tracker) {
         return RHO_ERROR_SIZE;
     }
-    if (!rho_tracker_is_usable_config(config)) {
+    if (!rho_tracker_is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
     enum rho_status status;
@@ -107,7 +107,7 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     tracker->looks_max = 1;
     tracker->extent = (struct rho_extent){1.0f, 0.0f, 1.0f, 0.0f};
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_init_clutter_map(tracker);
+        rho_echoes_init(tracker);
     }
     status = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? init_hypotheses(tracker) : RHO_OK;
     if (status != RHO_OK) {
@@ -126,11 +126,11 @@ enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
     if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    if (!rho_tracker_is_usable_config(config)) {
+    if (!rho_tracker_is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
     if (tracker->num_tracks > 0 &&
-        rho_tracker_filter_of_config(config) != rho_tracker_filter_of_config(&tracker->config)) {
+        rho_tracker_filter(config) != rho_tracker_filter(&tracker->config)) {
         return RHO_ERROR_STATE;
     }
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {

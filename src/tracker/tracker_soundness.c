@@ -19,7 +19,7 @@
  */
 static int is_sound_filter_kind(const struct rho_tracker *tracker, const struct rho_track *track)
 {
-    const unsigned own = (unsigned)rho_tracker_filter_of_config(&tracker->config);
+    const unsigned own = (unsigned)rho_tracker_filter(&tracker->config);
     return (track->filter == own || track->filter == RHO_TRACK_KALMAN) &&
            RHO_HAS_FILTER(track->filter) &&
            (track->filter != RHO_TRACK_HYPOTHESES || track->slot < RHO_HYPOTHESES_SLOTS);
@@ -45,9 +45,9 @@ static int is_sound_input(const struct rho_track *track)
 
 static int is_sound_track(const struct rho_tracker *tracker, const struct rho_track *track)
 {
-    return (!RHO_SECTORS || rho_tracker_is_sound_stored_track_time(track)) &&
-           (RHO_MAX_ECHOES == 0 || (rho_tracker_has_sound_echo_returns(track) &&
-                                    rho_tracker_has_sound_track_second_plots(track))) &&
+    return (!RHO_SECTORS || rho_retrodiction_is_sound(track)) &&
+           (RHO_MAX_ECHOES == 0 ||
+            (rho_echoes_is_sound_track(track) && rho_second_plots_is_sound_track(track))) &&
            (!RHO_DOPPLER_NOTCH || track->blind_percent == 0) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || track->is_frozen <= 1) &&
            track->status > RHO_TRACK_FREE && track->status < RHO_NUM_TRACK_STATUS &&
@@ -106,7 +106,7 @@ static int are_corners_within_coordinate_limits(const struct rho_extent *extent)
 
 int rho_tracker_is_sound(const struct rho_tracker *tracker)
 {
-    return rho_tracker_is_ready(tracker) && rho_tracker_is_usable_config(&tracker->config) &&
+    return rho_tracker_is_ready(tracker) && rho_tracker_is_usable(&tracker->config) &&
            rho_assignment_is_ready(&tracker->assignment) && tracker->next_track_id > 0 &&
            rho_is_stored_time(tracker->time_us) &&
            rho_tracker_is_score_in_range(tracker->start_mnat) &&
@@ -120,10 +120,9 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_is_within(tracker->established, 0.0f, 1e9f) &&
            rho_is_stored_time(tracker->counted_us) &&
            are_corners_within_coordinate_limits(&tracker->extent) &&
-           rho_tracker_has_sound_sensors(tracker) &&
-           (RHO_MAX_REFLECTORS == 0 || rho_tracker_has_sound_reflectors(tracker)) &&
-           (RHO_MAX_EXCLUDED_AREAS == 0 || rho_tracker_has_sound_excluded_areas(tracker)) &&
-           (!RHO_BODIES || rho_tracker_has_sound_bodies(tracker)) &&
-           (RHO_MAX_ECHOES == 0 || rho_tracker_has_sound_clutter_map(tracker)) &&
-           has_sound_tracks(tracker);
+           rho_sensors_are_sound(tracker) &&
+           (RHO_MAX_REFLECTORS == 0 || rho_images_are_sound(tracker)) &&
+           (RHO_MAX_EXCLUDED_AREAS == 0 || rho_areas_are_sound(tracker)) &&
+           (!RHO_BODIES || rho_bodies_are_sound(tracker)) &&
+           (RHO_MAX_ECHOES == 0 || rho_echoes_are_sound(tracker)) && has_sound_tracks(tracker);
 }

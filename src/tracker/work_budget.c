@@ -40,24 +40,22 @@ static uint32_t num_parts_to_claim_large_scan(const struct rho_look *look)
                                             : RHO_TRACKER_PARTS_MAX;
 }
 
-void rho_tracker_begin_work_phase(const struct rho_tracker *tracker, struct rho_work *work,
-                                  uint32_t divisor)
+void rho_work_begin_phase(const struct rho_tracker *tracker, struct rho_work *work,
+                          uint32_t divisor)
 {
     const uint32_t work_max = tracker->config.work_max;
     work->share.end = work_max > 0 ? rho_count(work->spent, work_max / divisor) : UINT32_MAX;
 }
 
-void rho_tracker_begin_phase_with_share_per_track(const struct rho_look *look,
-                                                  struct rho_work *work)
+void rho_work_begin_shares(const struct rho_look *look, struct rho_work *work)
 {
     const struct rho_tracker *tracker = look->tracker;
     const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts_to_claim_large_scan(look);
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        waiting += tracker->tracks[row].status != RHO_TRACK_FREE &&
-                   rho_tracker_is_track_in_view(look, row);
+        waiting += tracker->tracks[row].status != RHO_TRACK_FREE && rho_look_has_in_view(look, row);
     }
-    rho_tracker_begin_work_phase(tracker, work, part);
+    rho_work_begin_phase(tracker, work, part);
     work->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
     work->share.waiting = waiting;
 }
@@ -83,15 +81,14 @@ static uint32_t take_share_of_next_track(struct rho_work *work)
     if (share->end == UINT32_MAX) {
         return UINT32_MAX;
     }
-    rho_tracker_release_work_share_of_one_track(work);
+    rho_work_release_share(work);
     const uint32_t used = work->spent + share->kept * (share->waiting + 1u);
     const unsigned others = share->waiting < FREE_PARTS - 1u ? share->waiting : FREE_PARTS - 1u;
     return share->kept + (used < share->end ? (share->end - used) / (others + 1u) : 0u);
 }
 
-struct plot_choice rho_tracker_begin_choice_of_plots_to_score(const struct rho_look *look,
-                                                              struct rho_work *work,
-                                                              const struct rho_track *track)
+struct plot_choice rho_work_begin_choice(const struct rho_look *look, struct rho_work *work,
+                                         const struct rho_track *track)
 {
     struct plot_choice choice = {.units = units_to_score_plot(look, track)};
     choice.most = take_share_of_next_track(work) / choice.units;
@@ -112,15 +109,14 @@ static unsigned distance_octave_of_plot(const struct rho_track *track, const str
     return octave;
 }
 
-void rho_tracker_count_plot_in_distance_octave(struct plot_choice *choice,
-                                               const struct rho_track *track,
-                                               const struct rho_plot *plot)
+void rho_work_count_plot(struct plot_choice *choice, const struct rho_track *track,
+                         const struct rho_plot *plot)
 {
     choice->in_octave[distance_octave_of_plot(track, plot)]++;
     choice->num_near++;
 }
 
-void rho_tracker_limit_choice_to_nearest_plots(struct rho_work *work, struct plot_choice *choice)
+void rho_work_limit_choice(struct rho_work *work, struct plot_choice *choice)
 {
     uint32_t left = choice->most;
     if (choice->num_near <= choice->most) {
@@ -135,9 +131,8 @@ void rho_tracker_limit_choice_to_nearest_plots(struct rho_work *work, struct plo
     work->plots_not_tried = rho_count(work->plots_not_tried, choice->num_near - choice->most);
 }
 
-int rho_tracker_spend_score_work_if_plot_chosen(struct rho_work *work, struct plot_choice *choice,
-                                                const struct rho_track *track,
-                                                const struct rho_plot *plot)
+int rho_work_take_plot(struct rho_work *work, struct plot_choice *choice,
+                       const struct rho_track *track, const struct rho_plot *plot)
 {
     if (choice->is_partial) {
         const unsigned octave = distance_octave_of_plot(track, plot);
@@ -146,11 +141,11 @@ int rho_tracker_spend_score_work_if_plot_chosen(struct rho_work *work, struct pl
         }
         choice->of_last -= octave == choice->last ? 1u : 0u;
     }
-    rho_tracker_spend_work(work, choice->units);
+    rho_work_spend(work, choice->units);
     return 1;
 }
 
-uint32_t rho_tracker_work_left_for_search(const struct rho_look *look, struct rho_work *work)
+uint32_t rho_work_left_for_search(const struct rho_look *look, struct rho_work *work)
 {
     const uint32_t most = look->initiator->config.work_max, all = look->tracker->config.work_max;
     if (all == 0) {
@@ -164,8 +159,8 @@ uint32_t rho_tracker_work_left_for_search(const struct rho_look *look, struct rh
     return most > 0 && most < left ? most : left;
 }
 
-void rho_tracker_record_work(struct rho_tracker *tracker, const struct rho_work *work,
-                             struct rho_report *report)
+void rho_work_record(struct rho_tracker *tracker, const struct rho_work *work,
+                     struct rho_report *report)
 {
     struct rho_tracker_work *sum = &tracker->work;
     sum->work = work->spent;

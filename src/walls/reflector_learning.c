@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "../tracker/mirror_state_in_wall.h"
+#include "../tracker/mirror_state.h"
 #include "../tracker/sensors.h"
 #include "../tracker/step.h"
 #include "learned_wall_line_arithmetic.h"
@@ -116,7 +116,7 @@ static int did_scan_cover_image(const struct observation *observation,
         .x_m = image->state[RHO_X], .y_m = image->state[RHO_Y], .z_m = image->state[RHO_Z]};
     const float from_x_m = observation->sensor ? observation->sensor->x_m : 0.0f,
                 from_y_m = observation->sensor ? observation->sensor->y_m : 0.0f;
-    return rho_tracker_coverage_holds_plot(observation->sensor, &at, observation->scan->measures) &&
+    return rho_coverage_holds_plot(observation->sensor, &at, observation->scan->measures) &&
            rho_angle_in_sector(rho_atan2(at.y_m - from_y_m, at.x_m - from_x_m),
                                observation->scan->sector_from_rad,
                                observation->scan->sector_to_rad);
@@ -128,7 +128,7 @@ static int is_own_or_body_plot_of_target(const struct observation *observation,
 {
     const struct rho_groups *groups = &observation->tracker->bodies.groups;
     return (int32_t)plot == target->plot ||
-           (rho_tracker_has_bodies(observation->tracker) && plot < RHO_BODY_PLOTS &&
+           (rho_bodies_are_used(observation->tracker) && plot < RHO_BODY_PLOTS &&
             groups->of[plot] == groups->of[target->plot]);
 }
 
@@ -333,7 +333,7 @@ static int is_image_outside_body(const struct observation *observation,
                 dy_m = image->state[RHO_Y] - target->state[RHO_Y];
     const unsigned row = (unsigned)(target - observation->report->tracks);
     struct rho_body body;
-    if (!rho_tracker_has_bodies(tracker) || !rho_tracker_body_of(tracker, row, &body)) {
+    if (!rho_bodies_are_used(tracker) || !rho_tracker_body_of(tracker, row, &body)) {
         return 1;
     }
     const float c = rho_cos(body.heading_rad), s = rho_sin(body.heading_rad);
@@ -581,7 +581,7 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     }
     const unsigned of_plots = scan->num_plots > 0 ? PLOTS_MAX / (2u * scan->num_plots) : IMAGES_MAX;
     struct observation observation = {.scan = scan,
-                                      .sensor = rho_tracker_find_sensor(tracker, scan->sensor_id),
+                                      .sensor = rho_sensors_find(tracker, scan->sensor_id),
                                       .noise_density = 1.0f,
                                       .tracker = tracker,
                                       .report = report,

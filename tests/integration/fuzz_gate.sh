@@ -139,9 +139,9 @@ tracker_must_find src/step/report.c 'a covariance that is none' \
 tracker_must_find src/step/begin_step_or_refuse_late_scan.c \
     'a scan that is too late, and changes the density' \
     's/(counters.scans_late = rho_count.*)/\1 step->tracker->unclaimed_plots += 1.0f;/'
-tracker_must_find src/tracker/confirm_and_end_track.c 'an end that is not told' \
+tracker_must_find src/tracker/track_life.c 'an end that is not told' \
     's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
-tracker_must_find src/step/admit_started_track.c 'an identity that comes again' \
+tracker_must_find src/step/track_starts.c 'an identity that comes again' \
     's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
 tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
     's/return rho_initiator_work_spent\(search\) > search->limit_units;/return 0;/'

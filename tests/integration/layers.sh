@@ -34,7 +34,7 @@ seed include/rhotrack/detail/linalg.h '#include "rhotrack/tracker.h"' \
 seed include/rhotrack/detail/gate.h '#include "rhotrack/detail/window.h"' \
     'association may not include'
 seed src/window/window.c '#include "rhotrack/detail/kalman.h"' 'window may not include'
-seed src/tracker/coverage_of_tracks_by_scan.c '#include "rhotrack/operator.h"' \
+seed src/tracker/coverage.c '#include "rhotrack/operator.h"' \
     'tracker may not include rhotrack/operator.h of step'
 seed src/base/angle.c '#include <stdio.h>' 'system header <stdio.h>'
 seed src/base/angle.c '#include "../tracker/step.h"' 'base may not include ../tracker/step.h'

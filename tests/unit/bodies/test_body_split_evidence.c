@@ -5,6 +5,10 @@
  * are made by hand, with the private header, as those of a scene never stand exactly at a limit.
  * Sums fade by 1 / 80 a look: n looks in a row count as S(n) = 80 (1 - (79 / 80)^n) looks.
  */
+#include "../../src/bodies/bodies.h"
+#include "../../src/tracker/clutter.h"
+#include "../../src/tracker/plots.h"
+#include "../../src/tracker/sensors.h"
 #include "../../src/tracker/step.h"
 #include "rhotrack/body.h"
 #include "tracker_setup.h"
@@ -159,7 +163,9 @@ static void make_track_with_body(void)
     tracker.bodies.of[0] = (struct rho_body_filter){
         .track_id = 1, .cos_heading = 1.0f, .has_heading = 1, .plots = 100.0f};
     tracker.num_tracks = tracker.bodies.count = 1;
-    at = (struct step){.tracker = &tracker, .scan = &scan};
+    at = (struct step){
+        .tracker = &tracker,
+        .look = {.tracker = &tracker, .fates = report.fates, .teaches = 1, .scan = &scan}};
     scan = (struct rho_scan){.measures = RHO_MEASURES_RANGE_RATE, .plots = plots};
 }
 
@@ -196,15 +202,15 @@ static void add_looks(int looks, float each_s, const struct look *look)
             add_corner_plot(look, corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f);
         }
         scan.num_plots = num_plots;
-        at.time_us += llround(1e6 * (double)each_s);
-        tracker.tracks[0].time_us = at.time_us;
-        rho_tracker_add_body_split_evidence(&at, &scan, 0);
+        at.look.time_us += llround(1e6 * (double)each_s);
+        tracker.tracks[0].time_us = at.look.time_us;
+        rho_bodies_add_doubt(&tracker, &at.look, &scan, 0);
     }
 }
 
 static int do_parts_move_apart(void)
 {
-    return rho_tracker_find_body_split_reason(&at, 0) == RHO_BODY_MOVES_APART;
+    return rho_bodies_split_reason(&tracker, 0) == RHO_BODY_MOVES_APART;
 }
 
 /* 1: sixty such looks, S(60) = 42.4, split the body. sigma_mps: of the track's velocity */

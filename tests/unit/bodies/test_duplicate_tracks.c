@@ -3,6 +3,10 @@
  * Of two tracks on one target the younger ends. For the limits both tracks are made by hand, with
  * the private header.
  */
+#include "../../src/bodies/bodies.h"
+#include "../../src/tracker/clutter.h"
+#include "../../src/tracker/plots.h"
+#include "../../src/tracker/sensors.h"
 #include "../../src/tracker/step.h"
 #include "tracker_setup.h"
 
@@ -47,7 +51,13 @@ static void make_two_tracks(float x_m, float y_m, unsigned hits)
     groups->owner[0] = 0;
     groups->contender[0] = 1;
     groups->owner[1] = 1;
-    at = (struct step){.tracker = &tracker, .report = &report, .num_gated = 2, .in_view = {3}};
+    at = (struct step){.tracker = &tracker,
+                       .report = &report,
+                       .look = {.tracker = &tracker,
+                                .fates = report.fates,
+                                .teaches = 1,
+                                .num_gated = 2,
+                                .in_view = {3}}};
     memset(&report, 0, sizeof report);
 }
 
@@ -55,8 +65,8 @@ static void make_two_tracks(float x_m, float y_m, unsigned hits)
 static unsigned scans_until_younger_ends(void)
 {
     for (unsigned scan = 1; scan <= 100; scan++) {
-        at.time_us = 50000 * (int64_t)scan;
-        rho_tracker_end_duplicate_tracks(&at);
+        at.look.time_us = 50000 * (int64_t)scan;
+        rho_bodies_end_duplicates(&at);
         if (tracker.tracks[1].status == RHO_TRACK_FREE) {
             assert_int_equal(tracker.tracks[0].status, RHO_TRACK_CONFIRMED);
             /* the older track takes over the plots */
@@ -86,7 +96,7 @@ static void the_younger_of_two_overlapping_tracks_ends(void **state)
         assert_int_equal(scans_until_younger_ends(), 0);
     }
     make_two_tracks(0.0f, 0.0f, 1000);
-    at.is_late = 1;
+    at.look.teaches = 0;
     assert_int_equal(scans_until_younger_ends(), 0);
 }
 
@@ -112,9 +122,9 @@ static void overlap_must_last_for_enough_scans(void **state)
     for (unsigned every = 2; every <= 4; every += 2) {
         make_two_tracks(0.0f, 0.0f, 1000);
         for (unsigned scan = 1; scan <= 400; scan++) {
-            at.time_us = 50000 * (int64_t)scan;
+            at.look.time_us = 50000 * (int64_t)scan;
             tracker.bodies.groups.contender[0] = scan % every ? RHO_NO_ROW : 1;
-            rho_tracker_end_duplicate_tracks(&at);
+            rho_bodies_end_duplicates(&at);
         }
         assert_int_equal(tracker.tracks[1].status == RHO_TRACK_FREE, every == 2);
     }
@@ -165,7 +175,7 @@ static void of_two_new_tracks_within_half_a_body_one_ends(void **state)
     }
     make_two_tracks(4.0f, 0.0f, 10); /* the track with more hits goes on */
     tracker.tracks[0].hits = 9;
-    rho_tracker_end_duplicate_tracks(&at);
+    rho_bodies_end_duplicates(&at);
     assert_int_equal(tracker.tracks[0].status, RHO_TRACK_FREE);
     assert_int_equal(tracker.tracks[1].status, RHO_TRACK_CONFIRMED);
     for (int is_near = 0; is_near < 2; is_near++) { /* both head north-east */

@@ -3,6 +3,10 @@
  * Which plots of a scan one target can have given, at both sides of each limit. Tracks and bodies
  * are made by hand, with the private header, as those of a scene never stand exactly at a limit.
  */
+#include "../../src/bodies/bodies.h"
+#include "../../src/tracker/clutter.h"
+#include "../../src/tracker/plots.h"
+#include "../../src/tracker/sensors.h"
 #include "../../src/tracker/step.h"
 #include "tracker_setup.h"
 
@@ -62,16 +66,18 @@ static void make_track_with_body(float plots_seen_so_far)
 
 static void group_plots(void)
 {
-    static struct rho_scan grouped;
     scan.num_plots = num_plots;
     at = (struct step){.tracker = &tracker,
-                       .scan = &scan,
                        .report = &report,
-                       .sensor = &radar,
-                       .num_inputs = num_plots,
-                       .num_gated = num_plots,
-                       .in_view = {3}};
-    rho_tracker_group_plots(&at, &grouped);
+                       .look = {.tracker = &tracker,
+                                .fates = report.fates,
+                                .teaches = 1,
+                                .scan = &scan,
+                                .sensor = &radar,
+                                .num_inputs = num_plots,
+                                .num_gated = num_plots,
+                                .in_view = {3}}};
+    rho_bodies_group(&at);
 }
 
 static int owner_of_plot(uint32_t plot)
@@ -195,8 +201,7 @@ static void the_gate_of_an_unknown_body_is_half_the_longest(void **state)
 {
     (void)state;
     start_tracker_with_bodies(0);
-    assert_float_equal(rho_tracker_prior_place_variance_on_body_m2(&tracker), 5.0 * 5.0 / 12.0,
-                       1e-6);
+    assert_float_equal(rho_bodies_prior_m2(&tracker), 5.0 * 5.0 / 12.0, 1e-6);
 }
 
 /* Work units: six for a plot and a body, two for a pair of plots, one for each skipped plot. */
@@ -207,12 +212,12 @@ static void work_of_grouping_is_counted(void **state)
     make_track_with_body(100.0f);
     add_plot_near_track(0.0, 0.0, 0.0);
     group_plots();
-    assert_int_equal(at.work, 6);
+    assert_int_equal(at.work.spent, 6);
     (void)count_groups_of_two_plots(0, 5.0, 0.0);
-    assert_int_equal(at.work, 2 + 2 * 1);
+    assert_int_equal(at.work.spent, 2 + 2 * 1);
     tracker.config.work_max = 800000;
     group_plots();
-    assert_int_equal(at.share.end, 200000); /* grouping may use a quarter of all work */
+    assert_int_equal(at.work.share.end, 200000); /* grouping may use a quarter of all work */
 }
 
 static void group_rows_are_mapped_back_to_plot_rows(void **state)
@@ -228,12 +233,12 @@ static void group_rows_are_mapped_back_to_plot_rows(void **state)
     tracker.tracks[0].plot = 1;
     report.fates[0] = RHO_FATE_HELD;
     report.fates[1] = RHO_FATE_CLAIMED;
-    rho_tracker_ungroup_plots(&at, &scan);
+    rho_bodies_ungroup(&tracker, &at.look, &scan);
     assert_int_equal(tracker.tracks[0].plot, 2);
     assert_int_equal(report.fates[1], RHO_FATE_HELD);
     assert_int_equal(report.fates[2], RHO_FATE_CLAIMED);
     tracker.tracks[0].plot = -1;
-    rho_tracker_ungroup_plots(&at, &scan);
+    rho_bodies_ungroup(&tracker, &at.look, &scan);
     assert_int_equal(tracker.tracks[0].plot, -1);
 }
 

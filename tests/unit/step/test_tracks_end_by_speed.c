@@ -52,7 +52,13 @@ static void tracks_surely_slower_than_v_min_end(void **state)
         config.v_min_mps = 30.0f;
         begin_tracker();
         struct rho_track *track = &tracker.tracks[0];
-        struct step at = {.tracker = &tracker, .report = &report};
+        struct step at = {.tracker = &tracker,
+                          .report = &report,
+                          .look = {
+                              .tracker = &tracker,
+                              .fates = report.fates,
+                              .teaches = 1,
+                          }};
         *track = (struct rho_track){.track_id = 1,
                                     .status = RHO_TRACK_CONFIRMED,
                                     .hits = 20,
@@ -64,7 +70,7 @@ static void tracks_surely_slower_than_v_min_end(void **state)
             track->kalman.covariance[RHO_AT(axis, axis)] = 100.0f;
             track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
         }
-        rho_tracker_confirm_or_end_track(&at, track, 0, &limits);
+        rho_step_confirm_or_end(&at, track, 0, &limits);
         assert_int_equal(track->status, i ? RHO_TRACK_CONFIRMED : RHO_TRACK_FREE);
     }
 }

@@ -4,6 +4,9 @@
  * separate keep or get their own. Figures are tested with tracks and tables made by hand, with the
  * private header.
  */
+#include "../../src/tracker/clutter.h"
+#include "../../src/tracker/plots.h"
+#include "../../src/tracker/sensors.h"
 #include "../../src/tracker/step.h"
 #include "tracker_setup.h"
 
@@ -182,13 +185,16 @@ static void start_with_tracks(unsigned num_tracks)
     tracker.num_rows = 1;
     tracker.sensors[0].sensor.sensor_id = 1;
     at = (struct step){.tracker = &tracker,
-                       .row = tracker.sensors,
-                       .scan = &scan,
                        .report = &report,
-                       .sensor = &radar,
-                       .in_view = {3},
-                       .log_pd = -0.1f,
-                       .log_miss = -2.3f};
+                       .look = {.tracker = &tracker,
+                                .fates = report.fates,
+                                .teaches = 1,
+                                .row = tracker.sensors,
+                                .scan = &scan,
+                                .sensor = &radar,
+                                .in_view = {3},
+                                .log_pd = -0.1f,
+                                .log_miss = -2.3f}};
 }
 
 /* Adds a plot so many sigmas of 10 m off a place 20 km east. */
@@ -197,7 +203,7 @@ static void add_plot_in_sigmas(double along, double across)
     (void)add_plot(20000.0 + 10.0 * along, 10.0 * across, 10.0);
     tracker.clutter_map.denser[num_plots - 1] = 0.0f;
     report.fates[num_plots - 1] = RHO_FATE_HELD;
-    scan.num_plots = at.num_inputs = at.num_gated = num_plots;
+    scan.num_plots = at.look.num_inputs = at.look.num_gated = num_plots;
 }
 
 static void set_claim(unsigned row, uint32_t plot)
@@ -213,15 +219,15 @@ static void score_second_plots(const double gains_nat[2][2])
     for (unsigned row = 0; gains_nat && row < 2; row++) {
         for (unsigned plot = 0; plot < num_plots; plot++) {
             if (gains_nat[row][plot] > 0.0) {
-                rho_tracker_add_assignment_pair(&at, row, plot,
-                                                (float)gains_nat[row][plot] - at.log_miss);
+                rho_score_add_pair(&tracker, row, plot,
+                                   (float)gains_nat[row][plot] - at.look.log_miss);
             }
         }
     }
     for (uint32_t i = 0; i < num_plots; i++) {
         tracker.assignment.column_row[i] = -1;
     }
-    rho_tracker_index_plots(&at); /* before plots are claimed */
+    rho_plots_index(&tracker, &at.look); /* before plots are claimed */
     for (unsigned row = 0; row < tracker.num_tracks; row++) {
         const int16_t plot = tracker.tracks[row].plot;
         if (plot >= 0) {
@@ -229,7 +235,7 @@ static void score_second_plots(const double gains_nat[2][2])
             report.fates[plot] = RHO_FATE_CLAIMED;
         }
     }
-    rho_tracker_learn_second_plots_and_end_duplicates(&at);
+    rho_second_plots_take_look(&at);
 }
 
 static void expect_close(double is, double wanted)
@@ -328,7 +334,7 @@ static void work_of_second_plots_is_counted(void **state)
         add_plot_in_sigmas(i ? 24.0 : 22.0, 0.0);
         set_claim(0, 0);
         score_second_plots(NULL);
-        assert_int_equal(at.work, i ? 0 : 12);
+        assert_int_equal(at.work.spent, i ? 0 : 12);
     }
 }
 
@@ -419,7 +425,7 @@ static void evidence_above_3_nat_ends_the_younger_track(void **state)
         const int plot = i / 2;
         start_with_tracks(2);
         fill_second_plot_table(50.0f);
-        at.log_miss = -20.0f;
+        at.look.log_miss = -20.0f;
         tracker.tracks[1].one_target_nat = i % 2 ? 0.1f : -0.1f;
         add_plot_in_sigmas(0.0, 0.0);
         add_plot_in_sigmas(300.0, 0.0);

@@ -4,6 +4,9 @@
  * expected clutter, ends of tracks, shares of work. Sensors and tracks are made by hand, with the
  * private header, as those of a scene never stand exactly at a limit.
  */
+#include "../../src/tracker/clutter.h"
+#include "../../src/tracker/plots.h"
+#include "../../src/tracker/sensors.h"
 #include "../../src/tracker/step.h"
 #include "rhotrack/operator.h"
 #include "rhotrack/reflectors.h"
@@ -26,15 +29,18 @@ static void start_step(void)
     tracker.num_rows = 1;
     tracker.sensors[0].sensor.sensor_id = 1;
     at = (struct step){.tracker = &tracker,
-                       .row = tracker.sensors,
-                       .time_us = 100000000,
-                       .scan = &scan,
                        .report = &report,
-                       .sensor = &radar,
-                       .in_view = {3},
-                       .sigma_max_m = 10.0f,
-                       .log_pd = -0.1f,
-                       .log_miss = -2.3f};
+                       .look = {.tracker = &tracker,
+                                .fates = report.fates,
+                                .teaches = 1,
+                                .row = tracker.sensors,
+                                .time_us = 100000000,
+                                .scan = &scan,
+                                .sensor = &radar,
+                                .in_view = {3},
+                                .sigma_max_m = 10.0f,
+                                .log_pd = -0.1f,
+                                .log_miss = -2.3f}};
 }
 
 /* A confirmed track 20 km away at this azimuth, with this sigma on both axes. */
@@ -46,7 +52,7 @@ static struct rho_track *make_track(double azimuth_rad, double sigma_m)
                                 .hits = 8,
                                 .plot = -1,
                                 .was_confirmed = 1,
-                                .time_us = at.time_us};
+                                .time_us = at.look.time_us};
     track->kalman.state[RHO_X] = (float)(20000.0 * cos(azimuth_rad));
     track->kalman.state[RHO_Y] = (float)(20000.0 * sin(azimuth_rad));
     for (int axis = 0; axis < 2; axis++) {
@@ -60,7 +66,7 @@ static void add_plot_at(double x_m, double y_m)
 {
     (void)add_plot(x_m, y_m, 10.0);
     report.fates[num_plots - 1] = RHO_FATE_HELD;
-    scan.num_plots = at.num_inputs = at.num_gated = num_plots;
+    scan.num_plots = at.look.num_inputs = at.look.num_gated = num_plots;
 }
 
 /* ---- sensor health --------------------------------------------------------------------------- */
@@ -75,7 +81,7 @@ static struct rho_tracker_sensor *make_agreeing_sensors(void)
     for (int i = 0; i < 4; i++) {
         tracker.sensors[i].sensor.sensor_id = 1 + i;
         tracker.sensors[i].look = (struct rho_tracker_look){.count = 1,
-                                                            .time_us = at.time_us,
+                                                            .time_us = at.look.time_us,
                                                             .seen_share = 0.9f,
                                                             .distance2 = 1.0f,
                                                             .sigma_m = 10.0f,
@@ -83,14 +89,14 @@ static struct rho_tracker_sensor *make_agreeing_sensors(void)
                                                             .watched_hits = 16};
     }
     tracker.config.pd = 0.9f;
-    at.row = tracker.sensors;
+    at.look.row = tracker.sensors;
     return tracker.sensors;
 }
 
 static int is_sensor_suspect(void)
 {
-    (void)rho_tracker_update_suspect_and_sigma_factor(&at);
-    return at.is_suspect;
+    (void)rho_health_sigma_factor(&tracker, &at.look);
+    return at.look.is_suspect;
 }
 
 /*
@@ -108,7 +114,7 @@ static void a_sensor_that_sees_too_little_is_suspect(void **state)
         sensors[1].look.watched = i == 3 ? 11 : 12;
         sensors[1].look.seen_share = i == 4 ? 0.53f : 0.55f;
         sensors[1].look.distance2 = i == 5 ? 2.6f : 2.4f;
-        sensors[1].look.time_us = at.time_us - (i == 6 ? 61000000 : 59000000);
+        sensors[1].look.time_us = at.look.time_us - (i == 6 ? 61000000 : 59000000);
         assert_int_equal(is_sensor_suspect(), i == 0 || i == 7);
     }
 }
@@ -167,8 +173,8 @@ static void a_suspect_sensor_that_agrees_is_trusted_again(void **state)
         sensors[0].look.is_suspect = 1;
         sensors[0].look.distance2 = distance2[i];
         sensors[0].look.seen_share = shares[i];
-        assert_float_equal(rho_tracker_update_suspect_and_sigma_factor(&at), factors[i], 1e-6);
-        assert_int_equal(at.is_suspect, i > 0);
+        assert_float_equal(rho_health_sigma_factor(&tracker, &at.look), factors[i], 1e-6);
+        assert_int_equal(at.look.is_suspect, i > 0);
     }
 }
 
@@ -185,10 +191,10 @@ static void sensor_health_averages_the_last_sixteen_looks(void **state)
         add_plot_at(20000.0, 5000.0);
         assert_int_equal(rho_assignment_begin(&tracker.assignment, 1, 1), RHO_OK);
         if (is_seen) {
-            rho_tracker_add_assignment_pair(&at, 0, 0, 5.0f);
+            rho_score_add_pair(&tracker, 0, 0, 5.0f);
         }
-        rho_tracker_solve_assignment(&at);
-        rho_tracker_update_sensor_health(&at);
+        rho_score_solve(&tracker);
+        rho_health_compare(&tracker, &at.look);
         assert_int_equal(sensors[0].look.watched, 16);
         assert_float_equal(sensors[0].look.seen_share, 0.8 + (is_seen - 0.8) / 16.0, 1e-6);
         assert_float_equal(sensors[0].look.distance2, is_seen ? 1.0 + 8.0 / 16.0 : 1.0, 1e-6);
@@ -204,12 +210,10 @@ static void the_antenna_has_passed_a_track_three_sigmas_behind_it(void **state)
     for (int i = 0; i < 2; i++) {
         start_step();
         scan.sector_to_rad = 0.5f;
-        at.turning = 1.0f;
-        assert_int_equal(
-            rho_tracker_has_antenna_passed_gate(&at, make_track(i ? 0.475 : 0.465, 200.0)), !i);
-        at.turning = -1.0f;
-        assert_int_equal(
-            rho_tracker_has_antenna_passed_gate(&at, make_track(i ? 0.025 : 0.035, 200.0)), !i);
+        at.look.turning = 1.0f;
+        assert_int_equal(rho_turn_has_passed(&at.look, make_track(i ? 0.475 : 0.465, 200.0)), !i);
+        at.look.turning = -1.0f;
+        assert_int_equal(rho_turn_has_passed(&at.look, make_track(i ? 0.025 : 0.035, 200.0)), !i);
     }
 }
 
@@ -219,14 +223,14 @@ static void thresholds_of_silent_sensors_are_left_out(void **state)
     (void)state;
     for (int i = 0; i < 2; i++) {
         struct rho_tracker_sensor *sensors = make_agreeing_sensors();
-        sensors[1].look.time_us = at.time_us - (i ? 61000000 : 59000000);
+        sensors[1].look.time_us = at.look.time_us - (i ? 61000000 : 59000000);
         sensors[1].look.start_mnat = -5000;
         sensors[1].look.confirm_mnat = 9000;
         tracker.num_rows = 2;
-        at.initiator = &initiator;
+        at.look.initiator = &initiator;
         initiator.start_mnat = tracker.start_mnat = 1000;
         initiator.confirm_mnat = tracker.confirm_mnat = 4000;
-        rho_tracker_merge_sensor_thresholds(&at);
+        rho_turn_merge_thresholds(&tracker, &at.look);
         assert_int_equal(tracker.start_mnat, i ? 1000 : -5000);
         assert_int_equal(tracker.confirm_mnat, i ? 4000 : 9000);
     }
@@ -240,7 +244,7 @@ static void clutter_counts_are_averaged_over_ten_scans(void **state)
 {
     float mean = 10.0f;
     (void)state;
-    rho_tracker_smooth_mean(&mean, 30.0f);
+    rho_clutter_smooth_mean(&mean, 30.0f);
     assert_float_equal(mean, 12.0, 1e-5);
 }
 
@@ -250,12 +254,11 @@ static void clutter_density_has_a_least_area_and_value(void **state)
     const struct rho_plot plot = {.x_m = 1.0f};
     (void)state;
     start_step();
-    assert_float_equal(rho_tracker_background_density_at_plot(&at, &plot), 1e-8, 1e-12);
+    assert_float_equal(rho_clutter_background_at(&at.look, &plot), 1e-8, 1e-12);
     tracker.extent = (struct rho_extent){0.0f, 10.0f, 0.0f, 10.0f};
-    assert_float_equal(rho_tracker_background_density_at_plot(&at, &plot), 100.0 / 1e6, 1e-7);
+    assert_float_equal(rho_clutter_background_at(&at.look, &plot), 100.0 / 1e6, 1e-7);
     tracker.extent = (struct rho_extent){-2e7f, 2e7f, -2e7f, 2e7f};
-    assert_float_equal(1e12 * (double)rho_tracker_background_density_at_plot(&at, &plot), 1.0,
-                       1e-4);
+    assert_float_equal(1e12 * (double)rho_clutter_background_at(&at.look, &plot), 1.0, 1e-4);
 }
 
 /* ---- how tracks end -------------------------------------------------------------------------- */
@@ -267,7 +270,7 @@ static void tentative_tracks_end_when_one_in_a_hundred_is_true(void **state)
     start_step();
     tracker.start_mnat = 2000;
     tracker.looks_max = 1;
-    const struct rho_track_limits limits = rho_tracker_track_limits(&at);
+    const struct rho_track_limits limits = rho_life_limits(&at.look);
     assert_float_equal(limits.tentative_mnat, 2000.0 - 1000.0 * log(100.0), 1.0);
     assert_float_equal(limits.doubt_mnat, 1000.0 * log(200.0), 1.0);
     assert_float_equal(limits.fall_mnat, 5.0 * 2302.6, 2.0);
@@ -287,8 +290,8 @@ static void in_little_clutter_missed_tracks_become_tentative_not_ended(void **st
         track->hits = 20;
         track->has_taken_back = 1;
         track->misses_in_row = 5;
-        const struct rho_track_limits limits = rho_tracker_track_limits(&at);
-        rho_tracker_apply_thresholds(&at, track, &limits);
+        const struct rho_track_limits limits = rho_life_limits(&at.look);
+        rho_life_apply(&at, track, &limits);
         assert_int_equal(track->status, i ? RHO_TRACK_FREE : RHO_TRACK_TENTATIVE);
     }
 }
@@ -301,8 +304,8 @@ static void plots_four_sigmas_beyond_the_range_are_covered(void **state)
     (void)state;
     const struct rho_plot inside = {.x_m = 1e5f + 39.0f, .sigma_range_m = 10.0f},
                           outside = {.x_m = 1e5f + 41.0f, .sigma_range_m = 10.0f};
-    assert_true(rho_tracker_coverage_holds_plot(&radar, &inside, 0));
-    assert_false(rho_tracker_coverage_holds_plot(&radar, &outside, 0));
+    assert_true(rho_coverage_holds_plot(&radar, &inside, 0));
+    assert_false(rho_coverage_holds_plot(&radar, &outside, 0));
 }
 
 /* A radar with a notch of 10 m/s; a track across its line of sight is in it with at most 99 %. */
@@ -314,14 +317,14 @@ static void tracks_stay_in_the_notch_for_five_minutes_at_most(void **state)
         struct rho_sensor notched = radar;
         notched.notch_mps = 10.0f;
         start_step();
-        at.sensor = &notched;
-        at.time_us = 400000000;
+        at.look.sensor = &notched;
+        at.look.time_us = 400000000;
         struct rho_track *track = make_track(0.0, i < 2 ? 10.0 : sigma_m * (i == 2 ? 0.99 : 1.01));
         track->filter = RHO_TRACK_KALMAN;
         track->kalman.state[RHO_VY] = 100.0f;
         track->kalman.covariance[RHO_AT(3, 3)] = track->kalman.covariance[RHO_AT(4, 4)] = 1e-4f;
-        track->updated_us = at.time_us - (i == 1 ? 301000000 : 299000000);
-        rho_tracker_set_notch_blind_percents(&at);
+        track->updated_us = at.look.time_us - (i == 1 ? 301000000 : 299000000);
+        rho_notch_mark_tracks(&tracker, &at.look);
         if (i < 2) {
             assert_int_equal(track->blind_percent, i == 0 ? 99 : 0);
         } else {
@@ -336,12 +339,12 @@ static void a_look_in_the_notch_has_a_small_pd(void **state)
     (void)state;
     notched.notch_mps = 10.0f;
     start_step();
-    at.sensor = &notched;
+    at.look.sensor = &notched;
     struct rho_track *track = make_track(0.0, 10.0);
     track->kalman.state[RHO_VY] = 100.0f;
     track->blind_percent = 80;
-    const struct detection seen = rho_tracker_detection_with_notch(&at, track);
-    const double pd = exp((double)at.log_pd);
+    const struct detection seen = rho_look_detection(&at.look, track);
+    const double pd = exp((double)at.look.log_pd);
     assert_float_equal(seen.log_pd, log(pd * 0.2 + 0.03 * 0.8), 1e-5);
     assert_float_equal(seen.log_miss, log(1.0 - pd * 0.2), 1e-5);
 }
@@ -356,12 +359,12 @@ static void manoeuvres_are_learned_in_gaps_up_to_a_minute(void **state)
     for (int i = 0; i < 2; i++) {
         start_step();
         make_track(0.0, 10.0)->hits = 16;
-        at.model.hypotheses = &tracker.hypotheses;
-        rho_tracker_learn_manoeuvre_interval(&at, i ? 61.0f : 59.0f);
+        at.look.model.hypotheses = &tracker.hypotheses;
+        rho_manoeuvres_learn(&tracker, &at.look, i ? 61.0f : 59.0f);
         assert_float_equal(tracker.straight_s, i ? 0.0 : 59.0, 1e-4);
         tracker.straight_s = 7.0f;
         tracker.time_us = 0;
-        rho_tracker_reset_manoeuvre_interval_after_silence(&tracker, i ? 61000000 : 59000000);
+        rho_manoeuvres_reset(&tracker, i ? 61000000 : 59000000);
         assert_float_equal(tracker.straight_s, i ? 0.0 : 7.0, 1e-4);
     }
 }
@@ -374,9 +377,9 @@ static void late_max_s_may_be_a_minute_at_most(void **state)
     }
     use_usual_configs(1);
     config.late_max_s = 60.0f;
-    assert_true(rho_tracker_is_late_max_usable(&config));
+    assert_true(rho_retrodiction_is_usable(&config));
     config.late_max_s = 60.1f;
-    assert_false(rho_tracker_is_late_max_usable(&config));
+    assert_false(rho_retrodiction_is_usable(&config));
 }
 
 /* ---- mirror images --------------------------------------------------------------------------- */
@@ -399,8 +402,8 @@ static int is_plot_ghost(float x_m, uint16_t hits)
 {
     make_wall_and_track(x_m)->hits = hits;
     add_plot_at((double)x_m, 2000.0);
-    rho_tracker_index_plots(&at);
-    rho_tracker_mark_image_plots_as_ghosts(&at);
+    rho_plots_index(&tracker, &at.look);
+    rho_images_mark_plots(&at.look, &at.work);
     return report.fates[0] == RHO_FATE_GHOST;
 }
 
@@ -409,7 +412,7 @@ static void plots_at_images_of_established_tracks_are_ghosts(void **state)
 {
     (void)state;
     assert_true(is_plot_ghost(800.0f, 3));
-    assert_int_equal(at.work, 12 + 3);
+    assert_int_equal(at.work.spent, 12 + 3);
     assert_false(is_plot_ghost(800.0f, 2));
     assert_true(is_plot_ghost(1058.0f, 3));
     assert_false(is_plot_ghost(1062.0f, 3));
@@ -423,7 +426,7 @@ static int does_track_at_image_end(double off_m, uint16_t hits, uint16_t misses)
     image->kalman.state[RHO_Y] = (float)(2000.0 + off_m);
     image->hits = hits;
     image->misses = misses;
-    rho_tracker_end_image_tracks(&at);
+    rho_images_end_tracks(&at);
     return tracker.num_tracks == 1;
 }
 
@@ -446,42 +449,45 @@ static void tracks_near_an_image_end(void **state)
 
 #define WORK_MAX 1600000u
 
-static uint32_t work_share_given_to_phase(void (*phase)(struct step *step))
+static void begin_step_with_plot(void)
 {
     start_step();
     tracker.config.work_max = WORK_MAX;
     add_plot_at(20000.0, 0.0);
-    rho_tracker_index_plots(&at);
-    phase(&at);
-    return at.share.end;
+    rho_plots_index(&tracker, &at.look);
 }
 
 static void each_phase_has_its_share_of_work(void **state)
 {
     (void)state;
-    assert_int_equal(work_share_given_to_phase(rho_tracker_begin_phase_with_share_per_track),
-                     WORK_MAX / 4);
+    begin_step_with_plot();
+    rho_work_begin_shares(&at.look, &at.work);
+    assert_int_equal(at.work.share.end, WORK_MAX / 4);
     if (RHO_MAX_ECHOES > 0) {
-        assert_int_equal(work_share_given_to_phase(rho_tracker_predict_clutter_at_plots),
-                         WORK_MAX / 8);
-        assert_int_equal(
-            work_share_given_to_phase(rho_tracker_learn_second_plots_and_end_duplicates),
-            WORK_MAX / 16);
+        begin_step_with_plot();
+        rho_echoes_predict(&tracker, &at.look, &at.work);
+        assert_int_equal(at.work.share.end, WORK_MAX / 8);
+        begin_step_with_plot();
+        rho_second_plots_take_look(&at);
+        assert_int_equal(at.work.share.end, WORK_MAX / 16);
     }
     if (RHO_MAX_REFLECTORS > 0) {
-        assert_int_equal(work_share_given_to_phase(rho_tracker_mark_image_plots_as_ghosts),
-                         WORK_MAX / 16);
-        assert_int_equal(work_share_given_to_phase(rho_tracker_end_image_tracks), WORK_MAX / 16);
+        begin_step_with_plot();
+        rho_images_mark_plots(&at.look, &at.work);
+        assert_int_equal(at.work.share.end, WORK_MAX / 16);
+        begin_step_with_plot();
+        rho_images_end_tracks(&at);
+        assert_int_equal(at.work.share.end, WORK_MAX / 16);
     }
     /* work reserved after the search, with and without images */
     start_step();
     tracker.config.work_max = WORK_MAX;
-    at.initiator = &initiator;
+    at.look.initiator = &initiator;
     initiator.config.work_max = 0;
-    assert_int_equal(rho_tracker_work_left_for_search(&at), WORK_MAX - WORK_MAX / 16);
+    assert_int_equal(rho_work_left_for_search(&at.look, &at.work), WORK_MAX - WORK_MAX / 16);
     if (RHO_MAX_REFLECTORS > 0) {
         tracker.num_reflectors = 1;
-        assert_int_equal(rho_tracker_work_left_for_search(&at), WORK_MAX - WORK_MAX / 8);
+        assert_int_equal(rho_work_left_for_search(&at.look, &at.work), WORK_MAX - WORK_MAX / 8);
     }
 }
 
@@ -497,8 +503,8 @@ static void work_for_excluded_areas_is_counted(void **state)
         add_plot_at(20000.0 + i, 0.0);
     }
     tracker.num_excluded = 3;
-    rho_tracker_mark_excluded_plots_as_ghosts(&at);
-    assert_int_equal(at.work, 16 * 3 / 8);
+    rho_areas_mark_plots(&tracker, &at.look, &at.work);
+    assert_int_equal(at.work.spent, 16 * 3 / 8);
 }
 
 /* The plots of a scan are claimed in four parts at most. */
@@ -511,9 +517,9 @@ static void a_scan_is_claimed_in_four_parts_at_most(void **state)
     for (uint32_t parts = 1; parts < 8; parts++) {
         start_step();
         tracker.config.work_max = WORK_MAX;
-        at.num_inputs = parts * RHO_MAX_PLOTS;
-        rho_tracker_begin_phase_with_share_per_track(&at);
-        assert_int_equal(at.share.end, WORK_MAX / (4 * (parts < 4 ? parts : 4)));
+        at.look.num_inputs = parts * RHO_MAX_PLOTS;
+        rho_work_begin_shares(&at.look, &at.work);
+        assert_int_equal(at.work.share.end, WORK_MAX / (4 * (parts < 4 ? parts : 4)));
     }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * evidence_after_short_lived_tracks: where many tracks end soon after they were confirmed, new ones
+ * early_ends: where many tracks end soon after they were confirmed, new ones
  * need more evidence.
  *
  * The track score compares a target with clutter that is independent from scan to scan. It does not
@@ -66,8 +66,7 @@ static float learned_evidence_lost_per_miss_nat(const struct rho_tracker *tracke
     float hits = PRIOR_HITS, misses = PRIOR_MISSES;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (rho_tracker_has_hits_to_be_established(track) &&
-            track->hits < UINT16_MAX) { /* no saturated counts */
+        if (rho_life_is_established(track) && track->hits < UINT16_MAX) { /* no saturated counts */
             hits += (float)track->hits;
             misses += (float)track->misses;
         }
@@ -81,7 +80,7 @@ static float count_almost_established_tracks(const struct step *step)
     float count = 0.0f;
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         const struct rho_track *track = &step->tracker->tracks[i];
-        count += !rho_tracker_has_hits_to_be_established(track) &&
+        count += !rho_life_is_established(track) &&
                          evidence_of_target(step, track) >= ALMOST_ESTABLISHED_NAT
                      ? 1.0f
                      : 0.0f;
@@ -89,7 +88,7 @@ static float count_almost_established_tracks(const struct step *step)
     return count;
 }
 
-void rho_tracker_fade_track_counts_set_evidence_need(struct step *step)
+void rho_evidence_update(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (!(tracker->ended_early + tracker->established > 0.0f)) {
@@ -101,8 +100,8 @@ void rho_tracker_fade_track_counts_set_evidence_need(struct step *step)
         tracker->established *= kept;
         tracker->straight_s *= kept;
         tracker->turning_s *= kept;
-        rho_tracker_learn_manoeuvre_interval(
-            tracker, &step->look, rho_seconds_between(tracker->counted_us, step->look.time_us));
+        rho_manoeuvres_learn(tracker, &step->look,
+                             rho_seconds_between(tracker->counted_us, step->look.time_us));
         tracker->counted_us = step->look.time_us;
     }
     if (step->look.initiator) {
@@ -125,23 +124,22 @@ void rho_tracker_fade_track_counts_set_evidence_need(struct step *step)
         odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;
 }
 
-int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track)
+int rho_evidence_is_lacking(const struct step *step, const struct rho_track *track)
 {
-    return step->needed_nat > 0.0f && !rho_tracker_has_hits_to_be_established(track) &&
+    return step->needed_nat > 0.0f && !rho_life_is_established(track) &&
            evidence_of_target(step, track) < step->needed_nat;
 }
 
-void rho_tracker_count_if_newly_established(struct rho_tracker *tracker,
-                                            const struct rho_track *track)
+void rho_evidence_count_established(struct rho_tracker *tracker, const struct rho_track *track)
 {
     if (track->hits == RHO_ESTABLISHED_HITS && track->plot >= 0) {
         tracker->established += 1.0f;
     }
 }
 
-void rho_tracker_count_if_ended_early(struct step *step, const struct rho_track *track)
+void rho_evidence_count_ended(struct step *step, const struct rho_track *track)
 {
-    if (!rho_tracker_has_hits_to_be_established(track) && evidence_of_target(step, track) < 0.0f &&
+    if (!rho_life_is_established(track) && evidence_of_target(step, track) < 0.0f &&
         track->score_max_mnat >= step->tracker->confirm_mnat) {
         step->tracker->ended_early += 1.0f;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * coverage_of_tracks_by_scan: the tracks that a scan can see.
+ * coverage: the tracks that a scan can see.
  *
  * A track well outside the field of view is left as it is: it is not predicted, gets no plots and
  * counts no miss. So a sensor's scans change no bit of the estimates of tracks that it cannot see,
@@ -36,8 +36,8 @@ static int is_near_sector(float azimuth_rad, float from_rad, float to_rad, float
 /* Standard deviations of its noise that a plot may lie outside of the sensor's stated coverage. */
 #define PLOT_SIGMAS 4.0f
 
-int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
-                                    uint32_t measures)
+int rho_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
+                            uint32_t measures)
 {
     if (!sensor) {
         return 1;
@@ -54,8 +54,7 @@ int rho_tracker_coverage_holds_plot(const struct rho_sensor *sensor, const struc
     }
     return !(cross_sigma_m < ground_m) ||
            rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad) ||
-           rho_tracker_coverage_holds_bearing(sensor, rho_atan2(dy_m, dx_m),
-                                              cross_sigma_m / ground_m);
+           rho_coverage_holds_bearing(sensor, rho_atan2(dy_m, dx_m), cross_sigma_m / ground_m);
 }
 
 /* True where the scan or the sensor covers a sector instead of the full circle. */
@@ -79,13 +78,12 @@ static int is_near_scan_and_sensor_sectors(const struct rho_look *look, float az
                                       margin_rad));
 }
 
-int rho_tracker_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_rad,
-                                       float margin_rad)
+int rho_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_rad, float margin_rad)
 {
     return is_near_sector(bearing_rad, sensor->sector_from_rad, sensor->sector_to_rad, margin_rad);
 }
 
-int rho_tracker_may_scan_see_track(const struct rho_look *look, const struct rho_track *track)
+int rho_coverage_may_see(const struct rho_look *look, const struct rho_track *track)
 {
     const struct rho_sensor *sensor = look->sensor;
     const float *state = track->kalman.state;
@@ -117,13 +115,13 @@ int rho_tracker_may_scan_see_track(const struct rho_look *look, const struct rho
                                            margin_m / range_m * (0.5f * RHO_PI));
 }
 
-int rho_tracker_is_track_in_view(const struct rho_look *look, unsigned row)
+int rho_look_has_in_view(const struct rho_look *look, unsigned row)
 {
     return (look->in_view[row / 32] >> row % 32 & 1u) != 0;
 }
 
-int rho_tracker_sector_covers_track_place(const struct rho_look *look, float sector_from_rad,
-                                          float sector_to_rad, const struct rho_track *track)
+int rho_coverage_holds_track(const struct rho_look *look, float sector_from_rad,
+                             float sector_to_rad, const struct rho_track *track)
 {
     return rho_measurement_covers(look->sensor, sector_from_rad, sector_to_rad,
                                   track->kalman.state[0], track->kalman.state[1]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * track_evidence_own_shared_clutter: the probabilities that a track's plots of the last scan are
+ * track_evidence: the probabilities that a track's plots of the last scan are
  * its own, are shared with other tracks, or are clutter.
  */
 #include <string.h>
@@ -13,7 +13,7 @@
 
 #define NAT_PER_MNAT 0.001f
 
-void rho_tracker_remove_assignment_row(struct rho_tracker *tracker, unsigned row)
+void rho_score_remove_row(struct rho_tracker *tracker, unsigned row)
 {
     struct rho_assignment *assignment = &tracker->assignment;
     for (unsigned from = row + 1u; from < assignment->num_rows; from++) {

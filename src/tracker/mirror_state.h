@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mirror_state_in_wall: mirror image of a target's state in a wall. Private to src/tracker and
+ * mirror_state: mirror image of a target's state in a wall. Private to src/tracker and
  * src/walls.
  */
-#ifndef RHOTRACK_MIRROR_STATE_IN_WALL_H
-#define RHOTRACK_MIRROR_STATE_IN_WALL_H
+#ifndef RHOTRACK_MIRROR_STATE_H
+#define RHOTRACK_MIRROR_STATE_H
 
 #include "rhotrack/detail/kalman.h"
 #include "rhotrack/reflectors.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * clutter_map_in_step: a step computes the clutter density at each plot from the clutter map, and
+ * echo_clutter: a step computes the clutter density at each plot from the clutter map, and
  * updates the map with the plots.
  *
  *   look   before claims: echoes are predicted to the scan's time, and each adds the density of its
@@ -95,8 +95,7 @@ static float normal_over_uniform_rate(const struct rho_look *look, float off_mps
                         : 0.0f; /* most plots: exp() has underflowed */
 }
 
-float rho_tracker_range_rate_likelihood_ratio(const struct rho_look *look, float off_mps,
-                                              float variance)
+float rho_echoes_rate_ratio(const struct rho_look *look, float off_mps, float variance)
 {
     return 1.0f - RATE_SHARE +
            RATE_SHARE *
@@ -112,7 +111,7 @@ exact_and_other_range_rate_ratios(const struct rho_look *look, const struct rho_
         plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
     return (struct exact_and_other_range_rate_ratios){
         normal_over_uniform_rate(look, off_mps, variance),
-        rho_tracker_range_rate_likelihood_ratio(look, off_mps, variance)};
+        rho_echoes_rate_ratio(look, off_mps, variance)};
 }
 
 /* Learned share of echoes' plots that have exactly the range rate of the echo's own speed. */
@@ -184,12 +183,12 @@ static void add_echo_density_at_plots(struct rho_tracker *tracker, const struct 
     const float sigma_m = look->sigma_max_m;
     const float half_m =
         GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
-    struct plots_near near = rho_tracker_plots_near(tracker, echo->x_m - half_m, echo->x_m + half_m,
-                                                    echo->y_m - half_m, echo->y_m + half_m);
+    struct plots_near near = rho_plots_near(tracker, echo->x_m - half_m, echo->x_m + half_m,
+                                            echo->y_m - half_m, echo->y_m + half_m);
     const uint32_t units =
         ECHO_UNITS + (look->scan->measures & RHO_MEASURES_RANGE_RATE ? RATE_UNITS : 0u);
     uint32_t passed = 0;
-    for (uint32_t i; rho_tracker_next_plot_near(look, &near, &i); passed++) {
+    for (uint32_t i; rho_plots_next(look, &near, &i); passed++) {
         const struct rho_plot *plot = &look->scan->plots[i];
         const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
@@ -201,7 +200,7 @@ static void add_echo_density_at_plots(struct rho_tracker *tracker, const struct 
             probability =
                 rho_clutter_map_return_probability(map, echo->region, echo->hits, echo->unseen);
         }
-        rho_tracker_spend_work(work, units);
+        rho_work_spend(work, units);
         const float density = probability * echo_density_at(look, echo, &view, plot);
         if (!(density > 0.0f)) {
             continue;
@@ -212,7 +211,7 @@ static void add_echo_density_at_plots(struct rho_tracker *tracker, const struct 
             map->best_echo[i] = (uint16_t)place;
         }
     }
-    rho_tracker_spend_work(work, passed / RHO_WORK_PASSED_A_UNIT);
+    rho_work_spend(work, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
 /* Clears the echo's results of the last scan. Returns 1 where the new scan covers the echo. */
@@ -259,12 +258,12 @@ static void predict_echoes_and_add_densities(struct rho_tracker *tracker,
 {
     struct rho_clutter_map *map = &tracker->clutter_map;
     unsigned place = map->first_echo, left_out = 0;
-    rho_tracker_begin_work_phase(tracker, work, RHO_WORK_ECHOES_SHARE);
+    rho_work_begin_phase(tracker, work, RHO_WORK_ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
         if (!clear_echo_results_and_test_coverage(look, &map->echoes[place])) {
             continue;
         }
-        if (rho_tracker_is_phase_work_spent(work)) {
+        if (rho_work_is_spent(work)) {
             map->first_echo = (uint16_t)(left_out == 0 ? place : map->first_echo);
             left_out++;
         } else if (predict_echo_or_drop_if_lost(look, &map->echoes[place], range_max_m)) {
@@ -419,7 +418,7 @@ static void match_echoes_and_take_log_ratios(struct rho_tracker *tracker,
             continue;
         }
         const struct rho_plot *plot = &look->scan->plots[i];
-        const float density = rho_tracker_background_density_at_plot(look, plot);
+        const float density = rho_clutter_background_at(look, plot);
         if (map->best_per_m2[i] > 0.0f) {
             struct rho_echo *echo = &map->echoes[map->best_echo[i]];
             const float weight = map->best_per_m2[i] / (density + map->denser[i]);
@@ -432,8 +431,8 @@ static void match_echoes_and_take_log_ratios(struct rho_tracker *tracker,
     }
 }
 
-void rho_tracker_predict_clutter_at_plots(struct rho_tracker *tracker, const struct rho_look *look,
-                                          struct rho_work *work)
+void rho_echoes_predict(struct rho_tracker *tracker, const struct rho_look *look,
+                        struct rho_work *work)
 {
     struct rho_clutter_map *map = &tracker->clutter_map;
     map->is_looked = look->teaches ? 1 : 0;
@@ -449,7 +448,7 @@ void rho_tracker_predict_clutter_at_plots(struct rho_tracker *tracker, const str
     match_echoes_and_take_log_ratios(tracker, look);
 }
 
-float rho_tracker_log_echo_over_background_density(const struct rho_look *look, uint32_t row)
+float rho_echoes_log_ratio_at(const struct rho_look *look, uint32_t row)
 {
     const struct rho_clutter_map *map = &look->tracker->clutter_map;
     return map->is_looked && look->first_row == 0 ? map->denser[row] : 0.0f;
@@ -457,7 +456,7 @@ float rho_tracker_log_echo_over_background_density(const struct rho_look *look, 
 
 /* ---- keep ------------------------------------------------------------------------------------ */
 
-void rho_tracker_store_echo_ratios_in_window(const struct rho_look *look)
+void rho_echoes_store_ratios(const struct rho_look *look)
 {
     struct rho_window *window = &look->initiator->window;
     const struct rho_clutter_map *map = &look->tracker->clutter_map;
@@ -474,9 +473,8 @@ void rho_tracker_store_echo_ratios_in_window(const struct rho_look *look)
 
 /* ---- plots of targets ------------------------------------------------------------------------ */
 
-void rho_tracker_sum_echo_returns_at_start(const struct rho_look *look,
-                                           const struct rho_candidate *candidate,
-                                           struct rho_track *track)
+void rho_echoes_sum_returns(const struct rho_look *look, const struct rho_candidate *candidate,
+                            struct rho_track *track)
 {
     struct rho_window *window = &look->initiator->window;
     unsigned hits = 0;
@@ -494,7 +492,7 @@ void rho_tracker_sum_echo_returns_at_start(const struct rho_look *look,
     }
 }
 
-void rho_tracker_store_start_place(struct rho_track *track)
+void rho_echoes_store_start(struct rho_track *track)
 {
     track->start_m[0] = track->kalman.state[0];
     track->start_m[1] = track->kalman.state[1];
@@ -673,11 +671,11 @@ static float scan_share_of_turn_of_all_sensors(const struct rho_look *look)
         const float silent_s = rho_seconds_between(pace->time_us, look->time_us);
         sensors += pace->is_heard && silent_s < SILENT_S ? 1.0f : 0.0f;
     }
-    return 1.0f / ((RHO_SECTORS ? rho_tracker_scans_per_turn(look) : 1.0f) *
-                   (sensors > 1.0f ? sensors : 1.0f));
+    return 1.0f /
+           ((RHO_SECTORS ? rho_turn_num_scans(look) : 1.0f) * (sensors > 1.0f ? sensors : 1.0f));
 }
 
-void rho_tracker_update_clutter_map(struct rho_tracker *tracker, const struct rho_look *look)
+void rho_echoes_update(struct rho_tracker *tracker, const struct rho_look *look)
 {
     uint32_t targets[(RHO_MAX_PLOTS + 31) / 32] = {0}, taken[(RHO_MAX_PLOTS + 31) / 32] = {0};
     if (!tracker->clutter_map.is_looked) {
@@ -692,22 +690,22 @@ void rho_tracker_update_clutter_map(struct rho_tracker *tracker, const struct rh
 
 /* ---- the object ------------------------------------------------------------------------------ */
 
-void rho_tracker_init_clutter_map(struct rho_tracker *tracker)
+void rho_echoes_init(struct rho_tracker *tracker)
 {
     rho_clutter_map_init(&tracker->clutter_map, tracker->config.v_min_mps);
 }
 
-int rho_tracker_is_known_moving_target(const struct rho_track *track)
+int rho_echoes_is_moving_target(const struct rho_track *track)
 {
     return track->has_taken_back;
 }
 
-int rho_tracker_has_sound_clutter_map(const struct rho_tracker *tracker)
+int rho_echoes_are_sound(const struct rho_tracker *tracker)
 {
     return rho_clutter_map_is_sound(&tracker->clutter_map);
 }
 
-int rho_tracker_has_sound_echo_returns(const struct rho_track *track)
+int rho_echoes_is_sound_track(const struct rho_track *track)
 {
     return rho_are_finite(track->returns, RHO_ECHO_HIT_CLASSES) &&
            rho_are_finite(track->start_m, 2) && rho_are_finite(&track->start_sigma_m, 1);

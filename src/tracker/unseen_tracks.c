@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * end_unobserved_tracks: ends tracks that no sensor has looked at for too long.
+ * unseen_tracks: ends tracks that no sensor has looked at for too long.
  *
  * A track counts a miss only in a scan that looked at it. A track that left the coverage, or whose
  * radar is switched off, has no misses. It may coast for the time of coast_scans_max scans of the
@@ -69,9 +69,8 @@ static void smooth_scan_interval(struct rho_tracker_pace *pace, float gap_s)
     pace->interval_s += INTERVAL_SMOOTHING * ((gap_s < most_s ? gap_s : most_s) - pace->interval_s);
 }
 
-void rho_tracker_update_scan_interval(struct rho_tracker_pace *pace,
-                                      const struct rho_sensor *sensor, int64_t time_us,
-                                      float sector_from_rad, float sector_to_rad)
+void rho_pace_update(struct rho_tracker_pace *pace, const struct rho_sensor *sensor,
+                     int64_t time_us, float sector_from_rad, float sector_to_rad)
 {
     const float middle_rad = rho_angle_wrap(
         sector_from_rad + 0.5f * rho_angle_sector_width(sector_from_rad, sector_to_rad));
@@ -117,8 +116,7 @@ static int may_sensor_see_place(const struct rho_tracker *tracker, unsigned row,
 /* True of the sensor that saw the track last; with RHO_SECTORS also of the one before it. */
 static int is_among_last_seeing_sensors(const struct rho_track *track, int32_t sensor_id)
 {
-    return track->sensor_id == sensor_id ||
-           (RHO_SECTORS && rho_tracker_is_among_last_two_sensors(track, sensor_id));
+    return track->sensor_id == sensor_id || (RHO_SECTORS && rho_turn_was_seen_by(track, sensor_id));
 }
 
 static struct expected_looks expected_look_interval_and_rate_at_track(const struct rho_look *look,
@@ -186,8 +184,8 @@ static void lower_score_to_tentative(struct rho_track *track, const struct rho_t
     }
 }
 
-int rho_tracker_update_and_test_unobserved(const struct rho_look *look, struct rho_track *track,
-                                           int is_missed, const struct rho_track_limits *limits)
+int rho_unseen_update(const struct rho_look *look, struct rho_track *track, int is_missed,
+                      const struct rho_track_limits *limits)
 {
     if (!look->teaches) {
         if (track->plot >= 0 && look->time_us > track->seen_us) {
@@ -201,8 +199,7 @@ int rho_tracker_update_and_test_unobserved(const struct rho_look *look, struct r
     const int is_overdue =
         wait.interval_s > 0.0f && unseen_s >= (coast + OVERDUE) * wait.interval_s;
     if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
-        (track->plot < 0 ? is_missed
-                         : rho_tracker_expected_clutter_in_gate(look, track) > DOUBTFUL_PLOTS)) {
+        (track->plot < 0 ? is_missed : rho_clutter_in_gate(look, track) > DOUBTFUL_PLOTS)) {
         lower_score_to_tentative(track, limits);
     }
     if (track->plot >= 0) {
@@ -221,9 +218,8 @@ int rho_tracker_update_and_test_unobserved(const struct rho_look *look, struct r
 
 /* ---- places ---------------------------------------------------------------------------------- */
 
-int rho_tracker_is_place_too_uncertain(const struct rho_tracker *tracker,
-                                       const struct rho_track *track)
+int rho_unseen_is_lost(const struct rho_tracker *tracker, const struct rho_track *track)
 {
-    const struct rho_sensor *sensor = rho_tracker_find_sensor(tracker, track->sensor_id);
+    const struct rho_sensor *sensor = rho_sensors_find(tracker, track->sensor_id);
     return sensor && rho_track_sigma_m(track) > UNKNOWN_SHARE * sensor->range_max_m;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * manoeuvre_interval_learning: learns the mean time between manoeuvres of calm targets.
+ * manoeuvre_interval: learns the mean time between manoeuvres of calm targets.
  *
  * The probability that a calm target begins to turn (imm.h) enters the estimate of every straight
  * track at every plot. Where no target turns for hours, it makes covariances too large and
@@ -32,8 +32,7 @@
 /* Longest time between two steps that is counted. */
 #define LOOKED_S 60.0f
 
-void rho_tracker_reset_manoeuvre_interval_after_silence(struct rho_tracker *tracker,
-                                                        int64_t time_us)
+void rho_manoeuvres_reset(struct rho_tracker *tracker, int64_t time_us)
 {
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) &&
         rho_seconds_between(tracker->time_us, time_us) > LOOKED_S) {
@@ -42,15 +41,14 @@ void rho_tracker_reset_manoeuvre_interval_after_silence(struct rho_tracker *trac
     }
 }
 
-void rho_tracker_learn_manoeuvre_interval(struct rho_tracker *tracker, const struct rho_look *look,
-                                          float dt_s)
+void rho_manoeuvres_learn(struct rho_tracker *tracker, const struct rho_look *look, float dt_s)
 {
     if (!RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) || !look->model.hypotheses || dt_s > LOOKED_S) {
         return;
     }
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (rho_tracker_has_hits_to_be_established(track) && track->status == RHO_TRACK_CONFIRMED) {
+        if (rho_life_is_established(track) && track->status == RHO_TRACK_CONFIRMED) {
             *(track->maneuver_probability > SURELY ? &tracker->turning_s : &tracker->straight_s) +=
                 dt_s;
         }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * admit_started_track: adds started tracks to the tracker, where there is room for one: within a
+ * track_starts: adds started tracks to the tracker, where there is room for one: within a
  * step, or between two steps.
  */
 #include <float.h>
@@ -20,9 +20,8 @@ static int16_t row_in_scan_of_window_plot(const struct rho_window_scan *scan, un
     return (int16_t)(row < (int)RHO_WINDOW_ROW ? row : -1);
 }
 
-unsigned rho_tracker_copy_candidate_plots(struct rho_window *window,
-                                          const struct rho_candidate *candidate,
-                                          struct rho_track_plot *plots)
+unsigned rho_step_candidate_plots(struct rho_window *window, const struct rho_candidate *candidate,
+                                  struct rho_track_plot *plots)
 {
     unsigned n = 0;
     for (unsigned m = 0; m < window->num_scans; m++) {
@@ -80,18 +79,18 @@ static int make_room_for_track(struct step *step, int32_t score_mnat)
     if (lowest == RHO_MAX_TRACKS) {
         return 0;
     }
-    rho_tracker_end_track(step, &tracker->tracks[lowest]);
+    rho_life_end(step, &tracker->tracks[lowest]);
     tracker->num_tracks--;
     memmove(&tracker->tracks[lowest], &tracker->tracks[lowest + 1],
             (tracker->num_tracks - lowest) * sizeof tracker->tracks[0]);
     if (RHO_KEEPS_OFFERS) {
-        rho_tracker_remove_assignment_row(tracker, lowest);
+        rho_score_remove_row(tracker, lowest);
     }
     return 1;
 }
 
-int rho_tracker_admit_track(struct step *step, struct rho_track *track,
-                            const struct rho_track_limits *limits)
+int rho_step_admit(struct step *step, struct rho_track *track,
+                   const struct rho_track_limits *limits)
 {
     struct rho_tracker *tracker = step->tracker;
     if (!make_room_for_track(step, track->score_mnat)) {
@@ -99,13 +98,13 @@ int rho_tracker_admit_track(struct step *step, struct rho_track *track,
         return 0;
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_store_start_place(track);
+        rho_echoes_store_start(track);
     }
     if (RHO_SECTORS) {
-        rho_tracker_keep_track_time(track);
+        rho_retrodiction_keep_time(track);
     }
     track->seen_us = step->look.time_us;
-    rho_tracker_apply_thresholds(step, track, limits);
+    rho_life_apply(step, track, limits);
     tracker->tracks[tracker->num_tracks++] = *track;
     tracker->next_track_id = tracker->next_track_id == UINT32_MAX ? 1 : tracker->next_track_id + 1;
     tracker->counters.tracks_started = rho_count(tracker->counters.tracks_started, 1);
@@ -128,8 +127,8 @@ static int are_usable_plots(const struct rho_tracker *tracker, const struct rho_
     return 1;
 }
 
-enum rho_status rho_tracker_reopen_finished_step(struct rho_tracker *tracker,
-                                                 struct rho_report *report, struct step *step)
+enum rho_status rho_step_reopen(struct rho_tracker *tracker, struct rho_report *report,
+                                struct step *step)
 {
     if (!rho_tracker_is_ready(tracker) || !tracker->has_time ||
         report->time_us != tracker->time_us) {
@@ -139,7 +138,7 @@ enum rho_status rho_tracker_reopen_finished_step(struct rho_tracker *tracker,
         .tracker = tracker,
         .report = report,
         .look = {.tracker = tracker, .fates = report->fates, .time_us = tracker->time_us}};
-    rho_tracker_set_motion_model(tracker, &step->look);
+    rho_step_set_model(tracker, &step->look);
     return RHO_OK;
 }
 
@@ -147,13 +146,13 @@ enum rho_status rho_tracker_reopen_finished_step(struct rho_tracker *tracker,
 static enum rho_status resume_step_for_start(struct rho_tracker *tracker, struct rho_report *report,
                                              int32_t score_mnat, struct step *step)
 {
-    const enum rho_status status = rho_tracker_reopen_finished_step(tracker, report, step);
+    const enum rho_status status = rho_step_reopen(tracker, report, step);
     if (status != RHO_OK) {
         return status;
     }
-    rho_tracker_set_log_pd_of_step(&step->look);
+    rho_step_set_pd(&step->look);
     return rho_tracker_is_score_in_range(score_mnat) &&
-                   score_mnat >= rho_tracker_track_limits(&step->look).tentative_mnat
+                   score_mnat >= rho_life_limits(&step->look).tentative_mnat
                ? RHO_OK
                : RHO_ERROR_VALUE;
 }
@@ -176,12 +175,12 @@ static enum rho_status check_room_for_start(const struct step *step, int32_t sco
 
 static enum rho_status admit_track_between_steps(struct step *step, struct rho_track *track)
 {
-    const struct rho_track_limits limits = rho_tracker_track_limits(&step->look);
-    if (!rho_tracker_admit_track(step, track, &limits)) {
+    const struct rho_track_limits limits = rho_life_limits(&step->look);
+    if (!rho_step_admit(step, track, &limits)) {
         return RHO_ERROR_CAPACITY;
     }
     rho_step_merge_estimates(step);
-    rho_tracker_report_tracks(step);
+    rho_step_report_tracks(step);
     return RHO_OK;
 }
 
@@ -215,7 +214,7 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
     if (RHO_SECTORS) {
         const struct rho_tracker_look *health = rho_tracker_look_of(tracker, scan.sensor_id);
         step.look.count = health ? health->count : 0;
-        rho_tracker_record_seeing_sensor(&step.look, &track);
+        rho_turn_note_seen(&step.look, &track);
     }
     return admit_track_between_steps(&step, &track);
 }
@@ -276,7 +275,7 @@ enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
     return status == RHO_OK ? admit_track_between_steps(&step, &track) : status;
 }
 
-void rho_tracker_replace_fates(const struct rho_look *look, enum rho_fate from, enum rho_fate to)
+void rho_step_replace_fates(const struct rho_look *look, enum rho_fate from, enum rho_fate to)
 {
     for (uint32_t i = 0; i < look->num_gated; i++) {
         look->fates[i] = (uint8_t)(look->fates[i] == from ? to : look->fates[i]);

@@ -3,6 +3,9 @@
  * How long an unobserved track is kept: by the scan interval of the sensor that saw it. Limits are
  * tested with a track made by hand, with the private header.
  */
+#include "../../src/tracker/clutter.h"
+#include "../../src/tracker/plots.h"
+#include "../../src/tracker/sensors.h"
 #include "../../src/tracker/step.h"
 #include "tracker_setup.h"
 
@@ -150,8 +153,12 @@ static const struct rho_track_limits limits = {.doubt_mnat = 5000, .fall_mnat = 
 static int does_track_end_after(float sensor_range_max_m, uint8_t misses, double unseen_s)
 {
     struct rho_track *track = make_confirmed_track(sensor_range_max_m, misses);
-    const struct step at = {.tracker = &tracker, .time_us = llround(unseen_s * 1e6)};
-    return rho_tracker_update_and_test_unobserved(&at, track, 0, &limits);
+    const struct step at = {.tracker = &tracker,
+                            .look = {.tracker = &tracker,
+                                     .fates = report.fates,
+                                     .teaches = 1,
+                                     .time_us = llround(unseen_s * 1e6)}};
+    return rho_unseen_update(&at.look, track, 0, &limits);
 }
 
 static void unobserved_tracks_end_at_their_time_limits(void **state)
@@ -177,7 +184,12 @@ static void after_a_long_pause_a_plot_among_clutter_is_doubtful(void **state)
     for (int i = 0; i < 2; i++) {
         struct rho_track *track = make_confirmed_track(20000.0f, 0);
         const struct rho_scan scan = {.sensor_id = 1};
-        const struct step at = {.tracker = &tracker, .scan = &scan, .time_us = 23000000};
+        const struct step at = {.tracker = &tracker,
+                                .look = {.tracker = &tracker,
+                                         .fates = report.fates,
+                                         .teaches = 1,
+                                         .scan = &scan,
+                                         .time_us = 23000000}};
         tracker.unclaimed_plots = 10.0f; /* on an area of 10 by 10 km */
         tracker.extent = (struct rho_extent){0.0f, 10000.0f, 0.0f, 10000.0f};
         for (int axis = 0; axis < 2; axis++) {
@@ -186,7 +198,7 @@ static void after_a_long_pause_a_plot_among_clutter_is_doubtful(void **state)
             track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
         }
         track->plot = 0;
-        assert_false(rho_tracker_update_and_test_unobserved(&at, track, 0, &limits));
+        assert_false(rho_unseen_update(&at.look, track, 0, &limits));
         assert_int_equal(track->score_mnat, i ? -5000 : 0);
         assert_int_equal(track->seen_us, 23000000); /* whichever row the plot has */
     }
@@ -197,9 +209,11 @@ static void an_out_of_sequence_plot_counts_at_its_own_time(void **state)
     (void)state;
     for (int16_t plot = -1; plot < 2; plot++) {
         struct rho_track *track = make_confirmed_track(20000.0f, 0);
-        const struct step at = {.tracker = &tracker, .time_us = 3000000, .is_late = 1};
+        const struct step at = {
+            .tracker = &tracker,
+            .look = {.tracker = &tracker, .fates = report.fates, .time_us = 3000000, .teaches = 0}};
         track->plot = plot;
-        assert_false(rho_tracker_update_and_test_unobserved(&at, track, 0, &limits));
+        assert_false(rho_unseen_update(&at.look, track, 0, &limits));
         assert_int_equal(track->seen_us, plot < 0 ? 0 : 3000000);
     }
 }
@@ -207,14 +221,13 @@ static void an_out_of_sequence_plot_counts_at_its_own_time(void **state)
 static void tracks_as_uncertain_as_the_sensors_range_end(void **state)
 {
     struct rho_track *track = make_confirmed_track(20000.0f, 0);
-    const struct step at = {.tracker = &tracker};
     (void)state;
     for (int i = 0; i < 2; i++) {
         for (int axis = 0; axis < 2; axis++) {
             track->kalman.covariance[RHO_AT(axis, axis)] = i ? 4.04e8f : 3.96e8f;
             track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
         }
-        assert_int_equal(rho_tracker_is_place_too_uncertain(&at, track), i);
+        assert_int_equal(rho_unseen_is_lost(&tracker, track), i);
     }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * blind_looks_in_doppler_notch: tracks in the Doppler notch of a sensor
+ * blind_looks: tracks in the Doppler notch of a sensor
  * (rhotrack/detail/doppler_notch.h).
  *
  * The share of looks that are blind follows from the range rate that a track's estimate expects.
@@ -58,14 +58,14 @@ static uint8_t blind_percent_if_may_coast(const struct rho_look *look,
                                           const struct rho_track *track)
 {
     if (rho_seconds_between(track->updated_us, look->time_us) > BLIND_MAX_S ||
-        rho_tracker_expected_clutter_in_gate(look, track) > BLIND_CLUTTER_MAX) {
+        rho_clutter_in_gate(look, track) > BLIND_CLUTTER_MAX) {
         return 0;
     }
     const float percent = 100.0f * blind_look_probability(look, track);
     return (uint8_t)(percent < BLIND_PERCENT_MOST ? percent : BLIND_PERCENT_MOST);
 }
 
-void rho_tracker_set_notch_blind_percents(struct rho_tracker *tracker, struct rho_look *look)
+void rho_notch_mark_tracks(struct rho_tracker *tracker, struct rho_look *look)
 {
     look->notch_look = (struct rho_notch_look){
         .pd = rho_exp(look->log_pd),
@@ -73,13 +73,13 @@ void rho_tracker_set_notch_blind_percents(struct rho_tracker *tracker, struct rh
     };
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->status != RHO_TRACK_FREE && rho_tracker_is_track_in_view(look, row)) {
+        if (track->status != RHO_TRACK_FREE && rho_look_has_in_view(look, row)) {
             track->blind_percent = blind_percent_if_may_coast(look, track);
         }
     }
 }
 
-void rho_tracker_clear_blind_percents(struct rho_tracker *tracker)
+void rho_notch_clear_tracks(struct rho_tracker *tracker)
 {
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         tracker->tracks[row].blind_percent = 0;
@@ -91,14 +91,13 @@ static int may_target_stand_still_in_notch(const struct rho_look *look,
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float most_mps = RHO_NOTCH_STAND_WIDTHS * look->sensor->notch_mps;
-    return rho_tracker_is_track_mostly_in_notch(track) &&
+    return rho_notch_is_mostly_blind(track) &&
            velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] <=
                most_mps * most_mps;
 }
 
-struct detection rho_tracker_detection_in_notch(const struct rho_look *look,
-                                                const struct rho_track *track,
-                                                struct detection elsewhere)
+struct detection rho_notch_detection(const struct rho_look *look, const struct rho_track *track,
+                                     struct detection elsewhere)
 {
     const float blind = 0.01f * (float)track->blind_percent;
     const float seen = rho_exp(elsewhere.log_pd) * (1.0f - blind);
@@ -107,7 +106,7 @@ struct detection rho_tracker_detection_in_notch(const struct rho_look *look,
                                                                            : rho_log(1.0f - seen)};
 }
 
-void rho_tracker_set_blind_track_coasting(const struct rho_look *look, struct rho_track *track)
+void rho_notch_coast(const struct rho_look *look, struct rho_track *track)
 {
     track->status =
         (uint8_t)rho_track_next_status((enum rho_track_status)track->status, RHO_TRACK_MISS);

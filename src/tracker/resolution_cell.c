@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * resolution_cell_size_learning: the distance at which a sensor no longer resolves two targets and
+ * resolution_cell: the distance at which a sensor no longer resolves two targets and
  * gives one plot; stated, or learned from pairs of near tracks that get one merged plot or two
  * plots.
  *
@@ -55,9 +55,8 @@ static float stated_cell_m(const struct rho_sensor *sensor, const struct rho_plo
                      : sensor->resolution_azimuth_rad * rho_sqrt(x_m * x_m + y_m * y_m);
 }
 
-void rho_tracker_unresolved_variances_at_plot(const struct rho_look *look,
-                                              const struct rho_plot *plot,
-                                              const struct rho_measurement *seen, float near_m2[2])
+void rho_cell_variances_at(const struct rho_look *look, const struct rho_plot *plot,
+                           const struct rho_measurement *seen, float near_m2[2])
 {
     for (int axis = 0; axis < 2; axis++) {
         if (is_cell_stated(look->sensor, axis)) {
@@ -70,13 +69,13 @@ void rho_tracker_unresolved_variances_at_plot(const struct rho_look *look,
     }
 }
 
-float rho_tracker_unresolved_range_rate_variance(const struct rho_sensor *sensor)
+float rho_cell_rate_variance(const struct rho_sensor *sensor)
 {
     const float cell_mps = sensor ? sensor->resolution_range_rate_mps : 0.0f;
     return NEAR_OF_CELL * cell_mps * cell_mps;
 }
 
-int rho_tracker_has_usable_resolution_cell(const struct rho_sensor *sensor)
+int rho_cell_is_usable(const struct rho_sensor *sensor)
 {
     return rho_is_within(sensor->resolution_range_m, 0.0f, RHO_LIMIT_POSITION_M) &&
            rho_is_within(sensor->resolution_azimuth_rad, 0.0f, 7.0f) &&
@@ -85,7 +84,7 @@ int rho_tracker_has_usable_resolution_cell(const struct rho_sensor *sensor)
 
 /* ---- what pairs say -------------------------------------------------------------------------- */
 
-void rho_tracker_learn_resolution_cell(const struct rho_look *look, const struct apart *apart)
+void rho_cell_learn(const struct rho_look *look, const struct apart *apart)
 {
     struct rho_tracker_learned *learned = look->learned;
     float of_one[2], of_two[2], distance = 0.0f;
@@ -112,7 +111,7 @@ void rho_tracker_learn_resolution_cell(const struct rho_look *look, const struct
     }
 }
 
-float rho_tracker_learned_cell_sigmas(const struct rho_tracker_learned *learned, int axis)
+float rho_cell_learned_sigmas(const struct rho_tracker_learned *learned, int axis)
 {
     /* cell = sqrt(n / NEAR_OF_CELL) with n = e^l (2 sigma)^2 */
     return learned->cell_weight[axis] >= WEIGHT_FIRST
@@ -120,7 +119,7 @@ float rho_tracker_learned_cell_sigmas(const struct rho_tracker_learned *learned,
                : 0.0f;
 }
 
-int rho_tracker_is_sound_learned_cell(const struct rho_tracker_learned *learned)
+int rho_cell_is_sound(const struct rho_tracker_learned *learned)
 {
     for (int axis = 0; axis < 2; axis++) {
         if (!rho_is_within(learned->log_cell[axis], -LOG_MAX, LOG_MAX) ||

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * confirm_and_end_track: the end of a track, and the thresholds that confirm and end tracks.
+ * track_life: the end of a track, and the thresholds that confirm and end tracks.
  */
 #include "clutter.h"
 #include "plots.h"
@@ -26,7 +26,7 @@
 #define HIDE_SHARE 2.4f
 #define HIDE_CLUTTER_MAX 3.0f
 
-void rho_tracker_end_track(struct step *step, struct rho_track *track)
+void rho_life_end(struct step *step, struct rho_track *track)
 {
     struct rho_report *report = step->report;
     if (track->was_confirmed) {
@@ -37,7 +37,7 @@ void rho_tracker_end_track(struct step *step, struct rho_track *track)
     step->tracker->counters.tracks_ended = rho_count(step->tracker->counters.tracks_ended, 1);
 }
 
-void rho_tracker_remove_ended_tracks(struct rho_tracker *tracker)
+void rho_life_remove_ended(struct rho_tracker *tracker)
 {
     unsigned live = 0;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -68,16 +68,16 @@ static float largest_miss_loss_of_sensors(const struct rho_look *look)
     return loss;
 }
 
-struct rho_track_limits rho_tracker_track_limits(const struct rho_look *look)
+struct rho_track_limits rho_life_limits(const struct rho_look *look)
 {
     const struct rho_tracker *tracker = look->tracker;
     struct rho_track_limits limits = {
         .confirm_mnat = tracker->confirm_mnat,
         .doubt_mnat = LIFETIME_MNAT * (int32_t)tracker->looks_max,
         .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
-        .fall_mnat = rho_tracker_nat_to_mnat(largest_miss_loss_of_sensors(look) *
-                                             (float)tracker->config.coast_scans_max *
-                                             (float)tracker->looks_max),
+        .fall_mnat =
+            rho_score_to_mnat(largest_miss_loss_of_sensors(look) *
+                              (float)tracker->config.coast_scans_max * (float)tracker->looks_max),
         .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
     };
     return limits;
@@ -85,9 +85,9 @@ struct rho_track_limits rho_tracker_track_limits(const struct rho_look *look)
 
 static int may_be_hidden_target(const struct rho_look *look, const struct rho_track *track)
 {
-    return rho_tracker_has_hits_to_be_established(track) &&
-           (RHO_MAX_ECHOES == 0 || rho_tracker_is_known_moving_target(track)) &&
-           rho_tracker_expected_clutter_in_gate(look, track) <= HIDE_CLUTTER_MAX;
+    return rho_life_is_established(track) &&
+           (RHO_MAX_ECHOES == 0 || rho_echoes_is_moving_target(track)) &&
+           rho_clutter_in_gate(look, track) <= HIDE_CLUTTER_MAX;
 }
 
 /*
@@ -104,8 +104,8 @@ static void keep_hidden_target_longer(struct rho_track *track, struct rho_track_
     track->score_mnat = track->score_mnat > least_mnat ? track->score_mnat : least_mnat;
 }
 
-void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
-                                  const struct rho_track_limits *limits)
+void rho_life_apply(struct step *step, struct rho_track *track,
+                    const struct rho_track_limits *limits)
 {
     const uint8_t was_confirmed = track->was_confirmed;
     const int is_low = track->score_max_mnat - track->score_mnat > 2 * limits->doubt_mnat;
@@ -114,13 +114,13 @@ void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
     if ((is_low || is_missed_out) && may_be_hidden_target(&step->look, track)) {
         keep_hidden_target_longer(track, &own);
     }
-    if (is_missed_out || rho_tracker_lacks_evidence(step, track)) {
+    if (is_missed_out || rho_evidence_is_lacking(step, track)) {
         own.doubt_mnat = 0;
     }
-    rho_tracker_count_if_newly_established(step->tracker, track);
+    rho_evidence_count_established(step->tracker, track);
     if (rho_track_apply_thresholds(track, &own) == RHO_TRACK_FREE) {
-        rho_tracker_count_if_ended_early(step, track);
-        rho_tracker_end_track(step, track);
+        rho_evidence_count_ended(step, track);
+        rho_life_end(step, track);
     } else if (track->was_confirmed != was_confirmed) {
         step->tracker->counters.tracks_confirmed =
             rho_count(step->tracker->counters.tracks_confirmed, 1);

@@ -3,6 +3,9 @@
  * Where tracks often end early, a new one needs more evidence to be confirmed. Figures are tested
  * with tracks made by hand, with the private header.
  */
+#include "../../src/tracker/clutter.h"
+#include "../../src/tracker/plots.h"
+#include "../../src/tracker/sensors.h"
 #include "../../src/tracker/step.h"
 #include "tracker_setup.h"
 
@@ -143,12 +146,17 @@ static void make_track(unsigned row, uint16_t hits, uint16_t misses)
 }
 
 /*
- * Formula at the head of evidence_after_short_lived_tracks.c, for tracks seen in 0.3 of a target's
+ * Formula at the head of early_ends.c, for tracks seen in 0.3 of a target's
  * looks, one in ten of all.
  */
 static void the_evidence_needed_equals_its_formula(void **state)
 {
-    struct step at = {.tracker = &tracker};
+    struct step at = {.tracker = &tracker,
+                      .look = {
+                          .tracker = &tracker,
+                          .fates = report.fates,
+                          .teaches = 1,
+                      }};
     const double hit_nat = log(1.0 / 0.3), wanted = 3.0 * 1600.0 / 3600.0;
     (void)state;
     use_usual_configs(1);
@@ -161,8 +169,8 @@ static void the_evidence_needed_equals_its_formula(void **state)
     tracker.ended_early = 20.0f;
     tracker.established = 4.0f;
     tracker.counted_us = 0;
-    at.time_us = 400000000;
-    rho_tracker_fade_track_counts_set_evidence_need(&at);
+    at.look.time_us = 400000000;
+    rho_evidence_update(&at);
     const double kept = exp(-400.0 / 1600.0), ended = 20.0 * kept, established = 4.0 * kept;
     const double pd = (9.0 + 100.0 + 16.0) / (10.0 + 120.0 + 21.0);
     expect_close((double)tracker.ended_early, ended);
@@ -179,15 +187,14 @@ static void the_evidence_needed_equals_its_formula(void **state)
     const double needed = (double)at.needed_nat;
     const uint16_t hits = (uint16_t)ceil(needed / hit_nat);
     make_track(3, hits, 0);
-    assert_false(rho_tracker_lacks_evidence(&at, &tracker.tracks[3]));
+    assert_false(rho_evidence_is_lacking(&at, &tracker.tracks[3]));
     make_track(3, (uint16_t)(hits - 1), 0);
-    assert_true(rho_tracker_lacks_evidence(&at, &tracker.tracks[3]));
+    assert_true(rho_evidence_is_lacking(&at, &tracker.tracks[3]));
 }
 
 /* Established with its sixteenth plot, whichever row of the scan it has. */
 static void a_track_is_established_with_its_sixteenth_plot(void **state)
 {
-    struct step at = {.tracker = &tracker};
     (void)state;
     use_usual_configs(1);
     begin_tracker();
@@ -196,7 +203,7 @@ static void a_track_is_established_with_its_sixteenth_plot(void **state)
             tracker.established = 0.0f;
             make_track(0, hits, 0);
             tracker.tracks[0].plot = plot;
-            rho_tracker_count_if_newly_established(&at, &tracker.tracks[0]);
+            rho_evidence_count_established(&tracker, &tracker.tracks[0]);
             assert_true(tracker.established == (hits == 16 && plot >= 0 ? 1.0f : 0.0f));
         }
     }

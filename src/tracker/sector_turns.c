@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * one_look_per_turn_across_sectors: a radar that is stepped sector by sector sees each target once
+ * sector_turns: a radar that is stepped sector by sector sees each target once
  * a turn, also one at the edge of two sectors.
  *
  *      previous sector  |  this sector          the antenna turns this way ->
@@ -34,7 +34,7 @@ static void forget_sensor_in_tracks(struct rho_tracker *tracker, int32_t sensor_
     }
 }
 
-void rho_tracker_record_look_and_antenna_turning(struct rho_tracker *tracker, struct rho_look *look)
+void rho_turn_note_look(struct rho_tracker *tracker, struct rho_look *look)
 {
     const struct rho_scan *scan = look->scan;
     struct rho_tracker_look *health = look->row ? &look->row->look : 0;
@@ -63,7 +63,7 @@ void rho_tracker_record_look_and_antenna_turning(struct rho_tracker *tracker, st
  * Takes the lowest start threshold and the highest confirm threshold of all sensors' initiators:
  * the tracks of one radar are tested at the scans of another radar, too.
  */
-void rho_tracker_merge_sensor_thresholds(struct rho_tracker *tracker, const struct rho_look *look)
+void rho_turn_merge_thresholds(struct rho_tracker *tracker, const struct rho_look *look)
 {
     if (look->row) {
         look->row->look.start_mnat = look->initiator->start_mnat;
@@ -88,7 +88,7 @@ static int is_turning_direction_known(const struct rho_look *look)
     return look->turning > 0.0f || look->turning < 0.0f;
 }
 
-int rho_tracker_was_seen_in_last_sector(const struct rho_look *look, const struct rho_track *track)
+int rho_turn_saw_before(const struct rho_look *look, const struct rho_track *track)
 {
     if (!is_turning_direction_known(look)) {
         return 0;
@@ -99,7 +99,7 @@ int rho_tracker_was_seen_in_last_sector(const struct rho_look *look, const struc
             (track->look_sensor_id[1] == sensor_id && track->look[1] == before));
 }
 
-void rho_tracker_record_seeing_sensor(const struct rho_look *look, struct rho_track *track)
+void rho_turn_note_seen(const struct rho_look *look, struct rho_track *track)
 {
     if (track->plot < 0 || look->is_late) {
         return;
@@ -137,7 +137,7 @@ static int is_scan_less_than_full_turn(const struct rho_scan *scan)
     return rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad) < RHO_TWO_PI;
 }
 
-int rho_tracker_has_antenna_passed_gate(const struct rho_look *look, const struct rho_track *track)
+int rho_turn_has_passed(const struct rho_look *look, const struct rho_track *track)
 {
     const struct rho_scan *scan = look->scan;
     if (is_turning_direction_known(look)) {
@@ -152,7 +152,7 @@ int rho_tracker_has_antenna_passed_gate(const struct rho_look *look, const struc
                                   track->kalman.state[0], track->kalman.state[1]);
 }
 
-float rho_tracker_scans_per_turn(const struct rho_look *look)
+float rho_turn_num_scans(const struct rho_look *look)
 {
     return is_turning_direction_known(look)
                ? RHO_TWO_PI /
@@ -160,7 +160,7 @@ float rho_tracker_scans_per_turn(const struct rho_look *look)
                : 1.0f;
 }
 
-int rho_tracker_is_among_last_two_sensors(const struct rho_track *track, int32_t sensor_id)
+int rho_turn_was_seen_by(const struct rho_track *track, int32_t sensor_id)
 {
     return (track->look[0] > 0 && track->look_sensor_id[0] == sensor_id) ||
            (track->look[1] > 0 && track->look_sensor_id[1] == sensor_id);
@@ -168,7 +168,7 @@ int rho_tracker_is_among_last_two_sensors(const struct rho_track *track, int32_t
 
 /* ---- snapshots ------------------------------------------------------------------------------- */
 
-int rho_tracker_is_sound_look(const struct rho_tracker_look *health)
+int rho_turn_is_sound(const struct rho_tracker_look *health)
 {
     return rho_angle_are_sector_ends_valid(health->sector_from_rad, health->sector_to_rad) &&
            rho_is_stored_time(health->time_us) &&

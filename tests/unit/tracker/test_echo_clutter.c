@@ -4,6 +4,9 @@
  * at a plot, compared with the formulas in double precision, at both sides of each limit. Echoes
  * are made by hand, with the private header, as those of a scene never stand exactly at a limit.
  */
+#include "../../src/tracker/clutter.h"
+#include "../../src/tracker/plots.h"
+#include "../../src/tracker/sensors.h"
 #include "../../src/tracker/step.h"
 #include "tracker_setup.h"
 
@@ -34,22 +37,25 @@ static void begin_step_with_plots(void)
     tracker.num_rows = 1;
     tracker.sensors[0].sensor.sensor_id = 1;
     at = (struct step){.tracker = &tracker,
-                       .row = tracker.sensors,
-                       .time_us = 4000000,
-                       .scan = &scan,
                        .report = &report,
-                       .sensor = &radar,
-                       .num_inputs = num_plots,
-                       .num_gated = num_plots,
-                       .sigma_max_m = 10.0f,
-                       .range_rates_mps = 700.0f};
+                       .look = {.tracker = &tracker,
+                                .fates = report.fates,
+                                .teaches = 1,
+                                .row = tracker.sensors,
+                                .time_us = 4000000,
+                                .scan = &scan,
+                                .sensor = &radar,
+                                .num_inputs = num_plots,
+                                .num_gated = num_plots,
+                                .sigma_max_m = 10.0f,
+                                .range_rates_mps = 700.0f}};
     for (uint32_t i = 0; i < num_plots; i++) {
         report.fates[i] = RHO_FATE_HELD;
     }
     tracker.unclaimed_plots = 100.0f; /* on an area of 100 by 100 km */
     tracker.extent = (struct rho_extent){-50000.0f, 50000.0f, -50000.0f, 50000.0f};
-    rho_tracker_index_plots(&at);
-    rho_tracker_predict_clutter_at_plots(&at);
+    rho_plots_index(&tracker, &at.look);
+    rho_echoes_predict(&tracker, &at.look, &at.work);
 }
 
 static const double usual_per_m2 = 100.0 / 1e10;
@@ -117,14 +123,14 @@ static void work_for_echoes_is_counted(void **state)
 {
     (void)state;
     (void)density_of_echo_at(1.0, 0.0);
-    assert_int_equal(at.work, 4);
+    assert_int_equal(at.work.spent, 4);
     (void)density_of_echo_at(6.5, 0.0);
-    assert_int_equal(at.work, 0);
+    assert_int_equal(at.work.spent, 0);
     start_tracker(RHO_MEASURES_RANGE_RATE);
     make_known_echo();
     add_plot(20000.0, 0.0, 10.0)->sigma_range_rate_mps = 1.0f;
     begin_step_with_plots();
-    assert_int_equal(at.work, 10);
+    assert_int_equal(at.work.spent, 10);
 }
 
 /* Density of a normal range rate over the uniform one. */
@@ -190,7 +196,7 @@ static void an_echo_takes_a_plot_of_weight_above_0_3(void **state)
             assert_int_equal(echo->plot, row);
             assert_true(echo->weight > 0.0f);
             echo->weight = i ? 0.31f : 0.29f;
-            rho_tracker_update_clutter_map(&at);
+            rho_echoes_update(&tracker, &at.look);
             assert_int_equal(echo->hits, 20 + i);
             assert_int_equal(clutter_map()->echoes[1].hits, row == 1 || i == 0);
         }
@@ -209,7 +215,7 @@ static void range_rate_sums_of_the_clutter_map_are_halved_at_1000(void **state)
         begin_step_with_plots();
         clutter_map()->echoes[0].weight = 0.9f;
         clutter_map()->rate_plots = before[i];
-        rho_tracker_update_clutter_map(&at);
+        rho_echoes_update(&tracker, &at.look);
         assert_true(clutter_map()->rate_plots == after[i]);
     }
 }
@@ -223,13 +229,14 @@ static void sensors_silent_for_a_minute_do_not_count(void **state)
     for (int i = 0; i < 2; i++) {
         start_tracker(0);
         begin_step_with_plots();
-        at.time_us = 100000000;
+        at.look.time_us = 100000000;
         tracker.num_rows = 2;
-        tracker.sensors[0].pace = (struct rho_tracker_pace){.is_heard = 1, .time_us = at.time_us};
+        tracker.sensors[0].pace =
+            (struct rho_tracker_pace){.is_heard = 1, .time_us = at.look.time_us};
         tracker.sensors[1].pace.is_heard = 1;
-        tracker.sensors[1].pace.time_us = at.time_us - (i ? 61000000 : 59000000);
+        tracker.sensors[1].pace.time_us = at.look.time_us - (i ? 61000000 : 59000000);
         const float before = clutter_map()->scans_to_blocks;
-        rho_tracker_update_clutter_map(&at);
+        rho_echoes_update(&tracker, &at.look);
         assert_float_equal(before - clutter_map()->scans_to_blocks, i ? 1.0 : 0.5, 1e-6);
     }
 }
@@ -257,8 +264,8 @@ static int do_twelve_hits_make_a_target(uint16_t hits, float v_min_mps, float mo
         track->kalman.covariance[RHO_AT(axis, axis)] = 25.0f;
         track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
     }
-    rho_tracker_update_clutter_map(&at);
-    return rho_tracker_is_known_moving_target(track);
+    rho_echoes_update(&tracker, &at.look);
+    return rho_echoes_is_moving_target(track);
 }
 
 static void tracks_of_12_hits_that_moved_are_known_moving_targets(void **state)

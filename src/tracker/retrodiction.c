@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * out_of_sequence_by_retrodiction: scans that are older than the newest one by late_max_s at most.
+ * retrodiction: scans that are older than the newest one by late_max_s at most.
  * Tracks are moved back to the scan's time without process noise, claim its plots, and return to
  * the newest time at the end of the step.
  */
@@ -11,17 +11,17 @@
 
 #define LATE_LIMIT_S 60.0f
 
-void rho_tracker_set_late_max_default(struct rho_tracker_config *config)
+void rho_retrodiction_default(struct rho_tracker_config *config)
 {
     config->late_max_s = 20.0f;
 }
 
-int rho_tracker_is_late_max_usable(const struct rho_tracker_config *config)
+int rho_retrodiction_is_usable(const struct rho_tracker_config *config)
 {
     return rho_is_within(config->late_max_s, 0.0f, LATE_LIMIT_S);
 }
 
-int rho_tracker_accepts_late_scan(const struct rho_look *look)
+int rho_retrodiction_accepts(const struct rho_look *look)
 {
     const struct rho_tracker *tracker = look->tracker;
     const struct rho_tracker_look *health =
@@ -31,12 +31,12 @@ int rho_tracker_accepts_late_scan(const struct rho_look *look)
            rho_seconds_between(look->time_us, tracker->time_us) <= tracker->config.late_max_s;
 }
 
-void rho_tracker_keep_track_time(struct rho_track *track)
+void rho_retrodiction_keep_time(struct rho_track *track)
 {
     track->ahead_us = track->time_us;
 }
 
-int rho_tracker_is_sound_stored_track_time(const struct rho_track *track)
+int rho_retrodiction_is_sound(const struct rho_track *track)
 {
     return rho_is_stored_time(track->ahead_us);
 }
@@ -55,13 +55,13 @@ static int return_track_to_newest_time(const struct rho_look *look, struct rho_t
                                                                 &look->model) != RHO_OK) {
         return 0;
     }
-    if (!rho_tracker_is_track_frozen(track)) {
+    if (!rho_track_is_frozen(track)) {
         rho_track_merge_estimates(track, track->time_us, &look->model);
     }
     return 1;
 }
 
-int rho_tracker_return_to_newest_time(struct step *step)
+int rho_retrodiction_return(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (!step->look.is_late) {
@@ -70,10 +70,10 @@ int rho_tracker_return_to_newest_time(struct step *step)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         if (!return_track_to_newest_time(&step->look, &tracker->tracks[i])) {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
-            rho_tracker_end_track(step, &tracker->tracks[i]);
+            rho_life_end(step, &tracker->tracks[i]);
         }
     }
-    rho_tracker_remove_ended_tracks(tracker);
+    rho_life_remove_ended(tracker);
     step->look.time_us = tracker->time_us;
     step->report->time_us = step->look.time_us;
     return 1;
