@@ -21,7 +21,7 @@ void rho_step_begin_frame(struct step *step)
     if (looks > tracker->looks_max) {
         tracker->looks_max = (uint16_t)looks;
     }
-    rho_step_set_pd(&step->look); /* default pd: no sensor's look is open yet */
+    rho_look_set_pd(&step->look); /* default pd: no sensor's look is open yet */
     memset(step->look.fates, RHO_FATE_NO_ROOM, step->look.num_gated);
 }
 
@@ -86,7 +86,7 @@ void rho_step_open_bearings(struct step *step, const struct rho_bearing_scan *sc
     look->log_false_bearings = log_false_bearing_density(step, scan);
     look->num_gated = num_bearings_with_room_in_fates(look, scan, first);
     look->fates = step->report->fates + (first < RHO_MAX_PLOTS ? first : 0);
-    rho_step_set_pd(look);
+    rho_look_set_pd(look);
 }
 
 void rho_step_validate_bearings(struct rho_tracker *tracker, const struct rho_look *look)

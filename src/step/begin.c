@@ -23,13 +23,6 @@ int rho_step_is_usable_time(int64_t time_us)
     return time_us <= RHO_LIMIT_TIME_US && time_us >= -RHO_LIMIT_TIME_US;
 }
 
-void rho_step_set_pd(struct rho_look *look)
-{
-    float pd = look->sensor ? look->sensor->pd : look->tracker->config.pd;
-    look->log_pd = rho_log(pd);
-    look->log_miss = rho_log(1.0f - pd);
-}
-
 void rho_step_set_model(struct rho_tracker *tracker, struct rho_look *look)
 {
     float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
@@ -53,7 +46,7 @@ static void open_sensor(struct rho_tracker *tracker, struct rho_look *look)
         look->sensor = &look->row->sensor;
         look->learned = &look->row->learned;
     }
-    rho_step_set_pd(look);
+    rho_look_set_pd(look);
     if (RHO_SECTORS) {
         rho_turn_note_look(tracker, look);
     }

@@ -19,8 +19,6 @@
 int rho_step_begin(struct step *step);
 /* Sets the step's motion model, the filter of new tracks, and the volumes of clutter densities. */
 void rho_step_set_model(struct rho_tracker *tracker, struct rho_look *look);
-/* Sets log_pd and log_miss by the look's sensor, or by the tracker's default pd. */
-void rho_step_set_pd(struct rho_look *look);
 int rho_step_is_usable_time(int64_t time_us);
 /* True where a time is before that of the tracker's newest step. */
 int rho_step_is_late(const struct rho_tracker *tracker, int64_t time_us);

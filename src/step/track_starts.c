@@ -150,7 +150,7 @@ static enum rho_status resume_step_for_start(struct rho_tracker *tracker, struct
     if (status != RHO_OK) {
         return status;
     }
-    rho_step_set_pd(&step->look);
+    rho_look_set_pd(&step->look);
     return rho_tracker_is_score_in_range(score_mnat) &&
                    score_mnat >= rho_life_limits(&step->look).tentative_mnat
                ? RHO_OK

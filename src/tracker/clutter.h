@@ -8,6 +8,11 @@
 
 #include "look.h"
 
+/* clutter.c: opens the look's clutter, before claims */
+void rho_clutter_open(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
+/* ln of the density of clutter at a plot of the look, from that of the background there. */
+float rho_clutter_log_at_plot(const struct rho_look *look, float log_background, uint32_t row);
+
 /* expected_clutter.c: density of clutter plots at a place, without echoes and strobes, 1/m^2 */
 float rho_clutter_background(const struct rho_look *look, float x_m, float y_m);
 /* Density of clutter at a plot's place, without echoes and strobes, 1/m^2; above 0. */
@@ -16,8 +21,8 @@ float rho_clutter_background_at(const struct rho_look *look, const struct rho_pl
 float rho_clutter_log_at_track(const struct rho_look *look, const struct rho_track *track);
 /* Clutter plots expected within three standard deviations of the track's place; 0 in a frame. */
 float rho_clutter_in_gate(const struct rho_look *look, const struct rho_track *track);
-/* Opens the look's clutter, before claims: echoes at its plots, or the density of a later part. */
-void rho_clutter_open(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work);
+/* Measures the clutter density of a later part of the scan, from its held plots. */
+void rho_clutter_measure_part(struct rho_look *look);
 /* Smooths the number of unclaimed plots, after new tracks have started. */
 void rho_clutter_count_unclaimed(struct rho_tracker *tracker, const struct rho_look *look);
 /* Moves a mean of ten scans by a tenth of its difference to the newest value. */

@@ -71,7 +71,7 @@ float rho_clutter_in_gate(const struct rho_look *look, const struct rho_track *t
  * a later part is that of its held plots over their extent, or that of the first part times the
  * scan's plots over RHO_MAX_PLOTS, whichever is larger.
  */
-static void measure_density_of_part(struct rho_look *look)
+void rho_clutter_measure_part(struct rho_look *look)
 {
     struct rho_extent extent = {0.0f, 0.0f, 0.0f, 0.0f};
     float num = 0.0f;
@@ -87,15 +87,6 @@ static void measure_density_of_part(struct rho_look *look)
     }
     look->part_per_m2 = num / rho_extent_area_m2(&extent, RHO_CLUTTER_SIDE_MIN_M);
     look->part_share = (float)look->num_inputs / (float)RHO_MAX_PLOTS;
-}
-
-void rho_clutter_open(struct rho_tracker *tracker, struct rho_look *look, struct rho_work *work)
-{
-    if (RHO_CLAIMS_BEYOND && look->first_row > 0) {
-        measure_density_of_part(look);
-    } else if (RHO_MAX_ECHOES > 0) {
-        rho_echoes_predict(tracker, look, work);
-    }
 }
 
 void rho_clutter_smooth_mean(float *mean, float newest)

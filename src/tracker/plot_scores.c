@@ -78,16 +78,11 @@ static float log_likelihood_ratio(const struct rho_look *look, const struct rho_
     return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - log_density;
 }
 
-static float log_echo_density_ratio(const struct rho_look *look, uint32_t plot_row)
-{
-    return RHO_MAX_ECHOES > 0 ? rho_echoes_log_ratio_at(look, plot_row) : 0.0f;
-}
-
 float rho_score_plot(const struct rho_look *look, const struct rho_track *track,
                      const struct rho_gate_result *result, float log_density, uint32_t row)
 {
     return rho_look_detection(look, track).log_pd +
-           log_likelihood_ratio(look, result, log_density + log_echo_density_ratio(look, row));
+           log_likelihood_ratio(look, result, rho_clutter_log_at_plot(look, log_density, row));
 }
 
 float rho_score_log_miss(const struct rho_look *look, const struct rho_track *track)
@@ -191,7 +186,7 @@ int rho_score_next(struct rho_tracker *tracker, const struct rho_look *look, str
         }
         rho_imm_prepare_plot(&seen, at, look->scan->measures, look->sensor);
         struct rho_hypotheses_clutter clutter = scores->clutter;
-        clutter.log_per_m2 += log_echo_density_ratio(look, *plot);
+        clutter.log_per_m2 = rho_clutter_log_at_plot(look, clutter.log_per_m2, *plot);
         if (rho_hypotheses_score_plot(&tracker->hypotheses, track->slot, &seen,
                                       look->time_us + at->offset_us, (int16_t)*plot, scores->log_pd,
                                       &clutter, gain_nat)) {

@@ -55,50 +55,13 @@ enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
 #define AS_STATED 0.25f
 #define CHANCE 4.0f
 
-/* Prior weights in looks: of the stated pd for all rings; of the pd of all rings for one ring. */
-#define PRIOR_OF_ALL 30.0f
-#define PRIOR_OF_RING 20.0f
 /* Looks at a ring of range at which its looks and hits are halved. */
 #define LOOKS_MAX 1000
 /* Largest share of blind looks, per cent, at which a look teaches the pd of a ring. */
 #define BLIND_PERCENT_MAX 2
-/*
- * Standard deviations by which the learned pd must be below the stated one to be used, and by which
- * it is then raised.
- */
-#define SURELY 2.5f
-#define CAUTION 1.0f
-
-/*
- * A learned notch: the pd in its intervals of range rates is below BLIND_SHARE of the pd at faster
- * ones, by BLIND_SURELY standard deviations, and in its fastest interval below BLIND_LAST_SHARE;
- * with at least BLIND_LOOKS looks in it and FASTER_LOOKS above. A notch in use loses its fastest
- * interval where the pd there is above BLIND_USED_SHARE, after BLIND_USED_LOOKS looks: all misses
- * count then, as tracks coast in the notch instead of ending.
- */
-#define BLIND_SHARE 0.65f
-#define BLIND_LAST_SHARE 0.85f
-#define BLIND_USED_SHARE 0.6f
-#define BLIND_USED_LOOKS 40.0f
-#define BLIND_SURELY 4.0f
-#define BLIND_LOOKS 20.0f
-#define FASTER_LOOKS 60.0f
-#define RATE_MIN2 0.0625f   /* square of the upper limit of the first interval, m^2/s^2 */
-#define FLOAT_EXPONENT 127u /* biased exponent in the bits of 1.0f */
-#define RATE_LOOKS_MAX 250  /* looks in an interval at which its looks and hits are halved */
-#define LOOKS_A_NOTCH 8u    /* looks in an interval from one search for a notch to the next */
-#define RATES_LEAST 4u      /* fewest intervals of a notch: targets that stop look like fewer */
-#define FORGOTTEN_MAX 3u    /* false notches after which no notch is learned any more */
-
-/* Sensors are learned with hypotheses alone: one Kalman filter takes manoeuvres for noise. */
-static int is_sensor_learning_on(const struct rho_tracker_config *config)
-{
-    return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST;
-}
-
 static int is_noise_learning_on(const struct rho_tracker_config *config)
 {
-    return is_sensor_learning_on(config) &&
+    return rho_learning_is_on(config) &&
            (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
 }
 
@@ -259,236 +222,14 @@ static void learn_noise_from_plot(const struct rho_look *look, struct rho_track 
 
 /* ---- pd -------------------------------------------------------------------------------------- */
 
-static unsigned range_ring_of_track(const struct rho_sensor *sensor, const struct rho_track *track)
-{
-    const float dx_m = track->kalman.state[0] - sensor->x_m;
-    const float dy_m = track->kalman.state[1] - sensor->y_m;
-    const float share = rho_sqrt(dx_m * dx_m + dy_m * dy_m) / sensor->range_max_m;
-    return share < 1.0f ? (unsigned)(share * (float)RHO_LEARN_RINGS) : RHO_LEARN_RINGS - 1u;
-}
-
-/* Estimate of a detection probability, and its standard deviation. */
-struct pd_estimate {
-    float pd, sigma;
-};
-
-static struct pd_estimate estimate_pd(float hits, float looks, float prior, float prior_pd)
-{
-    const float pd = (hits + prior * prior_pd) / (looks + prior);
-    return (struct pd_estimate){pd, rho_sqrt(pd * (1.0f - pd) / (looks + prior))};
-}
-
-static struct pd_estimate estimate_pd_over_all_rings(const struct rho_tracker_learned *learned,
-                                                     float pd)
-{
-    float looks = 0.0f, hits = 0.0f;
-    for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-        looks += (float)learned->looks[ring];
-        hits += (float)learned->hits[ring];
-    }
-    return estimate_pd(hits, looks, PRIOR_OF_ALL, pd);
-}
-
-static float lowered_or_stated_pd(const struct rho_tracker_config *config,
-                                  const struct pd_estimate *seen, float stated)
-{
-    const float pd = seen->pd + CAUTION * seen->sigma;
-    const float least = config->learn_pd_min * stated;
-    return !(seen->pd + SURELY * seen->sigma < stated) ? stated : pd > least ? pd : least;
-}
-
-static float usable_pd_in_ring(const struct rho_tracker_config *config,
-                               const struct rho_tracker_learned *learned, float stated,
-                               unsigned ring)
-{
-    const struct pd_estimate all = estimate_pd_over_all_rings(learned, stated);
-    const struct pd_estimate seen =
-        estimate_pd((float)learned->hits[ring], (float)learned->looks[ring], PRIOR_OF_RING, all.pd);
-    return lowered_or_stated_pd(config, &seen, stated);
-}
-
-/* ---- pd by range rate ------------------------------------------------------------------------ */
-
-/* Upper limit of the first num_rates intervals of range rates, m/s. */
-static float upper_range_rate_of_intervals_mps(unsigned num_rates)
-{
-    float end2 = RATE_MIN2;
-    for (unsigned i = 1; i < num_rates; i++) {
-        end2 *= 2.0f;
-    }
-    return rho_sqrt(end2);
-}
-
-/* True where the sensor's description states no notch: it has none, or the learned one. */
-static int is_notch_unstated_or_learned(const struct rho_sensor *sensor,
-                                        const struct rho_tracker_learned *learned)
-{
-    const float learned_mps =
-        learned->used_rates > 0 ? upper_range_rate_of_intervals_mps(learned->used_rates) : 0.0f;
-    return !(sensor->notch_mps > 0.0f) ||
-           (sensor->notch_mps >= learned_mps && sensor->notch_mps <= learned_mps);
-}
-
-static int is_notch_learning_on(const struct rho_look *look)
-{
-    return RHO_DOPPLER_NOTCH && is_pd_learning_on(&look->tracker->config) &&
-           is_notch_unstated_or_learned(look->sensor, look->learned);
-}
-
-void rho_learning_apply_notch(const struct rho_look *look)
-{
-    struct rho_tracker_learned *learned = look->learned;
-    if (learned && is_sensor_learning_on(&look->tracker->config) && is_notch_learning_on(look)) {
-        learned->used_rates = learned->blind_rates;
-        look->row->sensor.notch_mps =
-            learned->used_rates > 0 ? upper_range_rate_of_intervals_mps(learned->used_rates) : 0.0f;
-    }
-}
-
-/* Index of the interval of a track's range rate; the last one where the rate is not defined. */
-static unsigned notch_learning_interval_of_range_rate(const struct rho_sensor *sensor,
-                                                      const struct rho_track *track)
-{
-    float row[6], rate_mps;
-    if (!rho_measurement_predict_range_rate(track->kalman.state, sensor,
-                                            track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
-                                            &rate_mps)) {
-        return RHO_LEARN_RATES - 1u;
-    }
-    /* the squares of the intervals' limits double, so that the float's exponent is the index */
-    const uint32_t exponent = rho_float_bits(rate_mps * rate_mps / RATE_MIN2) >> 23;
-    if (exponent < FLOAT_EXPONENT) {
-        return 0;
-    }
-    return exponent - FLOAT_EXPONENT + 1u < RHO_LEARN_RATES ? exponent - FLOAT_EXPONENT + 1u
-                                                            : RHO_LEARN_RATES - 1u;
-}
-
-/*
- * New number of intervals of a notch in use: as before, one less, or 0. last_looks and last_hits
- * are of its fastest interval, looks and hits of all, faster_pd of the intervals above.
- */
-static unsigned keep_shrink_or_drop_notch(unsigned used, float last_looks, float last_hits,
-                                          float looks, float hits, float faster_pd)
-{
-    if (hits > BLIND_SHARE * faster_pd * looks) {
-        return 0;
-    }
-    return used > RATES_LEAST && last_looks >= BLIND_USED_LOOKS &&
-                   last_hits > BLIND_USED_SHARE * faster_pd * last_looks
-               ? used - 1u
-               : used;
-}
-
-/* Number of intervals, from range rate 0 on, that make up a notch (BLIND_SHARE); 0: no notch. */
-static unsigned count_blind_rate_intervals(const struct rho_tracker_learned *learned)
-{
-    const unsigned used = learned->blind_rates;
-    const float last = used > 0 ? BLIND_USED_SHARE : BLIND_LAST_SHARE;
-    float looks = 0.0f, hits = 0.0f, faster = 0.0f, faster_hits = 0.0f;
-    for (unsigned i = 0; i < RHO_LEARN_RATES; i++) {
-        looks += (float)learned->rate_looks[i];
-        hits += (float)learned->rate_hits[i];
-    }
-    for (unsigned i = RHO_LEARN_RATES; i >= RATES_LEAST; i--) {
-        const float pd = faster > 0.0f ? faster_hits / faster : 0.0f;
-        const float here = (float)learned->rate_looks[i - 1u],
-                    seen = (float)learned->rate_hits[i - 1u];
-        if (i == used) {
-            return keep_shrink_or_drop_notch(used, here, seen, looks, hits, pd);
-        }
-        if (faster >= FASTER_LOOKS && looks >= BLIND_LOOKS && seen < last * pd * here &&
-            hits < BLIND_SHARE * pd * looks &&
-            hits + BLIND_SURELY * rho_sqrt(pd * (1.0f - pd) * looks) < pd * looks) {
-            return i;
-        }
-        faster += here;
-        faster_hits += seen;
-        looks -= here;
-        hits -= seen;
-    }
-    return 0;
-}
-
-static void update_learned_notch(struct rho_tracker_learned *learned)
-{
-    const unsigned found =
-        learned->notches_forgotten < FORGOTTEN_MAX ? count_blind_rate_intervals(learned) : 0u;
-    if (found == 0 && learned->blind_rates > 0) {
-        learned->notches_forgotten = (learned->notches_forgotten + 1u) & FORGOTTEN_MAX;
-    }
-    if (found > learned->blind_rates) {
-        /* the pd of the rings was learned with targets in the notch: it begins anew */
-        learned->is_lowered = 0;
-        for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-            learned->looks[ring] = learned->hits[ring] = 0;
-        }
-    }
-    learned->blind_rates = found & 31u;
-}
-
-/*
- * Counts a look in the interval of the track's range rate, and looks for a notch now and then.
- * Returns 1 where the interval is outside of the notch.
- */
-static int count_look_by_rate_and_test_outside_notch(const struct rho_look *look,
-                                                     const struct rho_track *track,
-                                                     unsigned is_seen)
-{
-    struct rho_tracker_learned *learned = look->learned;
-    const unsigned rate = notch_learning_interval_of_range_rate(look->sensor, track);
-    learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] + 1u);
-    learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] + is_seen);
-    if (learned->rate_looks[rate] >= RATE_LOOKS_MAX) {
-        learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] / 2u);
-        learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] / 2u);
-    }
-    if (learned->rate_looks[rate] % LOOKS_A_NOTCH == 0) {
-        update_learned_notch(learned);
-    }
-    return rate >= learned->blind_rates;
-}
-
 /* ---- pd of a look ---------------------------------------------------------------------------- */
-
-static int is_pd_lowered_in_any_ring(const struct rho_look *look)
-{
-    return is_sensor_learning_on(&look->tracker->config) && look->learned &&
-           look->learned->is_lowered;
-}
-
-struct detection rho_learning_detection(const struct rho_look *look, const struct rho_track *track,
-                                        struct detection stated)
-{
-    if (!is_pd_lowered_in_any_ring(look)) {
-        return stated;
-    }
-    const unsigned ring = range_ring_of_track(look->sensor, track);
-    if (!(look->learned->is_lowered >> ring & 1u)) {
-        return stated;
-    }
-    const float pd =
-        usable_pd_in_ring(&look->tracker->config, look->learned, look->sensor->pd, ring);
-    return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
-}
-
-float rho_learning_mean_pd(const struct rho_look *look)
-{
-    const float stated = look->sensor->pd;
-    if (!is_pd_lowered_in_any_ring(look)) {
-        return stated;
-    }
-    const struct pd_estimate all = estimate_pd_over_all_rings(look->learned, stated);
-    return lowered_or_stated_pd(&look->tracker->config, &all, stated);
-}
 
 static void count_look_by_range_and_rate(const struct rho_look *look, const struct rho_track *track,
                                          unsigned is_seen)
 {
     struct rho_tracker_learned *learned = look->learned;
-    const unsigned ring = range_ring_of_track(look->sensor, track);
-    if (is_notch_learning_on(look) &&
-        !count_look_by_rate_and_test_outside_notch(look, track, is_seen)) {
+    const unsigned ring = rho_learning_ring(look->sensor, track);
+    if (rho_learning_seeks_notch(look) && !rho_learning_count_rate(look, track, is_seen)) {
         return;
     }
     learned->looks[ring] = (uint16_t)(learned->looks[ring] + 1u);
@@ -510,8 +251,8 @@ static void learn_pd_from_look(const struct rho_look *look, struct rho_track *tr
         return;
     }
     if (RHO_DOPPLER_NOTCH && track->blind_percent > BLIND_PERCENT_MAX) {
-        if (is_own && is_notch_learning_on(look)) {
-            (void)count_look_by_rate_and_test_outside_notch(look, track, is_seen != 0);
+        if (is_own && rho_learning_seeks_notch(look)) {
+            (void)rho_learning_count_rate(look, track, is_seen != 0);
         }
         return;
     }
@@ -527,7 +268,7 @@ static void update_lowered_pd_of_next_ring(const struct rho_look *look)
 {
     struct rho_tracker_learned *learned = look->learned;
     const float pd =
-        usable_pd_in_ring(&look->tracker->config, learned, look->sensor->pd, learned->ring);
+        rho_learning_pd_in_ring(&look->tracker->config, learned, look->sensor->pd, learned->ring);
     const unsigned bit = 1u << learned->ring, others = learned->is_lowered & ~bit;
     learned->is_lowered = (uint8_t)(others | (pd < look->sensor->pd ? bit : 0u));
     learned->ring = (uint8_t)((learned->ring + 1u) % RHO_LEARN_RINGS);
@@ -551,7 +292,7 @@ static int can_teach_noise(const struct rho_track *track)
 static int can_learn_from_scan(const struct rho_look *look)
 {
     return !look->is_suspect && look->teaches && look->learned &&
-           is_sensor_learning_on(&look->tracker->config);
+           rho_learning_is_on(&look->tracker->config);
 }
 
 void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look)
@@ -591,14 +332,7 @@ int rho_learning_is_sound(const struct rho_tracker_learned *learned)
             return 0;
         }
     }
-    for (unsigned i = 0; RHO_DOPPLER_NOTCH && i < RHO_LEARN_RATES; i++) {
-        if (learned->rate_hits[i] > learned->rate_looks[i] ||
-            learned->rate_looks[i] > RATE_LOOKS_MAX) {
-            return 0;
-        }
-    }
-    return (!RHO_DOPPLER_NOTCH ||
-            (learned->blind_rates <= RHO_LEARN_RATES && learned->used_rates <= RHO_LEARN_RATES)) &&
+    return (!RHO_DOPPLER_NOTCH || rho_learning_is_sound_notch(learned)) &&
            (!RHO_SHARES_PLOTS || rho_cell_is_sound(learned)) &&
            rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
@@ -619,10 +353,8 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
     }
     const struct rho_sensor *sensor = &tracker->sensors[row].sensor;
     const struct rho_tracker_learned *learned = &tracker->sensors[row].learned;
-    const int is_blind = RHO_DOPPLER_NOTCH && learned->blind_rates > 0 &&
-                         is_notch_unstated_or_learned(sensor, learned);
     *known = (struct rho_tracker_known){
-        .notch_mps = is_blind ? upper_range_rate_of_intervals_mps(learned->blind_rates) : 0.0f,
+        .notch_mps = rho_learning_notch_mps(sensor, learned),
         .range_factor = usable_sigma_factor(tracker, learned, 0),
         .cross_factor = usable_sigma_factor(tracker, learned, 1),
         .innovations = learned->innovations,
@@ -631,7 +363,7 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
     };
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
         known->pd[ring] = learned->is_lowered >> ring & 1u
-                              ? usable_pd_in_ring(&tracker->config, learned, sensor->pd, ring)
+                              ? rho_learning_pd_in_ring(&tracker->config, learned, sensor->pd, ring)
                               : sensor->pd;
         known->looks += learned->looks[ring];
     }

@@ -133,28 +133,3 @@ enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker, int32_t s
     memset(&rows[tracker->num_rows], 0, sizeof rows[0]);
     return RHO_OK;
 }
-
-static int is_sound_row(const struct rho_tracker_sensor *row, int is_described)
-{
-    const struct rho_tracker_pace *pace = &row->pace;
-    return (!is_described || rho_sensors_is_usable(&row->sensor)) &&
-           rho_learning_is_sound(&row->learned) &&
-           rho_is_within(pace->azimuth_rad, -10.0f, 10.0f) &&
-           rho_is_within(pace->interval_s, 0.0f, 1e13f) && rho_is_coordinate(pace->x_m) &&
-           rho_is_coordinate(pace->y_m) && rho_is_stored_time(pace->time_us) &&
-           (!RHO_SECTORS || rho_turn_is_sound(&row->look)) &&
-           (RHO_MAX_ECHOES == 0 || rho_second_plots_are_sound(&row->second_plots));
-}
-
-int rho_sensors_are_sound(const struct rho_tracker *tracker)
-{
-    if (tracker->num_sensors > tracker->num_rows || tracker->num_rows > RHO_MAX_SENSORS) {
-        return 0;
-    }
-    for (unsigned i = 0; i < tracker->num_rows; i++) {
-        if (!is_sound_row(&tracker->sensors[i], i < tracker->num_sensors)) {
-            return 0;
-        }
-    }
-    return 1;
-}

@@ -15,7 +15,6 @@ struct rho_tracker_sensor *rho_sensors_hear(struct rho_tracker *tracker, int32_t
 const struct rho_sensor *rho_sensors_find(const struct rho_tracker *tracker,
                                           int32_t sensor_id); /* NULL: not described */
 int rho_sensors_is_usable(const struct rho_sensor *sensor);
-int rho_sensors_are_sound(const struct rho_tracker *tracker);
 
 /* plot_noise.c: sets the noise and the notch of the look's sensor, before plots are gated */
 void rho_look_open_noise(struct rho_tracker *tracker, struct rho_look *look);
@@ -48,11 +47,33 @@ void rho_learning_apply_notch(const struct rho_look *look);
 /* Learns noise, pd and notch of the scan's sensor from this scan's plots and misses. */
 void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look);
 int rho_learning_is_sound(const struct rho_tracker_learned *learned);
-/* Detection probability of the scan's sensor over all ranges, for its initiator. */
-float rho_learning_mean_pd(const struct rho_look *look);
+
+/*
+ * learned_pd.c: true where sensors are learned: with hypotheses alone, as one Kalman filter takes
+ * manoeuvres for noise
+ */
+int rho_learning_is_on(const struct rho_tracker_config *config);
+/* Ring of range in which a track is. */
+unsigned rho_learning_ring(const struct rho_sensor *sensor, const struct rho_track *track);
+/* pd that is used in a ring: the learned one where it is surely below the stated one. */
+float rho_learning_pd_in_ring(const struct rho_tracker_config *config,
+                              const struct rho_tracker_learned *learned, float stated,
+                              unsigned ring);
 /* Detection of a track by its ring of range, where pd is learned to be lower; else as stated. */
 struct detection rho_learning_detection(const struct rho_look *look, const struct rho_track *track,
                                         struct detection stated);
+/* Detection probability of the look's sensor over all ranges, for its initiator. */
+float rho_learning_mean_pd(const struct rho_look *look);
+
+/* notch_learning.c (RHO_DOPPLER_NOTCH): true where a notch is learned of the look's sensor */
+int rho_learning_seeks_notch(const struct rho_look *look);
+/* Counts a look in the interval of the track's range rate; 1: it is outside of the notch. */
+int rho_learning_count_rate(const struct rho_look *look, const struct rho_track *track,
+                            unsigned is_seen);
+/* Width of the learned notch, m/s; 0: none. */
+float rho_learning_notch_mps(const struct rho_sensor *sensor,
+                             const struct rho_tracker_learned *learned);
+int rho_learning_is_sound_notch(const struct rho_tracker_learned *learned);
 
 /*
  * resolution_cell.c (RHO_SHARES_PLOTS): distances at which a sensor does not resolve

@@ -5,8 +5,16 @@
  */
 #include "clutter.h"
 #include "plots.h"
+#include "rhotrack/detail/approx.h"
 #include "sensors.h"
 #include "step.h"
+
+void rho_look_set_pd(struct rho_look *look)
+{
+    float pd = look->sensor ? look->sensor->pd : look->tracker->config.pd;
+    look->log_pd = rho_log(pd);
+    look->log_miss = rho_log(1.0f - pd);
+}
 
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track)
 {

@@ -8,8 +8,10 @@
 
 #include "look.h"
 
+/* sight.c: sets log_pd and log_miss by the look's sensor, or by the tracker's default pd */
+void rho_look_set_pd(struct rho_look *look);
 /*
- * sight.c: true where the look may see a track at all. A bearing may be anybody's: a frame may see
+ * True where the look may see a track at all. A bearing may be anybody's: a frame may see
  * every track that is not frozen
  */
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track);

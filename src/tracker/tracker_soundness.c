@@ -96,6 +96,31 @@ static int has_sound_tracks(const struct rho_tracker *tracker)
            (rho_hypotheses_is_sound(&tracker->hypotheses) && has_no_shared_slots(tracker));
 }
 
+static int is_sound_row(const struct rho_tracker_sensor *row, int is_described)
+{
+    const struct rho_tracker_pace *pace = &row->pace;
+    return (!is_described || rho_sensors_is_usable(&row->sensor)) &&
+           rho_learning_is_sound(&row->learned) &&
+           rho_is_within(pace->azimuth_rad, -10.0f, 10.0f) &&
+           rho_is_within(pace->interval_s, 0.0f, 1e13f) && rho_is_coordinate(pace->x_m) &&
+           rho_is_coordinate(pace->y_m) && rho_is_stored_time(pace->time_us) &&
+           (!RHO_SECTORS || rho_turn_is_sound(&row->look)) &&
+           (RHO_MAX_ECHOES == 0 || rho_second_plots_are_sound(&row->second_plots));
+}
+
+static int has_sound_sensors(const struct rho_tracker *tracker)
+{
+    if (tracker->num_sensors > tracker->num_rows || tracker->num_rows > RHO_MAX_SENSORS) {
+        return 0;
+    }
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        if (!is_sound_row(&tracker->sensors[i], i < tracker->num_sensors)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /* ---- all ------------------------------------------------------------------------------------- */
 
 static int are_corners_within_coordinate_limits(const struct rho_extent *extent)
@@ -119,8 +144,7 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_is_within(tracker->wanted_per_hour, 0.0f, 1e9f) &&
            rho_is_within(tracker->established, 0.0f, 1e9f) &&
            rho_is_stored_time(tracker->counted_us) &&
-           are_corners_within_coordinate_limits(&tracker->extent) &&
-           rho_sensors_are_sound(tracker) &&
+           are_corners_within_coordinate_limits(&tracker->extent) && has_sound_sensors(tracker) &&
            (RHO_MAX_REFLECTORS == 0 || rho_images_are_sound(tracker)) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || rho_areas_are_sound(tracker)) &&
            (!RHO_BODIES || rho_bodies_are_sound(tracker)) &&
