@@ -224,6 +224,19 @@ def node_objects(tree):
     return ["struct rho_node", *re.findall(r"(?<!const )\bstruct \w+ \*+\w+", body)]
 
 
+@figure("banners and odd comments in headers", 0, 23)
+def odd_comments(tree):
+    """Comments of headers of include and src that begin with a row of signs, as in `/* ---- name`
+    and `/**`, or with `//`."""
+    odd = []
+    for pattern in ("include/**/*.h", "src/**/*.h"):
+        for path in tree.files(pattern, with_generated=True):
+            found = (match[0] for match in COMMENT_OR_STRING.finditer(tree.text(path)))
+            odd += [f"{path} {comment.splitlines()[0]}" for comment in found
+                    if re.match(r"//|/\*[\s*]*[-=*!#+]{2}|/\*[*!]", comment)]
+    return odd
+
+
 @figure("constants of policy without reason, half and twice", 0)
 def bare_policy(tree):
     """`#define NAME number` of src/ROOM/policy.h without a comment right above it that gives the
