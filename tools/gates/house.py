@@ -233,7 +233,7 @@ def odd_comments(tree):
         for path in tree.files(pattern, with_generated=True):
             found = (match[0] for match in COMMENT_OR_STRING.finditer(tree.text(path)))
             odd += [f"{path} {comment.splitlines()[0]}" for comment in found
-                    if re.match(r"//|/\*[\s*]*[-=*!#+]{2}|/\*[*!]", comment)]
+                    if re.match(r"//|/\*[*!]|/\* *[-=*#+]{2}", comment)]
     return odd
 
 
