@@ -48,7 +48,7 @@
  * says what a version promises.
  */
 #define RHO_VERSION_MAJOR 0
-#define RHO_VERSION_MINOR 1
+#define RHO_VERSION_MINOR 9
 #define RHO_VERSION_PATCH 0
 
 #endif
