@@ -105,10 +105,13 @@ check 'a constant without a comment is seen' policy '\n'
 check 'one with a reason alone is seen' policy '/* Beams meet here. */\n'
 check 'one without a reason is seen' policy '/* Half: gaps. Twice: overlap. */\n'
 check 'one that does not say twice is seen' policy '/* Beams meet here. Half: gaps. */\n'
-check 'one below the comment of another is seen' policy "$good#define OTHER 2\n"
+check 'the third one below a comment is seen' policy "$good#define OTHER 2\n#define MORE 3\n"
+check 'one in the next lines is seen' policy "$good#define OTHER 2\n\n"
 
 fault=none
 check 'one that says all is right' policy "$good"
+check 'one that has one text for both is' policy '/* Beams meet. Half or twice: gaps. */\n'
+check 'and the bound of another is' policy "$good#define SHARE_MAX 2\n"
 check 'readers of a step may be many' seen step_changers src/step/a.c many 200 \
     "static int a@(int b, const struct step *step)$begin"
 check 'comments may name late scans' seen_in_new_files late_files 22 src/step/a@.c \

@@ -20,6 +20,7 @@ GENERATED = {
 }
 NAME_LETTERS_MAX = 30
 STEM_WORDS = 4
+SHARING_MAX = 2  # constants below one comment
 FIGURES = []
 
 COMMENT_OR_STRING = re.compile(
@@ -27,7 +28,10 @@ COMMENT_OR_STRING = re.compile(
 # The brace of a function is alone in the first column (.clang-format).
 DEFINITION = re.compile(r"^(?!#)(\w[^;{}#]*?)\b(\w+)\(([^;{}]*)\)\n\{\n(.*?)^\}", re.M | re.DOTALL)
 NUMERIC_DEFINE = re.compile(r"^#define +(\w+) +[-(]*\.?[0-9]", re.M)
-FULL_REASON = re.compile(r"[\s*]*(?!Half:)\w.*\bHalf:\s.*\bTwice:\s", re.DOTALL)
+# A reason, and then `Half:` and `Twice:`, also with a remark in parentheses, or `Half or twice:`.
+FULL_REASON = re.compile(
+    r"(?!Half(?: \([^)]*\))?: |Half or twice\b)\w(?:.* Half or twice\b[^.:]*: "
+    r"|(?=.* Half(?: \([^)]*\))?: )(?=.* Twice(?: \([^)]*\))?: ))")
 LATE = re.compile(r"(?:\b|_)late_(?!ones\b)|_late(?:\b|_)|retrodict|out_of_sequence")
 
 
@@ -240,17 +244,20 @@ def odd_comments(tree):
 @figure("constants of policy without reason, half and twice", 0)
 def bare_policy(tree):
     """`#define NAME number` of src/ROOM/policy.h without a comment right above it that gives the
-    reason, and then `Half:` and `Twice:`."""
+    reason, and then `Half:` and `Twice:`; a value and its bound below it may share one."""
     bare = []
     for path in tree.files("src/*/policy.h"):
-        before = []
+        before, sharing = "", 0  # the text since the last define; those that had its comment
         for line in tree.text(path).splitlines():
             found = NUMERIC_DEFINE.match(line)
-            # the comment that ends on the line above
-            said = re.search(r"/\*((?:(?!\*/).)*)\*/\s*$", "\n".join(before), re.DOTALL)
-            if found and not (said and FULL_REASON.match(said[1])):
+            if found and before:
+                said = re.search(r"/\*((?:(?!\*/).)*)\*/\n$", before, re.DOTALL)
+                words = " ".join(word for word in said[1].split() if word != "*") if said else ""
+                sharing = SHARING_MAX if FULL_REASON.match(words) else 0
+            if found and sharing == 0:
                 bare.append(f"{path} {found[1]}")
-            before = [] if line.startswith("#") else before + [line]
+            sharing = max(sharing - 1, 0)
+            before = "" if line.startswith("#") else before + line + "\n"
     return bare
 
 

@@ -7,7 +7,8 @@ notices.
 A constant is each `#define NAME number` of a room's table of policy, src/ROOM/policy.h, and each
 `#define NAME number` or `static const` number elsewhere in src/ that is policy. There, constants
 are left out that are none: magic numbers, bits, units, check sums, the coefficients of src/base,
-floating point numbers of 1e12 and more, which only keep arithmetic finite, and those in ALIKE.
+floating point numbers of 1e12 and more, which only keep arithmetic finite. Those in ALIKE are left
+out everywhere, as no test can notice them.
 
 A mutant is noticed where it does not compile, a golden file differs, or a compiled test of `make
 test` fails or times out; each twice, as tests may fail on a loaded machine. Where a program is
@@ -43,15 +44,13 @@ NO_POLICY = re.compile(
     r"MAGIC|VERSION|BITS|MASK|SHIFT|EXPONENT|_H$|PI\b|HALF|OFFSET|PRIME|POLYNOM|ROUNDING|EPSILON"
     r"|TURN_(HIGH|MIDDLE|LOW)|^SECOND_US$|^CHECK_(START|FACTOR)$|^NAT_PER_MNAT$|^M2_PER_KM2$")
 GUARD_MIN = 1e12
-# {file: constants that change only the time or stack of a call, not its result}: cost models that
+# {room: constants that change only the time or stack of a call, not its result}: cost models that
 # choose between two algorithms, numbers of elements a pass
 ALIKE = {
-    "src/association/hypotheses_soundness.c": r"PASS_NODES$",
-    "src/tracker/tracker_soundness.c": r"PASS_SLOTS$",
-    "src/papers/accumulator_peak_search.c": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$",
-    "src/papers/accumulator_row_votes_and_peaks.c": r"BLOCKS$|CROWDED$",
-    "src/papers/accumulator_branch_and_bound.c":
-        r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|(SHRINK|GROW)_KEPT$",
+    "association": r"PASS_NODES$",
+    "tracker": r"PASS_SLOTS$",
+    "papers": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$|BLOCKS$|CROWDED$|ROWS_|BINS_MIN$|WORK_"
+              r"|HALVINGS|(SHRINK|GROW)_KEPT$",
 }
 NO_POLICY_FILES = {
     "src/base/approx.c", "src/base/angle.c", "src/wire/message_types.c",
@@ -70,7 +69,7 @@ def mutants_of(root):
         if name in NO_POLICY_FILES:
             continue
         for number, line in enumerate(path.read_text().splitlines()):
-            found = constant_in(path, name, line)
+            found = constant_in(path, line)
             if found:
                 for value in filter(None, (scaled_number(found, 2), scaled_number(found, 0.5))):
                     yield name, number, name_of(found), found, value
@@ -82,19 +81,15 @@ def name_of(found):
     return found.groupdict().get("define") or found["const"]
 
 
-def constant_in(path, name, line):
+def constant_in(path, line):
     """The match of a constant of policy in a line; None where there is none."""
-    if path.name == "policy.h":
-        found = POLICY.match(line)
-        return found if found and float(found["number"]) != 0 else None
-    found = CONSTANT.match(line)
-    return found if found and is_policy(name, name_of(found), found["number"]) else None
-
-
-def is_policy(path, constant, number):
-    is_guard = re.search("[.e]", number) and float(number) >= GUARD_MIN
-    return (float(number) != 0 and not is_guard and not NO_POLICY.search(constant)
-            and not re.match(ALIKE.get(path, "$^"), constant))
+    is_table = path.name == "policy.h"
+    found = (POLICY if is_table else CONSTANT).match(line)
+    if not found or float(found["number"]) == 0 or re.match(
+            ALIKE.get(path.parent.name, "$^"), name_of(found)):
+        return None
+    is_guard = re.search("[.e]", found["number"]) and float(found["number"]) >= GUARD_MIN
+    return found if is_table or not (is_guard or NO_POLICY.search(name_of(found))) else None
 
 
 def scaled_number(found, factor):
