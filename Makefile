@@ -89,9 +89,9 @@ jobs = $(if $(filter -j%,$(MAKEFLAGS)),,-j$$(nproc))
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all lib codegen bench-opencv bench-stonesoup test-programs test fuzz demo demo-live layers \
-        poison gates size size-update instructions examples determinism experiments lint format \
-        format-check tidy cppcheck sanitize install clean help
+.PHONY: all lib codegen bench-opencv bench-stonesoup test-programs test fuzz demo demo-live house \
+        layers poison gates size size-update instructions examples determinism experiments lint \
+        format format-check tidy cppcheck sanitize install clean help
 
 # --- what users build ------------------------------------------------------------------------
 
@@ -540,6 +540,10 @@ poison: $(library)
 ## call by a pointer
 gates:
 	@BUILD=$(BUILD) tools/gates/object_restrictions.py
+
+## Figures of the sources' shape (size, widths, names), each with its goal
+house:
+	@tools/gates/house.py
 
 ## Build with gcc and clang, -O0 and -O3, and compare what the programs write, byte by byte
 determinism:

@@ -130,7 +130,7 @@
 #define RHO_SECTORS 1
 #endif
 
-/* ---- Further capacities of trackers ---- */
+/* Further capacities of trackers. */
 
 /*
  * Bins of one scan's neighbour look-up. More bins mean fewer distance tests. Default, embedded:
@@ -227,7 +227,7 @@
 #define RHO_MAX_PARTS RHO_CONFIG_PICK(16, 512)
 #endif
 
-/* ---- Code that can be left out ---- */
+/* Code that can be left out. */
 
 /*
  * 1: tracks start by the library's searches, rho_initiator and rho_passive. 0: left out of the
@@ -314,7 +314,7 @@
  */
 #define RHO_SIGMAS_VARY ((RHO_SECTORS) || ((RHO_FILTERS)&4) != 0)
 
-/* ---- Passive sensors ---- */
+/* Passive sensors. */
 
 /* Bearings of one scan of a passive sensor; the rest get the fate NO_ROOM. 1 .. 64. */
 #ifndef RHO_MAX_BEARINGS
@@ -377,7 +377,7 @@
 #define RHO_PASSIVE_PAIRS 256
 #endif
 
-/* ---- The papers' methods (hough.h, passive_paper.h, paper_starts.h, publish.h) ---- */
+/* The papers' methods (hough.h, passive_paper.h, paper_starts.h, publish.h). */
 
 /* Cells of rho in a row of the Hough accumulator. RAM: 6 or 8 bytes a cell. 64 .. 32704. */
 #ifndef RHO_MAX_RHO_CELLS
@@ -444,7 +444,7 @@
 #define RHO_MAX_PAPER_CROSSINGS RHO_CONFIG_PICK(512, 4096)
 #endif
 
-/* ---- Ranges ---- */
+/* Ranges. */
 
 #if RHO_MAX_SCANS < 3 || RHO_MAX_SCANS > 12
 #error "RHO_MAX_SCANS must be 3 .. 12"

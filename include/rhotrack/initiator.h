@@ -198,8 +198,8 @@ struct rho_initiator {
 };
 
 /*
- * scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min 0 nat, no
- * process noise, turns of 6 m/s^2, RHO_WORK_MAX, area from the plots; scans is cut to
+ * Defaults: scans 7, min_scans 0, v_min 0, v_max 700 m/s, pd 0.9, 1 false track an hour, score_min
+ * 0 nat, no process noise, turns of 6 m/s^2, RHO_WORK_MAX, area from the plots; scans is cut to
  * RHO_MAX_SCANS. Constant cost.
  */
 void rho_initiator_config_default(struct rho_initiator_config *config);

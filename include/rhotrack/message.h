@@ -110,9 +110,10 @@ const char *rho_message_type_name(enum rho_message_type type);
 /* Ends a message; *size: its length. Errors: NULL, STATE (not begun). Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size);
 
-/* ---- accumulator_cell_t ---- */
-
-/* One of the fullest cells of an accumulator_t: the line x cos(theta) + y sin(theta) = rho. */
+/*
+ * accumulator_cell_t: one of the fullest cells of an accumulator_t: the line x cos(theta) + y
+ * sin(theta) = rho.
+ */
 
 #define RHO_MESSAGE_ACCUMULATOR_CELL_FINGERPRINT UINT64_C(0x7dc022df7b25d931)
 #define RHO_MESSAGE_ACCUMULATOR_CELL_MAX_SIZE 30u
@@ -143,9 +144,7 @@ RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_validate(
     const struct rho_message_accumulator_cell *message, struct rho_message_place *place);
 const char *rho_message_accumulator_cell_field(const struct rho_message_place *place);
 
-/* ---- body_t ---- */
-
-/* The body of one track: a rectangle, its length along the heading. */
+/* body_t: the body of one track: a rectangle, its length along the heading. */
 
 #define RHO_MESSAGE_BODY_FINGERPRINT UINT64_C(0xc79ba5919c3bcda2)
 #define RHO_MESSAGE_BODY_MAX_SIZE 64u
@@ -178,9 +177,7 @@ RHO_MUST_CHECK enum rho_status rho_message_body_validate(
     const struct rho_message_body *message, struct rho_message_place *place);
 const char *rho_message_body_field(const struct rho_message_place *place);
 
-/* ---- command_answer_t ---- */
-
-/* Outcome of a command_t. Channel RHO_COMMAND_ANSWERS. */
+/* command_answer_t: outcome of a command_t. Channel RHO_COMMAND_ANSWERS. */
 
 #define RHO_MESSAGE_COMMAND_ANSWER_CHANNEL "RHO_COMMAND_ANSWERS"
 #define RHO_MESSAGE_COMMAND_ANSWER_FINGERPRINT UINT64_C(0x7eb8e21727770191)
@@ -214,11 +211,9 @@ RHO_MUST_CHECK enum rho_status rho_message_command_answer_validate(
     const struct rho_message_command_answer *message, struct rho_message_place *place);
 const char *rho_message_command_answer_field(const struct rho_message_place *place);
 
-/* ---- command_t ---- */
-
 /*
- * An operator's command to a tracker, which does it after the next step, and answers by a
- * command_answer_t. Members that an action does not use are 0. Channel RHO_COMMANDS.
+ * command_t: an operator's command to a tracker, which does it after the next step, and answers by
+ * a command_answer_t. Members that an action does not use are 0. Channel RHO_COMMANDS.
  */
 
 #define RHO_MESSAGE_COMMAND_CHANNEL "RHO_COMMANDS"
@@ -270,9 +265,10 @@ RHO_MUST_CHECK enum rho_status rho_message_command_validate(
     const struct rho_message_command *message, struct rho_message_place *place);
 const char *rho_message_command_field(const struct rho_message_place *place);
 
-/* ---- echo_t ---- */
-
-/* One echo of a clutter_map_t: an object that gave clutter plots again and again in its place. */
+/*
+ * echo_t: one echo of a clutter_map_t: an object that gave clutter plots again and again in its
+ * place.
+ */
 
 #define RHO_MESSAGE_ECHO_FINGERPRINT UINT64_C(0xd5072401d660f823)
 #define RHO_MESSAGE_ECHO_MAX_SIZE 42u
@@ -309,9 +305,7 @@ RHO_MUST_CHECK enum rho_status rho_message_echo_validate(
     const struct rho_message_echo *message, struct rho_message_place *place);
 const char *rho_message_echo_field(const struct rho_message_place *place);
 
-/* ---- ghost_t ---- */
-
-/* One element of a ghost_matrix_t: the crossing of two bearings. */
+/* ghost_t: one element of a ghost_matrix_t: the crossing of two bearings. */
 
 #define RHO_MESSAGE_GHOST_FINGERPRINT UINT64_C(0x164d411032cf217a)
 #define RHO_MESSAGE_GHOST_MAX_SIZE 25u
@@ -357,10 +351,9 @@ RHO_MUST_CHECK enum rho_status rho_message_ghost_validate(
     const struct rho_message_ghost *message, struct rho_message_place *place);
 const char *rho_message_ghost_field(const struct rho_message_place *place);
 
-/* ---- hypothesis_t ---- */
-
 /*
- * One hypothesis of a hypotheses_t: plots that may be the track's, and the target's state by them.
+ * hypothesis_t: one hypothesis of a hypotheses_t: plots that may be the track's, and the target's
+ * state by them.
  */
 
 #define RHO_MESSAGE_HYPOTHESIS_FINGERPRINT UINT64_C(0xf01a62a086282722)
@@ -389,11 +382,9 @@ RHO_MUST_CHECK enum rho_status rho_message_hypothesis_validate(
     const struct rho_message_hypothesis *message, struct rho_message_place *place);
 const char *rho_message_hypothesis_field(const struct rho_message_place *place);
 
-/* ---- learned_t ---- */
-
 /*
- * Noise and detection probability that the tracker has learned for one described sensor, and uses.
- * One message a second, of each sensor in turn, with status_t. Channel RHO_LEARNED.
+ * learned_t: noise and detection probability that the tracker has learned for one described sensor,
+ * and uses. One message a second, of each sensor in turn, with status_t. Channel RHO_LEARNED.
  */
 
 #define RHO_MESSAGE_LEARNED_CHANNEL "RHO_LEARNED"
@@ -439,9 +430,7 @@ RHO_MUST_CHECK enum rho_status rho_message_learned_validate(
     const struct rho_message_learned *message, struct rho_message_place *place);
 const char *rho_message_learned_field(const struct rho_message_place *place);
 
-/* ---- peak_t ---- */
-
-/* One line that initiation found: x cos(theta) + y sin(theta) = rho. */
+/* peak_t: one line that initiation found: x cos(theta) + y sin(theta) = rho. */
 
 #define RHO_MESSAGE_PEAK_FINGERPRINT UINT64_C(0xef4db77f70fed866)
 #define RHO_MESSAGE_PEAK_MAX_SIZE 28u
@@ -464,9 +453,7 @@ RHO_MUST_CHECK enum rho_status rho_message_peak_validate(
     const struct rho_message_peak *message, struct rho_message_place *place);
 const char *rho_message_peak_field(const struct rho_message_place *place);
 
-/* ---- plane_row_t ---- */
-
-/* One row of a plane_t: the votes of a range of theta. */
+/* plane_row_t: one row of a plane_t: the votes of a range of theta. */
 
 #define RHO_MESSAGE_PLANE_ROW_FINGERPRINT UINT64_C(0x2e90f16ccca051ec)
 #define RHO_MESSAGE_PLANE_ROW_MAX_SIZE 72u
@@ -487,11 +474,9 @@ RHO_MUST_CHECK enum rho_status rho_message_plane_row_validate(
     const struct rho_message_plane_row *message, struct rho_message_place *place);
 const char *rho_message_plane_row_field(const struct rho_message_place *place);
 
-/* ---- plot_t ---- */
-
 /*
- * One plot of a plot_scan_t: a position, and the other values that its kind states. Unmeasured
- * values are 0.
+ * plot_t: one plot of a plot_scan_t: a position, and the other values that its kind states.
+ * Unmeasured values are 0.
  */
 
 #define RHO_MESSAGE_PLOT_FINGERPRINT UINT64_C(0x788ad26d7448d55b)
@@ -525,9 +510,10 @@ RHO_MUST_CHECK enum rho_status rho_message_plot_validate(
     const struct rho_message_plot *message, struct rho_message_place *place);
 const char *rho_message_plot_field(const struct rho_message_place *place);
 
-/* ---- polar_plot_t ---- */
-
-/* One plot of a polar_scan_t, as the radar measures it. Values that are not measured are 0. */
+/*
+ * polar_plot_t: one plot of a polar_scan_t, as the radar measures it. Values that are not measured
+ * are 0.
+ */
 
 #define RHO_MESSAGE_POLAR_PLOT_FINGERPRINT UINT64_C(0x5482c658708a4062)
 #define RHO_MESSAGE_POLAR_PLOT_MAX_SIZE 32u
@@ -556,11 +542,9 @@ RHO_MUST_CHECK enum rho_status rho_message_polar_plot_validate(
     const struct rho_message_polar_plot *message, struct rho_message_place *place);
 const char *rho_message_polar_plot_field(const struct rho_message_place *place);
 
-/* ---- sensor_t ---- */
-
 /*
- * State of one sensor in a sensor_list_t: whether it is heard, and whether the other sensors
- * confirm it.
+ * sensor_t: state of one sensor in a sensor_list_t: whether it is heard, and whether the other
+ * sensors confirm it.
  */
 
 #define RHO_MESSAGE_SENSOR_FINGERPRINT UINT64_C(0x3384d71d72b4cd6c)
@@ -631,9 +615,7 @@ RHO_MUST_CHECK enum rho_status rho_message_sensor_validate(
     const struct rho_message_sensor *message, struct rho_message_place *place);
 const char *rho_message_sensor_field(const struct rho_message_place *place);
 
-/* ---- setting_answer_t ---- */
-
-/* Outcome of a setting_t. Channel RHO_SETTING_ANSWERS. */
+/* setting_answer_t: outcome of a setting_t. Channel RHO_SETTING_ANSWERS. */
 
 #define RHO_MESSAGE_SETTING_ANSWER_CHANNEL "RHO_SETTING_ANSWERS"
 #define RHO_MESSAGE_SETTING_ANSWER_FINGERPRINT UINT64_C(0x9badd0eed11621c3)
@@ -681,11 +663,9 @@ RHO_MUST_CHECK enum rho_status rho_message_setting_answer_validate(
     const struct rho_message_setting_answer *message, struct rho_message_place *place);
 const char *rho_message_setting_answer_field(const struct rho_message_place *place);
 
-/* ---- setting_t ---- */
-
 /*
- * An operator's change of one parameter of a tracker (struct rho_settings), made after the next
- * step, and answered by a setting_answer_t. Channel RHO_SETTINGS.
+ * setting_t: an operator's change of one parameter of a tracker (struct rho_settings), made after
+ * the next step, and answered by a setting_answer_t. Channel RHO_SETTINGS.
  */
 
 #define RHO_MESSAGE_SETTING_CHANNEL "RHO_SETTINGS"
@@ -725,11 +705,9 @@ RHO_MUST_CHECK enum rho_status rho_message_setting_validate(
     const struct rho_message_setting *message, struct rho_message_place *place);
 const char *rho_message_setting_field(const struct rho_message_place *place);
 
-/* ---- status_t ---- */
-
 /*
- * Status of a tracker: once a second, also when no message comes. Channel RHO_STATUS. Counters
- * count since the start and stay at 2147483647.
+ * status_t: status of a tracker: once a second, also when no message comes. Channel RHO_STATUS.
+ * Counters count since the start and stay at 2147483647.
  */
 
 #define RHO_MESSAGE_STATUS_CHANNEL "RHO_STATUS"
@@ -823,9 +801,7 @@ RHO_MUST_CHECK enum rho_status rho_message_status_validate(
     const struct rho_message_status *message, struct rho_message_place *place);
 const char *rho_message_status_field(const struct rho_message_place *place);
 
-/* ---- track_t ---- */
-
-/* One track of a track_list_t, at the list's time. */
+/* track_t: one track of a track_list_t, at the list's time. */
 
 #define RHO_MESSAGE_TRACK_FINGERPRINT UINT64_C(0x07ff66dc5ae8b2bd)
 #define RHO_MESSAGE_TRACK_MAX_SIZE 153u
@@ -871,9 +847,7 @@ RHO_MUST_CHECK enum rho_status rho_message_track_validate(
     const struct rho_message_track *message, struct rho_message_place *place);
 const char *rho_message_track_field(const struct rho_message_place *place);
 
-/* ---- truth_t ---- */
-
-/* One target of a truth_list_t, at the list's time. */
+/* truth_t: one target of a truth_list_t, at the list's time. */
 
 #define RHO_MESSAGE_TRUTH_FINGERPRINT UINT64_C(0xa0d66a7393c5ab26)
 #define RHO_MESSAGE_TRUTH_MAX_SIZE 36u
@@ -896,12 +870,10 @@ RHO_MUST_CHECK enum rho_status rho_message_truth_validate(
     const struct rho_message_truth *message, struct rho_message_place *place);
 const char *rho_message_truth_field(const struct rho_message_place *place);
 
-/* ---- work_t ---- */
-
 /*
- * Counters of a tracker's limits: on the work of its steps, and on the room of its outputs. Once a
- * second, with status_t. Channel RHO_WORK. Counters count since the start and stay at their largest
- * value.
+ * work_t: counters of a tracker's limits: on the work of its steps, and on the room of its outputs.
+ * Once a second, with status_t. Channel RHO_WORK. Counters count since the start and stay at their
+ * largest value.
  */
 
 #define RHO_MESSAGE_WORK_CHANNEL "RHO_WORK"
@@ -941,9 +913,7 @@ RHO_MUST_CHECK enum rho_status rho_message_work_validate(
     const struct rho_message_work *message, struct rho_message_place *place);
 const char *rho_message_work_field(const struct rho_message_place *place);
 
-/* ---- zone_event_t ---- */
-
-/* A track that has entered or left a zone. */
+/* zone_event_t: a track that has entered or left a zone. */
 
 #define RHO_MESSAGE_ZONE_EVENT_FINGERPRINT UINT64_C(0xebf884c6671cbd66)
 #define RHO_MESSAGE_ZONE_EVENT_MAX_SIZE 26u
@@ -971,9 +941,7 @@ RHO_MUST_CHECK enum rho_status rho_message_zone_event_validate(
     const struct rho_message_zone_event *message, struct rho_message_place *place);
 const char *rho_message_zone_event_field(const struct rho_message_place *place);
 
-/* ---- zone_t ---- */
-
-/* Counts of one zone. Counters stay at their largest value. */
+/* zone_t: counts of one zone. Counters stay at their largest value. */
 
 #define RHO_MESSAGE_ZONE_FINGERPRINT UINT64_C(0xaaaa5228616ec1c3)
 #define RHO_MESSAGE_ZONE_MAX_SIZE 52u
@@ -1001,11 +969,9 @@ RHO_MUST_CHECK enum rho_status rho_message_zone_validate(
     const struct rho_message_zone *message, struct rho_message_place *place);
 const char *rho_message_zone_field(const struct rho_message_place *place);
 
-/* ---- accumulator_t ---- */
-
 /*
- * The accumulator of the last search: its extent, and the fullest cells, best first. Sent when
- * asked for. Channel RHO_ACCUMULATOR.
+ * accumulator_t: the accumulator of the last search: its extent, and the fullest cells, best first.
+ * Sent when asked for. Channel RHO_ACCUMULATOR.
  */
 
 #define RHO_MESSAGE_ACCUMULATOR_CHANNEL "RHO_ACCUMULATOR"
@@ -1089,9 +1055,7 @@ RHO_MUST_CHECK enum rho_status rho_message_accumulator_begin(
 RHO_MUST_CHECK enum rho_status rho_message_accumulator_add(
     struct rho_message_writer *writer, const struct rho_message_accumulator_cell *cell);
 
-/* ---- bearing_scan_t ---- */
-
-/* Bearings of one scan of one passive sensor. Channel RHO_BEARINGS_<sensor_id>. */
+/* bearing_scan_t: bearings of one scan of one passive sensor. Channel RHO_BEARINGS_<sensor_id>. */
 
 #define RHO_MESSAGE_BEARING_SCAN_CHANNEL "RHO_BEARINGS_" /* prefix: the sensor's number follows */
 #define RHO_MESSAGE_BEARING_SCAN_FINGERPRINT UINT64_C(0x66d140164191753b)
@@ -1143,11 +1107,10 @@ RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_begin(
 RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_add(
     struct rho_message_writer *writer, const float *bearing_rad);
 
-/* ---- body_list_t ---- */
-
 /*
- * The bodies of tracks after one step of a tracker that was told how long targets may be, or a part
- * of the list; a track has no body before two of its plots came in one scan. Channel RHO_BODIES.
+ * body_list_t: the bodies of tracks after one step of a tracker that was told how long targets may
+ * be, or a part of the list; a track has no body before two of its plots came in one scan. Channel
+ * RHO_BODIES.
  */
 
 #define RHO_MESSAGE_BODY_LIST_CHANNEL "RHO_BODIES"
@@ -1187,11 +1150,9 @@ RHO_MUST_CHECK enum rho_status rho_message_body_list_begin(
 RHO_MUST_CHECK enum rho_status rho_message_body_list_add(
     struct rho_message_writer *writer, const struct rho_message_body *bodie);
 
-/* ---- clutter_map_t ---- */
-
 /*
- * Echoes in a tracker's clutter map: clutter that comes back to its place. All of them, or a part,
- * every few seconds. Channel RHO_CLUTTER.
+ * clutter_map_t: echoes in a tracker's clutter map: clutter that comes back to its place. All of
+ * them, or a part, every few seconds. Channel RHO_CLUTTER.
  */
 
 #define RHO_MESSAGE_CLUTTER_MAP_CHANNEL "RHO_CLUTTER"
@@ -1235,11 +1196,9 @@ RHO_MUST_CHECK enum rho_status rho_message_clutter_map_begin(
 RHO_MUST_CHECK enum rho_status rho_message_clutter_map_add(
     struct rho_message_writer *writer, const struct rho_message_echo *echoe);
 
-/* ---- ghost_matrix_t ---- */
-
 /*
- * The ghost matrix of the newest scans of two passive sensors, or a part of it. Sent when asked
- * for. Channel RHO_GHOSTS.
+ * ghost_matrix_t: the ghost matrix of the newest scans of two passive sensors, or a part of it.
+ * Sent when asked for. Channel RHO_GHOSTS.
  */
 
 #define RHO_MESSAGE_GHOST_MATRIX_CHANNEL "RHO_GHOSTS"
@@ -1304,15 +1263,14 @@ RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_begin(
 RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_add(
     struct rho_message_writer *writer, const struct rho_message_ghost *element);
 
-/* ---- hypotheses_t ---- */
-
 /*
- * The hypotheses of one track, best first, with its score, motion models, and evidence of the last
- * look. Sent when asked for. Channel RHO_HYPOTHESES. Support, shared and clutter are truth,
- * indeterminacy and falsity of neutrosophic sets, and add up to 1. With evidence PLOTS a plot in
- * the track's gate is the target's with probability p, before plots are assigned to one track each,
- * and this track's with probability r rather than another's. With evidence LINE they are shares of
- * the sums C_T, C_I and C_F of the cell by which a neutrosophic Hough transform started the track.
+ * hypotheses_t: the hypotheses of one track, best first, with its score, motion models, and
+ * evidence of the last look. Sent when asked for. Channel RHO_HYPOTHESES. Support, shared and
+ * clutter are truth, indeterminacy and falsity of neutrosophic sets, and add up to 1. With evidence
+ * PLOTS a plot in the track's gate is the target's with probability p, before plots are assigned to
+ * one track each, and this track's with probability r rather than another's. With evidence LINE
+ * they are shares of the sums C_T, C_I and C_F of the cell by which a neutrosophic Hough transform
+ * started the track.
  */
 
 #define RHO_MESSAGE_HYPOTHESES_CHANNEL "RHO_HYPOTHESES"
@@ -1381,9 +1339,10 @@ RHO_MUST_CHECK enum rho_status rho_message_hypotheses_begin(
 RHO_MUST_CHECK enum rho_status rho_message_hypotheses_add(
     struct rho_message_writer *writer, const struct rho_message_hypothesis *hypothese);
 
-/* ---- peak_list_t ---- */
-
-/* The best candidates of the last search for new tracks, best first. Channel RHO_PEAKS. */
+/*
+ * peak_list_t: the best candidates of the last search for new tracks, best first. Channel
+ * RHO_PEAKS.
+ */
 
 #define RHO_MESSAGE_PEAK_LIST_CHANNEL "RHO_PEAKS"
 #define RHO_MESSAGE_PEAK_LIST_FINGERPRINT UINT64_C(0x68f79b7c84f4d541)
@@ -1416,11 +1375,9 @@ RHO_MUST_CHECK enum rho_status rho_message_peak_list_begin(
 RHO_MUST_CHECK enum rho_status rho_message_peak_list_add(
     struct rho_message_writer *writer, const struct rho_message_peak *peak);
 
-/* ---- plane_t ---- */
-
 /*
- * A reduced picture of the accumulator of an accumulator_t of the same scan and pair; a part of it.
- * Sent when asked for. Channel RHO_PLANE.
+ * plane_t: a reduced picture of the accumulator of an accumulator_t of the same scan and pair; a
+ * part of it. Sent when asked for. Channel RHO_PLANE.
  */
 
 #define RHO_MESSAGE_PLANE_CHANNEL "RHO_PLANE"
@@ -1478,9 +1435,9 @@ RHO_MUST_CHECK enum rho_status rho_message_plane_begin(
 RHO_MUST_CHECK enum rho_status rho_message_plane_add(
     struct rho_message_writer *writer, const struct rho_message_plane_row *row);
 
-/* ---- plot_scan_t ---- */
-
-/* Plots of one scan of one sensor, or a part of them. Channel RHO_PLOTS_<sensor_id>. */
+/*
+ * plot_scan_t: plots of one scan of one sensor, or a part of them. Channel RHO_PLOTS_<sensor_id>.
+ */
 
 #define RHO_MESSAGE_PLOT_SCAN_CHANNEL "RHO_PLOTS_" /* prefix: the sensor's number follows */
 #define RHO_MESSAGE_PLOT_SCAN_FINGERPRINT UINT64_C(0x0ec35bb85bc4cbde)
@@ -1543,9 +1500,10 @@ RHO_MUST_CHECK enum rho_status rho_message_plot_scan_begin(
 RHO_MUST_CHECK enum rho_status rho_message_plot_scan_add(
     struct rho_message_writer *writer, const struct rho_message_plot *plot);
 
-/* ---- polar_scan_t ---- */
-
-/* Polar plots of one scan of one radar, or a part of them. Channel RHO_POLAR_<sensor_id>. */
+/*
+ * polar_scan_t: polar plots of one scan of one radar, or a part of them. Channel
+ * RHO_POLAR_<sensor_id>.
+ */
 
 #define RHO_MESSAGE_POLAR_SCAN_CHANNEL "RHO_POLAR_" /* prefix: the sensor's number follows */
 #define RHO_MESSAGE_POLAR_SCAN_FINGERPRINT UINT64_C(0x0570bdbf57d4a221)
@@ -1620,11 +1578,9 @@ RHO_MUST_CHECK enum rho_status rho_message_polar_scan_begin(
 RHO_MUST_CHECK enum rho_status rho_message_polar_scan_add(
     struct rho_message_writer *writer, const struct rho_message_polar_plot *polar_plot);
 
-/* ---- sensor_list_t ---- */
-
 /*
- * State of the sensors that a tracker hears, or a part of the list: once a second, with status_t.
- * Channel RHO_SENSORS.
+ * sensor_list_t: state of the sensors that a tracker hears, or a part of the list: once a second,
+ * with status_t. Channel RHO_SENSORS.
  */
 
 #define RHO_MESSAGE_SENSOR_LIST_CHANNEL "RHO_SENSORS"
@@ -1668,9 +1624,7 @@ RHO_MUST_CHECK enum rho_status rho_message_sensor_list_begin(
 RHO_MUST_CHECK enum rho_status rho_message_sensor_list_add(
     struct rho_message_writer *writer, const struct rho_message_sensor *sensor);
 
-/* ---- track_list_t ---- */
-
-/* The tracks after one step of the tracker, or a part of them. Channel RHO_TRACKS. */
+/* track_list_t: the tracks after one step of the tracker, or a part of them. Channel RHO_TRACKS. */
 
 #define RHO_MESSAGE_TRACK_LIST_CHANNEL "RHO_TRACKS"
 #define RHO_MESSAGE_TRACK_LIST_FINGERPRINT UINT64_C(0x50afcc23bcd9a625)
@@ -1711,11 +1665,9 @@ RHO_MUST_CHECK enum rho_status rho_message_track_list_begin(
 RHO_MUST_CHECK enum rho_status rho_message_track_list_add(
     struct rho_message_writer *writer, const struct rho_message_track *track);
 
-/* ---- truth_list_t ---- */
-
 /*
- * True positions of the targets of a simulation or a trial, or a part of the list. Channel
- * RHO_TRUTH.
+ * truth_list_t: true positions of the targets of a simulation or a trial, or a part of the list.
+ * Channel RHO_TRUTH.
  */
 
 #define RHO_MESSAGE_TRUTH_LIST_CHANNEL "RHO_TRUTH"
@@ -1756,11 +1708,9 @@ RHO_MUST_CHECK enum rho_status rho_message_truth_list_begin(
 RHO_MUST_CHECK enum rho_status rho_message_truth_list_add(
     struct rho_message_writer *writer, const struct rho_message_truth *target);
 
-/* ---- zone_event_list_t ---- */
-
 /*
- * Tracks that have entered and left zones in one step; a step without events sends no message.
- * Channel RHO_ZONE_EVENTS.
+ * zone_event_list_t: tracks that have entered and left zones in one step; a step without events
+ * sends no message. Channel RHO_ZONE_EVENTS.
  */
 
 #define RHO_MESSAGE_ZONE_EVENT_LIST_CHANNEL "RHO_ZONE_EVENTS"
@@ -1795,9 +1745,7 @@ RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_begin(
 RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_add(
     struct rho_message_writer *writer, const struct rho_message_zone_event *event);
 
-/* ---- zone_list_t ---- */
-
-/* Counts of the tracker's zones. Once a second, with status_t. Channel RHO_ZONES. */
+/* zone_list_t: counts of the tracker's zones. Once a second, with status_t. Channel RHO_ZONES. */
 
 #define RHO_MESSAGE_ZONE_LIST_CHANNEL "RHO_ZONES"
 #define RHO_MESSAGE_ZONE_LIST_FINGERPRINT UINT64_C(0xe6266bbc90e0975c)

@@ -53,7 +53,7 @@
 extern "C" {
 #endif
 
-/* ---- Results of a step ----------------------------------------------------------------------- */
+/* Results of a step. */
 
 /* Number of messages (parts) of a report's tracks; 1 where it has none. Constant cost. */
 uint16_t rho_publish_num_parts(const struct rho_report *report);
@@ -183,7 +183,7 @@ void rho_publish_zones(const struct rho_zones *zones, struct rho_message_zone_li
 void rho_publish_zone_events(const struct rho_zones *zones,
                              struct rho_message_zone_event_list *list);
 
-/* ---- Intermediate results of a step ---------------------------------------------------------- */
+/* Intermediate results of a step. */
 
 enum rho_show_kind {
     RHO_SHOW_GHOSTS,     /* ghost_matrix_t of each pair of sensors in the newest frame */

@@ -82,10 +82,10 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tr
                                                           const struct rho_reflector *reflectors,
                                                           unsigned num_reflectors);
 
-/* ---- Learned --------------------------------------------------------------------------------- */
+/* Walls that are learned. */
 
 #define RHO_LEARNED_REFLECTORS 6 /* largest number of lines that are observed or used as walls */
-/* largest number of tracks with which a line is observed at a time */
+/* Largest number of tracks with which a line is observed at a time. */
 #define RHO_REFLECTOR_WITNESSES 6
 
 /* A witness: a track beside a line, at whose image plots are looked for. */

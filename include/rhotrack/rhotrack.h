@@ -17,7 +17,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/types.h"
 
-/* tracking */
+/* Tracking. */
 #include "rhotrack/body.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/operator.h"
@@ -27,7 +27,7 @@
 #include "rhotrack/snapshot.h"
 #include "rhotrack/tracker.h"
 
-/* scans and tracks as messages */
+/* Scans and tracks as messages. */
 #include "rhotrack/command.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
@@ -37,7 +37,7 @@
 #include "rhotrack/udpm.h"
 #include "rhotrack/zones.h"
 
-/* the methods of the papers, to compare with */
+/* The methods of the papers, to compare with. */
 #include "rhotrack/hough.h"
 #include "rhotrack/paper_starts.h"
 #include "rhotrack/passive_paper.h"
@@ -48,7 +48,7 @@
  * says what a version promises.
  */
 #define RHO_VERSION_MAJOR 0
-#define RHO_VERSION_MINOR 1
+#define RHO_VERSION_MINOR 9
 #define RHO_VERSION_PATCH 0
 
 #endif

@@ -329,10 +329,10 @@ struct rho_scan_assembler_item {
 };
 
 /*
- * hold 20 ms, late_max 20 s (0 without RHO_SECTORS: no tracker takes them), jump_max 30 s, flood
- * 10 000 a second, follow_scans 3, stranger_plots 256 a second (embedded: 64), all sensors allowed;
- * other sensors: at the origin, looking everywhere, pd 0.9, no biases; noise 10 m, 1 m/s, 15 m, 3
- * mrad, 3 mrad, 1 m/s, 1.75 mrad; gives_other 0, is_record 0. Constant cost.
+ * Defaults: hold 20 ms, late_max 20 s (0 without RHO_SECTORS: no tracker takes them), jump_max 30
+ * s, flood 10 000 a second, follow_scans 3, stranger_plots 256 a second (embedded: 64), all sensors
+ * allowed; other sensors: at the origin, looking everywhere, pd 0.9, no biases; noise 10 m, 1 m/s,
+ * 15 m, 3 mrad, 3 mrad, 1 m/s, 1.75 mrad; gives_other 0, is_record 0. Constant cost.
  */
 void rho_scan_assembler_config_default(struct rho_scan_assembler_config *config);
 

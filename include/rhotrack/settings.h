@@ -78,13 +78,13 @@ extern "C" {
 #endif
 
 struct rho_settings {
-    /* ---- targets ---- */
+    /* targets */
     /* [step] lowest speed of targets: 0 .. v_max_mps, exclusive; 0: targets may stand */
     float v_min_mps;
     float v_max_mps;      /* [step] highest speed of targets: 1 .. RHO_LIMIT_SPEED_MPS */
     float accel_max_mps2; /* [step] strongest manoeuvre that tracks follow: 0 .. 1000 */
 
-    /* ---- the sensor ---- */
+    /* the sensor */
     /* [step, sensor] probability that a look sees the target: 0.01 .. 0.999 */
     float pd;
     /* [step] time from a look at a place to the next, a turn of the antenna: 1e-3 .. 3600 */
@@ -101,7 +101,7 @@ struct rho_settings {
      */
     uint16_t area_is_fixed;
 
-    /* ---- decisions ---- */
+    /* decisions */
     uint16_t scans; /* [window] scans in the initiation window: 3 .. RHO_MAX_SCANS */
     /* [step] scans of the window in which a target needs a plot: 3 .. scans; 0: from the clutter */
     uint16_t min_scans;
@@ -198,10 +198,10 @@ enum rho_preset {
 };
 
 /*
- * v_min 0, v_max 700 m/s, accel_max 30 m/s^2, pd 0.9, a scan in 10 s, 15 m, 3 mrad, 3 mrad, 1 m/s,
- * bearings 1.75 mrad, 0 .. 100 km, area from the plots, 1 false track an hour, 7 scans (or
- * RHO_MAX_SCANS), min_scans 0, coast_scans_max 5, RHO_WORK_MAX: with these rho_settings_apply
- * leaves the defaults of tracker and initiator as they are. Constant cost.
+ * Defaults: v_min 0, v_max 700 m/s, accel_max 30 m/s^2, pd 0.9, a scan in 10 s, 15 m, 3 mrad,
+ * 3 mrad, 1 m/s, bearings 1.75 mrad, 0 .. 100 km, area from the plots, 1 false track an hour,
+ * 7 scans (or RHO_MAX_SCANS), min_scans 0, coast_scans_max 5, RHO_WORK_MAX: with these
+ * rho_settings_apply leaves the defaults of tracker and initiator as they are. Constant cost.
  */
 void rho_settings_default(struct rho_settings *settings);
 

@@ -14,7 +14,7 @@
  *     }
  *     ...
  *     if (rho_snapshot_load(parts, 2, flash, flash_size) != RHO_OK) {
- *         begin_anew(); // rho_tracker_init, rho_initiator_init
+ *         begin_anew();     by rho_tracker_init and rho_initiator_init
  *     }
  *
  * A device that keeps what it was told and taught, but no tracks, has a block of settings and map:

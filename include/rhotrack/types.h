@@ -113,7 +113,7 @@ const char *rho_status_name(enum rho_status status);
 #define RHO_LIMIT_SPAN_MIN_MPS 1.0f /* span of ambiguous range rates */
 #define RHO_LIMIT_SPAN_MAX_MPS (2.0f * RHO_LIMIT_SPEED_MPS)
 #define RHO_LIMIT_OFFSET_US 60000000 /* time of a plot before or after its scan's */
-/* times either side of 0; their differences fit 64 bits */
+/* Times either side of 0; their differences fit 64 bits. */
 #define RHO_LIMIT_TIME_US INT64_C(4000000000000000000)
 
 /* Quantities that plots of a scan measure besides x_m and y_m; values to be or-ed. */

@@ -40,7 +40,7 @@ static void NAME(vote_scan_via_scratch)(CELL *restrict row, CELL *restrict apart
     }
 }
 
-/* ---- sparse rows: only touched cells are searched ---- */
+/* Sparse rows: only touched cells are searched. */
 
 /*
  * Votes of n points of one scan (its bit; 0: points are counted). Lists the cells that reach
@@ -133,7 +133,7 @@ static void NAME(reverse_row)(CELL *row, unsigned num_cells)
     }
 }
 
-/* ---- dense rows: all cells are searched, block by block ---- */
+/* Dense rows: all cells are searched, block by block. */
 
 /* Counts a vote for each point's cell, up to the largest count that a cell holds. */
 static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells, unsigned n)

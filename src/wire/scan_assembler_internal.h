@@ -48,7 +48,7 @@ enum scan_verdict {
 #define CHECK_NONE 0u                        /* no first part was received */
 #define CHECK_NOT_ADMITTED (CHECK_NONE + 1u) /* the scan of a newcomer was refused its turn */
 
-/* ---- scan_admission.c: numbers and clocks ---- */
+/* scan_admission.c: numbers and clocks. */
 
 /* Classifies a scan by the numbers and times of its sensor's scans before it. */
 enum scan_verdict rho_scan_assembler_classify_scan(const struct rho_scan_assembler *assembler,
@@ -138,7 +138,7 @@ enum scan_clock rho_scan_assembler_update_common_clock(struct rho_scan_assembler
 int rho_scan_assembler_take_tokens(struct rho_scan_assembler_bucket *bucket, uint32_t count,
                                    uint32_t per_s, int64_t now_us);
 
-/* ---- scan_slots.c: slots of scans ---- */
+/* scan_slots.c: slots of scans. */
 
 enum slot_state {
     SLOT_FREE = 0,
@@ -223,7 +223,7 @@ rho_scan_assembler_complete_and_find_due(struct rho_scan_assembler *assembler, i
 void rho_scan_assembler_fill_item_with_scan(const struct rho_scan_assembler_slot *slot,
                                             struct rho_scan_assembler_item *item);
 
-/* ---- scan_decoding.c: decoding of messages ---- */
+/* scan_decoding.c: decoding of messages. */
 
 /* Decodes and validates a message, and fills its heading. */
 enum rho_status rho_scan_assembler_decode_message(enum rho_scan_assembler_kind kind,

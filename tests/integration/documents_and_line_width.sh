@@ -27,6 +27,15 @@ check 'a C file that is not there is seen' seen tools/README.md '`no_such_file.c
     'no file no_such_file.c'
 check 'a function that is not there is seen' seen lcm_types/README.md '`rho_no_such_function`' \
     'type rho_no_such_function'
+example='```c\n/* src/base/no_such_file.c */\nint rho_no_such_function(void)\n```\n'
+known() { # document, text at its end
+    printf '\n%b\n' "$2" >>"documents/$1"
+    "$gate" documents >said
+    cp "$root/$1" "documents/$1"
+    ! grep -q no_such said || { cat said; return 1; }
+}
+check 'names of an example in the document are known' known src/DESIGN.md \
+    "$example"'`no_such_file.c`, `rho_no_such_function`'
 check 'a long line is seen' seen tools/lab/README.md "$(printf '%0101d' 0)" ': 101 columns'
 check 'a long README is seen' seen README.md "$(words 1200)" '^README.md: .* at most 1200'
 check 'a long DESIGN is seen' seen src/DESIGN.md "$(words 14000)" '^src/DESIGN.md: .* at most'

@@ -192,8 +192,9 @@ make_by_cmake() { # binary
     exits 0
 }
 takes() { # folder of the package: find_package has the versions that it should have, and no others
-    local good="$version;$version EXACT;0.1;0.1...0.5;0.0...$version" \
-        bad="0.0;0.2;1;1.1;0.1.99;0.1.1...0.5;0.0...<$version"
+    local minor=${version%.*}
+    local good="$version;$version EXACT;$minor;$minor...9.5;0.0...$version" \
+        bad="0.0;0.2;1;1.1;$minor.99;$minor.1...9.5;0.0...<$version"
     mkdir -p ask
     cat >ask/CMakeLists.txt <<END
 cmake_minimum_required(VERSION 3.19)

@@ -236,9 +236,8 @@ def constant_macros(struct, known):
 
 
 def struct_declarations(struct, known):
-    lines = [
-        "", f"/* ---- {struct.name} ---- */", "", c_comment(" ".join(struct.comment))
-    ]
+    comment = " ".join(struct.comment)
+    lines = ["", c_comment(f"{struct.name}: {comment[0].lower()}{comment[1:]}")]
     lines += ["", *constant_macros(struct, known), "", f"struct rho_message_{struct.short} {{"]
     lines += [member_declaration(struct, field) for field in struct.fields] + ["};", ""]
     if struct.list:

@@ -67,9 +67,15 @@ def broken_links(folder, name, text):
                 yield f"{name}:{number}: no heading {target}"
 
 
+def example_files(text):
+    """Files that code blocks of the document contain, by the comments with which they begin."""
+    return re.findall(r"^```c\n/\* (\S+) \*/$", text, re.MULTILINE)
+
+
 def unknown_files(name, text, files):
     """A line for each source file that is named but does not exist; `_cases.c` may be the end of a
     name, FILE.c is a placeholder."""
+    files = files + example_files(text)
     for number, line in enumerate(text.splitlines(), 1):
         for found in re.findall(r"(?<![\w./*-])[\w./-]*\w\.(?:c|h|py|sh|bash)\b(?![\w/(])", line):
             end = found.lstrip("./") if found.startswith((".", "_")) else "/" + found
@@ -79,6 +85,8 @@ def unknown_files(name, text, files):
 
 
 def unknown_functions(name, text, names):
+    if example_files(text):
+        names = names | set(re.findall(r"^[+]?\w.*\b(rho_\w+)\(", text, re.MULTILINE))
     for number, line in enumerate(text.splitlines(), 1):
         for found in re.findall(r"\brho_\w*[a-z0-9]\b(?!_)", line):
             if found not in names:

@@ -4,16 +4,20 @@
 two, and each comparison of a row number `>= 0` to `>= 1`, and lists the changes that no test
 notices.
 
-A constant is a `#define NAME number` or a `static const` number in src/. Constants that are no
-policy are left out: magic numbers, bits, units, check sums, the coefficients of src/base, floating
-point numbers of 1e12 and more, which only keep arithmetic finite, and those in ALIKE. A mutant is
-noticed where it does not compile, a golden file differs, or a compiled test of `make test` fails or
-times out; each twice, as tests may fail on a loaded machine. Where a program is killed from
-outside, the run ends without a result. Programs that are the same bytes with the mutant are not
-run. Mutants are tried in copies of the sources in BUILD/mutate, one copy for each of the --jobs.
+A constant is each `#define NAME number` of a room's table of policy, src/ROOM/policy.h, and each
+`#define NAME number` or `static const` number elsewhere in src/ that is policy. There, constants
+are left out that are none: magic numbers, bits, units, check sums, the coefficients of src/base,
+floating point numbers of 1e12 and more, which only keep arithmetic finite. Those in ALIKE are left
+out everywhere, as no test can notice them.
+
+A mutant is noticed where it does not compile, a golden file differs, or a compiled test of `make
+test` fails or times out; each twice, as tests may fail on a loaded machine. Where a program is
+killed from outside, the run ends without a result. Programs that are the same bytes with the mutant
+are not run. Mutants are tried in copies of the sources in BUILD/mutate, one copy for each of the
+--jobs.
 
 Usage: mutate.py [--sample N] [--seed S] [--only REGEX] [--jobs N]. Prints each mutant; exit 1 where
-fewer than nine in ten are noticed.
+fewer than nine in ten are noticed. mutate.py --list [ROOT]: prints the mutants, and tries none.
 """
 import argparse
 import hashlib
@@ -34,19 +38,19 @@ CONSTANT = re.compile(
     r"^(?:#define\s+(?P<define>\w+)|static const \w+ (?P<const>\w+) =)\s+"
     r"(?P<number>[0-9][0-9.]*(?:e[-+]?\d+)?)"
     r"(?P<suffix>[fuULl]*)(?=\s*(?:;|/\*|$))")
+POLICY = re.compile(r"^#define\s+(?P<define>\w+)\s+\(?-?(?P<number>[0-9][0-9.]*(?:e[-+]?\d+)?)"
+                    r"(?P<suffix>[fuULl]*)\)?(?=\s*(?:/\*|$))")
 NO_POLICY = re.compile(
     r"MAGIC|VERSION|BITS|MASK|SHIFT|EXPONENT|_H$|PI\b|HALF|OFFSET|PRIME|POLYNOM|ROUNDING|EPSILON"
     r"|TURN_(HIGH|MIDDLE|LOW)|^SECOND_US$|^CHECK_(START|FACTOR)$|^NAT_PER_MNAT$|^M2_PER_KM2$")
 GUARD_MIN = 1e12
-# {file: constants that change only the time or stack of a call, not its result}: cost models that
+# {room: constants that change only the time or stack of a call, not its result}: cost models that
 # choose between two algorithms, numbers of elements a pass
 ALIKE = {
-    "src/association/hypotheses_soundness.c": r"PASS_NODES$",
-    "src/tracker/tracker_soundness.c": r"PASS_SLOTS$",
-    "src/papers/accumulator_peak_search.c": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$",
-    "src/papers/accumulator_row_votes_and_peaks.c": r"BLOCKS$|CROWDED$",
-    "src/papers/accumulator_branch_and_bound.c":
-        r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|(SHRINK|GROW)_KEPT$",
+    "association": r"PASS_NODES$",
+    "tracker": r"PASS_SLOTS$",
+    "papers": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$|BLOCKS$|CROWDED$|ROWS_|BINS_MIN$|WORK_"
+              r"|HALVINGS|(SHRINK|GROW)_KEPT$",
 }
 NO_POLICY_FILES = {
     "src/base/approx.c", "src/base/angle.c", "src/wire/message_types.c",
@@ -65,19 +69,27 @@ def mutants_of(root):
         if name in NO_POLICY_FILES:
             continue
         for number, line in enumerate(path.read_text().splitlines()):
-            found = CONSTANT.match(line)
-            constant = found and (found["define"] or found["const"])
-            if found and is_policy(name, constant, found["number"]):
+            found = constant_in(path, line)
+            if found:
                 for value in filter(None, (scaled_number(found, 2), scaled_number(found, 0.5))):
-                    yield name, number, constant, found, value
+                    yield name, number, name_of(found), found, value
             for found in ROW.finditer(line):
                 yield name, number, found["name"], found, "1"
 
 
-def is_policy(path, constant, number):
-    is_guard = re.search("[.e]", number) and float(number) >= GUARD_MIN
-    return (float(number) != 0 and not is_guard and not NO_POLICY.search(constant)
-            and not re.match(ALIKE.get(path, "$^"), constant))
+def name_of(found):
+    return found.groupdict().get("define") or found["const"]
+
+
+def constant_in(path, line):
+    """The match of a constant of policy in a line; None where there is none."""
+    is_table = path.name == "policy.h"
+    found = (POLICY if is_table else CONSTANT).match(line)
+    if not found or float(found["number"]) == 0 or re.match(
+            ALIKE.get(path.parent.name, "$^"), name_of(found)):
+        return None
+    is_guard = re.search("[.e]", found["number"]) and float(found["number"]) >= GUARD_MIN
+    return found if is_table or not (is_guard or NO_POLICY.search(name_of(found))) else None
 
 
 def scaled_number(found, factor):
@@ -87,6 +99,11 @@ def scaled_number(found, factor):
         return value if re.search("[.e]", value) else value + ".0"
     value = int(int(found["number"]) * factor)
     return str(value) if value not in (0, int(found["number"])) else None
+
+
+def told(mutant):
+    name, line, constant, found, value = mutant
+    return f"{name}:{line + 1}: {constant} {found['number']} -> {value}"
 
 
 class SourceCopy:
@@ -204,27 +221,32 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", metavar="REGEX", help="files and names that match")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="at a time (default 1)")
+    parser.add_argument("--list", type=pathlib.Path, nargs="?", const=ROOT, metavar="ROOT",
+                        help="print the mutants only")
     options = parser.parse_args()
-    mutants = [mutant for mutant in mutants_of(ROOT)
+    mutants = [mutant for mutant in mutants_of(options.list or ROOT)
                if re.search(options.only, f"{mutant[0]} {mutant[2]}")]
     if options.sample and options.sample < len(mutants):
         mutants = sorted(
             random.Random(options.seed).sample(mutants, options.sample),
             key=lambda mutant: mutant[:2])
+    if options.list:
+        for mutant in mutants:
+            print(told(mutant))
+        return
     if not mutants:
         sys.exit("mutate: nothing matches")
     folder = ROOT / os.environ.get("BUILD", "build") / "mutate"
     trees = queue.SimpleQueue()
 
     def test_mutant(mutant):
-        name, line, constant, found, value = mutant
+        name, line, _, found, value = mutant
         tree = trees.get()
         try:
             by = tree.try_mutant(name, line, found, value)
         finally:
             trees.put(tree)
-        print(f"{name}:{line + 1}: {constant} {found['number']} -> {value}: {by or 'NOT NOTICED'}",
-              flush=True)
+        print(f"{told(mutant)}: {by or 'NOT NOTICED'}", flush=True)
         return by is not None
 
     with ThreadPoolExecutor(options.jobs) as pool:

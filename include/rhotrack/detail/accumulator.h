@@ -37,7 +37,7 @@
 extern "C" {
 #endif
 
-/* largest number of scans, each of which has a bit in a cell */
+/* Largest number of scans, each of which has a bit in a cell. */
 #define RHO_ACCUMULATOR_SCANS_MAX 16u
 
 enum rho_accumulator_votes {

@@ -38,11 +38,11 @@ float rho_angle_sector_width(float from_rad, float to_rad);
  * The end of a sector that the next sector continues: the nearer one, if the gap is gap_max_rad or
  * less; both ends, or-ed, where the next sector closes the circle. 0 where the gap is larger, the
  * sectors overlap, or one of them is the whole circle. Ends within 1 mrad, or a quarter of the
- * narrower sector, count as equal.
+ * narrower sector, count as equal. LEFT: the next sector follows counter-clockwise, from the end
+ * `to`; RIGHT: it follows clockwise, from the end `from`.
  */
-/* the next sector follows counter-clockwise, from the end `to` */
 #define RHO_ANGLE_CONTINUES_LEFT 1u
-#define RHO_ANGLE_CONTINUES_RIGHT 2u /* the next sector follows clockwise, from the end `from` */
+#define RHO_ANGLE_CONTINUES_RIGHT 2u
 unsigned rho_angle_continued_ends(float from_rad, float to_rad, float next_from_rad,
                                   float next_to_rad, float gap_max_rad);
 

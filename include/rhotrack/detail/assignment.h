@@ -27,7 +27,7 @@ extern "C" {
 #endif
 
 #define RHO_ASSIGNMENT_NONE (-1)
-/* largest magnitude of a pair's cost, thousandths of a nat */
+/* Largest magnitude of a pair's cost, thousandths of a nat. */
 #define RHO_ASSIGNMENT_COST_MAX 100000000
 
 struct rho_assignment_pair {

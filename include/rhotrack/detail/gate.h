@@ -20,7 +20,7 @@
 extern "C" {
 #endif
 
-/* ---- Hough clutter elimination --------------------------------------------------------------- */
+/* Hough clutter elimination. */
 
 /* Planes of velocity space that the Hough gate uses; values to be or-ed. */
 #define RHO_GATE_PLANE_XY 1u
@@ -62,7 +62,7 @@ RHO_MUST_CHECK enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough,
 float rho_gate_hough_velocity_distance_from_lines_mps(const struct rho_gate_hough *hough,
                                                       const float velocity_mps[3]);
 
-/* ---- nearest --------------------------------------------------------------------------------- */
+/* Gate of the nearest plot. */
 
 /*
  * The range rate that a track's prediction expects, its variance, and its covariances with the

@@ -43,11 +43,11 @@ extern "C" {
 
 #define RHO_HYPOTHESES_SLOTS (RHO_MAX_TRACKS + 1) /* one more, for a track that is being started */
 #define RHO_HYPOTHESES_OF_TRACK 8
-/* most plots of a scan for which one hypothesis has children */
+/* Most plots of a scan for which one hypothesis has children. */
 #define RHO_HYPOTHESES_CHILDREN 3
-/* number of last scans in whose plots two hypotheses of a track must differ */
+/* Number of last scans in whose plots two hypotheses of a track must differ. */
 #define RHO_HYPOTHESES_MEMORY 3
-/* least weight relative to the best hypothesis, nat; lighter ones are removed */
+/* Least weight relative to the best hypothesis, nat; lighter ones are removed. */
 #define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f)
 #define RHO_HYPOTHESES_MISS (-1)
 

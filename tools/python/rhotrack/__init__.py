@@ -19,7 +19,7 @@ from .scans import Scans, read, to_pandas, to_polars
 from .settings import Settings, parameters
 from .tracking import Maintainer, Node, Tracker, Tracks
 
-__version__ = "0.1.0"
+__version__ = "0.9.0"
 __all__ = [
     "Accumulator", "Error", "Ghosts", "HoughGate", "Imm", "Initiator", "InputEstimation", "Kalman",
     "Maintainer", "Node", "Passive", "Scans", "Settings", "Tracker", "Tracks", "convert", "ghosts",
