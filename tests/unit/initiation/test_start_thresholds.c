@@ -4,7 +4,7 @@
  * result. Noise of 10 m, scans of 2 s, targets of 100 to 400 m/s. The prior of a turn is tested
  * through a private header, as scores show it only in sums.
  */
-#include "../../src/initiation/search.h"
+#include "../../src/initiation/start_thresholds.h"
 #include "initiator_setup.h"
 #include "rhotrack/tracker.h"
 
@@ -462,7 +462,7 @@ static void the_prior_of_a_turn_is_a_tenth_or_keeps_the_rate(void **state)
 {
     struct search search = {.initiator = &initiator};
     (void)state;
-    assert_float_equal(rho_initiator_log_turn_prior(&search), log(0.1), 1e-6);
+    assert_float_equal(rho_thresholds_log_turn(&search), log(0.1), 1e-6);
     /* sets of half the scans over a tenth of the false starts: 3.5 / 0.1 times e^-2 */
     initiator.config.false_tracks_per_hour = 3600.0f;
     initiator.start_mnat = 2000;
@@ -470,7 +470,7 @@ static void the_prior_of_a_turn_is_a_tenth_or_keeps_the_rate(void **state)
     search.keeps_rate = 1;
     search.interval_s = 1.0f;
     search.num_scans = SCANS;
-    assert_float_equal(rho_initiator_log_turn_prior(&search), log(0.1) - log(35.0) + 2.0, 1e-5);
+    assert_float_equal(rho_thresholds_log_turn(&search), log(0.1) - log(35.0) + 2.0, 1e-5);
 }
 
 /*

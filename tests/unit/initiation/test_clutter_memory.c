@@ -4,7 +4,7 @@
  * window's map are learned, used and forgotten. Limits are tested on a memory set by hand through
  * the private header.
  */
-#include "../../src/initiation/search.h"
+#include "../../src/initiation/clutter_density.h"
 #include "initiator_setup.h"
 
 #if RHO_MAX_CLUTTER_CELLS > 0
@@ -413,11 +413,9 @@ static void a_cell_counts_if_three_sigmas_above_the_expected(void **state)
     (void)state;
     struct rho_clutter_memory *memory = set_memory(100);
     memory->count[0] = 9;
-    assert_true(rho_initiator_density_with_memory(&initiator, -4999.0f, -4999.0f, density) ==
-                density);
+    assert_true(rho_clutter_memory_raise(&initiator, -4999.0f, -4999.0f, density) == density);
     memory->count[0] = 10;
-    assert_float_equal(rho_initiator_density_with_memory(&initiator, -4999.0f, -4999.0f, density) /
-                           density,
+    assert_float_equal(rho_clutter_memory_raise(&initiator, -4999.0f, -4999.0f, density) / density,
                        11.0 / 4.0, 1e-2);
 }
 
@@ -428,7 +426,7 @@ static void counts_are_halved_after_128_scans(void **state)
         struct rho_clutter_memory *memory = set_memory(scans);
         initiator.window.extent = (struct rho_extent){-4000.0f, 4000.0f, -4000.0f, 4000.0f};
         memory->count[1] = 10;
-        rho_initiator_remember_oldest_scan(&initiator);
+        rho_clutter_memory_add(&initiator);
         assert_int_equal(memory->num_scans, scans == 127 ? 128 : 65);
         assert_int_equal(memory->count[1], scans == 127 ? 10 : 5);
     }
@@ -443,7 +441,7 @@ static void a_memory_four_times_wider_than_the_area_is_laid_out_anew(void **stat
         struct rho_clutter_memory *memory = set_memory(50);
         initiator.window.extent = i < 2 ? (struct rho_extent){-narrow_m, narrow_m, -wide_m, wide_m}
                                         : (struct rho_extent){-wide_m, wide_m, -narrow_m, narrow_m};
-        rho_initiator_remember_oldest_scan(&initiator);
+        rho_clutter_memory_add(&initiator);
         assert_int_equal(memory->num_scans, i % 2 ? 51 : 1);
         if (i == 0) {
             assert_float_equal(memory->x_min_m, -1.5 * (double)narrow_m, 0.1);
