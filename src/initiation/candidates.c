@@ -6,6 +6,8 @@
  */
 #include "candidates.h"
 
+#include <string.h>
+
 #include "clutter_density.h"
 #include "policy.h"
 #include "start_thresholds.h"
@@ -53,14 +55,8 @@ static int make_unlisted_candidate(struct search *search, struct plot_set *set,
     rho_search_charge(search, initiator->num_candidates / COMPARED_IN_UNIT);
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         struct rho_candidate *other = &initiator->candidates[i];
-        unsigned m = 0;
-        if (other->mask != candidate->mask) {
-            continue;
-        }
-        while (m < RHO_MAX_SCANS && other->plot[m] == candidate->plot[m]) {
-            m++;
-        }
-        if (m == RHO_MAX_SCANS) {
+        if (other->mask == candidate->mask &&
+            memcmp(other->plot, candidate->plot, sizeof other->plot) == 0) {
             if (candidate->is_turning && other->score_mnat < candidate->score_mnat) {
                 *other = *candidate;
             }

@@ -36,7 +36,7 @@ struct place_class {
 struct pattern {
     uint16_t first, hits;
     float log_choices; /* ln of the number of choices of the scans between */
-    float spread_s2;   /* mean spread of the hits' times, by mean_sum_of_squared_hit_time_gaps_s2 */
+    float spread_s2;   /* mean spread of the hits' times, by mean_hit_spread_s2 */
     float inside;      /* share of tracks of this duration that stay in the area */
     float half_dimensions;
     float most; /* largest chi2 / 2 of a fit that is accepted */

@@ -6,6 +6,8 @@
  * The arithmetic is in isotropic_fit where noise is isotropic and sets are straight, and in
  * anisotropic_fit elsewhere.
  */
+#include <string.h>
+
 #include "candidates.h"
 #include "clutter_density.h"
 #include "policy.h"
@@ -33,20 +35,6 @@ void rho_plot_set_associate(struct search *search, const struct line_fit *fit,
     }
 }
 
-static int is_same_set(const struct search *search, const struct plot_set *a,
-                       const struct plot_set *b)
-{
-    if (a->mask != b->mask) {
-        return 0;
-    }
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        if ((a->mask >> m & 1u) && a->plot[m] != b->plot[m]) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 int rho_plot_set_refine(struct search *search, struct plot_set *set, struct line_fit *fit)
 {
     const struct rho_initiator_config *config = &search->initiator->config;
@@ -62,7 +50,9 @@ int rho_plot_set_refine(struct search *search, struct plot_set *set, struct line
             (set->mask & search->wanted_mask) != search->wanted_mask) {
             return 0;
         }
-        if (is_same_set(search, &before, set)) {
+        /* scans without a plot have index 0 */
+        if (before.mask == set->mask &&
+            memcmp(before.plot, set->plot, search->num_scans * sizeof set->plot[0]) == 0) {
             break;
         }
         if (!rho_plot_set_fit(search, set, fit)) {

@@ -14,22 +14,22 @@
  */
 #define SHARED_PLOTS_MAX 1u
 /*
- * Factor of the gate's variance when a candidate is associated with the plots that better ones have
- * left, wider than that of a fit, as a neighbour's plots may have biased it. Half: the biased fit
- * misses its own plots. Twice: it takes those of a neighbour.
+ * Factor of the gate's variance for plots that better candidates have left, wider than that of a
+ * fit, as a neighbour's plots may have biased it. Half: the fit misses its own plots. Twice: it
+ * takes those of a neighbour.
  */
 #define SECOND_GATE_FACTOR 2.5f
 
 /* clutter_density.c */
 
 /*
- * Mean number of plots in a cell of a density map, whose count then has an error of 18 %. Half:
- * hot spots show better, and densities scatter more. Twice: the reverse.
+ * Mean number of plots in a cell of a density map: its count has an error of 18 %. Half: hot spots
+ * show better, and densities scatter more. Twice: the reverse.
  */
 #define PLOTS_PER_CELL 32u
 /*
- * Least number of plots that determine the sector of a radar for a map of range and azimuth: half a
- * cell's. Half: chance decides on the kind of map. Twice: thin clutter keeps the square map.
+ * Least plots that determine a radar's sector for a map of range and azimuth: half a cell's. Half:
+ * chance decides on the kind of map. Twice: thin clutter keeps the square map.
  */
 #define POLAR_PLOTS_MIN (PLOTS_PER_CELL / 2u)
 /*
@@ -38,19 +38,18 @@
  */
 #define PRIOR_PLOTS_MAX 1.0e6f
 /*
- * Plots expected where none was seen, in searches after every scan: the median of a density without
- * prior knowledge, in area and window. Half: tracks start more easily in clear skies. Twice: later.
+ * Plots expected in area and window where none was seen, in searches after every scan: the median
+ * without prior knowledge. Half: tracks start more easily in clear skies. Twice: later.
  */
 #define PLOTS_UNSEEN 0.5f
 /*
- * Share of a radar's range below which the density per square metre rises no further. Half or
- * twice: near the radar clutter counts as up to twice as dense, or as half.
+ * Share of a radar's range below which the density per square metre rises no further. Half: nearer
+ * clutter counts as up to twice as dense. Twice: as half as dense.
  */
 #define NEAR_SHARE 0.01f
 /*
- * Width of a sector from which a radar counts as looking all round. Half: sectors of 150 degrees
- * get a map of the whole circle, whose mean is too low. Twice: no radar looks all round, and the
- * seam of the sector lies among its plots.
+ * Width of a sector from which a radar looks all round. Half: sectors of 150 degrees have a map of
+ * the whole circle, whose mean is too low. Twice: all round, a seam lies among the plots.
  */
 #define ALL_ROUND_RAD 5.0f
 
@@ -63,7 +62,7 @@
 #define MEMORY_SCANS_MAX 128u
 /*
  * Excess of a cell's count, in standard deviations, from which the memory raises the density. Half:
- * random counts raise it in every tenth cell. Twice: hot spots are found late, or not at all.
+ * random counts raise it in many cells. Twice: hot spots are found late, or not at all.
  */
 #define MEMORY_SIGMAS 3.0f
 /*
@@ -81,23 +80,21 @@
 
 /*
  * Ratio of the variances of a tentative track's prediction and of a plot, as determinants of both
- * axes: the prediction is as uncertain as the plot. Half: a further plot of clutter counts for
- * more, and tracks are confirmed later. Twice: earlier, with more false ones.
+ * axes. Half: a hit of clutter counts for more, and tracks are confirmed later. Twice: for less.
  */
 #define PREDICTION_SPREAD 4.0f
 /*
- * Margin by which sets may score higher than the model's perfect fit of their pattern: votes may be
- * nearer to each other than on average, and the set's own plots are not in the density. Half: sets
- * of long spans with few hits are not tried. Twice: more kernels are tried for nothing.
+ * Margin by which sets may score above the perfect fit of their pattern: votes may be nearer to one
+ * another than on average, and their own plots are not in the density. Half: sets of long spans
+ * with few hits are not tried. Twice: more kernels are tried for nothing.
  */
 #define BEST_MARGIN_NAT 2.0f
 
 /* initiator.c */
 
 /*
- * Longest interval between scans that counts in the usual interval, in medians: a pause counts as
- * that. Half: regular changes of the interval count as pauses. Twice: a pause lengthens the usual
- * interval, so that fewer false tracks are expected an hour than there are.
+ * Longest interval between scans that counts in the usual one, in medians: a pause counts as that.
+ * Half: changing intervals count as pauses. Twice: a pause lengthens the usual interval.
  */
 #define PAUSE_GAPS 3.0f
 
@@ -117,19 +114,16 @@
 #define LOOKUP_PLOTS 3.0f
 #define LOOKUPS_OF_PAIR 2.0f
 #define SHARE_IN_GATE 0.5f
-
-/* plot_pair_enumeration.c, plot_pair_votes.c */
-
 /*
- * Factor by which rounding may increase the distance of a vote from its kernel. Half its excess
- * over 1 is still far above float32's 6e-8 a sum. Twice: a few more kernels are tried.
+ * Factor by which rounding may increase the distance of a vote from its kernel. Half of its excess
+ * over 1: still far above the 6e-8 of a sum in float32. Twice: a few more kernels are tried.
  */
 #define GATE_ROUNDING 1.001f
 
 /* plot_pair_votes.c, target_model.c */
 
 /*
- * Largest climb or sink rate of targets, as a share of v_max. Half: fighters that climb steeply do
+ * Largest climb or sink rate of targets, as a share of v_max. Half: targets that climb steeply do
  * not start. Twice: heights exclude fewer kernels of clutter.
  */
 #define CLIMB_SHARE 0.5f
@@ -138,8 +132,8 @@
 
 /*
  * Variance of a plot about the fitted track over the plot's own: 1 + leverage, which is 1.46 at the
- * ends of seven evenly spread hits. Half: targets lose plots. Twice: clutter is taken. With a
- * turn's acceleration the ends of a fit are less certain.
+ * ends of seven evenly spread hits; a turn's acceleration makes these less certain. Half: targets
+ * lose plots. Twice: clutter is taken.
  */
 #define FIT_GATE_FACTOR 1.5f
 #define TURN_GATE_FACTOR (FIT_GATE_FACTOR * 2.0f)
@@ -157,9 +151,8 @@
  */
 #define ECHO_SPEED_SHARE 0.4f
 /*
- * Share of a plot's variance that each plot adds to the variance of its echo's place: a quay or a
- * tree has plots at several places within their noise. Half: old echoes miss such plots. Twice:
- * echoes of a tower stay wide, and explain less.
+ * Share of a plot's variance that it adds to the variance of its echo's place: a quay has plots at
+ * several places. Half: old echoes miss some of these. Twice: echoes stay wide and explain less.
  */
 #define PLACE_NOISE 0.02f
 /*
@@ -168,9 +161,9 @@
  */
 #define TURNS_REMEMBERED 200.0f
 /*
- * Revolutions in a block of counts. Counts are used one to two blocks after they were made, as the
- * first plots of a target are counted before its track starts, and are taken out when it does.
- * Half: plots of targets that start late count as clutter's. Twice: a new map is used later.
+ * Revolutions in a block of counts, which are used one to two blocks later, as the first plots of a
+ * target are counted until its track starts. Half: plots of targets that start late count as
+ * clutter's. Twice: a new map is used later.
  */
 #define BLOCK_TURNS 4.0f
 /*
@@ -178,21 +171,20 @@
  * often. Half: standing clutter starts tracks for longer. Twice: standing targets start later.
  */
 #define PRIOR_PROBABILITY_STANDING 0.003f
-/* Weight of the prior probability, in looks. Half or twice: a new map learns faster, or slower. */
-#define PRIOR_LOOKS 3.0f
 /*
- * Weight of the mean over all regions in the return probability of one region, in looks. Half:
- * regions with few echoes follow chance. Twice: differences between regions show later.
+ * Weights in looks: of the prior probability, and of the mean over all regions in one region. Half:
+ * new maps and regions with few echoes follow chance. Twice: they learn more slowly.
  */
+#define PRIOR_LOOKS 3.0f
 #define REGION_LOOKS 2.0f
 /*
  * Largest probability of a return: no echo is certain. Half: towers leave half of their plots to
- * tracks. Twice: above 1, and a miss of a learned echo has no probability.
+ * tracks. Twice: above 1.
  */
 #define PROBABILITY_MAX 0.98f
 /*
- * Seconds in which an echo that no scan covers counts as missed once. Half: echoes outside of a
- * sector are dropped sooner from a full table. Twice: later than those that were looked at.
+ * Seconds in which an echo that no scan covers counts as missed once. Half: a full table drops
+ * echoes outside of a sector sooner. Twice: later than those that were looked at.
  */
 #define MISSED_S 60.0f
 /*
@@ -211,44 +203,42 @@
  */
 #define CHOICE_SHARE 4u
 /*
- * Of the work for the newest plots, one part in PLOT_KEPT_SHARE is reserved in equal shares for the
- * plots not tried yet. Half: each plot has the same share, and dear plots are left out. Twice: a
- * few dear plots take the work of the rest.
+ * Of the work for the newest plots one part in PLOT_KEPT_SHARE is reserved, in equal shares, for
+ * the plots not tried yet. Half: dear plots are left out. Twice: they take the work of the rest.
  */
 #define PLOT_KEPT_SHARE 2u
 /*
- * A plot may take one part in PLOT_FREE_PARTS of the work that is not reserved. Half: the first dear
- * plots take most of it. Twice: none of them is finished.
+ * A plot may take one part in PLOT_FREE_PARTS of the work that is not reserved. Half: the first
+ * dear plots take most of it. Twice: none of them is finished.
  */
 #define PLOT_FREE_PARTS 4u
 /*
  * Work on kernels of turning targets, at most: as much as straight ones took; one part in
- * TURN_SHARE_OF_PLACES of that where plots have positions alone, which hardly reveal turns. Half:
- * twice the work for few more starts. Twice: turning targets start later in clutter.
+ * TURN_SHARE_OF_PLACES of that where plots have positions alone, which hardly reveal turns; at
+ * least ten fits. Half: more work for few more starts. Twice: turns in clutter start later.
  */
 #define TURN_SHARE_OF_PLACES 8u
-/* And at least ten fits, which few plots need. Half or twice: in nearly clear skies as above. */
 #define TURN_UNITS_MIN (FIT_UNITS * 10u)
 
 /* start_thresholds.c */
 
 /*
- * Most sets of clutter plots that may start a tentative track, expected a search; later scans
- * confirm or drop such tracks. In a batch: most false tracks, from which M follows. Half: targets
- * start later. Twice: tentative tracks take the plots of targets.
+ * Most sets of clutter plots that may start a tentative track, expected a search, which later scans
+ * confirm or drop; in a batch, most false tracks. Half: targets start later. Twice: tentative
+ * tracks take the plots of targets.
  */
 #define FALSE_STARTS_MAX 0.1f
 /*
- * Bounds of thresholds, in nats: every track in the gates reaches the lower one. Half or twice of
- * the lower: tracks in clear skies start later, or no difference. Of the upper: dense clutter
- * starts false tracks, or the bisection is half as fine.
+ * Bounds of thresholds, in nats: every track in the gates reaches the lower one. Half: of the lower
+ * one, tracks in clear skies start later; of the upper one, dense clutter starts false tracks.
+ * Twice: the bisection is less fine.
  */
 #define THRESHOLD_MIN_NAT (-10.0f)
 #define THRESHOLD_MAX_NAT 60.0f
 /*
  * Step of the score that a tentative track of clutter still lacks, in the table of probabilities to
- * climb to the confirm threshold. Half: the table ends at 12 nat, and counts climbs from below as
- * impossible. Twice: thresholds are rougher.
+ * climb to the confirm threshold. Half: climbs of more than 12 nat count as impossible. Twice:
+ * thresholds are rougher.
  */
 #define CLIMB_STEP 0.5f
 /*
@@ -258,8 +248,8 @@
 #define TURNING_SHARE 0.1f
 /*
  * Clutter counts as thin below this share of the thinnest sampled clutter: places of one class
- * differ by about as much. Half: fewer plots may end sets of M hits. Twice: sampled places count as
- * thin, and kernels are tried that can start no track.
+ * differ by about as much. Half: fewer plots may end sets of M hits. Twice: kernels are tried that
+ * can start no track.
  */
 #define THIN_SHARE 0.9f
 

@@ -98,8 +98,8 @@ float rho_clutter_map_decay_factor(float turn_share)
 }
 
 /* Decays a table of looks and returns and adds another one: *to = keep * *to + *from. */
-static void decay_and_add_table(struct rho_echo_returns *to, float keep,
-                                const struct rho_echo_returns *from)
+static void decay_table(struct rho_echo_returns *to, float keep,
+                        const struct rho_echo_returns *from)
 {
     for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
         for (unsigned g = 0; g < RHO_ECHO_GAP_CLASSES; g++) {
@@ -112,7 +112,7 @@ static void decay_and_add_table(struct rho_echo_returns *to, float keep,
 static void close_count_block(struct rho_clutter_map *map)
 {
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        decay_and_add_table(&map->tables[0][r], 1.0f, &map->tables[2][r]);
+        decay_table(&map->tables[0][r], 1.0f, &map->tables[2][r]);
     }
     memcpy(map->tables[2], map->tables[1], sizeof map->tables[2]);
     memset(map->tables[1], 0, sizeof map->tables[1]);
@@ -122,7 +122,7 @@ void rho_clutter_map_age_counts(struct rho_clutter_map *map, float turn_share)
 {
     static const struct rho_echo_returns none;
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        decay_and_add_table(&map->tables[0][r], rho_clutter_map_decay_factor(turn_share), &none);
+        decay_table(&map->tables[0][r], rho_clutter_map_decay_factor(turn_share), &none);
     }
     map->scans_to_blocks -= turn_share;
     if (!(map->scans_to_blocks > 0.0f)) {

@@ -33,9 +33,9 @@ static unsigned cost_class_by_near_plots(unsigned near)
 }
 
 /*
- * Tries the kernels that end in the plots of a cost class, from index `first` to before `end`. Where
- * the work does not suffice for a plot, it counts as not tried. The next search begins with the
- * first plot left out, or the one behind it where that was the first of this pass.
+ * Tries the kernels that end in the plots of a cost class, from index `first` to before `end`.
+ * Where the work does not suffice for a plot, it counts as not tried. The next search begins with
+ * the first plot left out, or the one behind it where that was the first of this pass.
  */
 static void try_cost_class(struct search *search, const struct span_list *list, unsigned class,
                            unsigned first, unsigned end, struct pass *pass)

@@ -26,12 +26,6 @@ enum {
     CLIMB_SWEEPS = 4,
 };
 
-/* Scores that start and confirm tracks, and the least number of votes. */
-struct thresholds {
-    float start_nat, confirm_nat;
-    unsigned min_scans;
-};
-
 /*
  * Expected number of false tracks with votes of any h of the N scans: C(N, h) times the number for
  * h scans spread evenly over the window, density^h sigma^(2h-4) V(c) A pi (v_max^2 - v_min^2) h
@@ -180,12 +174,21 @@ static float find_confirm_threshold(const struct false_tracks *model, float want
     return high;
 }
 
+static void store_thresholds(struct search *search, unsigned min_scans, float start_nat,
+                             float confirm_nat)
+{
+    search->min_scans = min_scans;
+    search->score_min_nat = start_nat;
+    search->initiator->start_mnat = rho_nat_to_mnat(start_nat);
+    search->initiator->confirm_mnat = rho_nat_to_mnat(confirm_nat);
+}
+
 /*
- * Chooses M, the fewest hits whose start threshold a target is likely to reach, and the thresholds.
- * Where there is none, a full window starts sets with hits in all scans; a window that still fills
- * starts none: M is then beyond the number of scans held.
+ * M is the fewest hits whose start threshold a target is likely to reach. Where there is none, a
+ * full window starts sets with hits in all scans; a window that still fills starts none: M is then
+ * beyond the number of scans held.
  */
-static void find_thresholds(const struct search *search, struct thresholds *thresholds)
+void rho_thresholds_update(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     const struct rho_initiator_config *config = &initiator->config;
@@ -200,31 +203,22 @@ static void find_thresholds(const struct search *search, struct thresholds *thre
             break;
         }
     }
-    thresholds->min_scans = model.least_hits;
-    if (model.least_hits > num_scans) {
+    unsigned min_scans = model.least_hits;
+    if (min_scans > num_scans) {
         model.least_hits = num_scans;
-        thresholds->min_scans = num_scans == config->scans ? num_scans : num_scans + 1u;
+        min_scans = num_scans == config->scans ? num_scans : num_scans + 1u;
     }
     if (HAS_SPAN_HITS) {
-        /* long spans have room for more misses, which lower the score: they need more hits than M */
+        /* long spans have room for more misses, which lower the score: they need more hits */
         initiator->thin_clutter = THIN_SHARE * rho_false_tracks_thinnest(&model);
         for (unsigned first = 0; first < RHO_MAX_SCANS; first++) {
             initiator->span_hits[first] =
                 (uint8_t)rho_false_tracks_least_hits(&model, first, start_nat);
         }
     }
-    thresholds->start_nat = start_nat;
-    thresholds->confirm_nat = find_confirm_threshold(
-        &model, config->false_tracks_per_hour * search->interval_s / 3600.0f, start_nat);
-}
-
-static void store_thresholds(struct search *search, const struct thresholds *thresholds)
-{
-    struct rho_initiator *initiator = search->initiator;
-    search->min_scans = thresholds->min_scans;
-    search->score_min_nat = thresholds->start_nat;
-    initiator->start_mnat = rho_nat_to_mnat(thresholds->start_nat);
-    initiator->confirm_mnat = rho_nat_to_mnat(thresholds->confirm_nat);
+    const float wanted = config->false_tracks_per_hour * search->interval_s / 3600.0f;
+    store_thresholds(search, min_scans, start_nat,
+                     find_confirm_threshold(&model, wanted, start_nat));
 }
 
 /*
@@ -240,32 +234,25 @@ void rho_thresholds_set(struct search *search)
         search->score_min_nat = (float)initiator->start_mnat * 0.001f;
         return;
     }
-    struct thresholds thresholds = {config->score_min_nat, config->score_min_nat,
-                                    config->min_scans};
     if (search->keeps_rate && search->num_scans >= 3) {
-        find_thresholds(search, &thresholds);
-    } else if (thresholds.min_scans == 0) {
-        thresholds.min_scans = search->keeps_rate ? 3u : search->num_scans;
-        /* of a batch: the smallest number of votes that makes few false tracks, N where none does */
-        float sum = 0.0f;
-        for (unsigned m = thresholds.min_scans; m > 3; m--) {
-            sum += m == search->num_scans ? expected_false_tracks(search, m) : 0.0f;
-            sum += expected_false_tracks(search, m - 1u);
-            if (!(sum <= FALSE_STARTS_MAX)) {
-                break;
+        rho_thresholds_update(search);
+    } else {
+        unsigned min_scans = config->min_scans;
+        if (min_scans == 0) {
+            min_scans = search->keeps_rate ? 3u : search->num_scans;
+            /* of a batch: the fewest votes that make few false tracks, N where none do */
+            float sum = min_scans > 3 ? expected_false_tracks(search, min_scans) : 0.0f;
+            while (min_scans > 3) {
+                sum += expected_false_tracks(search, min_scans - 1u);
+                if (!(sum <= FALSE_STARTS_MAX)) {
+                    break;
+                }
+                min_scans--;
             }
-            thresholds.min_scans = m - 1u;
         }
+        store_thresholds(search, min_scans, config->score_min_nat, config->score_min_nat);
     }
-    store_thresholds(search, &thresholds);
     initiator->min_scans = (uint16_t)search->min_scans;
-}
-
-void rho_thresholds_update(struct search *search)
-{
-    struct thresholds thresholds;
-    find_thresholds(search, &thresholds);
-    store_thresholds(search, &thresholds);
 }
 
 /*

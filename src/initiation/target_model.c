@@ -11,7 +11,7 @@
 #include "rhotrack/detail/linalg.h"
 
 /* Displacement at scan m, for an acceleration of 1 m/s^2 from scan l to scan l + 1. */
-static float displacement_per_acceleration_s2(const struct search *search, unsigned l, unsigned m)
+static float displacement_s2(const struct search *search, unsigned l, unsigned m)
 {
     if (m <= l) {
         return 0.0f;
@@ -75,8 +75,7 @@ void rho_target_model_set(struct search *search)
         for (unsigned j = 0; j <= i; j++) {
             float sum = 0.0f;
             for (unsigned l = 0; l < j; l++) {
-                sum += displacement_per_acceleration_s2(search, l, i) *
-                       displacement_per_acceleration_s2(search, l, j);
+                sum += displacement_s2(search, l, i) * displacement_s2(search, l, j);
             }
             search->process_m2[RHO_AT(i, j)] = variance * sum;
         }

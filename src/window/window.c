@@ -41,51 +41,6 @@ static void lay_out_bins(struct rho_window_scan *scan, const struct rho_window *
     scan->bins_per_m_y = (float)scan->bins_y / height_m;
 }
 
-/*
- * Gives HELD plots beyond the window's capacity the fate NO_ROOM. Returns the number of plots that
- * the scan then holds, `held` earlier ones included.
- */
-static unsigned refuse_excess_plots(const struct rho_scan *scan, unsigned held, uint8_t *fates)
-{
-    for (uint32_t i = 0; i < scan->num_plots; i++) {
-        if (fates[i] != RHO_FATE_HELD) {
-            continue;
-        }
-        if (held == RHO_MAX_PLOTS || i >= RHO_WINDOW_ROW) {
-            fates[i] = RHO_FATE_NO_ROOM;
-            continue;
-        }
-        held++;
-    }
-    return held;
-}
-
-/*
- * Sets the extent to that of the first scan's plots, as bins are needed before the area is known.
- */
-static void set_first_extent(struct rho_window *window, const struct rho_scan *scan,
-                             const uint8_t *fates)
-{
-    if (window->area_is_fixed || window->extent.x_min_m <= window->extent.x_max_m) {
-        return;
-    }
-    for (uint32_t i = 0; i < scan->num_plots; i++) {
-        if (fates[i] == RHO_FATE_HELD) {
-            rho_extent_add(&window->extent, scan->plots[i].x_m, scan->plots[i].y_m);
-        }
-    }
-}
-
-/* A scan or sector that is copied into a slot of the window's ring. */
-struct entry {
-    struct rho_window_scan *slot;
-    const struct rho_scan *scan;
-    const uint8_t *fates;
-    /* factors of the plots' sigmas, by the sensor's description */
-    struct rho_sigma_factors factors;
-    float after_s; /* time of the scan or sector after the slot's time */
-};
-
 static uint16_t code_of_clamped_sigma(float sigma)
 {
     return code_of_sigma(rho_smaller(rho_larger(sigma, RHO_LIMIT_SIGMA_MIN), RHO_LIMIT_SIGMA_MAX));
@@ -124,10 +79,12 @@ static void move_earlier_plots_to_new_bins(struct rho_window_scan *slot)
  * Copies the plots with fate HELD into the slot, sorted by bin: a stable counting sort without a
  * second array, in which starts advance as bins fill, and are then shifted back.
  */
-static void copy_plots_into_bins(struct rho_window *window, const struct entry *entry)
+static void copy_plots_into_bins(struct rho_window *window, struct rho_window_scan *slot,
+                                 const struct rho_scan *scan, const struct rho_sensor *sensor,
+                                 const uint8_t *fates)
 {
-    const struct rho_scan *scan = entry->scan;
-    struct rho_window_scan *slot = entry->slot;
+    const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
+    const float after_s = rho_seconds_between(slot->time_us, scan->time_us);
     unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
     uint16_t *start = slot->bin_start;
     if (RHO_SECTORS && slot->num_plots > 0) {
@@ -139,7 +96,7 @@ static void copy_plots_into_bins(struct rho_window *window, const struct entry *
         memset(start, 0, (bins + 1) * sizeof start[0]);
     }
     for (uint32_t i = 0; i < scan->num_plots; i++) {
-        if (entry->fates[i] == RHO_FATE_HELD) {
+        if (fates[i] == RHO_FATE_HELD) {
             start[rho_window_bin_at(slot, scan->plots[i].x_m, scan->plots[i].y_m) + 1]++;
         }
     }
@@ -151,7 +108,7 @@ static void copy_plots_into_bins(struct rho_window *window, const struct entry *
     }
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
-        if (entry->fates[i] != RHO_FATE_HELD) {
+        if (fates[i] != RHO_FATE_HELD) {
             continue;
         }
         const unsigned place = start[rho_window_bin_at(slot, plot->x_m, plot->y_m)]++;
@@ -159,9 +116,9 @@ static void copy_plots_into_bins(struct rho_window *window, const struct entry *
         *held = (struct rho_window_plot){
             .x_m = plot->x_m,
             .y_m = plot->y_m,
-            .offset_s = entry->after_s + (float)plot->offset_us * 1e-6f,
-            .sigma_range = code_of_clamped_sigma(entry->factors.range * plot->sigma_range_m),
-            .sigma_cross = code_of_clamped_sigma(entry->factors.cross * plot->sigma_cross_m),
+            .offset_s = after_s + (float)plot->offset_us * 1e-6f,
+            .sigma_range = code_of_clamped_sigma(factors.range * plot->sigma_range_m),
+            .sigma_cross = code_of_clamped_sigma(factors.cross * plot->sigma_cross_m),
         };
         slot->sigma_max_m = rho_larger(slot->sigma_max_m, sigma_of_code(larger_sigma_code(held)));
         if (scan->measures & RHO_MEASURES_Z) {
@@ -221,65 +178,6 @@ int rho_window_is_next_sector_of_newest_scan(const struct rho_window *window,
                                     SECTOR_GAP_RAD) != 0;
 }
 
-/*
- * Number of plots that a scan will hold when its revolution is complete. For a sector: as many as
- * the revolution before, or RHO_MAX_PLOTS where the window has none; at least `held`.
- */
-static unsigned expected_plots(struct rho_window *window, const struct rho_scan *scan,
-                               unsigned held)
-{
-    const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
-    if (!RHO_SECTORS || !(RHO_TWO_PI / width_rad > 1.0f)) {
-        return held;
-    }
-    if (window->num_scans < 2) {
-        return RHO_MAX_PLOTS;
-    }
-    const unsigned before = rho_window_scan_at(window, window->num_scans - 2u)->num_plots;
-    return held > before ? held : before;
-}
-
-/* Begins the window's record of its newest sector, or whole scan. */
-static void begin_newest_sector(struct rho_window *window, const struct rho_scan *scan)
-{
-    window->newest = (struct rho_window_sector){.time_us = scan->time_us, .offset_min_s = FLT_MAX};
-}
-
-static void add_sector_to_newest(struct rho_window *window, const struct rho_scan *scan,
-                                 const struct rho_sensor *sensor, uint8_t *fates)
-{
-    struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans - 1u);
-    const struct entry entry = {slot, scan, fates, rho_measurement_sigma_factors(sensor),
-                                rho_seconds_between(slot->time_us, scan->time_us)};
-    const unsigned held = refuse_excess_plots(scan, slot->num_plots, fates);
-    const uint32_t measured = slot->measures;
-    if (slot->num_plots == 0) {
-        set_first_extent(window, scan, fates);
-        lay_out_bins(slot, window, expected_plots(window, scan, held));
-    }
-    /* the revolution measures what all its sectors with plots measure */
-    slot->measures = slot->num_plots == 0     ? scan->measures
-                     : held > slot->num_plots ? measured & scan->measures
-                                              : measured;
-    window->is_remeasured = slot->measures != measured;
-    const unsigned ends =
-        rho_angle_continued_ends(slot->sector_from_rad, slot->sector_to_rad, scan->sector_from_rad,
-                                 scan->sector_to_rad, SECTOR_GAP_RAD);
-    if (ends & RHO_ANGLE_CONTINUES_RIGHT) {
-        slot->sector_from_rad = scan->sector_from_rad;
-    } else {
-        slot->sector_to_rad = scan->sector_to_rad;
-    }
-    if (ends == (RHO_ANGLE_CONTINUES_LEFT | RHO_ANGLE_CONTINUES_RIGHT)) {
-        slot->sector_from_rad = slot->sector_to_rad = 0.0f; /* the revolution is complete */
-    }
-    begin_newest_sector(window, scan);
-    copy_plots_into_bins(window, &entry);
-    slot->sensor.pd = sensor ? sensor->pd : 0.0f;
-    slot->num_unused = (uint16_t)(slot->num_unused + held - slot->num_plots);
-    slot->num_plots = (uint16_t)held;
-}
-
 enum rho_status rho_window_init(struct rho_window *window, size_t size, unsigned scans_max,
                                 const struct rho_extent *area, float side_min_m)
 {
@@ -324,39 +222,22 @@ enum rho_status rho_window_check_push(const struct rho_window *window, const str
     return rho_window_accepts(window, scan->time_us) ? RHO_OK : RHO_ERROR_STATE;
 }
 
-static void add_scan(struct rho_window *window, const struct rho_scan *scan,
-                     const struct rho_sensor *sensor, uint8_t *fates, uint32_t *left_unused)
+/*
+ * Number of plots that a scan will hold when its revolution is complete. For a sector: as many as
+ * the revolution before, or RHO_MAX_PLOTS where the window has none; at least `held`.
+ */
+static unsigned expected_plots(struct rho_window *window, const struct rho_scan *scan,
+                               unsigned held)
 {
-    if (window->num_scans == window->scans_max) {
-        *left_unused = rho_count(*left_unused, window->ring[window->first].num_unused);
-        window->first =
-            (uint16_t)(window->first + 1u < window->scans_max ? window->first + 1u : 0u);
-        window->num_scans--;
+    const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
+    if (!RHO_SECTORS || !(RHO_TWO_PI / width_rad > 1.0f)) {
+        return held;
     }
-    struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans++);
-    const struct entry entry = {.slot = slot,
-                                .scan = scan,
-                                .fates = fates,
-                                .factors = rho_measurement_sigma_factors(sensor)};
-    unsigned held = refuse_excess_plots(scan, 0, fates);
-    slot->time_us = scan->time_us;
-    slot->measures = scan->measures;
-    slot->sector_from_rad = scan->sector_from_rad;
-    slot->sector_to_rad = scan->sector_to_rad;
-    slot->sensor = sensor ? *sensor : (struct rho_sensor){.sensor_id = scan->sensor_id};
-    /* the held plots' sigmas include these factors */
-    slot->sensor.sigma_range_percent = slot->sensor.sigma_cross_percent = 0;
-    slot->num_plots = 0;
-    slot->sigma_max_m = slot->offset_min_s = slot->offset_max_s = 0.0f;
-    slot->is_isotropic = 1;
-    begin_newest_sector(window, scan);
-    set_first_extent(window, scan, fates);
-    lay_out_bins(slot, window, expected_plots(window, scan, held));
-    copy_plots_into_bins(window, &entry);
-    slot->num_plots = slot->num_unused = (uint16_t)held;
-    if (!window->area_is_fixed) {
-        rho_window_update_extent(window);
+    if (window->num_scans < 2) {
+        return RHO_MAX_PLOTS;
     }
+    const unsigned before = rho_window_scan_at(window, window->num_scans - 2u)->num_plots;
+    return held > before ? held : before;
 }
 
 enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan *scan,
@@ -369,10 +250,74 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     }
     window->is_continued = rho_window_is_next_sector_of_newest_scan(window, scan, sensor) != 0;
     window->is_remeasured = 0;
-    if (window->is_continued) {
-        add_sector_to_newest(window, scan, sensor, fates);
-    } else {
-        add_scan(window, scan, sensor, fates, left_unused);
+    if (!window->is_continued) {
+        if (window->num_scans == window->scans_max) {
+            *left_unused = rho_count(*left_unused, window->ring[window->first].num_unused);
+            window->first =
+                (uint16_t)(window->first + 1u < window->scans_max ? window->first + 1u : 0u);
+            window->num_scans--;
+        }
+        window->num_scans++;
+    }
+    struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans - 1u);
+    if (!window->is_continued) {
+        slot->time_us = scan->time_us;
+        slot->measures = scan->measures;
+        slot->sector_from_rad = scan->sector_from_rad;
+        slot->sector_to_rad = scan->sector_to_rad;
+        slot->sensor = sensor ? *sensor : (struct rho_sensor){.sensor_id = scan->sensor_id};
+        /* the held plots' sigmas include these factors */
+        slot->sensor.sigma_range_percent = slot->sensor.sigma_cross_percent = 0;
+        slot->num_plots = slot->num_unused = 0;
+        slot->sigma_max_m = slot->offset_min_s = slot->offset_max_s = 0.0f;
+        slot->is_isotropic = 1;
+    }
+    /* the first scan's plots give the extent, as bins are needed before the area is known */
+    const int has_extent =
+        window->area_is_fixed || window->extent.x_min_m <= window->extent.x_max_m;
+    unsigned held = slot->num_plots;
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        if (fates[i] != RHO_FATE_HELD) {
+            continue;
+        }
+        if (held == RHO_MAX_PLOTS || i >= RHO_WINDOW_ROW) {
+            fates[i] = RHO_FATE_NO_ROOM;
+            continue;
+        }
+        held++;
+        if (!has_extent) {
+            rho_extent_add(&window->extent, scan->plots[i].x_m, scan->plots[i].y_m);
+        }
+    }
+    if (slot->num_plots == 0) {
+        lay_out_bins(slot, window, expected_plots(window, scan, held));
+    }
+    if (RHO_SECTORS && window->is_continued) {
+        /* the revolution measures what all its sectors with plots measure */
+        const uint32_t measured = slot->measures;
+        if (held > slot->num_plots || slot->num_plots == 0) {
+            slot->measures = scan->measures & (slot->num_plots == 0 ? ~0u : measured);
+        }
+        window->is_remeasured = slot->measures != measured;
+        const unsigned ends =
+            rho_angle_continued_ends(slot->sector_from_rad, slot->sector_to_rad,
+                                     scan->sector_from_rad, scan->sector_to_rad, SECTOR_GAP_RAD);
+        if (ends & RHO_ANGLE_CONTINUES_RIGHT) {
+            slot->sector_from_rad = scan->sector_from_rad;
+        } else {
+            slot->sector_to_rad = scan->sector_to_rad;
+        }
+        if (ends == (RHO_ANGLE_CONTINUES_LEFT | RHO_ANGLE_CONTINUES_RIGHT)) {
+            slot->sector_from_rad = slot->sector_to_rad = 0.0f; /* the revolution is complete */
+        }
+        slot->sensor.pd = sensor ? sensor->pd : 0.0f;
+    }
+    window->newest = (struct rho_window_sector){.time_us = scan->time_us, .offset_min_s = FLT_MAX};
+    copy_plots_into_bins(window, slot, scan, sensor, fates);
+    slot->num_unused = (uint16_t)(slot->num_unused + held - slot->num_plots);
+    slot->num_plots = (uint16_t)held;
+    if (!window->is_continued && !window->area_is_fixed) {
+        rho_window_update_extent(window);
     }
     return RHO_OK;
 }

@@ -92,10 +92,6 @@ static void init_with_fixed_area(void)
     start_initiator(&config);
 }
 
-/*
- * ---- learning ---------------------------------------------------------------------------------
- */
-
 static void a_hot_spot_raises_the_density_of_its_cell(void **state)
 {
     const double cold = COLD_PLOTS / around_m2, cell_m2 = cell_m * cell_m;
@@ -177,10 +173,6 @@ static void candidates_in_a_hot_spot_have_lower_scores(void **state)
     assert_true(score_mnat[1] < score_mnat[0] - 3000);
 }
 
-/*
- * ---- forgetting -------------------------------------------------------------------------------
- */
-
 static void a_hot_spot_is_forgotten(void **state)
 {
     (void)state;
@@ -209,10 +201,6 @@ static void counts_do_not_overflow_in_long_runs(void **state)
     assert_true(hot_density() < 1.5 * is);
     assert_true(hot_density() > (cells_are_large ? 0.5 * is : 200.0 * COLD_PLOTS / around_m2));
 }
-
-/*
- * ---- which plots are remembered ---------------------------------------------------------------
- */
 
 static uint32_t count_remembered_plots(void)
 {
@@ -281,10 +269,6 @@ static void refused_scans_are_not_remembered(void **state)
     assert_int_equal(rho_initiator_push(&initiator, NULL, NULL, fates, &unused), RHO_ERROR_NULL);
     assert_memory_equal(&initiator, &then, sizeof initiator);
 }
-
-/*
- * ---- changes of the area ----------------------------------------------------------------------
- */
 
 /* The observed area grows tenfold and shrinks again; the density must stay that of the clutter. */
 static void the_memory_is_laid_out_anew_when_the_area_changes(void **state)
@@ -384,10 +368,6 @@ static void sizes_of_the_memory_follow_its_capacity(void **state)
     assert_true(sizeof initiator.memory <= 2 * RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS + 24);
     assert_true(sizeof initiator <= RHO_RAM_INITIATOR_BYTES);
 }
-
-/*
- * ---- limits -----------------------------------------------------------------------------------
- */
 
 /* Sets a memory of 10 by 10 km after this many scans. */
 static struct rho_clutter_memory *set_memory(unsigned scans)

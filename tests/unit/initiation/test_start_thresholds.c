@@ -69,10 +69,6 @@ static unsigned count_confirmed(void)
     return n;
 }
 
-/*
- * ---- thresholds -------------------------------------------------------------------------------
- */
-
 static void a_target_without_clutter_is_confirmed_at_its_third_plot(void **state)
 {
     (void)state;
@@ -223,8 +219,6 @@ static void the_same_scans_give_the_same_thresholds(void **state)
     }
 }
 
-/* ---- scan interval, area, range rates -------------------------------------------------------- */
-
 /* Twice the speeds and half the interval give the same plots, and twice as many scans an hour. */
 static void half_the_scan_interval_acts_as_half_the_allowed_rate(void **state)
 {
@@ -298,10 +292,6 @@ static void range_rates_lower_votes_and_thresholds(void **state)
     }
     assert_true(initiator.min_scans <= 4); /* 250 plots a scan: 5 without range rates */
 }
-
-/*
- * ---- resulting rates --------------------------------------------------------------------------
- */
 
 /* allowed false tracks an hour: high enough to count, a third of what clutter could start */
 #define WANTED 60.0f
@@ -387,10 +377,6 @@ static void clutter_starts_no_more_than_allowed_with_process_noise(void **state)
     print_message("starts a search: 0.1 allowed, %.3f\n", (double)starts / searches);
     assert_true(starts > 0.01 * searches && starts < 0.2 * searches);
 }
-
-/*
- * ---- figures ----------------------------------------------------------------------------------
- */
 
 /*
  * Thresholds in mnat by clutter and rate; each bound, step and prior of the model changes them. A
