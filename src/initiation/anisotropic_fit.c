@@ -73,11 +73,6 @@ struct equation {
     float value, variance;
 };
 
-static const struct rho_window_scan *scan_of_regression(const struct regression *of, unsigned m)
-{
-    return rho_search_scan(of->search, m);
-}
-
 static float scaled_plot_time(const struct regression *of, unsigned m)
 {
     float t_s = rho_search_plot_time_s(of->search, of->set, m);
@@ -87,7 +82,7 @@ static float scaled_plot_time(const struct regression *of, unsigned m)
 static int make_position_equations(const struct regression *of, unsigned m,
                                    struct equation *equations)
 {
-    const struct rho_window_scan *scan = scan_of_regression(of, m);
+    const struct rho_window_scan *scan = rho_search_scan(of->search, m);
     struct rho_plot plot = rho_window_unpack_plot(scan, of->set->plot[m]);
     struct rho_measurement seen;
     rho_measurement_from_plot(&plot, of->axes == 3 ? scan->measures : 0u, &scan->sensor, &seen);
@@ -114,7 +109,7 @@ static int make_position_equations(const struct regression *of, unsigned m,
 static int make_range_rate_equation(const struct regression *of, unsigned m,
                                     struct equation *equation)
 {
-    const struct rho_window_scan *scan = scan_of_regression(of, m);
+    const struct rho_window_scan *scan = rho_search_scan(of->search, m);
     const struct rho_window_plot *plot = &scan->plots[of->set->plot[m]];
     float state[6] = {0.0f}, derivative[6], rate_mps, time = scaled_plot_time(of, m);
     if (!of->has_point || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
@@ -221,11 +216,10 @@ static int set_up_regression(struct regression *of)
         float t_s = rho_search_plot_time_s(search, of->set, m);
         first_s = seen == 0 || t_s < first_s ? t_s : first_s;
         last_s = seen == 0 || t_s > last_s ? t_s : last_s;
-        heights += (scan_of_regression(of, m)->measures & RHO_MEASURES_Z) != 0;
-        range_rates += (scan_of_regression(of, m)->measures & RHO_MEASURES_RANGE_RATE) != 0;
+        heights += (rho_search_scan(search, m)->measures & RHO_MEASURES_Z) != 0;
+        range_rates += (rho_search_scan(search, m)->measures & RHO_MEASURES_RANGE_RATE) != 0;
         if (seen++ <= of->set->hits / 2u) {
-            const struct rho_window_plot *plot =
-                &scan_of_regression(of, m)->plots[of->set->plot[m]];
+            const struct rho_window_plot *plot = rho_search_plot(search, of->set, m);
             of->origin_m[0] = plot->x_m;
             of->origin_m[1] = plot->y_m;
             of->origin_m[2] = plot->z_m;
@@ -274,7 +268,7 @@ static unsigned scan_with_widest_span(const struct regression *of)
     float most_mps = 0.0f;
     int is_ambiguous = 0;
     for (unsigned m = 0; m < of->search->num_scans; m++) {
-        const struct rho_window_scan *scan = scan_of_regression(of, m);
+        const struct rho_window_scan *scan = rho_search_scan(of->search, m);
         if (!(of->set->mask >> m & 1u) || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue;
         }
@@ -306,7 +300,7 @@ static int compare_first_rate(const struct regression *of, unsigned m, struct fi
     if (!make_range_rate_equation(of, m, &equation)) {
         return 0;
     }
-    first->span_mps = alias_span_mps(&scan_of_regression(of, m)->sensor);
+    first->span_mps = alias_span_mps(&rho_search_scan(of->search, m)->sensor);
     first->error_mps = equation.value;
     first->variance = equation.variance;
     for (int i = 0; i < unknowns; i++) {
@@ -451,7 +445,7 @@ int rho_anisotropic_likelihood(const struct search *search, const struct plot_se
         log_noise += rho_log(acceleration_prior_variance(&of));
     }
     for (unsigned m = 0; m < search->num_scans; m++) {
-        const struct rho_window_scan *scan = scan_of_regression(&of, m);
+        const struct rho_window_scan *scan = rho_search_scan(search, m);
         struct equation equations[ROWS_MAX];
         if (!(set->mask >> m & 1u)) {
             continue;

@@ -188,13 +188,6 @@ static float dimensions_of_hit(const struct false_tracks *model)
     return 2.0f + (model->has_z ? 1.0f : 0.0f) + (model->has_range_rate ? 1.0f : 0.0f);
 }
 
-static float log_hit_pattern_probability(const struct search *search, unsigned first, unsigned hits)
-{
-    unsigned newest = search->num_scans - 1u;
-    return (float)hits * search->log_pd[newest] +
-           (float)(newest - first + 1u - hits) * search->log_miss[newest];
-}
-
 static float log_widened_sigma(float log_sigma_m, float bend_m2)
 {
     return 0.5f * rho_log(rho_exp(2.0f * log_sigma_m) + bend_m2);
@@ -255,9 +248,10 @@ static struct pattern_score score_pattern(const struct false_tracks *model,
                                           const struct pattern *pattern)
 {
     const struct search *search = model->search;
-    const unsigned first = pattern->first, hits = pattern->hits;
+    const unsigned first = pattern->first, hits = pattern->hits, newest = search->num_scans - 1u;
     const float h = (float)hits;
-    const float log_hits = log_hit_pattern_probability(search, first, hits);
+    const float log_hits =
+        h * search->log_pd[newest] + (float)(newest - first + 1u - hits) * search->log_miss[newest];
     struct place_class wide = noise_widened_by_bend(model, place, first, hits);
     const float fisher = log_fisher_determinant(model, &wide, h, pattern->spread_s2);
     struct pattern_score score = {
@@ -283,7 +277,7 @@ void rho_false_tracks_model(const struct search *search, struct false_tracks *mo
      */
     uint32_t measures = ~0u;
     const unsigned num_scans = search->num_scans;
-    for (unsigned m = 0; m < search->num_scans; m++) {
+    for (unsigned m = 0; m < num_scans; m++) {
         const struct rho_window_scan *scan = rho_search_scan(search, m);
         /* a scan without plots has no hit, whatever it measures */
         measures &= scan->num_plots > 0 ? scan->measures : ~0u;

@@ -14,9 +14,7 @@
 #include "rhotrack/detail/approx.h"
 #include "target_model.h"
 
-/*
- * Most rows of bins in which near plots are counted bin by bin; with more, whole rows are counted.
- */
+/* Most rows of bins in which near plots are counted bin by bin; beyond, by whole rows. */
 enum { NEAR_ROWS = 16 };
 
 static float plot_time_spread_s(const struct rho_window_scan *scan)
@@ -336,10 +334,7 @@ static int has_vote_before_third(const struct rho_window_scan *scan, const struc
     return 0;
 }
 
-/*
- * Spans of among_mask whose misses allow the vote nearest to the end to be `gap` scans
- * before the end; a bit each.
- */
+/* Spans of among_mask whose misses allow the last vote to be `gap` scans before the end. */
 static unsigned spans_allowing_gap(const struct span_list *list, const struct ending *ending,
                                    unsigned among_mask, unsigned gap)
 {
@@ -363,7 +358,7 @@ static int try_third_plots(struct search *search, const struct span_list *list,
     const unsigned b = list->spans[0].b;
     const struct rho_window_scan *scan = rho_search_scan(search, b - gap), *next = scan;
     struct extrapolation to_first[SPANS_MAX], to_next = {0};
-    float far_m = 0.0f, own_m = 0.0f; /* the most that noise and gate add to the travel, first */
+    float far_m = 0.0f, own_m = 0.0f; /* far_m: to the third plot, with noise and gates */
     for (unsigned n = 0; spans >> n; n++) {
         const struct span *span = &list->spans[n];
         if (spans >> n & 1u) {

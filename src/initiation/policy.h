@@ -115,8 +115,8 @@
 #define LOOKUPS_OF_PAIR 2.0f
 #define SHARE_IN_GATE 0.5f
 /*
- * Factor by which rounding may increase the distance of a vote from its kernel. Half of its excess
- * over 1: still far above the 6e-8 of a sum in float32. Twice: a few more kernels are tried.
+ * Factor by which rounding may increase the distance of a vote from its kernel. Half: kernels with
+ * good votes are lost. Twice: kernels are tried for nothing.
  */
 #define GATE_ROUNDING 1.001f
 
@@ -138,8 +138,8 @@
 #define FIT_GATE_FACTOR 1.5f
 #define TURN_GATE_FACTOR (FIT_GATE_FACTOR * 2.0f)
 /*
- * Rounds of fit and association. Half: a plot of clutter that voted stays in the set. Twice: hardly
- * a difference, as most sets stay the same after one round.
+ * Rounds of association and fit. Half: plots that only the second fit is near to are missed. Twice:
+ * hardly a difference, as most sets stay the same after one round.
  */
 #define FIT_ROUNDS 2
 

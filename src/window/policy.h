@@ -9,8 +9,8 @@
 /* nearest_plot.c */
 
 /*
- * Least ground range, squared, at which a plot has a line of sight: nearer, its azimuth is that of
- * the rounding errors. Half or twice: such plots have isotropic noise from 0.7 m or 1.4 m on.
+ * Least ground range, squared, at which a plot has a line of sight: nearer, its direction is that
+ * of the noise. Half or twice: plots nearer than 0.7 m or 1.4 m have isotropic noise.
  */
 #define RANGE_LEAST_M2 1.0f
 
@@ -25,14 +25,14 @@
 /* window_extent.c */
 
 /*
- * Square of the standard deviations from the mean beyond which a plot is an outlier: 3 sigma. Half:
- * the ends of evenly spread clutter, at 1.7 sigma, come close to it, and the area is cut. Twice: a
- * few far false plots widen the area, and clutter looks thin.
+ * Square of the standard deviations from the mean beyond which a plot is an outlier: 3 sigma;
+ * evenly spread clutter ends at 1.7. Half: thinner borders are cut off. Twice: a few far false
+ * plots widen the area, and clutter looks thin.
  */
 #define OUTLIER_SIGMAS2 9.0f
 /*
- * Rounds of leaving out: each finds outliers that larger ones hid. Half: only the mean and spread
- * of all plots. Twice: the tails of what is left are cut, too.
+ * Rounds: the first takes all plots, each later one leaves out those that larger outliers hid
+ * before. Half: none is left out. Twice: tails of what is left are cut, too.
  */
 #define OUTLIER_ROUNDS 3
 /*
