@@ -337,12 +337,11 @@ static float false_sets_of_pattern(const struct false_tracks *model, unsigned pa
     const struct pattern *pattern = &model->patterns[pattern_index];
     const float half = pattern->half_dimensions;
     /*
-     * index of the pattern with one hit fewer that begins a scan later, if that can start a track:
-     * patterns are listed by their first scan, then by hits
+     * the pattern with one hit fewer that begins a scan later: patterns are listed by their first
+     * scan, then by hits. Too few hits start no track
      */
-    const unsigned less = pattern->hits > model->least_hits
-                              ? pattern_index + model->search->num_scans - pattern->first - 3u
-                              : PATTERNS_MAX;
+    const unsigned less = pattern_index + model->search->num_scans - pattern->first - 3u;
+    const int had_start = pattern->hits > model->least_hits;
     float sum = 0.0f;
     if (pattern->hits < model->least_hits) {
         return 0.0f;
@@ -353,7 +352,7 @@ static float false_sets_of_pattern(const struct false_tracks *model, unsigned pa
         if (!(y > 0.0f)) {
             continue;
         }
-        if (less < PATTERNS_MAX) {
+        if (had_start) {
             before = rho_smaller(model->scores[i][less].best_nat - start_nat,
                                  model->patterns[less].most);
         }

@@ -21,6 +21,12 @@
  * look-ups compare more plots. Twice: pushes and look-ups pass more empty bins.
  */
 #define BINS_PER_PLOT 8u
+/*
+ * Largest angle of missing sectors (lost, or out of sequence) that does not end a revolution;
+ * places in the gap count as not covered. Half: a lost sector ends it, and its scan has a part of
+ * the plots. Twice: the sectors of two revolutions may count as one.
+ */
+#define SECTOR_GAP_RAD (RHO_TWO_PI / 8.0f)
 
 /* window_extent.c */
 

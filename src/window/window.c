@@ -13,12 +13,6 @@
 
 #define WINDOW_MAGIC 0x57494e44u /* "WIND" */
 
-/*
- * Largest angle of missing sectors (lost, or out of sequence) that does not end a revolution.
- * Places in the gap count as not covered.
- */
-#define SECTOR_GAP_RAD (RHO_TWO_PI / 8.0f)
-
 /* Lays out nearly square bins over the area, at most BINS_PER_PLOT for each plot expected. */
 static void lay_out_bins(struct rho_window_scan *scan, const struct rho_window *window,
                          unsigned num_plots)
