@@ -11,7 +11,6 @@
 #include "candidates.h"
 #include "clutter_density.h"
 #include "policy.h"
-#include "rhotrack/detail/approx.h"
 
 int rho_plot_set_fit(const struct search *search, const struct plot_set *set, struct line_fit *fit)
 {

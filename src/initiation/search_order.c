@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * search_order: the order in which the newest plots are searched, and the work that each
- * gets.
+ * search_order: the order in which the newest plots are searched, and the work that each gets.
  *
  * Kernels are tried by classes of the number of plots near their last plot, the cheapest first, so
  * that targets in thin clutter are found however dense clutter is elsewhere. A search that leaves

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * nearest_plot: access to the held scans and plots of a window, their bins, and the
- * search for the plot nearest to a place.
+ * nearest_plot: access to the held scans and plots of a window, their bins, and the search for the
+ * plot nearest to a place.
  */
-#include <string.h>
-
 #include "policy.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
