@@ -230,7 +230,7 @@ int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us
 
 /*
  * rho_window_push on the initiator's window; candidates of an earlier search are cleared.
- * Stack: 280 bytes.
+ * Stack: 288 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_push(struct rho_initiator *initiator,
                                                   const struct rho_scan *scan,

@@ -7,23 +7,22 @@
 #include <float.h>
 #include <string.h>
 
+#include "candidates.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
-#include "search.h"
+#include "target_model.h"
 
-/* most equations of a plot: position along, across and above the line of sight; range rate */
-#define ROWS_MAX (3 + 1)
-/* most unknowns of a fit: position and velocity in x, y, z; acceleration in x, y */
-#define UNKNOWNS_MAX (3 + 3 + 2)
+enum {
+    /* most equations of a plot: position along, across and above the line of sight; range rate */
+    ROWS_MAX = 3 + 1,
+    /* most unknowns of a fit: position and velocity in x, y, z; acceleration in x, y */
+    UNKNOWNS_MAX = 3 + 3 + 2,
+};
 
-/*
- * Index of the plot of scan m nearest to the fitted track, or -1 where the gate has none.
- * `variance_factor` widens the gate's covariance.
- */
-int rho_initiator_nearest_plot_anisotropic(struct search *search, const struct line_fit *fit,
-                                           float variance_factor, unsigned m)
+int rho_anisotropic_nearest(struct search *search, const struct line_fit *fit,
+                            float variance_factor, unsigned m)
 {
-    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+    const struct rho_window_scan *scan = rho_search_scan(search, m);
     float t_s = search->time_s[m], bend_m2 = variance_factor * search->fit_process_m2;
     struct rho_window_place place = {
         .x_m = fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s,
@@ -44,8 +43,6 @@ int rho_initiator_nearest_plot_anisotropic(struct search *search, const struct l
     };
     return rho_window_nearest_plot_anisotropic(scan, &place, &search->initiator->work.window);
 }
-
-/* ---- regression ------------------------------------------------------------------------------ */
 
 /*
  * Regression of a track through a set of plots. Position and velocity are the unknowns, and the
@@ -76,45 +73,35 @@ struct equation {
     float value, variance;
 };
 
-static const struct rho_window_scan *scan_of_regression(const struct regression *of, unsigned m)
-{
-    return rho_window_scan_at(&of->search->initiator->window, m);
-}
-
 static float scaled_plot_time(const struct regression *of, unsigned m)
 {
-    float t_s = rho_initiator_plot_time_s(of->search, of->set, m);
+    float t_s = rho_search_plot_time_s(of->search, of->set, m);
     return (t_s - of->middle_s) / of->unit_s;
-}
-
-static void make_axis_equation(const struct regression *of, const float axis[3], float time,
-                               const float place_m[3], float variance, struct equation *equation)
-{
-    *equation = (struct equation){.variance = variance + of->search->fit_process_m2};
-    for (int i = 0; i < of->axes; i++) {
-        equation->row[i] = axis[i];
-        equation->row[of->axes + i] = time * axis[i];
-        equation->value += axis[i] * (place_m[i] - of->origin_m[i]);
-    }
-    for (int i = 2 * of->axes; i < of->unknowns; i++) {
-        equation->row[i] = 0.5f * time * time * axis[i - 2 * of->axes];
-    }
 }
 
 static int make_position_equations(const struct regression *of, unsigned m,
                                    struct equation *equations)
 {
-    const struct rho_window_scan *scan = scan_of_regression(of, m);
+    const struct rho_window_scan *scan = rho_search_scan(of->search, m);
     struct rho_plot plot = rho_window_unpack_plot(scan, of->set->plot[m]);
     struct rho_measurement seen;
     rho_measurement_from_plot(&plot, of->axes == 3 ? scan->measures : 0u, &scan->sensor, &seen);
     float ca = seen.cos_azimuth, sa = seen.sin_azimuth;
     float ce = seen.cos_elevation, se = seen.sin_elevation;
     const float axes[3][3] = {{ce * ca, ce * sa, se}, {-sa, ca, 0.0f}, {-se * ca, -se * sa, ce}};
+    const float time = scaled_plot_time(of, m);
     int count = seen.has_z ? 3 : 2;
-    for (int i = 0; i < count; i++) {
-        make_axis_equation(of, axes[i], scaled_plot_time(of, m), seen.place_m, seen.variance_m2[i],
-                           &equations[i]);
+    for (int k = 0; k < count; k++) {
+        struct equation *equation = &equations[k];
+        *equation = (struct equation){.variance = seen.variance_m2[k] + of->search->fit_process_m2};
+        for (int i = 0; i < of->axes; i++) {
+            equation->row[i] = axes[k][i];
+            equation->row[of->axes + i] = time * axes[k][i];
+            equation->value += axes[k][i] * (seen.place_m[i] - of->origin_m[i]);
+        }
+        for (int i = 2 * of->axes; i < of->unknowns; i++) {
+            equation->row[i] = 0.5f * time * time * axes[k][i - 2 * of->axes];
+        }
     }
     return count;
 }
@@ -122,7 +109,7 @@ static int make_position_equations(const struct regression *of, unsigned m,
 static int make_range_rate_equation(const struct regression *of, unsigned m,
                                     struct equation *equation)
 {
-    const struct rho_window_scan *scan = scan_of_regression(of, m);
+    const struct rho_window_scan *scan = rho_search_scan(of->search, m);
     const struct rho_window_plot *plot = &scan->plots[of->set->plot[m]];
     float state[6] = {0.0f}, derivative[6], rate_mps, time = scaled_plot_time(of, m);
     if (!of->has_point || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
@@ -163,19 +150,6 @@ static int make_plot_equations(const struct regression *of, unsigned m, struct e
     return count + make_range_rate_equation(of, m, &equations[count]);
 }
 
-static void add_to_normal_equations(const struct equation *equation, int unknowns, float *normal,
-                                    float *right)
-{
-    float weight = 1.0f / equation->variance;
-    for (int i = 0; i < unknowns; i++) {
-        float weighted = weight * equation->row[i];
-        right[i] += weighted * equation->value;
-        for (int j = 0; j <= i; j++) {
-            normal[RHO_AT(i, j)] += weighted * equation->row[j];
-        }
-    }
-}
-
 /* Prior variance of an acceleration component, in the units of the regression's unknowns. */
 static float acceleration_prior_variance(const struct regression *of)
 {
@@ -183,16 +157,13 @@ static float acceleration_prior_variance(const struct regression *of)
     return turn_m * turn_m;
 }
 
-/* Units of work that a regression charges for each plot, beyond those of an isotropic fit. */
-#define SOLVE_UNITS 50u
-
 /*
  * Solves the normal equations of the set's plots. Returns 0 where the plots do not determine the
  * unknowns.
  */
 static int solve_unknowns(struct regression *of)
 {
-    rho_initiator_charge_work(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
+    rho_search_charge(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
     float *normal = of->factor, right[UNKNOWNS_MAX] = {0.0f}; /* `normal` is factorised in place */
     const int unknowns = of->unknowns;
     for (int i = 0; i < RHO_TRIANGLE(UNKNOWNS_MAX); i++) {
@@ -208,7 +179,14 @@ static int solve_unknowns(struct regression *of)
         }
         int count = make_plot_equations(of, m, equations);
         for (int i = 0; i < count; i++) {
-            add_to_normal_equations(&equations[i], unknowns, normal, right);
+            float weight = 1.0f / equations[i].variance;
+            for (int k = 0; k < unknowns; k++) {
+                float weighted = weight * equations[i].row[k];
+                right[k] += weighted * equations[i].value;
+                for (int j = 0; j <= k; j++) {
+                    normal[RHO_AT(k, j)] += weighted * equations[i].row[j];
+                }
+            }
         }
     }
     if (rho_linalg_cholesky(unknowns, normal, normal) != RHO_OK) {
@@ -226,7 +204,7 @@ static int solve_unknowns(struct regression *of)
  * Sets the number of unknowns, the origin and the units of a regression. Returns the number of
  * solutions to make: 2 with range rates, 1 without, 0 where all plots have one time.
  */
-static int set_up_and_count_solve_rounds(struct regression *of)
+static int set_up_regression(struct regression *of)
 {
     const struct search *search = of->search;
     float first_s = 0.0f, last_s = 0.0f;
@@ -235,14 +213,13 @@ static int set_up_and_count_solve_rounds(struct regression *of)
         if (!(of->set->mask >> m & 1u)) {
             continue;
         }
-        float t_s = rho_initiator_plot_time_s(search, of->set, m);
+        float t_s = rho_search_plot_time_s(search, of->set, m);
         first_s = seen == 0 || t_s < first_s ? t_s : first_s;
         last_s = seen == 0 || t_s > last_s ? t_s : last_s;
-        heights += (scan_of_regression(of, m)->measures & RHO_MEASURES_Z) != 0;
-        range_rates += (scan_of_regression(of, m)->measures & RHO_MEASURES_RANGE_RATE) != 0;
+        heights += (rho_search_scan(search, m)->measures & RHO_MEASURES_Z) != 0;
+        range_rates += (rho_search_scan(search, m)->measures & RHO_MEASURES_RANGE_RATE) != 0;
         if (seen++ <= of->set->hits / 2u) {
-            const struct rho_window_plot *plot =
-                &scan_of_regression(of, m)->plots[of->set->plot[m]];
+            const struct rho_window_plot *plot = rho_search_plot(search, of->set, m);
             of->origin_m[0] = plot->x_m;
             of->origin_m[1] = plot->y_m;
             of->origin_m[2] = plot->z_m;
@@ -274,27 +251,30 @@ static float acceleration_chi2(const struct regression *of)
     return sum;
 }
 
-/* ---- ambiguous range rates ------------------------------------------------------------------- */
+/* Span between the aliases of a sensor's range rates; the widest of all where it has none. */
+static float alias_span_mps(const struct rho_sensor *sensor)
+{
+    return rho_measurement_has_ambiguous_range_rates(sensor) ? sensor->range_rate_span_mps
+                                                             : RHO_LIMIT_SPAN_MAX_MPS;
+}
 
 /*
  * The scan of the set whose range rate has the widest ambiguity span, so the fewest aliases;
  * RHO_MAX_SCANS where no range rate is ambiguous.
  */
-static unsigned scan_with_widest_ambiguity_span(const struct regression *of)
+static unsigned scan_with_widest_span(const struct regression *of)
 {
     unsigned widest = RHO_MAX_SCANS;
     float most_mps = 0.0f;
     int is_ambiguous = 0;
     for (unsigned m = 0; m < of->search->num_scans; m++) {
-        const struct rho_window_scan *scan = scan_of_regression(of, m);
+        const struct rho_window_scan *scan = rho_search_scan(of->search, m);
         if (!(of->set->mask >> m & 1u) || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue;
         }
-        int has_span = rho_measurement_has_ambiguous_range_rates(&scan->sensor);
-        float span_mps = has_span ? scan->sensor.range_rate_span_mps : RHO_LIMIT_SPAN_MAX_MPS;
-        is_ambiguous = is_ambiguous || has_span;
-        if (span_mps > most_mps) {
-            most_mps = span_mps;
+        is_ambiguous = is_ambiguous || rho_measurement_has_ambiguous_range_rates(&scan->sensor);
+        if (alias_span_mps(&scan->sensor) > most_mps) {
+            most_mps = alias_span_mps(&scan->sensor);
             widest = m;
         }
     }
@@ -313,18 +293,14 @@ struct first_rate {
 /*
  * Sets the innovation of scan m's range rate and its Kalman gain. Returns 0 without a range rate.
  */
-static int range_rate_innovation_and_gain(const struct regression *of, unsigned m,
-                                          struct first_rate *first)
+static int compare_first_rate(const struct regression *of, unsigned m, struct first_rate *first)
 {
     struct equation equation = {.variance = 0.0f};
     const int unknowns = of->unknowns;
     if (!make_range_rate_equation(of, m, &equation)) {
         return 0;
     }
-    const struct rho_sensor *sensor = &scan_of_regression(of, m)->sensor;
-    first->span_mps = rho_measurement_has_ambiguous_range_rates(sensor)
-                          ? sensor->range_rate_span_mps
-                          : RHO_LIMIT_SPAN_MAX_MPS;
+    first->span_mps = alias_span_mps(&rho_search_scan(of->search, m)->sensor);
     first->error_mps = equation.value;
     first->variance = equation.variance;
     for (int i = 0; i < unknowns; i++) {
@@ -339,34 +315,12 @@ static int range_rate_innovation_and_gain(const struct regression *of, unsigned 
     return 1;
 }
 
-static float chi2_of_fit(const struct regression *of)
-{
-    struct equation equations[ROWS_MAX];
-    float chi2 = acceleration_chi2(of);
-    for (unsigned m = 0; m < of->search->num_scans; m++) {
-        int count = of->set->mask >> m & 1u ? make_plot_equations(of, m, equations) : 0;
-        for (int i = 0; i < count; i++) {
-            chi2 += normalised_residual2(of, &equations[i]);
-        }
-    }
-    return chi2;
-}
-
-/* True where the fitted speed is within v_max. */
-static int is_within_speed_limit(const struct regression *of)
-{
-    float v_max_mps = of->search->initiator->config.v_max_mps * of->unit_s;
-    const float *v = &of->unknown[of->axes];
-    return v[0] * v[0] + v[1] * v[1] <= v_max_mps * v_max_mps;
-}
-
 /*
  * Moves the fit of the positions by the gain times this innovation of a range rate, and solves with
  * all range rates linearised there.
  */
-static int solve_with_given_range_rate_alias(struct regression *of, const float *position_fit,
-                                             const struct first_rate *first,
-                                             float alias_innovation_mps)
+static int solve_with_alias(struct regression *of, const float *position_fit,
+                            const struct first_rate *first, float alias_innovation_mps)
 {
     for (int k = 0; k < of->unknowns; k++) {
         of->unknown[k] =
@@ -385,8 +339,10 @@ static int solve_with_best_alias(struct regression *of, unsigned widest_scan)
     float places[UNKNOWNS_MAX];
     struct first_rate first;
     float least = FLT_MAX, best_mps = 0.0f;
+    const float v_max_mps = of->search->initiator->config.v_max_mps * of->unit_s;
+    const float *v = &of->unknown[of->axes];
     of->has_point = 1;
-    if (!range_rate_innovation_and_gain(of, widest_scan, &first)) {
+    if (!compare_first_rate(of, widest_scan, &first)) {
         return solve_unknowns(of);
     }
     float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * first.variance);
@@ -400,17 +356,25 @@ static int solve_with_best_alias(struct regression *of, unsigned widest_scan)
         if (i != 0 && !(error_mps <= reach_mps && error_mps >= -reach_mps)) {
             continue;
         }
-        if (solve_with_given_range_rate_alias(of, places, &first, error_mps) &&
-            is_within_speed_limit(of)) {
-            float chi2 = chi2_of_fit(of);
-            if (chi2 < least) {
-                least = chi2;
-                best_mps = error_mps;
+        if (!solve_with_alias(of, places, &first, error_mps) ||
+            !(v[0] * v[0] + v[1] * v[1] <= v_max_mps * v_max_mps)) {
+            continue;
+        }
+        float chi2 = acceleration_chi2(of);
+        for (unsigned m = 0; m < of->search->num_scans; m++) {
+            struct equation equations[ROWS_MAX];
+            int count = of->set->mask >> m & 1u ? make_plot_equations(of, m, equations) : 0;
+            for (int k = 0; k < count; k++) {
+                chi2 += normalised_residual2(of, &equations[k]);
             }
+        }
+        if (chi2 < least) {
+            least = chi2;
+            best_mps = error_mps;
         }
     }
     /* the best fit is solved again: keeping the fit of each alias would take half of the stack */
-    return least < FLT_MAX && solve_with_given_range_rate_alias(of, places, &first, best_mps);
+    return least < FLT_MAX && solve_with_alias(of, places, &first, best_mps);
 }
 
 /*
@@ -419,10 +383,9 @@ static int solve_with_best_alias(struct regression *of, unsigned widest_scan)
  */
 static int run_regression(struct regression *of)
 {
-    int rounds = set_up_and_count_solve_rounds(of);
-    const unsigned widest = RHO_AMBIGUOUS_RANGE_RATES && rounds > 1
-                                ? scan_with_widest_ambiguity_span(of)
-                                : RHO_MAX_SCANS;
+    int rounds = set_up_regression(of);
+    const unsigned widest =
+        RHO_AMBIGUOUS_RANGE_RATES && rounds > 1 ? scan_with_widest_span(of) : RHO_MAX_SCANS;
     if (widest < RHO_MAX_SCANS) {
         return solve_unknowns(of) && solve_with_best_alias(of, widest);
     }
@@ -435,8 +398,8 @@ static int run_regression(struct regression *of)
     return rounds > 0;
 }
 
-int rho_initiator_fit_anisotropic(const struct search *search, const struct plot_set *set,
-                                  struct line_fit *fit)
+int rho_anisotropic_fit(const struct search *search, const struct plot_set *set,
+                        struct line_fit *fit)
 {
     struct regression of = {.search = search, .set = set};
     float place_m[3] = {0.0f}, velocity_mps[3] = {0.0f}, accel_mps2[2] = {0.0f};
@@ -467,16 +430,9 @@ int rho_initiator_fit_anisotropic(const struct search *search, const struct plot
     return 1;
 }
 
-/* ---- likelihood ------------------------------------------------------------------------------ */
-
-/*
- * Sets *nat to ln of the joint density of a set's plots, with position and velocity integrated out,
- * and heights and range rates relative to their density as clutter. Also sets the residual's
- * chi-square and dimensions. Returns 0 where the plots do not determine a track.
- */
-int rho_initiator_log_likelihood_anisotropic(const struct search *search,
-                                             const struct plot_set *set, struct set_score *score,
-                                             float *nat)
+/* Heights and range rates count relative to their density as clutter. */
+int rho_anisotropic_likelihood(const struct search *search, const struct plot_set *set,
+                               struct set_score *score, float *nat)
 {
     struct regression of = {.search = search, .set = set};
     unsigned rows = 0, heights = 0, range_rates = 0;
@@ -489,6 +445,7 @@ int rho_initiator_log_likelihood_anisotropic(const struct search *search,
         log_noise += rho_log(acceleration_prior_variance(&of));
     }
     for (unsigned m = 0; m < search->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_search_scan(search, m);
         struct equation equations[ROWS_MAX];
         if (!(set->mask >> m & 1u)) {
             continue;
@@ -499,23 +456,20 @@ int rho_initiator_log_likelihood_anisotropic(const struct search *search,
             log_noise += rho_log(equations[i].variance);
         }
         rows += count;
-        unsigned has_z =
-            of.axes == 3 && (scan_of_regression(&of, m)->measures & RHO_MEASURES_Z) ? 1u : 0u;
+        unsigned has_z = of.axes == 3 && (scan->measures & RHO_MEASURES_Z) ? 1u : 0u;
         heights += has_z;
         range_rates += count - 2u - has_z;
-        if (rho_measurement_has_ambiguous_range_rates(&scan_of_regression(&of, m)->sensor)) {
-            log_aliases += (float)(count - 2u - has_z) *
-                           rho_measurement_log_num_aliases(&scan_of_regression(&of, m)->sensor,
-                                                           search->initiator->config.v_max_mps);
+        if (rho_measurement_has_ambiguous_range_rates(&scan->sensor)) {
+            log_aliases +=
+                (float)(count - 2u - has_z) *
+                rho_measurement_log_num_aliases(&scan->sensor, search->initiator->config.v_max_mps);
         }
     }
     unsigned unknowns = 2u * (unsigned)of.axes;
     float log_fisher =
         rho_linalg_log_determinant(of.unknowns, of.factor) + (float)unknowns * rho_log(of.unit_s);
     score->dimensions = rows - unknowns;
-    *nat =
-        -0.5f * ((float)score->dimensions * LOG_TWO_PI + log_noise + log_fisher + score->chi2) +
-        rho_initiator_log_height_and_range_rate_volume(search, of.axes == 3, heights, range_rates) -
-        log_aliases;
+    *nat = -0.5f * ((float)score->dimensions * LOG_TWO_PI + log_noise + log_fisher + score->chi2) +
+           rho_target_log_volume(search, of.axes == 3, heights, range_rates) - log_aliases;
     return 1;
 }

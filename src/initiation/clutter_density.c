@@ -8,41 +8,19 @@
  * end at the radar's range. The kind of cells under which the plots are likelier is taken. Several
  * radars have a map each where all have cells of range and azimuth.
  */
+#include "clutter_density.h"
+
 #include <string.h>
 
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "search.h"
 
-/* Mean number of plots in a cell of a density map. */
-#define PLOTS_PER_CELL 32u
-
-/* Largest weight of the mean density against a cell's count, in plots: the map is then flat. */
-#define PRIOR_PLOTS_MAX 1.0e6f
-
-/*
- * Plots expected where none was seen, in searches after every scan: half a plot in area and window,
- * the median of a density without prior knowledge, so that clear skies differ from cluttered ones.
- * The density of a batch is at least one plot in the area and scan.
- */
-#define PLOTS_UNSEEN 0.5f
-
-/* Share of a radar's range below which the density per square metre rises no further. */
-#define NEAR_SHARE 0.01f
-
-/* Least number of plots that determine the sector of a radar for a map of range and azimuth. */
-#define POLAR_PLOTS_MIN 16.0f
-
-#define ALL_ROUND_RAD 5.0f
-#define SECTOR_MIN_RAD 1.0e-3f
-
-float rho_initiator_area_m2(const struct rho_initiator *initiator)
+float rho_density_area_m2(const struct rho_initiator *initiator)
 {
     float area = rho_extent_area_m2(&initiator->window.extent, initiator->window.side_min_m);
     return area > 1.0f ? area : 1.0f;
 }
-
-/* ---- cells ----------------------------------------------------------------------------------- */
 
 static unsigned clamp_cell_count(float cells)
 {
@@ -52,7 +30,7 @@ static unsigned clamp_cell_count(float cells)
     return cells < (float)RHO_MAX_DENSITY_CELLS ? (unsigned)cells : RHO_MAX_DENSITY_CELLS;
 }
 
-static unsigned cell_index_at(float v, float min, float side, unsigned cells)
+static unsigned cell_at(float v, float min, float side, unsigned cells)
 {
     float cell = (v - min) * (float)cells / side;
     if (!(cell > 0.0f)) {
@@ -82,8 +60,8 @@ static unsigned map_cell_at(const struct rho_density_map *map, float x_m, float 
         v = rho_angle_difference(rho_atan2(dy_m, dx_m), map->middle_rad);
         *content_per_m2 = 1.0f / (u > near_m ? u : near_m);
     }
-    return cell_index_at(v, map->v0, map->height, map->rows) * map->columns +
-           cell_index_at(u, map->u0, map->width, map->columns);
+    return cell_at(v, map->v0, map->height, map->rows) * map->columns +
+           cell_at(u, map->u0, map->width, map->columns);
 }
 
 /* True where each radar has a density map of its own; constant 0 in a build with one map. */
@@ -93,8 +71,8 @@ static int has_map_per_radar(const struct rho_initiator *initiator)
 }
 
 /* The density map that counts a sensor's plots: its own, or the common one. */
-static const struct rho_density_map *
-map_of_sensor_or_common_map(const struct rho_initiator *initiator, int32_t sensor_id)
+static const struct rho_density_map *map_of_sensor(const struct rho_initiator *initiator,
+                                                   int32_t sensor_id)
 {
     for (unsigned i = 1; has_map_per_radar(initiator) && i < initiator->num_maps; i++) {
         if (initiator->density[i].sensor_id == sensor_id) {
@@ -104,49 +82,38 @@ map_of_sensor_or_common_map(const struct rho_initiator *initiator, int32_t senso
     return &initiator->density[0];
 }
 
-/* ---- laying it out --------------------------------------------------------------------------- */
-
-static int is_same_unmoved_radar(const struct rho_sensor *a, const struct rho_sensor *b)
-{
-    float dx_m = a->x_m - b->x_m, dy_m = a->y_m - b->y_m;
-    return a->sensor_id == b->sensor_id && dx_m * dx_m + dy_m * dy_m < 1.0f;
-}
-
 /* Radars of the window's scans that did not move. */
 struct radars {
     const struct rho_sensor *of[RHO_MAX_DENSITY_MAPS];
     unsigned count;
 };
 
-static int add_radar_unless_moved_or_full(struct radars *radars, const struct rho_sensor *sensor)
-{
-    for (unsigned i = 0; i < radars->count; i++) {
-        if (radars->of[i]->sensor_id == sensor->sensor_id) {
-            return is_same_unmoved_radar(radars->of[i], sensor);
-        }
-    }
-    if (radars->count == RHO_MAX_DENSITY_MAPS) {
-        return 0;
-    }
-    radars->of[radars->count++] = sensor;
-    return 1;
-}
-
 /*
  * Lists the radars of the window's scans. Returns 1 where none of them moved, there is a density
  * map for each, and the noise of plots is anisotropic.
  */
-static int list_radars_for_polar_maps(const struct search *search, struct radars *radars)
+static int list_radars(const struct search *search, struct radars *radars)
 {
-    struct rho_window *window = &search->initiator->window;
+    const unsigned num_scans = search->initiator->window.num_scans;
     int is_radar = 0;
     radars->count = 0;
-    for (unsigned m = 0; m < window->num_scans && !rho_initiator_takes_isotropic_path(search);
-         m++) {
-        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+    for (unsigned m = 0; m < num_scans && !rho_search_is_isotropic(search); m++) {
+        const struct rho_window_scan *scan = rho_search_scan(search, m);
+        const struct rho_sensor *sensor = &scan->sensor;
+        unsigned i = 0;
         is_radar |= !scan->is_isotropic;
-        if (!add_radar_unless_moved_or_full(radars, &scan->sensor)) {
+        while (i < radars->count && radars->of[i]->sensor_id != sensor->sensor_id) {
+            i++;
+        }
+        if (i < radars->count) {
+            float dx_m = radars->of[i]->x_m - sensor->x_m, dy_m = radars->of[i]->y_m - sensor->y_m;
+            if (!(dx_m * dx_m + dy_m * dy_m < 1.0f)) {
+                return 0;
+            }
+        } else if (radars->count == RHO_MAX_DENSITY_MAPS) {
             return 0;
+        } else {
+            radars->of[radars->count++] = sensor;
         }
     }
     return is_radar;
@@ -162,47 +129,41 @@ struct polar_spread {
 };
 
 /*
- * Adds a plot to the spread of a radar's plots. The first pass sums ranges and directions; the
- * second, with the mean azimuth known, widens the sector.
+ * Spread of a radar's plots: the first pass sums ranges and directions; the second, with the mean
+ * azimuth known, widens the sector.
  */
-static void add_plot_to_spread_in_pass(struct polar_spread *spread, float dx_m, float dy_m,
-                                       int is_second_pass)
-{
-    if (is_second_pass) {
-        float off_rad = rho_angle_difference(rho_atan2(dy_m, dx_m), spread->middle_rad);
-        spread->left_rad = off_rad > spread->left_rad ? off_rad : spread->left_rad;
-        spread->right_rad = off_rad < spread->right_rad ? off_rad : spread->right_rad;
-        return;
-    }
-    float range_m = distance_m(dx_m, dy_m);
-    if (!(range_m >= 1.0f)) {
-        range_m = 1.0f;
-    }
-    spread->nearest_m =
-        spread->plots < 1.0f || range_m < spread->nearest_m ? range_m : spread->nearest_m;
-    spread->farthest_m = range_m > spread->farthest_m ? range_m : spread->farthest_m;
-    spread->sum_log_range += rho_log(range_m);
-    spread->sum_x += dx_m / range_m;
-    spread->sum_y += dy_m / range_m;
-    spread->plots += 1.0f;
-}
-
 static struct polar_spread polar_spread_of_plots(const struct search *search,
                                                  const struct rho_sensor *radar)
 {
-    struct rho_window *window = &search->initiator->window;
     struct polar_spread spread = {.plots = 0.0f, .extent = {1.0f, 0.0f, 1.0f, 0.0f}};
-    for (int is_second_pass = 0; is_second_pass < 2; is_second_pass++) {
-        spread.middle_rad = is_second_pass ? rho_atan2(spread.sum_y, spread.sum_x) : 0.0f;
-        for (unsigned m = 0; m < window->num_scans; m++) {
-            const struct rho_window_scan *scan = rho_window_scan_at(window, m);
-            for (unsigned i = 0; i < scan->num_plots && scan->sensor.sensor_id == radar->sensor_id;
-                 i++) {
-                const struct rho_window_plot *plot = &scan->plots[i];
-                add_plot_to_spread_in_pass(&spread, plot->x_m - radar->x_m, plot->y_m - radar->y_m,
-                                           is_second_pass);
-                rho_extent_add(&spread.extent, plot->x_m, plot->y_m);
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_search_scan(search, m);
+        for (unsigned i = 0; i < scan->num_plots && scan->sensor.sensor_id == radar->sensor_id;
+             i++) {
+            float dx_m = scan->plots[i].x_m - radar->x_m, dy_m = scan->plots[i].y_m - radar->y_m;
+            float range_m = distance_m(dx_m, dy_m);
+            if (!(range_m >= 1.0f)) {
+                range_m = 1.0f;
             }
+            spread.nearest_m =
+                spread.plots < 1.0f || range_m < spread.nearest_m ? range_m : spread.nearest_m;
+            spread.farthest_m = rho_larger(range_m, spread.farthest_m);
+            spread.sum_log_range += rho_log(range_m);
+            spread.sum_x += dx_m / range_m;
+            spread.sum_y += dy_m / range_m;
+            spread.plots += 1.0f;
+            rho_extent_add(&spread.extent, scan->plots[i].x_m, scan->plots[i].y_m);
+        }
+    }
+    spread.middle_rad = rho_atan2(spread.sum_y, spread.sum_x);
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_search_scan(search, m);
+        for (unsigned i = 0; i < scan->num_plots && scan->sensor.sensor_id == radar->sensor_id;
+             i++) {
+            float dx_m = scan->plots[i].x_m - radar->x_m, dy_m = scan->plots[i].y_m - radar->y_m;
+            float off_rad = rho_angle_difference(rho_atan2(dy_m, dx_m), spread.middle_rad);
+            spread.left_rad = rho_larger(off_rad, spread.left_rad);
+            spread.right_rad = rho_smaller(off_rad, spread.right_rad);
         }
     }
     return spread;
@@ -211,60 +172,37 @@ static struct polar_spread polar_spread_of_plots(const struct search *search,
 /*
  * Lays out a map over the range and azimuth of a radar's plots, a little wider: the extremes of n
  * evenly spread plots fall short of each end of the coverage by a share 1 / (n + 1) on average. A
- * sector of more than ALL_ROUND_RAD becomes the whole circle.
+ * sector of more than ALL_ROUND_RAD becomes the whole circle. Returns 0 where the plots are too
+ * few, or likelier under an even density over the area than under one in range and azimuth, 1 /
+ * (content range) a square metre.
  */
-static void lay_out_polar_map(const struct rho_sensor *radar, const struct polar_spread *spread,
-                              struct rho_density_map *map)
+static int lay_out_polar_map(const struct search *search, const struct rho_sensor *radar,
+                             int is_only_radar, struct rho_density_map *map)
 {
-    float wider = (spread->plots + 1.0f) / (spread->plots - 1.0f);
-    float sector_rad = wider * (spread->left_rad - spread->right_rad);
-    float depth_m = wider * (spread->farthest_m - spread->nearest_m);
+    struct polar_spread spread = polar_spread_of_plots(search, radar);
+    float area_m2 = is_only_radar ? rho_density_area_m2(search->initiator)
+                                  : rho_extent_area_m2(&spread.extent, 1.0f);
+    if (spread.plots < (float)POLAR_PLOTS_MIN) {
+        return 0;
+    }
+    float wider = (spread.plots + 1.0f) / (spread.plots - 1.0f);
+    float sector_rad = wider * (spread.left_rad - spread.right_rad);
+    float depth_m = wider * (spread.farthest_m - spread.nearest_m);
     map->is_polar = 1;
     map->sensor_x_m = radar->x_m;
     map->sensor_y_m = radar->y_m;
-    map->u0 = 0.5f * (spread->farthest_m + spread->nearest_m - depth_m);
+    map->u0 = 0.5f * (spread.farthest_m + spread.nearest_m - depth_m);
     map->width = depth_m > 1.0f ? depth_m : 1.0f;
     map->v0 = -RHO_PI;
     map->height = RHO_TWO_PI;
     if (sector_rad < ALL_ROUND_RAD) {
-        map->middle_rad = spread->middle_rad + 0.5f * (spread->left_rad + spread->right_rad);
-        map->height = sector_rad > SECTOR_MIN_RAD ? sector_rad : SECTOR_MIN_RAD;
+        map->middle_rad = spread.middle_rad + 0.5f * (spread.left_rad + spread.right_rad);
+        map->height = rho_larger(sector_rad, 1.0e-3f); /* plots in one direction have a width */
         map->v0 = -0.5f * map->height;
     }
     map->content = map->width * map->height;
-}
-
-/*
- * Lays out a map in range and azimuth. Returns 0 where the plots are too few, or likelier under an
- * even density over the area than under one in range and azimuth, 1 / (content range) a square
- * metre.
- */
-static int lay_out_polar_map_is_likelier(const struct search *search,
-                                         const struct rho_sensor *radar, int is_only_radar,
-                                         struct rho_density_map *map)
-{
-    struct polar_spread spread = polar_spread_of_plots(search, radar);
-    float area_m2 = is_only_radar ? rho_initiator_area_m2(search->initiator)
-                                  : rho_extent_area_m2(&spread.extent, 1.0f);
-    if (spread.plots < POLAR_PLOTS_MIN) {
-        return 0;
-    }
-    lay_out_polar_map(radar, &spread, map);
     return spread.sum_log_range + spread.plots * rho_log(map->content) <
            spread.plots * rho_log(area_m2);
-}
-
-static void lay_out_cartesian_map(const struct rho_initiator *initiator,
-                                  struct rho_density_map *map)
-{
-    const struct rho_window *window = &initiator->window;
-    float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
-    map->is_polar = 0;
-    map->u0 = window->extent.x_min_m;
-    map->v0 = window->extent.y_min_m;
-    map->width = rho_extent_width_m(&window->extent, side_min_m);
-    map->height = rho_extent_height_m(&window->extent, side_min_m);
-    map->content = rho_initiator_area_m2(initiator);
 }
 
 /*
@@ -276,31 +214,26 @@ static void lay_out_density_maps(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     struct radars radars = {.count = 0};
-    int is_polar = list_radars_for_polar_maps(search, &radars);
+    int is_polar = list_radars(search, &radars);
     memset(initiator->density, 0, sizeof initiator->density);
     for (unsigned i = 0; i < radars.count && is_polar; i++) {
-        is_polar = lay_out_polar_map_is_likelier(search, radars.of[i], radars.count == 1,
-                                                 &initiator->density[i]);
+        is_polar =
+            lay_out_polar_map(search, radars.of[i], radars.count == 1, &initiator->density[i]);
         initiator->density[i].sensor_id = radars.of[i]->sensor_id;
     }
     initiator->num_maps = is_polar ? (uint16_t)radars.count : 1;
     if (!is_polar) {
-        lay_out_cartesian_map(initiator, &initiator->density[0]);
+        const struct rho_extent *extent = &initiator->window.extent;
+        struct rho_density_map *map = &initiator->density[0];
+        float side_min_m = rho_larger(initiator->window.side_min_m, 1.0f);
+        map->is_polar = 0;
+        map->u0 = extent->x_min_m;
+        map->v0 = extent->y_min_m;
+        map->width = rho_extent_width_m(extent, side_min_m);
+        map->height = rho_extent_height_m(extent, side_min_m);
+        map->content = rho_density_area_m2(initiator);
     }
 }
-
-static void set_grid_and_clear_counts(struct rho_density_map *map, uint32_t num_plots)
-{
-    uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
-    float cells = (float)wanted;
-    /* ratio of a cell's sides, in range and azimuth: the range over the arc at half the range */
-    float aspect = map->is_polar ? 2.0f / map->height : map->width / map->height;
-    map->columns = (uint8_t)clamp_cell_count(rho_sqrt(cells * aspect));
-    map->rows = (uint8_t)clamp_cell_count(cells / (float)map->columns);
-    memset(map->count, 0, sizeof map->count);
-}
-
-/* ---- counting -------------------------------------------------------------------------------- */
 
 /*
  * Number of plots of scan m without a mark of skip_flags. Also counts these plots in the map's
@@ -359,20 +292,66 @@ static float mean_density(const struct search *search, float plots, float scans,
     return mean > floor ? mean : floor;
 }
 
-/*
- * Sets, for each scan held, the plots a scan of its sensor over the mean of all sensors, and ln of
- * this ratio. One scan of mean density is added to the sensor's own. The ratio is 1 where there is
- * one sensor, or each sensor has a map.
- */
-static void set_sensor_density_ratios(struct search *search, const uint32_t by_scan[RHO_MAX_SCANS],
-                                      uint32_t plots)
+/* True where a map counts the plots of scan m. */
+static int is_map_of_scan(const struct search *search, const struct rho_density_map *map,
+                          unsigned m)
+{
+    return map_of_sensor(search->initiator, rho_search_scan(search, m)->sensor.sensor_id) == map;
+}
+
+/* Counts the plots of a map's scans in its cells, and sets its mean density. */
+static void fill_density_map(struct search *search, struct rho_density_map *map,
+                             uint16_t skip_flags, const uint32_t by_scan[RHO_MAX_SCANS],
+                             float more_plots)
+{
+    float scans = 0.0f, all = (float)search->num_scans;
+    uint32_t plots = 0;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (is_map_of_scan(search, map, m)) {
+            plots += by_scan[m];
+            scans += 1.0f;
+        }
+    }
+    const float cells = (float)(plots / PLOTS_PER_CELL + 1u);
+    /* ratio of a cell's sides, in range and azimuth: the range over the arc at half the range */
+    const float aspect = map->is_polar ? 2.0f / map->height : map->width / map->height;
+    map->columns = (uint8_t)clamp_cell_count(rho_sqrt(cells * aspect));
+    map->rows = (uint8_t)clamp_cell_count(cells / (float)map->columns);
+    memset(map->count, 0, sizeof map->count);
+    map->scans = search->scans_seen * scans / all;
+    map->mean =
+        mean_density(search, (float)plots + more_plots * scans / all, map->scans, map->content);
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (is_map_of_scan(search, map, m)) {
+            (void)count_plots_of_scan(search->initiator, m, skip_flags, map);
+        }
+    }
+    map->prior_plots = weight_of_mean_density(map);
+}
+
+void rho_density_measure(struct search *search, uint16_t skip_flags, float more_plots)
 {
     struct rho_initiator *initiator = search->initiator;
+    uint32_t by_scan[RHO_MAX_SCANS] = {0}, plots = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        int32_t sensor_id = rho_window_scan_at(&initiator->window, m)->sensor.sensor_id;
+        by_scan[m] = count_plots_of_scan(initiator, m, skip_flags, 0);
+        plots += by_scan[m];
+    }
+    search->is_continued = 0; /* the maps now count the newest sector's plots, too */
+    initiator->density_per_m2 = mean_density(search, (float)plots + more_plots, search->scans_seen,
+                                             rho_density_area_m2(initiator));
+    for (unsigned i = 0; i < initiator->num_maps; i++) {
+        fill_density_map(search, &initiator->density[i], skip_flags, by_scan, more_plots);
+    }
+    /*
+     * by scan: the plots a scan of its sensor over the mean of all sensors; one scan of mean
+     * density is added to the sensor's own. 1 where there is one sensor, or each has a map
+     */
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        int32_t sensor_id = rho_search_scan(search, m)->sensor.sensor_id;
         float own = 0.0f, scans = 0.0f;
         for (unsigned k = 0; k < search->num_scans; k++) {
-            if (rho_window_scan_at(&initiator->window, k)->sensor.sensor_id == sensor_id) {
+            if (rho_search_scan(search, k)->sensor.sensor_id == sensor_id) {
                 own += (float)by_scan[k];
                 scans += 1.0f;
             }
@@ -385,56 +364,7 @@ static void set_sensor_density_ratios(struct search *search, const uint32_t by_s
     }
 }
 
-/* Counts the plots of a map's scans in its cells, and sets its mean density. */
-static void fill_density_map(struct search *search, struct rho_density_map *map,
-                             uint16_t skip_flags, const uint32_t by_scan[RHO_MAX_SCANS],
-                             float more_plots)
-{
-    struct rho_initiator *initiator = search->initiator;
-    float scans = 0.0f, all = (float)search->num_scans;
-    uint32_t plots = 0;
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        if (map_of_sensor_or_common_map(
-                initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) == map) {
-            plots += by_scan[m];
-            scans += 1.0f;
-        }
-    }
-    set_grid_and_clear_counts(map, plots);
-    map->scans = search->scans_seen * scans / all;
-    map->mean =
-        mean_density(search, (float)plots + more_plots * scans / all, map->scans, map->content);
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        if (map_of_sensor_or_common_map(
-                initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) == map) {
-            (void)count_plots_of_scan(initiator, m, skip_flags, map);
-        }
-    }
-    map->prior_plots = weight_of_mean_density(map);
-}
-
-/*
- * Measures the clutter density in the maps as they are laid out: counts all plots without a mark of
- * skip_flags, and adds more_plots to the mean.
- */
-void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots)
-{
-    struct rho_initiator *initiator = search->initiator;
-    uint32_t by_scan[RHO_MAX_SCANS] = {0}, plots = 0;
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        by_scan[m] = count_plots_of_scan(initiator, m, skip_flags, 0);
-        plots += by_scan[m];
-    }
-    search->is_continued = 0; /* the maps now count the newest sector's plots, too */
-    initiator->density_per_m2 = mean_density(search, (float)plots + more_plots, search->scans_seen,
-                                             rho_initiator_area_m2(initiator));
-    for (unsigned i = 0; i < initiator->num_maps; i++) {
-        fill_density_map(search, &initiator->density[i], skip_flags, by_scan, more_plots);
-    }
-    set_sensor_density_ratios(search, by_scan, plots);
-}
-
-void rho_initiator_measure_or_keep_density(struct search *search)
+void rho_density_begin(struct search *search)
 {
     if (search->is_continued) {
         for (unsigned m = 0; m < search->num_scans; m++) {
@@ -443,10 +373,8 @@ void rho_initiator_measure_or_keep_density(struct search *search)
         return;
     }
     lay_out_density_maps(search);
-    rho_initiator_measure_density(search, RHO_WINDOW_INITIATED, 0.0f);
+    rho_density_measure(search, RHO_WINDOW_INITIATED, 0.0f);
 }
-
-/* ---- asking ---------------------------------------------------------------------------------- */
 
 /*
  * Density of a map's cell with this count of plots, shrunk towards the mean density; per unit of
@@ -456,13 +384,6 @@ static float density_of_cell_count(const struct rho_density_map *map, float coun
 {
     float prior = map->prior_plots;
     return map->mean * (count + prior) / (mean_cell_count(map) + prior);
-}
-
-/* True where a place is beyond the range of a radar's map: a radar has no clutter there. */
-static int is_beyond_radar_range(const struct rho_density_map *map, float x_m, float y_m)
-{
-    return map->is_polar &&
-           distance_m(x_m - map->sensor_x_m, y_m - map->sensor_y_m) > map->u0 + map->width;
 }
 
 /* Clutter density at a place, per square metre and scan, from one map. */
@@ -482,18 +403,20 @@ static float density_of_held_scans(const struct rho_initiator *initiator, float 
     }
     for (unsigned i = 0; i < initiator->num_maps; i++) {
         const struct rho_density_map *map = &initiator->density[i];
-        sum += is_beyond_radar_range(map, x_m, y_m) ? 0.0f
-                                                    : map->scans * density_in_map(map, x_m, y_m);
+        /* a radar has no clutter beyond its range */
+        const int is_beyond =
+            map->is_polar &&
+            distance_m(x_m - map->sensor_x_m, y_m - map->sensor_y_m) > map->u0 + map->width;
+        sum += is_beyond ? 0.0f : map->scans * density_in_map(map, x_m, y_m);
         scans += map->scans;
     }
     return sum > 0.0f ? sum / scans : first;
 }
 
-float rho_initiator_mean_clutter_density(const struct rho_initiator *initiator, float x_m,
-                                         float y_m)
+float rho_density_mean_at(const struct rho_initiator *initiator, float x_m, float y_m)
 {
-    return rho_initiator_density_with_memory(initiator, x_m, y_m,
-                                             density_of_held_scans(initiator, x_m, y_m));
+    return rho_clutter_memory_raise(initiator, x_m, y_m,
+                                    density_of_held_scans(initiator, x_m, y_m));
 }
 
 /*
@@ -505,13 +428,13 @@ static float map_density_with_memory(const struct rho_initiator *initiator, floa
 {
     const float held_per_m2 = density_of_held_scans(initiator, x_m, y_m);
     return density_per_m2 *
-           (rho_initiator_density_with_memory(initiator, x_m, y_m, held_per_m2) / held_per_m2);
+           (rho_clutter_memory_raise(initiator, x_m, y_m, held_per_m2) / held_per_m2);
 }
 
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
                             float y_m)
 {
-    const struct rho_density_map *map = map_of_sensor_or_common_map(initiator, sensor_id);
+    const struct rho_density_map *map = map_of_sensor(initiator, sensor_id);
     float ratio = 1.0f;
     if (initiator->num_maps == 0) {
         return 0.0f;
@@ -525,57 +448,33 @@ float rho_initiator_density(const struct rho_initiator *initiator, int32_t senso
             break;
         }
     }
-    return rho_initiator_mean_clutter_density(initiator, x_m, y_m) * ratio;
+    return rho_density_mean_at(initiator, x_m, y_m) * ratio;
 }
 
-/*
- * True where the density map counts the plots of scan m: a further sector of a revolution is not
- * counted.
- */
-static int does_map_count_scan(const struct search *search, unsigned m)
-{
-    return !search->is_continued || m + 1u < search->num_scans;
-}
-
-/* Number of the set's own plots that a cell of the map counts. */
-static unsigned count_set_plots_in_cell(const struct search *search, const struct plot_set *set,
-                                        const struct rho_density_map *map, unsigned cell)
-{
-    unsigned own = 0;
-    for (unsigned k = 0; k < search->num_scans && !search->is_left_out; k++) {
-        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, k);
-        if ((set->mask >> k & 1u) && does_map_count_scan(search, k) &&
-            map_of_sensor_or_common_map(search->initiator, scan->sensor.sensor_id) == map) {
-            const struct rho_window_plot *other = rho_initiator_plot_of_set(search, set, k);
-            float per_m2;
-            own += map_cell_at(map, other->x_m, other->y_m, &per_m2) == cell;
-        }
-    }
-    return own;
-}
-
-/*
- * ln of the clutter density that hit m of a set is compared with: the set's own plots are taken out
- * of the cell, and the clutter map's echoes are added.
- */
-float rho_initiator_log_density_of_hit(const struct search *search, const struct plot_set *set,
-                                       unsigned scan_index)
+float rho_density_log_of_hit(const struct search *search, const struct plot_set *set, unsigned m)
 {
     struct rho_initiator *initiator = search->initiator;
-    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, scan_index);
-    const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, scan_index);
-    const struct rho_density_map *map =
-        map_of_sensor_or_common_map(initiator, scan->sensor.sensor_id);
-    float per_m2;
+    const struct rho_window_scan *scan = rho_search_scan(search, m);
+    const struct rho_window_plot *plot = rho_search_plot(search, set, m);
+    const struct rho_density_map *map = map_of_sensor(initiator, scan->sensor.sensor_id);
+    float per_m2, other_per_m2;
     unsigned cell = map_cell_at(map, plot->x_m, plot->y_m, &per_m2), count = map->count[cell];
-    unsigned own = count_set_plots_in_cell(search, set, map, cell);
+    unsigned own = 0; /* of the set's own plots, those that the cell counts */
+    /* the map does not count a further sector of a revolution */
+    const unsigned counted = search->is_continued ? search->num_scans - 1u : search->num_scans;
+    for (unsigned k = 0; k < counted && !search->is_left_out; k++) {
+        if ((set->mask >> k & 1u) && is_map_of_scan(search, map, k)) {
+            const struct rho_window_plot *other = rho_search_plot(search, set, k);
+            own += map_cell_at(map, other->x_m, other->y_m, &other_per_m2) == cell;
+        }
+    }
     float density = density_of_cell_count(map, (float)(count > own ? count - own : 0u)) * per_m2;
     density = has_map_per_radar(initiator)
                   ? map_density_with_memory(initiator, plot->x_m, plot->y_m, density)
-                  : rho_initiator_density_with_memory(initiator, plot->x_m, plot->y_m, density);
-    float log_density = rho_log(density) + search->log_ratio[scan_index];
+                  : rho_clutter_memory_raise(initiator, plot->x_m, plot->y_m, density);
+    float log_density = rho_log(density) + search->log_ratio[m];
     if (RHO_MAX_ECHOES > 0) {
-        log_density += (float)scan->repeats[set->plot[scan_index]] / RHO_WINDOW_REPEATS_PER_NAT;
+        log_density += (float)scan->repeats[set->plot[m]] / RHO_WINDOW_REPEATS_PER_NAT;
     }
     return log_density;
 }

@@ -3,57 +3,17 @@
 
 #include <float.h>
 
+#include "clutter_density.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
+#include "target_model.h"
 
-/*
- * Ratio of the variances of a tentative track's prediction and of a plot, as determinants of both
- * axes.
- */
-#define PREDICTION_SPREAD 4.0f
-
-#define NEVER_NAT (-1.0e6f)
-
-/*
- * Margin by which sets may score higher than the model's perfect fit of their pattern: votes may be
- * nearer to each other than on average, and the set's own plots are not in the density.
- */
-#define BEST_MARGIN_NAT 2.0f
-
-/* rings of speeds over which the share of tracks that stay in the area is averaged */
-#define RINGS 8
-#define SHARE_MIN 1.0e-6f
-
-/* Largest weight of a pattern: keeps numbers of false sets finite. */
-#define WEIGHT_MAX 1.0e30f
-
-/* ---- places ---------------------------------------------------------------------------------- */
+/* Rings of speeds over which the share of tracks that stay in the area is averaged. */
+enum { RINGS = 8 };
 
 static float log_of_sigma_code(uint16_t code)
 {
     return rho_log(rho_window_decode_sigma(code));
-}
-
-static struct place_class clutter_and_noise_class_of_plot(const struct false_tracks *model,
-                                                          const struct rho_window_scan *scan,
-                                                          unsigned index)
-{
-    const struct search *search = model->search;
-    const struct rho_window_plot *plot = &scan->plots[index];
-    struct place_class place = {
-        .log_density =
-            rho_log(rho_initiator_mean_clutter_density(search->initiator, plot->x_m, plot->y_m)),
-        .log_range = log_of_sigma_code(plot->sigma_range),
-        .log_cross = log_of_sigma_code(plot->sigma_cross),
-    };
-    if (model->has_z) {
-        place.log_up = log_of_sigma_code(plot->sigma_up);
-    }
-    if (model->has_range_rate) {
-        place.log_range_rate = log_of_sigma_code(plot->sigma_range_rate);
-    }
-    /* the place stands for the area that has one such plot */
-    place.share = rho_exp(-place.log_density);
-    return place;
 }
 
 static int are_logarithms_close(float a, float b)
@@ -61,7 +21,7 @@ static int are_logarithms_close(float a, float b)
     return a - b < 0.05f && b - a < 0.05f;
 }
 
-static int are_alike_classes(const struct place_class *a, const struct place_class *b)
+static int are_alike(const struct place_class *a, const struct place_class *b)
 {
     return are_logarithms_close(a->log_density, b->log_density) &&
            are_logarithms_close(a->log_range, b->log_range) &&
@@ -70,39 +30,51 @@ static int are_alike_classes(const struct place_class *a, const struct place_cla
            are_logarithms_close(a->log_range_rate, b->log_range_rate);
 }
 
-static void add_or_merge_place_class(struct false_tracks *model, const struct place_class *place)
-{
-    for (unsigned i = 0; i < model->num_classes; i++) {
-        if (are_alike_classes(&model->classes[i], place)) {
-            model->classes[i].share += place->share;
-            return;
-        }
-    }
-    model->classes[model->num_classes++] = *place;
-}
-
 /*
  * Samples evenly spaced held plots into at most CLASSES_MAX classes of clutter and noise, each with
  * its share of the area.
  */
-static void sample_held_plots_into_place_classes(struct false_tracks *model)
+static void sample_place_classes(struct false_tracks *model)
 {
-    struct rho_window *window = &model->search->initiator->window;
+    const struct search *search = model->search;
     unsigned total = 0, passed = 0;
     float sum = 0.0f;
-    for (unsigned m = 0; m < window->num_scans; m++) {
-        total += rho_window_scan_at(window, m)->num_plots;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        total += rho_search_scan(search, m)->num_plots;
     }
     if (total == 0) {
         return;
     }
     unsigned stride = (total + CLASSES_MAX - 1u) / CLASSES_MAX;
-    for (unsigned m = 0; m < window->num_scans; m++) {
-        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_search_scan(search, m);
         for (unsigned i = 0; i < scan->num_plots; i++, passed++) {
-            if (passed % stride == stride / 2u) {
-                struct place_class place = clutter_and_noise_class_of_plot(model, scan, i);
-                add_or_merge_place_class(model, &place);
+            const struct rho_window_plot *plot = &scan->plots[i];
+            if (passed % stride != stride / 2u) {
+                continue;
+            }
+            struct place_class place = {
+                .log_density =
+                    rho_log(rho_density_mean_at(search->initiator, plot->x_m, plot->y_m)),
+                .log_range = log_of_sigma_code(plot->sigma_range),
+                .log_cross = log_of_sigma_code(plot->sigma_cross),
+            };
+            if (model->has_z) {
+                place.log_up = log_of_sigma_code(plot->sigma_up);
+            }
+            if (model->has_range_rate) {
+                place.log_range_rate = log_of_sigma_code(plot->sigma_range_rate);
+            }
+            /* the place stands for the area that has one such plot */
+            place.share = rho_exp(-place.log_density);
+            unsigned k = 0;
+            while (k < model->num_classes && !are_alike(&model->classes[k], &place)) {
+                k++;
+            }
+            if (k < model->num_classes) {
+                model->classes[k].share += place.share;
+            } else {
+                model->classes[model->num_classes++] = place;
             }
         }
     }
@@ -113,8 +85,6 @@ static void sample_held_plots_into_place_classes(struct false_tracks *model)
         model->classes[i].share /= sum;
     }
 }
-
-/* ---- patterns -------------------------------------------------------------------------------- */
 
 /* ln Gamma(k + 1), where k is a multiple of a half. */
 static float log_gamma_of_k_plus_1(float k)
@@ -131,8 +101,7 @@ static float log_gamma_of_k_plus_1(float k)
  * Mean, over all choices of h = `hits` scans that include `first` and the newest, of h sum (t -
  * mean)^2 = sum over pairs of (t_i - t_j)^2.
  */
-static float mean_sum_of_squared_hit_time_gaps_s2(const struct search *search, unsigned first,
-                                                  unsigned hits)
+static float mean_hit_spread_s2(const struct search *search, unsigned first, unsigned hits)
 {
     unsigned last = search->num_scans - 1u, between = last - first - 1u, inner = hits - 2u;
     float both = search->time_s[last] - search->time_s[first];
@@ -152,21 +121,11 @@ static float mean_sum_of_squared_hit_time_gaps_s2(const struct search *search, u
 }
 
 /*
- * Share of the points of a rectangle that are still in the rectangle after a displacement by (dx,
- * dy).
- */
-static float share_inside_after_move(float width_m, float height_m, float dx_m, float dy_m)
-{
-    return dx_m < width_m && dy_m < height_m ? (1.0f - dx_m / width_m) * (1.0f - dy_m / height_m)
-                                             : 0.0f;
-}
-
-/*
  * Share of the straight tracks that begin in the area, with any allowed velocity, and are still in
  * the area span_s later, where alone there are plots. The mean over rings of speed of equal
  * content, and over directions of a quadrant.
  */
-static float share_of_tracks_inside_after(const struct search *search, float span_s)
+static float share_staying_inside(const struct search *search, float span_s)
 {
     static const float directions[4][2] = {{0.98078528f, 0.19509032f},
                                            {0.83146961f, 0.55557023f},
@@ -184,18 +143,16 @@ static float share_of_tracks_inside_after(const struct search *search, float spa
         float part = ((float)ring + 0.5f) / (float)RINGS;
         float travelled_m = span_s * rho_sqrt(least2 + part * (most2 - least2));
         for (int i = 0; i < 4; i++) {
-            share += share_inside_after_move(width_m, height_m, travelled_m * directions[i][0],
-                                             travelled_m * directions[i][1]) /
+            const float dx_m = travelled_m * directions[i][0],
+                        dy_m = travelled_m * directions[i][1];
+            /* the share of a rectangle's points that this displacement leaves in it */
+            share += (dx_m < width_m && dy_m < height_m
+                          ? (1.0f - dx_m / width_m) * (1.0f - dy_m / height_m)
+                          : 0.0f) /
                      (float)(4 * RINGS);
         }
     }
-    return share > SHARE_MIN ? share : SHARE_MIN;
-}
-
-/* ln of the number of alias combinations that this number of ambiguous range rates has. */
-static float log_aliases_of_hits(const struct false_tracks *model, float hits)
-{
-    return hits * model->log_aliases;
+    return rho_larger(share, 1.0e-6f); /* a divisor */
 }
 
 /* ln of the determinant of the normal equations of a fit (its Fisher information), all axes. */
@@ -231,62 +188,6 @@ static float dimensions_of_hit(const struct false_tracks *model)
     return 2.0f + (model->has_z ? 1.0f : 0.0f) + (model->has_range_rate ? 1.0f : 0.0f);
 }
 
-static float log_hit_pattern_probability(const struct search *search, unsigned first, unsigned hits)
-{
-    unsigned newest = search->num_scans - 1u;
-    return (float)hits * search->log_pd[newest] +
-           (float)(newest - first + 1u - hits) * search->log_miss[newest];
-}
-
-static float half_residual_dimensions(const struct false_tracks *model, unsigned hits)
-{
-    return 0.5f * ((float)hits * dimensions_of_hit(model) - (model->has_z ? 6.0f : 4.0f));
-}
-
-/*
- * Score of a perfect fit to the hits of a pattern: rho_initiator_score_set_if_determined with
- * chi-square 0.
- */
-static float best_score_of_pattern(const struct false_tracks *model,
-                                   const struct place_class *place, unsigned first, unsigned hits,
-                                   float spread_s2)
-{
-    const struct search *search = model->search;
-    float h = (float)hits;
-    float fisher = log_fisher_determinant(model, place, h, spread_s2);
-    return search->log_prior + log_hit_pattern_probability(search, first, hits) -
-           h * place->log_density - half_residual_dimensions(model, hits) * LOG_TWO_PI -
-           h * half_log_det_of_hit_noise(model, place) - 0.5f * fisher +
-           rho_initiator_log_height_and_range_rate_volume(
-               search, model->has_z, model->has_z ? hits : 0u, model->has_range_rate ? hits : 0u) -
-           log_aliases_of_hits(model, h);
-}
-
-/* Half of the 99.9 % quantile of chi-square with 2 `half` dimensions. */
-static float half_chi2_limit(float half_dimensions)
-{
-    return 0.5f * rho_initiator_chi2_limit((unsigned)(2.0f * half_dimensions + 0.5f), SIGMAS_99_9);
-}
-
-static void add_pattern(struct false_tracks *model, unsigned first, unsigned hits)
-{
-    const struct search *search = model->search;
-    unsigned newest = search->num_scans - 1u, between = newest - first - 1u;
-    float half = half_residual_dimensions(model, hits);
-    model->patterns[model->num_patterns++] = (struct pattern){
-        .first = (uint16_t)first,
-        .hits = (uint16_t)hits,
-        .log_choices = rho_initiator_log_factorial(between) -
-                       rho_initiator_log_factorial(hits - 2u) -
-                       rho_initiator_log_factorial(between + 2u - hits),
-        .spread_s2 = mean_sum_of_squared_hit_time_gaps_s2(search, first, hits),
-        .inside =
-            share_of_tracks_inside_after(search, search->time_s[newest] - search->time_s[first]),
-        .half_dimensions = half,
-        .most = half_chi2_limit(half),
-    };
-}
-
 static float log_widened_sigma(float log_sigma_m, float bend_m2)
 {
     return 0.5f * rho_log(rho_exp(2.0f * log_sigma_m) + bend_m2);
@@ -300,23 +201,6 @@ static float bend_share_of_mode(unsigned j)
 {
     const float waves = 3.0f / (float)(2u * j + 1u);
     return waves * waves * waves * waves;
-}
-
-/*
- * ln of the sigma of isotropic noise that gives the same determinant as noise and bend together.
- * The dimensions of the residual have very different variances, sigma^2 plus the bend of their
- * mode; the determinant is the product of these (src/DESIGN.md).
- */
-static float log_sigma_widened_by_modes(float log_sigma_m, float bend_m2, unsigned dimensions)
-{
-    float all = 0.0f, sum = 0.0f;
-    for (unsigned j = 1; j <= dimensions; j++) {
-        all += bend_share_of_mode(j);
-    }
-    for (unsigned j = 1; j <= dimensions; j++) {
-        sum += log_widened_sigma(log_sigma_m, bend_m2 * bend_share_of_mode(j) / all);
-    }
-    return sum / (float)dimensions;
 }
 
 /*
@@ -334,10 +218,22 @@ static struct place_class noise_widened_by_bend(const struct false_tracks *model
     }
     const float bend_m2 = model->bend_m2[first];
     const float scans = (float)(model->search->num_scans - first);
-    if (rho_initiator_takes_isotropic_path(model->search)) {
-        wide.log_range =
-            log_sigma_widened_by_modes(place->log_range, bend_m2 * (float)hits / scans, hits - 2u);
-        wide.log_cross = wide.log_range;
+    if (rho_search_is_isotropic(model->search)) {
+        /*
+         * sigma of isotropic noise with the same determinant as noise and bend together: the
+         * dimensions of the residual have very different variances, sigma^2 plus the bend of their
+         * mode, and the determinant is their product (src/DESIGN.md)
+         */
+        const unsigned dimensions = hits - 2u;
+        const float bent_m2 = bend_m2 * (float)hits / scans;
+        float all = 0.0f, sum = 0.0f;
+        for (unsigned j = 1; j <= dimensions; j++) {
+            all += bend_share_of_mode(j);
+        }
+        for (unsigned j = 1; j <= dimensions; j++) {
+            sum += log_widened_sigma(place->log_range, bent_m2 * bend_share_of_mode(j) / all);
+        }
+        wide.log_range = wide.log_cross = sum / (float)dimensions;
     } else {
         wide.log_range = log_widened_sigma(place->log_range, bend_m2 / (scans - 2.0f));
         wide.log_cross = log_widened_sigma(place->log_cross, bend_m2 / (scans - 2.0f));
@@ -346,34 +242,79 @@ static struct place_class noise_widened_by_bend(const struct false_tracks *model
     return wide;
 }
 
+/* The score of a perfect fit to a pattern is that of rho_plot_set_score with chi-square 0. */
 static struct pattern_score score_pattern(const struct false_tracks *model,
                                           const struct place_class *place,
                                           const struct pattern *pattern)
 {
     const struct search *search = model->search;
-    unsigned first = pattern->first, hits = pattern->hits;
+    const unsigned first = pattern->first, hits = pattern->hits, newest = search->num_scans - 1u;
+    const float h = (float)hits;
+    const float log_hits =
+        h * search->log_pd[newest] + (float)(newest - first + 1u - hits) * search->log_miss[newest];
     struct place_class wide = noise_widened_by_bend(model, place, first, hits);
+    const float fisher = log_fisher_determinant(model, &wide, h, pattern->spread_s2);
     struct pattern_score score = {
-        .best_nat = best_score_of_pattern(model, &wide, first, hits, pattern->spread_s2)};
+        .best_nat = search->log_prior + log_hits - h * wide.log_density -
+                    pattern->half_dimensions * LOG_TWO_PI -
+                    h * half_log_det_of_hit_noise(model, &wide) - 0.5f * fisher +
+                    rho_target_log_volume(search, model->has_z, model->has_z ? hits : 0u,
+                                          model->has_range_rate ? hits : 0u) -
+                    h * model->log_aliases};
     score.weight = 0.5f * place->share * pattern->inside *
-                   rho_exp(log_hit_pattern_probability(search, first, hits) + pattern->log_choices -
-                           score.best_nat - log_gamma_of_k_plus_1(pattern->half_dimensions));
-    score.weight = score.weight < WEIGHT_MAX ? score.weight : WEIGHT_MAX;
+                   rho_exp(log_hits + pattern->log_choices - score.best_nat -
+                           log_gamma_of_k_plus_1(pattern->half_dimensions));
+    /* numbers of false sets stay finite */
+    score.weight = rho_smaller(score.weight, 1.0e30f);
     return score;
 }
 
-static void list_and_score_patterns(struct false_tracks *model)
+void rho_false_tracks_model(const struct search *search, struct false_tracks *model)
 {
-    unsigned num_scans = model->search->num_scans;
-    model->num_patterns = 0;
+    /*
+     * where only some scans measure heights or range rates, false tracks are assumed to need
+     * neither: an upper bound
+     */
+    uint32_t measures = ~0u;
+    const unsigned num_scans = search->num_scans;
+    for (unsigned m = 0; m < num_scans; m++) {
+        const struct rho_window_scan *scan = rho_search_scan(search, m);
+        /* a scan without plots has no hit, whatever it measures */
+        measures &= scan->num_plots > 0 ? scan->measures : ~0u;
+    }
+    model->search = search;
+    model->has_z = (measures & RHO_MEASURES_Z) != 0;
+    model->has_range_rate = (measures & RHO_MEASURES_RANGE_RATE) != 0;
+    model->log_aliases = 0.0f;
+    if (model->has_range_rate) {
+        for (unsigned m = 0; m < num_scans; m++) {
+            model->log_aliases += rho_measurement_log_num_aliases(
+                &rho_search_scan(search, m)->sensor, search->initiator->config.v_max_mps);
+        }
+        model->log_aliases = model->log_aliases / (float)num_scans;
+    }
+    model->num_classes = model->num_patterns = 0;
     model->least_hits = 3;
+    sample_place_classes(model);
     for (unsigned first = 0; first + 3u <= num_scans; first++) {
-        if (model->search->fit_process_m2 > 0.0f) {
-            (void)rho_initiator_largest_bend_variance_m2(model->search, first,
-                                                         &model->bend_m2[first]);
+        const unsigned between = num_scans - 2u - first;
+        if (search->fit_process_m2 > 0.0f) {
+            (void)rho_target_bend_m2(search, first, &model->bend_m2[first]);
         }
         for (unsigned hits = 3; hits <= num_scans - first; hits++) {
-            add_pattern(model, first, hits);
+            const float half =
+                0.5f * ((float)hits * dimensions_of_hit(model) - (model->has_z ? 6.0f : 4.0f));
+            model->patterns[model->num_patterns++] = (struct pattern){
+                .first = (uint16_t)first,
+                .hits = (uint16_t)hits,
+                .log_choices = rho_log_factorial(between) - rho_log_factorial(hits - 2u) -
+                               rho_log_factorial(between + 2u - hits),
+                .spread_s2 = mean_hit_spread_s2(search, first, hits),
+                .inside = share_staying_inside(search, search->time_s[num_scans - 1u] -
+                                                           search->time_s[first]),
+                .half_dimensions = half,
+                .most = 0.5f * rho_chi2_quantile((unsigned)(2.0f * half + 0.5f), SIGMAS_99_9),
+            };
         }
     }
     for (unsigned i = 0; i < model->num_classes; i++) {
@@ -383,140 +324,84 @@ static void list_and_score_patterns(struct false_tracks *model)
     }
 }
 
-/* ---- all of it ------------------------------------------------------------------------------- */
-
-static float mean_log_aliases(const struct search *search)
-{
-    float sum = 0.0f;
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        sum += rho_measurement_log_num_aliases(
-            &rho_window_scan_at(&search->initiator->window, m)->sensor,
-            search->initiator->config.v_max_mps);
-    }
-    return sum / (float)search->num_scans;
-}
-
-void rho_initiator_model_false_tracks(const struct search *search, struct false_tracks *model)
-{
-    /*
-     * where only some scans measure heights or range rates, false tracks are assumed to need
-     * neither: an upper bound
-     */
-    uint32_t measures = ~0u;
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
-        /* a scan without plots has no hit, whatever it measures */
-        measures &= scan->num_plots > 0 ? scan->measures : ~0u;
-    }
-    model->search = search;
-    model->has_z = (measures & RHO_MEASURES_Z) != 0;
-    model->has_range_rate = (measures & RHO_MEASURES_RANGE_RATE) != 0;
-    model->log_aliases = model->has_range_rate ? mean_log_aliases(search) : 0.0f;
-    model->num_classes = 0;
-    sample_held_plots_into_place_classes(model);
-    list_and_score_patterns(model);
-}
-
-/* ---- how many -------------------------------------------------------------------------------- */
-
 /*
- * Margin above start_nat of the pattern that the track had a scan ago, with one hit fewer; 0 where
- * that has too few hits to start a track.
- */
-static float score_margin_a_scan_ago(const struct false_tracks *model, unsigned class_index,
-                                     unsigned pattern_index, float start_nat)
-{
-    if (model->patterns[pattern_index].hits <= model->least_hits) {
-        return 0.0f;
-    }
-    /*
-     * index of the pattern with one hit fewer that begins a scan later: patterns are listed by
-     * their first scan, then by hits
-     */
-    const unsigned less =
-        pattern_index + model->search->num_scans - model->patterns[pattern_index].first - 3u;
-    const float before = model->scores[class_index][less].best_nat - start_nat;
-    const float most = model->patterns[less].most;
-    return before < most ? before : most;
-}
-
-/*
- * Number of false sets of a pattern in one class that reach score_nat, and had not reached
+ * Number of false sets of a pattern, in all classes, that reach score_nat, and had not reached
  * start_nat a scan ago: weight y^k times the share of new ones. Without the newest hit their chi2 /
  * 2 is above `before`, and with it below y. Of the content of a ball, with the two dimensions of
  * one hit fewer, that share is 1 - k q^(k - 1) + (k - 1) q^k, q = before / y. Powers are multiplied
  * out rather than taken by logarithms, as the function is called often: k is a multiple of a half.
  */
-static float false_sets_newly_above_in_class(const struct false_tracks *model, unsigned class_index,
-                                             unsigned pattern_index, float score_nat,
-                                             float start_nat)
+static float false_sets_of_pattern(const struct false_tracks *model, unsigned pattern_index,
+                                   float score_nat, float start_nat)
 {
     const struct pattern *pattern = &model->patterns[pattern_index];
-    const struct pattern_score *score = &model->scores[class_index][pattern_index];
-    float half = pattern->half_dimensions, y = score->best_nat - score_nat;
-    if (!(y > 0.0f)) {
-        return 0.0f;
-    }
-    const float before = score_margin_a_scan_ago(model, class_index, pattern_index, start_nat);
-    y = y < pattern->most ? y : pattern->most;
-    if (before >= y) {
-        return 0.0f;
-    }
-    unsigned halves = (unsigned)(2.0f * half + 0.5f);
-    float q = before / y, content = halves % 2u ? rho_sqrt(y) : 1.0f;
-    float raised = halves % 2u ? rho_sqrt(q) : 1.0f; /* q^(k - 1) */
-    for (; halves >= 4u; halves -= 2u) {
-        content *= y;
-        raised *= q;
-    }
-    float share = before > 0.0f ? 1.0f - half * raised + (half - 1.0f) * raised * q : 1.0f;
-    return score->weight * (content * y) * share;
-}
-
-static float false_sets_newly_above_of_pattern(const struct false_tracks *model,
-                                               unsigned pattern_index, float score_nat,
-                                               float start_nat)
-{
+    const float half = pattern->half_dimensions;
+    /*
+     * the pattern with one hit fewer that begins a scan later: patterns are listed by their first
+     * scan, then by hits. Too few hits start no track
+     */
+    const unsigned less = pattern_index + model->search->num_scans - pattern->first - 3u;
+    const int had_start = pattern->hits > model->least_hits;
     float sum = 0.0f;
-    if (model->patterns[pattern_index].hits < model->least_hits) {
+    if (pattern->hits < model->least_hits) {
         return 0.0f;
     }
     for (unsigned i = 0; i < model->num_classes; i++) {
-        sum += false_sets_newly_above_in_class(model, i, pattern_index, score_nat, start_nat);
+        const struct pattern_score *score = &model->scores[i][pattern_index];
+        float y = score->best_nat - score_nat, before = 0.0f;
+        if (!(y > 0.0f)) {
+            continue;
+        }
+        if (had_start) {
+            before = rho_smaller(model->scores[i][less].best_nat - start_nat,
+                                 model->patterns[less].most);
+        }
+        y = rho_smaller(y, pattern->most);
+        if (before >= y) {
+            continue;
+        }
+        unsigned halves = (unsigned)(2.0f * half + 0.5f);
+        float q = before / y, content = halves % 2u ? rho_sqrt(y) : 1.0f;
+        float raised = halves % 2u ? rho_sqrt(q) : 1.0f; /* q^(k - 1) */
+        for (; halves >= 4u; halves -= 2u) {
+            content *= y;
+            raised *= q;
+        }
+        float share = before > 0.0f ? 1.0f - half * raised + (half - 1.0f) * raised * q : 1.0f;
+        sum += score->weight * (content * y) * share;
     }
     return sum;
 }
 
-float rho_initiator_false_sets_newly_above(const struct false_tracks *model, float score_nat,
-                                           float start_nat, float stop_at_sum)
+float rho_false_tracks_above(const struct false_tracks *model, float score_nat, float start_nat,
+                             float stop_at_sum)
 {
     float sum = 0.0f;
     for (unsigned k = 0; k < model->num_patterns && sum <= stop_at_sum; k++) {
-        sum += false_sets_newly_above_of_pattern(model, k, score_nat, start_nat);
+        sum += false_sets_of_pattern(model, k, score_nat, start_nat);
     }
     return sum;
 }
 
-float rho_initiator_false_track_share_staying_in_area(const struct false_tracks *model,
-                                                      float start_nat)
+float rho_false_tracks_staying(const struct false_tracks *model, float start_nat)
 {
     const struct search *search = model->search;
     unsigned newest = search->num_scans - 1u;
     float stay[RHO_MAX_SCANS], sum = 0.0f, all = 0.0f;
     for (unsigned first = 0; first + 3u <= search->num_scans; first++) {
         float span_s = search->time_s[newest] - search->time_s[first];
-        stay[first] = share_of_tracks_inside_after(search, span_s + search->interval_s) /
-                      share_of_tracks_inside_after(search, span_s);
+        stay[first] = share_staying_inside(search, span_s + search->interval_s) /
+                      share_staying_inside(search, span_s);
     }
     for (unsigned k = 0; k < model->num_patterns; k++) {
-        float sets = false_sets_newly_above_of_pattern(model, k, start_nat, start_nat);
+        float sets = false_sets_of_pattern(model, k, start_nat, start_nat);
         sum += sets * stay[model->patterns[k].first];
         all += sets;
     }
     return all > 0.0f ? sum / all : 1.0f;
 }
 
-float rho_initiator_least_gain_of_hit(const struct false_tracks *model)
+float rho_false_tracks_least_gain(const struct false_tracks *model)
 {
     const struct search *search = model->search;
     float least = FLT_MAX;
@@ -526,9 +411,8 @@ float rho_initiator_least_gain_of_hit(const struct false_tracks *model)
         float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
                      0.5f * dimensions_of_hit(model) * LOG_TWO_PI -
                      half_log_det_of_hit_noise(model, &wide) - rho_log(PREDICTION_SPREAD) +
-                     rho_initiator_log_height_and_range_rate_volume(
-                         search, 0, 0, model->has_range_rate ? 1u : 0u) -
-                     log_aliases_of_hits(model, 1.0f);
+                     rho_target_log_volume(search, 0, 0, model->has_range_rate ? 1u : 0u) -
+                     model->log_aliases;
         least = gain < least ? gain : least;
     }
     return least;
@@ -537,7 +421,7 @@ float rho_initiator_least_gain_of_hit(const struct false_tracks *model)
 /* Score of a perfect fit to a pattern, in the class of places where it is highest. */
 static float best_score_in_any_class(const struct false_tracks *model, unsigned pattern_index)
 {
-    float best = NEVER_NAT;
+    float best = -FLT_MAX;
     for (unsigned i = 0; i < model->num_classes; i++) {
         float here = model->scores[i][pattern_index].best_nat;
         best = here > best ? here : best;
@@ -549,7 +433,7 @@ static float best_score_in_any_class(const struct false_tracks *model, unsigned 
  * True where a pattern with the least number of hits has a margin over start_nat of its mean chi2 /
  * 2 or more, so that at least half of the targets with this pattern start.
  */
-int rho_initiator_lets_half_of_targets_start(const struct false_tracks *model, float start_nat)
+int rho_false_tracks_let_start(const struct false_tracks *model, float start_nat)
 {
     for (unsigned k = 0; k < model->num_patterns; k++) {
         const struct pattern *pattern = &model->patterns[k];
@@ -561,8 +445,8 @@ int rho_initiator_lets_half_of_targets_start(const struct false_tracks *model, f
     return 0;
 }
 
-unsigned rho_initiator_least_hits_reaching_start_from(const struct false_tracks *model,
-                                                      unsigned first, float start_nat)
+unsigned rho_false_tracks_least_hits(const struct false_tracks *model, unsigned first,
+                                     float start_nat)
 {
     for (unsigned k = 0; k < model->num_patterns; k++) {
         const struct pattern *pattern = &model->patterns[k];
@@ -574,7 +458,7 @@ unsigned rho_initiator_least_hits_reaching_start_from(const struct false_tracks 
     return model->search->num_scans + 1u;
 }
 
-float rho_initiator_least_clutter_plots_in_noise(const struct false_tracks *model)
+float rho_false_tracks_thinnest(const struct false_tracks *model)
 {
     float least = 0.0f;
     for (unsigned i = 0; i < model->num_classes; i++) {

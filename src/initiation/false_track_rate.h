@@ -17,7 +17,7 @@
 #include "search.h"
 
 /* Largest number of classes of places with similar clutter and noise. */
-#define CLASSES_MAX 8
+enum { CLASSES_MAX = 8 };
 
 /* Number of patterns: pairs of a first scan and a number of hits up to the newest scan. */
 #define PATTERNS_MAX ((RHO_MAX_SCANS - 2) * (RHO_MAX_SCANS - 1) / 2)
@@ -36,7 +36,7 @@ struct place_class {
 struct pattern {
     uint16_t first, hits;
     float log_choices; /* ln of the number of choices of the scans between */
-    float spread_s2;   /* mean spread of the hits' times, by mean_sum_of_squared_hit_time_gaps_s2 */
+    float spread_s2;   /* mean spread of the hits' times, by mean_hit_spread_s2 */
     float inside;      /* share of tracks of this duration that stay in the area */
     float half_dimensions;
     float most; /* largest chi2 / 2 of a fit that is accepted */
@@ -70,36 +70,35 @@ struct false_tracks {
 };
 
 /* Fills the model for the window of a search. */
-void rho_initiator_model_false_tracks(const struct search *search, struct false_tracks *model);
+void rho_false_tracks_model(const struct search *search, struct false_tracks *model);
 
 /*
  * Expected number of false tracks of one search whose score reaches score_nat at once, and which
  * had not reached start_nat before. Counting ends at `stop_at_sum`; FLT_MAX counts all.
  */
-float rho_initiator_false_sets_newly_above(const struct false_tracks *model, float score_nat,
-                                           float start_nat, float stop_at_sum);
+float rho_false_tracks_above(const struct false_tracks *model, float score_nat, float start_nat,
+                             float stop_at_sum);
 
 /* Share of the false tracks started at start_nat that are still in the area at the next scan. */
-float rho_initiator_false_track_share_staying_in_area(const struct false_tracks *model,
-                                                      float start_nat);
+float rho_false_tracks_staying(const struct false_tracks *model, float start_nat);
 
 /*
  * Score that one more perfect hit adds to a tentative track, in the class of places where that is
  * least.
  */
-float rho_initiator_least_gain_of_hit(const struct false_tracks *model);
+float rho_false_tracks_least_gain(const struct false_tracks *model);
 
 /*
  * Fewest hits, at least the model's least_hits, with which sets from scan `first` to the newest
  * reach start_nat in any class; N + 1 where none do.
  */
-unsigned rho_initiator_least_hits_reaching_start_from(const struct false_tracks *model,
-                                                      unsigned first, float start_nat);
+unsigned rho_false_tracks_least_hits(const struct false_tracks *model, unsigned first,
+                                     float start_nat);
 
 /* Clutter plots within the noise of a plot, in the class of places with the fewest; at most 1. */
-float rho_initiator_least_clutter_plots_in_noise(const struct false_tracks *model);
+float rho_false_tracks_thinnest(const struct false_tracks *model);
 
 /* True where at least half of the targets with the least number of hits reach start_nat. */
-int rho_initiator_lets_half_of_targets_start(const struct false_tracks *model, float start_nat);
+int rho_false_tracks_let_start(const struct false_tracks *model, float start_nat);
 
 #endif

@@ -4,17 +4,15 @@
  * and across the line of sight); the plot of a scan nearest to the track; and the likelihood of a
  * set of plots.
  */
+#include "candidates.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
-#include "search.h"
 
 static float plot_variance_m2(const struct rho_window_plot *plot)
 {
     float sigma_m = rho_window_larger_sigma_m(plot);
     return sigma_m * sigma_m;
 }
-
-/* ---- least squares --------------------------------------------------------------------------- */
 
 /* Weighted moments of a set's plots about their mean, so that no large numbers are subtracted. */
 struct moments {
@@ -28,10 +26,10 @@ static struct moments moments_of_set(const struct search *search, const struct p
     struct moments sum = {0};
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
-            const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, m);
+            const struct rho_window_plot *plot = rho_search_plot(search, set, m);
             float w = 1.0f / plot_variance_m2(plot);
             sum.weight += w;
-            sum.time_s += w * rho_initiator_plot_time_s(search, set, m);
+            sum.time_s += w * rho_search_plot_time_s(search, set, m);
             sum.x_m += w * plot->x_m;
             sum.y_m += w * plot->y_m;
         }
@@ -41,9 +39,9 @@ static struct moments moments_of_set(const struct search *search, const struct p
     sum.y_m /= sum.weight;
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
-            const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, m);
+            const struct rho_window_plot *plot = rho_search_plot(search, set, m);
             float w = 1.0f / plot_variance_m2(plot);
-            float t_s = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
+            float t_s = rho_search_plot_time_s(search, set, m) - sum.time_s;
             sum.tt += w * t_s * t_s;
             sum.tx += w * t_s * (plot->x_m - sum.x_m);
             sum.ty += w * t_s * (plot->y_m - sum.y_m);
@@ -52,9 +50,7 @@ static struct moments moments_of_set(const struct search *search, const struct p
     return sum;
 }
 
-/* Fits a straight line to a set of plots. Returns 0 where the plots do not determine a line. */
-int rho_initiator_fit_isotropic(const struct search *search, const struct plot_set *set,
-                                struct line_fit *fit)
+int rho_isotropic_fit(const struct search *search, const struct plot_set *set, struct line_fit *fit)
 {
     struct moments sum = moments_of_set(search, set);
     if (!(sum.tt > 0.0f)) {
@@ -66,11 +62,10 @@ int rho_initiator_fit_isotropic(const struct search *search, const struct plot_s
     return 1;
 }
 
-/* Index of the plot of scan m nearest to the fitted track, or -1 where the gate has none. */
-int rho_initiator_nearest_plot_isotropic(struct search *search, const struct line_fit *fit,
-                                         float variance_factor, unsigned m)
+int rho_isotropic_nearest(struct search *search, const struct line_fit *fit, float variance_factor,
+                          unsigned m)
 {
-    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+    const struct rho_window_scan *scan = rho_search_scan(search, m);
     float bend_m2 = variance_factor * search->fit_process_m2;
     struct rho_window_query query = {
         .x_m = fit->x_m + fit->vx_mps * search->time_s[m],
@@ -88,8 +83,6 @@ int rho_initiator_nearest_plot_isotropic(struct search *search, const struct lin
                                                        &search->initiator->work.window);
 }
 
-/* ---- likelihood ------------------------------------------------------------------------------ */
-
 /*
  * Terms of the likelihood of a straight line through a set of plots; V is the covariance of the
  * plots' noise on one axis.
@@ -99,27 +92,6 @@ struct likelihood_terms {
     float log_det_fisher; /* ln det A^T V^-1 A, A the line's design matrix */
     float chi2;           /* chi-square of the residual, both axes */
 };
-
-/* Likelihood terms without process noise: V is diagonal, and all terms follow from the moments. */
-static struct likelihood_terms likelihood_without_process_noise(const struct search *search,
-                                                                const struct plot_set *set)
-{
-    struct moments sum = moments_of_set(search, set);
-    float vx_mps = sum.tx / sum.tt, vy_mps = sum.ty / sum.tt;
-    struct likelihood_terms terms = {.log_det_fisher = rho_log(sum.weight * sum.tt)};
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        if (set->mask >> m & 1u) {
-            const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, m);
-            float t_s = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
-            float rx_m = plot->x_m - sum.x_m - vx_mps * t_s;
-            float ry_m = plot->y_m - sum.y_m - vy_mps * t_s;
-            float noise_m2 = plot_variance_m2(plot);
-            terms.chi2 += (rx_m * rx_m + ry_m * ry_m) / noise_m2;
-            terms.log_det_noise += rho_log(noise_m2);
-        }
-    }
-    return terms;
-}
 
 static float dot_product(unsigned n, const float *a, const float *b)
 {
@@ -158,29 +130,6 @@ struct columns {
     float noise[RHO_TRIANGLE(RHO_MAX_SCANS)];
 };
 
-static unsigned fill_regression_columns(const struct search *search, const struct plot_set *set,
-                                        struct columns *columns)
-{
-    struct moments sum = moments_of_set(search, set);
-    unsigned scan[RHO_MAX_SCANS], n = 0;
-    for (unsigned m = 0; m < search->num_scans; m++) {
-        if (set->mask >> m & 1u) {
-            const struct rho_window_plot *plot = rho_initiator_plot_of_set(search, set, m);
-            columns->one[n] = 1.0f;
-            columns->t[n] = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
-            columns->x[n] = plot->x_m - sum.x_m;
-            columns->y[n] = plot->y_m - sum.y_m;
-            scan[n] = m;
-            for (unsigned j = 0; j <= n; j++) {
-                columns->noise[RHO_AT(n, j)] = search->process_m2[RHO_AT(m, scan[j])];
-            }
-            columns->noise[RHO_AT(n, n)] += plot_variance_m2(plot);
-            n++;
-        }
-    }
-    return n;
-}
-
 /*
  * Likelihood terms with process noise, which correlates the scans: the columns are whitened with
  * the Cholesky factor of V. Returns 0 where V is singular.
@@ -189,7 +138,23 @@ static int likelihood_with_process_noise(const struct search *search, const stru
                                          struct likelihood_terms *terms)
 {
     struct columns c;
-    unsigned n = fill_regression_columns(search, set, &c);
+    struct moments sum = moments_of_set(search, set);
+    unsigned scan[RHO_MAX_SCANS], n = 0;
+    for (unsigned m = 0; m < search->num_scans; m++) {
+        if (set->mask >> m & 1u) {
+            const struct rho_window_plot *plot = rho_search_plot(search, set, m);
+            c.one[n] = 1.0f;
+            c.t[n] = rho_search_plot_time_s(search, set, m) - sum.time_s;
+            c.x[n] = plot->x_m - sum.x_m;
+            c.y[n] = plot->y_m - sum.y_m;
+            scan[n] = m;
+            for (unsigned j = 0; j <= n; j++) {
+                c.noise[RHO_AT(n, j)] = search->process_m2[RHO_AT(m, scan[j])];
+            }
+            c.noise[RHO_AT(n, n)] += plot_variance_m2(plot);
+            n++;
+        }
+    }
     if (rho_linalg_cholesky((int)n, c.noise, c.noise) != RHO_OK) {
         return 0;
     }
@@ -210,19 +175,31 @@ static int likelihood_with_process_noise(const struct search *search, const stru
     return 1;
 }
 
-/*
- * Sets *nat to ln of the joint density of a set's plots with position and velocity integrated out.
- * The sum over both axes has no factor 1/2, except for chi-square. Also sets the residual's
- * chi-square and dimensions. Returns 0 where the plots do not determine a line.
- */
-int rho_initiator_log_likelihood_isotropic(const struct search *search, const struct plot_set *set,
-                                           struct set_score *score, float *nat)
+/* The sum over both axes has no factor 1/2, except for chi-square. */
+int rho_isotropic_likelihood(const struct search *search, const struct plot_set *set,
+                             struct set_score *score, float *nat)
 {
     struct likelihood_terms terms;
-    if (!(search->fit_process_m2 > 0.0f)) {
-        terms = likelihood_without_process_noise(search, set);
-    } else if (!likelihood_with_process_noise(search, set, &terms)) {
-        return 0;
+    if (search->fit_process_m2 > 0.0f) {
+        if (!likelihood_with_process_noise(search, set, &terms)) {
+            return 0;
+        }
+    } else {
+        /* without process noise V is diagonal, and all terms follow from the moments */
+        struct moments sum = moments_of_set(search, set);
+        float vx_mps = sum.tx / sum.tt, vy_mps = sum.ty / sum.tt;
+        terms = (struct likelihood_terms){.log_det_fisher = rho_log(sum.weight * sum.tt)};
+        for (unsigned m = 0; m < search->num_scans; m++) {
+            if (set->mask >> m & 1u) {
+                const struct rho_window_plot *plot = rho_search_plot(search, set, m);
+                float t_s = rho_search_plot_time_s(search, set, m) - sum.time_s;
+                float rx_m = plot->x_m - sum.x_m - vx_mps * t_s;
+                float ry_m = plot->y_m - sum.y_m - vy_mps * t_s;
+                float noise_m2 = plot_variance_m2(plot);
+                terms.chi2 += (rx_m * rx_m + ry_m * ry_m) / noise_m2;
+                terms.log_det_noise += rho_log(noise_m2);
+            }
+        }
     }
     score->chi2 = terms.chi2;
     score->dimensions = 2u * set->hits - 4u;

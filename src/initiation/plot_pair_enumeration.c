@@ -7,37 +7,15 @@
  * vote near the end, the third plot, is taken first: the line from the last plot through it,
  * extended backwards, tells where the first plots of kernels with this vote lie.
  */
+#include "candidates.h"
+#include "clutter_density.h"
+#include "kernels.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
-#include "search.h"
+#include "target_model.h"
 
-/* Rounding error of a place computed from sums of coordinates, as a share of these. */
-#define ROUNDING_SHARE 1e-6f
-
-/* Units of work after which the boxes searched so far are charged. */
-#define CHARGED_UNITS 64u
-
-/*
- * Largest gate, as a share of a target's travel, for which a box of first plots is not cut off at
- * the places that a target can reach.
- */
-#define NARROW_SHARE 0.25f
-
-/*
- * Most rows of bins in which near plots are counted bin by bin; with more, whole rows are counted.
- */
-#define NEAR_ROWS 16
-
-/*
- * Costs in plots compared, for the choice between the two ways of enumeration: the test of a first
- * plot, a kernel, a look-up; and the mean number of look-ups of a pair.
- */
-#define FIRST_PLOTS 0.5f
-#define KERNEL_PLOTS 3.0f
-#define LOOKUP_PLOTS 3.0f
-#define LOOKUPS_OF_PAIR 2.0f
-#define SHARE_IN_GATE 0.5f /* share of the plots in a gate's square that are in the gate */
-
-/* ---- spans ----------------------------------------------------------------------------------- */
+/* Most rows of bins in which near plots are counted bin by bin; beyond, by whole rows. */
+enum { NEAR_ROWS = 16 };
 
 static float plot_time_spread_s(const struct rho_window_scan *scan)
 {
@@ -47,7 +25,7 @@ static float plot_time_spread_s(const struct rho_window_scan *scan)
 /*
  * Largest variance, by the noise of both ends, of a place interpolated at this fraction of a span.
  */
-static float largest_interpolated_variance_m2(const struct span *span, float fraction)
+static float interpolated_variance_m2(const struct span *span, float fraction)
 {
     float from_m = (1.0f - fraction) * span->scan_a->sigma_max_m,
           to_m = fraction * span->scan_b->sigma_max_m;
@@ -55,49 +33,13 @@ static float largest_interpolated_variance_m2(const struct span *span, float fra
 }
 
 /*
- * Process noise and widest gate of scan m as a voter of the span. The plots' own times shift the
+ * Sets the scans, votes and voters of a span. A voter's gate: the plots' own times shift the
  * interpolation factor al by up to `slack`; the variance is convex in al, so the extremes bound it.
  */
-static struct voter make_voter(const struct search *search, const struct span *span, unsigned m)
+static void set_up_span(struct search *search, struct span *span, struct voter *voters)
 {
-    struct voter voter = {0.0f, 0.0f};
-    float sigma_m = rho_window_scan_at(&search->initiator->window, m)->sigma_max_m;
-    float al = (search->time_s[m] - search->time_s[span->a]) / span->gap_s;
-    float slack =
-        (plot_time_spread_s(span->scan_a) + plot_time_spread_s(span->scan_b)) / span->gap_s;
-    float low_m2 = largest_interpolated_variance_m2(span, al - slack),
-          high_m2 = largest_interpolated_variance_m2(span, al + slack);
-    if (search->fit_process_m2 > 0.0f) {
-        voter.process_m2 = rho_initiator_process_variance_off_line_m2(search, span->a, m, span->b);
-    }
-    float bend_m = 0.5f * search->turn_mps2 * (search->time_s[m] - search->time_s[span->a]) *
-                   (search->time_s[span->b] - search->time_s[m]);
-    voter.process_m2 += bend_m * bend_m;
-    voter.gate_radius_m = rho_sqrt(search->gate_chi2 * (sigma_m * sigma_m + voter.process_m2 +
-                                                        (low_m2 > high_m2 ? low_m2 : high_m2)));
-    return voter;
-}
-
-/* True where no plot of a scan of the span is earlier than a plot of the scan before it. */
-static int are_plots_in_time_order(const struct search *search, const struct span *span)
-{
-    for (unsigned m = span->a; m < span->b; m++) {
-        const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
-        const struct rho_window_scan *next = rho_window_scan_at(&search->initiator->window, m + 1u);
-        if (!(search->time_s[m] + scan->offset_max_s <=
-              search->time_s[m + 1u] + next->offset_min_s)) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-static void set_up_scan_span_and_voting_scans(struct search *search, struct span *span,
-                                              struct voter *voters)
-{
-    struct rho_window *window = &search->initiator->window;
-    span->scan_a = rho_window_scan_at(window, span->a);
-    span->scan_b = rho_window_scan_at(window, span->b);
+    span->scan_a = rho_search_scan(search, span->a);
+    span->scan_b = rho_search_scan(search, span->b);
     span->gap_s = search->time_s[span->b] - search->time_s[span->a];
     span->misses_max = (uint8_t)(span->b - span->a + 1u - search->min_scans);
     if (HAS_SPAN_HITS) {
@@ -107,30 +49,56 @@ static void set_up_scan_span_and_voting_scans(struct search *search, struct span
     }
     span->voters = voters;
     span->slack_m = 0.0f;
-    if (!rho_initiator_takes_isotropic_path(search)) {
+    if (!rho_search_is_isotropic(search)) {
         span->slack_m =
             rho_sqrt(RHO_GATE_CHI2_2D * (span->scan_a->sigma_max_m * span->scan_a->sigma_max_m +
                                          span->scan_b->sigma_max_m * span->scan_b->sigma_max_m));
     }
+    const float slack =
+        (plot_time_spread_s(span->scan_a) + plot_time_spread_s(span->scan_b)) / span->gap_s;
     for (unsigned m = span->a + 1u; m < span->b; m++) {
-        voters[span->b - m - 1u] = make_voter(search, span, m);
+        struct voter *voter = &voters[span->b - m - 1u];
+        const float sigma_m = rho_search_scan(search, m)->sigma_max_m;
+        const float after_s = search->time_s[m] - search->time_s[span->a];
+        const float al = after_s / span->gap_s;
+        const float low_m2 = interpolated_variance_m2(span, al - slack);
+        const float high_m2 = interpolated_variance_m2(span, al + slack);
+        const float bend_m =
+            0.5f * search->turn_mps2 * after_s * (search->time_s[span->b] - search->time_s[m]);
+        voter->process_m2 = search->fit_process_m2 > 0.0f
+                                ? rho_target_off_line_m2(search, span->a, m, span->b)
+                                : 0.0f;
+        voter->process_m2 += bend_m * bend_m;
+        voter->gate_radius_m = rho_sqrt(search->gate_chi2 * (sigma_m * sigma_m + voter->process_m2 +
+                                                             rho_larger(low_m2, high_m2)));
     }
+}
+
+/* True where no plot of a scan of the span is earlier than a plot of the scan before it. */
+static int are_plots_in_time_order(const struct search *search, const struct span *span)
+{
+    for (unsigned m = span->a; m < span->b; m++) {
+        if (!(search->time_s[m] + rho_search_scan(search, m)->offset_max_s <=
+              search->time_s[m + 1u] + rho_search_scan(search, m + 1u)->offset_min_s)) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 /*
  * True where some spans need more votes than M. The rule is used where all scans before the last
  * are of one sensor and cover the same sector: elsewhere misses weigh less.
  */
-static int do_some_spans_need_more_votes(struct search *search, const struct span_list *list)
+static int need_spans_more_votes(struct search *search, const struct span_list *list)
 {
-    struct rho_window *window = &search->initiator->window;
     int has_more = 0;
     for (unsigned n = 0; n < list->num_spans; n++) {
         has_more |= list->spans[n].misses_amid < (int)list->spans[n].misses_max;
     }
-    const struct rho_window_scan *first = rho_window_scan_at(window, 0);
+    const struct rho_window_scan *first = rho_search_scan(search, 0);
     for (unsigned m = 1; m < search->num_scans; m++) {
-        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        const struct rho_window_scan *scan = rho_search_scan(search, m);
         has_more &=
             scan->sensor.sensor_id == first->sensor.sensor_id &&
             (m + 1u == search->num_scans ||
@@ -141,11 +109,8 @@ static int do_some_spans_need_more_votes(struct search *search, const struct spa
     return has_more && search->keeps_rate;
 }
 
-/*
- * Lists the spans of kernels that end in scan b: a kernel of M votes spans at least M scans. Scans
- * of one time make no span.
- */
-void rho_initiator_list_spans_ending_at(struct search *search, unsigned b, struct span_list *list)
+/* A kernel of M votes spans at least M scans. Scans of one time make no span. */
+void rho_kernels_list_spans(struct search *search, unsigned b, struct span_list *list)
 {
     struct voter *voters = list->voters;
     list->num_spans = list->ordered = 0;
@@ -154,16 +119,14 @@ void rho_initiator_list_spans_ending_at(struct search *search, unsigned b, struc
             struct span *span = &list->spans[list->num_spans++];
             span->a = (uint8_t)a;
             span->b = (uint8_t)b;
-            set_up_scan_span_and_voting_scans(search, span, voters);
+            set_up_span(search, span, voters);
             list->ordered |=
                 (uint8_t)(are_plots_in_time_order(search, span) << (list->num_spans - 1u));
             voters += b - a - 1u;
         }
     }
-    list->has_span_hits = HAS_SPAN_HITS && do_some_spans_need_more_votes(search, list);
+    list->has_span_hits = HAS_SPAN_HITS && need_spans_more_votes(search, list);
 }
-
-/* ---- plots in a square ----------------------------------------------------------------------- */
 
 struct box {
     float x0_m, x1_m, y0_m, y1_m;
@@ -181,13 +144,12 @@ static int is_plot_in_box(const struct rho_window_plot *plot, const struct box *
            plot->y_m <= box->y1_m;
 }
 
-static struct rho_window_bins charge_bins_under_box(struct search *search,
-                                                    const struct rho_window_scan *scan,
-                                                    const struct box *box)
+static struct rho_window_bins charge_bins(struct search *search, const struct rho_window_scan *scan,
+                                          const struct box *box)
 {
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box->x0_m, box->x1_m, box->y0_m, box->y1_m);
-    rho_initiator_charge_work(search, (uint32_t)(bins.row_last - bins.row_first) + 1u);
+    rho_search_charge(search, (uint32_t)(bins.row_last - bins.row_first) + 1u);
     return bins;
 }
 
@@ -195,7 +157,7 @@ static struct rho_window_bins charge_bins_under_box(struct search *search,
 static unsigned count_plots_under_box(struct search *search, const struct rho_window_scan *scan,
                                       const struct box *box)
 {
-    struct rho_window_bins bins = charge_bins_under_box(search, scan, box);
+    struct rho_window_bins bins = charge_bins(search, scan, box);
     unsigned count = 0;
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
@@ -204,8 +166,6 @@ static unsigned count_plots_under_box(struct search *search, const struct rho_wi
     return count;
 }
 
-/* ---- pairs ----------------------------------------------------------------------------------- */
-
 /*
  * Longest distance that a target may have travelled between scan m and the kernels' last plot,
  * without noise.
@@ -213,7 +173,7 @@ static unsigned count_plots_under_box(struct search *search, const struct rho_wi
 static float target_travel_max_m(const struct search *search, const struct ending *ending,
                                  unsigned b, unsigned m)
 {
-    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
+    const struct rho_window_scan *scan = rho_search_scan(search, m);
     float time_s = search->time_s[b] - search->time_s[m] + ending->plot->offset_s;
     float most_s = time_s - scan->offset_min_s;
     return most_s > 0.0f ? search->initiator->config.v_max_mps * most_s : 0.0f;
@@ -225,50 +185,38 @@ static float target_travel_max_m(const struct search *search, const struct endin
  */
 static void add_candidates_of_pair(struct search *search, const struct span *span,
                                    const struct ending *ending, const struct first_vote *first,
-                                   unsigned first_plot_index)
+                                   unsigned i)
 {
     struct plot_set set;
     int next = 0;
     do {
-        if (rho_initiator_collect_votes_of_plot_pair(search, span, ending, first, first_plot_index,
-                                                     &next, &set)) {
-            rho_initiator_add_set_as_candidate(search, &set);
+        if (rho_kernel_collect_votes(search, span, ending, first, i, &next, &set)) {
+            rho_candidates_add(search, &set);
         }
     } while (next > 0);
 }
 
 /* Tries a kernel from each reachable plot of the first scan. Returns 0 where the work is spent. */
-static int add_candidates_of_pairs_until_work_limit(struct search *search, const struct span *span,
-                                                    const struct ending *ending)
+static int try_pairs(struct search *search, const struct span *span, const struct ending *ending)
 {
     static const struct first_vote any = {.gap = 0};
     const struct rho_window_scan *scan = span->scan_a;
     struct box box = square_about_plot(
         ending->plot, target_travel_max_m(search, ending, span->b, span->a) + span->slack_m);
-    struct rho_window_bins bins = charge_bins_under_box(search, scan, &box);
+    struct rho_window_bins bins = charge_bins(search, scan, &box);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];
-        rho_initiator_charge_work(search, end - start[bins.column_first]);
+        rho_search_charge(search, end - start[bins.column_first]);
         for (unsigned i = start[bins.column_first]; i < end; i++) {
             add_candidates_of_pair(search, span, ending, &any, i);
         }
-        if (rho_initiator_is_work_limit_exceeded(search)) {
+        if (rho_search_is_over_limit(search)) {
             return 0;
         }
     }
     return 1;
 }
-
-/* ---- the third plot first -------------------------------------------------------------------- */
-
-/*
- * Widest gates over several spans: of the third plot, and of the scan that is looked up next; and
- * the most that noise adds to a target's travel.
- */
-struct widest_gates {
-    float third_m, own_m, slack_m;
-};
 
 /*
  * Values for extending lines from the last plot of kernels, through any third plot, back to an
@@ -302,32 +250,10 @@ struct third {
 };
 
 /*
- * Widens a box for the spread of its scan's plot times, `spread` times the displacement of the
- * third plot, and clips it to far_m about the last plot, which no target exceeds. At least an edge
- * is left.
- */
-static struct box widen_box_by_time_spread_and_clip(const struct box *box,
-                                                    const struct ending *ending,
-                                                    const struct third *third, float spread,
-                                                    float far_m)
-{
-    const struct box all = square_about_plot(ending->plot, far_m);
-    if (!(third->per_s > 0.0f)) {
-        return all;
-    }
-    const float x_m = spread * third->dx_m, y_m = spread * third->dy_m;
-    struct box fitted = {.x0_m = rho_larger(box->x0_m - rho_larger(x_m, 0.0f), all.x0_m),
-                         .y0_m = rho_larger(box->y0_m - rho_larger(y_m, 0.0f), all.y0_m)};
-    fitted.x1_m =
-        rho_larger(fitted.x0_m, rho_smaller(box->x1_m - rho_smaller(x_m, 0.0f), all.x1_m));
-    fitted.y1_m =
-        rho_larger(fitted.y0_m, rho_smaller(box->y1_m - rho_smaller(y_m, 0.0f), all.y1_m));
-    return fitted;
-}
-
-/*
  * Box in an earlier scan that holds the plots of kernels with this third plot: the gate of the
- * third plot, extended backwards from the last plot of the kernels, plus the scan's own gate.
+ * third plot, extended backwards from the last plot of the kernels, plus the scan's own gate. A
+ * narrow box of plots of one time is that. Others are widened by the travel over the plot times and
+ * clipped to far_m about the last plot, which no target exceeds; at least an edge is left.
  */
 static struct box extrapolate_box(const struct rho_window_scan *scan, const struct ending *ending,
                                   const struct third *third, const struct extrapolation *to_scan,
@@ -343,20 +269,28 @@ static struct box extrapolate_box(const struct rho_window_scan *scan, const stru
         scan->offset_min_s >= scan->offset_max_s) {
         return box;
     }
-    return widen_box_by_time_spread_and_clip(
-        &box, ending, third, (scan->offset_max_s - scan->offset_min_s) * third->per_s,
-        to_scan->far_m);
+    const struct box all = square_about_plot(ending->plot, to_scan->far_m);
+    if (!(third->per_s > 0.0f)) {
+        return all;
+    }
+    const float spread = plot_time_spread_s(scan) * third->per_s;
+    const float later_x_m = spread * third->dx_m, later_y_m = spread * third->dy_m;
+    struct box fitted = {.x0_m = rho_larger(box.x0_m - rho_larger(later_x_m, 0.0f), all.x0_m),
+                         .y0_m = rho_larger(box.y0_m - rho_larger(later_y_m, 0.0f), all.y0_m)};
+    fitted.x1_m =
+        rho_larger(fitted.x0_m, rho_smaller(box.x1_m - rho_smaller(later_x_m, 0.0f), all.x1_m));
+    fitted.y1_m =
+        rho_larger(fitted.y0_m, rho_smaller(box.y1_m - rho_smaller(later_y_m, 0.0f), all.y1_m));
+    return fitted;
 }
 
 /*
  * Tries the kernels of a span whose first plots lie in the box that the third plot leaves. Returns
  * the work of searching the box, in units.
  */
-static uint32_t try_first_plots_in_box_and_return_work(struct search *search,
-                                                       const struct span *span,
-                                                       const struct ending *ending,
-                                                       const struct third *third,
-                                                       const struct extrapolation *to_scan)
+static uint32_t try_first_plots(struct search *search, const struct span *span,
+                                const struct ending *ending, const struct third *third,
+                                const struct extrapolation *to_scan)
 {
     const struct rho_window_scan *scan = span->scan_a;
     const struct box box = extrapolate_box(scan, ending, third, to_scan, 0.0f);
@@ -380,11 +314,9 @@ static uint32_t try_first_plots_in_box_and_return_work(struct search *search,
  * True where the scan before the third plot's has a plot that may vote for kernels with this third
  * plot. Adds the work to *passed.
  */
-static int has_voting_plot_in_scan_before_third(const struct rho_window_scan *scan,
-                                                const struct ending *ending,
-                                                const struct third *third,
-                                                const struct extrapolation *to_scan, float own_m,
-                                                uint32_t *passed)
+static int has_vote_before_third(const struct rho_window_scan *scan, const struct ending *ending,
+                                 const struct third *third, const struct extrapolation *to_scan,
+                                 float own_m, uint32_t *passed)
 {
     const struct box box = extrapolate_box(scan, ending, third, to_scan, own_m);
     const struct rho_window_bins bins =
@@ -402,97 +334,66 @@ static int has_voting_plot_in_scan_before_third(const struct rho_window_scan *sc
     return 0;
 }
 
-/*
- * Spans of among_mask whose misses allow the vote nearest to the end to be `gap` scans
- * before the end; a bit each.
- */
-static unsigned mask_of_spans_allowing_gap(const struct span_list *list,
-                                           const struct ending *ending, unsigned among_mask,
-                                           unsigned gap)
+/* Spans of among_mask whose misses allow the last vote to be `gap` scans before the end. */
+static unsigned spans_allowing_gap(const struct span_list *list, const struct ending *ending,
+                                   unsigned among_mask, unsigned gap)
 {
     unsigned spans = 0;
     for (unsigned n = 0; n < list->num_spans; n++) {
         if ((among_mask >> n & 1u) &&
-            (int)gap <= rho_initiator_misses_max(&list->spans[n], ending) + 1) {
+            (int)gap <= rho_span_misses_max(&list->spans[n], ending) + 1) {
             spans |= 1u << n;
         }
     }
     return spans;
 }
 
-/* Widest gates of the spans in a bit mask, whose third plot is `gap` scans before the last. */
-static struct widest_gates widest_gates_of_spans(const struct span_list *list, unsigned span_mask,
-                                                 unsigned gap)
-{
-    struct widest_gates widest = {0.0f, 0.0f, 0.0f};
-    for (unsigned n = 0; n < list->num_spans; n++) {
-        const struct span *span = &list->spans[n];
-        if (span_mask >> n & 1u) {
-            widest.third_m = rho_larger(widest.third_m, span->voters[gap - 1u].gate_radius_m);
-            widest.slack_m = rho_larger(widest.slack_m, span->slack_m);
-            if (span->a + gap + 1u < span->b) {
-                widest.own_m = rho_larger(widest.own_m, span->voters[gap].gate_radius_m);
-            }
-        }
-    }
-    widest.slack_m += GATE_ROUNDING * widest.own_m;
-    return widest;
-}
-
 /*
- * For each span in a bit mask, sets the values for extending lines back to its first scan, where
- * the third plot is `gap` scans before the last. Returns the most that noise and gate add to a
- * target's travel to the third plot.
+ * Tries the kernels, of the spans in a bit mask, whose vote nearest to the end is `gap` scans
+ * before the end. Returns 0 where the work is spent.
  */
-static float set_extrapolations_to_first_scan_and_slack_m(const struct search *search,
-                                                          const struct span_list *list,
-                                                          const struct ending *ending,
-                                                          unsigned span_mask, unsigned gap,
-                                                          struct extrapolation *to_first)
+static int try_third_plots(struct search *search, const struct span_list *list,
+                           const struct ending *ending, unsigned spans, unsigned gap)
 {
-    float far_m = 0.0f;
-    for (unsigned n = 0; span_mask >> n; n++) {
+    const unsigned b = list->spans[0].b;
+    const struct rho_window_scan *scan = rho_search_scan(search, b - gap), *next = scan;
+    struct extrapolation to_first[SPANS_MAX], to_next = {0};
+    float far_m = 0.0f, own_m = 0.0f; /* far_m: to the third plot, with noise and gates */
+    for (unsigned n = 0; spans >> n; n++) {
         const struct span *span = &list->spans[n];
-        if (span_mask >> n & 1u) {
+        if (spans >> n & 1u) {
             const float third_m = span->voters[gap - 1u].gate_radius_m;
             to_first[n] = extrapolation_to_scan(search, span->scan_a, ending, span->gap_s, third_m,
                                                 span->slack_m);
             far_m = rho_larger(far_m, span->slack_m + GATE_ROUNDING * third_m);
         }
     }
-    return far_m;
-}
-
-/*
- * Tries the kernels, of the spans in a bit mask, whose vote nearest to the end is `gap` scans
- * before the end. Returns 0 where the work is spent.
- */
-static int add_candidates_by_third_plots(struct search *search, const struct span_list *list,
-                                         const struct ending *ending, unsigned spans, unsigned gap)
-{
-    const unsigned b = list->spans[0].b;
-    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, b - gap);
-    struct extrapolation to_first[SPANS_MAX];
-    const float far_m =
-        set_extrapolations_to_first_scan_and_slack_m(search, list, ending, spans, gap, to_first) +
-        ending->rounding_m + GATE_ROUNDING * target_travel_max_m(search, ending, b, b - gap);
+    far_m = far_m + ending->rounding_m +
+            GATE_ROUNDING * target_travel_max_m(search, ending, b, b - gap);
     struct box box = square_about_plot(ending->plot, far_m);
-    struct rho_window_bins bins = charge_bins_under_box(search, scan, &box);
+    struct rho_window_bins bins = charge_bins(search, scan, &box);
     const float gap_s = search->time_s[b] - search->time_s[b - gap] + ending->plot->offset_s;
     /* spans that allow no further miss: their kernels need a vote of the next scan back, too */
     const unsigned full = !HAS_SPAN_HITS || ending->is_clear
                               ? 0u
-                              : spans & ~mask_of_spans_allowing_gap(list, ending, spans, gap + 1u);
-    const struct rho_window_scan *next = scan;
-    struct extrapolation to_next = {0};
-    float own_m = 0.0f;
+                              : spans & ~spans_allowing_gap(list, ending, spans, gap + 1u);
     if (full != 0) {
-        const struct widest_gates widest = widest_gates_of_spans(list, full, gap);
-        next = rho_window_scan_at(&search->initiator->window, b - gap - 1u);
+        float third_m = 0.0f, slack_m = 0.0f; /* widest of these spans */
+        for (unsigned n = 0; n < list->num_spans; n++) {
+            const struct span *span = &list->spans[n];
+            if (full >> n & 1u) {
+                third_m = rho_larger(third_m, span->voters[gap - 1u].gate_radius_m);
+                slack_m = rho_larger(slack_m, span->slack_m);
+                if (span->a + gap + 1u < span->b) {
+                    own_m = rho_larger(own_m, span->voters[gap].gate_radius_m);
+                }
+            }
+        }
+        next = rho_search_scan(search, b - gap - 1u);
         to_next = extrapolation_to_scan(search, next, ending,
-                                        search->time_s[b] - search->time_s[b - gap - 1u],
-                                        widest.third_m, widest.slack_m);
-        own_m = ending->gate_rounded * widest.own_m;
+                                        search->time_s[b] - search->time_s[b - gap - 1u], third_m,
+                                        slack_m + GATE_ROUNDING * own_m);
+        own_m = ending->gate_rounded * own_m;
     }
     struct third third = {.first = {.gap = gap}};
     uint32_t passed = 0;
@@ -511,47 +412,44 @@ static int add_candidates_by_third_plots(struct search *search, const struct spa
             third.per_s = before_s > 0.0f ? 1.0f / before_s : 0.0f;
             third.first.index = k;
             unsigned tried = spans;
-            if ((full & (full - 1u)) != 0 && !has_voting_plot_in_scan_before_third(
-                                                 next, ending, &third, &to_next, own_m, &passed)) {
+            if ((full & (full - 1u)) != 0 &&
+                !has_vote_before_third(next, ending, &third, &to_next, own_m, &passed)) {
                 tried &= ~full;
             }
             for (unsigned n = 0; tried >> n; n++) {
                 if (tried >> n & 1u) {
-                    passed += try_first_plots_in_box_and_return_work(search, &list->spans[n],
-                                                                     ending, &third, &to_first[n]);
+                    passed +=
+                        try_first_plots(search, &list->spans[n], ending, &third, &to_first[n]);
                 }
             }
             if (passed >= CHARGED_UNITS) {
-                rho_initiator_charge_work(search, passed);
+                rho_search_charge(search, passed);
                 passed = 0;
-                if (rho_initiator_is_work_limit_exceeded(search)) {
+                if (rho_search_is_over_limit(search)) {
                     return 0;
                 }
             }
         }
     }
-    rho_initiator_charge_work(search, passed);
-    return !rho_initiator_is_work_limit_exceeded(search);
+    rho_search_charge(search, passed);
+    return !rho_search_is_over_limit(search);
 }
-
-/* ---- which way ------------------------------------------------------------------------------- */
 
 /*
  * True where enumeration by third plots compares fewer plots than by pairs: where plots lie far
  * apart against their noise. counts[gap]: plots in the last `gap` scans that a target in the last
  * plot may have come from.
  */
-static int is_cheaper_by_third_plots(struct search *search, const struct span *span,
-                                     const struct ending *ending, const unsigned *counts)
+static int are_third_plots_cheaper(struct search *search, const struct span *span,
+                                   const struct ending *ending, const unsigned *counts)
 {
     unsigned width = span->b - span->a;
-    unsigned gaps = (unsigned)rho_initiator_misses_max(span, ending) + 1u, thirds = counts[gaps];
+    unsigned gaps = (unsigned)rho_span_misses_max(span, ending) + 1u, thirds = counts[gaps];
     unsigned pairs = counts[width] - counts[width - 1u];
     if (pairs == 0 || thirds == 0) {
         return pairs > 0; /* without a third plot there is no kernel, and no cost */
     }
-    const struct rho_window_scan *before =
-        rho_window_scan_at(&search->initiator->window, span->b - 1u);
+    const struct rho_window_scan *before = rho_search_scan(search, span->b - 1u);
     float gate_radius_m = ending->gate_share * span->voters[0].gate_radius_m;
     float ratio = span->gap_s / (search->time_s[span->b] - search->time_s[span->b - 1u]);
     struct box gate = square_about_plot(ending->plot, gate_radius_m), firsts;
@@ -562,26 +460,23 @@ static int is_cheaper_by_third_plots(struct search *search, const struct span *s
     float found = (float)count_plots_under_box(search, span->scan_a, &firsts), by_votes = 0.0f;
     float in_gate = SHARE_IN_GATE * ending->along_share / ending->gate_share;
     for (unsigned gap = 1; gap <= gaps; gap++) {
-        float kernel = KERNEL_PLOTS + (float)(gap + 1u) * lookup;
+        float kernel = LOOKUP_PLOTS + (float)(gap + 1u) * lookup;
         by_votes +=
             (float)(counts[gap] - counts[gap - 1u]) *
             (1.0f + LOOKUP_PLOTS + found * (FIRST_PLOTS + in_gate * kernel) / (float)(gap * gap));
     }
-    return by_votes < (float)pairs * (KERNEL_PLOTS + LOOKUPS_OF_PAIR * lookup);
+    return by_votes < (float)pairs * (LOOKUP_PLOTS + LOOKUPS_OF_PAIR * lookup);
 }
 
 /*
- * Number of plots, in the scan before the list's last, that a target in plot j may have come from.
  * Where the box has many rows of bins all plots of these rows count, as their number is known at
  * once.
  */
-unsigned rho_initiator_count_previous_plots_near(struct search *search,
-                                                 const struct span_list *list, unsigned j)
+unsigned rho_kernels_count_near(struct search *search, const struct span_list *list, unsigned j)
 {
     const struct span *widest = &list->spans[0];
     const struct ending ending = {.plot = &widest->scan_b->plots[j]};
-    const struct rho_window_scan *scan =
-        rho_window_scan_at(&search->initiator->window, widest->b - 1u);
+    const struct rho_window_scan *scan = rho_search_scan(search, widest->b - 1u);
     float far_m = target_travel_max_m(search, &ending, widest->b, widest->b - 1u) +
                   widest->voters[0].gate_radius_m;
     struct box box = square_about_plot(ending.plot, far_m);
@@ -590,77 +485,61 @@ unsigned rho_initiator_count_previous_plots_near(struct search *search,
     if (bins.row_last - bins.row_first < NEAR_ROWS) {
         return count_plots_under_box(search, scan, &box);
     }
-    rho_initiator_charge_work(search, 1);
+    rho_search_charge(search, 1);
     return (unsigned)(scan->bin_start[(bins.row_last + 1) * scan->bins_x] -
                       scan->bin_start[bins.row_first * scan->bins_x]);
 }
 
-/*
- * Sets counts[gap] to the number of plots in the last `gap` scans that a target in the kernels'
- * last plot may have come from.
- */
-static void count_reachable_plots_up_to_gap(struct search *search, const struct span_list *list,
-                                            const struct ending *ending, unsigned *counts)
-{
-    unsigned b = list->spans[0].b;
-    counts[0] = 0;
-    for (unsigned gap = 1; gap <= b - list->spans[0].a; gap++) {
-        struct box box =
-            square_about_plot(ending->plot, target_travel_max_m(search, ending, b, b - gap));
-        const struct rho_window_scan *scan =
-            rho_window_scan_at(&search->initiator->window, b - gap);
-        counts[gap] = counts[gap - 1u] + count_plots_under_box(search, scan, &box);
-    }
-}
-
-/*
- * True where clutter at a plot is thinner than at all sampled places: sets that end there may start
- * tracks with fewer hits than their span needs elsewhere.
- */
-static int is_in_thin_clutter(const struct search *search, const struct rho_window_plot *plot)
+int rho_kernels_try_ending(struct search *search, const struct span_list *list, unsigned j)
 {
     const struct rho_initiator *initiator = search->initiator;
-    return rho_initiator_mean_clutter_density(initiator, plot->x_m, plot->y_m) *
-               rho_window_decode_sigma(plot->sigma_range) *
-               rho_window_decode_sigma(plot->sigma_cross) <
-           initiator->thin_clutter;
-}
-
-int rho_initiator_finish_kernels_ending_at_plot(struct search *search, const struct span_list *list,
-                                                unsigned j)
-{
     const struct span *widest = &list->spans[0];
-    struct ending ending = {.plot = &widest->scan_b->plots[j]};
+    const struct rho_window_plot *plot = &widest->scan_b->plots[j];
+    struct ending ending = {.plot = plot};
+    /* by gap: plots in the last `gap` scans that a target in the plot may have come from */
     unsigned counts[RHO_MAX_SCANS] = {0}, by_votes = 0;
-    if (rho_initiator_is_work_limit_exceeded(search)) {
+    if (rho_search_is_over_limit(search)) {
         return 0;
     }
     float far_m = target_travel_max_m(search, &ending, widest->b, widest->a);
-    ending.rounding_m = ROUNDING_SHARE * (rho_larger(ending.plot->x_m, -ending.plot->x_m) +
-                                          rho_larger(ending.plot->y_m, -ending.plot->y_m) + far_m);
-    if (!rho_initiator_takes_isotropic_path(search)) {
-        ending.noise = rho_window_plot_noise_covariance(widest->scan_b, ending.plot);
+    /* float32 rounds a place computed from sums of coordinates by less than a millionth of these */
+    ending.rounding_m =
+        1e-6f * (rho_larger(plot->x_m, -plot->x_m) + rho_larger(plot->y_m, -plot->y_m) + far_m);
+    if (!rho_search_is_isotropic(search)) {
+        ending.noise = rho_window_plot_noise_covariance(widest->scan_b, plot);
     }
-    rho_initiator_set_gate_shares_of_ending_plot(
-        search, far_m + widest->slack_m + widest->voters[0].gate_radius_m, &ending);
+    rho_vote_gates_of_ending(search, far_m + widest->slack_m + widest->voters[0].gate_radius_m,
+                             &ending);
     ending.gate_rounded = GATE_ROUNDING * ending.gate_share;
-    ending.is_clear =
-        !HAS_SPAN_HITS || !list->has_span_hits || is_in_thin_clutter(search, ending.plot);
-    count_reachable_plots_up_to_gap(search, list, &ending, counts);
+    /*
+     * where clutter is thinner than at all sampled places, sets may start tracks with fewer hits
+     * than their span needs elsewhere
+     */
+    ending.is_clear = !HAS_SPAN_HITS || !list->has_span_hits ||
+                      rho_density_mean_at(initiator, plot->x_m, plot->y_m) *
+                              rho_window_decode_sigma(plot->sigma_range) *
+                              rho_window_decode_sigma(plot->sigma_cross) <
+                          initiator->thin_clutter;
+    for (unsigned gap = 1; gap <= (unsigned)widest->b - widest->a; gap++) {
+        struct box box = square_about_plot(
+            plot, target_travel_max_m(search, &ending, widest->b, widest->b - gap));
+        counts[gap] = counts[gap - 1u] +
+                      count_plots_under_box(search, rho_search_scan(search, widest->b - gap), &box);
+    }
     for (unsigned n = 0; n < list->num_spans; n++) {
-        if (rho_initiator_misses_max(&list->spans[n], &ending) < 0) {
+        if (rho_span_misses_max(&list->spans[n], &ending) < 0) {
             continue;
         }
         if ((list->ordered >> n & 1u) &&
-            is_cheaper_by_third_plots(search, &list->spans[n], &ending, counts)) {
+            are_third_plots_cheaper(search, &list->spans[n], &ending, counts)) {
             by_votes |= 1u << n;
-        } else if (!add_candidates_of_pairs_until_work_limit(search, &list->spans[n], &ending)) {
+        } else if (!try_pairs(search, &list->spans[n], &ending)) {
             return 0;
         }
     }
-    for (unsigned gap = 1; mask_of_spans_allowing_gap(list, &ending, by_votes, gap) != 0; gap++) {
-        const unsigned spans = mask_of_spans_allowing_gap(list, &ending, by_votes, gap);
-        if (!add_candidates_by_third_plots(search, list, &ending, spans, gap)) {
+    for (unsigned gap = 1; spans_allowing_gap(list, &ending, by_votes, gap) != 0; gap++) {
+        const unsigned spans = spans_allowing_gap(list, &ending, by_votes, gap);
+        if (!try_third_plots(search, list, &ending, spans, gap)) {
             return 0;
         }
     }

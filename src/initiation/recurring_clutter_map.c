@@ -7,43 +7,18 @@
 
 #include <string.h>
 
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
-
-/*
- * Prior standard deviation of an echo's speed on each axis, as a share of the slowest target's
- * speed.
- */
-#define SPEED_SHARE 0.4f
-/*
- * Share of a plot's variance that each plot adds to the variance of its echo's place: a quay or a
- * tree has plots at several places within their noise.
- */
-#define PLACE_NOISE 0.02f
-
-/* Mean age of the counts of looks and returns, in revolutions. */
-#define TURNS_REMEMBERED 200.0f
-/*
- * Revolutions in a block of counts. Counts are used one to two blocks after they were made, as the
- * first plots of a target are counted before its track starts, and are taken out when it does.
- */
-#define BLOCK_TURNS 4.0f
 
 /* Prior probabilities that an echo returns, by its class of hits; half as large after misses. */
 static const float prior_probability[RHO_ECHO_HIT_CLASSES] = {0.004f, 0.04f, 0.12f, 0.2f};
 /*
- * Prior probability of a return where targets may stand: standing plots are then clutter less
- * often.
- */
-#define PRIOR_PROBABILITY_STANDING 0.003f
-#define PRIOR_LOOKS 3.0f
-/* Weight of the mean over all regions in the return probability of one region, in looks. */
-#define REGION_LOOKS 2.0f
-#define PROBABILITY_MAX 0.98f
-
-/*
  * Scans of an echo's sensor, by the echo's class of hits, after which an unseen echo is forgotten.
  */
 static const uint8_t scans_kept[RHO_ECHO_HIT_CLASSES] = {12, 16, 30, 100};
+
+/* Ranks of echoes when places are freed; hits beyond which an echo ranks no better. */
+enum { RANKS = 64, HITS_RANKED = 16 };
 
 #define ALL_REGIONS (RHO_ECHO_TABLES - 1)
 
@@ -52,8 +27,6 @@ void rho_clutter_map_init(struct rho_clutter_map *map, float v_min_mps)
     map->v_min_mps = v_min_mps;
     map->scans_to_blocks = BLOCK_TURNS;
 }
-
-/* ---- tables ---------------------------------------------------------------------------------- */
 
 unsigned rho_clutter_map_hit_class(unsigned hits)
 {
@@ -125,8 +98,8 @@ float rho_clutter_map_decay_factor(float turn_share)
 }
 
 /* Decays a table of looks and returns and adds another one: *to = keep * *to + *from. */
-static void decay_and_add_table(struct rho_echo_returns *to, float keep,
-                                const struct rho_echo_returns *from)
+static void decay_table(struct rho_echo_returns *to, float keep,
+                        const struct rho_echo_returns *from)
 {
     for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
         for (unsigned g = 0; g < RHO_ECHO_GAP_CLASSES; g++) {
@@ -136,10 +109,10 @@ static void decay_and_add_table(struct rho_echo_returns *to, float keep,
     }
 }
 
-static void add_waiting_count_block_and_start_next(struct rho_clutter_map *map)
+static void close_count_block(struct rho_clutter_map *map)
 {
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        decay_and_add_table(&map->tables[0][r], 1.0f, &map->tables[2][r]);
+        decay_table(&map->tables[0][r], 1.0f, &map->tables[2][r]);
     }
     memcpy(map->tables[2], map->tables[1], sizeof map->tables[2]);
     memset(map->tables[1], 0, sizeof map->tables[1]);
@@ -149,20 +122,17 @@ void rho_clutter_map_age_counts(struct rho_clutter_map *map, float turn_share)
 {
     static const struct rho_echo_returns none;
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        decay_and_add_table(&map->tables[0][r], rho_clutter_map_decay_factor(turn_share), &none);
+        decay_table(&map->tables[0][r], rho_clutter_map_decay_factor(turn_share), &none);
     }
     map->scans_to_blocks -= turn_share;
     if (!(map->scans_to_blocks > 0.0f)) {
-        add_waiting_count_block_and_start_next(map);
+        close_count_block(map);
         if (!(map->tables[0][ALL_REGIONS].looks[0][0] > 0.0f)) {
-            add_waiting_count_block_and_start_next(
-                map); /* the first block of a new map is used as soon as it ends */
+            close_count_block(map); /* the first block of a new map is used as soon as it ends */
         }
         map->scans_to_blocks = BLOCK_TURNS;
     }
 }
-
-/* ---- echoes ---------------------------------------------------------------------------------- */
 
 struct echo_view rho_clutter_map_view_from_sensor(const struct rho_sensor *sensor, float x_m,
                                                   float y_m)
@@ -257,7 +227,7 @@ int rho_clutter_map_is_echo_lost(const struct rho_echo *echo)
 void rho_clutter_map_start_echo(const struct rho_clutter_map *map, struct rho_echo *echo,
                                 int32_t sensor_id, int64_t time_us, const struct rho_plot *plot)
 {
-    const float speed_mps = SPEED_SHARE * map->v_min_mps;
+    const float speed_mps = ECHO_SPEED_SHARE * map->v_min_mps;
     *echo = (struct rho_echo){
         .time_us = time_us,
         .sensor_id = sensor_id,
@@ -271,19 +241,11 @@ void rho_clutter_map_start_echo(const struct rho_clutter_map *map, struct rho_ec
     };
 }
 
-/* ---- room ------------------------------------------------------------------------------------ */
-
-#define RANKS 64u
-#define HITS_RANKED 16u
-
-/* Seconds in which an echo that no scan covers counts as missed once. */
-#define MISSED_S 60.0f
-
 /*
  * Rank of an echo when places are freed, by its misses for its hits: higher ranks are dropped
  * first.
  */
-static unsigned echo_drop_rank_by_misses_per_hit(const struct rho_echo *echo, int64_t time_us)
+static unsigned echo_drop_rank(const struct rho_echo *echo, int64_t time_us)
 {
     const unsigned hits = echo->hits < HITS_RANKED ? echo->hits : HITS_RANKED;
     unsigned missed = echo->unseen;
@@ -311,7 +273,7 @@ void rho_clutter_map_free_places(struct rho_clutter_map *map, uint32_t num, int6
         const struct rho_echo *echo = &map->echoes[i];
         is_free += echo->hits == 0;
         if (may_drop_echo(echo)) {
-            of_rank[echo_drop_rank_by_misses_per_hit(echo, time_us)]++;
+            of_rank[echo_drop_rank(echo, time_us)]++;
         }
     }
     while (rank > 0 && is_free < num) {
@@ -321,10 +283,10 @@ void rho_clutter_map_free_places(struct rho_clutter_map *map, uint32_t num, int6
     uint32_t to_spare = is_free > num ? is_free - num : 0;
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
         struct rho_echo *echo = &map->echoes[i];
-        if (!may_drop_echo(echo) || echo_drop_rank_by_misses_per_hit(echo, time_us) < rank) {
+        if (!may_drop_echo(echo) || echo_drop_rank(echo, time_us) < rank) {
             continue;
         }
-        if (echo_drop_rank_by_misses_per_hit(echo, time_us) == rank && to_spare > 0) {
+        if (echo_drop_rank(echo, time_us) == rank && to_spare > 0) {
             to_spare--;
             continue;
         }
@@ -332,12 +294,6 @@ void rho_clutter_map_free_places(struct rho_clutter_map *map, uint32_t num, int6
         map->echoes_dropped = rho_count(map->echoes_dropped, 1);
     }
 }
-
-/* ---- saved and taught ------------------------------------------------------------------------ */
-
-/* Square of the ratio of speed to its standard deviation above which an echo counts as moving. */
-#define MOVES_SIGMAS2 16.0f
-#define LOOKS_MAX 1e9f
 
 enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map, int32_t sensor_id, float x_m,
                                       float y_m, float sigma_range_m, float sigma_cross_m,
@@ -423,7 +379,7 @@ enum rho_status rho_clutter_map_teach_returns(struct rho_clutter_map *map, unsig
         return RHO_ERROR_NULL;
     }
     if (region >= RHO_ECHO_TABLES || hits == 0 || unseen == 0 ||
-        !rho_is_within(looks, 0.0f, LOOKS_MAX) || !rho_is_within(returns, 0.0f, looks)) {
+        !rho_is_within(looks, 0.0f, ECHO_LOOKS_MAX) || !rho_is_within(returns, 0.0f, looks)) {
         return RHO_ERROR_VALUE;
     }
     map->tables[0][region].looks[c][g] = looks;
@@ -431,53 +387,40 @@ enum rho_status rho_clutter_map_teach_returns(struct rho_clutter_map *map, unsig
     return RHO_OK;
 }
 
-/* ---- a map of unknown origin ----------------------------------------------------------------- */
-
-static int is_sound_table(const struct rho_echo_returns *table)
-{
-    for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
-        for (unsigned g = 0; g < RHO_ECHO_GAP_CLASSES; g++) {
-            if (!rho_is_within(table->looks[c][g], 0.0f, LOOKS_MAX) ||
-                !rho_is_within(table->returns[c][g], -LOOKS_MAX, LOOKS_MAX)) {
-                return 0;
-            }
-        }
-    }
-    return 1;
-}
-
 static int is_sound_axis_covariance(const float axis[3])
 {
     return rho_are_finite(axis, 3) && axis[0] > 0.0f && axis[2] >= 0.0f;
-}
-
-static int is_sound_echo(const struct rho_echo *echo)
-{
-    const float place[4] = {echo->x_m, echo->y_m, echo->vx_mps, echo->vy_mps};
-    return rho_is_stored_time(echo->time_us) && rho_are_finite(place, 4) &&
-           is_sound_axis_covariance(echo->along) && is_sound_axis_covariance(echo->across) &&
-           rho_is_within(echo->weight, 0.0f, 1e9f) && echo->plot < RHO_MAX_PLOTS &&
-           (echo->region < RHO_ECHO_TABLES - 1 || echo->region == UINT8_MAX);
 }
 
 int rho_clutter_map_is_sound(const struct rho_clutter_map *map)
 {
     if (!rho_is_stored_time(map->time_us) || map->first_echo >= RHO_ECHO_PLACES ||
         !rho_is_within(map->v_min_mps, 0.0f, RHO_LIMIT_SPEED_MPS) ||
-        !rho_is_within(map->rate_plots, 0.0f, 1e9f) ||
+        !rho_is_within(map->rate_plots, 0.0f, ECHO_LOOKS_MAX) ||
         !rho_is_within(map->exact_plots, 0.0f, map->rate_plots) ||
         !rho_are_finite(&map->scans_to_blocks, 1)) {
         return 0;
     }
     for (unsigned block = 0; block < 3; block++) {
         for (unsigned region = 0; region < RHO_ECHO_TABLES; region++) {
-            if (!is_sound_table(&map->tables[block][region])) {
-                return 0;
+            const struct rho_echo_returns *table = &map->tables[block][region];
+            for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES * RHO_ECHO_GAP_CLASSES; c++) {
+                const unsigned h = c / RHO_ECHO_GAP_CLASSES, g = c % RHO_ECHO_GAP_CLASSES;
+                if (!rho_is_within(table->looks[h][g], 0.0f, ECHO_LOOKS_MAX) ||
+                    !rho_is_within(table->returns[h][g], -ECHO_LOOKS_MAX, ECHO_LOOKS_MAX)) {
+                    return 0;
+                }
             }
         }
     }
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
-        if (map->echoes[i].hits > 0 && !is_sound_echo(&map->echoes[i])) {
+        const struct rho_echo *echo = &map->echoes[i];
+        const float place[4] = {echo->x_m, echo->y_m, echo->vx_mps, echo->vy_mps};
+        if (echo->hits > 0 &&
+            (!rho_is_stored_time(echo->time_us) || !rho_are_finite(place, 4) ||
+             !is_sound_axis_covariance(echo->along) || !is_sound_axis_covariance(echo->across) ||
+             !rho_is_within(echo->weight, 0.0f, ECHO_LOOKS_MAX) || echo->plot >= RHO_MAX_PLOTS ||
+             (echo->region >= RHO_ECHO_TABLES - 1 && echo->region != UINT8_MAX))) {
             return 0;
         }
     }

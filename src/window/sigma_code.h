@@ -11,9 +11,10 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/window.h"
 
-/* Exponent of the smallest code, 2^-10, in the bits of a float32. */
-#define SIGMA_EXPONENT (117u << 23)
-#define SIGMA_SHIFT 12
+enum {
+    SIGMA_SHIFT = 12,
+    SIGMA_EXPONENT = 117 << 23, /* of the smallest code, 2^-10, in the bits of a float32 */
+};
 
 /* The code nearest to a standard deviation. */
 static inline uint16_t code_of_sigma(float sigma)

@@ -4,6 +4,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
@@ -11,24 +12,6 @@
 #include "window_extent.h"
 
 #define WINDOW_MAGIC 0x57494e44u /* "WIND" */
-
-/*
- * Largest angle of missing sectors (lost, or out of sequence) that does not end a revolution.
- * Places in the gap count as not covered.
- */
-#define SECTOR_GAP_RAD (RHO_TWO_PI / 8.0f)
-
-/* Most bins for each plot of a scan with few plots: more are not worth their memory traffic. */
-#define BINS_PER_PLOT 8u
-
-/* ---- areas and bins -------------------------------------------------------------------------- */
-
-static int is_usable_area(const struct rho_extent *area)
-{
-    return rho_is_coordinate(area->x_min_m) && rho_is_coordinate(area->x_max_m) &&
-           rho_is_coordinate(area->y_min_m) && rho_is_coordinate(area->y_max_m) &&
-           area->x_min_m < area->x_max_m && area->y_min_m < area->y_max_m;
-}
 
 /* Lays out nearly square bins over the area, at most BINS_PER_PLOT for each plot expected. */
 static void lay_out_bins(struct rho_window_scan *scan, const struct rho_window *window,
@@ -52,127 +35,9 @@ static void lay_out_bins(struct rho_window_scan *scan, const struct rho_window *
     scan->bins_per_m_y = (float)scan->bins_y / height_m;
 }
 
-/* ---- taking a scan in ------------------------------------------------------------------------ */
-
-static float seconds_of_us(int32_t offset_us)
+static uint16_t code_of_clamped_sigma(float sigma)
 {
-    return (float)offset_us * 1e-6f;
-}
-
-/*
- * Gives HELD plots beyond the window's capacity the fate NO_ROOM. Returns the number of plots that
- * the scan then holds, `held` earlier ones included.
- */
-static unsigned refuse_excess_plots_count_held(const struct rho_scan *scan, unsigned held,
-                                               uint8_t *fates)
-{
-    for (uint32_t i = 0; i < scan->num_plots; i++) {
-        if (fates[i] != RHO_FATE_HELD) {
-            continue;
-        }
-        if (held == RHO_MAX_PLOTS || i >= RHO_WINDOW_ROW) {
-            fates[i] = RHO_FATE_NO_ROOM;
-            continue;
-        }
-        held++;
-    }
-    return held;
-}
-
-/*
- * Sets the extent to that of the first scan's plots, as bins are needed before the area is known.
- */
-static void set_first_extent(struct rho_window *window, const struct rho_scan *scan,
-                             const uint8_t *fates)
-{
-    if (window->area_is_fixed || window->extent.x_min_m <= window->extent.x_max_m) {
-        return;
-    }
-    for (uint32_t i = 0; i < scan->num_plots; i++) {
-        if (fates[i] == RHO_FATE_HELD) {
-            rho_extent_add(&window->extent, scan->plots[i].x_m, scan->plots[i].y_m);
-        }
-    }
-}
-
-/* A scan or sector that is copied into a slot of the window's ring. */
-struct entry {
-    struct rho_window_scan *slot;
-    const struct rho_scan *scan;
-    const uint8_t *fates;
-    /* factors of the plots' sigmas, by the sensor's description */
-    struct rho_sigma_factors factors;
-    float after_s; /* time of the scan or sector after the slot's time */
-};
-
-static float clamp_sigma(float sigma)
-{
-    const float least = sigma > RHO_LIMIT_SIGMA_MIN ? sigma : RHO_LIMIT_SIGMA_MIN;
-    return least < RHO_LIMIT_SIGMA_MAX ? least : RHO_LIMIT_SIGMA_MAX;
-}
-
-static struct rho_window_plot make_window_plot_of_scan_plot(const struct entry *entry, uint32_t row)
-{
-    const struct rho_scan *scan = entry->scan;
-    const struct rho_plot *plot = &scan->plots[row];
-    struct rho_window_plot held = {
-        .x_m = plot->x_m,
-        .y_m = plot->y_m,
-        .offset_s = entry->after_s + seconds_of_us(plot->offset_us),
-        .sigma_range = code_of_sigma(clamp_sigma(entry->factors.range * plot->sigma_range_m)),
-        .sigma_cross = code_of_sigma(clamp_sigma(entry->factors.cross * plot->sigma_cross_m)),
-    };
-    if (scan->measures & RHO_MEASURES_Z) {
-        held.z_m = plot->z_m;
-        held.sigma_up = code_of_sigma(plot->sigma_up_m);
-    }
-    if (scan->measures & RHO_MEASURES_RANGE_RATE) {
-        held.range_rate_mps = plot->range_rate_mps;
-        held.sigma_range_rate = code_of_sigma(plot->sigma_range_rate_mps);
-    }
-    return held;
-}
-
-static void widen_noise_and_time_bounds_of_scan(struct rho_window *window,
-                                                struct rho_window_scan *slot,
-                                                const struct rho_window_plot *plot)
-{
-    slot->sigma_max_m = rho_larger(slot->sigma_max_m, sigma_of_code(larger_sigma_code(plot)));
-    if (plot->sigma_up) {
-        /* a steep line of sight turns the upward noise into the horizontal plane */
-        slot->sigma_max_m = rho_larger(slot->sigma_max_m, sigma_of_code(plot->sigma_up));
-    }
-    slot->is_isotropic = slot->is_isotropic && plot->sigma_range == plot->sigma_cross;
-    slot->offset_max_s = rho_larger(slot->offset_max_s, plot->offset_s);
-    slot->offset_min_s = plot->offset_s < slot->offset_min_s ? plot->offset_s : slot->offset_min_s;
-    if (RHO_SECTORS && plot->offset_s < window->newest.offset_min_s) {
-        window->newest.offset_min_s = plot->offset_s;
-    }
-}
-
-/* Finds the start of each bin, earlier sectors' plots and the new ones counted. */
-static void set_bin_starts_by_counts(const struct entry *entry)
-{
-    struct rho_window_scan *slot = entry->slot;
-    unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
-    uint16_t *start = slot->bin_start;
-    if (RHO_SECTORS && slot->num_plots > 0) {
-        /* starts of the earlier sectors' bins become their counts */
-        for (unsigned c = bins; c > 0; c--) {
-            start[c] = (uint16_t)(start[c] - start[c - 1]);
-        }
-    } else {
-        memset(start, 0, (bins + 1) * sizeof start[0]);
-    }
-    for (uint32_t i = 0; i < entry->scan->num_plots; i++) {
-        const struct rho_plot *plot = &entry->scan->plots[i];
-        if (entry->fates[i] == RHO_FATE_HELD) {
-            start[rho_window_bin_at(slot, plot->x_m, plot->y_m) + 1]++;
-        }
-    }
-    for (unsigned c = 0; c < bins; c++) {
-        start[c + 1] = (uint16_t)(start[c + 1] + start[c]);
-    }
+    return code_of_sigma(rho_smaller(rho_larger(sigma, RHO_LIMIT_SIGMA_MIN), RHO_LIMIT_SIGMA_MAX));
 }
 
 /*
@@ -180,7 +45,7 @@ static void set_bin_starts_by_counts(const struct entry *entry)
  * Afterwards each bin's start lies behind the plots that were moved there. Their rows were those of
  * another scan.
  */
-static void move_earlier_plots_to_new_bin_starts(struct rho_window_scan *slot)
+static void move_earlier_plots_to_new_bins(struct rho_window_scan *slot)
 {
     unsigned end = slot->num_plots;
     while (end > 0) {
@@ -208,70 +73,78 @@ static void move_earlier_plots_to_new_bin_starts(struct rho_window_scan *slot)
  * Copies the plots with fate HELD into the slot, sorted by bin: a stable counting sort without a
  * second array, in which starts advance as bins fill, and are then shifted back.
  */
-static void copy_plots_into_bins(struct rho_window *window, const struct entry *entry)
+static void copy_plots_into_bins(struct rho_window *window, struct rho_window_scan *slot,
+                                 const struct rho_scan *scan, const struct rho_sensor *sensor,
+                                 const uint8_t *fates)
 {
-    struct rho_window_scan *slot = entry->slot;
+    const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
+    const float after_s = rho_seconds_between(slot->time_us, scan->time_us);
     unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
     uint16_t *start = slot->bin_start;
-    set_bin_starts_by_counts(entry);
-    if (RHO_SECTORS) {
-        move_earlier_plots_to_new_bin_starts(slot);
+    if (RHO_SECTORS && slot->num_plots > 0) {
+        /* starts of the earlier sectors' bins become their counts */
+        for (unsigned c = bins; c > 0; c--) {
+            start[c] = (uint16_t)(start[c] - start[c - 1]);
+        }
+    } else {
+        memset(start, 0, (bins + 1) * sizeof start[0]);
     }
-    for (uint32_t i = 0; i < entry->scan->num_plots; i++) {
-        if (entry->fates[i] == RHO_FATE_HELD) {
-            struct rho_window_plot plot = make_window_plot_of_scan_plot(entry, i);
-            unsigned place = start[rho_window_bin_at(slot, plot.x_m, plot.y_m)]++;
-            slot->plots[place] = plot;
-            slot->marks[place] = (uint16_t)i;
-            if (RHO_MAX_ECHOES > 0) {
-                slot->repeats[place] = 0;
-            }
-            widen_noise_and_time_bounds_of_scan(window, slot, &plot);
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        if (fates[i] == RHO_FATE_HELD) {
+            start[rho_window_bin_at(slot, scan->plots[i].x_m, scan->plots[i].y_m) + 1]++;
+        }
+    }
+    for (unsigned c = 0; c < bins; c++) {
+        start[c + 1] = (uint16_t)(start[c + 1] + start[c]);
+    }
+    if (RHO_SECTORS) {
+        move_earlier_plots_to_new_bins(slot);
+    }
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        const struct rho_plot *plot = &scan->plots[i];
+        if (fates[i] != RHO_FATE_HELD) {
+            continue;
+        }
+        const unsigned place = start[rho_window_bin_at(slot, plot->x_m, plot->y_m)]++;
+        struct rho_window_plot *held = &slot->plots[place];
+        *held = (struct rho_window_plot){
+            .x_m = plot->x_m,
+            .y_m = plot->y_m,
+            .offset_s = after_s + (float)plot->offset_us * 1e-6f,
+            .sigma_range = code_of_clamped_sigma(factors.range * plot->sigma_range_m),
+            .sigma_cross = code_of_clamped_sigma(factors.cross * plot->sigma_cross_m),
+        };
+        slot->sigma_max_m = rho_larger(slot->sigma_max_m, sigma_of_code(larger_sigma_code(held)));
+        if (scan->measures & RHO_MEASURES_Z) {
+            held->z_m = plot->z_m;
+            held->sigma_up = code_of_sigma(plot->sigma_up_m);
+        }
+        if (held->sigma_up) {
+            /* a steep line of sight turns the upward noise into the horizontal plane */
+            slot->sigma_max_m = rho_larger(slot->sigma_max_m, sigma_of_code(held->sigma_up));
+        }
+        if (scan->measures & RHO_MEASURES_RANGE_RATE) {
+            held->range_rate_mps = plot->range_rate_mps;
+            held->sigma_range_rate = code_of_sigma(plot->sigma_range_rate_mps);
+        }
+        slot->marks[place] = (uint16_t)i;
+        if (RHO_MAX_ECHOES > 0) {
+            slot->repeats[place] = 0;
+        }
+        slot->is_isotropic = slot->is_isotropic && held->sigma_range == held->sigma_cross;
+        slot->offset_max_s = rho_larger(slot->offset_max_s, held->offset_s);
+        slot->offset_min_s = rho_smaller(held->offset_s, slot->offset_min_s);
+        if (RHO_SECTORS && held->offset_s < window->newest.offset_min_s) {
+            window->newest.offset_min_s = held->offset_s;
         }
     }
     memmove(start + 1, start, bins * sizeof start[0]);
     start[0] = 0;
 }
 
-static struct rho_window_scan *take_slot_for_newest(struct rho_window *window,
-                                                    uint32_t *left_unused)
-{
-    if (window->num_scans == window->scans_max) {
-        *left_unused = rho_count(*left_unused, window->ring[window->first].num_unused);
-        window->first =
-            (uint16_t)(window->first + 1u < window->scans_max ? window->first + 1u : 0u);
-        window->num_scans--;
-    }
-    window->num_scans++;
-    return rho_window_scan_at(window, window->num_scans - 1u);
-}
-
-/* ---- sectors --------------------------------------------------------------------------------- */
-
-static const struct rho_window_scan *newest_scan_of(const struct rho_window *window)
-{
-    const unsigned end = (unsigned)window->first + window->num_scans; /* requires num_scans > 0 */
-    return &window->ring[(end > window->scans_max ? end - window->scans_max : end) - 1u];
-}
-
 static int is_equal(float a, float b)
 {
     return a <= b && a >= b;
-}
-
-/*
- * True where the held plots came from a sensor with another place or range-rate span, or where only
- * one of both has a description.
- */
-static int is_sensor_changed(const struct rho_window_scan *held, const struct rho_sensor *sensor)
-{
-    const struct rho_sensor *was = &held->sensor;
-    if (!sensor) {
-        return was->pd > 0.0f;
-    }
-    return !(was->pd > 0.0f) || !is_equal(was->range_rate_span_mps, sensor->range_rate_span_mps) ||
-           !is_equal(was->x_m, sensor->x_m) || !is_equal(was->y_m, sensor->y_m) ||
-           !is_equal(was->z_m, sensor->z_m);
 }
 
 int rho_window_is_next_sector_of_newest_scan(const struct rho_window *window,
@@ -281,91 +154,23 @@ int rho_window_is_next_sector_of_newest_scan(const struct rho_window *window,
     if (!RHO_SECTORS || window->magic != WINDOW_MAGIC || window->num_scans == 0) {
         return 0;
     }
-    const struct rho_window_scan *held = newest_scan_of(window);
-    return held->sensor.sensor_id == scan->sensor_id && !is_sensor_changed(held, sensor) &&
+    const struct rho_window_scan *held =
+        &window->ring[(window->first + window->num_scans - 1u) % window->scans_max];
+    const struct rho_sensor *was = &held->sensor;
+    /* a sensor in another place or with another range-rate span, or described for one of both */
+    const int is_changed =
+        !sensor ? was->pd > 0.0f
+                : !(was->pd > 0.0f) ||
+                      !is_equal(was->range_rate_span_mps, sensor->range_rate_span_mps) ||
+                      !is_equal(was->x_m, sensor->x_m) || !is_equal(was->y_m, sensor->y_m) ||
+                      !is_equal(was->z_m, sensor->z_m);
+    return held->sensor.sensor_id == scan->sensor_id && !is_changed &&
            window->newest.time_us <= scan->time_us &&
            scan->time_us - held->time_us <= RHO_LIMIT_OFFSET_US &&
            rho_angle_continued_ends(held->sector_from_rad, held->sector_to_rad,
                                     scan->sector_from_rad, scan->sector_to_rad,
                                     SECTOR_GAP_RAD) != 0;
 }
-
-/*
- * Number of plots that a scan will hold when its revolution is complete. For a sector: as many as
- * the revolution before, or RHO_MAX_PLOTS where the window has none; at least `held`.
- */
-static unsigned expected_plots_of_revolution(struct rho_window *window, const struct rho_scan *scan,
-                                             unsigned held)
-{
-    const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
-    if (!RHO_SECTORS || !(RHO_TWO_PI / width_rad > 1.0f)) {
-        return held;
-    }
-    if (window->num_scans < 2) {
-        return RHO_MAX_PLOTS;
-    }
-    const unsigned before = rho_window_scan_at(window, window->num_scans - 2u)->num_plots;
-    return held > before ? held : before;
-}
-
-/* Begins the window's record of its newest sector, or whole scan. */
-static void begin_newest_sector(struct rho_window *window, const struct rho_scan *scan)
-{
-    window->newest = (struct rho_window_sector){.time_us = scan->time_us, .offset_min_s = FLT_MAX};
-}
-
-static void widen_covered_sector(struct rho_window_scan *slot, const struct rho_scan *scan)
-{
-    const unsigned ends =
-        rho_angle_continued_ends(slot->sector_from_rad, slot->sector_to_rad, scan->sector_from_rad,
-                                 scan->sector_to_rad, SECTOR_GAP_RAD);
-    if (ends & RHO_ANGLE_CONTINUES_RIGHT) {
-        slot->sector_from_rad = scan->sector_from_rad;
-    } else {
-        slot->sector_to_rad = scan->sector_to_rad;
-    }
-    if (ends == (RHO_ANGLE_CONTINUES_LEFT | RHO_ANGLE_CONTINUES_RIGHT)) {
-        slot->sector_from_rad = slot->sector_to_rad = 0.0f; /* the revolution is complete */
-    }
-}
-
-/*
- * Keeps the quantities that all sectors with plots of a revolution measure. Records whether that
- * changes what the held scan measures.
- */
-static void keep_measures_common_to_sectors(struct rho_window *window, struct rho_window_scan *slot,
-                                            const struct rho_scan *scan, unsigned held)
-{
-    const uint32_t before = slot->measures;
-    if (slot->num_plots == 0) {
-        slot->measures = scan->measures;
-    } else if (held > slot->num_plots) {
-        slot->measures &= scan->measures;
-    }
-    window->is_remeasured = slot->measures != before;
-}
-
-static void add_sector_to_newest(struct rho_window *window, const struct rho_scan *scan,
-                                 const struct rho_sensor *sensor, uint8_t *fates)
-{
-    struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans - 1u);
-    const struct entry entry = {slot, scan, fates, rho_measurement_sigma_factors(sensor),
-                                rho_seconds_between(slot->time_us, scan->time_us)};
-    const unsigned held = refuse_excess_plots_count_held(scan, slot->num_plots, fates);
-    if (slot->num_plots == 0) {
-        set_first_extent(window, scan, fates);
-        lay_out_bins(slot, window, expected_plots_of_revolution(window, scan, held));
-    }
-    keep_measures_common_to_sectors(window, slot, scan, held);
-    widen_covered_sector(slot, scan);
-    begin_newest_sector(window, scan);
-    copy_plots_into_bins(window, &entry);
-    slot->sensor.pd = sensor ? sensor->pd : 0.0f;
-    slot->num_unused = (uint16_t)(slot->num_unused + held - slot->num_plots);
-    slot->num_plots = (uint16_t)held;
-}
-
-/* ---- public ---------------------------------------------------------------------------------- */
 
 enum rho_status rho_window_init(struct rho_window *window, size_t size, unsigned scans_max,
                                 const struct rho_extent *area, float side_min_m)
@@ -376,8 +181,11 @@ enum rho_status rho_window_init(struct rho_window *window, size_t size, unsigned
     if (size != sizeof *window) {
         return RHO_ERROR_SIZE;
     }
-    if (scans_max < 1 || scans_max > RHO_MAX_SCANS || (area && !is_usable_area(area)) ||
-        !rho_is_within(side_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M)) {
+    if (scans_max < 1 || scans_max > RHO_MAX_SCANS ||
+        !rho_is_within(side_min_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) ||
+        (area && (!rho_is_coordinate(area->x_min_m) || !rho_is_coordinate(area->x_max_m) ||
+                  !rho_is_coordinate(area->y_min_m) || !rho_is_coordinate(area->y_max_m) ||
+                  !(area->x_min_m < area->x_max_m) || !(area->y_min_m < area->y_max_m)))) {
         return RHO_ERROR_CONFIG;
     }
     memset(window, 0, sizeof *window);
@@ -391,10 +199,8 @@ enum rho_status rho_window_init(struct rho_window *window, size_t size, unsigned
 
 int rho_window_accepts(const struct rho_window *window, int64_t time_us)
 {
-    if (window->magic != WINDOW_MAGIC) {
-        return 0;
-    }
-    return window->num_scans == 0 || window->newest.time_us <= time_us;
+    return window->magic == WINDOW_MAGIC &&
+           (window->num_scans == 0 || window->newest.time_us <= time_us);
 }
 
 enum rho_status rho_window_check_push(const struct rho_window *window, const struct rho_scan *scan,
@@ -410,33 +216,22 @@ enum rho_status rho_window_check_push(const struct rho_window *window, const str
     return rho_window_accepts(window, scan->time_us) ? RHO_OK : RHO_ERROR_STATE;
 }
 
-static void add_scan(struct rho_window *window, const struct rho_scan *scan,
-                     const struct rho_sensor *sensor, uint8_t *fates, uint32_t *left_unused)
+/*
+ * Number of plots that a scan will hold when its revolution is complete. For a sector: as many as
+ * the revolution before, or RHO_MAX_PLOTS where the window has none; at least `held`.
+ */
+static unsigned expected_plots(struct rho_window *window, const struct rho_scan *scan,
+                               unsigned held)
 {
-    struct rho_window_scan *slot = take_slot_for_newest(window, left_unused);
-    const struct entry entry = {.slot = slot,
-                                .scan = scan,
-                                .fates = fates,
-                                .factors = rho_measurement_sigma_factors(sensor)};
-    unsigned held = refuse_excess_plots_count_held(scan, 0, fates);
-    slot->time_us = scan->time_us;
-    slot->measures = scan->measures;
-    slot->sector_from_rad = scan->sector_from_rad;
-    slot->sector_to_rad = scan->sector_to_rad;
-    slot->sensor = sensor ? *sensor : (struct rho_sensor){.sensor_id = scan->sensor_id};
-    /* the held plots' sigmas include these factors */
-    slot->sensor.sigma_range_percent = slot->sensor.sigma_cross_percent = 0;
-    slot->num_plots = 0;
-    slot->sigma_max_m = slot->offset_min_s = slot->offset_max_s = 0.0f;
-    slot->is_isotropic = 1;
-    begin_newest_sector(window, scan);
-    set_first_extent(window, scan, fates);
-    lay_out_bins(slot, window, expected_plots_of_revolution(window, scan, held));
-    copy_plots_into_bins(window, &entry);
-    slot->num_plots = slot->num_unused = (uint16_t)held;
-    if (!window->area_is_fixed) {
-        rho_window_update_extent(window);
+    const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
+    if (!RHO_SECTORS || !(RHO_TWO_PI / width_rad > 1.0f)) {
+        return held;
     }
+    if (window->num_scans < 2) {
+        return RHO_MAX_PLOTS;
+    }
+    const unsigned before = rho_window_scan_at(window, window->num_scans - 2u)->num_plots;
+    return held > before ? held : before;
 }
 
 enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan *scan,
@@ -449,10 +244,74 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     }
     window->is_continued = rho_window_is_next_sector_of_newest_scan(window, scan, sensor) != 0;
     window->is_remeasured = 0;
-    if (window->is_continued) {
-        add_sector_to_newest(window, scan, sensor, fates);
-    } else {
-        add_scan(window, scan, sensor, fates, left_unused);
+    if (!window->is_continued) {
+        if (window->num_scans == window->scans_max) {
+            *left_unused = rho_count(*left_unused, window->ring[window->first].num_unused);
+            window->first =
+                (uint16_t)(window->first + 1u < window->scans_max ? window->first + 1u : 0u);
+            window->num_scans--;
+        }
+        window->num_scans++;
+    }
+    struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans - 1u);
+    if (!window->is_continued) {
+        slot->time_us = scan->time_us;
+        slot->measures = scan->measures;
+        slot->sector_from_rad = scan->sector_from_rad;
+        slot->sector_to_rad = scan->sector_to_rad;
+        slot->sensor = sensor ? *sensor : (struct rho_sensor){.sensor_id = scan->sensor_id};
+        /* the held plots' sigmas include these factors */
+        slot->sensor.sigma_range_percent = slot->sensor.sigma_cross_percent = 0;
+        slot->num_plots = slot->num_unused = 0;
+        slot->sigma_max_m = slot->offset_min_s = slot->offset_max_s = 0.0f;
+        slot->is_isotropic = 1;
+    }
+    /* the first scan's plots give the extent, as bins are needed before the area is known */
+    const int has_extent =
+        window->area_is_fixed || window->extent.x_min_m <= window->extent.x_max_m;
+    unsigned held = slot->num_plots;
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        if (fates[i] != RHO_FATE_HELD) {
+            continue;
+        }
+        if (held == RHO_MAX_PLOTS || i >= RHO_WINDOW_ROW) {
+            fates[i] = RHO_FATE_NO_ROOM;
+            continue;
+        }
+        held++;
+        if (!has_extent) {
+            rho_extent_add(&window->extent, scan->plots[i].x_m, scan->plots[i].y_m);
+        }
+    }
+    if (slot->num_plots == 0) {
+        lay_out_bins(slot, window, expected_plots(window, scan, held));
+    }
+    if (RHO_SECTORS && window->is_continued) {
+        /* the revolution measures what all its sectors with plots measure */
+        const uint32_t measured = slot->measures;
+        if (held > slot->num_plots || slot->num_plots == 0) {
+            slot->measures = scan->measures & (slot->num_plots == 0 ? ~0u : measured);
+        }
+        window->is_remeasured = slot->measures != measured;
+        const unsigned ends =
+            rho_angle_continued_ends(slot->sector_from_rad, slot->sector_to_rad,
+                                     scan->sector_from_rad, scan->sector_to_rad, SECTOR_GAP_RAD);
+        if (ends & RHO_ANGLE_CONTINUES_RIGHT) {
+            slot->sector_from_rad = scan->sector_from_rad;
+        } else {
+            slot->sector_to_rad = scan->sector_to_rad;
+        }
+        if (ends == (RHO_ANGLE_CONTINUES_LEFT | RHO_ANGLE_CONTINUES_RIGHT)) {
+            slot->sector_from_rad = slot->sector_to_rad = 0.0f; /* the revolution is complete */
+        }
+        slot->sensor.pd = sensor ? sensor->pd : 0.0f;
+    }
+    window->newest = (struct rho_window_sector){.time_us = scan->time_us, .offset_min_s = FLT_MAX};
+    copy_plots_into_bins(window, slot, scan, sensor, fates);
+    slot->num_unused = (uint16_t)(slot->num_unused + held - slot->num_plots);
+    slot->num_plots = (uint16_t)held;
+    if (!window->is_continued && !window->area_is_fixed) {
+        rho_window_update_extent(window);
     }
     return RHO_OK;
 }

@@ -4,21 +4,6 @@
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
 
-static int are_extent_corners_in_limits(const struct rho_extent *extent)
-{
-    return rho_is_coordinate(extent->x_min_m) && rho_is_coordinate(extent->x_max_m) &&
-           rho_is_coordinate(extent->y_min_m) && rho_is_coordinate(extent->y_max_m);
-}
-
-static int is_sound_plot(const struct rho_window_plot *plot)
-{
-    return rho_is_coordinate(plot->x_m) && rho_is_coordinate(plot->y_m) &&
-           rho_is_coordinate(plot->z_m) &&
-           rho_is_within(plot->offset_s, -2e-6f * RHO_LIMIT_OFFSET_US,
-                         2e-6f * RHO_LIMIT_OFFSET_US) &&
-           rho_are_finite(&plot->range_rate_mps, 1);
-}
-
 /*
  * True where the bins' starts ascend and each plot lies in the bin of its place, as pushes move
  * plots by bins.
@@ -45,23 +30,6 @@ static int has_sound_bins(const struct rho_window_scan *scan)
     return 1;
 }
 
-/*
- * True where the record of the newest sector, or whole scan, is consistent with the newest held
- * scan.
- */
-static int is_sound_newest_sector(const struct rho_window *window)
-{
-    const struct rho_window_sector *newest = &window->newest;
-    if (window->num_scans == 0) {
-        return 1;
-    }
-    const int64_t begun_us =
-        window->ring[(window->first + window->num_scans - 1u) % window->scans_max].time_us;
-    return rho_is_stored_time(newest->time_us) && newest->time_us >= begun_us &&
-           newest->time_us - begun_us <= RHO_LIMIT_OFFSET_US &&
-           rho_are_finite(&newest->offset_min_s, 1);
-}
-
 static int is_sound_scan(const struct rho_window_scan *scan)
 {
     if (!rho_is_stored_time(scan->time_us) ||
@@ -76,7 +44,12 @@ static int is_sound_scan(const struct rho_window_scan *scan)
         return 0;
     }
     for (unsigned i = 0; i < scan->num_plots; i++) {
-        if (!is_sound_plot(&scan->plots[i])) {
+        const struct rho_window_plot *plot = &scan->plots[i];
+        if (!rho_is_coordinate(plot->x_m) || !rho_is_coordinate(plot->y_m) ||
+            !rho_is_coordinate(plot->z_m) ||
+            !rho_is_within(plot->offset_s, -2e-6f * RHO_LIMIT_OFFSET_US,
+                           2e-6f * RHO_LIMIT_OFFSET_US) ||
+            !rho_are_finite(&plot->range_rate_mps, 1)) {
             return 0;
         }
     }
@@ -89,7 +62,8 @@ int rho_window_is_sound(const struct rho_window *window)
     if (window->scans_max < 1 || window->scans_max > RHO_MAX_SCANS ||
         window->num_scans > window->scans_max || window->first >= window->scans_max ||
         !rho_is_within(window->side_min_m, 0.0f, 1e30f) ||
-        !are_extent_corners_in_limits(&window->extent)) {
+        !rho_is_coordinate(window->extent.x_min_m) || !rho_is_coordinate(window->extent.x_max_m) ||
+        !rho_is_coordinate(window->extent.y_min_m) || !rho_is_coordinate(window->extent.y_max_m)) {
         return 0;
     }
     for (unsigned m = 0; m < window->num_scans; m++) {
@@ -99,5 +73,15 @@ int rho_window_is_sound(const struct rho_window *window)
         }
         before_us = scan->time_us;
     }
-    return is_sound_newest_sector(window) && rho_window_accepts(window, INT64_MAX);
+    if (window->num_scans > 0) {
+        /* the record of the newest sector, or whole scan, must fit to the newest held scan */
+        const struct rho_window_sector *newest = &window->newest;
+        const int64_t begun_us = before_us;
+        if (!rho_is_stored_time(newest->time_us) || newest->time_us < begun_us ||
+            newest->time_us - begun_us > RHO_LIMIT_OFFSET_US ||
+            !rho_are_finite(&newest->offset_min_s, 1)) {
+            return 0;
+        }
+    }
+    return rho_window_accepts(window, INT64_MAX);
 }

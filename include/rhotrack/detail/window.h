@@ -202,7 +202,7 @@ RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *wi
  * Errors: NULL, VALUE (with RHO_SECTORS: an invalid sector), STATE (not initialised, or the scan is
  * older than the newest). Plots outside the area are kept in its border bins. Cost: RHO_MAX_PLOTS
  * copies, RHO_MAX_BINS additions; without a given area, three passes over all plots held.
- * Stack: 240 bytes.
+ * Stack: 248 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_window_push(struct rho_window *window,
                                                const struct rho_scan *scan,
@@ -216,7 +216,7 @@ struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m
 
 /*
  * Index of the plot nearest to the query's place, or -1 where none is in the gate. Ties go to the
- * lower index. Cost: bins under the gate's square, and their plots. Stack: 104 bytes.
+ * lower index. Cost: bins under the gate's square, and their plots. Stack: 112 bytes.
  */
 int rho_window_nearest_plot_in_sigmas_isotropic(const struct rho_window_scan *scan,
                                                 const struct rho_window_query *query,

@@ -9,8 +9,6 @@
 #define Z RHO_MEASURES_Z
 #define RATE RHO_MEASURES_RANGE_RATE
 
-/* ---- nearly isotropic noise ----------------------------------------------------------------- */
-
 /* Searches three targets in clutter; in odd windows plots have their own times. */
 static void search_window_of_three_targets_in_clutter(int window, double sigma_cross_m)
 {
@@ -66,8 +64,6 @@ static void noise_of_nearly_equal_axes_gives_the_isotropic_result(void **state)
     }
     assert_true(found > 100);
 }
-
-/* ---- votes ----------------------------------------------------------------------------------- */
 
 /*
  * Errors of the middle scan's plot. The target passes (20 km, 0) northwards at 100 m/s, at a height
@@ -234,8 +230,6 @@ static void a_fitted_height_is_used_for_range_rates_of_level_scans(void **state)
     assert_int_equal(initiator.num_candidates, 1);
     assert_int_equal(initiator.candidates[0].mask, 0x7f);
 }
-
-/* ---- fits and scores in double precision ---------------------------------------------------- */
 
 static struct straight_plot seen[SCANS];
 

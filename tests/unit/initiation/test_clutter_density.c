@@ -32,8 +32,6 @@ static double density_at(int32_t sensor_id, double x_m, double y_m)
     return density;
 }
 
-/* ---- densities of sensors ------------------------------------------------------------------- */
-
 /* Scans of sensors 1 and 2 in turn, with these numbers of clutter plots. */
 static void search_two_sensors(int first, int second)
 {
@@ -102,8 +100,6 @@ static void a_search_after_every_scan_has_densities_of_sensors(void **state)
     double ratio = density_at(2, 0.0, 0.0) / density_at(1, 0.0, 0.0);
     assert_float_equal(ratio, 14.5 / 5.5, 0.01);
 }
-
-/* ---- one radar ------------------------------------------------------------------------------- */
 
 /*
  * Adds clutter uniform in range and azimuth about the radar, and `more` plots in a hot spot of a
@@ -218,8 +214,6 @@ static void a_hot_spot_in_range_and_azimuth_has_a_higher_density(void **state)
     assert_float_equal(cold, plain, 0.5 * plain);
 }
 
-/* ---- two radars ------------------------------------------------------------------------------ */
-
 #if RHO_MAX_DENSITY_MAPS > 1
 /* Two radars in turn, with different numbers of plots, uniform in their own range and azimuth. */
 static void search_two_radars(const struct rho_sensor radars[2], const int counts[2],
@@ -289,8 +283,6 @@ static void a_radars_clutter_does_not_count_beyond_its_range(void **state)
 }
 #endif
 
-/* ---- sectors --------------------------------------------------------------------------------- */
-
 /* The map of `count` plots at even azimuths of a sector about east, with ranges that vary. */
 static const struct rho_density_map *sector_map(int count, double sector_rad)
 {
@@ -327,10 +319,6 @@ static void a_sector_of_5_rad_or_more_is_taken_as_the_circle(void **state)
     assert_float_equal(sector_map(61, 5.1 * 60.0 / 62.0)->height, 2.0 * PI, 1e-5);
     assert_float_equal(sector_map(61, 0.0)->height, 1e-3, 1e-9);
 }
-
-/*
- * ---- maps of the ground -----------------------------------------------------------------------
- */
 
 /*
  * Expects the same density everywhere: five plots a scan make a single cell, which is uniform in a

@@ -108,10 +108,6 @@ static void expect_all_found(const struct path *paths, int count)
     }
 }
 
-/*
- * ---- refusals ---------------------------------------------------------------------------------
- */
-
 static void expect_config_refused(const struct rho_initiator_config *config)
 {
     other = initiator;
@@ -180,10 +176,6 @@ static void calls_without_init_or_scans_are_refused(void **state)
     assert_float_equal(rho_initiator_density(&initiator, 0, 0.0f, 0.0f), 0.0f, 0.0f);
 }
 
-/*
- * ---- comparison with the reference ------------------------------------------------------------
- */
-
 static void push_one_scan_of_vector(size_t vector, int scan)
 {
     if (initiator_vectors[vector].mask >> scan & 1u) {
@@ -224,10 +216,6 @@ static void scores_and_fits_agree_with_the_reference(void **state)
         assert_float_equal(track->vy_mps, initiator_vectors[i].vy_mps, PLACE_TOLERANCE_M);
     }
 }
-
-/*
- * ---- paths of targets -------------------------------------------------------------------------
- */
 
 static void one_target_is_found_in_every_direction(void **state)
 {
@@ -355,10 +343,6 @@ static void process_noise_finds_a_turning_target(void **state)
     assert_int_equal(found[0], 0);
     assert_int_equal(found[1], 1);
 }
-
-/*
- * ---- streaming, consumed plots, capacities ----------------------------------------------------
- */
 
 static void a_streaming_search_needs_a_plot_of_the_newest_scan(void **state)
 {

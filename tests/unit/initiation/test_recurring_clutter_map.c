@@ -146,10 +146,6 @@ static double known_return_probability(void)
     return (double)rho_clutter_map_return_probability(clutter_map(), UINT8_MAX, 20, 1);
 }
 
-/*
- * ---- known towers -----------------------------------------------------------------------------
- */
-
 static void known_towers_start_no_tracks(void **state)
 {
     const float v_min_mps[] = {30.0f, 0.0f};
@@ -224,10 +220,6 @@ static void a_target_that_passes_a_tower_keeps_its_plots(void **state)
     }
     assert_true(own >= seen - 4); /* one plot a run may be taken from the tower */
 }
-
-/*
- * ---- learning ---------------------------------------------------------------------------------
- */
 
 static void the_probability_of_a_return_is_learned_and_forgotten(void **state)
 {
@@ -337,10 +329,6 @@ static void a_slow_target_has_moved_after_eight_standard_deviations(void **state
     }
     assert_true(early > 5 && late > 5);
 }
-
-/*
- * ---- taught maps ------------------------------------------------------------------------------
- */
 
 /* Teaches a map what another one has learned, as a settings file does. */
 static void teach_learned_map(struct rho_clutter_map *to, const struct rho_clutter_map *from)
@@ -497,10 +485,6 @@ static void bad_values_are_refused_and_change_nothing(void **state)
     assert_true(looks == 0.0f);
 }
 
-/*
- * ---- capacities -------------------------------------------------------------------------------
- */
-
 static void a_full_map_drops_the_most_missed_echoes(void **state)
 {
     const int clutter = RHO_MAX_ECHOES / 8; /* random clutter is kept for twelve scans */
@@ -547,10 +531,6 @@ static void the_map_learns_from_scans_with_too_many_plots(void **state)
     }
     assert_int_equal(count_known_towers(), TOWERS);
 }
-
-/*
- * ---- sectors and range rates ------------------------------------------------------------------
- */
 
 /* Hits of known towers from the same plots in whole turns, or in turns of eight sectors. */
 static unsigned sum_tower_hits_of_turns_in_sectors(int sectors)
@@ -732,10 +712,6 @@ static void reflectors_in_a_room_keep_no_tracks(void **state)
     assert_true(clutter_map()->exact_plots > 0.9f * clutter_map()->rate_plots);
 }
 
-/*
- * ---- repeatability ----------------------------------------------------------------------------
- */
-
 static void the_same_scans_make_the_same_map(void **state)
 {
     static struct rho_clutter_map first;
@@ -753,8 +729,6 @@ static void the_same_scans_make_the_same_map(void **state)
     }
     assert_memory_equal(&first, clutter_map(), sizeof first);
 }
-
-/* ---- silent sensors, and noise of millimetres ------------------------------------------------ */
 
 /*
  * A sensor fills the map once and falls silent; towers of another sensor must replace its echoes.

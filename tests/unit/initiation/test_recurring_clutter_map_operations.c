@@ -33,8 +33,6 @@ static struct rho_plot plot_at(float x_m, float y_m)
         .x_m = x_m, .y_m = y_m, .sigma_range_m = 10.0f, .sigma_cross_m = 40.0f};
 }
 
-/* ---- places and regions ---------------------------------------------------------------------- */
-
 static void a_place_is_viewed_by_direction_and_range(void **state)
 {
     const struct rho_sensor sensor = {.x_m = 100.0f, .y_m = -50.0f};
@@ -70,8 +68,6 @@ static void regions_divide_directions_and_ranges(void **state)
                      /* beyond the range: as at its end */
                      rho_clutter_map_region_of_place(NULL, 1e4f, 9.99e3f, 1.0f));
 }
-
-/* ---- statistics of returns ------------------------------------------------------------------- */
 
 static void hits_are_grouped_into_four_classes(void **state)
 {
@@ -140,8 +136,6 @@ static void counts_halve_in_about_139_revolutions(void **state)
     }
     assert_true(fabsf(map.tables[0][ALL_REGIONS].looks[0][0] - 0.5f) < 0.03f);
 }
-
-/* ---- echoes ---------------------------------------------------------------------------------- */
 
 /* A Kalman filter of place and speed on one axis, in double precision. */
 struct axis {
@@ -293,8 +287,6 @@ static void a_damaged_map_is_not_sound(void **state)
     map.time_us = INT64_MAX;
     assert_false(rho_clutter_map_is_sound(&map));
 }
-
-/* ---- limits ---------------------------------------------------------------------------------- */
 
 /*
  * The prior for targets that may stand is 0.003 with a weight of three looks, for all regions; the

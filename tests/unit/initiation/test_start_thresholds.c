@@ -4,7 +4,7 @@
  * result. Noise of 10 m, scans of 2 s, targets of 100 to 400 m/s. The prior of a turn is tested
  * through a private header, as scores show it only in sums.
  */
-#include "../../src/initiation/search.h"
+#include "../../src/initiation/start_thresholds.h"
 #include "initiator_setup.h"
 #include "rhotrack/tracker.h"
 
@@ -68,10 +68,6 @@ static unsigned count_confirmed(void)
     }
     return n;
 }
-
-/*
- * ---- thresholds -------------------------------------------------------------------------------
- */
 
 static void a_target_without_clutter_is_confirmed_at_its_third_plot(void **state)
 {
@@ -223,8 +219,6 @@ static void the_same_scans_give_the_same_thresholds(void **state)
     }
 }
 
-/* ---- scan interval, area, range rates -------------------------------------------------------- */
-
 /* Twice the speeds and half the interval give the same plots, and twice as many scans an hour. */
 static void half_the_scan_interval_acts_as_half_the_allowed_rate(void **state)
 {
@@ -298,10 +292,6 @@ static void range_rates_lower_votes_and_thresholds(void **state)
     }
     assert_true(initiator.min_scans <= 4); /* 250 plots a scan: 5 without range rates */
 }
-
-/*
- * ---- resulting rates --------------------------------------------------------------------------
- */
 
 /* allowed false tracks an hour: high enough to count, a third of what clutter could start */
 #define WANTED 60.0f
@@ -389,10 +379,6 @@ static void clutter_starts_no_more_than_allowed_with_process_noise(void **state)
 }
 
 /*
- * ---- figures ----------------------------------------------------------------------------------
- */
-
-/*
  * Thresholds in mnat by clutter and rate; each bound, step and prior of the model changes them. A
  * profile that samples more places may differ by less than a tenth of a nat.
  */
@@ -462,7 +448,7 @@ static void the_prior_of_a_turn_is_a_tenth_or_keeps_the_rate(void **state)
 {
     struct search search = {.initiator = &initiator};
     (void)state;
-    assert_float_equal(rho_initiator_log_turn_prior(&search), log(0.1), 1e-6);
+    assert_float_equal(rho_thresholds_log_turn(&search), log(0.1), 1e-6);
     /* sets of half the scans over a tenth of the false starts: 3.5 / 0.1 times e^-2 */
     initiator.config.false_tracks_per_hour = 3600.0f;
     initiator.start_mnat = 2000;
@@ -470,7 +456,7 @@ static void the_prior_of_a_turn_is_a_tenth_or_keeps_the_rate(void **state)
     search.keeps_rate = 1;
     search.interval_s = 1.0f;
     search.num_scans = SCANS;
-    assert_float_equal(rho_initiator_log_turn_prior(&search), log(0.1) - log(35.0) + 2.0, 1e-5);
+    assert_float_equal(rho_thresholds_log_turn(&search), log(0.1) - log(35.0) + 2.0, 1e-5);
 }
 
 /*

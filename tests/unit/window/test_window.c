@@ -282,8 +282,6 @@ static void sigmas_are_stored_with_twelve_bits(void **state)
     assert_int_equal(scan->is_isotropic, 1);
 }
 
-/* ---- plots with their own covariance -------------------------------------------------------- */
-
 static const struct rho_sensor radar = {.sensor_id = 4,
                                         .x_m = -2000.0f,
                                         .y_m = 800.0f,

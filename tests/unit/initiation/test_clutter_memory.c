@@ -4,7 +4,7 @@
  * window's map are learned, used and forgotten. Limits are tested on a memory set by hand through
  * the private header.
  */
-#include "../../src/initiation/search.h"
+#include "../../src/initiation/clutter_density.h"
 #include "initiator_setup.h"
 
 #if RHO_MAX_CLUTTER_CELLS > 0
@@ -92,10 +92,6 @@ static void init_with_fixed_area(void)
     start_initiator(&config);
 }
 
-/*
- * ---- learning ---------------------------------------------------------------------------------
- */
-
 static void a_hot_spot_raises_the_density_of_its_cell(void **state)
 {
     const double cold = COLD_PLOTS / around_m2, cell_m2 = cell_m * cell_m;
@@ -177,10 +173,6 @@ static void candidates_in_a_hot_spot_have_lower_scores(void **state)
     assert_true(score_mnat[1] < score_mnat[0] - 3000);
 }
 
-/*
- * ---- forgetting -------------------------------------------------------------------------------
- */
-
 static void a_hot_spot_is_forgotten(void **state)
 {
     (void)state;
@@ -209,10 +201,6 @@ static void counts_do_not_overflow_in_long_runs(void **state)
     assert_true(hot_density() < 1.5 * is);
     assert_true(hot_density() > (cells_are_large ? 0.5 * is : 200.0 * COLD_PLOTS / around_m2));
 }
-
-/*
- * ---- which plots are remembered ---------------------------------------------------------------
- */
 
 static uint32_t count_remembered_plots(void)
 {
@@ -281,10 +269,6 @@ static void refused_scans_are_not_remembered(void **state)
     assert_int_equal(rho_initiator_push(&initiator, NULL, NULL, fates, &unused), RHO_ERROR_NULL);
     assert_memory_equal(&initiator, &then, sizeof initiator);
 }
-
-/*
- * ---- changes of the area ----------------------------------------------------------------------
- */
 
 /* The observed area grows tenfold and shrinks again; the density must stay that of the clutter. */
 static void the_memory_is_laid_out_anew_when_the_area_changes(void **state)
@@ -385,10 +369,6 @@ static void sizes_of_the_memory_follow_its_capacity(void **state)
     assert_true(sizeof initiator <= RHO_RAM_INITIATOR_BYTES);
 }
 
-/*
- * ---- limits -----------------------------------------------------------------------------------
- */
-
 /* Sets a memory of 10 by 10 km after this many scans. */
 static struct rho_clutter_memory *set_memory(unsigned scans)
 {
@@ -413,11 +393,9 @@ static void a_cell_counts_if_three_sigmas_above_the_expected(void **state)
     (void)state;
     struct rho_clutter_memory *memory = set_memory(100);
     memory->count[0] = 9;
-    assert_true(rho_initiator_density_with_memory(&initiator, -4999.0f, -4999.0f, density) ==
-                density);
+    assert_true(rho_clutter_memory_raise(&initiator, -4999.0f, -4999.0f, density) == density);
     memory->count[0] = 10;
-    assert_float_equal(rho_initiator_density_with_memory(&initiator, -4999.0f, -4999.0f, density) /
-                           density,
+    assert_float_equal(rho_clutter_memory_raise(&initiator, -4999.0f, -4999.0f, density) / density,
                        11.0 / 4.0, 1e-2);
 }
 
@@ -428,7 +406,7 @@ static void counts_are_halved_after_128_scans(void **state)
         struct rho_clutter_memory *memory = set_memory(scans);
         initiator.window.extent = (struct rho_extent){-4000.0f, 4000.0f, -4000.0f, 4000.0f};
         memory->count[1] = 10;
-        rho_initiator_remember_oldest_scan(&initiator);
+        rho_clutter_memory_add(&initiator);
         assert_int_equal(memory->num_scans, scans == 127 ? 128 : 65);
         assert_int_equal(memory->count[1], scans == 127 ? 10 : 5);
     }
@@ -443,7 +421,7 @@ static void a_memory_four_times_wider_than_the_area_is_laid_out_anew(void **stat
         struct rho_clutter_memory *memory = set_memory(50);
         initiator.window.extent = i < 2 ? (struct rho_extent){-narrow_m, narrow_m, -wide_m, wide_m}
                                         : (struct rho_extent){-wide_m, wide_m, -narrow_m, narrow_m};
-        rho_initiator_remember_oldest_scan(&initiator);
+        rho_clutter_memory_add(&initiator);
         assert_int_equal(memory->num_scans, i % 2 ? 51 : 1);
         if (i == 0) {
             assert_float_equal(memory->x_min_m, -1.5 * (double)narrow_m, 0.1);

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * window_plots_near_a_place: access to the held scans and plots of a window, their bins, and the
- * search for the plot nearest to a place.
+ * nearest_plot: access to the held scans and plots of a window, their bins, and the search for the
+ * plot nearest to a place.
  */
-#include <string.h>
-
+#include "policy.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
 #include "sigma_code.h"
-
-/* ---- what is held ---------------------------------------------------------------------------- */
 
 float rho_window_decode_sigma(uint16_t code)
 {
@@ -26,8 +23,6 @@ struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m
     const unsigned place = window->first + m;
     return &window->ring[place < window->scans_max ? place : place - window->scans_max];
 }
-
-/* ---- bins ------------------------------------------------------------------------------------ */
 
 /*
  * Row or column of a coordinate among n bins. Coordinates outside get the border bins, NaN the
@@ -61,57 +56,26 @@ struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan,
     return bins;
 }
 
-/* ---- isotropic noise ------------------------------------------------------------------------- */
-
-/* The nearest plot so far; distance2 / variance is compared by cross-multiplication. */
-struct nearest {
-    int index;
-    float distance2_m2;
-    float variance_m2;
-};
-
-static void update_nearest_plot(struct nearest *best, const struct rho_window_scan *scan,
-                                unsigned from, unsigned to, const struct rho_window_query *query)
-{
-    for (unsigned i = from; i < to; i++) {
-        const struct rho_window_plot *plot = &scan->plots[i];
-        float dx_m = plot->x_m - query->x_m - query->vx_mps * plot->offset_s;
-        float dy_m = plot->y_m - query->y_m - query->vy_mps * plot->offset_s;
-        float distance2_m2 = dx_m * dx_m + dy_m * dy_m;
-        float sigma_m = rho_window_larger_sigma_m(plot);
-        float variance_m2 = query->variance_m2 + query->sigma_factor * sigma_m * sigma_m;
-        if (distance2_m2 * best->variance_m2 < best->distance2_m2 * variance_m2 &&
-            !(scan->marks[i] & query->skip_flags)) {
-            best->index = (int)i;
-            best->distance2_m2 = distance2_m2;
-            best->variance_m2 = variance_m2;
-        }
-    }
-}
-
-/*
- * Least and largest displacement along one axis, at this velocity, over the offsets of the times of
- * a scan's plots from the scan's own.
- */
-static float least_shift_over_plot_offsets_m(const struct rho_window_scan *scan, float v_mps)
-{
-    return v_mps * (v_mps > 0.0f ? scan->offset_min_s : scan->offset_max_s);
-}
-
-static float largest_shift_over_plot_offsets_m(const struct rho_window_scan *scan, float v_mps)
-{
-    return v_mps * (v_mps > 0.0f ? scan->offset_max_s : scan->offset_min_s);
-}
-
+/* Bins under a gate that moves with the plots' offsets from the scan's time. */
 static struct rho_window_bins bins_around_gate(const struct rho_window_scan *scan, float x_m,
                                                float y_m, float vx_mps, float vy_mps,
                                                float gate_radius_m)
 {
-    return rho_window_bins_under(
-        scan, x_m - gate_radius_m + least_shift_over_plot_offsets_m(scan, vx_mps),
-        x_m + gate_radius_m + largest_shift_over_plot_offsets_m(scan, vx_mps),
-        y_m - gate_radius_m + least_shift_over_plot_offsets_m(scan, vy_mps),
-        y_m + gate_radius_m + largest_shift_over_plot_offsets_m(scan, vy_mps));
+    const float first_s = scan->offset_min_s, last_s = scan->offset_max_s;
+    return rho_window_bins_under(scan,
+                                 x_m - gate_radius_m + vx_mps * (vx_mps > 0.0f ? first_s : last_s),
+                                 x_m + gate_radius_m + vx_mps * (vx_mps > 0.0f ? last_s : first_s),
+                                 y_m - gate_radius_m + vy_mps * (vy_mps > 0.0f ? first_s : last_s),
+                                 y_m + gate_radius_m + vy_mps * (vy_mps > 0.0f ? last_s : first_s));
+}
+
+static void count_lookup(struct rho_window_work *work, const struct rho_window_bins *bins,
+                         unsigned compared, unsigned more_units)
+{
+    work->lookups = rho_count(work->lookups, 1);
+    work->distances = rho_count(work->distances, compared);
+    work->passed =
+        rho_count(work->passed, (uint32_t)(bins->row_last - bins->row_first) + 1u + more_units);
 }
 
 int rho_window_nearest_plot_in_sigmas_isotropic(const struct rho_window_scan *scan,
@@ -120,25 +84,35 @@ int rho_window_nearest_plot_in_sigmas_isotropic(const struct rho_window_scan *sc
 {
     struct rho_window_bins bins = bins_around_gate(scan, query->x_m, query->y_m, query->vx_mps,
                                                    query->vy_mps, query->gate_radius_m);
-    /* the limit itself is the first bound: a plot exactly on the gate counts as outside */
-    struct nearest best = {.index = -1, .distance2_m2 = query->gate_chi2, .variance_m2 = 1.0f};
+    /*
+     * distance2 / variance is compared by cross-multiplication. The limit itself is the first
+     * bound: a plot exactly on the gate counts as outside
+     */
+    float best_m2 = query->gate_chi2, best_variance_m2 = 1.0f;
+    int index = -1;
     unsigned compared = 0;
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned from = start[bins.column_first], to = start[bins.column_last + 1];
-        update_nearest_plot(&best, scan, from, to, query);
+        for (unsigned i = from; i < to; i++) {
+            const struct rho_window_plot *plot = &scan->plots[i];
+            float dx_m = plot->x_m - query->x_m - query->vx_mps * plot->offset_s;
+            float dy_m = plot->y_m - query->y_m - query->vy_mps * plot->offset_s;
+            float distance2_m2 = dx_m * dx_m + dy_m * dy_m;
+            float sigma_m = rho_window_larger_sigma_m(plot);
+            float variance_m2 = query->variance_m2 + query->sigma_factor * sigma_m * sigma_m;
+            if (distance2_m2 * best_variance_m2 < best_m2 * variance_m2 &&
+                !(scan->marks[i] & query->skip_flags)) {
+                index = (int)i;
+                best_m2 = distance2_m2;
+                best_variance_m2 = variance_m2;
+            }
+        }
         compared += to - from;
     }
-    work->lookups = rho_count(work->lookups, 1);
-    work->distances = rho_count(work->distances, compared);
-    work->passed = rho_count(work->passed, (uint32_t)(bins.row_last - bins.row_first) + 1u);
-    return best.index;
+    count_lookup(work, &bins, compared, 0);
+    return index;
 }
-
-/* ---- plots with their own covariance --------------------------------------------------------- */
-
-#define RANGE_LEAST_M2 1.0f /* least ground range, squared, at which a plot has a line of sight */
-#define ROUNDING_ALLOWANCE (1.0f / 4194304.0f)
 
 const struct rho_sensor *rho_window_sensor_if_described(const struct rho_window_scan *scan)
 {
@@ -191,7 +165,7 @@ rho_window_plot_noise_covariance(const struct rho_window_scan *scan,
     }
     float per_m2 = 1.0f / ground2_m2, xx = dx_m * dx_m * per_m2, yy = dy_m * dy_m * per_m2;
     /* allowance for rounding, so that thin ellipses stay positive definite */
-    float allowance_m2 = (along_m2 > cross_m2 ? along_m2 : cross_m2) * ROUNDING_ALLOWANCE;
+    float allowance_m2 = (along_m2 > cross_m2 ? along_m2 : cross_m2) * (1.0f / 4194304.0f);
     noise.xx_m2 = xx * along_m2 + yy * cross_m2 + allowance_m2;
     noise.xy_m2 = (along_m2 - cross_m2) * dx_m * dy_m * per_m2;
     noise.yy_m2 = yy * along_m2 + xx * cross_m2 + allowance_m2;
@@ -279,24 +253,15 @@ static float nis_of_plot(const struct rho_window_scan *scan, const struct rho_wi
     return distance2;
 }
 
-static float gate_chi2_of_scan(const struct rho_window_scan *scan,
-                               const struct rho_window_place *place)
-{
-    int more = ((scan->measures & RHO_MEASURES_Z) && place->has_z ? 1 : 0) +
-               ((scan->measures & RHO_MEASURES_RANGE_RATE) ? 1 : 0);
-    return more == 0 ? RHO_GATE_CHI2_2D : more == 1 ? RHO_GATE_CHI2_3D : RHO_GATE_CHI2_4D;
-}
-
-/* Units of work of comparing a plot by its own covariance, beyond those of a simple comparison. */
-#define OWN_NOISE_UNITS 2u
-
 int rho_window_nearest_plot_anisotropic(const struct rho_window_scan *scan,
                                         const struct rho_window_place *place,
                                         struct rho_window_work *work)
 {
     struct rho_window_bins bins = bins_around_gate(scan, place->x_m, place->y_m, place->vx_mps,
                                                    place->vy_mps, place->gate_radius_m);
-    float best = gate_chi2_of_scan(scan, place);
+    const int more = ((scan->measures & RHO_MEASURES_Z) && place->has_z ? 1 : 0) +
+                     ((scan->measures & RHO_MEASURES_RANGE_RATE) ? 1 : 0);
+    float best = more == 0 ? RHO_GATE_CHI2_2D : more == 1 ? RHO_GATE_CHI2_3D : RHO_GATE_CHI2_4D;
     int index = -1;
     unsigned compared = 0;
     for (int row = bins.row_first; row <= bins.row_last; row++) {
@@ -311,9 +276,7 @@ int rho_window_nearest_plot_anisotropic(const struct rho_window_scan *scan,
         }
         compared += to - from;
     }
-    work->lookups = rho_count(work->lookups, 1);
-    work->distances = rho_count(work->distances, compared);
-    work->passed = rho_count(work->passed, (uint32_t)(bins.row_last - bins.row_first) + 1u +
-                                               OWN_NOISE_UNITS * compared);
+    /* a comparison by a plot's own covariance costs two units more than a simple one */
+    count_lookup(work, &bins, compared, 2u * compared);
     return index;
 }
