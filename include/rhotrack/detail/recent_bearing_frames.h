@@ -21,6 +21,9 @@
 extern "C" {
 #endif
 
+/* fewest scans that are searched for tracks: two tell a velocity, and two more test it */
+#define RHO_BATCH_SCANS_MIN 4u
+
 struct rho_batch_sensor {
     int32_t sensor_id;
     float x_m, y_m;
