@@ -209,7 +209,7 @@ static void search_next_interval(struct prune *prune, unsigned rows_left)
     if (!is_pruned) {
         search_rows(prune, of);
         prune->num_rows = ROWS_LEAST;
-        prune->num_unpruned += prune->num_unpruned < ROWS_MAX ? prune->num_unpruned : 0u;
+        prune->num_unpruned += prune->num_unpruned < INTERVAL_ROWS_MAX ? prune->num_unpruned : 0u;
         return;
     }
     prune->work = 0;
@@ -224,7 +224,7 @@ static void search_next_interval(struct prune *prune, unsigned rows_left)
         return;
     }
     prune->num_unpruned = ROWS_UNPRUNED;
-    if (GROW_KEPT * num_kept <= n && prune->num_rows < ROWS_MAX) {
+    if (GROW_KEPT * num_kept <= n && prune->num_rows < INTERVAL_ROWS_MAX) {
         prune->num_rows *= 2u;
     }
 }

@@ -42,8 +42,8 @@ static struct cell find_plateau_middle(const struct rho_passive_paper_search *se
 {
     int sum_row = 0, sum_column = 0, count = 0, least = INT32_MAX;
     struct cell best = from;
-    for (int i = -2 * NEAR_ROWS; i <= 2 * NEAR_ROWS; i++) {
-        for (int j = -2 * NEAR_COLUMNS; j <= 2 * NEAR_COLUMNS; j++) {
+    for (int i = -2 * LINE_NEAR_ROWS; i <= 2 * LINE_NEAR_ROWS; i++) {
+        for (int j = -2 * LINE_NEAR_COLUMNS; j <= 2 * LINE_NEAR_COLUMNS; j++) {
             if (votes_at(search, from.row + i, from.column + j) == height) {
                 sum_row += i;
                 sum_column += j;
@@ -51,8 +51,8 @@ static struct cell find_plateau_middle(const struct rho_passive_paper_search *se
             }
         }
     }
-    for (int i = -2 * NEAR_ROWS; i <= 2 * NEAR_ROWS; i++) {
-        for (int j = -2 * NEAR_COLUMNS; j <= 2 * NEAR_COLUMNS; j++) {
+    for (int i = -2 * LINE_NEAR_ROWS; i <= 2 * LINE_NEAR_ROWS; i++) {
+        for (int j = -2 * LINE_NEAR_COLUMNS; j <= 2 * LINE_NEAR_COLUMNS; j++) {
             int off_row = i * count - sum_row, off_column = j * count - sum_column;
             int off = off_row * off_row + off_column * off_column;
             if (votes_at(search, from.row + i, from.column + j) == height && off < least) {
@@ -87,8 +87,8 @@ void rho_passive_paper_pick_peaks_as_lines(struct rho_passive_paper_search *sear
             return;
         }
         at = find_plateau_middle(search, at, height);
-        for (int row = at.row - NEAR_ROWS; row <= at.row + NEAR_ROWS; row++) {
-            for (int i = at.column - NEAR_COLUMNS; i <= at.column + NEAR_COLUMNS; i++) {
+        for (int row = at.row - LINE_NEAR_ROWS; row <= at.row + LINE_NEAR_ROWS; row++) {
+            for (int i = at.column - LINE_NEAR_COLUMNS; i <= at.column + LINE_NEAR_COLUMNS; i++) {
                 struct cell cell = wrapped_cell(search, row, i);
                 if (i >= 0 && i < search->columns) {
                     paper->cells[cell.row][cell.column] = 0;

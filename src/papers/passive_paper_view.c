@@ -165,8 +165,8 @@ enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
         .peaks = peaks, .max_peaks = max_peaks, .min_votes = paper->votes_min};
     const struct rho_peak_distance near = {.theta_cells = (uint16_t)search.rows,
                                            .rho_cells = (uint16_t)search.columns,
-                                           .theta = NEAR_ROWS,
-                                           .rho = NEAR_COLUMNS};
+                                           .theta = LINE_NEAR_ROWS,
+                                           .rho = LINE_NEAR_COLUMNS};
     uint8_t *counts = paper->rows[0];
     rho_passive_paper_cross(&search, pair->a, pair->b);
     for (int row = 0; row < search.rows; row++) {

@@ -45,7 +45,7 @@
  * is often empty. Half: 32 rows, many intervals. Twice: no plane is so long.
  */
 #define HALVINGS 10
-#define ROWS_MAX (UINT32_C(1) << HALVINGS)
+#define INTERVAL_ROWS_MAX (UINT32_C(1) << HALVINGS)
 /*
  * Rows of the shortest interval that is pruned or halved. Half: single rows are pruned, which costs
  * more than their votes. Twice: pairs of rows vote that could be skipped.
@@ -78,8 +78,8 @@
  * votes of one target spread over about so many cells of the default size. Half: a target gives
  * several lines. Twice: targets on similar courses hide each other.
  */
-#define NEAR_ROWS 4
-#define NEAR_COLUMNS 3
+#define LINE_NEAR_ROWS 4
+#define LINE_NEAR_COLUMNS 3
 
 /* velocity_hough_gate_of_track.c */
 
