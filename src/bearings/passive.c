@@ -97,7 +97,7 @@ enum rho_status rho_passive_accepts(const struct rho_passive *passive,
 uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track)
 {
     return passive && track && passive->magic == PASSIVE_MAGIC
-               ? rho_batch_mark_bearings_removed(&passive->batch, track->claim)
+               ? rho_batch_remove(&passive->batch, track->claim)
                : 0;
 }
 
@@ -142,7 +142,7 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     memset(passive->is_claimed, 0, sizeof passive->is_claimed);
     passive->num_tracks = passive->num_candidates = 0;
     passive->start_mnat = 0;
-    rho_batch_drop_bearings_marked_removed(&passive->batch);
+    rho_batch_compact(&passive->batch);
     if (passive->batch.num_scans < RHO_BATCH_SCANS_MIN || passive->batch.num_sensors < 2) {
         return RHO_OK;
     }

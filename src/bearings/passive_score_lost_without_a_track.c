@@ -80,8 +80,8 @@ static float best_total_without_target(const struct rho_passive_search *search,
 }
 
 /*
- * Finds the margin of each track. All margins refer to one best set: they are computed anew when another set becomes the best,
- * which happens at most CHANGES_MAX times.
+ * Finds the margin of each track. All margins refer to one best set: they are computed anew when
+ * another set becomes the best, which happens at most CHANGES_MAX times.
  */
 static void find_margins(const struct rho_passive_search *search, struct rho_passive_choice *choice,
                          float margins_nat[RHO_MAX_PASSIVE_TRACKS])

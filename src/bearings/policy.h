@@ -38,7 +38,7 @@
 #define VOTES_MIN 2u
 /*
  * Share of the scans with crossings that must vote for a line; less in the second pass, where fewer
- * bearings are left. Half: many lines of ghosts are fitted. Twice: targets with misses have no line.
+ * bearings are left. Half: many lines of ghosts are fitted. Twice: a target with misses has none.
  */
 #define FIRST_VOTES_SHARE 0.6f
 #define SECOND_VOTES_SHARE 0.5f
@@ -60,8 +60,8 @@
  */
 #define SAME_TARGET_SHARE 0.7f
 /*
- * Share at which the lower of two candidates is dropped as a duplicate. Half: targets side by side lose
- * theirs. Twice: no candidate is dropped, and the list fills.
+ * Share at which the lower of two candidates is dropped as a duplicate. Half: targets side by side
+ * lose theirs. Twice: no candidate is dropped, and the list fills.
  */
 #define DUPLICATE_SHARE 0.8f
 

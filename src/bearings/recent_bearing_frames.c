@@ -141,7 +141,7 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
     if (frame->num_scans > 0 && !fates) {
         return RHO_ERROR_NULL;
     }
-    rho_batch_drop_bearings_marked_removed(batch);
+    rho_batch_compact(batch);
     batch->num_left = 0;
     if (batch->num_scans == batch->scans_max) {
         size_t left = (size_t)batch->num_scans - 1u;
@@ -170,9 +170,8 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
     return RHO_OK;
 }
 
-uint32_t
-rho_batch_mark_bearings_removed(struct rho_batch *batch,
-                                const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
+uint32_t rho_batch_remove(struct rho_batch *batch,
+                          const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
 {
     uint32_t count = 0;
     for (unsigned k = 0; k < batch->num_scans; k++) {
@@ -189,7 +188,7 @@ rho_batch_mark_bearings_removed(struct rho_batch *batch,
     return count;
 }
 
-void rho_batch_drop_bearings_marked_removed(struct rho_batch *batch)
+void rho_batch_compact(struct rho_batch *batch)
 {
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {

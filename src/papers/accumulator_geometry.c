@@ -35,12 +35,6 @@ float rho_accumulator_theta_rad(const struct rho_accumulator *accumulator, unsig
     return ((float)theta_cell + 0.5f) * accumulator->config.theta_cell_rad;
 }
 
-float rho_accumulator_rho_m(const struct rho_accumulator *accumulator, unsigned rho_cell)
-{
-    return ((float)rho_cell + 0.5f) * accumulator->config.rho_cell_m -
-           accumulator->config.rho_max_m;
-}
-
 struct rho_accumulator_projection
 rho_accumulator_projection(const struct rho_accumulator *accumulator, unsigned theta_cell)
 {
@@ -58,9 +52,9 @@ void rho_accumulator_project(const float *restrict x_m, const float *restrict y_
     }
 }
 
-unsigned rho_accumulator_project_clamped(const float *restrict x_m, const float *restrict y_m,
-                                         unsigned n, struct rho_accumulator_projection place,
-                                         float last, int32_t *restrict cells)
+unsigned rho_accumulator_clamp_cells(const float *restrict x_m, const float *restrict y_m,
+                                     unsigned n, struct rho_accumulator_projection place,
+                                     float last, int32_t *restrict cells)
 {
     unsigned outside = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -78,7 +72,7 @@ int rho_accumulator_cell_of_point(const struct rho_accumulator *accumulator, uns
 {
     int32_t cell;
     float last = (float)(accumulator->rho_cells + 1u);
-    unsigned outside = rho_accumulator_project_clamped(
+    unsigned outside = rho_accumulator_clamp_cells(
         &x_m, &y_m, 1, rho_accumulator_projection(accumulator, theta_cell), last, &cell);
     return outside ? -1 : cell - 1;
 }

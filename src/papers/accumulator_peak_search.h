@@ -48,9 +48,9 @@ void rho_accumulator_project(const float *restrict x_m, const float *restrict y_
  * Computes the cells of rho in which n points vote; points beyond rho_max_m get the guard cells 0
  * and `last`. Returns the number of such points.
  */
-unsigned rho_accumulator_project_clamped(const float *restrict x_m, const float *restrict y_m,
-                                         unsigned n, struct rho_accumulator_projection place,
-                                         float last, int32_t *restrict cells);
+unsigned rho_accumulator_clamp_cells(const float *restrict x_m, const float *restrict y_m,
+                                     unsigned n, struct rho_accumulator_projection place,
+                                     float last, int32_t *restrict cells);
 
 /*
  * Fills one of the three row slots with the votes of all points in row theta_cell, with rho

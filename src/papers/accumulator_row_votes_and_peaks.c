@@ -52,7 +52,7 @@ static void project_counting_votes(struct rho_accumulator_pass *pass, unsigned s
     unsigned outside = 0;
     if (pass->scans_outside & scans) {
         float last = (float)(pass->accumulator->rho_cells + 1u);
-        outside = rho_accumulator_project_clamped(x_m, y_m, n, place, last, cells);
+        outside = rho_accumulator_clamp_cells(x_m, y_m, n, place, last, cells);
     } else {
         rho_accumulator_project(x_m, y_m, n, place, cells);
     }

@@ -118,7 +118,7 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
     struct rho_passive_paper_search search = {.paper = paper};
     memset(&paper->work, 0, sizeof paper->work);
     paper->num_lines = 0;
-    rho_batch_drop_bearings_marked_removed(&paper->batch);
+    rho_batch_compact(&paper->batch);
     rho_passive_paper_list_sensors(&paper->batch, &search);
     if (!rho_passive_paper_set_cells(&search)) {
         return RHO_OK;

@@ -75,8 +75,8 @@
 
 /*
  * Cells of theta and of rho on either side of a chosen line in which no other line is chosen: the
- * votes of one target spread over about so many cells of the default size. Half: a target gives
- * several lines. Twice: targets on similar courses hide each other.
+ * votes of one target spread over neighbouring cells. Half: a target gives several lines. Twice:
+ * targets on similar courses hide each other.
  */
 #define LINE_NEAR_ROWS 4
 #define LINE_NEAR_COLUMNS 3
@@ -85,8 +85,8 @@
 
 /*
  * Angles within this of the border of two cells get the lower cell, so that rounding does not
- * choose. Half: about two roundings of float32 at pi, which may choose. Twice: hardly any angle gets
- * another cell.
+ * choose. Half: about two roundings of float32 at pi, which may choose. Twice: hardly any angle
+ * gets another cell.
  */
 #define TIE_RAD 1.0e-6f
 

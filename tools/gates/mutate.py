@@ -43,10 +43,9 @@ GUARD_MIN = 1e12
 ALIKE = {
     "src/association/hypotheses_soundness.c": r"PASS_NODES$",
     "src/tracker/tracker_soundness.c": r"PASS_SLOTS$",
-    "src/papers/accumulator_peak_search.c": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$",
-    "src/papers/accumulator_row_votes_and_peaks.c": r"BLOCKS$|CROWDED$",
-    "src/papers/accumulator_branch_and_bound.c":
-        r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|(SHRINK|GROW)_KEPT$",
+    "src/papers/policy.h":
+        r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$|BLOCKS$|CROWDED$|ROWS_(START|LEAST|BLUNT)$"
+        r"|HALVINGS$|BINS_MIN$|WORK_|(SHRINK|GROW)_KEPT$",
 }
 NO_POLICY_FILES = {
     "src/base/approx.c", "src/base/angle.c", "src/wire/message_types.c",

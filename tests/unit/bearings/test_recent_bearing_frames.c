@@ -457,7 +457,7 @@ static void remove_random_bearings(void)
             }
         }
     }
-    assert_int_equal(rho_batch_mark_bearings_removed(&batch, claim), count);
+    assert_int_equal(rho_batch_remove(&batch, claim), count);
 }
 
 static void expect_bearings_of_scan(unsigned k, unsigned s)
@@ -508,7 +508,7 @@ static void random_calls_agree_with_a_simple_model(void **state)
             } else if (what < 0.9) {
                 remove_random_bearings();
             } else {
-                rho_batch_drop_bearings_marked_removed(&batch);
+                rho_batch_compact(&batch);
                 plain_drop_all_removed();
             }
             expect_batch_agrees_with_model();

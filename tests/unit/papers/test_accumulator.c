@@ -82,7 +82,8 @@ static void a_line_is_found_at_its_theta_and_rho(void **state)
         assert_true(result.num_peaks >= 1);
         assert_int_equal(peaks[0].mask, 0x7f);
         double theta = rho_accumulator_theta_rad(&accumulator, peaks[0].theta_cell);
-        double rho = rho_accumulator_rho_m(&accumulator, peaks[0].rho_cell);
+        double rho =
+            (peaks[0].rho_cell + 0.5) * (double)config.rho_cell_m - (double)config.rho_max_m;
         double normal = course + 1.5707963267948966;
         double turned = sin(theta - normal); /* 0 for parallel or opposite directions */
         assert_float_equal(turned, 0.0, 0.004);
