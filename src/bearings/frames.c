@@ -136,7 +136,7 @@ static void close_open_frame(struct rho_frames *frames)
  * Adds the scan, with its first RHO_MAX_BEARINGS bearings, to the open frame, and closes the frame
  * if it then has sensors_min scans, and one of every sensor that is expected.
  */
-static void add_scan(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+static void frame_add_scan(struct rho_frames *frames, const struct rho_bearing_scan *scan)
 {
     struct rho_frames_slot *slot = &frames->slots[frames->open];
     struct rho_frames_counters *counters = &frames->counters;
@@ -167,7 +167,7 @@ static void add_scan(struct rho_frames *frames, const struct rho_bearing_scan *s
 }
 
 /* Adds a scan to the open frame or a new one; a scan older than its frame is counted as late. */
-static void take_scan(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+static void frame_take_scan(struct rho_frames *frames, const struct rho_bearing_scan *scan)
 {
     const struct rho_frames_slot *slot = &frames->slots[frames->open];
     int64_t first_us = scan->time_us < slot->time_us ? scan->time_us : slot->time_us;
@@ -183,7 +183,7 @@ static void take_scan(struct rho_frames *frames, const struct rho_bearing_scan *
     if (!is_joining) {
         close_open_frame(frames);
     }
-    add_scan(frames, scan);
+    frame_add_scan(frames, scan);
 }
 
 enum rho_status rho_frames_push(struct rho_frames *frames, const struct rho_bearing_scan *scan)
@@ -203,7 +203,7 @@ enum rho_status rho_frames_push(struct rho_frames *frames, const struct rho_bear
     int64_t ahead_us = scan->time_us - frames->clock_us, jump_us = frames->config.jump_max_us;
     if (frames->counters.scans_taken == 0 || (ahead_us <= jump_us && -ahead_us <= jump_us)) {
         frames->off_clock = (uint16_t)(frames->off_clock - (frames->off_clock > 0));
-        take_scan(frames, scan);
+        frame_take_scan(frames, scan);
     } else if (frames->off_clock < frames->config.follow_scans) {
         frames->off_clock++;
         frames->counters.scans_off_clock = rho_count(frames->counters.scans_off_clock, 1);
@@ -214,7 +214,7 @@ enum rho_status rho_frames_push(struct rho_frames *frames, const struct rho_bear
         frames->off_clock = 0;
         frames->counters.clock_jumps = rho_count(frames->counters.clock_jumps, 1);
         frames->slots[frames->open].is_restart = 1;
-        add_scan(frames, scan);
+        frame_add_scan(frames, scan);
     }
     return RHO_OK;
 }

@@ -45,7 +45,7 @@ void rho_passive_vote_lines(struct rho_passive_search *search)
                 passive->cells[row][i] = (uint16_t)(passive->cells[row][i] | 1u << point->scan);
             }
         }
-        search->row_votes[row] = (uint8_t)max_votes_of_row(search, row);
+        search->most_votes[row] = (uint8_t)max_votes_of_row(search, row);
     }
 }
 
@@ -98,8 +98,8 @@ int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes
     struct cell at = {0, 0};
     unsigned votes = 0;
     for (int row = 0; row < search->theta_cells; row++) {
-        if (search->row_votes[row] > votes) {
-            votes = search->row_votes[row];
+        if (search->most_votes[row] > votes) {
+            votes = search->most_votes[row];
             at.row = row;
         }
     }
@@ -120,7 +120,7 @@ int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes
                 search->passive->cells[row][column] = 0;
             }
         }
-        search->row_votes[row] = (uint8_t)max_votes_of_row(search, (unsigned)row);
+        search->most_votes[row] = (uint8_t)max_votes_of_row(search, (unsigned)row);
     }
     *line = (struct rho_passive_line){
         .cosine = search->cosine[at.row],

@@ -51,7 +51,7 @@ struct rho_passive_search {
     uint16_t theta_cells, rho_cells;
     float cosine[RHO_PASSIVE_THETA_CELLS], sine[RHO_PASSIVE_THETA_CELLS];
     /* largest number of votes of a cell in each row of theta */
-    uint8_t row_votes[RHO_PASSIVE_THETA_CELLS];
+    uint8_t most_votes[RHO_PASSIVE_THETA_CELLS];
     uint32_t worst_point; /* index of the least certain crossing; num_points: not known */
     /* number of candidates removed from the list so far in this search */
     uint16_t candidates_removed;

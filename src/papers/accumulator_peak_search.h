@@ -8,8 +8,8 @@
  * - accumulator_branch_and_bound.c: rows and points that cannot reach a peak
  * - accumulator_peak_search.c: checks, choice of the search
  */
-#ifndef RHOTRACK_ACCUMULATOR_PEAK_SEARCH_H
-#define RHOTRACK_ACCUMULATOR_PEAK_SEARCH_H
+#ifndef RHOTRACK_ACCUMULATOR_SEARCH_H
+#define RHOTRACK_ACCUMULATOR_SEARCH_H
 
 #include "rhotrack/detail/accumulator.h"
 

@@ -9,8 +9,8 @@
  * - passive_paper.c: configuration, frames, the sequence of steps of a search
  * - passive_paper_view.c: intermediate results of a search: ghost matrices, planes of votes
  */
-#ifndef RHOTRACK_PASSIVE_PAPER_HOUGH_SEARCH_STATE_H
-#define RHOTRACK_PASSIVE_PAPER_HOUGH_SEARCH_STATE_H
+#ifndef RHOTRACK_PASSIVE_PAPER_SEARCH_H
+#define RHOTRACK_PASSIVE_PAPER_SEARCH_H
 
 #include "rhotrack/passive_paper.h"
 

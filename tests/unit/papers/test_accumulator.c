@@ -53,10 +53,6 @@ static void peaks_agree_with_the_whole_plane_at_coarse_cells(void **state)
     }
 }
 
-/*
- * ---- lines and votes --------------------------------------------------------------------------
- */
-
 /* A target on a line, with one point a scan. */
 static void add_points_on_line(unsigned num_scans, double from_x_m, double from_y_m, double dx_m,
                                double dy_m)
@@ -247,10 +243,6 @@ static void without_points_there_are_no_peaks(void **state)
     assert_int_equal(result.num_peaks + result.votes + result.votes_max, 0);
 }
 
-/*
- * ---- suppression ------------------------------------------------------------------------------
- */
-
 static int are_peaks_near(const struct rho_accumulator_peak *a,
                           const struct rho_accumulator_peak *b, int theta_cells, int rho_cells)
 {
@@ -296,10 +288,6 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
     }
     assert_true(kept < all);
 }
-
-/*
- * ---- refusals ---------------------------------------------------------------------------------
- */
 
 #define REFUSED(field, value)                                                                      \
     do {                                                                                           \
