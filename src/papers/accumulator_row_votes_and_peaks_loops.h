@@ -167,9 +167,7 @@ static CELL NAME(larger)(CELL a, CELL b)
 static int NAME(may_have_min_votes)(const struct rho_accumulator_pass *pass,
                                     const CELL *restrict row, unsigned n)
 {
-    const uint64_t ones = UINT64_C(0x0101010101010101);
     unsigned min_votes = pass->list.min_votes;
-    uint64_t reached = 0, add = ones * (0x80u - 16u * (min_votes < 8u ? min_votes : 8u));
     CELL most = 0;
     if (pass->counts_points) {
         for (unsigned i = 0; i < n; i++) {
@@ -183,6 +181,8 @@ static int NAME(may_have_min_votes)(const struct rho_accumulator_pass *pass,
         }
         return most >= min_votes;
     }
+    const uint64_t ones = UINT64_C(0x0101010101010101);
+    uint64_t reached = 0, add = ones * (0x80u - 16u * (min_votes < 8u ? min_votes : 8u));
     for (unsigned i = 0; i < n; i += 8u) {
         uint64_t v;
         memcpy(&v, row + i, sizeof v);
