@@ -6,13 +6,9 @@
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/bearing_crossing.h"
 
-#define FRAMES_MAGIC 0x46524d53u /* "FRMS" in ASCII */
+enum { FRAMES_MAGIC = 0x46524d53 }; /* "FRMS" in ASCII */
 
 #define SECOND_US INT64_C(1000000)
-#define TOLERANCE_MAX_US (10 * SECOND_US)
-#define JUMP_MAX_US (3600 * SECOND_US)
-
-/* ---- setting up ------------------------------------------------------------------------------ */
 
 void rho_frames_config_default(struct rho_frames_config *config)
 {
@@ -21,15 +17,6 @@ void rho_frames_config_default(struct rho_frames_config *config)
                                          .follow_scans = 4,
                                          .silent_frames = 3,
                                          .sensors_min = 2};
-}
-
-static int is_usable(const struct rho_frames_config *config)
-{
-    return config->tolerance_us >= 0 && config->tolerance_us <= TOLERANCE_MAX_US &&
-           config->jump_max_us > config->tolerance_us && config->jump_max_us <= JUMP_MAX_US &&
-           config->follow_scans >= 2 && config->follow_scans <= UINT8_MAX &&
-           config->silent_frames >= 1 && config->silent_frames <= UINT8_MAX &&
-           config->sensors_min >= 2 && config->sensors_min <= RHO_MAX_PASSIVE_SENSORS;
 }
 
 enum rho_status rho_frames_init(struct rho_frames *frames, size_t object_size,
@@ -41,7 +28,11 @@ enum rho_status rho_frames_init(struct rho_frames *frames, size_t object_size,
     if (object_size != sizeof *frames) {
         return RHO_ERROR_SIZE;
     }
-    if (!is_usable(config)) {
+    if (config->tolerance_us < 0 || config->tolerance_us > 10 * SECOND_US ||
+        config->jump_max_us <= config->tolerance_us || config->jump_max_us > 3600 * SECOND_US ||
+        config->follow_scans < 2 || config->follow_scans > UINT8_MAX || config->silent_frames < 1 ||
+        config->silent_frames > UINT8_MAX || config->sensors_min < 2 ||
+        config->sensors_min > RHO_MAX_PASSIVE_SENSORS) {
         return RHO_ERROR_CONFIG;
     }
     /* the caller's config may lie within *frames, which is cleared */
@@ -57,8 +48,6 @@ enum rho_status rho_frames_init(struct rho_frames *frames, size_t object_size,
     return RHO_OK;
 }
 
-/* ---- sensors --------------------------------------------------------------------------------- */
-
 /* Index of the sensor with this sensor_id in the frames object; num_sensors: it has none. */
 static unsigned find_sensor(const struct rho_frames *frames, int32_t sensor_id)
 {
@@ -69,9 +58,8 @@ static unsigned find_sensor(const struct rho_frames *frames, int32_t sensor_id)
     return i;
 }
 
-/* Finds or adds the sensor of a scan, and clears its count of silent frames. */
-static unsigned find_or_add_sensor_and_clear_silent_frames(struct rho_frames *frames,
-                                                           const struct rho_bearing_scan *scan)
+/* Finds or adds the sensor of a scan, which is no longer silent. */
+static unsigned hear_sensor(struct rho_frames *frames, const struct rho_bearing_scan *scan)
 {
     unsigned i = find_sensor(frames, scan->sensor_id);
     if (i == frames->num_sensors) {
@@ -82,29 +70,6 @@ static unsigned find_or_add_sensor_and_clear_silent_frames(struct rho_frames *fr
     return i;
 }
 
-/*
- * A known sensor must not have moved. A new sensor must be at least RHO_CROSSING_BASE_MIN_M from
- * the others, as bearings of nearer sensors do not cross.
- */
-static int is_sensor_unmoved_and_apart_from_others(const struct rho_frames *frames,
-                                                   const struct rho_bearing_scan *scan)
-{
-    if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
-        return 0;
-    }
-    for (unsigned i = 0; i < frames->num_sensors; i++) {
-        const struct rho_frames_sensor *sensor = &frames->sensors[i];
-        float dx_m = scan->x_m - sensor->x_m, dy_m = scan->y_m - sensor->y_m;
-        float apart2_m2 = dx_m * dx_m + dy_m * dy_m;
-        if (sensor->sensor_id == scan->sensor_id
-                ? apart2_m2 > 0.0f
-                : apart2_m2 < RHO_CROSSING_BASE_MIN_M * RHO_CROSSING_BASE_MIN_M) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 static enum rho_status check_scan(const struct rho_frames *frames,
                                   const struct rho_bearing_scan *scan)
 {
@@ -113,14 +78,23 @@ static enum rho_status check_scan(const struct rho_frames *frames,
     }
     if (scan->time_us < -RHO_LIMIT_TIME_US || scan->time_us > RHO_LIMIT_TIME_US ||
         !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad) ||
-        !is_sensor_unmoved_and_apart_from_others(frames, scan)) {
+        !rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
         return RHO_ERROR_VALUE;
+    }
+    /* a known sensor must not have moved; bearings of nearer sensors than this do not cross */
+    for (unsigned i = 0; i < frames->num_sensors; i++) {
+        const struct rho_frames_sensor *sensor = &frames->sensors[i];
+        float dx_m = scan->x_m - sensor->x_m, dy_m = scan->y_m - sensor->y_m;
+        float apart2_m2 = dx_m * dx_m + dy_m * dy_m;
+        if (sensor->sensor_id == scan->sensor_id
+                ? apart2_m2 > 0.0f
+                : apart2_m2 < RHO_CROSSING_BASE_MIN_M * RHO_CROSSING_BASE_MIN_M) {
+            return RHO_ERROR_VALUE;
+        }
     }
     return find_sensor(frames, scan->sensor_id) < RHO_MAX_PASSIVE_SENSORS ? RHO_OK
                                                                           : RHO_ERROR_CAPACITY;
 }
-
-/* ---- frames ---------------------------------------------------------------------------------- */
 
 static int has_scan_of(const struct rho_frames_slot *slot, unsigned sensor)
 {
@@ -132,20 +106,16 @@ static int has_scan_of(const struct rho_frames_slot *slot, unsigned sensor)
     return 0;
 }
 
-/* A frame is complete when it has sensors_min scans, and one of every sensor that is expected. */
-static int is_frame_complete(const struct rho_frames *frames, const struct rho_frames_slot *slot)
+/*
+ * The open frame, if it has scans, becomes the closed frame; the other slot is emptied and opened.
+ */
+static void close_open_frame(struct rho_frames *frames)
 {
-    for (unsigned i = 0; i < frames->num_sensors; i++) {
-        if (frames->sensors[i].silent < frames->config.silent_frames && !has_scan_of(slot, i)) {
-            return 0;
-        }
+    const struct rho_frames_slot *slot = &frames->slots[frames->open];
+    struct rho_frames_counters *counters = &frames->counters;
+    if (slot->num_scans == 0) {
+        return;
     }
-    return slot->num_scans >= frames->config.sensors_min;
-}
-
-static void count_frame_and_missing_sensors(struct rho_frames *frames,
-                                            const struct rho_frames_slot *slot)
-{
     for (unsigned i = 0; i < frames->num_sensors; i++) {
         struct rho_frames_sensor *sensor = &frames->sensors[i];
         if (!has_scan_of(slot, i)) {
@@ -153,113 +123,67 @@ static void count_frame_and_missing_sensors(struct rho_frames *frames,
             sensor->silent = rho_count(sensor->silent, 1);
         }
     }
-    frames->counters.frames_incomplete =
-        rho_count(frames->counters.frames_incomplete, slot->num_scans < frames->num_sensors);
-    frames->counters.frames = rho_count(frames->counters.frames, 1);
-}
-
-/*
- * The open frame, if it has scans, becomes the closed frame; the other slot is emptied and opened.
- */
-static void close_open_frame(struct rho_frames *frames)
-{
-    const struct rho_frames_slot *slot = &frames->slots[frames->open];
-    if (slot->num_scans == 0) {
-        return;
-    }
-    count_frame_and_missing_sensors(frames, slot);
+    counters->frames_incomplete =
+        rho_count(counters->frames_incomplete, slot->num_scans < frames->num_sensors);
+    counters->frames = rho_count(counters->frames, 1);
     frames->closed_us = slot->time_us;
     frames->has_closed = 1;
     frames->open = frames->open ^ 1u;
     memset(&frames->slots[frames->open], 0, sizeof frames->slots[0]);
 }
 
-/* Copies a scan with its first RHO_MAX_BEARINGS bearings, and counts the others as dropped. */
-static void copy_scan_up_to_capacity(struct rho_frames *frames, struct rho_frames_scan *to,
-                                     unsigned sensor, const struct rho_bearing_scan *scan)
+/*
+ * Adds the scan, with its first RHO_MAX_BEARINGS bearings, to the open frame, and closes the frame
+ * if it then has sensors_min scans, and one of every sensor that is expected.
+ */
+static void frame_add_scan(struct rho_frames *frames, const struct rho_bearing_scan *scan)
 {
+    struct rho_frames_slot *slot = &frames->slots[frames->open];
+    struct rho_frames_counters *counters = &frames->counters;
+    int is_first = slot->num_scans == 0;
+    struct rho_frames_scan *to = &slot->scans[slot->num_scans++];
     uint32_t count = scan->num_bearings < RHO_MAX_BEARINGS ? scan->num_bearings : RHO_MAX_BEARINGS;
+    to->sensor = (uint16_t)hear_sensor(frames, scan);
     to->time_us = scan->time_us;
     to->sector_from_rad = scan->sector_from_rad;
     to->sector_to_rad = scan->sector_to_rad;
-    to->sensor = (uint16_t)sensor;
     to->num_bearings = (uint16_t)count;
     if (count > 0) {
         memcpy(to->bearings, scan->bearings, count * sizeof to->bearings[0]);
     }
-    frames->counters.bearings_no_room =
-        rho_count(frames->counters.bearings_no_room, scan->num_bearings - count);
-}
-
-/* Adds the scan to the open frame, and closes the frame if it is then complete. */
-static void add_scan_and_close_if_complete(struct rho_frames *frames,
-                                           const struct rho_bearing_scan *scan)
-{
-    struct rho_frames_slot *slot = &frames->slots[frames->open];
-    int is_first = slot->num_scans == 0;
-    copy_scan_up_to_capacity(frames, &slot->scans[slot->num_scans++],
-                             find_or_add_sensor_and_clear_silent_frames(frames, scan), scan);
+    counters->bearings_no_room = rho_count(counters->bearings_no_room, scan->num_bearings - count);
     slot->time_us = is_first || scan->time_us < slot->time_us ? scan->time_us : slot->time_us;
     slot->last_us = is_first || scan->time_us > slot->last_us ? scan->time_us : slot->last_us;
     frames->clock_us = scan->time_us;
-    frames->counters.scans_taken = rho_count(frames->counters.scans_taken, 1);
-    if (is_frame_complete(frames, slot)) {
+    counters->scans_taken = rho_count(counters->scans_taken, 1);
+    int is_complete = slot->num_scans >= frames->config.sensors_min;
+    for (unsigned i = 0; i < frames->num_sensors; i++) {
+        is_complete &=
+            frames->sensors[i].silent >= frames->config.silent_frames || has_scan_of(slot, i);
+    }
+    if (is_complete) {
         close_open_frame(frames);
     }
 }
 
-/*
- * A scan joins the open frame if all scans of the frame then lie within the tolerance, and the
- * frame has no scan of the same sensor yet.
- */
-static int belongs_to_open_frame(const struct rho_frames *frames,
-                                 const struct rho_bearing_scan *scan)
+/* Adds a scan to the open frame or a new one; a scan older than its frame is counted as late. */
+static void frame_take_scan(struct rho_frames *frames, const struct rho_bearing_scan *scan)
 {
     const struct rho_frames_slot *slot = &frames->slots[frames->open];
     int64_t first_us = scan->time_us < slot->time_us ? scan->time_us : slot->time_us;
     int64_t last_us = scan->time_us > slot->last_us ? scan->time_us : slot->last_us;
-    return last_us - first_us <= frames->config.tolerance_us &&
-           !has_scan_of(slot, find_sensor(frames, scan->sensor_id));
-}
-
-/* Adds a scan to the open frame or a new one; a scan older than its frame is counted as late. */
-static void add_scan_or_count_late(struct rho_frames *frames, const struct rho_bearing_scan *scan)
-{
-    const struct rho_frames_slot *slot = &frames->slots[frames->open];
-    int is_joining = slot->num_scans > 0 && belongs_to_open_frame(frames, scan);
+    int is_joining = slot->num_scans > 0 && last_us - first_us <= frames->config.tolerance_us &&
+                     !has_scan_of(slot, find_sensor(frames, scan->sensor_id));
     int is_newer = slot->num_scans == 0 || scan->time_us > slot->time_us;
     if (scan->time_us <= frames->closed_us || (!is_joining && !is_newer)) {
-        find_or_add_sensor_and_clear_silent_frames(frames, scan);
+        (void)hear_sensor(frames, scan);
         frames->counters.scans_late = rho_count(frames->counters.scans_late, 1);
         return;
     }
     if (!is_joining) {
         close_open_frame(frames);
     }
-    add_scan_and_close_if_complete(frames, scan);
-}
-
-/* ---- the clock ------------------------------------------------------------------------------- */
-
-/* True where a time is more than jump_max_us before or after the newest scan's. */
-static int is_time_far_from_clock(const struct rho_frames *frames, int64_t time_us)
-{
-    /* cannot overflow: times are within RHO_LIMIT_TIME_US */
-    int64_t ahead_us = time_us - frames->clock_us;
-    return frames->counters.scans_taken > 0 &&
-           (ahead_us > frames->config.jump_max_us || -ahead_us > frames->config.jump_max_us);
-}
-
-/* Follows a clock that has jumped: closes the open frame and starts one with this scan. */
-static void close_frame_and_restart_after_clock_jump(struct rho_frames *frames,
-                                                     const struct rho_bearing_scan *scan)
-{
-    close_open_frame(frames);
-    frames->closed_us = INT64_MIN;
-    frames->off_clock = 0;
-    frames->counters.clock_jumps = rho_count(frames->counters.clock_jumps, 1);
-    frames->slots[frames->open].is_restart = 1;
-    add_scan_and_close_if_complete(frames, scan);
+    frame_add_scan(frames, scan);
 }
 
 enum rho_status rho_frames_push(struct rho_frames *frames, const struct rho_bearing_scan *scan)
@@ -275,14 +199,22 @@ enum rho_status rho_frames_push(struct rho_frames *frames, const struct rho_bear
         return status;
     }
     frames->has_closed = 0;
-    if (!is_time_far_from_clock(frames, scan->time_us)) {
+    /* cannot overflow: times are within RHO_LIMIT_TIME_US */
+    int64_t ahead_us = scan->time_us - frames->clock_us, jump_us = frames->config.jump_max_us;
+    if (frames->counters.scans_taken == 0 || (ahead_us <= jump_us && -ahead_us <= jump_us)) {
         frames->off_clock = (uint16_t)(frames->off_clock - (frames->off_clock > 0));
-        add_scan_or_count_late(frames, scan);
+        frame_take_scan(frames, scan);
     } else if (frames->off_clock < frames->config.follow_scans) {
         frames->off_clock++;
         frames->counters.scans_off_clock = rho_count(frames->counters.scans_off_clock, 1);
     } else {
-        close_frame_and_restart_after_clock_jump(frames, scan);
+        /* the clock has jumped: a frame starts with this scan */
+        close_open_frame(frames);
+        frames->closed_us = INT64_MIN;
+        frames->off_clock = 0;
+        frames->counters.clock_jumps = rho_count(frames->counters.clock_jumps, 1);
+        frames->slots[frames->open].is_restart = 1;
+        frame_add_scan(frames, scan);
     }
     return RHO_OK;
 }
@@ -300,22 +232,6 @@ enum rho_status rho_frames_close(struct rho_frames *frames)
     return RHO_OK;
 }
 
-/* ---- the closed frame ------------------------------------------------------------------------ */
-
-static void view_scan(const struct rho_frames *frames, const struct rho_frames_scan *from,
-                      struct rho_bearing_scan *scan)
-{
-    const struct rho_frames_sensor *sensor = &frames->sensors[from->sensor];
-    *scan = (struct rho_bearing_scan){.time_us = from->time_us,
-                                      .sensor_id = sensor->sensor_id,
-                                      .x_m = sensor->x_m,
-                                      .y_m = sensor->y_m,
-                                      .sector_from_rad = from->sector_from_rad,
-                                      .sector_to_rad = from->sector_to_rad,
-                                      .num_bearings = from->num_bearings,
-                                      .bearings = from->bearings};
-}
-
 int rho_frames_closed(const struct rho_frames *frames, struct rho_frame_view *view)
 {
     if (!view) {
@@ -327,12 +243,20 @@ int rho_frames_closed(const struct rho_frames *frames, struct rho_frame_view *vi
     }
     const struct rho_frames_slot *slot = &frames->slots[frames->open ^ 1u];
     for (unsigned i = 0; i < slot->num_scans; i++) {
-        int32_t sensor_id = frames->sensors[slot->scans[i].sensor].sensor_id;
+        const struct rho_frames_scan *from = &slot->scans[i];
+        const struct rho_frames_sensor *sensor = &frames->sensors[from->sensor];
         unsigned place = i;
-        for (; place > 0 && view->scans[place - 1u].sensor_id > sensor_id; place--) {
+        for (; place > 0 && view->scans[place - 1u].sensor_id > sensor->sensor_id; place--) {
             view->scans[place] = view->scans[place - 1u];
         }
-        view_scan(frames, &slot->scans[i], &view->scans[place]);
+        view->scans[place] = (struct rho_bearing_scan){.time_us = from->time_us,
+                                                       .sensor_id = sensor->sensor_id,
+                                                       .x_m = sensor->x_m,
+                                                       .y_m = sensor->y_m,
+                                                       .sector_from_rad = from->sector_from_rad,
+                                                       .sector_to_rad = from->sector_to_rad,
+                                                       .num_bearings = from->num_bearings,
+                                                       .bearings = from->bearings};
     }
     view->frame.time_us = slot->time_us;
     view->frame.num_scans = slot->num_scans;

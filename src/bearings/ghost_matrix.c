@@ -3,34 +3,14 @@
 
 #include "rhotrack/types.h"
 
-#define ANGLE_MAX_RAD 100.0f /* largest angle, either way, that the functions of angle.h accept */
-
-/* ---- elimination ----------------------------------------------------------------------------- */
-
 static int are_bearings_valid(const float *bearings_rad, unsigned count)
 {
     for (unsigned i = 0; i < count; i++) {
-        if (!rho_is_within(bearings_rad[i], -ANGLE_MAX_RAD, ANGLE_MAX_RAD)) {
+        if (!rho_is_within(bearings_rad[i], -100.0f, 100.0f)) { /* as angle.h accepts */
             return 0;
         }
     }
     return 1;
-}
-
-static uint8_t ghost_reason_of(enum rho_crossing_fate fate)
-{
-    switch (fate) {
-    case RHO_CROSSING_SIDES:
-        return RHO_GHOST_SIDES;
-    case RHO_CROSSING_RANGE:
-        return RHO_GHOST_RANGE;
-    case RHO_CROSSING_MEETS:
-        return RHO_GHOST_KEPT;
-    case RHO_CROSSING_APART:
-    case RHO_NUM_CROSSING_FATES:
-    default:
-        return RHO_GHOST_APART;
-    }
 }
 
 enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
@@ -48,6 +28,11 @@ enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
         !(range_max_m > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
+    static const uint8_t reason_of[RHO_NUM_CROSSING_FATES] = {
+        [RHO_CROSSING_MEETS] = RHO_GHOST_KEPT,
+        [RHO_CROSSING_SIDES] = RHO_GHOST_SIDES,
+        [RHO_CROSSING_APART] = RHO_GHOST_APART,
+        [RHO_CROSSING_RANGE] = RHO_GHOST_RANGE};
     matrix->rows = (uint16_t)num_a;
     matrix->columns = (uint16_t)num_b;
     for (unsigned i = 0; i < num_a; i++) {
@@ -56,13 +41,11 @@ enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
             enum rho_crossing_fate fate = rho_crossing_find(
                 base, bearings_a_rad[i], bearings_b_rad[j], range_max_m, &crossing);
             matrix->delta_rad[i][j] = fate == RHO_CROSSING_MEETS ? crossing.delta_rad : 0.0f;
-            matrix->reason[i][j] = ghost_reason_of(fate);
+            matrix->reason[i][j] = reason_of[fate];
         }
     }
     return RHO_OK;
 }
-
-/* ---- pruning --------------------------------------------------------------------------------- */
 
 /*
  * The beams of one sensor: rows or columns of the ghost matrix, which are pruned by the same rule.
@@ -80,40 +63,6 @@ static int is_crossing_kept(const struct beams *beams, unsigned beam, unsigned o
            RHO_GHOST_KEPT;
 }
 
-static void mark_crossing_as_ghost_in_matrix(const struct beams *beams, unsigned beam,
-                                             unsigned other)
-{
-    unsigned row = beams->are_columns ? other : beam, column = beams->are_columns ? beam : other;
-    beams->matrix->delta_rad[row][column] = 0.0f;
-    beams->matrix->reason[row][column] = beams->are_columns ? RHO_GHOST_COLUMN : RHO_GHOST_ROW;
-}
-
-/* Number of crossings of a beam that are not removed; *only is the last of them. */
-static unsigned count_kept_crossings(const struct beams *beams, unsigned beam, unsigned *last_kept)
-{
-    unsigned count = 0;
-    for (unsigned other = 0; other < beams->others; other++) {
-        if (is_crossing_kept(beams, beam, other)) {
-            *last_kept = other;
-            count++;
-        }
-    }
-    return count;
-}
-
-/*
- * Index of the first unprocessed beam that has a single crossing left; beams->count: no beam has.
- */
-static unsigned find_beam_with_single_crossing(const struct beams *beams, const uint8_t *done,
-                                               unsigned *only)
-{
-    unsigned beam = 0;
-    while (beam < beams->count && (done[beam] || count_kept_crossings(beams, beam, only) != 1)) {
-        beam++;
-    }
-    return beam;
-}
-
 /*
  * Steps 2.1 to 2.4 of the paper: where a beam has a single crossing left, that is the target of
  * both beams, and the other crossings of the other sensor's beam are ghosts. Returns their number.
@@ -121,31 +70,36 @@ static unsigned find_beam_with_single_crossing(const struct beams *beams, const 
 static unsigned prune_beams_by_single_crossings(const struct beams *beams, uint8_t *done,
                                                 uint8_t *others_done)
 {
-    unsigned removed = 0, only = 0, beam;
-    while ((beam = find_beam_with_single_crossing(beams, done, &only)) < beams->count) {
+    struct rho_ghost_matrix *matrix = beams->matrix;
+    unsigned removed = 0, beam = 0;
+    while (beam < beams->count) {
+        unsigned kept = 0, only = 0;
+        for (unsigned other = 0; !done[beam] && other < beams->others; other++) {
+            if (is_crossing_kept(beams, beam, other)) {
+                only = other;
+                kept++;
+            }
+        }
+        if (kept != 1) {
+            beam++;
+            continue;
+        }
         for (unsigned i = 0; i < beams->count; i++) {
             if (i != beam && is_crossing_kept(beams, i, only)) {
-                mark_crossing_as_ghost_in_matrix(beams, i, only);
+                unsigned row = beams->are_columns ? only : i;
+                unsigned column = beams->are_columns ? i : only;
+                matrix->delta_rad[row][column] = 0.0f;
+                matrix->reason[row][column] = beams->are_columns ? RHO_GHOST_COLUMN : RHO_GHOST_ROW;
                 removed++;
             }
         }
         done[beam] = others_done[only] = 1;
+        beam = 0; /* other beams may have a single crossing now */
     }
     return removed;
 }
 
-static unsigned prune_by_single_crossings(struct rho_ghost_matrix *matrix)
-{
-    uint8_t rows_done[RHO_MAX_BEARINGS] = {0}, columns_done[RHO_MAX_BEARINGS] = {0};
-    struct beams rows = {matrix, matrix->rows, matrix->columns, 0};
-    struct beams columns = {matrix, matrix->columns, matrix->rows, 1};
-    unsigned removed = prune_beams_by_single_crossings(&rows, rows_done, columns_done);
-    return removed + prune_beams_by_single_crossings(&columns, columns_done, rows_done);
-}
-
-/* ---- complete matchings ---------------------------------------------------------------------- */
-
-#define NONE 0xffu
+#define NONE UINT8_MAX
 
 /* One-to-one matching of the bearings of sensor a (rows) with those of sensor b (columns). */
 struct matching {
@@ -155,44 +109,15 @@ struct matching {
     uint8_t row[RHO_MAX_BEARINGS];    /* row matched with each column; NONE: not matched yet */
 };
 
-static void init_matching(struct matching *matching, const struct rho_ghost_matrix *matrix)
-{
-    matching->count = matrix->rows;
-    for (unsigned i = 0; i < matching->count; i++) {
-        matching->column[i] = matching->row[i] = NONE;
-        matching->kept[i] = 0;
-        for (unsigned j = 0; j < matching->count; j++) {
-            matching->kept[i] |= (uint64_t)(matrix->reason[i][j] == RHO_GHOST_KEPT) << j;
-        }
-    }
-}
-
 /*
- * Augments the matching along the path from a free row to a free column: each row of the path gives
- * up its column and gets the next one.
- */
-static void augment_along_path(struct matching *matching, const uint8_t *reached_from, unsigned row,
-                               unsigned column)
-{
-    unsigned taker = NONE;
-    while (taker != row) {
-        taker = reached_from[column];
-        const unsigned left = matching->column[taker];
-        matching->column[taker] = (uint8_t)column;
-        matching->row[column] = (uint8_t)taker;
-        column = left;
-    }
-}
-
-/*
- * Matches one more row: breadth-first search for an augmenting path to a free column. Returns 0
- * where there is no such path.
+ * Matches one more row: breadth-first search for an augmenting path to a free column, along which
+ * each row gives up its column and gets the next one. Returns 0 where there is no such path.
  */
 static int try_match_row(struct matching *matching, unsigned row)
 {
     uint8_t rows[RHO_MAX_BEARINGS], reached_from[RHO_MAX_BEARINGS];
     uint64_t reached = 0;
-    unsigned end = 0;
+    unsigned end = 0, taker = NONE;
     rows[end++] = (uint8_t)row;
     for (unsigned i = 0; i < end; i++) {
         for (unsigned column = 0; column < matching->count; column++) {
@@ -201,61 +126,56 @@ static int try_match_row(struct matching *matching, unsigned row)
             }
             reached |= (uint64_t)1 << column;
             reached_from[column] = rows[i];
-            if (matching->row[column] == NONE) {
-                augment_along_path(matching, reached_from, row, column);
-                return 1;
+            if (matching->row[column] != NONE) {
+                rows[end++] = matching->row[column];
+                continue;
             }
-            rows[end++] = matching->row[column];
+            while (taker != row) {
+                taker = reached_from[column];
+                const unsigned left = matching->column[taker];
+                matching->column[taker] = (uint8_t)column;
+                matching->row[column] = (uint8_t)taker;
+                column = left;
+            }
+            return 1;
         }
     }
     return 0;
 }
 
-static int find_complete_matching(struct matching *matching)
-{
-    unsigned row = 0;
-    while (row < matching->count && try_match_row(matching, row)) {
-        row++;
-    }
-    return row == matching->count;
-}
-
-/*
- * Transitive closure: bit k of ways[i] is set if row i can get the column of row k while rows
- * between them exchange columns.
- */
-static void find_rows_whose_column_each_row_can_get(const struct matching *matching,
-                                                    uint64_t ways[RHO_MAX_BEARINGS])
-{
-    for (unsigned i = 0; i < matching->count; i++) {
-        ways[i] = 0;
-        for (unsigned k = 0; k < matching->count; k++) {
-            ways[i] |= (matching->kept[i] >> matching->column[k] & 1u) << k;
-        }
-    }
-    for (unsigned k = 0; k < matching->count; k++) {
-        for (unsigned i = 0; i < matching->count; i++) {
-            ways[i] |= ways[i] >> k & 1u ? ways[k] : 0;
-        }
-    }
-}
-
 /*
  * Removes crossings that are in no complete matching. Crossing (i, j) is in one if the row matched
- * with column j can get the column of row i (find_rows_whose_column_each_row_can_get).
+ * with column j can get the column of row i while rows between them exchange columns.
  */
 static unsigned prune_crossings_in_no_matching(struct rho_ghost_matrix *matrix)
 {
-    struct matching matching;
-    uint64_t ways[RHO_MAX_BEARINGS];
-    unsigned removed = 0;
-    init_matching(&matching, matrix);
-    if (!find_complete_matching(&matching)) {
-        return 0;
+    struct matching matching = {.count = matrix->rows};
+    uint64_t ways[RHO_MAX_BEARINGS]; /* bit k of ways[i]: row i can get the column of row k */
+    unsigned removed = 0, n = matrix->rows;
+    for (unsigned i = 0; i < n; i++) {
+        matching.column[i] = matching.row[i] = NONE;
+        for (unsigned j = 0; j < n; j++) {
+            matching.kept[i] |= (uint64_t)(matrix->reason[i][j] == RHO_GHOST_KEPT) << j;
+        }
     }
-    find_rows_whose_column_each_row_can_get(&matching, ways);
-    for (unsigned i = 0; i < matching.count; i++) {
-        for (unsigned j = 0; j < matching.count; j++) {
+    for (unsigned row = 0; row < n; row++) {
+        if (!try_match_row(&matching, row)) {
+            return 0;
+        }
+    }
+    for (unsigned i = 0; i < n; i++) {
+        ways[i] = 0;
+        for (unsigned k = 0; k < n; k++) {
+            ways[i] |= (matching.kept[i] >> matching.column[k] & 1u) << k;
+        }
+    }
+    for (unsigned k = 0; k < n; k++) { /* transitive closure */
+        for (unsigned i = 0; i < n; i++) {
+            ways[i] |= ways[i] >> k & 1u ? ways[k] : 0;
+        }
+    }
+    for (unsigned i = 0; i < n; i++) {
+        for (unsigned j = 0; j < n; j++) {
             if (matrix->reason[i][j] == RHO_GHOST_KEPT && !(ways[matching.row[j]] >> i & 1u)) {
                 matrix->delta_rad[i][j] = 0.0f;
                 matrix->reason[i][j] = RHO_GHOST_UNMATCHED;
@@ -270,7 +190,11 @@ unsigned rho_ghost_prune_and_count_removed(struct rho_ghost_matrix *matrix,
                                            enum rho_ghost_rule rule)
 {
     if (rule == RHO_GHOST_LITERAL) {
-        return prune_by_single_crossings(matrix);
+        uint8_t rows_done[RHO_MAX_BEARINGS] = {0}, columns_done[RHO_MAX_BEARINGS] = {0};
+        struct beams rows = {matrix, matrix->rows, matrix->columns, 0};
+        struct beams columns = {matrix, matrix->columns, matrix->rows, 1};
+        unsigned removed = prune_beams_by_single_crossings(&rows, rows_done, columns_done);
+        return removed + prune_beams_by_single_crossings(&columns, columns_done, rows_done);
     }
     return rule == RHO_GHOST_SAFE && matrix->rows == matrix->columns
                ? prune_crossings_in_no_matching(matrix)

@@ -8,21 +8,10 @@
 #include <string.h>
 
 #include "passive_search.h"
+#include "policy.h"
 #include "rhotrack/types.h"
 
-#define PASSIVE_MAGIC 0x50415353u /* "PASS" in ASCII */
-
-#define SCANS_MIN 4u
-#define LINES_MAX 96u
-#define VOTES_MIN 2u /* smallest number of scans whose crossings must vote for a line */
-/*
- * Smallest share of the scans with crossings that must vote for a line, in the first and the second
- * pass of a search.
- */
-#define FIRST_VOTES_SHARE 0.6f
-#define SECOND_VOTES_SHARE 0.5f
-
-/* ---- setting up ------------------------------------------------------------------------------ */
+enum { PASSIVE_MAGIC = 0x50415353 }; /* "PASS" in ASCII */
 
 void rho_passive_config_default(struct rho_passive_config *config)
 {
@@ -40,7 +29,7 @@ void rho_passive_config_default(struct rho_passive_config *config)
 
 static int is_usable(const struct rho_passive_config *config)
 {
-    return config->scans >= SCANS_MIN && config->scans <= RHO_MAX_PASSIVE_SCANS &&
+    return config->scans >= RHO_BATCH_SCANS_MIN && config->scans <= RHO_MAX_PASSIVE_SCANS &&
            rho_is_within(config->range_max_m, 1000.0f, 500000.0f) &&
            rho_is_within(config->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->pd, 0.01f, 0.999f) &&
@@ -52,18 +41,6 @@ static int is_usable(const struct rho_passive_config *config)
                          0.5f) &&
            rho_is_within(config->false_tracks_per_hour, 1.0e-6f, 1.0e6f) &&
            (unsigned)config->rule <= RHO_GHOST_SAFE;
-}
-
-/*
- * Largest distance of two sensors at which all lines through their coverage lie within the cells of
- * rho.
- */
-static float largest_allowed_sensor_distance_m(const struct rho_passive_config *config)
-{
-    float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - config->range_max_m;
-    float apart_m =
-        2.0f * reach_m < 4.0f * RHO_LIMIT_POSITION_M ? 2.0f * reach_m : 4.0f * RHO_LIMIT_POSITION_M;
-    return apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
 }
 
 enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size,
@@ -83,10 +60,13 @@ enum rho_status rho_passive_init(struct rho_passive *passive, size_t object_size
     memset(passive, 0, sizeof *passive);
     passive->config = kept;
     passive->magic = PASSIVE_MAGIC;
-    return rho_batch_init(&passive->batch, kept.scans, largest_allowed_sensor_distance_m(&kept));
+    /* all lines through the sensors' coverage must lie within the cells of rho */
+    float reach_m = 0.5f * kept.rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - kept.range_max_m;
+    float apart_m =
+        2.0f * reach_m < 4.0f * RHO_LIMIT_POSITION_M ? 2.0f * reach_m : 4.0f * RHO_LIMIT_POSITION_M;
+    apart_m = apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
+    return rho_batch_init(&passive->batch, kept.scans, apart_m);
 }
-
-/* ---- frames ---------------------------------------------------------------------------------- */
 
 enum rho_status rho_passive_push(struct rho_passive *passive, const struct rho_frame *frame,
                                  uint8_t *fates)
@@ -117,57 +97,36 @@ enum rho_status rho_passive_accepts(const struct rho_passive *passive,
 uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track)
 {
     return passive && track && passive->magic == PASSIVE_MAGIC
-               ? rho_batch_mark_bearings_removed(&passive->batch, track->claim)
+               ? rho_batch_remove(&passive->batch, track->claim)
                : 0;
-}
-
-/* ---- the search ------------------------------------------------------------------------------ */
-
-/* Scans in which at least two sensors reported: no other scan has crossings that can vote. */
-static unsigned count_multi_sensor_scans(const struct rho_batch *batch)
-{
-    unsigned count = 0;
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        unsigned seen = 0;
-        for (unsigned s = 0; s < batch->num_sensors; s++) {
-            seen += batch->was_seen[k][s];
-        }
-        count += seen >= 2;
-    }
-    return count;
 }
 
 /*
  * One pass over the unclaimed bearings: crossings, the lines that they vote for, and candidates
  * from hypotheses on those lines.
  */
-static void find_track_candidates_on_voted_lines(struct rho_passive_search *search,
-                                                 float votes_share)
+static void find_candidates(struct rho_passive_search *search, float votes_share)
 {
     struct rho_passive_line line;
-    float votes = votes_share * (float)count_multi_sensor_scans(&search->passive->batch);
+    const struct rho_batch *batch = &search->passive->batch;
+    unsigned scans = 0; /* with reports of two sensors: others have no crossings that can vote */
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        unsigned seen = 0;
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            seen += batch->was_seen[k][s];
+        }
+        scans += seen >= 2;
+    }
+    float votes = votes_share * (float)scans;
     unsigned votes_min = (unsigned)votes + ((float)(unsigned)votes < votes ? 1u : 0u);
     votes_min = votes_min > VOTES_MIN ? votes_min : VOTES_MIN;
     rho_passive_find_crossings(search);
-    rho_passive_vote_by_crossings_for_lines(search);
+    rho_passive_vote_lines(search);
     for (unsigned i = 0; i < LINES_MAX && rho_passive_take_best_line(search, votes_min, &line);
          i++) {
         search->passive->work.peaks = rho_count(search->passive->work.peaks, 1);
-        rho_passive_fit_crossing_pairs_near_line(search, &line);
+        rho_passive_fit_line_pairs(search, &line);
     }
-}
-
-static void clear_claims(struct rho_passive *passive)
-{
-    memset(passive->is_claimed, 0, sizeof passive->is_claimed);
-}
-
-static void clear_results(struct rho_passive *passive)
-{
-    memset(&passive->work, 0, sizeof passive->work);
-    clear_claims(passive);
-    passive->num_tracks = passive->num_candidates = 0;
-    passive->start_mnat = 0;
 }
 
 enum rho_status rho_passive_search(struct rho_passive *passive)
@@ -179,25 +138,28 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
         return RHO_ERROR_STATE;
     }
     struct rho_passive_search search = {.passive = passive};
-    clear_results(passive);
-    rho_batch_drop_bearings_marked_removed(&passive->batch);
-    if (passive->batch.num_scans < SCANS_MIN || passive->batch.num_sensors < 2) {
+    memset(&passive->work, 0, sizeof passive->work);
+    memset(passive->is_claimed, 0, sizeof passive->is_claimed);
+    passive->num_tracks = passive->num_candidates = 0;
+    passive->start_mnat = 0;
+    rho_batch_compact(&passive->batch);
+    if (passive->batch.num_scans < RHO_BATCH_SCANS_MIN || passive->batch.num_sensors < 2) {
         return RHO_OK;
     }
     rho_passive_prepare(&search);
 
     /* first pass: only crossings that a third sensor supports */
-    find_track_candidates_on_voted_lines(&search, FIRST_VOTES_SHARE);
+    find_candidates(&search, FIRST_VOTES_SHARE);
     rho_passive_claim_best_set(&search);
-    rho_passive_set_score_to_start_track(&search);
+    rho_passive_set_start_score(&search);
 
     /* second pass: all crossings of the bearings that no track of the first pass has claimed */
     search.is_second = 1;
-    find_track_candidates_on_voted_lines(&search, SECOND_VOTES_SHARE);
-    clear_claims(passive);
+    find_candidates(&search, SECOND_VOTES_SHARE);
+    memset(passive->is_claimed, 0, sizeof passive->is_claimed);
 
     /* the final selection is from the candidates of both passes */
-    rho_passive_offer_swapped_candidates(&search);
+    rho_passive_offer_swapped(&search);
     rho_passive_select_tracks(&search);
     return RHO_OK;
 }
@@ -216,8 +178,6 @@ unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track)
     }
     return sensors * (sensors - 1) / 2;
 }
-
-/* ---- objects of unknown origin --------------------------------------------------------------- */
 
 int rho_passive_is_sound(const struct rho_passive *passive)
 {

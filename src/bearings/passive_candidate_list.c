@@ -6,13 +6,12 @@
 #include <string.h>
 
 #include "passive_search.h"
+#include "policy.h"
 #include "rhotrack/types.h"
 
-#define DUPLICATE_SHARE 0.8f
-
-unsigned rho_passive_count_shared_bearings(const struct rho_passive_search *search,
-                                           const struct rho_passive_candidate *a,
-                                           const struct rho_passive_candidate *b)
+unsigned rho_passive_count_shared(const struct rho_passive_search *search,
+                                  const struct rho_passive_candidate *a,
+                                  const struct rho_passive_candidate *b)
 {
     unsigned shared = 0;
     for (unsigned k = 0; k < search->passive->batch.num_scans; k++) {
@@ -24,77 +23,55 @@ unsigned rho_passive_count_shared_bearings(const struct rho_passive_search *sear
 }
 
 /* Whether candidate `other` claims at least DUPLICATE_SHARE of the bearings of `owner`. */
-static int shares_most_bearings_of(const struct rho_passive_search *search,
-                                   const struct rho_passive_candidate *owner,
-                                   const struct rho_passive_candidate *other)
+static int shares_most_of(const struct rho_passive_search *search,
+                          const struct rho_passive_candidate *owner,
+                          const struct rho_passive_candidate *other)
 {
-    return (float)rho_passive_count_shared_bearings(search, owner, other) >=
+    return (float)rho_passive_count_shared(search, owner, other) >=
            DUPLICATE_SHARE * (float)owner->hits;
-}
-
-static int has_better_duplicate(const struct rho_passive_search *search,
-                                const struct rho_passive_candidate *candidate)
-{
-    const struct rho_passive *passive = search->passive;
-    for (unsigned i = 0; i < passive->num_candidates; i++) {
-        if (passive->candidates[i].score_nat >= candidate->score_nat &&
-            shares_most_bearings_of(search, candidate, &passive->candidates[i])) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* Removes the candidates that share most of their bearings with this one, which is better. */
-static void remove_candidates_sharing_most_bearings(struct rho_passive_search *search,
-                                                    const struct rho_passive_candidate *candidate)
-{
-    struct rho_passive *passive = search->passive;
-    for (unsigned i = passive->num_candidates; i > 0; i--) {
-        if (shares_most_bearings_of(search, &passive->candidates[i - 1u], candidate)) {
-            passive->candidates[i - 1u] = passive->candidates[--passive->num_candidates];
-            /* cannot overflow: at most one removal for each of 2 passes x 96 lines x 20 fits */
-            search->candidates_removed++;
-        }
-    }
-}
-
-/* Adds a candidate to the list; a full list drops its lowest score, or the new candidate. */
-static void add_or_replace_lowest_candidate(struct rho_passive_search *search,
-                                            const struct rho_passive_candidate *candidate)
-{
-    struct rho_passive *passive = search->passive;
-    if (passive->num_candidates < RHO_MAX_PASSIVE_CANDIDATES) {
-        passive->candidates[passive->num_candidates++] = *candidate;
-        return;
-    }
-    unsigned lowest = 0;
-    for (unsigned i = 1; i < passive->num_candidates; i++) {
-        if (passive->candidates[i].score_nat < passive->candidates[lowest].score_nat) {
-            lowest = i;
-        }
-    }
-    passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
-    search->candidates_removed++;
-    if (candidate->score_nat > passive->candidates[lowest].score_nat) {
-        passive->candidates[lowest] = *candidate;
-    }
 }
 
 int rho_passive_offer_if_track(struct rho_passive_search *search,
                                const float state_m[RHO_PASSIVE_STATES])
 {
     struct rho_passive_candidate candidate;
-    struct rho_passive_score score =
-        rho_passive_claim_and_score_nearest(search, state_m, 1, candidate.claim);
+    struct rho_passive_score score = rho_passive_score_nearest(search, state_m, 1, candidate.claim);
     candidate.score_nat = score.score_nat;
     candidate.hits = score.hits;
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
-    if (score.is_track && !has_better_duplicate(search, &candidate)) {
-        remove_candidates_sharing_most_bearings(search, &candidate);
-        add_or_replace_lowest_candidate(search, &candidate);
+    if (!score.is_track) {
+        return 0;
     }
-    return score.is_track;
+    struct rho_passive *passive = search->passive;
+    struct rho_passive_candidate *list = passive->candidates;
+    for (unsigned i = 0; i < passive->num_candidates; i++) {
+        if (list[i].score_nat >= candidate.score_nat &&
+            shares_most_of(search, &candidate, &list[i])) {
+            return 1; /* a better duplicate is there */
+        }
+    }
+    for (unsigned i = passive->num_candidates; i > 0; i--) {
+        if (shares_most_of(search, &list[i - 1u], &candidate)) {
+            list[i - 1u] = list[--passive->num_candidates];
+            /* cannot overflow: at most one removal for each of 2 passes x 96 lines x 20 fits */
+            search->candidates_removed++;
+        }
+    }
+    if (passive->num_candidates < RHO_MAX_PASSIVE_CANDIDATES) {
+        list[passive->num_candidates++] = candidate;
+        return 1;
+    }
+    /* a full list drops its lowest score, or the new candidate */
+    unsigned lowest = 0;
+    for (unsigned i = 1; i < passive->num_candidates; i++) {
+        lowest = list[i].score_nat < list[lowest].score_nat ? i : lowest;
+    }
+    passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
+    search->candidates_removed++;
+    if (candidate.score_nat > list[lowest].score_nat) {
+        list[lowest] = candidate;
+    }
+    return 1;
 }
 
 void rho_passive_rank_candidates(const struct rho_passive *passive,

@@ -7,9 +7,8 @@
 #include <string.h>
 
 #include "passive_search.h"
+#include "policy.h"
 #include "rhotrack/types.h"
-
-#define SUPPORT_SIGMAS 3.0f
 
 /* The unclaimed bearings of two sensors in one scan, with their indices in the batch. */
 struct sensor_pair {
@@ -20,8 +19,8 @@ struct sensor_pair {
 };
 
 /* Collects a sensor's bearings in a scan, in the second pass only unclaimed ones. */
-static unsigned collect_bearings_of_pass(const struct rho_passive_search *search, unsigned scan,
-                                         unsigned sensor, float *bearings_rad, uint8_t *index)
+static unsigned collect_bearings(const struct rho_passive_search *search, unsigned scan,
+                                 unsigned sensor, float *bearings_rad, uint8_t *index)
 {
     const struct rho_passive *passive = search->passive;
     unsigned count = 0;
@@ -65,9 +64,8 @@ static int has_bearing_towards(const struct rho_passive_search *search, unsigned
  * In the first pass, with three sensors or more: all but one of the sensors besides the pair, and
  * at least one, must have a bearing towards the crossing.
  */
-static int is_supported_by_enough_other_sensors(const struct rho_passive_search *search,
-                                                const struct sensor_pair *pair,
-                                                const struct rho_passive_point *point)
+static int is_supported(const struct rho_passive_search *search, const struct sensor_pair *pair,
+                        const struct rho_passive_point *point)
 {
     unsigned num_sensors = search->passive->batch.num_sensors, support = 0;
     if (num_sensors < 3 || search->is_second) {
@@ -79,24 +77,11 @@ static int is_supported_by_enough_other_sensors(const struct rho_passive_search 
     return support >= (num_sensors > 4 ? num_sensors - 3u : 1u);
 }
 
-static uint32_t find_least_certain_crossing(const struct rho_passive *passive)
-{
-    uint32_t worst = 0;
-    for (uint32_t i = 1; i < passive->num_points; i++) {
-        if (rho_passive_uncertainty_m2(&passive->points[i]) >
-            rho_passive_uncertainty_m2(&passive->points[worst])) {
-            worst = i;
-        }
-    }
-    return worst;
-}
-
 /*
  * Adds a crossing; a full list replaces its least certain crossing if the new one is more certain.
  * The index of the least certain one is kept until the list changes.
  */
-static void store_crossing_or_replace_least_certain(struct rho_passive_search *search,
-                                                    const struct rho_passive_point *point)
+static void store_crossing(struct rho_passive_search *search, const struct rho_passive_point *point)
 {
     struct rho_passive *passive = search->passive;
     if (passive->num_points < RHO_MAX_PASSIVE_POINTS) {
@@ -105,7 +90,13 @@ static void store_crossing_or_replace_least_certain(struct rho_passive_search *s
         return;
     }
     if (search->worst_point == passive->num_points) {
-        search->worst_point = find_least_certain_crossing(passive);
+        search->worst_point = 0;
+        for (uint32_t i = 1; i < passive->num_points; i++) {
+            if (rho_passive_uncertainty_m2(&passive->points[i]) >
+                rho_passive_uncertainty_m2(&passive->points[search->worst_point])) {
+                search->worst_point = i;
+            }
+        }
     }
     passive->work.points_dropped = rho_count(passive->work.points_dropped, 1);
     if (rho_passive_uncertainty_m2(point) <
@@ -115,40 +106,9 @@ static void store_crossing_or_replace_least_certain(struct rho_passive_search *s
     }
 }
 
-/* Stores the crossing of two bearings, unless they do not cross or lack support. */
-static void cross_and_store_bearing_pair(struct rho_passive_search *search,
-                                         const struct sensor_pair *pair,
-                                         const struct rho_crossing_base *base, unsigned i,
-                                         unsigned j)
-{
-    struct rho_passive *passive = search->passive;
-    const struct rho_batch_bearing *a =
-        &passive->batch.bearings[pair->scan][pair->a][pair->index_a[i]];
-    const struct rho_batch_bearing *b =
-        &passive->batch.bearings[pair->scan][pair->b][pair->index_b[j]];
-    struct rho_crossing crossing;
-    float covariance_m2[3];
-    if (rho_crossing_find(base, a->bearing_rad, b->bearing_rad, passive->config.range_max_m,
-                          &crossing) != RHO_CROSSING_MEETS) {
-        return;
-    }
-    rho_crossing_covariance(&crossing, a->bearing_rad, b->bearing_rad, a->sigma_rad, b->sigma_rad,
-                            covariance_m2);
-    struct rho_passive_point point = {.x_m = crossing.x_m,
-                                      .y_m = crossing.y_m,
-                                      .xx_m2 = covariance_m2[0],
-                                      .xy_m2 = covariance_m2[1],
-                                      .yy_m2 = covariance_m2[2],
-                                      .scan = (uint16_t)pair->scan};
-    if (is_supported_by_enough_other_sensors(search, pair, &point)) {
-        store_crossing_or_replace_least_certain(search, &point);
-    }
-}
-
-/* Crosses two sensors' bearings in one scan, and stores the crossings that are no ghosts. */
-static void cross_sensor_pair_in_scan(struct rho_passive_search *search,
-                                      const struct sensor_pair *pair,
-                                      const struct rho_crossing_base *base)
+/* Crosses two sensors' bearings in one scan, and stores crossings that have support. */
+static void cross_pair_in_scan(struct rho_passive_search *search, const struct sensor_pair *pair,
+                               const struct rho_crossing_base *base)
 {
     struct rho_passive *passive = search->passive;
     struct rho_ghost_matrix matrix;
@@ -164,14 +124,33 @@ static void cross_sensor_pair_in_scan(struct rho_passive_search *search,
                 passive->work.crossings = rho_count(passive->work.crossings, 1);
                 passive->work.ghosts = rho_count(passive->work.ghosts, (unsigned)is_ghost);
             }
-            if (!is_ghost) {
-                cross_and_store_bearing_pair(search, pair, base, i, j);
+            const struct rho_batch_bearing *a =
+                &passive->batch.bearings[pair->scan][pair->a][pair->index_a[i]];
+            const struct rho_batch_bearing *b =
+                &passive->batch.bearings[pair->scan][pair->b][pair->index_b[j]];
+            struct rho_crossing crossing;
+            float covariance_m2[3];
+            if (is_ghost ||
+                rho_crossing_find(base, a->bearing_rad, b->bearing_rad, passive->config.range_max_m,
+                                  &crossing) != RHO_CROSSING_MEETS) {
+                continue;
+            }
+            rho_crossing_covariance(&crossing, a->bearing_rad, b->bearing_rad, a->sigma_rad,
+                                    b->sigma_rad, covariance_m2);
+            struct rho_passive_point point = {.x_m = crossing.x_m,
+                                              .y_m = crossing.y_m,
+                                              .xx_m2 = covariance_m2[0],
+                                              .xy_m2 = covariance_m2[1],
+                                              .yy_m2 = covariance_m2[2],
+                                              .scan = (uint16_t)pair->scan};
+            if (is_supported(search, pair, &point)) {
+                store_crossing(search, &point);
             }
         }
     }
 }
 
-static void cross_sensors_in_all_scans(struct rho_passive_search *search, unsigned a, unsigned b)
+static void cross_pair(struct rho_passive_search *search, unsigned a, unsigned b)
 {
     struct rho_crossing_base base;
     if (rho_crossing_set_base(&base, search->x_m[a], search->y_m[a], search->x_m[b],
@@ -180,9 +159,9 @@ static void cross_sensors_in_all_scans(struct rho_passive_search *search, unsign
     }
     for (unsigned scan = 0; scan < search->passive->batch.num_scans; scan++) {
         struct sensor_pair pair = {.scan = scan, .a = a, .b = b};
-        pair.num_a = collect_bearings_of_pass(search, scan, a, pair.bearings_a_rad, pair.index_a);
-        pair.num_b = collect_bearings_of_pass(search, scan, b, pair.bearings_b_rad, pair.index_b);
-        cross_sensor_pair_in_scan(search, &pair, &base);
+        pair.num_a = collect_bearings(search, scan, a, pair.bearings_a_rad, pair.index_a);
+        pair.num_b = collect_bearings(search, scan, b, pair.bearings_b_rad, pair.index_b);
+        cross_pair_in_scan(search, &pair, &base);
     }
 }
 
@@ -192,7 +171,7 @@ void rho_passive_find_crossings(struct rho_passive_search *search)
     memset(search->passive->fitted, 0, sizeof search->passive->fitted);
     for (unsigned a = 0; a + 1u < search->passive->batch.num_sensors; a++) {
         for (unsigned b = a + 1u; b < search->passive->batch.num_sensors; b++) {
-            cross_sensors_in_all_scans(search, a, b);
+            cross_pair(search, a, b);
         }
     }
 }

@@ -6,59 +6,25 @@
 #include <string.h>
 
 #include "passive_search.h"
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/types.h"
 
 #define N RHO_PASSIVE_STATES
-#define GATE_SIGMAS 3.5f
-/* sigma of the weak prior of speed; with a prior of position it keeps fits from diverging */
-#define SPEED_PRIOR_MPS 500.0f
-/* sigma of the motion model in metres: it limits the weight of bearings taken near a sensor */
-#define EXACT_M 1.0f
-/* largest change of a state component in one step, as a share of range_max_m */
-#define STEP_MAX_RANGES 0.1f
-/* largest magnitude of a state component, as a multiple of range_max_m */
-#define POSITION_MAX_RANGES 2.0f
-#define CHI2_QUANTILE_SIGMAS 3.09f /* normal quantile of 99.9 %, for the chi-square limit */
 
 static float square(float v)
 {
     return v * v;
 }
 
-/* ---- the fit --------------------------------------------------------------------------------- */
-
 /* Normal equations a x = b. */
 struct equations {
     float a[RHO_TRIANGLE(N)], b[N];
 };
 
-/* Adds one weighted linear equation, row . change = residual, to the normal equations. */
-static void add_equation(struct equations *equations, const float row[N], float weight,
-                         float residual)
-{
-    for (int i = 0; i < N; i++) {
-        for (int j = 0; j <= i; j++) {
-            equations->a[RHO_AT(i, j)] += weight * row[i] * row[j];
-        }
-        equations->b[i] += weight * row[i] * residual;
-    }
-}
-
-/* Adds the weak priors of position and speed to the normal equations. */
-static void add_prior_equations(const struct rho_passive_search *search, const float state_m[N],
-                                struct equations *equations)
-{
-    float way_m = SPEED_PRIOR_MPS * search->half_s, range_m = search->passive->config.range_max_m;
-    for (int i = 0; i < N; i++) {
-        float weight = i < RHO_PASSIVE_DX ? 1.0f / square(range_m) : 1.0f / square(way_m);
-        equations->a[RHO_AT(i, i)] += weight;
-        equations->b[i] -= i < RHO_PASSIVE_DX ? 0.0f : weight * state_m[i];
-    }
-}
-
+/* Adds the linear equation of a bearing, row . change = residual, to the normal equations. */
 static void add_bearing_equation(const struct rho_passive_search *search, unsigned scan,
                                  const struct rho_passive_match *nearest,
                                  struct equations *equations)
@@ -68,52 +34,47 @@ static void add_bearing_equation(const struct rho_passive_search *search, unsign
     float step = search->step[scan];
     float row_x = -nearest->offset.y_m / range2_m2, row_y = nearest->offset.x_m / range2_m2;
     const float row[N] = {row_x, row_y, step * row_x, step * row_y};
-    add_equation(equations, row, 1.0f / (square(nearest->sigma_rad) + square(EXACT_M) / range2_m2),
-                 rho_passive_normalised_residual(nearest) * nearest->sigma_rad);
+    float weight = 1.0f / (square(nearest->sigma_rad) + square(EXACT_M) / range2_m2);
+    float residual = rho_passive_residual(nearest) * nearest->sigma_rad;
+    for (int i = 0; i < N; i++) {
+        for (int j = 0; j <= i; j++) {
+            equations->a[RHO_AT(i, j)] += weight * row[i] * row[j];
+        }
+        equations->b[i] += weight * row[i] * residual;
+    }
 }
 
 static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas)
 {
-    return square(rho_passive_normalised_residual(nearest)) < square(gate_sigmas);
+    return square(rho_passive_residual(nearest)) < square(gate_sigmas);
 }
 
-/* Normal equations of the nearest bearings within the gate, with the priors. */
-static struct equations equations_of_nearest_bearings(const struct rho_passive_search *search,
-                                                      const float state_m[N], float gate,
-                                                      int include_claimed)
+/*
+ * Normal equations of the claimed bearings at any distance, or with claim NULL of the nearest ones
+ * within the gate; with weak priors of position and speed.
+ */
+static struct equations equations_of_bearings(const struct rho_passive_search *search,
+                                              const float state_m[N], float gate,
+                                              int include_claimed, rho_passive_const_claim *claim)
 {
     const struct rho_batch *batch = &search->passive->batch;
+    float way_m = SPEED_PRIOR_MPS * search->half_s, range_m = search->passive->config.range_max_m;
     struct equations equations = {.b = {0}};
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match nearest =
-                rho_passive_match_nearest(search, k, s, state_m, include_claimed);
-            if (nearest.bearing >= 0 && is_in_gate(&nearest, gate)) {
+                claim ? rho_passive_match_claimed(search, k, s, state_m, claim[k][s])
+                      : rho_passive_match_nearest(search, k, s, state_m, include_claimed);
+            if (nearest.bearing >= 0 && (claim || is_in_gate(&nearest, gate))) {
                 add_bearing_equation(search, k, &nearest, &equations);
             }
         }
     }
-    add_prior_equations(search, state_m, &equations);
-    return equations;
-}
-
-/* Normal equations of the claimed bearings at any distance, with the priors. */
-static struct equations equations_of_claimed_bearings(const struct rho_passive_search *search,
-                                                      const float state_m[N],
-                                                      rho_passive_const_claim *claim)
-{
-    const struct rho_batch *batch = &search->passive->batch;
-    struct equations equations = {.b = {0}};
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        for (unsigned s = 0; s < batch->num_sensors; s++) {
-            struct rho_passive_match nearest =
-                rho_passive_match_claimed(search, k, s, state_m, claim[k][s]);
-            if (nearest.bearing >= 0) {
-                add_bearing_equation(search, k, &nearest, &equations);
-            }
-        }
+    for (int i = 0; i < N; i++) {
+        float weight = i < RHO_PASSIVE_DX ? 1.0f / square(range_m) : 1.0f / square(way_m);
+        equations.a[RHO_AT(i, i)] += weight;
+        equations.b[i] -= i < RHO_PASSIVE_DX ? 0.0f : weight * state_m[i];
     }
-    add_prior_equations(search, state_m, &equations);
     return equations;
 }
 
@@ -126,8 +87,8 @@ static float clipped(float v, float most)
  * Solves the normal equations and moves the state, each component by a limited step. Returns 0
  * where they are singular, and the state stays.
  */
-static int take_gauss_newton_step_unless_singular(const struct rho_passive_search *search,
-                                                  struct equations *equations, float state_m[N])
+static int take_step(const struct rho_passive_search *search, struct equations *equations,
+                     float state_m[N])
 {
     float range_m = search->passive->config.range_max_m, factor[RHO_TRIANGLE(N)];
     if (rho_linalg_cholesky(N, equations->a, factor) != RHO_OK) {
@@ -145,51 +106,21 @@ static int take_gauss_newton_step_unless_singular(const struct rho_passive_searc
 void rho_passive_fit_nearest(const struct rho_passive_search *search, float state_m[N],
                              int include_claimed)
 {
-    static const float gates[4] = {8.0f, 5.0f, GATE_SIGMAS, GATE_SIGMAS};
+    static const float gates[4] = {8.0f, 5.0f, BEARING_GATE_SIGMAS, BEARING_GATE_SIGMAS};
     int goes_on = 1;
     for (unsigned step = 0; step < 4 && goes_on; step++) {
         struct equations equations =
-            equations_of_nearest_bearings(search, state_m, gates[step], include_claimed);
-        goes_on = take_gauss_newton_step_unless_singular(search, &equations, state_m);
+            equations_of_bearings(search, state_m, gates[step], include_claimed, NULL);
+        goes_on = take_step(search, &equations, state_m);
     }
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
 }
 
-void rho_passive_step_to_claimed_bearings(const struct rho_passive_search *search, float state_m[N],
-                                          rho_passive_const_claim *claim)
+void rho_passive_step_to_claims(const struct rho_passive_search *search, float state_m[N],
+                                rho_passive_const_claim *claim)
 {
-    struct equations equations = equations_of_claimed_bearings(search, state_m, claim);
-    (void)take_gauss_newton_step_unless_singular(search, &equations, state_m);
-}
-
-/* ---- score ----------------------------------------------------------------------------------- */
-
-/* 99.9 % quantile of chi-square (approximation of Wilson and Hilferty). */
-static float chi2_limit(unsigned freedom)
-{
-    float n = freedom > 0 ? (float)freedom : 1.0f, part = 2.0f / (9.0f * n);
-    float root = 1.0f - part + CHI2_QUANTILE_SIGMAS * rho_sqrt(part);
-    return n * root * root * root;
-}
-
-/* A track needs two sensors with two bearings each: one sensor measures neither range nor speed. */
-static int is_observable(const struct rho_passive_search *search, rho_passive_const_claim *claim)
-{
-    unsigned sensors = 0;
-    for (unsigned s = 0; s < search->passive->batch.num_sensors; s++) {
-        unsigned hits = 0;
-        for (unsigned k = 0; k < search->passive->batch.num_scans; k++) {
-            hits += claim[k][s] > 0;
-        }
-        sensors += hits >= 2;
-    }
-    return sensors >= 2;
-}
-
-static int is_too_fast(const struct rho_passive_search *search, const float state_m[N])
-{
-    float most_m = search->passive->config.v_max_mps * search->half_s;
-    return square(state_m[RHO_PASSIVE_DX]) + square(state_m[RHO_PASSIVE_DY]) >= square(most_m);
+    struct equations equations = equations_of_bearings(search, state_m, 0.0f, 0, claim);
+    (void)take_step(search, &equations, state_m);
 }
 
 /* Whether the state's position was within the sensor's sector in the scan. */
@@ -207,41 +138,34 @@ static int is_in_view(const struct rho_passive_search *search, unsigned scan, un
     return rho_angle_in_sector(rho_atan2(offset.y_m, offset.x_m), from_rad, to_rad);
 }
 
-/* Adds a miss to the score of a look with the state in view, else counts it as out of view. */
-static void add_miss_or_out_of_view(const struct rho_passive_search *search, unsigned scan,
-                                    unsigned sensor, const float state_m[N],
-                                    struct rho_passive_score *score)
-{
-    if (!search->passive->batch.was_seen[scan][sensor]) {
-        return;
-    }
-    if (is_in_view(search, scan, sensor, state_m)) {
-        score->score_nat += search->miss_nat;
-    } else {
-        score->looks_out_of_view++;
-    }
-}
-
-/*
- * Hits must be a share hits_min of the looks that had the position in view, and half that share of
- * all looks: otherwise a state that is hardly ever in view would need very few hits.
- */
-static int has_enough_hits(const struct rho_passive_search *search,
-                           const struct rho_passive_score *score)
-{
-    float share = search->passive->config.hits_min, hits = (float)score->hits;
-    return hits >= share * (float)(search->looks - score->looks_out_of_view) &&
-           hits >= 0.5f * share * (float)search->looks;
-}
-
 /* True where score, hits, chi-square, speed and sensors are those of a track. */
 static int is_track(const struct rho_passive_search *search, const float state_m[N],
                     const struct rho_passive_score *score, rho_passive_const_claim *claim)
 {
-    unsigned freedom = score->hits > N ? score->hits - (unsigned)N : 1u;
-    return has_enough_hits(search, score) && score->score_nat > 0.0f &&
-           score->chi2 < chi2_limit(freedom) && !is_too_fast(search, state_m) &&
-           is_observable(search, claim);
+    const struct rho_passive *passive = search->passive;
+    /*
+     * Hits must be a share of the looks that had the position in view, and half that share of all
+     * looks: otherwise a state that is hardly ever in view would need very few hits.
+     */
+    float share = passive->config.hits_min, hits = (float)score->hits;
+    int has_hits = hits >= share * (float)(search->looks - score->looks_out_of_view) &&
+                   hits >= 0.5f * share * (float)search->looks;
+    /* 99.9 % quantile of chi-square, 3.09 sigmas (approximation of Wilson and Hilferty) */
+    float n = score->hits > N ? (float)(score->hits - N) : 1.0f, part = 2.0f / (9.0f * n);
+    float root = 1.0f - part + 3.09f * rho_sqrt(part);
+    float most_m = passive->config.v_max_mps * search->half_s;
+    float way2_m2 = square(state_m[RHO_PASSIVE_DX]) + square(state_m[RHO_PASSIVE_DY]);
+    /* two sensors with two bearings each: one sensor measures neither range nor speed */
+    unsigned sensors = 0;
+    for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
+        unsigned bearings = 0;
+        for (unsigned k = 0; k < passive->batch.num_scans; k++) {
+            bearings += claim[k][s] > 0;
+        }
+        sensors += bearings >= 2;
+    }
+    return has_hits && score->score_nat > 0.0f && score->chi2 < n * root * root * root &&
+           !(way2_m2 >= square(most_m)) && sensors >= 2;
 }
 
 /* Log-likelihood ratio of a look in which the state has a bearing with this squared residual. */
@@ -261,11 +185,16 @@ struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_sear
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match seen =
                 rho_passive_match_claimed(search, k, s, state_m, claim[k][s]);
-            if (seen.bearing < 0) {
-                add_miss_or_out_of_view(search, k, s, state_m, &score);
+            if (seen.bearing < 0 && !batch->was_seen[k][s]) {
                 continue;
             }
-            float chi2 = square(rho_passive_normalised_residual(&seen));
+            if (seen.bearing < 0) {
+                int is_seen = is_in_view(search, k, s, state_m);
+                score.score_nat = is_seen ? score.score_nat + search->miss_nat : score.score_nat;
+                score.looks_out_of_view = (uint16_t)(score.looks_out_of_view + !is_seen);
+                continue;
+            }
+            float chi2 = square(rho_passive_residual(&seen));
             score.hits++;
             score.chi2 += chi2;
             score.score_nat += score_of_hit(search, &seen, chi2);
@@ -275,9 +204,9 @@ struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_sear
     return score;
 }
 
-struct rho_passive_score
-rho_passive_claim_and_score_nearest(const struct rho_passive_search *search, const float state_m[N],
-                                    int include_claimed, rho_passive_claim *claim)
+struct rho_passive_score rho_passive_score_nearest(const struct rho_passive_search *search,
+                                                   const float state_m[N], int include_claimed,
+                                                   rho_passive_claim *claim)
 {
     const struct rho_batch *batch = &search->passive->batch;
     memset(claim, 0, sizeof(uint8_t[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]));
@@ -285,7 +214,7 @@ rho_passive_claim_and_score_nearest(const struct rho_passive_search *search, con
         for (unsigned s = 0; s < batch->num_sensors; s++) {
             struct rho_passive_match nearest =
                 rho_passive_match_nearest(search, k, s, state_m, include_claimed);
-            if (nearest.bearing >= 0 && is_in_gate(&nearest, GATE_SIGMAS)) {
+            if (nearest.bearing >= 0 && is_in_gate(&nearest, BEARING_GATE_SIGMAS)) {
                 claim[k][s] = (uint8_t)(nearest.bearing + 1);
             }
         }
@@ -293,9 +222,8 @@ rho_passive_claim_and_score_nearest(const struct rho_passive_search *search, con
     return rho_passive_score_claimed(search, state_m, (rho_passive_const_claim *)claim);
 }
 
-float rho_passive_gain_of_bearing_over_miss_nat(const struct rho_passive_search *search,
-                                                const float state_m[N], unsigned scan,
-                                                unsigned sensor, unsigned claim)
+float rho_passive_gain_nat(const struct rho_passive_search *search, const float state_m[N],
+                           unsigned scan, unsigned sensor, unsigned claim)
 {
     struct rho_passive_match seen = rho_passive_match_claimed(search, scan, sensor, state_m, claim);
     if (seen.bearing < 0) {
@@ -303,62 +231,45 @@ float rho_passive_gain_of_bearing_over_miss_nat(const struct rho_passive_search 
     }
     const struct rho_batch_bearing *bearing =
         &search->passive->batch.bearings[scan][sensor][claim - 1u];
-    float chi2 = square(rho_passive_normalised_residual(&seen));
+    float chi2 = square(rho_passive_residual(&seen));
     if (bearing->cosine * seen.offset.x_m + bearing->sine * seen.offset.y_m <= 0.0f ||
-        chi2 >= square(GATE_SIGMAS)) {
+        chi2 >= square(BEARING_GATE_SIGMAS)) {
         return 0.0f;
     }
     return score_of_hit(search, &seen, chi2) - search->miss_nat;
-}
-
-/* ---- estimate of a track --------------------------------------------------------------------- */
-
-/* Column `column` of the inverse of a matrix, from the matrix' Cholesky factor. */
-static void inverse_column(const float factor[RHO_TRIANGLE(N)], int column, float out[N])
-{
-    for (int i = 0; i < N; i++) {
-        out[i] = i == column ? 1.0f : 0.0f;
-    }
-    rho_linalg_forward(N, factor, out);
-    rho_linalg_backward(N, factor, out);
-}
-
-/*
- * Covariance of position p + d and velocity d / half_s at the newest scan, from the covariance of
- * the state (p, d): position at mid-batch, displacement in half the batch.
- */
-static void propagate_covariance_to_newest_scan(float half_s, const float from[N][N],
-                                                float covariance[RHO_TRIANGLE(N)])
-{
-    for (int i = 0; i < N; i++) {
-        for (int j = 0; j <= i; j++) {
-            float sum = from[i][j];
-            if (i < 2) {
-                sum += from[i][j + 2] + from[i + 2][j] + from[i + 2][j + 2];
-            } else if (j < 2) {
-                sum = (sum + from[i][j + 2]) / half_s;
-            } else {
-                sum /= half_s * half_s;
-            }
-            covariance[RHO_AT(i, j)] = sum;
-        }
-    }
 }
 
 int rho_passive_estimate_track(const struct rho_passive_search *search, const float state_m[N],
                                struct rho_passive_track *track)
 {
     struct equations equations =
-        equations_of_claimed_bearings(search, state_m, (rho_passive_const_claim *)track->claim);
+        equations_of_bearings(search, state_m, 0.0f, 0, (rho_passive_const_claim *)track->claim);
     float factor[RHO_TRIANGLE(N)], columns[N][N] = {{0}};
     if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
         return 0;
     }
-    for (int i = 0; i < N; i++) {
-        inverse_column(factor, i, columns[i]);
+    for (int i = 0; i < N; i++) { /* the inverse, column by column */
+        columns[i][i] = 1.0f;
+        rho_linalg_forward(N, factor, columns[i]);
+        rho_linalg_backward(N, factor, columns[i]);
     }
-    propagate_covariance_to_newest_scan(search->half_s, (const float(*)[N])columns,
-                                        track->covariance);
+    /*
+     * covariance of position p + d and velocity d / half_s at the newest scan, from that of the
+     * state (p, d): position at mid-batch, displacement in half the batch
+     */
+    for (int i = 0; i < N; i++) {
+        for (int j = 0; j <= i; j++) {
+            float sum = columns[i][j];
+            if (i < 2) {
+                sum += columns[i][j + 2] + columns[i + 2][j] + columns[i + 2][j + 2];
+            } else if (j < 2) {
+                sum = (sum + columns[i][j + 2]) / search->half_s;
+            } else {
+                sum /= search->half_s * search->half_s;
+            }
+            track->covariance[RHO_AT(i, j)] = sum;
+        }
+    }
     track->x_m = search->middle_x_m + state_m[RHO_PASSIVE_X] + state_m[RHO_PASSIVE_DX];
     track->y_m = search->middle_y_m + state_m[RHO_PASSIVE_Y] + state_m[RHO_PASSIVE_DY];
     track->vx_mps = state_m[RHO_PASSIVE_DX] / search->half_s;

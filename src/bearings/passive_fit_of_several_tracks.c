@@ -7,12 +7,8 @@
 #include <string.h>
 
 #include "passive_search.h"
+#include "policy.h"
 #include "rhotrack/types.h"
-
-#define ROUNDS 3
-#define EXCHANGES_MAX (2 * RHO_MAX_PASSIVE_TRACKS)
-
-/* ---- one look -------------------------------------------------------------------------------- */
 
 /*
  * Assignment of the bearings of one look to tracks: the bearing of each track (index from 1; 0:
@@ -24,21 +20,6 @@ struct look_assignment {
     uint8_t claim[RHO_MAX_PASSIVE_TRACKS];
     uint8_t is_taken[RHO_MAX_BEARINGS + 1];
 };
-
-static void init_look_assignment(const struct rho_passive_search *search,
-                                 const struct rho_passive_set *set, unsigned scan, unsigned sensor,
-                                 struct look_assignment *look)
-{
-    memset(look, 0, sizeof *look);
-    look->num_tracks = set->num;
-    look->num_bearings = search->passive->batch.num_bearings[scan][sensor];
-    for (unsigned t = 0; t < look->num_tracks; t++) {
-        for (unsigned i = 1; i <= look->num_bearings; i++) {
-            look->gain_nat[t][i] = rho_passive_gain_of_bearing_over_miss_nat(
-                search, set->tracks[t].state_m, scan, sensor, i);
-        }
-    }
-}
 
 static void assign_bearing(struct look_assignment *look, unsigned track, unsigned bearing)
 {
@@ -84,7 +65,7 @@ static void assign_greedily(struct look_assignment *look)
  * Gives the bearing of track `loser` to track `taker`, and the best free bearing to the loser. If
  * the total gain does not grow, that is undone, and 0 is returned.
  */
-static int try_to_take_over_bearing(struct look_assignment *look, unsigned taker, unsigned loser)
+static int take_over_bearing(struct look_assignment *look, unsigned taker, unsigned loser)
 {
     unsigned kept = look->claim[taker], wanted = look->claim[loser];
     float before_nat = look->gain_nat[taker][kept] + look->gain_nat[loser][wanted];
@@ -95,7 +76,7 @@ static int try_to_take_over_bearing(struct look_assignment *look, unsigned taker
     assign_bearing(look, taker, wanted);
     assign_bearing(look, loser, best_free_bearing(look, loser));
     float after_nat = look->gain_nat[taker][wanted] + look->gain_nat[loser][look->claim[loser]];
-    if (after_nat > before_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
+    if (after_nat > before_nat + GAIN_MIN_NAT) {
         return 1;
     }
     assign_bearing(look, loser, 0);
@@ -104,71 +85,31 @@ static int try_to_take_over_bearing(struct look_assignment *look, unsigned taker
     return 0;
 }
 
-static int improve_assignment_once(struct look_assignment *look)
+static void assign_look(const struct rho_passive_search *search, struct rho_passive_set *set,
+                        unsigned scan, unsigned sensor)
 {
-    for (unsigned taker = 0; taker < look->num_tracks; taker++) {
-        for (unsigned loser = 0; loser < look->num_tracks; loser++) {
-            if (taker != loser && look->claim[loser] > 0 &&
-                try_to_take_over_bearing(look, taker, loser)) {
-                return 1;
-            }
+    struct look_assignment look = {.num_tracks = set->num};
+    look.num_bearings = search->passive->batch.num_bearings[scan][sensor];
+    for (unsigned t = 0; t < look.num_tracks; t++) {
+        for (unsigned i = 1; i <= look.num_bearings; i++) {
+            look.gain_nat[t][i] =
+                rho_passive_gain_nat(search, set->tracks[t].state_m, scan, sensor, i);
         }
     }
-    return 0;
-}
-
-static void assign_bearings_of_look(const struct rho_passive_search *search,
-                                    struct rho_passive_set *set, unsigned scan, unsigned sensor)
-{
-    struct look_assignment look;
-    init_look_assignment(search, set, scan, sensor, &look);
     assign_greedily(&look);
-    for (unsigned i = 0; i < EXCHANGES_MAX && improve_assignment_once(&look); i++) {
+    int is_better = 1;
+    for (unsigned n = 0; n < 2u * RHO_MAX_PASSIVE_TRACKS && is_better; n++) { /* exchanges */
+        is_better = 0;
+        for (unsigned taker = 0; taker < look.num_tracks && !is_better; taker++) {
+            for (unsigned loser = 0; loser < look.num_tracks && !is_better; loser++) {
+                is_better = taker != loser && look.claim[loser] > 0 &&
+                            take_over_bearing(&look, taker, loser);
+            }
+        }
     }
     for (unsigned t = 0; t < set->num; t++) {
         set->tracks[t].claim[scan][sensor] = look.claim[t];
     }
-}
-
-/* ---- all looks ------------------------------------------------------------------------------- */
-
-static void assign_bearings_of_all_looks(const struct rho_passive_search *search,
-                                         struct rho_passive_set *set)
-{
-    for (unsigned k = 0; k < search->passive->batch.num_scans; k++) {
-        for (unsigned s = 0; s < search->passive->batch.num_sensors; s++) {
-            assign_bearings_of_look(search, set, k, s);
-        }
-    }
-}
-
-/* Scores each member of the set with its claims, tests it for a track, and sums the scores. */
-static void score_set(const struct rho_passive_search *search, struct rho_passive_set *set)
-{
-    set->total_nat = 0.0f;
-    for (unsigned t = 0; t < set->num; t++) {
-        struct rho_passive_candidate *track = &set->tracks[t];
-        struct rho_passive_score score = rho_passive_score_claimed(
-            search, track->state_m, (rho_passive_const_claim *)track->claim);
-        track->score_nat = score.score_nat;
-        track->hits = score.hits;
-        set->chi2[t] = score.chi2;
-        set->is_track[t] = (uint8_t)score.is_track;
-        set->total_nat += score.score_nat;
-    }
-}
-
-static void assign_and_fit(const struct rho_passive_search *search, struct rho_passive_set *set)
-{
-    for (unsigned round = 0; round < ROUNDS; round++) {
-        assign_bearings_of_all_looks(search, set);
-        for (unsigned t = 0; t < set->num; t++) {
-            struct rho_passive_candidate *track = &set->tracks[t];
-            rho_passive_step_to_claimed_bearings(search, track->state_m,
-                                                 (rho_passive_const_claim *)track->claim);
-        }
-    }
-    score_set(search, set);
 }
 
 /*
@@ -195,33 +136,37 @@ static int drop_worst_non_track(struct rho_passive_set *set)
     return 1;
 }
 
-static void fill_set_with_chosen(const struct rho_passive_search *search,
-                                 const struct rho_passive_choice *choice,
-                                 struct rho_passive_set *set)
+/*
+ * Assigns the bearings of all looks and fits the set, and drops its worst member, until all members
+ * pass the tests of a track.
+ */
+static void fit_set(const struct rho_passive_search *search, struct rho_passive_set *set)
 {
-    struct rho_passive *passive = search->passive;
-    uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
-    rho_passive_rank_candidates(passive, order);
-    set->num = 0;
-    for (unsigned i = 0; i < choice->count; i++) {
-        if (!choice->is_in[order[i]]) {
-            continue;
-        }
-        if (set->num == RHO_MAX_PASSIVE_TRACKS) {
-            passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
-            continue;
-        }
-        set->tracks[set->num] = passive->candidates[order[i]];
-        set->candidate[set->num++] = order[i];
-    }
-}
-
-/* Fits the set, and drops its worst member, until all members pass the tests of a track. */
-static void fit_tracks_jointly_and_drop_non_tracks(const struct rho_passive_search *search,
-                                                   struct rho_passive_set *set)
-{
+    const struct rho_batch *batch = &search->passive->batch;
     do {
-        assign_and_fit(search, set);
+        for (unsigned round = 0; round < FIT_ROUNDS; round++) {
+            for (unsigned k = 0; k < batch->num_scans; k++) {
+                for (unsigned s = 0; s < batch->num_sensors; s++) {
+                    assign_look(search, set, k, s);
+                }
+            }
+            for (unsigned t = 0; t < set->num; t++) {
+                struct rho_passive_candidate *track = &set->tracks[t];
+                rho_passive_step_to_claims(search, track->state_m,
+                                           (rho_passive_const_claim *)track->claim);
+            }
+        }
+        set->total_nat = 0.0f;
+        for (unsigned t = 0; t < set->num; t++) {
+            struct rho_passive_candidate *track = &set->tracks[t];
+            struct rho_passive_score score = rho_passive_score_claimed(
+                search, track->state_m, (rho_passive_const_claim *)track->claim);
+            track->score_nat = score.score_nat;
+            track->hits = score.hits;
+            set->chi2[t] = score.chi2;
+            set->is_track[t] = (uint8_t)score.is_track;
+            set->total_nat += score.score_nat;
+        }
     } while (drop_worst_non_track(set));
 }
 
@@ -238,38 +183,39 @@ void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_clai
 }
 
 /*
- * Fits the tracks one after the other, best first, each to the nearest bearings that no earlier
- * track has claimed.
- */
-static void fit_tracks_in_turn_to_unclaimed_bearings(const struct rho_passive_search *search,
-                                                     struct rho_passive_set *set)
-{
-    for (unsigned t = 0; t < set->num; t++) {
-        struct rho_passive_candidate *track = &set->tracks[t];
-        rho_passive_fit_nearest(search, track->state_m, 0);
-        (void)rho_passive_claim_and_score_nearest(search, track->state_m, 0, track->claim);
-        rho_passive_mark_claims(search->passive, (rho_passive_const_claim *)track->claim, 1);
-    }
-    for (unsigned t = 0; t < set->num; t++) {
-        rho_passive_mark_claims(search->passive, (rho_passive_const_claim *)set->tracks[t].claim,
-                                0);
-    }
-}
-
-/*
  * Alternating assignment and fit ends in a local optimum near its start. So there are two starts,
- * the candidates and the tracks fitted in turn, and the result with the higher total is kept.
+ * and the result with the higher total is kept: the candidates, and the tracks fitted one after the
+ * other, best first, each to the nearest bearings that no earlier track has claimed.
  */
 void rho_passive_fit_jointly(const struct rho_passive_search *search,
                              const struct rho_passive_choice *choice, struct rho_passive_set *set)
 {
-    struct rho_passive_set *spare = &search->passive->spare;
-    fill_set_with_chosen(search, choice, set);
+    struct rho_passive *passive = search->passive;
+    struct rho_passive_set *spare = &passive->spare;
+    uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
+    rho_passive_rank_candidates(passive, order);
+    set->num = 0;
+    for (unsigned i = 0; i < choice->count; i++) {
+        if (choice->is_in[order[i]] && set->num == RHO_MAX_PASSIVE_TRACKS) {
+            passive->work.candidates_dropped = rho_count(passive->work.candidates_dropped, 1);
+        } else if (choice->is_in[order[i]]) {
+            set->tracks[set->num] = passive->candidates[order[i]];
+            set->candidate[set->num++] = order[i];
+        }
+    }
     *spare = *set;
-    fit_tracks_jointly_and_drop_non_tracks(search, set);
-    fit_tracks_in_turn_to_unclaimed_bearings(search, spare);
-    fit_tracks_jointly_and_drop_non_tracks(search, spare);
-    if (spare->total_nat > set->total_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
+    fit_set(search, set);
+    for (unsigned t = 0; t < spare->num; t++) {
+        struct rho_passive_candidate *track = &spare->tracks[t];
+        rho_passive_fit_nearest(search, track->state_m, 0);
+        (void)rho_passive_score_nearest(search, track->state_m, 0, track->claim);
+        rho_passive_mark_claims(passive, (rho_passive_const_claim *)track->claim, 1);
+    }
+    for (unsigned t = 0; t < spare->num; t++) {
+        rho_passive_mark_claims(passive, (rho_passive_const_claim *)spare->tracks[t].claim, 0);
+    }
+    fit_set(search, spare);
+    if (spare->total_nat > set->total_nat + GAIN_MIN_NAT) {
         *set = *spare;
     }
 }

@@ -7,34 +7,12 @@
 #include <string.h>
 
 #include "passive_search.h"
+#include "policy.h"
 #include "rhotrack/types.h"
-
-#define SPREAD_CELLS_MAX 8
-#define NEIGHBOUR_CELLS 2 /* cells on either side that are cleared with a line that was taken */
-
-/* ---- votes ----------------------------------------------------------------------------------- */
 
 static int clipped_cell(float cell, int last)
 {
     return cell > 0.0f ? (cell < (float)last ? (int)cell : last) : 0;
-}
-
-/* Sets the scan's bit in the cells of one row of theta that the crossing's errors reach. */
-static void vote_crossing_in_row(struct rho_passive_search *search,
-                                 const struct rho_passive_point *point, unsigned row)
-{
-    float cell_m = search->passive->config.rho_cell_m;
-    int last = search->rho_cells - 1;
-    float rho_m = point->x_m * search->cosine[row] + point->y_m * search->sine[row];
-    float middle = rho_m / cell_m + 0.5f * (float)search->rho_cells;
-    float reach = RHO_PASSIVE_SPREAD_SIGMAS *
-                  rho_passive_crossing_rho_sigma_m(point, search->cosine[row], search->sine[row]) /
-                  cell_m;
-    reach = reach < (float)SPREAD_CELLS_MAX ? reach : (float)SPREAD_CELLS_MAX;
-    for (int i = clipped_cell(middle - reach, last); i <= clipped_cell(middle + reach, last); i++) {
-        uint16_t *cell = &search->passive->cells[row][i];
-        *cell = (uint16_t)(*cell | 1u << point->scan);
-    }
 }
 
 static unsigned max_votes_of_row(const struct rho_passive_search *search, unsigned row)
@@ -47,43 +25,33 @@ static unsigned max_votes_of_row(const struct rho_passive_search *search, unsign
     return most;
 }
 
-void rho_passive_vote_by_crossings_for_lines(struct rho_passive_search *search)
+void rho_passive_vote_lines(struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
+    float cell_m = passive->config.rho_cell_m;
+    int last = search->rho_cells - 1;
     memset(passive->cells, 0, sizeof passive->cells);
-    for (uint32_t i = 0; i < passive->num_points; i++) {
-        for (unsigned row = 0; row < search->theta_cells; row++) {
-            vote_crossing_in_row(search, &passive->points[i], row);
-        }
-    }
     for (unsigned row = 0; row < search->theta_cells; row++) {
-        search->row_votes[row] = (uint8_t)max_votes_of_row(search, row);
+        float cosine = search->cosine[row], sine = search->sine[row];
+        for (uint32_t n = 0; n < passive->num_points; n++) {
+            /* the scan's bit in the cells that the crossing's errors reach */
+            const struct rho_passive_point *point = &passive->points[n];
+            float rho_m = point->x_m * cosine + point->y_m * sine;
+            float middle = rho_m / cell_m + 0.5f * (float)search->rho_cells;
+            float reach = SPREAD_SIGMAS * rho_passive_rho_sigma_m(point, cosine, sine) / cell_m;
+            reach = reach < (float)SPREAD_CELLS_MAX ? reach : (float)SPREAD_CELLS_MAX;
+            int to = clipped_cell(middle + reach, last);
+            for (int i = clipped_cell(middle - reach, last); i <= to; i++) {
+                passive->cells[row][i] = (uint16_t)(passive->cells[row][i] | 1u << point->scan);
+            }
+        }
+        search->most_votes[row] = (uint8_t)max_votes_of_row(search, row);
     }
 }
-
-/* ---- lines ----------------------------------------------------------------------------------- */
 
 struct cell {
     int row, column;
 };
-
-/* Finds the first cell with the most votes in the plane. Returns its votes. */
-static unsigned find_peak(const struct rho_passive_search *search, struct cell *at)
-{
-    unsigned most = 0;
-    int row = 0, column = 0;
-    for (int i = 0; i < search->theta_cells; i++) {
-        if (search->row_votes[i] > most) {
-            most = search->row_votes[i];
-            row = i;
-        }
-    }
-    while (rho_count_bits(search->passive->cells[row][column]) != most) {
-        column++;
-    }
-    *at = (struct cell){row, column};
-    return most;
-}
 
 static int has_exactly_votes(const struct rho_passive_search *search, int row, int column,
                              unsigned votes)
@@ -124,12 +92,25 @@ static struct cell find_plateau_middle(const struct rho_passive_search *search, 
     return best;
 }
 
-/*
- * Clears the votes of a line and its neighbours, also across the ends of theta, where rho changes
- * its sign.
- */
-static void clear_votes_around(struct rho_passive_search *search, struct cell at)
+int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes_min,
+                               struct rho_passive_line *line)
 {
+    struct cell at = {0, 0};
+    unsigned votes = 0;
+    for (int row = 0; row < search->theta_cells; row++) {
+        if (search->most_votes[row] > votes) {
+            votes = search->most_votes[row];
+            at.row = row;
+        }
+    }
+    if (votes < votes_min || votes == 0) {
+        return 0;
+    }
+    while (rho_count_bits(search->passive->cells[at.row][at.column]) != votes) {
+        at.column++;
+    }
+    at = find_plateau_middle(search, at, votes);
+    /* clears the neighbours too, also across the ends of theta, where rho changes its sign */
     for (int i = at.row - NEIGHBOUR_CELLS; i <= at.row + NEIGHBOUR_CELLS; i++) {
         int is_turned = i < 0 || i >= search->theta_cells;
         int row = i < 0 ? i + search->theta_cells : is_turned ? i - search->theta_cells : i;
@@ -139,20 +120,8 @@ static void clear_votes_around(struct rho_passive_search *search, struct cell at
                 search->passive->cells[row][column] = 0;
             }
         }
-        search->row_votes[row] = (uint8_t)max_votes_of_row(search, (unsigned)row);
+        search->most_votes[row] = (uint8_t)max_votes_of_row(search, (unsigned)row);
     }
-}
-
-int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes_min,
-                               struct rho_passive_line *line)
-{
-    struct cell at = {0, 0};
-    unsigned votes = find_peak(search, &at);
-    if (votes < votes_min || votes == 0) {
-        return 0;
-    }
-    at = find_plateau_middle(search, at, votes);
-    clear_votes_around(search, at);
     *line = (struct rho_passive_line){
         .cosine = search->cosine[at.row],
         .sine = search->sine[at.row],

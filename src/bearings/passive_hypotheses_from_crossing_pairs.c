@@ -5,19 +5,9 @@
  * bearings.
  */
 #include "passive_search.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
-
-/* crossings within this many rho cells of a line always count as on the line */
-#define LINE_CELLS 1.5f
-/*
- * smallest number of scans between two crossings of a pair: closer ones tell little of the velocity
- */
-#define PAIR_SCANS_MIN 3
-/* margin above v_max_mps for the speed of a pair, as crossings are inaccurate before the fit */
-#define SPEED_SLACK_MPS 150.0f
-#define LINE_POINTS_MAX 160u
-#define FITS_PER_LINE 20u
 
 /* Indices of two crossings in passive->points; crossing a is of an earlier scan than crossing b. */
 struct pair {
@@ -31,29 +21,9 @@ struct best_pairs {
     struct pair pair[FITS_PER_LINE];
 };
 
-/* A new pair of crossings must agree better than this to enter the list of the best pairs. */
-static float agreement_to_beat(const struct best_pairs *best)
-{
-    return best->count < FITS_PER_LINE ? -1.0f : best->agreement[FITS_PER_LINE - 1u];
-}
-
-static void insert_pair_if_better(struct best_pairs *best, float agreement, struct pair pair)
-{
-    if (!(agreement > agreement_to_beat(best))) {
-        return;
-    }
-    unsigned place = best->count < FITS_PER_LINE ? best->count++ : FITS_PER_LINE - 1u;
-    for (; place > 0 && agreement > best->agreement[place - 1u]; place--) {
-        best->agreement[place] = best->agreement[place - 1u];
-        best->pair[place] = best->pair[place - 1u];
-    }
-    best->agreement[place] = agreement;
-    best->pair[place] = pair;
-}
-
 /* Lists the indices of the crossings on a line, within their errors. Returns their number. */
-static unsigned collect_crossings_near_line(const struct rho_passive_search *search,
-                                            const struct rho_passive_line *line, uint16_t *index)
+static unsigned collect_crossings(const struct rho_passive_search *search,
+                                  const struct rho_passive_line *line, uint16_t *index)
 {
     const struct rho_passive *passive = search->passive;
     float least_m = LINE_CELLS * passive->config.rho_cell_m;
@@ -61,8 +31,7 @@ static unsigned collect_crossings_near_line(const struct rho_passive_search *sea
     for (uint32_t i = 0; i < passive->num_points; i++) {
         const struct rho_passive_point *point = &passive->points[i];
         float off_m = point->x_m * line->cosine + point->y_m * line->sine - line->rho_m;
-        float reach_m = RHO_PASSIVE_SPREAD_SIGMAS *
-                        rho_passive_crossing_rho_sigma_m(point, line->cosine, line->sine);
+        float reach_m = SPREAD_SIGMAS * rho_passive_rho_sigma_m(point, line->cosine, line->sine);
         reach_m = reach_m > least_m ? reach_m : least_m;
         if (!(off_m < reach_m && -off_m < reach_m)) {
             continue;
@@ -101,6 +70,7 @@ static int connect_crossings(const struct rho_passive_search *search, struct pai
     return 1;
 }
 
+/* Lists the pairs of a line's crossings that agree best with the bearings. */
 static void list_best_pairs(struct rho_passive_search *search, const uint16_t *index,
                             unsigned count, struct best_pairs *best)
 {
@@ -110,56 +80,51 @@ static void list_best_pairs(struct rho_passive_search *search, const uint16_t *i
         for (unsigned j = 0; j < count; j++) {
             struct pair pair = {index[i], index[j]};
             float state_m[RHO_PASSIVE_STATES];
-            if (passive->points[pair.b].scan >= scan_min &&
-                connect_crossings(search, pair, state_m)) {
-                insert_pair_if_better(
-                    best, rho_passive_agreement_if_above(search, state_m, agreement_to_beat(best)),
-                    pair);
-                passive->work.hypotheses = rho_count(passive->work.hypotheses, 1);
+            if (passive->points[pair.b].scan < scan_min ||
+                !connect_crossings(search, pair, state_m)) {
+                continue;
             }
+            float least = best->count < FITS_PER_LINE ? -1.0f : best->agreement[FITS_PER_LINE - 1u];
+            float agreement = rho_passive_agreement(search, state_m, least);
+            passive->work.hypotheses = rho_count(passive->work.hypotheses, 1);
+            if (!(agreement > least)) {
+                continue;
+            }
+            unsigned place = best->count < FITS_PER_LINE ? best->count++ : FITS_PER_LINE - 1u;
+            for (; place > 0 && agreement > best->agreement[place - 1u]; place--) {
+                best->agreement[place] = best->agreement[place - 1u];
+                best->pair[place] = best->pair[place - 1u];
+            }
+            best->agreement[place] = agreement;
+            best->pair[place] = pair;
         }
     }
 }
 
-/* Entry of a pair of crossings in the table of fitted pairs; it may hold another pair. */
-static struct rho_passive_fitted *fitted_pair_entry(struct rho_passive *passive, struct pair pair)
-{
-    return &passive->fitted[(pair.a * 61u + pair.b) % RHO_PASSIVE_PAIRS];
-}
-
-/*
- * Neighbouring lines share pairs of crossings. Fitting a pair again gives no track if it gave none
- * before; otherwise it gives a duplicate, unless a candidate has been removed since.
- */
-static int is_refit_of_crossing_pair_useless(const struct rho_passive_search *search,
-                                             struct pair pair)
-{
-    const struct rho_passive_fitted *fitted = fitted_pair_entry(search->passive, pair);
-    return fitted->a == pair.a && fitted->b == pair.b &&
-           (fitted->when == UINT16_MAX || fitted->when == search->candidates_removed);
-}
-
-/* Fits the state through two crossings and offers it, unless that pair is known to give nothing. */
-static void fit_pair_and_offer_as_candidate(struct rho_passive_search *search, struct pair pair)
-{
-    float state_m[RHO_PASSIVE_STATES];
-    if (is_refit_of_crossing_pair_useless(search, pair) ||
-        !connect_crossings(search, pair, state_m)) {
-        return;
-    }
-    rho_passive_fit_nearest(search, state_m, 0);
-    int is_track = rho_passive_offer_if_track(search, state_m);
-    *fitted_pair_entry(search->passive, pair) = (struct rho_passive_fitted){
-        .a = pair.a, .b = pair.b, .when = is_track ? search->candidates_removed : UINT16_MAX};
-}
-
-void rho_passive_fit_crossing_pairs_near_line(struct rho_passive_search *search,
-                                              const struct rho_passive_line *line)
+void rho_passive_fit_line_pairs(struct rho_passive_search *search,
+                                const struct rho_passive_line *line)
 {
     uint16_t index[LINE_POINTS_MAX];
     struct best_pairs best = {.count = 0};
-    list_best_pairs(search, index, collect_crossings_near_line(search, line, index), &best);
+    list_best_pairs(search, index, collect_crossings(search, line, index), &best);
     for (unsigned i = 0; i < best.count; i++) {
-        fit_pair_and_offer_as_candidate(search, best.pair[i]);
+        const struct pair pair = best.pair[i];
+        /* the entry of the pair in the table of fitted pairs, which may hold another pair */
+        struct rho_passive_fitted *fitted =
+            &search->passive->fitted[(pair.a * 61u + pair.b) % RHO_PASSIVE_PAIRS];
+        float state_m[RHO_PASSIVE_STATES];
+        /*
+         * Neighbouring lines share pairs of crossings. Fitting a pair again gives no track if it
+         * gave none before; otherwise it gives a duplicate, unless a candidate has been removed.
+         */
+        int is_useless = fitted->a == pair.a && fitted->b == pair.b &&
+                         (fitted->when == UINT16_MAX || fitted->when == search->candidates_removed);
+        if (is_useless || !connect_crossings(search, pair, state_m)) {
+            continue;
+        }
+        rho_passive_fit_nearest(search, state_m, 0);
+        int is_track = rho_passive_offer_if_track(search, state_m);
+        *fitted = (struct rho_passive_fitted){
+            .a = pair.a, .b = pair.b, .when = is_track ? search->candidates_removed : UINT16_MAX};
     }
 }

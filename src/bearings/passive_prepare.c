@@ -4,90 +4,48 @@
  * scans, log-likelihood ratios of a hit and a miss, and the score that a track must reach.
  */
 #include "passive_search.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define DENSITY_MIN_PER_RAD 0.3f
-#define SIGMA_RATIO_MAX 200.0f
-#define SQRT_TWO_PI 2.50662827f
-
-/* Sets the sensors' centroid, and their positions relative to it. */
-static void set_sensor_places_about_centroid(struct rho_passive_search *search)
+void rho_passive_prepare(struct rho_passive_search *search)
 {
-    const struct rho_passive *passive = search->passive;
-    float n = (float)passive->batch.num_sensors;
-    for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
-        search->middle_x_m += passive->batch.sensors[s].x_m / n;
-        search->middle_y_m += passive->batch.sensors[s].y_m / n;
+    const struct rho_batch *batch = &search->passive->batch;
+    const struct rho_passive_config *config = &search->passive->config;
+    float n = (float)batch->num_sensors;
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        search->middle_x_m += batch->sensors[s].x_m / n;
+        search->middle_y_m += batch->sensors[s].y_m / n;
     }
-    for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
-        search->x_m[s] = passive->batch.sensors[s].x_m - search->middle_x_m;
-        search->y_m[s] = passive->batch.sensors[s].y_m - search->middle_y_m;
+    for (unsigned s = 0; s < batch->num_sensors; s++) {
+        search->x_m[s] = batch->sensors[s].x_m - search->middle_x_m;
+        search->y_m[s] = batch->sensors[s].y_m - search->middle_y_m;
     }
-}
-
-/* Sets half the time span of the batch, and each scan's time as -1 .. 1 within it. */
-static void set_scan_times_from_minus_1_to_1(struct rho_passive_search *search)
-{
-    const struct rho_passive *passive = search->passive;
-    int64_t first_us = passive->batch.time_us[0],
-            last_us = passive->batch.time_us[passive->batch.num_scans - 1];
+    int64_t first_us = batch->time_us[0], last_us = batch->time_us[batch->num_scans - 1];
     search->half_s = 0.5f * rho_seconds_between(first_us, last_us);
-    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
-        search->step[k] =
-            rho_seconds_between(first_us, passive->batch.time_us[k]) / search->half_s - 1.0f;
-    }
-}
-
-/*
- * Raises small sigmas, to limit the ratio of the largest sigma to the smallest: float32 has too few
- * digits for the normal equations of very different bearings.
- */
-static void set_sigma_floor(struct rho_passive_search *search)
-{
-    const struct rho_passive *passive = search->passive;
-    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
-        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
-            for (unsigned i = 0; i < passive->batch.num_bearings[k][s]; i++) {
-                float sigma_rad = passive->batch.bearings[k][s][i].sigma_rad / SIGMA_RATIO_MAX;
-                search->sigma_min_rad =
-                    sigma_rad > search->sigma_min_rad ? sigma_rad : search->sigma_min_rad;
-            }
-        }
-    }
-}
-
-/*
- * Log-likelihood ratios of a hit and a miss. False bearings are taken as uniform in the field of
- * view, with the density of all bearings of the batch.
- */
-static void set_batch_hit_and_miss_log_likelihoods(struct rho_passive_search *search)
-{
-    const struct rho_passive *passive = search->passive;
-    const struct rho_passive_config *config = &passive->config;
     float total = 0.0f, log_sigmas = 0.0f;
-    for (unsigned k = 0; k < passive->batch.num_scans; k++) {
-        for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
-            search->looks += passive->batch.was_seen[k][s];
-            total += (float)passive->batch.num_bearings[k][s];
-            for (unsigned i = 0; i < passive->batch.num_bearings[k][s]; i++) {
-                log_sigmas += rho_log(passive->batch.bearings[k][s][i].sigma_rad);
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        search->step[k] = rho_seconds_between(first_us, batch->time_us[k]) / search->half_s - 1.0f;
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            search->looks += batch->was_seen[k][s];
+            total += (float)batch->num_bearings[k][s];
+            for (unsigned i = 0; i < batch->num_bearings[k][s]; i++) {
+                float sigma_rad = batch->bearings[k][s][i].sigma_rad;
+                float least_rad = sigma_rad / SIGMA_RATIO_MAX;
+                log_sigmas += rho_log(sigma_rad);
+                search->sigma_min_rad =
+                    least_rad > search->sigma_min_rad ? least_rad : search->sigma_min_rad;
             }
         }
     }
+    /* false bearings are uniform in the field of view, with the density of all bearings */
     float looks = search->looks > 0 ? (float)search->looks : 1.0f;
     float density = total / looks / config->field_of_view_rad;
     density = density > DENSITY_MIN_PER_RAD ? density : DENSITY_MIN_PER_RAD;
-    search->hit_nat = rho_log(config->pd / (density * SQRT_TWO_PI));
+    search->hit_nat = rho_log(config->pd / (density * 2.50662827f /* sqrt(2 pi) */));
     search->miss_nat = rho_log(1.0f - config->pd);
     search->share_nat =
         search->hit_nat - log_sigmas / (total > 0.0f ? total : 1.0f) - search->miss_nat;
-}
-
-/* Sets the number of cells, and cosine and sine of theta at each row's centre. */
-static void set_theta_rows(struct rho_passive_search *search)
-{
-    const struct rho_passive_config *config = &search->passive->config;
     search->theta_cells = (uint16_t)(RHO_PI / config->theta_cell_rad + 0.5f);
     search->rho_cells = RHO_PASSIVE_RHO_CELLS;
     for (unsigned i = 0; i < search->theta_cells; i++) {
@@ -95,16 +53,7 @@ static void set_theta_rows(struct rho_passive_search *search)
         search->cosine[i] = rho_cos(theta_rad);
         search->sine[i] = rho_sin(theta_rad);
     }
-}
-
-void rho_passive_prepare(struct rho_passive_search *search)
-{
-    set_sensor_places_about_centroid(search);
-    set_scan_times_from_minus_1_to_1(search);
-    set_batch_hit_and_miss_log_likelihoods(search);
-    set_sigma_floor(search);
-    set_theta_rows(search);
-    rho_passive_mark_bearing_directions(search);
+    rho_passive_mark_directions(search);
 }
 
 /*
@@ -113,7 +62,7 @@ void rho_passive_prepare(struct rho_passive_search *search)
  * most one of e^s pairs of crossings. Hence the start score is the score of four bearings plus ln
  * (pairs of crossings / false tracks allowed in a scan interval).
  */
-void rho_passive_set_score_to_start_track(const struct rho_passive_search *search)
+void rho_passive_set_start_score(const struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
     float points = (float)(passive->work.crossings - passive->work.ghosts);

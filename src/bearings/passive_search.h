@@ -9,14 +9,13 @@
  * - passive_best_candidate_subset.c: the subset of candidates with the highest total score
  * - passive_fit_of_several_tracks.c: one-to-one assignment of bearings to the chosen tracks, and
  *   their fits
- * - passive_score_lost_without_a_track.c: margins of the tracks against the best other sets
  * - passive_prepare.c: geometry, times, likelihood ratios
  * - passive_crossings.c: phase 1: crossings of all pairs of sensors
  * - passive_hough_votes_of_crossings.c: phase 2: votes, and the lines with the most votes
  * - passive_hypotheses_from_crossing_pairs.c: phase 3: constant velocities through pairs of a
  *   line's crossings
- * - passive_claims_and_final_tracks.c: phases 4 and 5: the best set of candidates, and the
- *   tracks
+ * - passive_score_lost_without_a_track.c: phases 4 and 5: the best set of candidates, and the
+ *   tracks with their margins
  * - passive_targets_behind_ghosts.c: candidates from bearings swapped between two candidates
  * - passive.c: configuration, frames, the sequence of phases of a search
  */
@@ -31,16 +30,7 @@
  * in metres: the position at scan k is (x, y) + step[k] (dx, dy). The origin is the sensors'
  * centroid.
  */
-#define RHO_PASSIVE_STATES 4
-#define RHO_PASSIVE_X 0
-#define RHO_PASSIVE_Y 1
-#define RHO_PASSIVE_DX 2
-#define RHO_PASSIVE_DY 3
-
-/* smallest gain of a total score that counts: larger than rounding errors */
-#define RHO_PASSIVE_GAIN_MIN_NAT 1.0e-3f
-/* half width, in sigmas of rho, of a crossing's votes, and of the band in which it is on a line */
-#define RHO_PASSIVE_SPREAD_SIGMAS 2.0f
+enum { RHO_PASSIVE_X, RHO_PASSIVE_Y, RHO_PASSIVE_DX, RHO_PASSIVE_DY, RHO_PASSIVE_STATES };
 
 /* Values computed once for a search. Positions are relative to the sensors' centroid. */
 struct rho_passive_search {
@@ -61,7 +51,7 @@ struct rho_passive_search {
     uint16_t theta_cells, rho_cells;
     float cosine[RHO_PASSIVE_THETA_CELLS], sine[RHO_PASSIVE_THETA_CELLS];
     /* largest number of votes of a cell in each row of theta */
-    uint8_t row_votes[RHO_PASSIVE_THETA_CELLS];
+    uint8_t most_votes[RHO_PASSIVE_THETA_CELLS];
     uint32_t worst_point; /* index of the least certain crossing; num_points: not known */
     /* number of candidates removed from the list so far in this search */
     uint16_t candidates_removed;
@@ -74,9 +64,7 @@ void rho_passive_prepare(struct rho_passive_search *search);
  * Sets passive->start_mnat, the score at which false tracks have the allowed rate, from the number
  * of crossings of the first pass.
  */
-void rho_passive_set_score_to_start_track(const struct rho_passive_search *search);
-
-/* ---- phase 1: crossings ---- */
+void rho_passive_set_start_score(const struct rho_passive_search *search);
 
 /* Crosses the bearings of all pairs of sensors, scan by scan, into passive->points. */
 void rho_passive_find_crossings(struct rho_passive_search *search);
@@ -88,17 +76,15 @@ static inline float rho_passive_uncertainty_m2(const struct rho_passive_point *p
 }
 
 /* Standard deviation of a crossing's rho, for the line normal (cosine, sine). */
-static inline float rho_passive_crossing_rho_sigma_m(const struct rho_passive_point *point,
-                                                     float cosine, float sine)
+static inline float rho_passive_rho_sigma_m(const struct rho_passive_point *point, float cosine,
+                                            float sine)
 {
     return rho_sqrt(point->xx_m2 * cosine * cosine + 2.0f * point->xy_m2 * cosine * sine +
                     point->yy_m2 * sine * sine);
 }
 
-/* ---- phase 2: lines ---- */
-
 /* All crossings vote for the lines (rho, theta) through them, into passive->cells. */
-void rho_passive_vote_by_crossings_for_lines(struct rho_passive_search *search);
+void rho_passive_vote_lines(struct rho_passive_search *search);
 
 struct rho_passive_line {
     float cosine, sine, rho_m;
@@ -111,16 +97,12 @@ struct rho_passive_line {
 int rho_passive_take_best_line(struct rho_passive_search *search, unsigned votes_min,
                                struct rho_passive_line *line);
 
-/* ---- phase 3: hypotheses ---- */
-
 /*
  * Tries constant velocities through pairs of crossings on the line: those that agree best with the
  * bearings are fitted and offered as candidates.
  */
-void rho_passive_fit_crossing_pairs_near_line(struct rho_passive_search *search,
-                                              const struct rho_passive_line *line);
-
-/* ---- bearings that match a state ---- */
+void rho_passive_fit_line_pairs(struct rho_passive_search *search,
+                                const struct rho_passive_line *line);
 
 /* Vector from a sensor to the position of a state at the time of a scan. */
 struct rho_passive_offset {
@@ -158,27 +140,25 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
                                                    unsigned claim);
 
 /* Measured minus predicted bearing of a match, divided by the bearing's sigma. */
-float rho_passive_normalised_residual(const struct rho_passive_match *match);
+float rho_passive_residual(const struct rho_passive_match *match);
 
 /*
  * Marks, for each look, the directions within nine sigmas of a bearing, for a quick test. Needed
  * before states are matched with nearest bearings.
  */
-void rho_passive_mark_bearing_directions(struct rho_passive_search *search);
+void rho_passive_mark_directions(struct rho_passive_search *search);
 
 /*
  * Agreement of a state with the bearings: sum over all looks of 1 - (residual / 9 sigmas)^2 of the
  * nearest bearing, or 0 beyond nine sigmas. Stops early, with a value of at most `least`, once the
  * sum cannot exceed `least`.
  */
-float rho_passive_agreement_if_above(const struct rho_passive_search *search,
-                                     const float state_m[RHO_PASSIVE_STATES], float least);
+float rho_passive_agreement(const struct rho_passive_search *search,
+                            const float state_m[RHO_PASSIVE_STATES], float least);
 
 /* The bearings that a track claims in one scan: for each sensor an index from 1; 0: no bearing. */
 typedef uint8_t rho_passive_claim[RHO_MAX_PASSIVE_SENSORS];
 typedef const uint8_t rho_passive_const_claim[RHO_MAX_PASSIVE_SENSORS];
-
-/* ---- fit and score of a state ---- */
 
 /*
  * Fits a state to the nearest bearings: four Gauss-Newton steps, with gates of 8, 5, 3.5 and 3.5
@@ -188,9 +168,8 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search,
                              float state_m[RHO_PASSIVE_STATES], int include_claimed);
 
 /* Improves a state by one Gauss-Newton step towards the claimed bearings. */
-void rho_passive_step_to_claimed_bearings(const struct rho_passive_search *search,
-                                          float state_m[RHO_PASSIVE_STATES],
-                                          rho_passive_const_claim *claim);
+void rho_passive_step_to_claims(const struct rho_passive_search *search,
+                                float state_m[RHO_PASSIVE_STATES], rho_passive_const_claim *claim);
 
 struct rho_passive_score {
     float score_nat, chi2;
@@ -204,10 +183,9 @@ struct rho_passive_score {
  * Claims for a state the nearest bearing of each look within 3.5 sigmas, and scores the state with
  * these claims.
  */
-struct rho_passive_score
-rho_passive_claim_and_score_nearest(const struct rho_passive_search *search,
-                                    const float state_m[RHO_PASSIVE_STATES], int include_claimed,
-                                    rho_passive_claim *claim);
+struct rho_passive_score rho_passive_score_nearest(const struct rho_passive_search *search,
+                                                   const float state_m[RHO_PASSIVE_STATES],
+                                                   int include_claimed, rho_passive_claim *claim);
 
 /* Scores a state with given claims: log-likelihood ratio, chi-square, hits, test of a track. */
 struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_search *search,
@@ -217,9 +195,9 @@ struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_sear
 /*
  * Score of a look with the bearing `claim` (from 1) minus the score of a miss; 0 beyond 3.5 sigmas.
  */
-float rho_passive_gain_of_bearing_over_miss_nat(const struct rho_passive_search *search,
-                                                const float state_m[RHO_PASSIVE_STATES],
-                                                unsigned scan, unsigned sensor, unsigned claim);
+float rho_passive_gain_nat(const struct rho_passive_search *search,
+                           const float state_m[RHO_PASSIVE_STATES], unsigned scan, unsigned sensor,
+                           unsigned claim);
 
 /*
  * Fills the position and velocity at the newest scan of a track, and their covariance, from a state
@@ -228,8 +206,6 @@ float rho_passive_gain_of_bearing_over_miss_nat(const struct rho_passive_search 
 int rho_passive_estimate_track(const struct rho_passive_search *search,
                                const float state_m[RHO_PASSIVE_STATES],
                                struct rho_passive_track *track);
-
-/* ---- candidates ---- */
 
 /* Sorts the indices of the candidates by score, best first, into order[]. */
 void rho_passive_rank_candidates(const struct rho_passive *passive,
@@ -243,17 +219,15 @@ int rho_passive_offer_if_track(struct rho_passive_search *search,
                                const float state_m[RHO_PASSIVE_STATES]);
 
 /* Number of bearings that two candidates both claim. */
-unsigned rho_passive_count_shared_bearings(const struct rho_passive_search *search,
-                                           const struct rho_passive_candidate *a,
-                                           const struct rho_passive_candidate *b);
+unsigned rho_passive_count_shared(const struct rho_passive_search *search,
+                                  const struct rho_passive_candidate *a,
+                                  const struct rho_passive_candidate *b);
 
 /*
  * Offers candidates for targets whose bearings two ghost candidates share: one sensor's bearings of
  * one candidate with another sensor's bearings of the other (passive_targets_behind_ghosts.c).
  */
-void rho_passive_offer_swapped_candidates(struct rho_passive_search *search);
-
-/* ---- the choice of candidates ---- */
+void rho_passive_offer_swapped(struct rho_passive_search *search);
 
 struct rho_passive_choice {
     const struct rho_passive_search *search;
@@ -268,8 +242,7 @@ struct rho_passive_choice {
 };
 
 /* Finds the choice of candidates with the highest total, by greedy search from several starts. */
-void rho_passive_choose_candidates(const struct rho_passive_search *search,
-                                   struct rho_passive_choice *best);
+void rho_passive_choose(const struct rho_passive_search *search, struct rho_passive_choice *best);
 
 /* Excludes from a choice a candidate and all other candidates of the same target. */
 void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned which);
@@ -278,12 +251,10 @@ void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned whic
  * Adds a candidate to a choice (which = count: none), then further candidates while the total
  * grows.
  */
-void rho_passive_add_candidate_then_all_gaining(struct rho_passive_choice *choice, unsigned which);
+void rho_passive_add_gaining(struct rho_passive_choice *choice, unsigned which);
 
 /* Replaces candidates of a choice, one at a time, by others, as long as the total grows. */
 void rho_passive_improve_choice(struct rho_passive_choice *choice);
-
-/* ---- tracks fitted together ---- */
 
 /* Sets is_claimed of all bearings in `claims` to the given value, 0 or 1. */
 void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_claim *claims,
@@ -295,16 +266,6 @@ void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_clai
  */
 void rho_passive_fit_jointly(const struct rho_passive_search *search,
                              const struct rho_passive_choice *choice, struct rho_passive_set *set);
-
-/*
- * Margin of each track: total score of passive->best minus that of the best set without the track's
- * target. A set with a higher total that is found becomes passive->best.
- */
-void rho_passive_find_margins_and_improve(const struct rho_passive_search *search,
-                                          struct rho_passive_choice *choice,
-                                          float margins_nat[RHO_MAX_PASSIVE_TRACKS]);
-
-/* ---- phases 4 and 5: selection ---- */
 
 /* Marks the bearings of the best set of candidates as claimed, for the second pass. */
 void rho_passive_claim_best_set(struct rho_passive_search *search);

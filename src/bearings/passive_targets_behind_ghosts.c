@@ -8,8 +8,7 @@
 #include <string.h>
 
 #include "passive_search.h"
-
-#define SWAPPED 12u /* candidates with the highest scores that are paired */
+#include "policy.h"
 
 /*
  * Claims of the best candidates, copied because offering candidates changes the order of their
@@ -17,42 +16,16 @@
  */
 struct claims {
     unsigned count;
-    uint8_t of[SWAPPED][RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+    uint8_t of[BEST_TRIED][RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
-
-static void copy_claims_of_best_candidates(const struct rho_passive *passive, struct claims *claims)
-{
-    uint8_t order[RHO_MAX_PASSIVE_CANDIDATES];
-    rho_passive_rank_candidates(passive, order);
-    claims->count = passive->num_candidates < SWAPPED ? passive->num_candidates : SWAPPED;
-    for (unsigned i = 0; i < claims->count; i++) {
-        memcpy(claims->of[i], passive->candidates[order[i]].claim, sizeof claims->of[i]);
-    }
-}
-
-/*
- * Crosses the claimed bearings of two sensors in a scan; claims are indices from 1. Returns 0 where
- * there is no claim or no crossing.
- */
-static int cross_claimed_bearings(const struct rho_passive_search *search,
-                                  const struct rho_crossing_base *base, unsigned scan,
-                                  const unsigned sensors[2], const unsigned claims[2],
-                                  struct rho_crossing *crossing)
-{
-    const struct rho_batch *batch = &search->passive->batch;
-    return claims[0] > 0 && claims[1] > 0 &&
-           rho_crossing_find(base, batch->bearings[scan][sensors[0]][claims[0] - 1].bearing_rad,
-                             batch->bearings[scan][sensors[1]][claims[1] - 1].bearing_rad,
-                             search->passive->config.range_max_m, crossing) == RHO_CROSSING_MEETS;
-}
 
 /*
  * The state through the first and the last crossing of candidate i's bearings from the first sensor
  * with candidate j's bearings from the second one. Returns 0 without two crossings.
  */
-static int state_from_swapped_bearings(const struct rho_passive_search *search,
-                                       const struct claims *claims, unsigned i, unsigned j,
-                                       const unsigned sensors[2], float state_m[RHO_PASSIVE_STATES])
+static int swapped_state(const struct rho_passive_search *search, const struct claims *claims,
+                         unsigned i, unsigned j, const unsigned sensors[2],
+                         float state_m[RHO_PASSIVE_STATES])
 {
     const struct rho_batch *batch = &search->passive->batch;
     struct rho_crossing_base base;
@@ -63,8 +36,12 @@ static int state_from_swapped_bearings(const struct rho_passive_search *search,
         return 0;
     }
     for (unsigned k = 0; k < batch->num_scans; k++) {
-        const unsigned both[2] = {claims->of[i][k][sensors[0]], claims->of[j][k][sensors[1]]};
-        if (cross_claimed_bearings(search, &base, k, sensors, both, &crossing)) {
+        unsigned a = claims->of[i][k][sensors[0]], b = claims->of[j][k][sensors[1]]; /* from 1 */
+        if (a > 0 && b > 0 &&
+            rho_crossing_find(&base, batch->bearings[k][sensors[0]][a - 1].bearing_rad,
+                              batch->bearings[k][sensors[1]][b - 1].bearing_rad,
+                              search->passive->config.range_max_m,
+                              &crossing) == RHO_CROSSING_MEETS) {
             first = first_scan == batch->num_scans ? crossing : first;
             first_scan = first_scan == batch->num_scans ? k : first_scan;
             last = crossing;
@@ -90,7 +67,7 @@ static void offer_swapped_candidates(struct rho_passive_search *search, const st
     for (unsigned a = 0; a + 1u < num_sensors; a++) {
         for (unsigned b = a + 1u; b < num_sensors; b++) {
             const unsigned sensors[2] = {a, b};
-            if (state_from_swapped_bearings(search, claims, i, j, sensors, state_m)) {
+            if (swapped_state(search, claims, i, j, sensors, state_m)) {
                 rho_passive_fit_nearest(search, state_m, 1);
                 (void)rho_passive_offer_if_track(search, state_m);
             }
@@ -98,10 +75,16 @@ static void offer_swapped_candidates(struct rho_passive_search *search, const st
     }
 }
 
-void rho_passive_offer_swapped_candidates(struct rho_passive_search *search)
+void rho_passive_offer_swapped(struct rho_passive_search *search)
 {
+    const struct rho_passive *passive = search->passive;
+    uint8_t order[RHO_MAX_PASSIVE_CANDIDATES];
     struct claims claims;
-    copy_claims_of_best_candidates(search->passive, &claims);
+    rho_passive_rank_candidates(passive, order);
+    claims.count = passive->num_candidates < BEST_TRIED ? passive->num_candidates : BEST_TRIED;
+    for (unsigned i = 0; i < claims.count; i++) {
+        memcpy(claims.of[i], passive->candidates[order[i]].claim, sizeof claims.of[i]);
+    }
     for (unsigned i = 0; i < claims.count; i++) {
         for (unsigned j = 0; j < claims.count; j++) {
             if (i != j) {

@@ -24,8 +24,6 @@ enum rho_status rho_batch_init(struct rho_batch *batch, unsigned scans_max,
     return RHO_OK;
 }
 
-/* ---- sensors --------------------------------------------------------------------------------- */
-
 static float distance_m(float x_m, float y_m, float other_x_m, float other_y_m)
 {
     float dx_m = other_x_m - x_m, dy_m = other_y_m - y_m;
@@ -42,66 +40,55 @@ static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id)
     return i;
 }
 
-/* True where a scan's sensor is neither too near to a place nor too far from it. */
-static int is_distance_to_other_sensor_usable(const struct rho_batch *batch,
-                                              const struct rho_bearing_scan *scan, float x_m,
-                                              float y_m)
+static int is_distance_usable(const struct rho_batch *batch, float distance_m)
 {
-    return rho_is_within(distance_m(scan->x_m, scan->y_m, x_m, y_m), RHO_CROSSING_BASE_MIN_M,
-                         batch->apart_max_m);
+    return rho_is_within(distance_m, RHO_CROSSING_BASE_MIN_M, batch->apart_max_m);
 }
 
 /*
- * A known sensor must not have moved; a new sensor must make a usable baseline with every known
- * one.
+ * A known sensor must not have moved, a new one must make usable baselines with every known one and
+ * with those of earlier scans of the frame, and no sensor may be in a frame twice.
  */
-static int is_sensor_unmoved_with_usable_baselines(const struct rho_batch *batch,
-                                                   const struct rho_bearing_scan *scan)
+static int is_sensor_usable(const struct rho_batch *batch, const struct rho_frame *frame,
+                            uint32_t scan_number)
 {
+    const struct rho_bearing_scan *scan = &frame->scans[scan_number];
     unsigned known = find_sensor(batch, scan->sensor_id);
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
         return 0;
     }
     for (unsigned i = 0; i < batch->num_sensors; i++) {
-        const struct rho_batch_sensor *sensor = &batch->sensors[i];
-        if (i == known
-                ? distance_m(scan->x_m, scan->y_m, sensor->x_m, sensor->y_m) > 0.0f
-                : !is_distance_to_other_sensor_usable(batch, scan, sensor->x_m, sensor->y_m)) {
+        float apart_m =
+            distance_m(scan->x_m, scan->y_m, batch->sensors[i].x_m, batch->sensors[i].y_m);
+        if (i == known ? apart_m > 0.0f : !is_distance_usable(batch, apart_m)) {
             return 0;
         }
     }
-    return 1;
-}
-
-/*
- * Scan scan_number must not repeat a sensor of an earlier scan of the frame, and must make usable
- * baselines with the sensors of those scans.
- */
-static int is_scan_sensor_new_with_usable_baselines(const struct rho_batch *batch,
-                                                    const struct rho_frame *frame,
-                                                    uint32_t scan_number)
-{
     for (uint32_t i = 0; i < scan_number; i++) {
         const struct rho_bearing_scan *other = &frame->scans[i];
-        if (other->sensor_id == frame->scans[scan_number].sensor_id ||
-            !is_distance_to_other_sensor_usable(batch, &frame->scans[scan_number], other->x_m,
-                                                other->y_m)) {
+        if (other->sensor_id == scan->sensor_id ||
+            !is_distance_usable(batch, distance_m(scan->x_m, scan->y_m, other->x_m, other->y_m))) {
             return 0;
         }
     }
     return 1;
 }
 
-static enum rho_status check_scans(const struct rho_batch *batch, const struct rho_frame *frame)
+enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rho_frame *frame)
 {
+    if (!batch || !frame || (frame->num_scans > 0 && !frame->scans)) {
+        return RHO_ERROR_NULL;
+    }
+    if (batch->num_scans > 0 && frame->time_us <= batch->time_us[batch->num_scans - 1]) {
+        return RHO_ERROR_STATE;
+    }
     unsigned num_sensors = batch->num_sensors;
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &frame->scans[i];
         if (scan->num_bearings > 0 && !scan->bearings) {
             return RHO_ERROR_NULL;
         }
-        if (!is_sensor_unmoved_with_usable_baselines(batch, scan) ||
-            !is_scan_sensor_new_with_usable_baselines(batch, frame, i) ||
+        if (!is_sensor_usable(batch, frame, i) ||
             !rho_angle_are_sector_ends_valid(scan->sector_from_rad, scan->sector_to_rad)) {
             return RHO_ERROR_VALUE;
         }
@@ -113,51 +100,14 @@ static enum rho_status check_scans(const struct rho_batch *batch, const struct r
     return RHO_OK;
 }
 
-enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rho_frame *frame)
+/* Stores a scan, and those of its bearings with fate HELD; others it refuses get their fate. */
+static void store_scan(struct rho_batch *batch, const struct rho_bearing_scan *scan, uint8_t *fates)
 {
-    if (!batch || !frame || (frame->num_scans > 0 && !frame->scans)) {
-        return RHO_ERROR_NULL;
-    }
-    if (batch->num_scans > 0 && frame->time_us <= batch->time_us[batch->num_scans - 1]) {
-        return RHO_ERROR_STATE;
-    }
-    return check_scans(batch, frame);
-}
-
-/* ---- bearings -------------------------------------------------------------------------------- */
-
-static void drop_oldest_scan(struct rho_batch *batch)
-{
-    size_t left = (size_t)batch->num_scans - 1u;
-    for (unsigned s = 0; s < batch->num_sensors; s++) {
-        batch->num_left += batch->num_bearings[0][s];
-    }
-    memmove(batch->time_us, batch->time_us + 1, left * sizeof batch->time_us[0]);
-    memmove(batch->num_bearings, batch->num_bearings + 1, left * sizeof batch->num_bearings[0]);
-    memmove(batch->was_seen, batch->was_seen + 1, left * sizeof batch->was_seen[0]);
-    memmove(batch->sector_from_rad, batch->sector_from_rad + 1,
-            left * sizeof batch->sector_from_rad[0]);
-    memmove(batch->sector_to_rad, batch->sector_to_rad + 1, left * sizeof batch->sector_to_rad[0]);
-    memmove(batch->bearings, batch->bearings + 1, left * sizeof batch->bearings[0]);
-    batch->num_scans--;
-}
-
-static unsigned find_or_add_sensor(struct rho_batch *batch, const struct rho_bearing_scan *scan)
-{
-    unsigned s = find_sensor(batch, scan->sensor_id);
+    unsigned k = batch->num_scans, s = find_sensor(batch, scan->sensor_id);
     if (s == batch->num_sensors) {
         batch->sensors[batch->num_sensors++] = (struct rho_batch_sensor){
             .sensor_id = scan->sensor_id, .x_m = scan->x_m, .y_m = scan->y_m};
     }
-    return s;
-}
-
-/* Stores a scan, and those of its bearings with fate HELD; others it refuses get their fate. */
-static void store_scan_and_bearings_with_fate_held(struct rho_batch *batch,
-                                                   const struct rho_bearing_scan *scan,
-                                                   uint8_t *fates)
-{
-    unsigned k = batch->num_scans, s = find_or_add_sensor(batch, scan);
     batch->was_seen[k][s] = 1;
     batch->sector_from_rad[k][s] = scan->sector_from_rad;
     batch->sector_to_rad[k][s] = scan->sector_to_rad;
@@ -191,28 +141,37 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
     if (frame->num_scans > 0 && !fates) {
         return RHO_ERROR_NULL;
     }
-    rho_batch_drop_bearings_marked_removed(batch);
+    rho_batch_compact(batch);
     batch->num_left = 0;
     if (batch->num_scans == batch->scans_max) {
-        drop_oldest_scan(batch);
+        size_t left = (size_t)batch->num_scans - 1u;
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            batch->num_left += batch->num_bearings[0][s];
+        }
+        memmove(batch->time_us, batch->time_us + 1, left * sizeof batch->time_us[0]);
+        memmove(batch->num_bearings, batch->num_bearings + 1, left * sizeof batch->num_bearings[0]);
+        memmove(batch->was_seen, batch->was_seen + 1, left * sizeof batch->was_seen[0]);
+        memmove(batch->sector_from_rad, batch->sector_from_rad + 1,
+                left * sizeof batch->sector_from_rad[0]);
+        memmove(batch->sector_to_rad, batch->sector_to_rad + 1,
+                left * sizeof batch->sector_to_rad[0]);
+        memmove(batch->bearings, batch->bearings + 1, left * sizeof batch->bearings[0]);
+        batch->num_scans--;
     }
     unsigned k = batch->num_scans;
     batch->time_us[k] = frame->time_us;
     memset(batch->num_bearings[k], 0, sizeof batch->num_bearings[k]);
     memset(batch->was_seen[k], 0, sizeof batch->was_seen[k]);
     for (uint32_t i = 0; i < frame->num_scans; i++) {
-        store_scan_and_bearings_with_fate_held(batch, &frame->scans[i], fates);
+        store_scan(batch, &frame->scans[i], fates);
         fates += frame->scans[i].num_bearings;
     }
     batch->num_scans++;
     return RHO_OK;
 }
 
-/* ---- removal of bearings --------------------------------------------------------------------- */
-
-uint32_t
-rho_batch_mark_bearings_removed(struct rho_batch *batch,
-                                const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
+uint32_t rho_batch_remove(struct rho_batch *batch,
+                          const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
 {
     uint32_t count = 0;
     for (unsigned k = 0; k < batch->num_scans; k++) {
@@ -229,7 +188,7 @@ rho_batch_mark_bearings_removed(struct rho_batch *batch,
     return count;
 }
 
-void rho_batch_drop_bearings_marked_removed(struct rho_batch *batch)
+void rho_batch_compact(struct rho_batch *batch)
 {
     for (unsigned k = 0; k < batch->num_scans; k++) {
         for (unsigned s = 0; s < batch->num_sensors; s++) {
@@ -243,4 +202,58 @@ void rho_batch_drop_bearings_marked_removed(struct rho_batch *batch)
             batch->num_bearings[k][s] = (uint8_t)kept;
         }
     }
+}
+
+static int is_sound_look(const struct rho_batch *batch, unsigned scan, unsigned sensor)
+{
+    if (batch->num_bearings[scan][sensor] > RHO_MAX_BEARINGS || batch->was_seen[scan][sensor] > 1 ||
+        !rho_angle_are_sector_ends_valid(batch->sector_from_rad[scan][sensor],
+                                         batch->sector_to_rad[scan][sensor])) {
+        return 0;
+    }
+    for (unsigned i = 0; i < batch->num_bearings[scan][sensor]; i++) {
+        const struct rho_batch_bearing *bearing = &batch->bearings[scan][sensor][i];
+        if (!rho_is_within(bearing->cosine, -1.01f, 1.01f) ||
+            !rho_is_within(bearing->sine, -1.01f, 1.01f) ||
+            !rho_is_within(bearing->bearing_rad, -10.0f, 10.0f) ||
+            /* the sigma of a removed bearing is 0 */
+            (!rho_is_within(bearing->sigma_rad, 0.0f, 0.0f) &&
+             !rho_is_within(bearing->sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN,
+                            RHO_LIMIT_SIGMA_RAD_MAX))) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int rho_batch_is_sound(const struct rho_batch *batch)
+{
+    if (batch->scans_max < 1 || batch->scans_max > RHO_MAX_PASSIVE_SCANS ||
+        batch->num_scans > batch->scans_max || batch->num_sensors > RHO_MAX_PASSIVE_SENSORS ||
+        !rho_is_within(batch->apart_max_m, RHO_CROSSING_BASE_MIN_M, 4.0f * RHO_LIMIT_POSITION_M)) {
+        return 0;
+    }
+    for (unsigned i = 0; i < batch->num_sensors; i++) {
+        const struct rho_batch_sensor *sensor = &batch->sensors[i];
+        if (!rho_is_coordinate(sensor->x_m) || !rho_is_coordinate(sensor->y_m)) {
+            return 0;
+        }
+        for (unsigned k = 0; k < i; k++) {
+            if (!is_distance_usable(batch, distance_m(batch->sensors[k].x_m, batch->sensors[k].y_m,
+                                                      sensor->x_m, sensor->y_m))) {
+                return 0;
+            }
+        }
+    }
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        if (k > 0 && batch->time_us[k] <= batch->time_us[k - 1]) {
+            return 0;
+        }
+        for (unsigned s = 0; s < batch->num_sensors; s++) {
+            if (!is_sound_look(batch, k, s)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
 }

@@ -9,8 +9,6 @@
 
 #include "rhotrack/types.h"
 
-/* ---- the list of peaks ----------------------------------------------------------------------- */
-
 /* Order of peaks: more votes, then the lower theta cell, then the lower rho cell. */
 static int is_better_peak(const struct rho_accumulator_peak *a,
                           const struct rho_accumulator_peak *b)
@@ -40,47 +38,27 @@ static void sink_peak(struct rho_accumulator_peak *heap, uint32_t n, uint32_t pl
     heap[place] = peak;
 }
 
-static void sift_peak_up_heap(struct rho_accumulator_peak *heap, uint32_t place)
-{
-    struct rho_accumulator_peak peak = heap[place];
-    while (place > 0 && is_better_peak(&heap[(place - 1u) / 2u], &peak)) {
-        heap[place] = heap[(place - 1u) / 2u];
-        place = (place - 1u) / 2u;
-    }
-    heap[place] = peak;
-}
-
-/*
- * Smallest whole number of votes that is at least min_share of votes_max; at most votes_max, as
- * float may round up.
- */
-static uint32_t min_votes_by_share(const struct rho_peak_list *list)
-{
-    float share = list->min_share * (float)list->votes_max;
-    uint32_t least = share < 4294967296.0f ? (uint32_t)share : list->votes_max;
-    least += (float)least < share;
-    return least < list->votes_max ? least : list->votes_max;
-}
-
-/* Sets the most votes of a peak, and raises the list's min_votes by its share of them. */
-static void set_votes_max_raise_min(struct rho_peak_list *list, uint32_t votes)
-{
-    list->votes_max = votes;
-    uint32_t least = min_votes_by_share(list);
-    list->min_votes = least > list->min_votes ? least : list->min_votes;
-}
-
 void rho_peak_list_offer(struct rho_peak_list *list, struct rho_accumulator_peak peak)
 {
     if (peak.votes < list->min_votes) {
         return;
     }
     if (peak.votes > list->votes_max) {
-        set_votes_max_raise_min(list, peak.votes);
+        list->votes_max = peak.votes;
+        /* min_share of them, rounded up; at most votes_max, as float may round up */
+        float share = list->min_share * (float)peak.votes;
+        uint32_t least = share < 4294967296.0f ? (uint32_t)share : peak.votes;
+        least += (float)least < share;
+        least = least < peak.votes ? least : peak.votes;
+        list->min_votes = least > list->min_votes ? least : list->min_votes;
     }
     if (list->num_peaks < list->max_peaks) {
-        list->peaks[list->num_peaks] = peak;
-        sift_peak_up_heap(list->peaks, list->num_peaks++);
+        uint32_t place = list->num_peaks++;
+        while (place > 0 && is_better_peak(&list->peaks[(place - 1u) / 2u], &peak)) {
+            list->peaks[place] = list->peaks[(place - 1u) / 2u];
+            place = (place - 1u) / 2u;
+        }
+        list->peaks[place] = peak;
         return;
     }
     list->peaks_dropped = rho_count(list->peaks_dropped, 1);
@@ -90,23 +68,23 @@ void rho_peak_list_offer(struct rho_peak_list *list, struct rho_accumulator_peak
     }
 }
 
-/*
- * Removes the peaks with fewer than the final min_votes. Returns the number left, no longer a heap.
- */
-static uint32_t drop_below_threshold_and_count_left(const struct rho_peak_list *list)
+void rho_peak_list_drop_weak_and_sort(struct rho_peak_list *list)
 {
+    struct rho_accumulator_peak *heap = list->peaks;
     uint32_t n = 0;
     for (uint32_t i = 0; i < list->num_peaks; i++) {
-        if (list->peaks[i].votes >= list->min_votes) {
-            list->peaks[n++] = list->peaks[i];
+        if (heap[i].votes >= list->min_votes) {
+            heap[n++] = heap[i];
         }
     }
-    return n;
-}
-
-/* Sorts a heap of peaks, best first. */
-static void sort_peaks(struct rho_accumulator_peak *heap, uint32_t n)
-{
+    if (n < list->num_peaks) {
+        list->num_peaks = n;
+        /* peaks dropped for lack of room were worse, and so below the threshold too */
+        list->peaks_dropped = 0;
+        for (uint32_t i = n / 2u; i > 0; i--) {
+            sink_peak(heap, n, i - 1u);
+        }
+    }
     while (n > 1) {
         struct rho_accumulator_peak lowest = heap[0];
         heap[0] = heap[--n];
@@ -114,22 +92,6 @@ static void sort_peaks(struct rho_accumulator_peak *heap, uint32_t n)
         sink_peak(heap, n, 0);
     }
 }
-
-void rho_peak_list_drop_weak_and_sort(struct rho_peak_list *list)
-{
-    uint32_t n = drop_below_threshold_and_count_left(list);
-    if (n < list->num_peaks) {
-        list->num_peaks = n;
-        /* peaks dropped for lack of room were worse, and so below the threshold too */
-        list->peaks_dropped = 0;
-        for (uint32_t i = n / 2u; i > 0; i--) {
-            sink_peak(list->peaks, n, i - 1u);
-        }
-    }
-    sort_peaks(list->peaks, n);
-}
-
-/* ---- suppression ----------------------------------------------------------------------------- */
 
 /*
  * Kept peaks, hashed by blocks of the plane: two peaks in one block are always near each other,
@@ -169,74 +131,48 @@ static int is_peak_near(const struct rho_accumulator_peak *peak, struct place pl
            (rho < 0 ? -rho : rho) <= distance->rho;
 }
 
-static int is_kept_peak_in_block(const struct kept *kept, uint32_t number, int32_t theta_block,
-                                 int32_t rho_block)
-{
-    const struct rho_accumulator_peak *peak = &kept->peaks[number - 1u];
-    return block_of_cell(peak->theta_cell, kept->distance->theta) == theta_block &&
-           block_of_cell(peak->rho_cell, kept->distance->rho) == rho_block;
-}
-
 static int has_peak_near_in_block(const struct kept *kept, struct place place, int32_t theta_block,
                                   int32_t rho_block)
 {
     uint32_t at = hash_block(theta_block, rho_block), number;
     while ((number = kept->table[at & (kept->size - 1u)]) != 0) {
-        if (is_kept_peak_in_block(kept, number, theta_block, rho_block)) {
-            return is_peak_near(&kept->peaks[number - 1u], place, kept->distance);
+        const struct rho_accumulator_peak *peak = &kept->peaks[number - 1u];
+        if (block_of_cell(peak->theta_cell, kept->distance->theta) == theta_block &&
+            block_of_cell(peak->rho_cell, kept->distance->rho) == rho_block) {
+            return is_peak_near(peak, place, kept->distance);
         }
         at++;
     }
     return 0;
 }
 
-static int has_hashed_peak_near(const struct kept *kept, struct place place)
+static int has_kept_peak_near(const struct kept *kept, struct place place)
 {
     const struct rho_peak_distance *distance = kept->distance;
     int32_t theta_last = block_of_cell(place.theta + distance->theta, distance->theta);
     int32_t rho_last = block_of_cell(place.rho + distance->rho, distance->rho);
-    int32_t theta_first = block_of_cell(place.theta - distance->theta, distance->theta);
+    int32_t theta = block_of_cell(place.theta - distance->theta, distance->theta);
     int32_t rho_first = block_of_cell(place.rho - distance->rho, distance->rho);
-    for (int32_t theta = theta_first < 0 ? 0 : theta_first; theta <= theta_last; theta++) {
+    for (theta = theta < 0 ? 0 : theta; kept->size > 0 && theta <= theta_last; theta++) {
         for (int32_t rho = rho_first < 0 ? 0 : rho_first; rho <= rho_last; rho++) {
             if (has_peak_near_in_block(kept, place, theta, rho)) {
                 return 1;
             }
         }
     }
-    return 0;
-}
-
-static int has_kept_peak_near(const struct kept *kept, struct place place)
-{
-    if (kept->size > 0 && has_hashed_peak_near(kept, place)) {
-        return 1;
-    }
     for (uint32_t i = kept->num_listed; i < kept->num_peaks; i++) {
-        if (is_peak_near(&kept->peaks[i], place, kept->distance)) {
+        if (is_peak_near(&kept->peaks[i], place, distance)) {
             return 1;
         }
     }
     return 0;
 }
 
-/* Whether a kept peak, which is better, is near this peak, also across the ends of theta. */
-static int is_suppressed(const struct kept *kept, const struct rho_accumulator_peak *peak)
-{
-    int32_t theta = peak->theta_cell, num_theta = kept->distance->theta_cells;
-    int32_t rho = peak->rho_cell, turned = (int32_t)kept->distance->rho_cells - 1 - rho;
-    int32_t reach = kept->distance->theta;
-    return has_kept_peak_near(kept, (struct place){theta, rho}) ||
-           (theta < reach && has_kept_peak_near(kept, (struct place){theta + num_theta, turned})) ||
-           (theta + reach >= num_theta &&
-            has_kept_peak_near(kept, (struct place){theta - num_theta, turned}));
-}
-
 /*
  * Adds the last kept peak to the hash table, unless an earlier one was left out or the table is two
  * thirds full: a third stays free, so that searches are short.
  */
-static void hash_last_kept_peak_if_room(struct kept *kept)
+static void hash_kept_peak(struct kept *kept)
 {
     const struct rho_accumulator_peak *peak = &kept->peaks[kept->num_peaks - 1u];
     if (kept->num_listed + 1u < kept->num_peaks || 3u * (kept->num_listed + 1u) > 2u * kept->size) {
@@ -257,13 +193,23 @@ uint32_t rho_peak_list_suppress(struct rho_accumulator_peak *peaks, uint32_t num
 {
     struct kept kept = {
         .peaks = peaks, .distance = distance, .table = scratch, .size = num_scratch};
+    int32_t reach = distance->theta, num_theta = distance->theta_cells;
     if (num_scratch > 0) {
         memset(scratch, 0, num_scratch * sizeof *scratch);
     }
     for (uint32_t i = 0; i < num_peaks; i++) {
-        if (!is_suppressed(&kept, &peaks[i])) {
+        /* kept peaks are better; across the ends of theta rho is reversed */
+        int32_t theta = peaks[i].theta_cell, rho = peaks[i].rho_cell;
+        int32_t turned = (int32_t)distance->rho_cells - 1 - rho;
+        int is_suppressed =
+            has_kept_peak_near(&kept, (struct place){theta, rho}) ||
+            (theta < reach &&
+             has_kept_peak_near(&kept, (struct place){theta + num_theta, turned})) ||
+            (theta + reach >= num_theta &&
+             has_kept_peak_near(&kept, (struct place){theta - num_theta, turned}));
+        if (!is_suppressed) {
             peaks[kept.num_peaks++] = peaks[i];
-            hash_last_kept_peak_if_room(&kept);
+            hash_kept_peak(&kept);
         }
     }
     return kept.num_peaks;

@@ -9,28 +9,19 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define THETA_CELL_MIN_RAD 1.0e-4f
-
-/* ---- the plane ------------------------------------------------------------------------------- */
-
-static int is_usable(const struct rho_accumulator_config *config)
-{
-    return rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(config->rho_max_m, 0.5f * config->rho_cell_m,
-                         config->rho_cell_m * 0.5f * (float)RHO_MAX_RHO_CELLS) &&
-           rho_is_within(config->theta_cell_rad, THETA_CELL_MIN_RAD, RHO_PI) &&
-           /* a plane with a single row of theta would have that row as its own neighbour */
-           (config->neighbours == 0 || config->theta_cell_rad < RHO_PI) &&
-           (config->votes == RHO_VOTES_SCANS || config->votes == RHO_VOTES_POINTS) &&
-           config->min_votes >= 1 && rho_is_within(config->min_share, 0.0f, 1.0f) &&
-           config->no_pruning <= 1 &&
-           (config->neighbours == 0 || config->neighbours == 4 || config->neighbours == 8);
-}
-
 enum rho_status rho_accumulator_count_cells(const struct rho_accumulator_config *config,
                                             uint16_t *theta_cells, uint16_t *rho_cells)
 {
-    if (!is_usable(config)) {
+    if (!rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) ||
+        !rho_is_within(config->rho_max_m, 0.5f * config->rho_cell_m,
+                       config->rho_cell_m * 0.5f * (float)RHO_MAX_RHO_CELLS) ||
+        !rho_is_within(config->theta_cell_rad, 1.0e-4f, RHO_PI) ||
+        /* a plane with a single row of theta would have that row as its own neighbour */
+        (config->neighbours != 0 && !(config->theta_cell_rad < RHO_PI)) ||
+        (config->votes != RHO_VOTES_SCANS && config->votes != RHO_VOTES_POINTS) ||
+        config->min_votes < 1 || !rho_is_within(config->min_share, 0.0f, 1.0f) ||
+        config->no_pruning > 1 ||
+        (config->neighbours != 0 && config->neighbours != 4 && config->neighbours != 8)) {
         return RHO_ERROR_CONFIG;
     }
     float rows = RHO_PI / config->theta_cell_rad;
@@ -43,14 +34,6 @@ float rho_accumulator_theta_rad(const struct rho_accumulator *accumulator, unsig
 {
     return ((float)theta_cell + 0.5f) * accumulator->config.theta_cell_rad;
 }
-
-float rho_accumulator_rho_m(const struct rho_accumulator *accumulator, unsigned rho_cell)
-{
-    return ((float)rho_cell + 0.5f) * accumulator->config.rho_cell_m -
-           accumulator->config.rho_max_m;
-}
-
-/* ---- cells of points ------------------------------------------------------------------------- */
 
 struct rho_accumulator_projection
 rho_accumulator_projection(const struct rho_accumulator *accumulator, unsigned theta_cell)
@@ -69,9 +52,9 @@ void rho_accumulator_project(const float *restrict x_m, const float *restrict y_
     }
 }
 
-unsigned rho_accumulator_project_count_outside(const float *restrict x_m, const float *restrict y_m,
-                                               unsigned n, struct rho_accumulator_projection place,
-                                               float last, int32_t *restrict cells)
+unsigned rho_accumulator_clamp_cells(const float *restrict x_m, const float *restrict y_m,
+                                     unsigned n, struct rho_accumulator_projection place,
+                                     float last, int32_t *restrict cells)
 {
     unsigned outside = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -89,7 +72,7 @@ int rho_accumulator_cell_of_point(const struct rho_accumulator *accumulator, uns
 {
     int32_t cell;
     float last = (float)(accumulator->rho_cells + 1u);
-    unsigned outside = rho_accumulator_project_count_outside(
+    unsigned outside = rho_accumulator_clamp_cells(
         &x_m, &y_m, 1, rho_accumulator_projection(accumulator, theta_cell), last, &cell);
     return outside ? -1 : cell - 1;
 }

@@ -8,8 +8,8 @@
  * - accumulator_branch_and_bound.c: rows and points that cannot reach a peak
  * - accumulator_peak_search.c: checks, choice of the search
  */
-#ifndef RHOTRACK_ACCUMULATOR_PEAK_SEARCH_H
-#define RHOTRACK_ACCUMULATOR_PEAK_SEARCH_H
+#ifndef RHOTRACK_ACCUMULATOR_SEARCH_H
+#define RHOTRACK_ACCUMULATOR_SEARCH_H
 
 #include "rhotrack/detail/accumulator.h"
 
@@ -22,7 +22,7 @@ struct rho_accumulator_pass {
     struct rho_peak_list list; /* peaks found so far; list.min_votes may rise from row to row */
     uint32_t votes;
     unsigned num_points, neighbours;
-    int counts_points, is_narrow, is_sparse, is_pruned;
+    int counts_points, is_narrow, is_sparse;
     /* mask of scans with points that may lie beyond rho_max_m: bit m for scan m */
     unsigned scans_outside;
     /* the row that is searched for peaks (1), its neighbour above (0) and below (2) */
@@ -48,9 +48,9 @@ void rho_accumulator_project(const float *restrict x_m, const float *restrict y_
  * Computes the cells of rho in which n points vote; points beyond rho_max_m get the guard cells 0
  * and `last`. Returns the number of such points.
  */
-unsigned rho_accumulator_project_count_outside(const float *restrict x_m, const float *restrict y_m,
-                                               unsigned n, struct rho_accumulator_projection place,
-                                               float last, int32_t *restrict cells);
+unsigned rho_accumulator_clamp_cells(const float *restrict x_m, const float *restrict y_m,
+                                     unsigned n, struct rho_accumulator_projection place,
+                                     float last, int32_t *restrict cells);
 
 /*
  * Fills one of the three row slots with the votes of all points in row theta_cell, with rho
@@ -60,11 +60,11 @@ void rho_accumulator_fill_row(struct rho_accumulator_pass *pass, unsigned slot, 
                               int is_rho_reversed);
 
 /* Fills a row slot with the votes of the first num_kept points of room.few only. */
-void rho_accumulator_fill_row_with_kept(struct rho_accumulator_pass *pass, unsigned slot,
-                                        unsigned theta_cell, unsigned num_kept);
+void rho_accumulator_fill_kept(struct rho_accumulator_pass *pass, unsigned slot,
+                               unsigned theta_cell, unsigned num_kept);
 
 /* Clears a sparse row: its touched cells, and its lists of touched and reached cells. */
-void rho_accumulator_clear_sparse_row(struct rho_accumulator_pass *pass, unsigned slot);
+void rho_accumulator_clear_row(struct rho_accumulator_pass *pass, unsigned slot);
 
 /*
  * Adds the peaks of row theta_cell to the list; the row is in slot theta_cell % 3, its neighbours
@@ -73,7 +73,7 @@ void rho_accumulator_clear_sparse_row(struct rho_accumulator_pass *pass, unsigne
 void rho_accumulator_find_row_peaks(struct rho_accumulator_pass *pass, unsigned theta_cell);
 
 /* Fills all rows of theta in their order, and lists their peaks. */
-void rho_accumulator_search_all_rows(struct rho_accumulator_pass *pass);
+void rho_accumulator_search_rows(struct rho_accumulator_pass *pass);
 
 /* Fills only the rows of theta that can have peaks, and lists their peaks. */
 void rho_accumulator_search_pruned(struct rho_accumulator_pass *pass);

@@ -25,8 +25,8 @@ static void NAME(vote_in_bins)(const struct rho_accumulator_pass *pass, CELL *re
  * Sets are_enough[b] if the points in bins b .. b + 2 number min_votes or more. Returns whether any
  * bin is set.
  */
-static int NAME(mark_bin_triples_by_points)(const CELL *restrict votes, CELL *restrict are_enough,
-                                            unsigned num_bins, CELL min_votes)
+static int NAME(mark_triples_by_points)(const CELL *restrict votes, CELL *restrict are_enough,
+                                        unsigned num_bins, CELL min_votes)
 {
     CELL any = 0;
     for (unsigned i = 0; i < num_bins; i++) {
@@ -37,8 +37,8 @@ static int NAME(mark_bin_triples_by_points)(const CELL *restrict votes, CELL *re
 }
 
 /* Sets are_enough[b] if bins b .. b + 2 hold min_votes scans. Returns whether any bin is set. */
-static int NAME(mark_bin_triples_by_scans)(const CELL *restrict votes, CELL *restrict are_enough,
-                                           unsigned num_bins, CELL min_votes)
+static int NAME(mark_triples_by_scans)(const CELL *restrict votes, CELL *restrict are_enough,
+                                       unsigned num_bins, CELL min_votes)
 {
     CELL any = 0, add = (CELL)(0x80u - min_votes);
     for (unsigned i = 0; i < num_bins; i++) {
@@ -54,26 +54,11 @@ static int NAME(mark_bin_triples_by_scans)(const CELL *restrict votes, CELL *res
 }
 
 /*
- * Lists in bins[] the indices of the points that have are_enough set in one of their three bins.
- * Returns their number.
- */
-static unsigned NAME(list_points_in_marked_bins)(int32_t *bins, unsigned n, const CELL *are_enough)
-{
-    unsigned num_kept = 0;
-    for (unsigned i = 0; i < n; i++) {
-        const CELL *at = are_enough + bins[i];
-        bins[num_kept] = (int32_t)i;
-        num_kept += (at[0] | at[1] | at[2]) != 0;
-    }
-    return num_kept;
-}
-
-/*
  * Lists in bins[] the points of room.few that may reach min_votes, by the votes in their bins.
  * Returns their number.
  */
-static unsigned NAME(list_points_that_may_peak)(struct rho_accumulator_pass *pass, unsigned n,
-                                                unsigned num_bins)
+static unsigned NAME(list_kept_points)(struct rho_accumulator_pass *pass, unsigned n,
+                                       unsigned num_bins)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
     CELL *votes = (CELL *)accumulator->room.few.votes;
@@ -85,11 +70,18 @@ static unsigned NAME(list_points_that_may_peak)(struct rho_accumulator_pass *pas
     votes[num_bins] = votes[0];
     votes[num_bins + 1u] = votes[1];
     if (!(pass->counts_points
-              ? NAME(mark_bin_triples_by_points)(votes, are_enough + 2, num_bins, least)
-              : NAME(mark_bin_triples_by_scans)(votes, are_enough + 2, num_bins, least))) {
+              ? NAME(mark_triples_by_points)(votes, are_enough + 2, num_bins, least)
+              : NAME(mark_triples_by_scans)(votes, are_enough + 2, num_bins, least))) {
         return 0;
     }
     are_enough[0] = are_enough[num_bins];
     are_enough[1] = are_enough[num_bins + 1u];
-    return NAME(list_points_in_marked_bins)(bins, n, are_enough);
+    /* a point is kept where one of its three bins is marked */
+    unsigned num_kept = 0;
+    for (unsigned i = 0; i < n; i++) {
+        const CELL *at = are_enough + bins[i];
+        bins[num_kept] = (int32_t)i;
+        num_kept += (at[0] | at[1] | at[2]) != 0;
+    }
+    return num_kept;
 }

@@ -6,35 +6,18 @@
 #include <string.h>
 
 #include "accumulator_peak_search.h"
+#include "policy.h"
 #include "rhotrack/types.h"
 
-#define BLOCK 64  /* cells of a dense row that are tested together */
-#define BLOCKS 4u /* blocks that are tested together where peaks are rare */
-#define AROUND 80 /* cells of a block and its neighbours on both sides, in whole vector registers */
-/*
- * a scan with fewer cells per point than this votes via the scratch row: stores to one cell would
- * wait for each other
- */
-#define CROWDED 4
-
-/* ---- votes ----------------------------------------------------------------------------------- */
+#define BLOCK 64 /* cells of a dense row that are tested together; RHO_ACCUMULATOR_PADDING fits */
+/* cells of a block and its neighbours on both sides, in whole vector registers */
+#define AROUND (BLOCK + 16)
 
 static const uint8_t bits_of_byte[256] = {
 #define TWO(n) (n), (n) + 1, (n) + 1, (n) + 2
 #define FOUR(n) TWO(n), TWO((n) + 1), TWO((n) + 1), TWO((n) + 2)
 #define SIX(n) FOUR(n), FOUR((n) + 1), FOUR((n) + 1), FOUR((n) + 2)
     SIX(0), SIX(1), SIX(1), SIX(2)};
-
-static unsigned votes_of_cell_narrow(const struct rho_accumulator_pass *pass, uint8_t cell)
-{
-    return pass->counts_points ? cell : bits_of_byte[cell];
-}
-
-static unsigned votes_of_cell_wide(const struct rho_accumulator_pass *pass, uint16_t cell)
-{
-    return pass->counts_points ? cell
-                               : (unsigned)bits_of_byte[cell & 255u] + bits_of_byte[cell >> 8];
-}
 
 static void add_peak(struct rho_accumulator_pass *pass, unsigned cell, unsigned votes,
                      unsigned mask)
@@ -45,39 +28,6 @@ static void add_peak(struct rho_accumulator_pass *pass, unsigned cell, unsigned 
                                         .mask = pass->counts_points ? 0u : mask};
     rho_peak_list_offer(&pass->list, peak);
 }
-
-/*
- * Whether one of n cells of 8 bits has min_votes bits set; n is a multiple of BLOCK. Eight cells at
- * a time, in words that a compiler vectorises: the bit count of each byte ends in its upper half,
- * and bits that the shift moves into the lower half stay there.
- */
-static int may_have_cell_with_min_scans_narrow(const uint8_t *row, unsigned n, unsigned min_votes)
-{
-    const uint64_t ones = UINT64_C(0x0101010101010101);
-    uint64_t reached = 0, add = ones * (0x80u - 16u * (min_votes < 8u ? min_votes : 8u));
-    for (unsigned i = 0; i < n; i += 8u) {
-        uint64_t v;
-        memcpy(&v, row + i, sizeof v);
-        v -= v >> 1 & ones * 0x55u;
-        v = (v & ones * 0x33u) + (v >> 2 & ones * 0x33u);
-        reached |= v + (v << 4) + add;
-    }
-    return (reached & ones * 0x80u) != 0;
-}
-
-static uint16_t count_scans_wide(uint16_t mask);
-
-static int may_have_cell_with_min_scans_wide(const uint16_t *row, unsigned n, unsigned min_votes)
-{
-    uint16_t most = 0;
-    for (unsigned i = 0; i < n; i++) {
-        uint16_t v = count_scans_wide(row[i]);
-        most = v > most ? v : most;
-    }
-    return most >= min_votes;
-}
-
-/* ---- rows ------------------------------------------------------------------------------------ */
 
 #define CELL uint8_t
 #define NAME(f) f##_narrow
@@ -94,47 +44,20 @@ static int may_have_cell_with_min_scans_wide(const uint16_t *row, unsigned n, un
  * Computes the cells of points from .. from + n - 1, which are of the scans in the mask `scans`.
  * Points outside the plane are not added to pass->votes.
  */
-static void project_points_and_count_votes(struct rho_accumulator_pass *pass, unsigned scans,
-                                           unsigned from, unsigned n,
-                                           struct rho_accumulator_projection place, int32_t *cells)
+static void project_counting_votes(struct rho_accumulator_pass *pass, unsigned scans, unsigned from,
+                                   unsigned n, struct rho_accumulator_projection place,
+                                   int32_t *cells)
 {
     const float *x_m = pass->points->x_m + from, *y_m = pass->points->y_m + from;
     unsigned outside = 0;
     if (pass->scans_outside & scans) {
         float last = (float)(pass->accumulator->rho_cells + 1u);
-        outside = rho_accumulator_project_count_outside(x_m, y_m, n, place, last, cells);
+        outside = rho_accumulator_clamp_cells(x_m, y_m, n, place, last, cells);
     } else {
         rho_accumulator_project(x_m, y_m, n, place, cells);
     }
     pass->votes = rho_count(pass->votes, n - outside);
 }
-
-static unsigned first_point_of_scan(const struct rho_accumulator_pass *pass, unsigned scan)
-{
-    return scan > 0 ? pass->points->scan_end[scan - 1u] : 0u;
-}
-
-/* Clears the two guard cells of a row, so that they never exceed their neighbours. */
-static void clear_guard_cells(const struct rho_accumulator_pass *pass, void *row)
-{
-    unsigned last = pass->accumulator->rho_cells + 1u;
-    if (pass->is_narrow) {
-        ((uint8_t *)row)[0] = ((uint8_t *)row)[last] = 0;
-    } else {
-        ((uint16_t *)row)[0] = ((uint16_t *)row)[last] = 0;
-    }
-}
-
-static void reverse_row(const struct rho_accumulator_pass *pass, void *row)
-{
-    if (pass->is_narrow) {
-        reverse_row_narrow(row, pass->accumulator->rho_cells);
-    } else {
-        reverse_row_wide(row, pass->accumulator->rho_cells);
-    }
-}
-
-/* ---- sparse rows ----------------------------------------------------------------------------- */
 
 /* Votes of one scan. Lists the cells that reach min_votes by them, and returns their number. */
 static unsigned vote_in_sparse_row(const struct rho_accumulator_pass *pass, void *row,
@@ -151,77 +74,9 @@ static unsigned vote_in_sparse_row(const struct rho_accumulator_pass *pass, void
         }
         return 0;
     }
-    return pass->is_narrow
-               ? vote_and_list_reached_narrow(pass, row, cells, n, (uint8_t)bit, reached)
-               : vote_and_list_reached_wide(pass, row, cells, n, (uint16_t)bit, reached);
+    return pass->is_narrow ? vote_reaching_narrow(pass, row, cells, n, (uint8_t)bit, reached)
+                           : vote_reaching_wide(pass, row, cells, n, (uint16_t)bit, reached);
 }
-
-static void clear_sparse_row(struct rho_accumulator_pass *pass, unsigned slot)
-{
-    struct rho_accumulator *accumulator = pass->accumulator;
-    const int32_t *cells = accumulator->touched[slot];
-    void *row = accumulator->rows[slot];
-    for (unsigned i = 0; i < accumulator->num_touched[slot]; i++) {
-        if (pass->is_narrow) {
-            ((uint8_t *)row)[cells[i]] = 0;
-        } else {
-            ((uint16_t *)row)[cells[i]] = 0;
-        }
-    }
-}
-
-static void fill_sparse_row_with_all_points(struct rho_accumulator_pass *pass, unsigned slot,
-                                            struct rho_accumulator_projection place,
-                                            int is_rho_reversed)
-{
-    struct rho_accumulator *accumulator = pass->accumulator;
-    int32_t *cells = accumulator->touched[slot];
-    void *row = accumulator->rows[slot];
-    unsigned num_reached = 0;
-    clear_sparse_row(pass, slot);
-    project_points_and_count_votes(pass, ~0u, 0, pass->num_points, place, cells);
-    for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
-        unsigned from = first_point_of_scan(pass, scan), n = pass->points->scan_end[scan] - from;
-        num_reached += vote_in_sparse_row(pass, row, cells + from, n, scan,
-                                          accumulator->reached[slot] + num_reached);
-    }
-    accumulator->num_touched[slot] = (uint16_t)pass->num_points;
-    accumulator->num_reached[slot] = (uint16_t)num_reached;
-    clear_guard_cells(pass, row);
-    if (is_rho_reversed) {
-        reverse_row(pass, row);
-        for (unsigned i = 0; i < pass->num_points; i++) {
-            cells[i] = accumulator->rho_cells + 1 - cells[i];
-        }
-    }
-}
-
-void rho_accumulator_fill_row_with_kept(struct rho_accumulator_pass *pass, unsigned slot,
-                                        unsigned theta_cell, unsigned num_kept)
-{
-    struct rho_accumulator *accumulator = pass->accumulator;
-    int32_t *cells = accumulator->touched[slot];
-    const uint16_t *bits = accumulator->room.few.bits;
-    void *row = accumulator->rows[slot];
-    uint16_t *reached = accumulator->reached[slot];
-    clear_sparse_row(pass, slot);
-    rho_accumulator_project(accumulator->room.few.x_m, accumulator->room.few.y_m, num_kept,
-                            rho_accumulator_projection(accumulator, theta_cell), cells);
-    unsigned num_reached =
-        pass->is_narrow
-            ? vote_kept_and_list_reached_narrow(pass, row, cells, bits, num_kept, reached)
-            : vote_kept_and_list_reached_wide(pass, row, cells, bits, num_kept, reached);
-    accumulator->num_touched[slot] = (uint16_t)num_kept;
-    accumulator->num_reached[slot] = (uint16_t)num_reached;
-}
-
-void rho_accumulator_clear_sparse_row(struct rho_accumulator_pass *pass, unsigned slot)
-{
-    clear_sparse_row(pass, slot);
-    pass->accumulator->num_touched[slot] = pass->accumulator->num_reached[slot] = 0;
-}
-
-/* ---- dense rows ------------------------------------------------------------------------------ */
 
 static void vote_in_dense_row(const struct rho_accumulator_pass *pass, void *row,
                               const int32_t *cells, unsigned n, unsigned scan)
@@ -244,77 +99,108 @@ static void vote_in_dense_row(const struct rho_accumulator_pass *pass, void *row
     }
 }
 
-/* Votes of one scan in a dense row, for as many points at a time as the scratch list holds. */
-static void vote_scan_in_chunks(struct rho_accumulator_pass *pass, void *row,
-                                struct rho_accumulator_projection place, unsigned scan)
-{
-    /* used as scratch: dense rows have no list of touched cells */
-    int32_t *cells = pass->accumulator->touched[0];
-    unsigned end = pass->points->scan_end[scan], most = RHO_ACCUMULATOR_SPARSE_MAX;
-    for (unsigned from = first_point_of_scan(pass, scan); from < end; from += most) {
-        unsigned n = end - from < most ? end - from : most;
-        project_points_and_count_votes(pass, 1u << scan, from, n, place, cells);
-        vote_in_dense_row(pass, row, cells, n, scan);
-    }
-}
-
-static void fill_dense_row(struct rho_accumulator_pass *pass, unsigned slot,
-                           struct rho_accumulator_projection place, int is_rho_reversed)
+void rho_accumulator_clear_row(struct rho_accumulator_pass *pass, unsigned slot)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
+    const int32_t *cells = accumulator->touched[slot];
     void *row = accumulator->rows[slot];
-    unsigned cells = accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
-    memset(row, 0, cells * (pass->is_narrow ? 1u : 2u));
-    for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
-        vote_scan_in_chunks(pass, row, place, scan);
+    for (unsigned i = 0; i < accumulator->num_touched[slot]; i++) {
+        if (pass->is_narrow) {
+            ((uint8_t *)row)[cells[i]] = 0;
+        } else {
+            ((uint16_t *)row)[cells[i]] = 0;
+        }
     }
-    clear_guard_cells(pass, row);
-    if (is_rho_reversed) {
-        reverse_row(pass, row);
-    }
+    accumulator->num_touched[slot] = accumulator->num_reached[slot] = 0;
 }
 
-/* ---- all rows -------------------------------------------------------------------------------- */
+void rho_accumulator_fill_kept(struct rho_accumulator_pass *pass, unsigned slot,
+                               unsigned theta_cell, unsigned num_kept)
+{
+    struct rho_accumulator *accumulator = pass->accumulator;
+    int32_t *cells = accumulator->touched[slot];
+    const uint16_t *bits = accumulator->room.few.bits;
+    void *row = accumulator->rows[slot];
+    uint16_t *reached = accumulator->reached[slot];
+    rho_accumulator_clear_row(pass, slot);
+    rho_accumulator_project(accumulator->room.few.x_m, accumulator->room.few.y_m, num_kept,
+                            rho_accumulator_projection(accumulator, theta_cell), cells);
+    unsigned num_reached =
+        pass->is_narrow ? vote_kept_reaching_narrow(pass, row, cells, bits, num_kept, reached)
+                        : vote_kept_reaching_wide(pass, row, cells, bits, num_kept, reached);
+    accumulator->num_touched[slot] = (uint16_t)num_kept;
+    accumulator->num_reached[slot] = (uint16_t)num_reached;
+}
 
 void rho_accumulator_fill_row(struct rho_accumulator_pass *pass, unsigned slot, unsigned theta_cell,
                               int is_rho_reversed)
 {
-    struct rho_accumulator_projection place =
-        rho_accumulator_projection(pass->accumulator, theta_cell);
+    struct rho_accumulator *accumulator = pass->accumulator;
+    struct rho_accumulator_projection place = rho_accumulator_projection(accumulator, theta_cell);
+    /* dense rows have no list of touched cells: one of them is their scratch */
+    int32_t *cells = accumulator->touched[pass->is_sparse ? slot : 0];
+    void *row = accumulator->rows[slot];
+    unsigned num_cells = accumulator->rho_cells, num_reached = 0;
     uint32_t votes = pass->votes;
     if (pass->is_sparse) {
-        fill_sparse_row_with_all_points(pass, slot, place, is_rho_reversed);
+        rho_accumulator_clear_row(pass, slot);
+        project_counting_votes(pass, ~0u, 0, pass->num_points, place, cells);
     } else {
-        fill_dense_row(pass, slot, place, is_rho_reversed);
+        memset(row, 0, (num_cells + RHO_ACCUMULATOR_PADDING) * (pass->is_narrow ? 1u : 2u));
     }
-    if (is_rho_reversed) {
-        pass->votes = votes; /* a reversed row is filled a second time, and its votes count once */
+    for (unsigned scan = 0, from = 0; scan < pass->points->num_scans; scan++) {
+        unsigned end = pass->points->scan_end[scan], n = end - from;
+        if (pass->is_sparse) {
+            num_reached += vote_in_sparse_row(pass, row, cells + from, n, scan,
+                                              accumulator->reached[slot] + num_reached);
+            from = end;
+        }
+        for (; from < end; from += n) {
+            n = end - from < RHO_ACCUMULATOR_SPARSE_MAX ? end - from : RHO_ACCUMULATOR_SPARSE_MAX;
+            project_counting_votes(pass, 1u << scan, from, n, place, cells);
+            vote_in_dense_row(pass, row, cells, n, scan);
+        }
     }
-}
-
-static void find_sparse_row_peaks(struct rho_accumulator_pass *pass, unsigned slot)
-{
-    const struct rho_accumulator *accumulator = pass->accumulator;
+    if (pass->is_sparse) {
+        accumulator->num_touched[slot] = (uint16_t)pass->num_points;
+        accumulator->num_reached[slot] = (uint16_t)num_reached;
+    }
+    /* guard cells must never exceed their neighbours */
     if (pass->is_narrow) {
-        find_peaks_in_reached_narrow(pass, accumulator->reached[slot],
-                                     accumulator->num_reached[slot]);
+        ((uint8_t *)row)[0] = ((uint8_t *)row)[num_cells + 1u] = 0;
     } else {
-        find_peaks_in_reached_wide(pass, accumulator->reached[slot],
-                                   accumulator->num_reached[slot]);
+        ((uint16_t *)row)[0] = ((uint16_t *)row)[num_cells + 1u] = 0;
+    }
+    if (!is_rho_reversed) {
+        return;
+    }
+    pass->votes = votes; /* a reversed row is filled a second time, and its votes count once */
+    if (pass->is_narrow) {
+        reverse_row_narrow(row, num_cells);
+    } else {
+        reverse_row_wide(row, num_cells);
+    }
+    for (unsigned i = 0; pass->is_sparse && i < pass->num_points; i++) {
+        cells[i] = (int32_t)num_cells + 1 - cells[i];
     }
 }
 
 void rho_accumulator_find_row_peaks(struct rho_accumulator_pass *pass, unsigned theta_cell)
 {
+    const struct rho_accumulator *accumulator = pass->accumulator;
     unsigned slot = theta_cell % 3u;
     for (unsigned i = 0; i < 3; i++) {
-        pass->rows[i] = pass->accumulator->rows[(slot + 2u + i) % 3u];
+        pass->rows[i] = accumulator->rows[(slot + 2u + i) % 3u];
     }
     pass->middle_theta_cell = theta_cell;
     pass->above_is_first = theta_cell > 0;
-    pass->below_is_first = theta_cell + 1u == pass->accumulator->theta_cells;
-    if (pass->is_sparse) {
-        find_sparse_row_peaks(pass, slot);
+    pass->below_is_first = theta_cell + 1u == accumulator->theta_cells;
+    if (pass->is_sparse && pass->is_narrow) {
+        find_peaks_in_reached_narrow(pass, accumulator->reached[slot],
+                                     accumulator->num_reached[slot]);
+    } else if (pass->is_sparse) {
+        find_peaks_in_reached_wide(pass, accumulator->reached[slot],
+                                   accumulator->num_reached[slot]);
     } else if (pass->is_narrow) {
         find_dense_row_peaks_narrow(pass);
     } else {
@@ -326,7 +212,7 @@ void rho_accumulator_find_row_peaks(struct rho_accumulator_pass *pass, unsigned 
  * Fills each row and searches the row before it; before row 0 comes the last row, reversed, and
  * after the last row comes row 0, reversed.
  */
-void rho_accumulator_search_all_rows(struct rho_accumulator_pass *pass)
+void rho_accumulator_search_rows(struct rho_accumulator_pass *pass)
 {
     unsigned last = pass->accumulator->theta_cells - 1u;
     rho_accumulator_fill_row(pass, 2, last, 1);

@@ -5,6 +5,13 @@
  * adding its suffix to f. These hot loops are written so that gcc -O3 vectorises them.
  */
 
+static unsigned NAME(votes_of_cell)(const struct rho_accumulator_pass *pass, CELL cell)
+{
+    return pass->counts_points ? cell
+                               : (unsigned)bits_of_byte[cell & 255u] +
+                                     (sizeof(CELL) > 1 ? bits_of_byte[cell >> 8] : 0u);
+}
+
 /*
  * Votes of one scan: sets its bit in the cells of its points, four at a time, as stores are the
  * limit.
@@ -40,15 +47,12 @@ static void NAME(vote_scan_via_scratch)(CELL *restrict row, CELL *restrict apart
     }
 }
 
-/* Sparse rows: only touched cells are searched. */
-
 /*
  * Votes of n points of one scan (its bit; 0: points are counted). Lists the cells that reach
  * min_votes by these votes in reached[]; returns their number.
  */
-static unsigned NAME(vote_and_list_reached)(const struct rho_accumulator_pass *pass, CELL *row,
-                                            const int32_t *cells, unsigned n, CELL bit,
-                                            uint16_t *reached)
+static unsigned NAME(vote_reaching)(const struct rho_accumulator_pass *pass, CELL *row,
+                                    const int32_t *cells, unsigned n, CELL bit, uint16_t *reached)
 {
     unsigned num_reached = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -65,21 +69,21 @@ static unsigned NAME(vote_and_list_reached)(const struct rho_accumulator_pass *p
  * Votes of n points of several scans, with the bit of each point's scan, or 0 where points are
  * counted. Lists cells that reach min_votes; returns their number.
  */
-static unsigned NAME(vote_kept_and_list_reached)(const struct rho_accumulator_pass *pass, CELL *row,
-                                                 const int32_t *cells, const uint16_t *bits,
-                                                 unsigned n, uint16_t *reached)
+static unsigned NAME(vote_kept_reaching)(const struct rho_accumulator_pass *pass, CELL *row,
+                                         const int32_t *cells, const uint16_t *bits, unsigned n,
+                                         uint16_t *reached)
 {
     unsigned num_reached = 0;
     for (unsigned i = 0; i < n; i++) {
-        num_reached += NAME(vote_and_list_reached)(pass, row, cells + i, 1, (CELL)bits[i],
-                                                   reached + num_reached);
+        num_reached +=
+            NAME(vote_reaching)(pass, row, cells + i, 1, (CELL)bits[i], reached + num_reached);
     }
     return num_reached;
 }
 
 /* Most votes of a cell and, with eight neighbours, of the cells left and right of it. */
-static unsigned NAME(max_votes_at_and_beside)(const struct rho_accumulator_pass *pass,
-                                              const CELL *row, unsigned cell)
+static unsigned NAME(max_votes_beside)(const struct rho_accumulator_pass *pass, const CELL *row,
+                                       unsigned cell)
 {
     unsigned most = NAME(votes_of_cell)(pass, row[cell]);
     if (pass->neighbours == 8) {
@@ -101,8 +105,8 @@ static int NAME(is_peak)(const struct rho_accumulator_pass *pass, unsigned cell,
     if (pass->neighbours == 0) {
         return 1;
     }
-    unsigned above = NAME(max_votes_at_and_beside)(pass, pass->rows[0], cell);
-    unsigned below = NAME(max_votes_at_and_beside)(pass, pass->rows[2], cell);
+    unsigned above = NAME(max_votes_beside)(pass, pass->rows[0], cell);
+    unsigned below = NAME(max_votes_beside)(pass, pass->rows[2], cell);
     return NAME(votes_of_cell)(pass, row[cell - 1u]) < votes &&
            NAME(votes_of_cell)(pass, row[cell + 1u]) <= votes &&
            above + pass->above_is_first <= votes && below + pass->below_is_first <= votes;
@@ -114,9 +118,7 @@ static void NAME(find_peaks_in_reached)(struct rho_accumulator_pass *pass, const
     for (unsigned i = 0; i < num_reached; i++) {
         CELL value = ((const CELL *)pass->rows[1])[reached[i]];
         unsigned votes = NAME(votes_of_cell)(pass, value);
-        /*
-         * drops guard cells, which are empty, and cells below min_votes, which may have risen since
-         */
+        /* drops guard cells, which are empty, and cells below a min_votes that has risen since */
         if (votes >= pass->list.min_votes && NAME(is_peak)(pass, reached[i], votes)) {
             add_peak(pass, reached[i], votes, value);
         }
@@ -132,8 +134,6 @@ static void NAME(reverse_row)(CELL *row, unsigned num_cells)
         row[num_cells + 1u - i] = swapped;
     }
 }
-
-/* Dense rows: all cells are searched, block by block. */
 
 /* Counts a vote for each point's cell, up to the largest count that a cell holds. */
 static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells, unsigned n)
@@ -158,22 +158,39 @@ static CELL NAME(larger)(CELL a, CELL b)
     return a > b ? a : b;
 }
 
-/* Whether any of n cells, which count points, has min_votes. */
-static int NAME(has_cell_with_min_points)(const CELL *restrict row, unsigned n, unsigned min_votes)
+/*
+ * False where none of n cells has min_votes, points or scans; n is a multiple of BLOCK. Scans in
+ * cells of 8 bits are counted eight cells at a time, in words that a compiler vectorises: the bit
+ * count of each byte ends in its upper half, and bits that the shift moves into the lower half stay
+ * there.
+ */
+static int NAME(may_have_min_votes)(const struct rho_accumulator_pass *pass,
+                                    const CELL *restrict row, unsigned n)
 {
+    unsigned min_votes = pass->list.min_votes;
     CELL most = 0;
-    for (unsigned i = 0; i < n; i++) {
-        most = NAME(larger)(row[i], most);
+    if (pass->counts_points) {
+        for (unsigned i = 0; i < n; i++) {
+            most = NAME(larger)(row[i], most);
+        }
+        return most >= min_votes;
     }
-    return most >= min_votes;
-}
-
-/* False where none of n cells has min_votes, points or scans. */
-static int NAME(may_have_cell_with_min_votes)(const struct rho_accumulator_pass *pass,
-                                              const CELL *row, unsigned n)
-{
-    return pass->counts_points ? NAME(has_cell_with_min_points)(row, n, pass->list.min_votes)
-                               : NAME(may_have_cell_with_min_scans)(row, n, pass->list.min_votes);
+    if (sizeof(CELL) > 1) {
+        for (unsigned i = 0; i < n; i++) {
+            most = NAME(larger)(NAME(count_scans)(row[i]), most);
+        }
+        return most >= min_votes;
+    }
+    const uint64_t ones = UINT64_C(0x0101010101010101);
+    uint64_t reached = 0, add = ones * (0x80u - 16u * (min_votes < 8u ? min_votes : 8u));
+    for (unsigned i = 0; i < n; i += 8u) {
+        uint64_t v;
+        memcpy(&v, row + i, sizeof v);
+        v -= v >> 1 & ones * 0x55u;
+        v = (v & ones * 0x33u) + (v >> 2 & ones * 0x33u);
+        reached |= v + (v << 4) + add;
+    }
+    return (reached & ones * 0x80u) != 0;
 }
 
 /* Counts the votes of the cells of a block and of its neighbours on both sides. */
@@ -211,14 +228,6 @@ static void NAME(mark_peaks)(const struct rho_accumulator_pass *pass, const CELL
     }
 }
 
-static void NAME(mark_cells_with_min_votes)(const struct rho_accumulator_pass *pass,
-                                            const CELL *restrict row, uint8_t *restrict is_peak)
-{
-    for (int i = 0; i < BLOCK; i++) {
-        is_peak[i] = row[i] >= pass->list.min_votes;
-    }
-}
-
 static void NAME(find_peaks_in_block)(struct rho_accumulator_pass *pass, unsigned first)
 {
     CELL votes[3][AROUND];
@@ -230,7 +239,9 @@ static void NAME(find_peaks_in_block)(struct rho_accumulator_pass *pass, unsigne
         NAME(count_votes_in_block)(pass, (const CELL *)pass->rows[2] + first, votes[2]);
         NAME(mark_peaks)(pass, votes[0] + 1, votes[1] + 1, votes[2] + 1, is_peak);
     } else {
-        NAME(mark_cells_with_min_votes)(pass, votes[1] + 1, is_peak);
+        for (int i = 0; i < BLOCK; i++) {
+            is_peak[i] = votes[1][i + 1] >= pass->list.min_votes;
+        }
     }
     unsigned num_found = 0;
     for (unsigned i = 0; i < BLOCK; i++) {
@@ -252,8 +263,7 @@ static void NAME(find_dense_row_peaks)(struct rho_accumulator_pass *pass)
     for (unsigned first = 1; first <= cells;) {
         unsigned left = cells + 1u - first, most = num_passed < BLOCKS ? BLOCK : BLOCKS * BLOCK;
         unsigned n = most < left ? most : left;
-        int may_have =
-            NAME(may_have_cell_with_min_votes)(pass, (const CELL *)pass->rows[1] + first, n);
+        int may_have = NAME(may_have_min_votes)(pass, (const CELL *)pass->rows[1] + first, n);
         num_passed = may_have ? 0u : num_passed + 1u;
         if (may_have && n > BLOCK) {
             continue; /* test the blocks one by one now */

@@ -11,20 +11,10 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define HOUGH_MAGIC 0x434c4153u /* "CLAS" in ASCII */
-
-#define SCAN_POINTS_MAX 65535u
-#define EPS_RHO_MIN_M 0.001f
-#define EPS_THETA_MIN_RAD 1.0e-4f
-#define EPS_THETA_MAX_RAD 0.5f
-#define LAMBDA_MAX 1.0e6f
-#define VOTES_MIN_MAX 65535.0f
-#define TIME_MAX_S 1.0e9f
+enum { HOUGH_MAGIC = 0x434c4153 }; /* "CLAS" in ASCII */
 
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */
 typedef char rho_assert_hough_ram[sizeof(struct rho_hough) <= RHO_RAM_HOUGH_BYTES ? 1 : -1];
-
-/* ---- setting up ------------------------------------------------------------------------------ */
 
 void rho_hough_config_default(struct rho_hough_config *config, enum rho_hough_method method)
 {
@@ -53,30 +43,9 @@ static struct rho_accumulator_config accumulator_config_of(const struct rho_houg
 }
 
 /* Cells within 2 eps, with 1/100 of a cell for rounding. */
-static float twice_eps_in_cells(float eps, float cell)
+static float cells_of_eps(float eps, float cell)
 {
     return 2.0f * eps / cell + 0.01f;
-}
-
-static int are_thresholds_usable(const struct rho_hough_config *config)
-{
-    return rho_is_within(config->p_false, 0.0f, 1.0f) &&
-           rho_is_within(config->lambda_k, 0.0f, LAMBDA_MAX) &&
-           rho_is_within(config->tau, 0.0f, 1.0f) &&
-           rho_is_within(config->votes_min, 0.0f, VOTES_MIN_MAX);
-}
-
-static int is_usable(const struct rho_hough_config *config)
-{
-    return (unsigned)config->method <= RHO_HOUGH_NHT_C && are_thresholds_usable(config) &&
-           rho_is_within(config->eps_rho_m, EPS_RHO_MIN_M, RHO_LIMIT_POSITION_M) &&
-           rho_is_within(config->eps_theta_rad, EPS_THETA_MIN_RAD, EPS_THETA_MAX_RAD) &&
-           twice_eps_in_cells(config->eps_rho_m, config->rho_cell_m) < RHO_HOUGH_REACH_MAX + 1.0f &&
-           twice_eps_in_cells(config->eps_theta_rad, config->theta_cell_rad) <
-               RHO_HOUGH_REACH_MAX + 1.0f &&
-           rho_is_within(config->v_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
-           rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
-           config->v_min_mps < config->v_max_mps;
 }
 
 enum rho_status rho_hough_init(struct rho_hough *hough, size_t object_size,
@@ -91,24 +60,32 @@ enum rho_status rho_hough_init(struct rho_hough *hough, size_t object_size,
     struct rho_accumulator_config plane = accumulator_config_of(config);
     uint16_t theta_cells, rho_cells;
     if (rho_accumulator_count_cells(&plane, &theta_cells, &rho_cells) != RHO_OK ||
-        !is_usable(config)) {
+        (unsigned)config->method > RHO_HOUGH_NHT_C || !rho_is_within(config->p_false, 0.0f, 1.0f) ||
+        !rho_is_within(config->lambda_k, 0.0f, 1.0e6f) || !rho_is_within(config->tau, 0.0f, 1.0f) ||
+        !rho_is_within(config->votes_min, 0.0f, (float)UINT16_MAX) ||
+        !rho_is_within(config->eps_rho_m, 0.001f, RHO_LIMIT_POSITION_M) ||
+        !rho_is_within(config->eps_theta_rad, 1.0e-4f, 0.5f) ||
+        !(cells_of_eps(config->eps_rho_m, config->rho_cell_m) < RHO_HOUGH_REACH_MAX + 1.0f) ||
+        !(cells_of_eps(config->eps_theta_rad, config->theta_cell_rad) <
+          RHO_HOUGH_REACH_MAX + 1.0f) ||
+        !rho_is_within(config->v_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS) ||
+        !rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) ||
+        !(config->v_min_mps < config->v_max_mps)) {
         return RHO_ERROR_CONFIG;
     }
     hough->config = *config;
     hough->theta_cells = theta_cells;
     hough->rho_cells = rho_cells;
-    hough->theta_reach =
-        (uint16_t)twice_eps_in_cells(config->eps_theta_rad, config->theta_cell_rad);
-    hough->rho_reach = (uint16_t)twice_eps_in_cells(config->eps_rho_m, config->rho_cell_m);
+    hough->theta_reach = (uint16_t)cells_of_eps(config->eps_theta_rad, config->theta_cell_rad);
+    hough->rho_reach = (uint16_t)cells_of_eps(config->eps_rho_m, config->rho_cell_m);
     hough->magic = HOUGH_MAGIC;
     return RHO_OK;
 }
 
-/* ---- points of all plots --------------------------------------------------------------------- */
-
-static uint32_t count_points(const struct rho_hough_points *points)
+/* True for a time within 1e9 s: its differences have a meaning in float32. */
+static int is_time(float t_s)
 {
-    return rho_hough_scan_start(points, points->at.num_scans);
+    return rho_is_within(t_s, -1.0e9f, 1.0e9f);
 }
 
 static enum rho_status check_points(const struct rho_hough *hough,
@@ -124,16 +101,16 @@ static enum rho_status check_points(const struct rho_hough *hough,
     if (status != RHO_OK) {
         return status;
     }
-    if (count_points(points) > 0 && !points->t_s) {
+    if (rho_hough_scan_start(points, points->at.num_scans) > 0 && !points->t_s) {
         return RHO_ERROR_NULL;
     }
     for (unsigned scan = 0; scan < points->at.num_scans; scan++) {
         uint32_t start = rho_hough_scan_start(points, scan), end = points->at.scan_end[scan];
-        if (end - start > SCAN_POINTS_MAX) {
+        if (end - start > UINT16_MAX) {
             return RHO_ERROR_VALUE;
         }
         for (uint32_t i = start; i < end; i++) {
-            if (!rho_is_within(points->t_s[i], -TIME_MAX_S, TIME_MAX_S)) {
+            if (!is_time(points->t_s[i])) {
                 return RHO_ERROR_VALUE;
             }
         }
@@ -141,7 +118,7 @@ static enum rho_status check_points(const struct rho_hough *hough,
     return RHO_OK;
 }
 
-static uint32_t count_pairs_of_successive_scans(const struct rho_hough_points *points)
+static uint32_t count_pairs(const struct rho_hough_points *points)
 {
     uint64_t pairs = 0;
     for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
@@ -155,7 +132,7 @@ static uint32_t count_pairs_of_successive_scans(const struct rho_hough_points *p
 void rho_hough_count_pairs(const struct rho_hough *hough, const struct rho_hough_points *points,
                            uint32_t *pairs, uint32_t *candidates)
 {
-    *pairs = count_pairs_of_successive_scans(points);
+    *pairs = count_pairs(points);
     *candidates = 0;
     for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
         uint32_t from = rho_hough_scan_start(points, scan), end = points->at.scan_end[scan];
@@ -176,8 +153,6 @@ static uint32_t round_up_votes(float votes)
     uint32_t whole = (float)below < votes ? below + 1u : below;
     return whole > 0 ? whole : 1u;
 }
-
-/* ---- HT -------------------------------------------------------------------------------------- */
 
 static enum rho_status init_accumulator(struct rho_hough *hough)
 {
@@ -211,8 +186,6 @@ static enum rho_status find_ht_peaks(struct rho_hough *hough, const struct rho_h
     return RHO_OK;
 }
 
-/* ---- pairs, in as many passes as it takes ---------------------------------------------------- */
-
 static struct rho_hough_rows widened_rows(const struct rho_hough *hough, struct rho_hough_rows rows,
                                           int32_t by_rows)
 {
@@ -221,23 +194,6 @@ static struct rho_hough_rows widened_rows(const struct rho_hough *hough, struct 
         return (struct rho_hough_rows){0, all};
     }
     return (struct rho_hough_rows){first < 0 ? first + all : first, rows.count + 2 * by_rows};
-}
-
-/* Sets the normals of lines at the borders of the held rows, widened by one row at either end. */
-static void set_normals_at_borders_of_held_rows(struct rho_hough_pass *pass)
-{
-    float cell_rad = pass->hough->config.theta_cell_rad;
-    float from_rad = (float)(pass->held.first - 1) * cell_rad;
-    float to_rad = (float)(pass->held.first + pass->held.count + 1) * cell_rad;
-    /*
-     * lines at theta + pi are lines at theta: rejection works only for sectors of less than half a
-     * turn
-     */
-    pass->can_reject = to_rad - from_rad < RHO_PI;
-    pass->from_x = rho_cos(from_rad);
-    pass->from_y = rho_sin(from_rad);
-    pass->to_x = rho_cos(to_rad);
-    pass->to_y = rho_sin(to_rad);
 }
 
 /*
@@ -253,57 +209,50 @@ static uint32_t hash_size_for(uint32_t entries)
     return size;
 }
 
-static struct rho_hough_pass make_pass_over_rows(struct rho_hough *hough,
-                                                 const struct rho_hough_points *points,
-                                                 enum rho_hough_component component, int32_t first,
-                                                 int32_t count)
+static struct rho_hough_pass begin_pass(struct rho_hough *hough,
+                                        const struct rho_hough_points *points,
+                                        enum rho_hough_component component, int32_t first,
+                                        int32_t count)
 {
     struct rho_hough_pass pass = {.hough = hough,
                                   .points = points,
                                   .wanted = {first, count},
                                   .component = component,
-                                  .table_size =
-                                      hash_size_for(count_pairs_of_successive_scans(points)),
+                                  .table_size = hash_size_for(count_pairs(points)),
                                   .stops_when_full = count > 1};
     int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
+    float cell_rad = hough->config.theta_cell_rad;
     pass.voting = widened_rows(hough, pass.wanted, is_spread ? hough->theta_reach : 0);
     /* two rows more: one for the part of a cell in 2 eps, one as the last row may be narrower */
     pass.held = widened_rows(hough, pass.voting,
                              rho_hough_uses_kernels(hough) ? hough->theta_reach + 2 : 0);
-    set_normals_at_borders_of_held_rows(&pass);
+    /* the normals at the borders of the held rows, one row more at either end */
+    float from_rad = (float)(pass.held.first - 1) * cell_rad;
+    float to_rad = (float)(pass.held.first + pass.held.count + 1) * cell_rad;
+    /* as lines at theta + pi are lines at theta, only sectors below half a turn reject lines */
+    pass.can_reject = to_rad - from_rad < RHO_PI;
+    pass.from_x = rho_cos(from_rad);
+    pass.from_y = rho_sin(from_rad);
+    pass.to_x = rho_cos(to_rad);
+    pass.to_y = rho_sin(to_rad);
     return pass;
-}
-
-static void add_pass_results(struct rho_hough_result *result, const struct rho_hough_result *pass)
-{
-    result->candidates = pass->candidates; /* all passes count the same candidates */
-    result->votes = rho_count(result->votes, pass->votes);
-    result->cells = rho_count(result->cells, pass->cells);
-    result->votes_dropped = rho_count(result->votes_dropped, pass->votes_dropped);
-    result->kernels_dropped = rho_count(result->kernels_dropped, pass->kernels_dropped);
-}
-
-/* Number of rows of the next pass: doubled if this pass left two thirds of its tables free. */
-static int32_t rows_of_next_pass(const struct rho_hough_pass *pass, int32_t rows)
-{
-    int has_room = pass->num_cells < RHO_MAX_HOUGH_CELLS / 3u &&
-                   pass->most_kernels < RHO_MAX_HOUGH_KERNELS / 3u;
-    return has_room && rows < pass->hough->theta_cells ? 2 * rows : rows;
 }
 
 /*
  * Votes of all rows, in as many passes as the tables need, into the list of peaks, or into the
- * plane where list is NULL. A pass that overflows is repeated with half its rows.
+ * plane where list is NULL. A pass that overflows is repeated with half its rows; one that leaves
+ * two thirds of its tables free doubles them.
  */
-static void run_all_passes(struct rho_hough *hough, const struct rho_hough_points *points,
-                           enum rho_hough_component component, struct rho_votes_picture *plane,
-                           struct rho_peak_list *list, struct rho_hough_result *result)
+static void run_passes(struct rho_hough *hough, const struct rho_hough_points *points,
+                       enum rho_hough_component component, struct rho_votes_picture *plane,
+                       struct rho_peak_list *list, struct rho_hough_result *result)
 {
     int32_t all = hough->theta_cells, rows = all;
-    *result = (struct rho_hough_result){.pairs = count_pairs_of_successive_scans(points)};
+    *result = (struct rho_hough_result){.pairs = count_pairs(points)};
     for (int32_t first = 0; first < all;) {
         int32_t count = all - first < rows ? all - first : rows;
-        struct rho_hough_pass pass = make_pass_over_rows(hough, points, component, first, count);
+        struct rho_hough_pass pass = begin_pass(hough, points, component, first, count);
+        const struct rho_hough_result *found = &pass.found;
         pass.plane = plane;
         rho_hough_vote_successive_scan_pairs(&pass);
         if (pass.is_full && count > 1) {
@@ -311,34 +260,17 @@ static void run_all_passes(struct rho_hough *hough, const struct rho_hough_point
             continue;
         }
         rho_hough_collect_cells(&pass, list);
-        add_pass_results(result, &pass.found);
+        result->candidates = found->candidates; /* all passes count the same candidates */
+        result->votes = rho_count(result->votes, found->votes);
+        result->cells = rho_count(result->cells, found->cells);
+        result->votes_dropped = rho_count(result->votes_dropped, found->votes_dropped);
+        result->kernels_dropped = rho_count(result->kernels_dropped, found->kernels_dropped);
         result->passes++;
         first += count;
-        rows = rows_of_next_pass(&pass, rows);
+        int has_room = pass.num_cells < RHO_MAX_HOUGH_CELLS / 3u &&
+                       pass.most_kernels < RHO_MAX_HOUGH_KERNELS / 3u;
+        rows = has_room && rows < all ? 2 * rows : rows;
     }
-}
-
-static void find_pair_peaks(struct rho_hough *hough, const struct rho_hough_points *points,
-                            struct rho_peak_list *list, struct rho_hough_result *result)
-{
-    run_all_passes(hough, points, RHO_HOUGH_VOTES, NULL, list, result);
-    rho_peak_list_drop_weak_and_sort(list);
-    result->num_peaks = list->num_peaks;
-    result->cells_dropped = list->peaks_dropped;
-    result->votes_max = list->votes_max;
-}
-
-/* ---- public ---------------------------------------------------------------------------------- */
-
-static uint32_t suppress_near_peaks(struct rho_hough *hough, struct rho_accumulator_peak *peaks,
-                                    uint32_t num_peaks)
-{
-    const struct rho_peak_distance distance = {.theta_cells = hough->theta_cells,
-                                               .rho_cells = hough->rho_cells,
-                                               .theta = hough->theta_reach,
-                                               .rho = hough->rho_reach};
-    return rho_peak_list_suppress(peaks, num_peaks, &distance, hough->work.kept,
-                                  hash_size_for(num_peaks));
 }
 
 enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_points *points,
@@ -360,45 +292,50 @@ enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_p
             .max_peaks = max_peaks,
             .min_votes = round_up_votes(hough->config.votes_min * (float)RHO_HOUGH_VOTE),
             .min_share = hough->config.tau};
-        find_pair_peaks(hough, points, &list, result);
+        run_passes(hough, points, RHO_HOUGH_VOTES, NULL, &list, result);
+        rho_peak_list_drop_weak_and_sort(&list);
+        result->num_peaks = list.num_peaks;
+        result->cells_dropped = list.peaks_dropped;
+        result->votes_max = list.votes_max;
     }
     if (status == RHO_OK && !hough->config.keeps_all_cells) {
-        result->num_peaks = suppress_near_peaks(hough, peaks, result->num_peaks);
+        const struct rho_peak_distance distance = {.theta_cells = hough->theta_cells,
+                                                   .rho_cells = hough->rho_cells,
+                                                   .theta = hough->theta_reach,
+                                                   .rho = hough->rho_reach};
+        result->num_peaks =
+            rho_peak_list_suppress(peaks, result->num_peaks, &distance, hough->work.kept,
+                                   hash_size_for(result->num_peaks));
     }
     return status;
 }
 
 /*
- * Method HT: fills a row of theta with the votes of all plots: a mask of scans a cell, or a count.
+ * Method HT: notes the votes of all plots in the plane, row by row of theta: masks of scans, or
+ * counts.
  */
-static void fill_ht_row(const struct rho_hough *hough, const struct rho_hough_points *points,
-                        unsigned theta, uint16_t *row)
-{
-    const int has_scans = hough->config.votes == RHO_VOTES_SCANS;
-    memset(row, 0, hough->rho_cells * sizeof row[0]);
-    for (unsigned scan = 0; scan < points->at.num_scans; scan++) {
-        for (uint32_t i = rho_hough_scan_start(points, scan); i < points->at.scan_end[scan]; i++) {
-            const int cell = rho_accumulator_cell_of_point(&hough->work.accumulator, theta,
-                                                           points->at.x_m[i], points->at.y_m[i]);
-            if (cell >= 0) {
-                row[cell] = (uint16_t)(has_scans ? row[cell] | 1u << scan
-                                                 : row[cell] + (row[cell] < UINT16_MAX ? 1u : 0u));
-            }
-        }
-    }
-}
-
-/* Method HT: notes the votes of all rows of theta in the plane. */
 static enum rho_status note_ht_votes(struct rho_hough *hough, const struct rho_hough_points *points,
                                      struct rho_votes_picture *plane)
 {
+    const struct rho_accumulator_points *at = &points->at;
     const enum rho_status status = init_accumulator(hough);
+    const int has_scans = hough->config.votes == RHO_VOTES_SCANS;
     uint16_t *row = hough->work.accumulator.rows[0];
     for (unsigned theta = 0; status == RHO_OK && theta < hough->theta_cells; theta++) {
-        fill_ht_row(hough, points, theta, row);
+        memset(row, 0, hough->rho_cells * sizeof row[0]);
+        for (unsigned scan = 0, i = 0; scan < at->num_scans; scan++) {
+            for (; i < at->scan_end[scan]; i++) {
+                const int cell = rho_accumulator_cell_of_point(&hough->work.accumulator, theta,
+                                                               at->x_m[i], at->y_m[i]);
+                if (cell >= 0) {
+                    row[cell] =
+                        (uint16_t)(has_scans ? row[cell] | 1u << scan
+                                             : row[cell] + (row[cell] < UINT16_MAX ? 1u : 0u));
+                }
+            }
+        }
         for (unsigned cell = 0; cell < hough->rho_cells; cell++) {
-            const uint32_t votes =
-                hough->config.votes == RHO_VOTES_SCANS ? rho_count_bits(row[cell]) : row[cell];
+            const uint32_t votes = has_scans ? rho_count_bits(row[cell]) : row[cell];
             rho_votes_picture_enter_cell(plane, theta, cell, votes * RHO_HOUGH_VOTE);
         }
     }
@@ -421,7 +358,7 @@ enum rho_status rho_hough_plane(struct rho_hough *hough, const struct rho_hough_
     if (status == RHO_OK && hough->config.method == RHO_HOUGH_HT) {
         status = note_ht_votes(hough, points, plane);
     } else if (status == RHO_OK) {
-        run_all_passes(hough, points, component, plane, NULL, &result);
+        run_passes(hough, points, component, plane, NULL, &result);
     }
     return status;
 }
@@ -451,8 +388,8 @@ enum rho_status rho_hough_vote(const struct rho_hough *hough, const struct rho_h
     if (scan == points->at.num_scans || scan_of_plot(points, first) + 1u != scan) {
         return RHO_ERROR_VALUE;
     }
-    *memberships = rho_hough_truth_indeterminacy_falsity_of_pair(
-        hough, points, scan, (struct rho_hough_pair){first, second});
+    *memberships =
+        rho_hough_memberships_of_pair(hough, points, scan, (struct rho_hough_pair){first, second});
     return RHO_OK;
 }
 
@@ -467,8 +404,7 @@ enum rho_status rho_hough_track(struct rho_hough *hough, const struct rho_hough_
     if (!track) {
         return RHO_ERROR_NULL;
     }
-    if (theta_cell >= hough->theta_cells || rho_cell >= hough->rho_cells ||
-        !rho_is_within(at_s, -TIME_MAX_S, TIME_MAX_S)) {
+    if (theta_cell >= hough->theta_cells || rho_cell >= hough->rho_cells || !is_time(at_s)) {
         return RHO_ERROR_VALUE;
     }
     if (hough->config.method == RHO_HOUGH_HT) {

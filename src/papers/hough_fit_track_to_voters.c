@@ -8,9 +8,6 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-/* Tolerance for rounding, as a factor, in the test of a plot near a line. */
-#define SLACK 1.01f
-
 /* The cell whose voters are wanted, and the range of lines that vote for it. */
 struct cell_query {
     struct rho_hough *hough;
@@ -32,22 +29,20 @@ static int may_be_on_line(const struct rho_hough_points *points, uint32_t i, str
     float x_m = points->at.x_m[i], y_m = points->at.y_m[i];
     float off_m = x_m * rho_cos(line.theta_rad) + y_m * rho_sin(line.theta_rad) - line.rho_m;
     float range_m = rho_sqrt(x_m * x_m + y_m * y_m);
-    float most_m = (rho_m + range_m * theta_rad * (1.0f + theta_rad)) * SLACK + 0.1f;
+    /* one part in a hundred and 0.1 m for rounding */
+    float most_m = (rho_m + range_m * theta_rad * (1.0f + theta_rad)) * 1.01f + 0.1f;
     return off_m <= most_m && -off_m <= most_m;
 }
 
-static int is_plot_near_queried_line(const struct cell_query *query, uint32_t i)
+static int is_plot_near(const struct cell_query *query, uint32_t i)
 {
     return may_be_on_line(query->points, i, query->line, query->rho_m, query->theta_rad);
 }
 
-/* ---- votes of a pair for the cell ------------------------------------------------------------ */
-
 /* Finds the two nearest kernels of a line: pairs of plots of the two scans before `scan`. */
-static struct rho_hough_nearest
-find_nearest_kernels_before_scan(const struct rho_hough *hough,
-                                 const struct rho_hough_points *points, unsigned scan,
-                                 struct rho_line line)
+static struct rho_hough_nearest search_kernels(const struct rho_hough *hough,
+                                               const struct rho_hough_points *points, unsigned scan,
+                                               struct rho_line line)
 {
     float rho_m = 2.0f * hough->config.eps_rho_m, theta_rad = 2.0f * hough->config.eps_theta_rad;
     struct rho_hough_nearest nearest = {.count = 0};
@@ -72,62 +67,18 @@ struct vote {
     struct rho_hough_memberships of;
 };
 
-static struct vote vote_weight_truth_and_falsity_of_line(const struct cell_query *query,
-                                                         unsigned scan, struct rho_line line)
-{
-    struct vote vote = {.weight = 0};
-    if (!rho_hough_uses_kernels(query->hough)) {
-        vote.weight = RHO_HOUGH_VOTE;
-    } else if (scan >= 2) {
-        struct rho_hough_nearest nearest =
-            find_nearest_kernels_before_scan(query->hough, query->points, scan, line);
-        vote.weight =
-            rho_hough_vote_weight_by_nearest_kernels(query->hough, query->points, line, &nearest);
-        vote.of = rho_hough_truth_indeterminacy_falsity_of_line(query->hough, query->points, line,
-                                                                &nearest);
-    }
-    return vote;
-}
-
-struct rho_hough_memberships
-rho_hough_truth_indeterminacy_falsity_of_pair(const struct rho_hough *hough,
-                                              const struct rho_hough_points *points, unsigned scan,
-                                              struct rho_hough_pair pair)
+struct rho_hough_memberships rho_hough_memberships_of_pair(const struct rho_hough *hough,
+                                                           const struct rho_hough_points *points,
+                                                           unsigned scan,
+                                                           struct rho_hough_pair pair)
 {
     if (scan < 2 || !rho_hough_uses_kernels(hough) ||
         rho_hough_speed_check(hough, points, pair) != RHO_SPEED_WITHIN) {
         return (struct rho_hough_memberships){0};
     }
     struct rho_line line = rho_hough_line_through_pair(points, pair);
-    struct rho_hough_nearest nearest = find_nearest_kernels_before_scan(hough, points, scan, line);
+    struct rho_hough_nearest nearest = search_kernels(hough, points, scan, line);
     return rho_hough_truth_indeterminacy_falsity_of_line(hough, points, line, &nearest);
-}
-
-/*
- * Number of rows between a pair's cell and the queried cell; across the ends of theta, where rho is
- * reversed, *column is reversed too.
- */
-static int32_t row_distance_and_turned_column(const struct cell_query *query, int32_t row,
-                                              int32_t *column)
-{
-    int32_t away = row - query->row, all = query->hough->theta_cells;
-    if (2 * away > all || 2 * away < -all) {
-        away += away > 0 ? -all : all;
-        *column = query->hough->rho_cells - 1 - *column;
-    }
-    return away < 0 ? -away : away;
-}
-
-static void scale_vote_by_distance(const struct cell_query *query, int32_t rows, int32_t columns,
-                                   struct vote *vote)
-{
-    uint32_t *parts[] = {&vote->weight, &vote->of.truth, &vote->of.indeterminacy,
-                         &vote->of.falsity};
-    for (unsigned i = 0; i < sizeof parts / sizeof parts[0]; i++) {
-        *parts[i] =
-            rho_hough_scale_votes(rho_hough_scale_votes(*parts[i], query->theta_shares[rows]),
-                                  query->rho_shares[columns]);
-    }
 }
 
 /* Vote of a pair for the queried cell; weight 0: the pair does not vote for it. */
@@ -135,38 +86,48 @@ static struct vote pair_vote_for_cell(const struct cell_query *query, unsigned s
                                       struct rho_hough_pair pair)
 {
     const struct rho_hough *hough = query->hough;
+    const struct rho_hough_points *points = query->points;
     const struct vote none = {.weight = 0};
-    enum rho_hough_speed_check speed = rho_hough_speed_check(hough, query->points, pair);
+    enum rho_hough_speed_check speed = rho_hough_speed_check(hough, points, pair);
     int takes_all = hough->config.method == RHO_HOUGH_MHT;
     if (speed == RHO_SPEED_NO_LINE || (speed == RHO_SPEED_OUTSIDE && !takes_all)) {
         return none;
     }
-    struct rho_line line = rho_hough_line_through_pair(query->points, pair);
+    struct rho_line line = rho_hough_line_through_pair(points, pair);
     int32_t column = rho_hough_column_of_rho(hough, line.rho_m);
     int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
     if (column < 0) {
         return none;
     }
-    int32_t rows = row_distance_and_turned_column(
-        query, rho_hough_row_of_theta(hough, line.theta_rad), &column);
+    int32_t rows = rho_hough_row_of_theta(hough, line.theta_rad) - query->row;
+    int32_t all = hough->theta_cells;
+    if (2 * rows > all || 2 * rows < -all) { /* nearer across the ends of theta; rho is reversed */
+        rows += rows > 0 ? -all : all;
+        column = hough->rho_cells - 1 - column;
+    }
+    rows = rows < 0 ? -rows : rows;
     int32_t columns = column < query->column ? query->column - column : column - query->column;
     if (rows > (is_spread ? hough->theta_reach : 0) ||
         columns > (is_spread ? hough->rho_reach : 0)) {
         return none;
     }
-    struct vote vote = vote_weight_truth_and_falsity_of_line(query, scan, line);
-    if (is_spread) {
-        scale_vote_by_distance(query, rows, columns, &vote);
+    if (!rho_hough_uses_kernels(hough)) {
+        return (struct vote){.weight = RHO_HOUGH_VOTE};
+    }
+    if (scan < 2) {
+        return none;
+    }
+    struct rho_hough_nearest nearest = search_kernels(hough, points, scan, line);
+    struct vote vote = {
+        .weight = rho_hough_vote_weight_by_nearest_kernels(hough, points, line, &nearest),
+        .of = rho_hough_truth_indeterminacy_falsity_of_line(hough, points, line, &nearest)};
+    uint32_t *parts[] = {&vote.weight, &vote.of.truth, &vote.of.indeterminacy, &vote.of.falsity};
+    for (unsigned i = 0; is_spread && i < sizeof parts / sizeof parts[0]; i++) {
+        *parts[i] =
+            rho_hough_scale_votes(rho_hough_scale_votes(*parts[i], query->theta_shares[rows]),
+                                  query->rho_shares[columns]);
     }
     return vote;
-}
-
-static void add_memberships(struct rho_hough_memberships *sums,
-                            const struct rho_hough_memberships *of)
-{
-    sums->truth = rho_count(sums->truth, of->truth);
-    sums->indeterminacy = rho_count(sums->indeterminacy, of->indeterminacy);
-    sums->falsity = rho_count(sums->falsity, of->falsity);
 }
 
 /*
@@ -180,17 +141,17 @@ static uint32_t votes_of_plot_pairs(const struct cell_query *query, unsigned sca
     unsigned other = next_else_previous ? scan + 1u : scan - 1u;
     uint32_t votes = 0;
     for (uint32_t j = rho_hough_scan_start(points, other); j < points->at.scan_end[other]; j++) {
-        if (is_plot_near_queried_line(query, j)) {
+        if (is_plot_near(query, j)) {
             struct rho_hough_pair pair = {next_else_previous ? i : j, next_else_previous ? j : i};
             struct vote vote = pair_vote_for_cell(query, next_else_previous ? other : scan, pair);
             votes = rho_count(votes, vote.weight);
-            add_memberships(sums, &vote.of);
+            sums->truth = rho_count(sums->truth, vote.of.truth);
+            sums->indeterminacy = rho_count(sums->indeterminacy, vote.of.indeterminacy);
+            sums->falsity = rho_count(sums->falsity, vote.of.falsity);
         }
     }
     return votes;
 }
-
-/* ---- the fit --------------------------------------------------------------------------------- */
 
 /* Sums of the least-squares fit of position over time, relative to the first plot. */
 struct sums {
@@ -220,38 +181,6 @@ static void add_plot_to_fit(const struct cell_query *query, unsigned scan, uint3
     track->mask = (uint16_t)(track->mask | 1u << scan);
 }
 
-/* Solves the fit of position over time; the track gets its position at at_s, and its velocity. */
-static void fit_motion(const struct sums *sums, float at_s, struct rho_hough_track *track)
-{
-    float divisor = sums->n * sums->tt - sums->t * sums->t;
-    float n = sums->n > 0.0f ? sums->n : 1.0f, ahead_s = at_s - sums->t0_s - sums->t / n;
-    track->has_velocity = track->scans >= 2 && divisor > 1.0e-6f * sums->n * sums->tt;
-    if (track->has_velocity) {
-        track->vx_mps = (sums->n * sums->tx - sums->t * sums->x) / divisor;
-        track->vy_mps = (sums->n * sums->ty - sums->t * sums->y) / divisor;
-    }
-    track->x_m = sums->x0_m + sums->x / n + track->vx_mps * ahead_s;
-    track->y_m = sums->y0_m + sums->y / n + track->vy_mps * ahead_s;
-}
-
-/* ---- voters ---------------------------------------------------------------------------------- */
-
-/* Method HT: whether plot i voted for the queried cell; if so, adds its vote to the track. */
-static int add_ht_vote_of_plot(const struct cell_query *query, unsigned scan, uint32_t i,
-                               struct rho_hough_track *track)
-{
-    const struct rho_hough *hough = query->hough;
-    const struct rho_accumulator_points *at = &query->points->at;
-    int column = rho_accumulator_cell_of_point(&hough->work.accumulator, (unsigned)query->row,
-                                               at->x_m[i], at->y_m[i]);
-    int is_again = hough->config.votes == RHO_VOTES_SCANS && (track->mask >> scan & 1u);
-    if (column != query->column) {
-        return 0;
-    }
-    track->votes = rho_count(track->votes, is_again ? 0u : RHO_HOUGH_VOTE);
-    return 1;
-}
-
 /*
  * Pair methods: whether plot i is in a pair that voted for the queried cell. The pair's votes are
  * added to the track with its second plot.
@@ -259,7 +188,7 @@ static int add_ht_vote_of_plot(const struct cell_query *query, unsigned scan, ui
 static int add_pair_votes_of_plot(const struct cell_query *query, unsigned scan, uint32_t i,
                                   struct rho_hough_track *track)
 {
-    if (!is_plot_near_queried_line(query, i)) {
+    if (!is_plot_near(query, i)) {
         return 0;
     }
     /* not added to the track here: these votes count with the plots of the next scan */
@@ -268,24 +197,6 @@ static int add_pair_votes_of_plot(const struct cell_query *query, unsigned scan,
     track->votes = rho_count(track->votes, before);
     return before > 0 || (scan + 1u < query->points->at.num_scans &&
                           votes_of_plot_pairs(query, scan, i, 1, &behind) > 0);
-}
-
-static void fit_track_to_voting_plots(const struct cell_query *query, float at_s,
-                                      struct rho_hough_track *track)
-{
-    const struct rho_hough_points *points = query->points;
-    int is_alone = query->hough->config.method == RHO_HOUGH_HT;
-    struct sums sums = {.n = 0.0f};
-    for (unsigned scan = 0; scan < points->at.num_scans; scan++) {
-        uint32_t end = points->at.scan_end[scan];
-        for (uint32_t i = rho_hough_scan_start(points, scan); i < end; i++) {
-            if (is_alone ? add_ht_vote_of_plot(query, scan, i, track)
-                         : add_pair_votes_of_plot(query, scan, i, track)) {
-                add_plot_to_fit(query, scan, i, &sums, track);
-            }
-        }
-    }
-    fit_motion(&sums, at_s, track);
 }
 
 void rho_hough_fit_track_to_voters(struct rho_hough *hough, const struct rho_hough_points *points,
@@ -311,5 +222,32 @@ void rho_hough_fit_track_to_voters(struct rho_hough *hough, const struct rho_hou
         rho_hough_spread_weights(query.rho_shares, hough->rho_reach, config->rho_cell_m,
                                  config->eps_rho_m);
     }
-    fit_track_to_voting_plots(&query, at_s, track);
+    struct sums sums = {.n = 0.0f};
+    for (unsigned scan = 0, i = 0; scan < points->at.num_scans; scan++) {
+        for (; i < points->at.scan_end[scan]; i++) {
+            int has_voted;
+            if (config->method == RHO_HOUGH_HT) {
+                int column = rho_accumulator_cell_of_point(&hough->work.accumulator, theta_cell,
+                                                           points->at.x_m[i], points->at.y_m[i]);
+                int is_again = config->votes == RHO_VOTES_SCANS && (track->mask >> scan & 1u);
+                has_voted = column == query.column;
+                track->votes =
+                    rho_count(track->votes, has_voted && !is_again ? RHO_HOUGH_VOTE : 0u);
+            } else {
+                has_voted = add_pair_votes_of_plot(&query, scan, i, track);
+            }
+            if (has_voted) {
+                add_plot_to_fit(&query, scan, i, &sums, track);
+            }
+        }
+    }
+    float divisor = sums.n * sums.tt - sums.t * sums.t;
+    float n = sums.n > 0.0f ? sums.n : 1.0f, ahead_s = at_s - sums.t0_s - sums.t / n;
+    track->has_velocity = track->scans >= 2 && divisor > 1.0e-6f * sums.n * sums.tt;
+    if (track->has_velocity) {
+        track->vx_mps = (sums.n * sums.tx - sums.t * sums.x) / divisor;
+        track->vy_mps = (sums.n * sums.ty - sums.t * sums.y) / divisor;
+    }
+    track->x_m = sums.x0_m + sums.x / n + track->vx_mps * ahead_s;
+    track->y_m = sums.y0_m + sums.y / n + track->vy_mps * ahead_s;
 }

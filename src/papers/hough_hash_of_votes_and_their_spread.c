@@ -10,8 +10,6 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-/* ---- the hash -------------------------------------------------------------------------------- */
-
 static uint32_t cell_key(int32_t row, int32_t column)
 {
     return (uint32_t)row << 16 | (uint32_t)column;
@@ -35,7 +33,7 @@ void rho_hough_clear_cells(struct rho_hough_pass *pass)
 }
 
 /* The slot of the hash table that holds a cell's key, or the free slot to insert it. */
-static struct rho_hough_cell *find_cell_or_free_slot(struct rho_hough_pass *pass, uint32_t key)
+static struct rho_hough_cell *find_slot(struct rho_hough_pass *pass, uint32_t key)
 {
     struct rho_hough_cell *cells = pass->hough->work.sparse.cells;
     uint32_t hash = key * 0x9e3779b1u, at = (hash ^ hash >> 15) & (pass->table_size - 1u);
@@ -45,18 +43,15 @@ static struct rho_hough_cell *find_cell_or_free_slot(struct rho_hough_pass *pass
     return &cells[at];
 }
 
-/* Number of cells of the wanted rows that the votes of one cell are spread over. */
-static uint32_t count_spread_cells(const struct rho_hough_pass *pass, int32_t row, int32_t column)
+struct columns {
+    int32_t from, to;
+};
+
+static struct columns spread_columns(const struct rho_hough *hough, int32_t column)
 {
-    const struct rho_hough *hough = pass->hough;
     int32_t reach = hough->rho_reach, last = hough->rho_cells - 1;
-    int32_t from = column > reach ? column - reach : 0;
-    int32_t to = column + reach < last ? column + reach : last;
-    uint32_t rows = 0;
-    for (int32_t i = -(int32_t)hough->theta_reach; i <= hough->theta_reach; i++) {
-        rows += rho_hough_has_row(hough, pass->wanted, row + i) != 0;
-    }
-    return rows * (uint32_t)(to - from + 1);
+    return (struct columns){column > reach ? column - reach : 0,
+                            column + reach < last ? column + reach : last};
 }
 
 void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint32_t votes)
@@ -67,33 +62,26 @@ void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint
     if (column < 0) {
         return;
     }
-    struct rho_hough_cell *cell = find_cell_or_free_slot(pass, cell_key(row, column));
+    struct rho_hough_cell *cell = find_slot(pass, cell_key(row, column));
     int is_new = cell->votes == 0;
     if (is_new && pass->num_cells >= pass->table_size - pass->table_size / 8u) {
         pass->found.votes_dropped = rho_count(pass->found.votes_dropped, 1);
         pass->is_full = 1;
         return;
     }
-    int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
     pass->num_cells += (uint32_t)is_new;
     cell->key = cell_key(row, column);
     cell->votes = rho_count(cell->votes, votes);
-    pass->found.votes =
-        rho_count(pass->found.votes, is_spread ? count_spread_cells(pass, row, column) : 1u);
-}
-
-/* ---- order ----------------------------------------------------------------------------------- */
-
-/* Moves the cells with votes to the front of the hash table. Returns their number. */
-static uint32_t gather_voted_cells(struct rho_hough_cell *cells, uint32_t size)
-{
-    uint32_t n = 0;
-    for (uint32_t i = 0; i < size; i++) {
-        if (cells[i].votes > 0) {
-            cells[n++] = cells[i];
+    uint32_t cells = 1;
+    if (hough->config.method == RHO_HOUGH_NHT_C) { /* the cells of the wanted rows in reach */
+        struct columns columns = spread_columns(hough, column);
+        cells = 0;
+        for (int32_t i = -(int32_t)hough->theta_reach; i <= hough->theta_reach; i++) {
+            cells += rho_hough_has_row(hough, pass->wanted, row + i) != 0;
         }
+        cells *= (uint32_t)(columns.to - columns.from + 1);
     }
-    return n;
+    pass->found.votes = rho_count(pass->found.votes, cells);
 }
 
 static void sink_cell(struct rho_hough_cell *heap, uint32_t n, uint32_t place)
@@ -109,22 +97,6 @@ static void sink_cell(struct rho_hough_cell *heap, uint32_t n, uint32_t place)
     }
     heap[place] = cell;
 }
-
-/* Heap sort of cells by theta, then rho, in place. */
-static void sort_cells(struct rho_hough_cell *cells, uint32_t n)
-{
-    for (uint32_t i = n / 2u; i > 0; i--) {
-        sink_cell(cells, n, i - 1u);
-    }
-    while (n > 1) {
-        struct rho_hough_cell last = cells[0];
-        cells[0] = cells[--n];
-        cells[n] = last;
-        sink_cell(cells, n, 0);
-    }
-}
-
-/* ---- reading C: votes spread ----------------------------------------------------------------- */
 
 /*
  * Spread of votes in NHT reading C. All votes have the same spread weights, so that each cell's sum
@@ -177,47 +149,9 @@ uint32_t rho_hough_scale_votes(uint32_t votes, uint32_t share)
     return (uint32_t)(((uint64_t)votes * share + RHO_HOUGH_VOTE / 2u) / RHO_HOUGH_VOTE);
 }
 
-/* Moves the band, the window of sorted cells within reach, to a row of theta. */
-static void advance_band_window_of_cells_to_row(struct band *band, int32_t row)
-{
-    int32_t reach = band->pass->hough->theta_reach;
-    while (band->end < 2 * band->length && band_cell_at(band, band->end).row <= row + reach) {
-        band->end++;
-    }
-    while (band->first < band->end && band_cell_at(band, band->first).row < row - reach) {
-        band->first++;
-    }
-}
-
-struct columns {
-    int32_t from, to;
-};
-
-static struct columns columns_that_votes_spread_to(const struct band *band, struct band_cell cell)
-{
-    int32_t reach = band->pass->hough->rho_reach, last = band->pass->hough->rho_cells - 1;
-    return (struct columns){cell.column > reach ? cell.column - reach : 0,
-                            cell.column + reach < last ? cell.column + reach : last};
-}
-
-/* Adds a cell's votes, scaled by their distance, to the sums of a row's cells. */
-static void spread_cell_over_row(const struct band *band, int32_t row, struct band_cell cell,
-                                 uint32_t *sums)
-{
-    struct columns columns = columns_that_votes_spread_to(band, cell);
-    int32_t away = row < cell.row ? cell.row - row : row - cell.row;
-    uint32_t votes = rho_hough_scale_votes(cell.votes, band->theta_shares[away]);
-    for (int32_t i = columns.from; i <= columns.to; i++) {
-        uint32_t share = band->rho_shares[i < cell.column ? cell.column - i : i - cell.column];
-        uint32_t sum = sums[i] + rho_hough_scale_votes(votes, share);
-        sums[i] = sum < sums[i] ? UINT32_MAX : sum;
-    }
-}
-
 /* Adds a cell to the list of peaks, or to the plane of the pass where there is no list. */
-static void add_cell_to_peaks_or_picture(const struct rho_hough_pass *pass,
-                                         struct rho_peak_list *list, int32_t row, int32_t column,
-                                         uint32_t votes)
+static void note_cell(const struct rho_hough_pass *pass, struct rho_peak_list *list, int32_t row,
+                      int32_t column, uint32_t votes)
 {
     if (!list) {
         rho_votes_picture_enter_cell(pass->plane, (unsigned)row, (unsigned)column, votes);
@@ -228,67 +162,84 @@ static void add_cell_to_peaks_or_picture(const struct rho_hough_pass *pass,
     }
 }
 
-/* Lists the sums around a cell of the band, and clears them. */
-static void collect_and_clear_sums(const struct band *band, int32_t row, struct band_cell cell,
-                                   uint32_t *sums, struct rho_peak_list *list)
+/*
+ * Moves the band to a row of theta, adds the votes of its cells, scaled by their distance, to the
+ * sums of the row's cells, lists the sums and clears them.
+ */
+static void spread_row(struct band *band, int32_t row, struct rho_peak_list *list)
 {
-    struct columns columns = columns_that_votes_spread_to(band, cell);
-    for (int32_t i = columns.from; i <= columns.to; i++) {
-        if (sums[i] > 0) {
-            band->pass->found.cells = rho_count(band->pass->found.cells, 1);
-            add_cell_to_peaks_or_picture(band->pass, list, row, i, sums[i]);
-            sums[i] = 0;
+    struct rho_hough *hough = band->pass->hough;
+    uint32_t *sums = hough->work.sparse.step.row;
+    int32_t reach = hough->theta_reach;
+    while (band->end < 2 * band->length && band_cell_at(band, band->end).row <= row + reach) {
+        band->end++;
+    }
+    while (band->first < band->end && band_cell_at(band, band->first).row < row - reach) {
+        band->first++;
+    }
+    for (int32_t place = band->first; place < band->end; place++) {
+        struct band_cell cell = band_cell_at(band, place);
+        struct columns columns = spread_columns(hough, cell.column);
+        int32_t away = row < cell.row ? cell.row - row : row - cell.row;
+        uint32_t votes = rho_hough_scale_votes(cell.votes, band->theta_shares[away]);
+        for (int32_t i = columns.from; i <= columns.to; i++) {
+            uint32_t share = band->rho_shares[i < cell.column ? cell.column - i : i - cell.column];
+            uint32_t sum = sums[i] + rho_hough_scale_votes(votes, share);
+            sums[i] = sum < sums[i] ? UINT32_MAX : sum;
+        }
+    }
+    for (int32_t place = band->first; place < band->end; place++) {
+        struct columns columns = spread_columns(hough, band_cell_at(band, place).column);
+        for (int32_t i = columns.from; i <= columns.to; i++) {
+            if (sums[i] > 0) {
+                band->pass->found.cells = rho_count(band->pass->found.cells, 1);
+                note_cell(band->pass, list, row, i, sums[i]);
+                sums[i] = 0;
+            }
         }
     }
 }
 
-static void spread_and_collect_row(struct band *band, int32_t row, struct rho_peak_list *list)
-{
-    uint32_t *sums = band->pass->hough->work.sparse.step.row;
-    advance_band_window_of_cells_to_row(band, row);
-    for (int32_t place = band->first; place < band->end; place++) {
-        spread_cell_over_row(band, row, band_cell_at(band, place), sums);
-    }
-    for (int32_t place = band->first; place < band->end; place++) {
-        collect_and_clear_sums(band, row, band_cell_at(band, place), sums, list);
-    }
-}
-
-static void spread_and_collect_rows(struct rho_hough_pass *pass, uint32_t num_cells,
-                                    struct rho_peak_list *list)
+void rho_hough_collect_cells(struct rho_hough_pass *pass, struct rho_peak_list *list)
 {
     struct rho_hough *hough = pass->hough;
     const struct rho_hough_config *config = &hough->config;
-    int32_t length = (int32_t)num_cells;
+    struct rho_hough_cell *cells = hough->work.sparse.cells;
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < pass->table_size; i++) {
+        if (cells[i].votes > 0) {
+            cells[n++] = cells[i];
+        }
+    }
+    if (config->method != RHO_HOUGH_NHT_C) {
+        for (uint32_t i = 0; i < n; i++) {
+            note_cell(pass, list, row_of_key(cells[i].key), column_of_key(cells[i].key),
+                      cells[i].votes);
+        }
+        pass->found.cells = n;
+        return;
+    }
     struct band band = {.pass = pass,
-                        .cells = hough->work.sparse.cells,
-                        .length = length,
-                        .first = -length,
-                        .end = -length};
+                        .cells = cells,
+                        .length = (int32_t)n,
+                        .first = -(int32_t)n,
+                        .end = -(int32_t)n};
+    /* heap sort by theta, then rho, in place */
+    for (uint32_t i = n / 2u; i > 0; i--) {
+        sink_cell(cells, n, i - 1u);
+    }
+    while (n > 1) {
+        struct rho_hough_cell last = cells[0];
+        cells[0] = cells[--n];
+        cells[n] = last;
+        sink_cell(cells, n, 0);
+    }
     rho_hough_spread_weights(band.theta_shares, hough->theta_reach, config->theta_cell_rad,
                              config->eps_theta_rad);
     rho_hough_spread_weights(band.rho_shares, hough->rho_reach, config->rho_cell_m,
                              config->eps_rho_m);
     memset(hough->work.sparse.step.row, 0, sizeof hough->work.sparse.step.row);
     for (int32_t i = 0; i < pass->wanted.count; i++) {
-        spread_and_collect_row(&band, pass->wanted.first + i, list);
+        spread_row(&band, pass->wanted.first + i, list);
     }
-}
-
-/* ---- collecting ------------------------------------------------------------------------------ */
-
-void rho_hough_collect_cells(struct rho_hough_pass *pass, struct rho_peak_list *list)
-{
-    struct rho_hough_cell *cells = pass->hough->work.sparse.cells;
-    uint32_t num_cells = gather_voted_cells(cells, pass->table_size);
-    if (pass->hough->config.method == RHO_HOUGH_NHT_C) {
-        sort_cells(cells, num_cells);
-        spread_and_collect_rows(pass, num_cells, list);
-        return;
-    }
-    for (uint32_t i = 0; i < num_cells; i++) {
-        add_cell_to_peaks_or_picture(pass, list, row_of_key(cells[i].key),
-                                     column_of_key(cells[i].key), cells[i].votes);
-    }
-    pass->found.cells = num_cells;
 }

@@ -10,8 +10,6 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-/* ---- two plots ------------------------------------------------------------------------------- */
-
 int rho_hough_uses_kernels(const struct rho_hough *hough)
 {
     return hough->config.method == RHO_HOUGH_NHT_A || hough->config.method == RHO_HOUGH_NHT_C;
@@ -42,14 +40,11 @@ struct rho_line rho_hough_line_through_pair(const struct rho_hough_points *point
                           points->at.y_m[pair.second] - y_m);
 }
 
-/* ---- memberships ----------------------------------------------------------------------------- */
-
 /*
  * Squared distance of two lines in units of eps, (drho / eps)^2 + (dtheta / eps)^2; negative where
  * either difference is more than 2 eps.
  */
-static float line_distance2_or_negative(const struct rho_hough *hough, struct rho_line a,
-                                        struct rho_line b)
+static float line_distance2(const struct rho_hough *hough, struct rho_line a, struct rho_line b)
 {
     float drho_m = a.rho_m - b.rho_m, dtheta_rad = a.theta_rad - b.theta_rad;
     if (dtheta_rad > RHO_HALF_PI ||
@@ -62,31 +57,23 @@ static float line_distance2_or_negative(const struct rho_hough *hough, struct rh
     return rho * rho <= 4.0f && theta * theta <= 4.0f ? rho * rho + theta * theta : -1.0f;
 }
 
-/*
- * Whether a pair is nearer than another; at equal distances the pair with the lower first plot,
- * then the lower second plot, is.
- */
-static int is_nearer_pair(float distance2, struct rho_hough_pair pair, float other_distance2,
-                          struct rho_hough_pair other)
-{
-    if (distance2 < other_distance2 || distance2 > other_distance2) {
-        return distance2 < other_distance2;
-    }
-    return pair.first != other.first ? pair.first < other.first : pair.second < other.second;
-}
-
 void rho_hough_update_two_nearest_kernels(const struct rho_hough *hough, struct rho_line line,
                                           struct rho_line kernel, struct rho_hough_pair pair,
                                           struct rho_hough_nearest *nearest)
 {
-    float distance2 = line_distance2_or_negative(hough, line, kernel);
+    float distance2 = line_distance2(hough, line, kernel);
     if (distance2 < 0.0f) {
         return;
     }
     uint32_t rank = nearest->count;
-    while (rank > 0 && is_nearer_pair(distance2, pair, nearest->distance2[rank - 1u],
-                                      nearest->pair[rank - 1u])) {
-        rank--;
+    for (; rank > 0; rank--) {
+        const struct rho_hough_pair other = nearest->pair[rank - 1u];
+        float least2 = nearest->distance2[rank - 1u];
+        int is_lower =
+            pair.first != other.first ? pair.first < other.first : pair.second < other.second;
+        if (distance2 > least2 || (!(distance2 < least2) && !is_lower)) {
+            break;
+        }
     }
     if (rank == 0) {
         nearest->distance2[1] = nearest->distance2[0];
@@ -118,7 +105,7 @@ static float indeterminacy_from_middle_of_two_kernels(const struct rho_hough *ho
         return 0.0f;
     }
     struct rho_line between = rho_angle_line(first_x_m, first_y_m, dx_m, dy_m);
-    float distance2 = line_distance2_or_negative(hough, line, between);
+    float distance2 = line_distance2(hough, line, between);
     return distance2 < 0.0f ? 0.0f : rho_exp(-0.5f * distance2);
 }
 
@@ -162,8 +149,6 @@ uint32_t rho_hough_vote_weight_by_nearest_kernels(const struct rho_hough *hough,
     return falsity_by_false_plot_probability(hough) > vote ? 0 : to_vote_parts(vote);
 }
 
-/* ---- kernels --------------------------------------------------------------------------------- */
-
 /*
  * Bin of a kernel's line. Bins are at least 2 eps wide in rho and theta, with a whole number over
  * [0, pi), so that all kernels near a line are in its bin or the eight bins around it, also across
@@ -173,7 +158,7 @@ struct bin {
     int32_t theta, rho;
 };
 
-static int32_t count_theta_bins_of_kernel_lookup(const struct rho_hough *hough)
+static int32_t count_theta_bins(const struct rho_hough *hough)
 {
     return (int32_t)(RHO_PI / (2.0f * hough->config.eps_theta_rad));
 }
@@ -185,44 +170,23 @@ static int32_t bin_of_rho(const struct rho_hough *hough, float rho_m)
     return (float)bin > place ? bin - 1 : bin;
 }
 
-static struct bin kernel_lookup_bin_of_line(const struct rho_hough *hough, struct rho_line line)
+static struct bin bin_of_line(const struct rho_hough *hough, struct rho_line line)
 {
-    return (struct bin){
-        rho_angle_clamped_theta_cell(line.theta_rad, count_theta_bins_of_kernel_lookup(hough)),
-        bin_of_rho(hough, line.rho_m)};
+    return (struct bin){rho_angle_clamped_theta_cell(line.theta_rad, count_theta_bins(hough)),
+                        bin_of_rho(hough, line.rho_m)};
 }
 
-static uint16_t *kernel_chain_head_of_bin(struct rho_hough *hough, struct bin bin)
+static uint16_t *chain_of_bin(struct rho_hough *hough, struct bin bin)
 {
     uint32_t key = (uint32_t)bin.theta * 0x9e3779b1u ^ (uint32_t)bin.rho * 0x85ebca77u;
     return &hough->work.sparse.step.kernels.heads[(key ^ key >> 16) % RHO_HOUGH_CHAINS];
-}
-
-/* Keeps a pair as a kernel for the next scan; with a full list it is dropped and counted. */
-static void store_kernel(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
-                         struct rho_hough_pair pair)
-{
-    uint32_t *count = &pass->num_kernels[scan & 1u];
-    if (*count == RHO_MAX_HOUGH_KERNELS) {
-        pass->found.kernels_dropped = rho_count(pass->found.kernels_dropped, 1);
-        pass->is_full = 1;
-        return;
-    }
-    const struct rho_hough_points *points = pass->points;
-    uint32_t before = rho_hough_scan_start(points, scan - 1u);
-    uint32_t here = rho_hough_scan_start(points, scan);
-    pass->hough->work.sparse.step.kernels.list[scan & 1u][(*count)++] =
-        (struct rho_hough_kernel){.rho_m = line.rho_m,
-                                  .theta_rad = line.theta_rad,
-                                  .first = (uint16_t)(pair.first - before),
-                                  .second = (uint16_t)(pair.second - here)};
 }
 
 /*
  * Makes the pairs of the two scans before into kernels, in hash chains by bin. They are chained
  * from last to first, so that each chain is in the order of the plots.
  */
-static void hash_previous_kernels_into_bin_chains(struct rho_hough_pass *pass, unsigned scan)
+static void hash_previous_kernels(struct rho_hough_pass *pass, unsigned scan)
 {
     struct rho_hough *hough = pass->hough;
     struct rho_hough_kernel *list = hough->work.sparse.step.kernels.list[(scan - 1u) & 1u];
@@ -232,58 +196,40 @@ static void hash_previous_kernels_into_bin_chains(struct rho_hough_pass *pass, u
     memset(hough->work.sparse.step.kernels.heads, 0, sizeof hough->work.sparse.step.kernels.heads);
     for (uint32_t i = count; i > 0; i--) {
         struct rho_line line = {list[i - 1u].rho_m, list[i - 1u].theta_rad};
-        uint16_t *head = kernel_chain_head_of_bin(hough, kernel_lookup_bin_of_line(hough, line));
+        uint16_t *head = chain_of_bin(hough, bin_of_line(hough, line));
         list[i - 1u].next = *head;
         *head = (uint16_t)i;
     }
 }
 
-/* Compares a line with the kernels of one bin; the chain may hold kernels of other bins too. */
-static void compare_kernels_in_bin(const struct rho_hough_pass *pass, unsigned scan,
-                                   struct rho_line line, struct bin bin,
-                                   struct rho_hough_nearest *nearest)
+/* Finds the two kernels nearest to a line, in the bins around the line's own. */
+static struct rho_hough_nearest find_nearest_kernels(const struct rho_hough_pass *pass,
+                                                     unsigned scan, struct rho_line line)
 {
     struct rho_hough *hough = pass->hough;
     const struct rho_hough_kernel *list = hough->work.sparse.step.kernels.list[(scan - 1u) & 1u];
     uint32_t first = rho_hough_scan_start(pass->points, scan - 2u);
     uint32_t second = rho_hough_scan_start(pass->points, scan - 1u);
-    for (uint16_t i = *kernel_chain_head_of_bin(hough, bin); i > 0; i = list[i - 1u].next) {
-        const struct rho_hough_kernel *kernel = &list[i - 1u];
-        struct rho_line at = {kernel->rho_m, kernel->theta_rad};
-        struct bin in = kernel_lookup_bin_of_line(hough, at);
-        if (in.theta == bin.theta && in.rho == bin.rho) {
-            struct rho_hough_pair pair = {first + kernel->first, second + kernel->second};
-            rho_hough_update_two_nearest_kernels(hough, line, at, pair, nearest);
-        }
-    }
-}
-
-/* Finds the two kernels nearest to a line, in the bins around the line's own. */
-static struct rho_hough_nearest find_nearest_stored_kernels(const struct rho_hough_pass *pass,
-                                                            unsigned scan, struct rho_line line)
-{
     struct rho_hough_nearest nearest = {.count = 0};
-    int32_t bins = count_theta_bins_of_kernel_lookup(pass->hough);
+    int32_t bins = count_theta_bins(hough);
     int32_t middle = rho_angle_clamped_theta_cell(line.theta_rad, bins);
     for (int32_t theta = middle - 1; theta <= middle + 1; theta++) {
         int is_turned = theta < 0 || theta >= bins;
-        int32_t rho = bin_of_rho(pass->hough, is_turned ? -line.rho_m : line.rho_m);
-        for (int32_t i = rho - 1; i <= rho + 1; i++) {
-            struct bin bin = {theta < 0 ? bins - 1 : theta < bins ? theta : 0, i};
-            compare_kernels_in_bin(pass, scan, line, bin, &nearest);
+        int32_t rho = bin_of_rho(hough, is_turned ? -line.rho_m : line.rho_m);
+        for (int32_t j = rho - 1; j <= rho + 1; j++) {
+            struct bin bin = {theta < 0 ? bins - 1 : theta < bins ? theta : 0, j};
+            for (uint16_t i = *chain_of_bin(hough, bin); i > 0; i = list[i - 1u].next) {
+                const struct rho_hough_kernel *kernel = &list[i - 1u];
+                struct rho_line at = {kernel->rho_m, kernel->theta_rad};
+                struct bin in = bin_of_line(hough, at);
+                struct rho_hough_pair pair = {first + kernel->first, second + kernel->second};
+                if (in.theta == bin.theta && in.rho == bin.rho) { /* chains hold other bins too */
+                    rho_hough_update_two_nearest_kernels(hough, line, at, pair, &nearest);
+                }
+            }
         }
     }
     return nearest;
-}
-
-/* ---- votes ----------------------------------------------------------------------------------- */
-
-/* False where the direction (dx_m, dy_m) of a line is certainly that of none of the held rows. */
-static int may_line_be_in_held_rows(const struct rho_hough_pass *pass, float dx_m, float dy_m)
-{
-    float from = pass->from_x * dx_m + pass->from_y * dy_m;
-    float to = pass->to_x * dx_m + pass->to_y * dy_m;
-    return !pass->can_reject || from * to <= 0.0f;
 }
 
 static uint32_t larger(uint32_t a, uint32_t b)
@@ -316,53 +262,60 @@ static void vote_pair_and_store_kernel(struct rho_hough_pass *pass, unsigned sca
                                        struct rho_line line, struct rho_hough_pair pair)
 {
     const struct rho_hough *hough = pass->hough;
+    const struct rho_hough_points *points = pass->points;
+    uint32_t *count = &pass->num_kernels[scan & 1u];
     int32_t row = rho_hough_row_of_theta(hough, line.theta_rad);
     if (scan > 1 && rho_hough_has_row(hough, pass->voting, row)) {
-        struct rho_hough_nearest nearest = find_nearest_stored_kernels(pass, scan, line);
+        struct rho_hough_nearest nearest = find_nearest_kernels(pass, scan, line);
         uint32_t votes = vote_or_membership_of_pass_component(pass, line, &nearest);
         if (votes > 0) {
             rho_hough_add_votes(pass, line, votes);
         }
     }
-    if (scan + 1u < pass->points->at.num_scans && rho_hough_has_row(hough, pass->held, row)) {
-        store_kernel(pass, scan, line, pair);
-    }
-}
-
-static void vote_pair(struct rho_hough_pass *pass, unsigned scan, struct rho_hough_pair pair)
-{
-    const struct rho_hough_points *points = pass->points;
-    float dx_m = points->at.x_m[pair.second] - points->at.x_m[pair.first];
-    float dy_m = points->at.y_m[pair.second] - points->at.y_m[pair.first];
-    if (!may_line_be_in_held_rows(pass, dx_m, dy_m)) {
+    if (scan + 1u == points->at.num_scans || !rho_hough_has_row(hough, pass->held, row)) {
         return;
     }
-    struct rho_line line = rho_hough_line_through_pair(points, pair);
-    if (rho_hough_uses_kernels(pass->hough)) {
-        vote_pair_and_store_kernel(pass, scan, line, pair);
-    } else if (rho_hough_has_row(pass->hough, pass->wanted,
-                                 rho_hough_row_of_theta(pass->hough, line.theta_rad))) {
-        rho_hough_add_votes(pass, line, RHO_HOUGH_VOTE);
+    if (*count == RHO_MAX_HOUGH_KERNELS) {
+        pass->found.kernels_dropped = rho_count(pass->found.kernels_dropped, 1);
+        pass->is_full = 1;
+        return;
     }
+    pass->hough->work.sparse.step.kernels.list[scan & 1u][(*count)++] = (struct rho_hough_kernel){
+        .rho_m = line.rho_m,
+        .theta_rad = line.theta_rad,
+        .first = (uint16_t)(pair.first - rho_hough_scan_start(points, scan - 1u)),
+        .second = (uint16_t)(pair.second - rho_hough_scan_start(points, scan))};
 }
 
 /*
  * Lets one plot of the scan before vote with each plot of this scan, where the method takes the
  * pair.
  */
-static void vote_pairs_of_plot_with_plots_of_scan(struct rho_hough_pass *pass, unsigned scan,
-                                                  uint32_t first)
+static void vote_pairs_of_plot(struct rho_hough_pass *pass, unsigned scan, uint32_t first)
 {
     const struct rho_hough *hough = pass->hough;
-    uint32_t start = rho_hough_scan_start(pass->points, scan);
-    uint32_t end = pass->points->at.scan_end[scan];
+    const struct rho_accumulator_points *at = &pass->points->at;
+    uint32_t end = at->scan_end[scan];
     int takes_all = hough->config.method == RHO_HOUGH_MHT;
-    for (uint32_t second = start; second < end; second++) {
-        struct rho_hough_pair pair = {first, second};
+    for (uint32_t i = rho_hough_scan_start(pass->points, scan); i < end; i++) {
+        struct rho_hough_pair pair = {first, i};
         enum rho_hough_speed_check speed = rho_hough_speed_check(hough, pass->points, pair);
         pass->found.candidates = rho_count(pass->found.candidates, speed == RHO_SPEED_WITHIN);
-        if (speed == RHO_SPEED_WITHIN || (takes_all && speed == RHO_SPEED_OUTSIDE)) {
-            vote_pair(pass, scan, pair);
+        if (speed != RHO_SPEED_WITHIN && !(takes_all && speed == RHO_SPEED_OUTSIDE)) {
+            continue;
+        }
+        float dx_m = at->x_m[i] - at->x_m[first], dy_m = at->y_m[i] - at->y_m[first];
+        float from = pass->from_x * dx_m + pass->from_y * dy_m;
+        float to = pass->to_x * dx_m + pass->to_y * dy_m;
+        if (pass->can_reject && !(from * to <= 0.0f)) {
+            continue; /* one sign at both borders: the line is certainly in none of the held rows */
+        }
+        struct rho_line line = rho_hough_line_through_pair(pass->points, pair);
+        if (rho_hough_uses_kernels(hough)) {
+            vote_pair_and_store_kernel(pass, scan, line, pair);
+        } else if (rho_hough_has_row(hough, pass->wanted,
+                                     rho_hough_row_of_theta(hough, line.theta_rad))) {
+            rho_hough_add_votes(pass, line, RHO_HOUGH_VOTE);
         }
     }
 }
@@ -374,10 +327,10 @@ void rho_hough_vote_successive_scan_pairs(struct rho_hough_pass *pass)
     for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
         uint32_t end = points->at.scan_end[scan - 1u];
         if (rho_hough_uses_kernels(pass->hough)) {
-            hash_previous_kernels_into_bin_chains(pass, scan);
+            hash_previous_kernels(pass, scan);
         }
         for (uint32_t i = rho_hough_scan_start(points, scan - 1u); i < end; i++) {
-            vote_pairs_of_plot_with_plots_of_scan(pass, scan, i);
+            vote_pairs_of_plot(pass, scan, i);
             if (pass->is_full && pass->stops_when_full) {
                 return;
             }

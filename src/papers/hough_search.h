@@ -50,15 +50,11 @@ struct rho_hough_pair {
     uint32_t first, second;
 };
 
-/* The plane. */
-
 int rho_hough_has_row(const struct rho_hough *hough, struct rho_hough_rows rows, int32_t row);
 int32_t rho_hough_row_of_theta(const struct rho_hough *hough, float theta_rad);
 /* Column of the cell at rho_m; -1: beyond rho_max_m. */
 int32_t rho_hough_column_of_rho(const struct rho_hough *hough, float rho_m);
 uint32_t rho_hough_scan_start(const struct rho_hough_points *points, unsigned scan);
-
-/* Pairs. */
 
 enum rho_hough_speed_check { RHO_SPEED_NO_LINE, RHO_SPEED_OUTSIDE, RHO_SPEED_WITHIN };
 
@@ -103,8 +99,6 @@ struct rho_hough_memberships rho_hough_truth_indeterminacy_falsity_of_line(
 /* Lets all pairs of plots vote, for the rows of a pass. */
 void rho_hough_vote_successive_scan_pairs(struct rho_hough_pass *pass);
 
-/* Cells. */
-
 void rho_hough_clear_cells(struct rho_hough_pass *pass);
 void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint32_t votes);
 
@@ -122,13 +116,11 @@ uint32_t rho_hough_scale_votes(uint32_t votes, uint32_t share);
  */
 void rho_hough_collect_cells(struct rho_hough_pass *pass, struct rho_peak_list *list);
 
-/* Voters. */
-
 /* Memberships of the vote of a pair whose second plot is of scan `scan`. */
-struct rho_hough_memberships
-rho_hough_truth_indeterminacy_falsity_of_pair(const struct rho_hough *hough,
-                                              const struct rho_hough_points *points, unsigned scan,
-                                              struct rho_hough_pair pair);
+struct rho_hough_memberships rho_hough_memberships_of_pair(const struct rho_hough *hough,
+                                                           const struct rho_hough_points *points,
+                                                           unsigned scan,
+                                                           struct rho_hough_pair pair);
 
 /*
  * Fits *track through the plots that voted for a cell: rho_hough_track with checked arguments; with

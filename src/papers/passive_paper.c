@@ -8,18 +8,6 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define SCANS_MIN 4u
-#define VOTES_MAX 255u
-
-/*
- * A crossing is within range_max of two sensors, and so it is from the centroid at most range_max
- * plus this share of the largest distance of two sensors: one half with two to four sensors, (n -
- * 2) / n with more.
- */
-#define APART_SHARE (RHO_MAX_PASSIVE_SENSORS > 4 ? 0.75f : 0.5f)
-
-/* ---- setting up ------------------------------------------------------------------------------ */
-
 void rho_passive_paper_config_default(struct rho_passive_paper_config *config)
 {
     *config = (struct rho_passive_paper_config){.scans = 8,
@@ -30,32 +18,9 @@ void rho_passive_paper_config_default(struct rho_passive_paper_config *config)
                                                 .rule = RHO_GHOST_LITERAL};
 }
 
-unsigned rho_passive_paper_count_theta_rows(const struct rho_passive_paper_config *config)
+unsigned rho_passive_paper_theta_rows(const struct rho_passive_paper_config *config)
 {
     return (unsigned)(RHO_PI / config->theta_cell_rad + 0.5f);
-}
-
-static int is_usable(const struct rho_passive_paper_config *config)
-{
-    return config->scans >= SCANS_MIN && config->scans <= RHO_MAX_PASSIVE_SCANS &&
-           config->votes_min <= VOTES_MAX &&
-           rho_is_within(config->range_max_m, 1000.0f, 500000.0f) &&
-           rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) &&
-           2.0f * config->range_max_m <= config->rho_cell_m * (float)RHO_PAPER_RHO_CELLS &&
-           rho_is_within(config->theta_cell_rad, 1.0e-4f, 0.5f) &&
-           rho_passive_paper_count_theta_rows(config) <= RHO_PAPER_THETA_CELLS &&
-           (unsigned)config->votes <= RHO_VOTES_POINTS && (unsigned)config->rule <= RHO_GHOST_SAFE;
-}
-
-/*
- * Largest distance of two sensors at which all lines through crossings lie within the cells of rho.
- */
-static float allowed_sensor_distance_m(const struct rho_passive_paper_config *config)
-{
-    float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PAPER_RHO_CELLS - config->range_max_m;
-    float apart_m = reach_m / APART_SHARE;
-    apart_m = apart_m < 4.0f * RHO_LIMIT_POSITION_M ? apart_m : 4.0f * RHO_LIMIT_POSITION_M;
-    return apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
 }
 
 enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t object_size,
@@ -67,7 +32,14 @@ enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t o
     if (object_size != sizeof *paper) {
         return RHO_ERROR_SIZE;
     }
-    if (!is_usable(config)) {
+    float plane_m = config->rho_cell_m * (float)RHO_PAPER_RHO_CELLS;
+    if (config->scans < RHO_BATCH_SCANS_MIN || config->scans > RHO_MAX_PASSIVE_SCANS ||
+        config->votes_min > UINT8_MAX || !rho_is_within(config->range_max_m, 1000.0f, 500000.0f) ||
+        !rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) ||
+        !(2.0f * config->range_max_m <= plane_m) ||
+        !rho_is_within(config->theta_cell_rad, 1.0e-4f, 0.5f) ||
+        rho_passive_paper_theta_rows(config) > RHO_PAPER_THETA_CELLS ||
+        (unsigned)config->votes > RHO_VOTES_POINTS || (unsigned)config->rule > RHO_GHOST_SAFE) {
         return RHO_ERROR_CONFIG;
     }
     /* the caller's config may lie within *paper, which is cleared */
@@ -75,10 +47,18 @@ enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t o
     memset(paper, 0, sizeof *paper);
     paper->config = kept;
     paper->magic = RHO_PASSIVE_PAPER_MAGIC;
-    return rho_batch_init(&paper->batch, kept.scans, allowed_sensor_distance_m(&kept));
+    /*
+     * A crossing is within range_max of two sensors, and so it is from the centroid at most
+     * range_max plus this share of the largest distance of two sensors: one half with two to four
+     * sensors, (n - 2) / n with more. All lines through crossings lie within the cells of rho.
+     */
+    float share = RHO_MAX_PASSIVE_SENSORS > 4 ? 0.75f : 0.5f;
+    float reach_m = 0.5f * kept.rho_cell_m * (float)RHO_PAPER_RHO_CELLS - kept.range_max_m;
+    float apart_m = reach_m / share;
+    apart_m = apart_m < 4.0f * RHO_LIMIT_POSITION_M ? apart_m : 4.0f * RHO_LIMIT_POSITION_M;
+    apart_m = apart_m > RHO_CROSSING_BASE_MIN_M ? apart_m : RHO_CROSSING_BASE_MIN_M;
+    return rho_batch_init(&paper->batch, kept.scans, apart_m);
 }
-
-/* ---- frames ---------------------------------------------------------------------------------- */
 
 enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
                                        const struct rho_frame *frame, uint8_t *fates)
@@ -96,22 +76,15 @@ enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
     return status;
 }
 
-/* ---- a search -------------------------------------------------------------------------------- */
-
-static int has_scan_in_batch(const struct rho_batch *batch, unsigned sensor)
-{
-    unsigned looks = 0;
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        looks += batch->was_seen[k][sensor];
-    }
-    return looks > 0;
-}
-
-void rho_passive_paper_list_sensors_and_middle(const struct rho_batch *batch,
-                                               struct rho_passive_paper_search *search)
+void rho_passive_paper_list_sensors(const struct rho_batch *batch,
+                                    struct rho_passive_paper_search *search)
 {
     for (unsigned s = 0; s < batch->num_sensors; s++) {
-        if (has_scan_in_batch(batch, s)) {
+        unsigned looks = 0;
+        for (unsigned k = 0; k < batch->num_scans; k++) {
+            looks += batch->was_seen[k][s];
+        }
+        if (looks > 0) {
             search->sensors[search->num_sensors++] = (uint8_t)s;
         }
     }
@@ -123,25 +96,15 @@ void rho_passive_paper_list_sensors_and_middle(const struct rho_batch *batch,
     search->near = search->num_sensors > 2 ? 1 : 0;
 }
 
-static void set_scan_times(struct rho_passive_paper_search *search)
-{
-    const struct rho_batch *batch = &search->paper->batch;
-    int64_t first_us = batch->time_us[0], last_us = batch->time_us[batch->num_scans - 1];
-    search->half_s = 0.5f * rho_seconds_between(first_us, last_us);
-    for (unsigned k = 0; k < batch->num_scans; k++) {
-        search->step[k] = rho_seconds_between(first_us, batch->time_us[k]) / search->half_s - 1.0f;
-    }
-}
-
-int rho_passive_paper_set_cells_if_enough_scans(struct rho_passive_paper_search *search)
+int rho_passive_paper_set_cells(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
-    search->rows = (int)rho_passive_paper_count_theta_rows(&paper->config);
+    search->rows = (int)rho_passive_paper_theta_rows(&paper->config);
     search->columns = RHO_PAPER_RHO_CELLS;
     paper->votes_min = paper->config.votes_min > 0
                            ? paper->config.votes_min
                            : (uint16_t)((4u * paper->batch.num_scans + 4u) / 5u);
-    return paper->batch.num_scans >= SCANS_MIN && search->num_sensors >= 2;
+    return paper->batch.num_scans >= RHO_BATCH_SCANS_MIN && search->num_sensors >= 2;
 }
 
 enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
@@ -155,12 +118,17 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
     struct rho_passive_paper_search search = {.paper = paper};
     memset(&paper->work, 0, sizeof paper->work);
     paper->num_lines = 0;
-    rho_batch_drop_bearings_marked_removed(&paper->batch);
-    rho_passive_paper_list_sensors_and_middle(&paper->batch, &search);
-    if (!rho_passive_paper_set_cells_if_enough_scans(&search)) {
+    rho_batch_compact(&paper->batch);
+    rho_passive_paper_list_sensors(&paper->batch, &search);
+    if (!rho_passive_paper_set_cells(&search)) {
         return RHO_OK;
     }
-    set_scan_times(&search);
+    const struct rho_batch *batch = &paper->batch;
+    int64_t first_us = batch->time_us[0], last_us = batch->time_us[batch->num_scans - 1];
+    search.half_s = 0.5f * rho_seconds_between(first_us, last_us);
+    for (unsigned k = 0; k < batch->num_scans; k++) {
+        search.step[k] = rho_seconds_between(first_us, batch->time_us[k]) / search.half_s - 1.0f;
+    }
     rho_passive_paper_vote_with_all_sensor_pairs(&search);
     rho_passive_paper_pick_peaks_as_lines(&search);
     rho_passive_paper_fit_lines(&search);

@@ -9,16 +9,12 @@
  * - passive_paper.c: configuration, frames, the sequence of steps of a search
  * - passive_paper_view.c: intermediate results of a search: ghost matrices, planes of votes
  */
-#ifndef RHOTRACK_PASSIVE_PAPER_HOUGH_SEARCH_STATE_H
-#define RHOTRACK_PASSIVE_PAPER_HOUGH_SEARCH_STATE_H
+#ifndef RHOTRACK_PASSIVE_PAPER_SEARCH_H
+#define RHOTRACK_PASSIVE_PAPER_SEARCH_H
 
 #include "rhotrack/passive_paper.h"
 
-#define RHO_PASSIVE_PAPER_MAGIC 0x50504150u /* "PPAP" in ASCII */
-
-/* cells of theta and of rho on either side of a chosen line in which no other line is chosen */
-#define RHO_PASSIVE_PAPER_NEAR_ROWS 4
-#define RHO_PASSIVE_PAPER_NEAR_COLUMNS 3
+enum { RHO_PASSIVE_PAPER_MAGIC = 0x50504150 }; /* "PPAP" in ASCII */
 
 /* Values computed once for a search. Positions are relative to the sensors' centroid. */
 struct rho_passive_paper_search {
@@ -46,15 +42,15 @@ struct rho_passive_paper_direction
 rho_passive_paper_direction(const struct rho_passive_paper_search *search, int row);
 
 /* Sets the search's sensors, those with scans in the batch, and their centroid. */
-void rho_passive_paper_list_sensors_and_middle(const struct rho_batch *batch,
-                                               struct rho_passive_paper_search *search);
+void rho_passive_paper_list_sensors(const struct rho_batch *batch,
+                                    struct rho_passive_paper_search *search);
 
 /*
  * Sets the number of cells, and T, the votes that a cell needs. Returns 0 where the batch has too
  * few scans or sensors to search.
  */
-int rho_passive_paper_set_cells_if_enough_scans(struct rho_passive_paper_search *search);
-unsigned rho_passive_paper_count_theta_rows(const struct rho_passive_paper_config *config);
+int rho_passive_paper_set_cells(struct rho_passive_paper_search *search);
+unsigned rho_passive_paper_theta_rows(const struct rho_passive_paper_config *config);
 
 /* Sets the baseline of two sensors, relative to the centroid. Returns 0 where they are too near. */
 int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
@@ -69,19 +65,18 @@ struct rho_passive_paper_bearings {
  * Collects the bearings of two sensors in a scan, fills their ghost matrix and prunes it. Returns 0
  * on an error.
  */
-int rho_passive_paper_make_ghost_matrix(const struct rho_passive_paper_config *config,
-                                        const struct rho_batch *batch,
-                                        const struct rho_crossing_base *base, unsigned scan,
-                                        struct rho_passive_paper_pair pair,
-                                        struct rho_passive_paper_bearings *bearings,
-                                        struct rho_ghost_matrix *matrix);
+int rho_passive_paper_fill_ghosts(const struct rho_passive_paper_config *config,
+                                  const struct rho_batch *batch,
+                                  const struct rho_crossing_base *base, unsigned scan,
+                                  struct rho_passive_paper_pair pair,
+                                  struct rho_passive_paper_bearings *bearings,
+                                  struct rho_ghost_matrix *matrix);
 
 /*
  * Crosses the bearings of two sensors in all scans, prunes ghosts, and stores the rest in
  * paper->points.
  */
-void rho_passive_paper_cross_sensors(struct rho_passive_paper_search *search, unsigned a,
-                                     unsigned b);
+void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b);
 
 /* Column (cell of rho) in which a crossing votes for lines of a direction; -1: outside. */
 int rho_passive_paper_column_of_point(const struct rho_passive_paper_search *search,

@@ -6,16 +6,13 @@
 #include <string.h>
 
 #include "passive_paper_hough_search_state.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
-
-#define SPREAD_MIN 1.0e-6f /* smallest spread of the scans' times u that is more than rounding */
 
 struct cell {
     int row, column;
 };
-
-/* ---- which cells are lines ------------------------------------------------------------------- */
 
 /* Maps a cell of a row beyond the ends of theta to the other end, where rho is reversed. */
 static struct cell wrapped_cell(const struct rho_passive_paper_search *search, int row, int column)
@@ -36,21 +33,6 @@ static unsigned votes_at(const struct rho_passive_paper_search *search, int row,
                                                    : 0u;
 }
 
-/* Finds the first cell with the most votes. Returns its votes; 0: no cell has votes. */
-static unsigned find_peak(const struct rho_passive_paper_search *search, struct cell *at)
-{
-    unsigned most = 0;
-    for (int row = 0; row < search->rows; row++) {
-        for (int column = 0; column < search->columns; column++) {
-            if (search->paper->cells[row][column] > most) {
-                most = search->paper->cells[row][column];
-                *at = (struct cell){row, column};
-            }
-        }
-    }
-    return most;
-}
-
 /*
  * The middle of a plateau: of the cells around `from` with the same votes, the one nearest to their
  * mean.
@@ -60,9 +42,8 @@ static struct cell find_plateau_middle(const struct rho_passive_paper_search *se
 {
     int sum_row = 0, sum_column = 0, count = 0, least = INT32_MAX;
     struct cell best = from;
-    for (int i = -2 * RHO_PASSIVE_PAPER_NEAR_ROWS; i <= 2 * RHO_PASSIVE_PAPER_NEAR_ROWS; i++) {
-        for (int j = -2 * RHO_PASSIVE_PAPER_NEAR_COLUMNS; j <= 2 * RHO_PASSIVE_PAPER_NEAR_COLUMNS;
-             j++) {
+    for (int i = -2 * LINE_NEAR_ROWS; i <= 2 * LINE_NEAR_ROWS; i++) {
+        for (int j = -2 * LINE_NEAR_COLUMNS; j <= 2 * LINE_NEAR_COLUMNS; j++) {
             if (votes_at(search, from.row + i, from.column + j) == height) {
                 sum_row += i;
                 sum_column += j;
@@ -70,9 +51,8 @@ static struct cell find_plateau_middle(const struct rho_passive_paper_search *se
             }
         }
     }
-    for (int i = -2 * RHO_PASSIVE_PAPER_NEAR_ROWS; i <= 2 * RHO_PASSIVE_PAPER_NEAR_ROWS; i++) {
-        for (int j = -2 * RHO_PASSIVE_PAPER_NEAR_COLUMNS; j <= 2 * RHO_PASSIVE_PAPER_NEAR_COLUMNS;
-             j++) {
+    for (int i = -2 * LINE_NEAR_ROWS; i <= 2 * LINE_NEAR_ROWS; i++) {
+        for (int j = -2 * LINE_NEAR_COLUMNS; j <= 2 * LINE_NEAR_COLUMNS; j++) {
             int off_row = i * count - sum_row, off_column = j * count - sum_column;
             int off = off_row * off_row + off_column * off_column;
             if (votes_at(search, from.row + i, from.column + j) == height && off < least) {
@@ -84,42 +64,7 @@ static struct cell find_plateau_middle(const struct rho_passive_paper_search *se
     return best;
 }
 
-static void clear_cells_around(struct rho_passive_paper_search *search, struct cell at)
-{
-    for (int row = at.row - RHO_PASSIVE_PAPER_NEAR_ROWS;
-         row <= at.row + RHO_PASSIVE_PAPER_NEAR_ROWS; row++) {
-        for (int column = at.column - RHO_PASSIVE_PAPER_NEAR_COLUMNS;
-             column <= at.column + RHO_PASSIVE_PAPER_NEAR_COLUMNS; column++) {
-            struct cell cell = wrapped_cell(search, row, column);
-            if (column >= 0 && column < search->columns) {
-                search->paper->cells[cell.row][cell.column] = 0;
-            }
-        }
-    }
-}
-
-/* Adds the line of a cell, without its fit; beyond the capacity it is dropped and counted. */
-static void add_line(struct rho_passive_paper_search *search, struct cell at,
-                     unsigned votes_plus_one)
-{
-    struct rho_passive_paper *paper = search->paper;
-    struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, at.row);
-    float column = (float)at.column + 0.5f - 0.5f * (float)search->columns;
-    if (paper->num_lines == RHO_MAX_PASSIVE_LINES) {
-        paper->work.lines_dropped = rho_count(paper->work.lines_dropped, 1);
-        return;
-    }
-    paper->fits[paper->num_lines] =
-        (struct rho_passive_paper_fit){.row = (int16_t)at.row, .column = (int16_t)at.column};
-    paper->lines[paper->num_lines++] = (struct rho_passive_paper_line){
-        .rho_m = column * paper->config.rho_cell_m + search->middle_x_m * direction.cosine +
-                 search->middle_y_m * direction.sine,
-        .theta_rad = ((float)at.row + 0.5f) * RHO_PI / (float)search->rows,
-        .votes = UINT8_MAX,
-        .votes_sum = (uint16_t)(votes_plus_one - 1u)};
-}
-
-static void count_cells_confirmed_by_all_pairs(struct rho_passive_paper_search *search)
+void rho_passive_paper_pick_peaks_as_lines(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
     for (int row = 0; row < search->rows; row++) {
@@ -127,50 +72,52 @@ static void count_cells_confirmed_by_all_pairs(struct rho_passive_paper_search *
             paper->work.cells += paper->cells[row][column] > 0;
         }
     }
-}
-
-void rho_passive_paper_pick_peaks_as_lines(struct rho_passive_paper_search *search)
-{
-    struct cell at = {0, 0};
-    unsigned height;
-    count_cells_confirmed_by_all_pairs(search);
-    while ((height = find_peak(search, &at)) > 0) {
+    for (;;) {
+        struct cell at = {0, 0};
+        unsigned height = 0;
+        for (int row = 0; row < search->rows; row++) {
+            for (int column = 0; column < search->columns; column++) {
+                if (paper->cells[row][column] > height) {
+                    height = paper->cells[row][column];
+                    at = (struct cell){row, column};
+                }
+            }
+        }
+        if (height == 0) {
+            return;
+        }
         at = find_plateau_middle(search, at, height);
-        clear_cells_around(search, at);
-        add_line(search, at, height);
+        for (int row = at.row - LINE_NEAR_ROWS; row <= at.row + LINE_NEAR_ROWS; row++) {
+            for (int i = at.column - LINE_NEAR_COLUMNS; i <= at.column + LINE_NEAR_COLUMNS; i++) {
+                struct cell cell = wrapped_cell(search, row, i);
+                if (i >= 0 && i < search->columns) {
+                    paper->cells[cell.row][cell.column] = 0;
+                }
+            }
+        }
+        if (paper->num_lines == RHO_MAX_PASSIVE_LINES) {
+            paper->work.lines_dropped = rho_count(paper->work.lines_dropped, 1);
+            continue;
+        }
+        struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, at.row);
+        float column = (float)at.column + 0.5f - 0.5f * (float)search->columns;
+        paper->fits[paper->num_lines] =
+            (struct rho_passive_paper_fit){.row = (int16_t)at.row, .column = (int16_t)at.column};
+        paper->lines[paper->num_lines++] = (struct rho_passive_paper_line){
+            .rho_m = column * paper->config.rho_cell_m + search->middle_x_m * direction.cosine +
+                     search->middle_y_m * direction.sine,
+            .theta_rad = ((float)at.row + 0.5f) * RHO_PI / (float)search->rows,
+            .votes = UINT8_MAX,
+            .votes_sum = (uint16_t)(height - 1u)}; /* cells hold 1 and the votes */
     }
-}
-
-/* ---- states ---------------------------------------------------------------------------------- */
-
-static void add_crossing_to_fit(const struct rho_passive_paper_search *search, unsigned line,
-                                unsigned scan, const struct rho_passive_paper_point *point)
-{
-    struct rho_passive_paper_fit *fit = &search->paper->fits[line];
-    float u = search->step[scan];
-    if (fit->count == 0) {
-        fit->first_x_m = point->x_m;
-        fit->first_y_m = point->y_m;
-    }
-    float x_m = point->x_m - fit->first_x_m, y_m = point->y_m - fit->first_y_m;
-    fit->count++;
-    fit->u += u;
-    fit->uu += u * u;
-    fit->x_m += x_m;
-    fit->y_m += y_m;
-    fit->ux_m += u * x_m;
-    fit->uy_m += u * y_m;
-    fit->rr_m2 += x_m * x_m + y_m * y_m;
-    search->paper->lines[line].scans = (uint16_t)(search->paper->lines[line].scans | 1u << scan);
 }
 
 /*
  * Among the cell of a line and the neighbours that may confirm it, finds the cell with the most
  * votes of the current pair of sensors. Returns its votes.
  */
-static unsigned find_most_voted_cell_near_line(const struct rho_passive_paper_search *search,
-                                               const struct rho_passive_paper_fit *fit,
-                                               struct cell *best)
+static unsigned find_most_voted_cell(const struct rho_passive_paper_search *search,
+                                     const struct rho_passive_paper_fit *fit, struct cell *best)
 {
     uint8_t *counts = search->paper->rows[0];
     *best = (struct cell){fit->row, fit->column};
@@ -192,39 +139,50 @@ static unsigned find_most_voted_cell_near_line(const struct rho_passive_paper_se
 /* Adds the last pair's crossings in the most voted cell at a line to the line's fit. */
 static void add_pair_crossings_to_fit(struct rho_passive_paper_search *search, unsigned number)
 {
-    const struct rho_passive_paper *paper = search->paper;
-    struct rho_passive_paper_line *line = &search->paper->lines[number];
+    struct rho_passive_paper *paper = search->paper;
+    struct rho_passive_paper_line *line = &paper->lines[number];
+    struct rho_passive_paper_fit *fit = &paper->fits[number];
     struct cell cell;
-    unsigned votes = find_most_voted_cell_near_line(search, &paper->fits[number], &cell);
+    unsigned votes = find_most_voted_cell(search, fit, &cell);
     struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, cell.row);
     line->votes = votes < line->votes ? (uint16_t)votes : line->votes;
     for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
         for (; i < paper->scan_end[scan]; i++) {
-            if (rho_passive_paper_column_of_point(search, direction, &paper->points[i]) ==
-                cell.column) {
-                add_crossing_to_fit(search, number, scan, &paper->points[i]);
+            const struct rho_passive_paper_point *point = &paper->points[i];
+            if (rho_passive_paper_column_of_point(search, direction, point) != cell.column) {
+                continue;
             }
+            if (fit->count == 0) {
+                fit->first_x_m = point->x_m;
+                fit->first_y_m = point->y_m;
+            }
+            float u = search->step[scan];
+            float x_m = point->x_m - fit->first_x_m, y_m = point->y_m - fit->first_y_m;
+            fit->count++;
+            fit->u += u;
+            fit->uu += u * u;
+            fit->x_m += x_m;
+            fit->y_m += y_m;
+            fit->ux_m += u * x_m;
+            fit->uy_m += u * y_m;
+            fit->rr_m2 += x_m * x_m + y_m * y_m;
+            line->scans = (uint16_t)(line->scans | 1u << scan);
         }
     }
-}
-
-/* Variance, in each axis, of a position that is anywhere within a cell of rho. */
-static float cell_variance_m2(const struct rho_passive_paper *paper)
-{
-    return paper->config.rho_cell_m * paper->config.rho_cell_m / 12.0f;
 }
 
 /*
  * Solves the least-squares fit of position = p + u d, u the time of the scan, and fills the line's
  * position, velocity and covariance at the newest scan.
  */
-static void fit_line_motion_to_crossings(const struct rho_passive_paper_search *search,
-                                         const struct rho_passive_paper_fit *fit,
-                                         struct rho_passive_paper_line *line)
+static void fit_line_motion(const struct rho_passive_paper_search *search,
+                            const struct rho_passive_paper_fit *fit,
+                            struct rho_passive_paper_line *line)
 {
     float n = (float)fit->count, spread = fit->uu - fit->u * fit->u / n;
     line->crossings = (uint16_t)(fit->count < UINT16_MAX ? fit->count : UINT16_MAX);
-    if (!(spread > SPREAD_MIN * n) || (line->scans & (line->scans - 1u)) == 0) {
+    /* a smaller spread of the times u is rounding */
+    if (!(spread > 1.0e-6f * n) || (line->scans & (line->scans - 1u)) == 0) {
         return;
     }
     float dx_m = (fit->ux_m - fit->u * fit->x_m / n) / spread;
@@ -237,7 +195,9 @@ static void fit_line_motion_to_crossings(const struct rho_passive_paper_search *
     line->vy_mps = dy_m / search->half_s;
     float left_m2 = fit->rr_m2 - (fit->x_m * fit->x_m + fit->y_m * fit->y_m) / n -
                     spread * (dx_m * dx_m + dy_m * dy_m);
-    float axis_m2 = left_m2 / (2.0f * n), cell_m2 = cell_variance_m2(search->paper);
+    /* at least the variance of a position that is anywhere within a cell of rho */
+    float cell_m2 = search->paper->config.rho_cell_m * search->paper->config.rho_cell_m / 12.0f;
+    float axis_m2 = left_m2 / (2.0f * n);
     axis_m2 = axis_m2 > cell_m2 ? axis_m2 : cell_m2;
     line->place_m2 = axis_m2 * (1.0f / n + ahead * ahead / spread);
     line->place_velocity_m2ps = axis_m2 * ahead / (spread * search->half_s);
@@ -249,13 +209,13 @@ void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search)
     struct rho_passive_paper *paper = search->paper;
     for (unsigned i = 0; paper->num_lines > 0 && i + 1u < search->num_sensors; i++) {
         for (unsigned j = i + 1u; j < search->num_sensors; j++) {
-            rho_passive_paper_cross_sensors(search, search->sensors[i], search->sensors[j]);
+            rho_passive_paper_cross(search, search->sensors[i], search->sensors[j]);
             for (unsigned line = 0; line < paper->num_lines; line++) {
                 add_pair_crossings_to_fit(search, line);
             }
         }
     }
     for (unsigned line = 0; line < paper->num_lines; line++) {
-        fit_line_motion_to_crossings(search, &paper->fits[line], &paper->lines[line]);
+        fit_line_motion(search, &paper->fits[line], &paper->lines[line]);
     }
 }

@@ -4,14 +4,13 @@
  * votes. They are computed again from the batch, which is unchanged until the next frame.
  */
 #include "passive_paper_hough_search_state.h"
+#include "policy.h"
 #include "rhotrack/types.h"
 
 static int is_initialised(const struct rho_passive_paper *paper)
 {
     return paper->magic == RHO_PASSIVE_PAPER_MAGIC;
 }
-
-/* ---- pairs of sensors ------------------------------------------------------------------------ */
 
 int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned number,
                            struct rho_passive_paper_pair *pair)
@@ -20,7 +19,7 @@ int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned numbe
     if (!paper || !pair || !is_initialised(paper)) {
         return 0;
     }
-    rho_passive_paper_list_sensors_and_middle(&paper->batch, &search);
+    rho_passive_paper_list_sensors(&paper->batch, &search);
     for (unsigned i = 0; i + 1u < search.num_sensors; i++) {
         const unsigned behind = search.num_sensors - 1u - i;
         if (number < behind) {
@@ -45,8 +44,6 @@ static int is_pair_of_search(const struct rho_passive_paper *paper,
     return 0;
 }
 
-/* ---- ghosts ---------------------------------------------------------------------------------- */
-
 enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
                                          const struct rho_passive_paper_pair *pair, unsigned scan,
                                          struct rho_ghost_matrix *matrix)
@@ -63,15 +60,13 @@ enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
     if (scan >= paper->batch.num_scans || !is_pair_of_search(paper, pair)) {
         return RHO_ERROR_VALUE;
     }
-    rho_passive_paper_list_sensors_and_middle(&paper->batch, &search);
+    rho_passive_paper_list_sensors(&paper->batch, &search);
     return rho_passive_paper_set_base(&search, &paper->batch, pair->a, pair->b, &base) &&
-                   rho_passive_paper_make_ghost_matrix(&paper->config, &paper->batch, &base, scan,
-                                                       *pair, &bearings, matrix)
+                   rho_passive_paper_fill_ghosts(&paper->config, &paper->batch, &base, scan, *pair,
+                                                 &bearings, matrix)
                ? RHO_OK
                : RHO_ERROR_VALUE;
 }
-
-/* ---- planes ---------------------------------------------------------------------------------- */
 
 enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
                                         struct rho_passive_paper_space *space)
@@ -81,7 +76,7 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
         return RHO_ERROR_NULL;
     }
     if (is_initialised(paper)) {
-        rho_passive_paper_list_sensors_and_middle(&paper->batch, &search);
+        rho_passive_paper_list_sensors(&paper->batch, &search);
     }
     if (search.num_sensors == 0) {
         return RHO_ERROR_STATE;
@@ -90,48 +85,9 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
         .origin_x_m = search.middle_x_m,
         .origin_y_m = search.middle_y_m,
         .rho_max_m = 0.5f * paper->config.rho_cell_m * (float)RHO_PAPER_RHO_CELLS,
-        .theta_cells = (uint16_t)rho_passive_paper_count_theta_rows(&paper->config),
+        .theta_cells = (uint16_t)rho_passive_paper_theta_rows(&paper->config),
         .rho_cells = RHO_PAPER_RHO_CELLS};
     return RHO_OK;
-}
-
-/*
- * Notes the votes of a row in the plane: `subtracted` is subtracted from each cell, 1 for the sums
- * of all pairs, which count from 1 where 0 is a cell that is not confirmed.
- */
-static void note_row_votes(const struct rho_passive_paper_search *search, int row,
-                           const uint8_t *cells, unsigned subtracted,
-                           struct rho_votes_picture *plane)
-{
-    for (int column = 0; column < search->columns; column++) {
-        if (cells[column] > subtracted) {
-            rho_votes_picture_enter_cell(plane, (unsigned)row, (unsigned)column,
-                                         cells[column] - subtracted);
-        }
-    }
-}
-
-static void note_votes_of_sensor_pair(struct rho_passive_paper_search *search,
-                                      const struct rho_passive_paper_pair *pair,
-                                      struct rho_votes_picture *plane)
-{
-    uint8_t *counts = search->paper->rows[0];
-    rho_passive_paper_cross_sensors(search, pair->a, pair->b);
-    for (int row = 0; row < search->rows; row++) {
-        rho_passive_paper_count_row_votes_of_pair(search, row, counts);
-        note_row_votes(search, row, counts, 0, plane);
-    }
-}
-
-static void note_votes_of_all_sensor_pairs(struct rho_passive_paper_search *search,
-                                           struct rho_votes_picture *plane)
-{
-    const struct rho_passive_paper_work work = search->paper->work;
-    rho_passive_paper_vote_with_all_sensor_pairs(search);
-    search->paper->work = work;
-    for (int row = 0; row < search->rows; row++) {
-        note_row_votes(search, row, search->paper->cells[row], 1, plane);
-    }
 }
 
 /*
@@ -146,8 +102,8 @@ static enum rho_status prepare_search(struct rho_passive_paper *paper,
     if (!is_initialised(paper)) {
         return RHO_ERROR_STATE;
     }
-    rho_passive_paper_list_sensors_and_middle(&paper->batch, search);
-    if (!rho_passive_paper_set_cells_if_enough_scans(search)) {
+    rho_passive_paper_list_sensors(&paper->batch, search);
+    if (!rho_passive_paper_set_cells(search)) {
         return RHO_ERROR_STATE;
     }
     return !pair || is_pair_of_search(paper, pair) ? RHO_OK : RHO_ERROR_VALUE;
@@ -165,47 +121,31 @@ enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
     if (status == RHO_OK) {
         status = rho_votes_picture_init(plane, (unsigned)search.rows, (unsigned)search.columns);
     }
-    if (status == RHO_OK && pair) {
-        note_votes_of_sensor_pair(&search, pair, plane);
-    } else if (status == RHO_OK) {
-        note_votes_of_all_sensor_pairs(&search, plane);
+    if (status != RHO_OK) {
+        return status;
     }
-    return status;
-}
-
-/* ---- cells of a pair ------------------------------------------------------------------------- */
-
-/* Mask of the scans whose crossings voted for a cell. */
-static uint32_t mask_of_scans_voting_for_cell(const struct rho_passive_paper_search *search,
-                                              int row, int column)
-{
-    const struct rho_passive_paper *paper = search->paper;
-    const struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, row);
-    uint32_t mask = 0;
-    for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
-        for (; i < paper->scan_end[scan]; i++) {
-            if (rho_passive_paper_column_of_point(search, direction, &paper->points[i]) == column) {
-                mask |= 1u << scan;
+    const struct rho_passive_paper_work work = paper->work;
+    if (pair) {
+        rho_passive_paper_cross(&search, pair->a, pair->b);
+    } else {
+        rho_passive_paper_vote_with_all_sensor_pairs(&search);
+        paper->work = work;
+    }
+    for (int row = 0; row < search.rows; row++) {
+        /* the sums of all pairs count from 1, as 0 is a cell that is not confirmed */
+        const uint8_t *votes = pair ? paper->rows[0] : paper->cells[row];
+        if (pair) {
+            rho_passive_paper_count_row_votes_of_pair(&search, row, paper->rows[0]);
+        }
+        for (int column = 0; column < search.columns; column++) {
+            unsigned least = pair ? 0u : 1u;
+            if (votes[column] > least) {
+                rho_votes_picture_enter_cell(plane, (unsigned)row, (unsigned)column,
+                                             votes[column] - least);
             }
         }
     }
-    return mask;
-}
-
-/* Lists the cells with votes_min votes of the pair crossed last, best first. */
-static void list_voted_cells_of_sensor_pair(const struct rho_passive_paper_search *search,
-                                            struct rho_peak_list *list)
-{
-    uint8_t *counts = search->paper->rows[0];
-    for (int row = 0; row < search->rows; row++) {
-        rho_passive_paper_count_row_votes_of_pair(search, row, counts);
-        for (int column = 0; column < search->columns; column++) {
-            rho_peak_list_offer(list, (struct rho_accumulator_peak){.votes = counts[column],
-                                                                    .theta_cell = (uint16_t)row,
-                                                                    .rho_cell = (uint16_t)column});
-        }
-    }
-    rho_peak_list_drop_weak_and_sort(list);
+    return RHO_OK;
 }
 
 enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
@@ -225,14 +165,31 @@ enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
         .peaks = peaks, .max_peaks = max_peaks, .min_votes = paper->votes_min};
     const struct rho_peak_distance near = {.theta_cells = (uint16_t)search.rows,
                                            .rho_cells = (uint16_t)search.columns,
-                                           .theta = RHO_PASSIVE_PAPER_NEAR_ROWS,
-                                           .rho = RHO_PASSIVE_PAPER_NEAR_COLUMNS};
-    rho_passive_paper_cross_sensors(&search, pair->a, pair->b);
-    list_voted_cells_of_sensor_pair(&search, &list);
+                                           .theta = LINE_NEAR_ROWS,
+                                           .rho = LINE_NEAR_COLUMNS};
+    uint8_t *counts = paper->rows[0];
+    rho_passive_paper_cross(&search, pair->a, pair->b);
+    for (int row = 0; row < search.rows; row++) {
+        rho_passive_paper_count_row_votes_of_pair(&search, row, counts);
+        for (int column = 0; column < search.columns; column++) {
+            rho_peak_list_offer(&list, (struct rho_accumulator_peak){.votes = counts[column],
+                                                                     .theta_cell = (uint16_t)row,
+                                                                     .rho_cell = (uint16_t)column});
+        }
+    }
+    rho_peak_list_drop_weak_and_sort(&list);
     *num_peaks = rho_peak_list_suppress(peaks, list.num_peaks, &near, NULL, 0);
-    for (uint32_t i = 0; i < *num_peaks; i++) {
-        peaks[i].mask =
-            mask_of_scans_voting_for_cell(&search, peaks[i].theta_cell, peaks[i].rho_cell);
+    for (uint32_t n = 0; n < *num_peaks; n++) {
+        const struct rho_passive_paper_direction direction =
+            rho_passive_paper_direction(&search, peaks[n].theta_cell);
+        for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
+            for (; i < paper->scan_end[scan]; i++) {
+                if (rho_passive_paper_column_of_point(&search, direction, &paper->points[i]) ==
+                    peaks[n].rho_cell) {
+                    peaks[n].mask |= 1u << scan;
+                }
+            }
+        }
     }
     return RHO_OK;
 }

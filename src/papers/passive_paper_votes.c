@@ -10,8 +10,6 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-/* ---- crossings ------------------------------------------------------------------------------- */
-
 static unsigned collect_bearings(const struct rho_batch *batch, unsigned scan, unsigned sensor,
                                  float *bearings_rad)
 {
@@ -21,25 +19,12 @@ static unsigned collect_bearings(const struct rho_batch *batch, unsigned scan, u
     return batch->num_bearings[scan][sensor];
 }
 
-/* Stores a crossing of a scan; beyond the capacity it is dropped and counted. */
-static void store_crossing(struct rho_passive_paper_search *search, unsigned scan,
-                           const struct rho_crossing *crossing)
-{
-    struct rho_passive_paper *paper = search->paper;
-    if (paper->scan_end[scan] == RHO_MAX_PAPER_CROSSINGS) {
-        search->per_pair.points_dropped = rho_count(search->per_pair.points_dropped, 1);
-        return;
-    }
-    paper->points[paper->scan_end[scan]++] =
-        (struct rho_passive_paper_point){.x_m = crossing->x_m, .y_m = crossing->y_m};
-}
-
-int rho_passive_paper_make_ghost_matrix(const struct rho_passive_paper_config *config,
-                                        const struct rho_batch *batch,
-                                        const struct rho_crossing_base *base, unsigned scan,
-                                        struct rho_passive_paper_pair pair,
-                                        struct rho_passive_paper_bearings *bearings,
-                                        struct rho_ghost_matrix *matrix)
+int rho_passive_paper_fill_ghosts(const struct rho_passive_paper_config *config,
+                                  const struct rho_batch *batch,
+                                  const struct rho_crossing_base *base, unsigned scan,
+                                  struct rho_passive_paper_pair pair,
+                                  struct rho_passive_paper_bearings *bearings,
+                                  struct rho_ghost_matrix *matrix)
 {
     memset(bearings, 0, sizeof *bearings);
     unsigned num_a = collect_bearings(batch, scan, pair.a, bearings->a_rad);
@@ -50,35 +35,6 @@ int rho_passive_paper_make_ghost_matrix(const struct rho_passive_paper_config *c
     }
     rho_ghost_prune_and_count_removed(matrix, config->rule);
     return 1;
-}
-
-/* Stores the crossings of a pair of sensors in one scan that are no ghosts, and counts both. */
-static void store_crossings_of_sensor_pair_in_scan(struct rho_passive_paper_search *search,
-                                                   const struct rho_crossing_base *base,
-                                                   unsigned scan,
-                                                   struct rho_passive_paper_pair pair)
-{
-    const struct rho_passive_paper *paper = search->paper;
-    struct rho_ghost_matrix matrix;
-    struct rho_passive_paper_bearings bearings;
-    if (!rho_passive_paper_make_ghost_matrix(&paper->config, &paper->batch, base, scan, pair,
-                                             &bearings, &matrix)) {
-        return;
-    }
-    for (unsigned i = 0; i < matrix.rows; i++) {
-        for (unsigned j = 0; j < matrix.columns; j++) {
-            struct rho_crossing crossing;
-            int is_left =
-                matrix.reason[i][j] == RHO_GHOST_KEPT &&
-                rho_crossing_find(base, bearings.a_rad[i], bearings.b_rad[j],
-                                  paper->config.range_max_m, &crossing) == RHO_CROSSING_MEETS;
-            search->per_pair.crossings++;
-            search->per_pair.ghosts += !is_left;
-            if (is_left) {
-                store_crossing(search, scan, &crossing);
-            }
-        }
-    }
 }
 
 int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
@@ -92,24 +48,43 @@ int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
                sensor_b->x_m - search->middle_x_m, sensor_b->y_m - search->middle_y_m) == RHO_OK;
 }
 
-void rho_passive_paper_cross_sensors(struct rho_passive_paper_search *search, unsigned a,
-                                     unsigned b)
+void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b)
 {
     struct rho_passive_paper *paper = search->paper;
     const struct rho_passive_paper_pair pair = {(uint8_t)a, (uint8_t)b};
     struct rho_crossing_base base;
-    memset(&search->per_pair, 0, sizeof search->per_pair);
+    struct rho_passive_paper_work *work = &search->per_pair;
+    memset(work, 0, sizeof *work);
     memset(paper->scan_end, 0, sizeof paper->scan_end);
     if (!rho_passive_paper_set_base(search, &paper->batch, a, b, &base)) {
         return; /* cannot fail: sensor positions were checked when the frame was pushed */
     }
     for (unsigned scan = 0; scan < paper->batch.num_scans; scan++) {
+        struct rho_ghost_matrix matrix;
+        struct rho_passive_paper_bearings bearings;
         paper->scan_end[scan] = scan > 0 ? paper->scan_end[scan - 1u] : 0;
-        store_crossings_of_sensor_pair_in_scan(search, &base, scan, pair);
+        if (!rho_passive_paper_fill_ghosts(&paper->config, &paper->batch, &base, scan, pair,
+                                           &bearings, &matrix)) {
+            continue;
+        }
+        for (unsigned i = 0; i < matrix.rows; i++) {
+            for (unsigned j = 0; j < matrix.columns; j++) {
+                struct rho_crossing crossing;
+                work->crossings++;
+                if (matrix.reason[i][j] != RHO_GHOST_KEPT ||
+                    rho_crossing_find(&base, bearings.a_rad[i], bearings.b_rad[j],
+                                      paper->config.range_max_m, &crossing) != RHO_CROSSING_MEETS) {
+                    work->ghosts++;
+                } else if (paper->scan_end[scan] == RHO_MAX_PAPER_CROSSINGS) {
+                    work->points_dropped = rho_count(work->points_dropped, 1);
+                } else {
+                    paper->points[paper->scan_end[scan]++] =
+                        (struct rho_passive_paper_point){.x_m = crossing.x_m, .y_m = crossing.y_m};
+                }
+            }
+        }
     }
 }
-
-/* ---- eq. (3) --------------------------------------------------------------------------------- */
 
 float rho_passive_paper_rho_m(float range_m, float bearing_rad, float x_m, float y_m,
                               float theta_rad)
@@ -137,8 +112,6 @@ int rho_passive_paper_column_of_point(const struct rho_passive_paper_search *sea
     float cell = rho_m / search->paper->config.rho_cell_m + 0.5f * (float)search->columns;
     return cell >= 0.0f && cell < (float)search->columns ? (int)cell : -1;
 }
-
-/* ---- votes ----------------------------------------------------------------------------------- */
 
 void rho_passive_paper_count_row_votes_of_pair(const struct rho_passive_paper_search *search,
                                                int row, uint8_t counts[RHO_PAPER_RHO_CELLS])
@@ -206,24 +179,19 @@ static void add_votes_of_last_crossed_pair_to_cells(struct rho_passive_paper_sea
     }
 }
 
-static void add_counters_of_last_crossed_pair(struct rho_passive_paper_search *search)
+void rho_passive_paper_vote_with_all_sensor_pairs(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper_work *work = &search->paper->work;
     const struct rho_passive_paper_work *more = &search->per_pair;
-    work->crossings = rho_count(work->crossings, more->crossings);
-    work->ghosts = rho_count(work->ghosts, more->ghosts);
-    work->points_dropped = rho_count(work->points_dropped, more->points_dropped);
-    work->votes = rho_count(work->votes, (more->crossings - more->ghosts - more->points_dropped) *
-                                             (unsigned)search->rows);
-}
-
-void rho_passive_paper_vote_with_all_sensor_pairs(struct rho_passive_paper_search *search)
-{
     int is_first = 1;
     for (unsigned i = 0; i + 1u < search->num_sensors; i++) {
         for (unsigned j = i + 1u; j < search->num_sensors; j++) {
-            rho_passive_paper_cross_sensors(search, search->sensors[i], search->sensors[j]);
-            add_counters_of_last_crossed_pair(search);
+            rho_passive_paper_cross(search, search->sensors[i], search->sensors[j]);
+            work->crossings = rho_count(work->crossings, more->crossings);
+            work->ghosts = rho_count(work->ghosts, more->ghosts);
+            work->points_dropped = rho_count(work->points_dropped, more->points_dropped);
+            unsigned voters = more->crossings - more->ghosts - more->points_dropped;
+            work->votes = rho_count(work->votes, voters * (unsigned)search->rows);
             add_votes_of_last_crossed_pair_to_cells(search, is_first);
             is_first = 0;
         }

@@ -7,14 +7,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/gate.h"
 
-#define CELL_MIN_RAD 1.0e-3f
 #define PLANES_ALL (RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ)
-
-/* Angles within this of the border of two cells count as on the border, and get the lower cell. */
-#define TIE_RAD 1.0e-6f
 
 /* the two velocity components that span each plane */
 static const uint8_t axes_of[RHO_GATE_PLANES][2] = {{0, 1}, {0, 2}, {1, 2}};
@@ -27,14 +24,6 @@ static float magnitude(float v)
 static float cell_centre_rad(int32_t cell, float theta_cell_rad)
 {
     return ((float)cell + 0.5f) * theta_cell_rad;
-}
-
-/* Number of theta cells whose centre is below pi. */
-static int32_t count_theta_cells(float theta_cell_rad)
-{
-    const int32_t num = (int32_t)(RHO_PI / theta_cell_rad + 0.5f);
-
-    return cell_centre_rad(num - 1, theta_cell_rad) < RHO_PI ? num : num - 1;
 }
 
 /*
@@ -93,7 +82,7 @@ enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough, uint8_t plane_
         return RHO_ERROR_NULL;
     }
     if (plane_mask == 0 || plane_mask > PLANES_ALL ||
-        !(theta_cell_rad >= CELL_MIN_RAD && theta_cell_rad <= RHO_HALF_PI)) {
+        !(theta_cell_rad >= 1.0e-3f && theta_cell_rad <= RHO_HALF_PI)) {
         return RHO_ERROR_VALUE;
     }
     for (int i = 0; i < 3; i++) {
@@ -102,7 +91,9 @@ enum rho_status rho_gate_hough_init(struct rho_gate_hough *hough, uint8_t plane_
             return RHO_ERROR_VALUE;
         }
     }
-    const int32_t num_cells = count_theta_cells(theta_cell_rad);
+    /* the number of theta cells whose centre is below pi */
+    int32_t num_cells = (int32_t)(RHO_PI / theta_cell_rad + 0.5f);
+    num_cells -= !(cell_centre_rad(num_cells - 1, theta_cell_rad) < RHO_PI);
     *hough = (struct rho_gate_hough){.planes = plane_mask,
                                      .newest_mps = {newest_mps[0], newest_mps[1], newest_mps[2]}};
     for (int plane = 0; plane < RHO_GATE_PLANES; plane++) {

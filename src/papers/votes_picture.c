@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* True where the window lies within all cells, and the picture's size is 1 .. the window's. */
-static int are_window_and_picture_valid(unsigned first, unsigned count, unsigned size, unsigned all)
+static int is_window_valid(unsigned first, unsigned count, unsigned size, unsigned all)
 {
     return count > 0 && first + count <= all && size > 0 && size <= count;
 }
@@ -24,9 +24,8 @@ enum rho_status rho_votes_picture_init(struct rho_votes_picture *plane, unsigned
         whole.first_rho = 0;
         whole.rho_cells = (uint16_t)rho_cells;
     }
-    if (!are_window_and_picture_valid(whole.first_theta, whole.theta_cells, whole.height,
-                                      theta_cells) ||
-        !are_window_and_picture_valid(whole.first_rho, whole.rho_cells, whole.width, rho_cells)) {
+    if (!is_window_valid(whole.first_theta, whole.theta_cells, whole.height, theta_cells) ||
+        !is_window_valid(whole.first_rho, whole.rho_cells, whole.width, rho_cells)) {
         return RHO_ERROR_VALUE;
     }
     *plane = whole;

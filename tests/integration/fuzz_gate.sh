@@ -145,7 +145,7 @@ tracker_must_find src/step/track_starts.c 'an identity that comes again' \
     's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
 tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
     's/return rho_initiator_work_spent\(search\) > search->limit_units;/return 0;/'
-tracker_must_find src/bearings/recent_bearing_frames_soundness.c \
+tracker_must_find src/bearings/recent_bearing_frames.c \
     'a batch that is unsound for its times' \
     's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
 tracker_must_find src/step/operator.c 'an identity given to two tracks' \

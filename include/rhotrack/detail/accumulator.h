@@ -218,9 +218,8 @@ uint32_t rho_peak_list_suppress(struct rho_accumulator_peak *peaks, uint32_t num
 int rho_accumulator_cell_of_point(const struct rho_accumulator *accumulator, unsigned theta_cell,
                                   float x_m, float y_m);
 
-/* theta and rho of the line through the centre of a cell. Constant cost. */
+/* theta of the lines through the centres of a row of cells. Constant cost. */
 float rho_accumulator_theta_rad(const struct rho_accumulator *accumulator, unsigned theta_cell);
-float rho_accumulator_rho_m(const struct rho_accumulator *accumulator, unsigned rho_cell);
 
 #ifdef __cplusplus
 }

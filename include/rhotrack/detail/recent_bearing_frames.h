@@ -21,6 +21,9 @@
 extern "C" {
 #endif
 
+/* fewest scans that are searched for tracks: two tell a velocity, and two more test it */
+#define RHO_BATCH_SCANS_MIN 4u
+
 struct rho_batch_sensor {
     int32_t sensor_id;
     float x_m, y_m;
@@ -82,18 +85,18 @@ RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,
 /*
  * Removes the bearings that a track claims from the batch. Returns the number of bearings removed.
  *   claim  for each scan and sensor the index of a bearing in the batch, from 1; 0: no bearing
- * Indices stay valid until rho_batch_drop_bearings_marked_removed, so that bearings of several
+ * Indices stay valid until rho_batch_compact, so that bearings of several
  * tracks can be removed; until then a removed bearing has a sigma_rad of 0. Cost: scans times
  * sensors.
  */
-uint32_t rho_batch_mark_bearings_removed(
-    struct rho_batch *batch, const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]);
+uint32_t rho_batch_remove(struct rho_batch *batch,
+                          const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]);
 
 /*
- * Closes the gaps that rho_batch_mark_bearings_removed has left in the arrays of bearings. Cost:
+ * Closes the gaps that rho_batch_remove has left in the arrays of bearings. Cost:
  * all bearings held.
  */
-void rho_batch_drop_bearings_marked_removed(struct rho_batch *batch);
+void rho_batch_compact(struct rho_batch *batch);
 
 /*
  * True if the object is valid, whatever its bytes come from (a snapshot, memory that outlived a

@@ -29,8 +29,6 @@ static uint32_t random_below(uint32_t count)
     return (uint32_t)((random_state >> 33) % count);
 }
 
-/* ---- scans ----------------------------------------------------------------------------------- */
-
 /* A scan with its bearings. The first bearing is `tag`, by which a test recognises the scan. */
 struct sent {
     struct rho_bearing_scan scan;
@@ -109,8 +107,6 @@ static void push_complete_frames(unsigned count)
         assert_int_equal(push_scan_and_count_closed_scans(1, k * SECOND_US), 2);
     }
 }
-
-/* ---- when frames close ----------------------------------------------------------------------- */
 
 static void a_frame_closes_with_its_last_sensor(void **state)
 {
@@ -210,8 +206,6 @@ static void a_frame_waits_for_the_smallest_number_of_sensors(void **state)
     assert_int_equal(frames.counters.frames_incomplete, 0);
 }
 
-/* ---- late scans and silent sensors ---------------------------------------------------------- */
-
 static void late_scans_are_counted_and_left_out(void **state)
 {
     (void)state;
@@ -261,8 +255,6 @@ static void a_sensor_that_joins_last_is_late_only_once(void **state)
     assert_int_equal(frames.counters.frames, 8);
     assert_int_equal(frames.counters.scans_taken, 23);
 }
-
-/* ---- clocks ---------------------------------------------------------------------------------- */
 
 static void single_scans_with_wrong_times_change_nothing(void **state)
 {
@@ -359,8 +351,6 @@ static void a_jump_of_all_clocks_restarts_the_frames(void **state)
     }
 }
 
-/* ---- any order of arrival -------------------------------------------------------------------- */
-
 #define ROUNDS 6
 
 /* Scan of sensor s in round k; times are within the tolerance and some are equal. */
@@ -443,8 +433,6 @@ static void the_order_of_arrival_within_the_tolerance_does_not_matter(void **sta
         assert_memory_equal(other, first, sizeof first);
     }
 }
-
-/* ---- comparison with a model ---------------------------------------------------------------- */
 
 #define MODEL_SCANS 400
 
@@ -607,8 +595,6 @@ static void frames_of_random_scans_agree_with_the_model(void **state)
     }
 }
 
-/* ---- capacities ------------------------------------------------------------------------------ */
-
 static void bearings_beyond_the_capacity_are_counted(void **state)
 {
     (void)state;
@@ -669,8 +655,6 @@ static void a_copied_object_continues_identically(void **state)
         frames = before;
     }
 }
-
-/* ---- refusals ------------------------------------------------------------------------------- */
 
 static void expect_config_status(const struct rho_frames_config *config, enum rho_status status)
 {

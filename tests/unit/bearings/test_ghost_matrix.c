@@ -40,8 +40,6 @@ static void set_paper_base(void) /* sensors at (0, +-10 km), as in the paper */
     assert_int_equal(rho_crossing_set_base(&base, 0.0f, -10e3f, 0.0f, 10e3f), RHO_OK);
 }
 
-/* ---- matrices by hand ------------------------------------------------------------------------ */
-
 /* Sets the matrix from rows of text: '1' is a crossing, '0' is none. */
 static void set_matrix(unsigned rows, unsigned columns, const char *const *text)
 {
@@ -224,8 +222,6 @@ static void figure_1_of_the_paper_keeps_its_targets_alone(void **state)
     assert_int_not_equal(matrix.reason[1][0], RHO_GHOST_KEPT);
 }
 
-/* ---- simulated scans ------------------------------------------------------------------------- */
-
 struct look {
     unsigned count;
     float bearing_rad[64];
@@ -366,8 +362,6 @@ static void the_safe_rule_removes_more_ghosts_of_six_targets(void **state)
     assert_true(safe.ghosts_removed >= literal.ghosts_removed + 0.05);
     assert_true(safe.targets_lost <= 0.0);
 }
-
-/* ---- refusals -------------------------------------------------------------------------------- */
 
 static void bad_arguments_are_refused(void **state)
 {

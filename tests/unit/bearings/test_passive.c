@@ -17,8 +17,6 @@
 static struct rho_passive passive, other;
 static struct scene scene;
 
-/* ---- the best possible fit ------------------------------------------------------------------- */
-
 /*
  * Maximum likelihood with the true association, in double precision: place at mid-batch and
  * velocity.
@@ -115,8 +113,6 @@ static struct fit fit_with_true_association(unsigned target)
     }
     return fit;
 }
-
-/* ---- figures of many scenes ----------------------------------------------------------------- */
 
 struct figures {
     unsigned runs, targets, found, ghosts;
@@ -330,8 +326,6 @@ static void bearings_are_weighted_by_their_own_sigmas(void **state)
     assert_in_range((int)(100.0 * figures.nees / figures.found), 320, 500);
 }
 
-/* ---- one scene ------------------------------------------------------------------------------- */
-
 static void draw_seeded_scene(const struct scene *from, uint64_t seed)
 {
     random_state = seed;
@@ -430,8 +424,6 @@ static void the_order_of_bearings_does_not_matter(void **state)
     assert_true(passive.num_tracks >= 2);
     expect_tracks_move_with_scene(0.0, 0.0, 0.0);
 }
-
-/* ---- the batch ------------------------------------------------------------------------------- */
 
 static void a_ninth_frame_replaces_the_oldest(void **state)
 {
@@ -570,8 +562,6 @@ static void a_search_counts_its_work(void **state)
     assert_int_equal(passive.work.points_dropped, 0);
     assert_true(passive.work.peaks > 0 && passive.work.hypotheses > 0 && passive.work.fits > 0);
 }
-
-/* ---- scores, sigmas, pairs of sensors ------------------------------------------------------- */
 
 static void tracks_are_sorted_by_falling_score(void **state)
 {

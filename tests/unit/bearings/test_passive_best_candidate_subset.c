@@ -47,7 +47,7 @@ static float total_nat_chosen_after_exclusive_candidates(unsigned before)
     }
     add_candidate(15.0f, 1);
     add_candidate(15.0f, 2);
-    rho_passive_choose_candidates(&search, &best);
+    rho_passive_choose(&search, &best);
     return best.total_nat;
 }
 
@@ -72,7 +72,7 @@ static void a_candidate_worth_less_than_a_millinat_is_left_out(void **state)
             add_candidate(5.0f, 0);
         }
         add_candidate(i ? 1.4e-3f : 0.7e-3f, 0);
-        rho_passive_choose_candidates(&search, &best);
+        rho_passive_choose(&search, &best);
         assert_int_equal(best.is_in[11], 1);
         assert_int_equal(best.is_in[12], i);
     }
@@ -91,12 +91,12 @@ static void a_candidate_sharing_70_percent_of_bearings_is_excluded(void **state)
         add_candidate(20.0f, 0xff);
         passive.candidates[0].hits = 10;
         add_candidate(10.0f, i ? 0x7f : 0x3f);
-        rho_passive_choose_candidates(&search, &best);
+        rho_passive_choose(&search, &best);
         assert_int_equal(best.is_in[0], 1);
         rho_passive_exclude_target(&best, 0);
         assert_int_equal(best.is_out[0], 1);
         assert_int_equal(best.is_out[1], i);
-        rho_passive_add_candidate_then_all_gaining(&best, best.count);
+        rho_passive_add_gaining(&best, best.count);
         assert_int_equal(best.is_in[1], !i);
     }
 }

@@ -22,8 +22,6 @@
 static struct rho_passive passive;
 static struct scene scene;
 
-/* ---- scenes ---------------------------------------------------------------------------------- */
-
 /* Targets in line abreast, `apart_m` from each other, whose velocities differ by up to `mps`. */
 static void draw_formation(unsigned targets, double apart_m, double mps, double pd)
 {
@@ -36,8 +34,6 @@ static void draw_formation(unsigned targets, double apart_m, double mps, double 
     }
     see_all_looks(&scene);
 }
-
-/* ---- better claims -------------------------------------------------------------------------- */
 
 /* Squared distance of a bearing from a track in sigmas. */
 static double bearing_nis(const struct rho_passive_track *track, unsigned k, unsigned s,
@@ -127,8 +123,6 @@ static void search_formations(struct count *count, double apart_m, double mps, d
         }
     }
 }
-
-/* ---- claims of formations ------------------------------------------------------------------- */
 
 /*
  * The last fit moves tracks a little after bearings were claimed: one claim in a thousand may be

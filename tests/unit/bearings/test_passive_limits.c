@@ -55,8 +55,6 @@ static void expect_frame_refused(enum rho_status status)
     assert_memory_equal(full.fates, fates, sizeof fates);
 }
 
-/* ---- configuration --------------------------------------------------------------------------- */
-
 static void expect_config_status(const struct rho_passive_config *config, enum rho_status status)
 {
     memset(&passive, 0x5a, sizeof passive);
@@ -175,8 +173,6 @@ static void an_object_can_be_initialised_with_its_own_configuration(void **state
     assert_int_equal(passive.batch.num_scans + passive.batch.num_sensors, 0);
 }
 
-/* ---- refusals -------------------------------------------------------------------------------- */
-
 static void null_pointers_are_refused(void **state)
 {
     (void)state;
@@ -214,21 +210,6 @@ static void an_object_without_init_is_refused(void **state)
     assert_memory_equal(&passive, &before, sizeof passive);
 }
 
-static void a_frame_must_be_newer_than_the_newest(void **state)
-{
-    (void)state;
-    prepare_batch();
-    full.frame.time_us = passive.batch.time_us[4];
-    expect_frame_refused(RHO_ERROR_STATE);
-    full.frame.time_us = passive.batch.time_us[0];
-    expect_frame_refused(RHO_ERROR_STATE);
-    full.frame.time_us = INT64_MIN;
-    expect_frame_refused(RHO_ERROR_STATE);
-    full.frame.time_us = passive.batch.time_us[4] + 1;
-    assert_int_equal(rho_passive_accepts(&passive, &full.frame), RHO_OK);
-    assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
-}
-
 static void a_sensor_that_moved_is_refused(void **state)
 {
     (void)state;
@@ -238,14 +219,6 @@ static void a_sensor_that_moved_is_refused(void **state)
     full.scans[1].x_m = NAN;
     expect_frame_refused(RHO_ERROR_VALUE);
     full.scans[1].x_m = INFINITY;
-    expect_frame_refused(RHO_ERROR_VALUE);
-}
-
-static void a_sensor_twice_in_a_frame_is_refused(void **state)
-{
-    (void)state;
-    prepare_batch();
-    full.scans[1] = full.scans[0];
     expect_frame_refused(RHO_ERROR_VALUE);
 }
 
@@ -267,135 +240,6 @@ static void a_new_sensor_too_near_or_too_far_is_refused(void **state)
     assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
     assert_int_equal(passive.batch.num_sensors, 3);
 }
-
-/* Pushes sensors a kilometre apart, one a frame; returns the last status. */
-static enum rho_status push_new_sensors_one_a_frame(unsigned count)
-{
-    enum rho_status status = RHO_OK;
-    for (unsigned i = 0; i < count && status == RHO_OK; i++) {
-        struct rho_bearing_scan scan = {.sensor_id = (int32_t)i, .x_m = 1000.0f * (float)i};
-        struct rho_frame frame = {.time_us = (int64_t)i + 1, .num_scans = 1, .scans = &scan};
-        uint8_t fate = RHO_FATE_HELD;
-        before = passive;
-        status = rho_passive_push(&passive, &frame, &fate);
-    }
-    return status;
-}
-
-static void sensors_beyond_the_capacity_are_refused(void **state)
-{
-    (void)state;
-    init_default_passive();
-    assert_int_equal(push_new_sensors_one_a_frame(RHO_MAX_PASSIVE_SENSORS), RHO_OK);
-    init_default_passive();
-    assert_int_equal(push_new_sensors_one_a_frame(RHO_MAX_PASSIVE_SENSORS + 1), RHO_ERROR_CAPACITY);
-    assert_memory_equal(&passive, &before, sizeof passive);
-}
-
-/* The frame's first scan is valid, its second one is refused. */
-static void a_refused_frame_adds_no_sensor(void **state)
-{
-    (void)state;
-    prepare_batch();
-    full.scans[0].sensor_id = full.scans[1].sensor_id = 99;
-    full.scans[0].x_m = 5.0e3f;
-    expect_frame_refused(RHO_ERROR_VALUE);
-}
-
-/* ---- fates ----------------------------------------------------------------------------------- */
-
-/* Pushes one sensor's bearings as the first frame; fates are written to `full`. */
-static void push_bearings(const struct rho_bearing *bearings, unsigned count)
-{
-    struct rho_bearing_scan scan = {.sensor_id = 1, .num_bearings = count, .bearings = bearings};
-    struct rho_frame frame = {.num_scans = 1, .scans = &scan};
-    init_default_passive();
-    assert_int_equal(rho_passive_push(&passive, &frame, full.fates), RHO_OK);
-}
-
-static uint8_t fate_of_pushed_bearing(float bearing_rad, float sigma_rad)
-{
-    struct rho_bearing bearing = {.bearing_rad = bearing_rad, .sigma_rad = sigma_rad};
-    full.fates[0] = RHO_FATE_HELD;
-    push_bearings(&bearing, 1);
-    assert_int_equal(passive.batch.num_bearings[0][0], full.fates[0] == RHO_FATE_HELD);
-    return full.fates[0];
-}
-
-static void bearings_out_of_range_get_the_fate_invalid(void **state)
-{
-    (void)state;
-    const float pi = (float)PI, bad[] = {NAN, INFINITY, -INFINITY, 3.1417f, -3.1417f, 1e30f};
-    for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        assert_int_equal(fate_of_pushed_bearing(bad[i], 0.01f), RHO_FATE_INVALID);
-    }
-    assert_int_equal(fate_of_pushed_bearing(pi, 0.01f), RHO_FATE_HELD);
-    assert_int_equal(fate_of_pushed_bearing(-pi, 0.01f), RHO_FATE_HELD);
-    assert_int_equal(fate_of_pushed_bearing(0.0f, 0.01f), RHO_FATE_HELD);
-}
-
-static void sigmas_out_of_range_get_the_fate_invalid(void **state)
-{
-    (void)state;
-    const float bad[] = {NAN,
-                         INFINITY,
-                         0.0f,
-                         -0.01f,
-                         0.9f * RHO_LIMIT_SIGMA_RAD_MIN,
-                         1.1f * RHO_LIMIT_SIGMA_RAD_MAX};
-    for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        assert_int_equal(fate_of_pushed_bearing(0.1f, bad[i]), RHO_FATE_INVALID);
-    }
-    assert_int_equal(fate_of_pushed_bearing(0.1f, RHO_LIMIT_SIGMA_RAD_MIN), RHO_FATE_HELD);
-    assert_int_equal(fate_of_pushed_bearing(0.1f, RHO_LIMIT_SIGMA_RAD_MAX), RHO_FATE_HELD);
-}
-
-static void bearings_beyond_the_capacity_find_no_room(void **state)
-{
-    (void)state;
-    struct rho_bearing bearings[RHO_MAX_BEARINGS + 3];
-    for (unsigned i = 0; i < RHO_MAX_BEARINGS + 3; i++) {
-        bearings[i] = (struct rho_bearing){.bearing_rad = 0.01f * (float)i, .sigma_rad = 0.001f};
-    }
-    bearings[1].bearing_rad = NAN; /* invalid: takes no room */
-    memset(full.fates, RHO_FATE_HELD, sizeof full.fates);
-    push_bearings(bearings, RHO_MAX_BEARINGS + 3);
-    for (unsigned i = 0; i < RHO_MAX_BEARINGS + 3; i++) {
-        assert_int_equal(full.fates[i], i == 1                 ? RHO_FATE_INVALID
-                                        : i > RHO_MAX_BEARINGS ? RHO_FATE_NO_ROOM
-                                                               : RHO_FATE_HELD);
-    }
-    assert_int_equal(passive.batch.num_bearings[0][0], RHO_MAX_BEARINGS);
-}
-
-static void bearings_with_another_fate_than_held_are_not_taken(void **state)
-{
-    (void)state;
-    const struct rho_bearing bearings[4] = {{.bearing_rad = 0.1f, .sigma_rad = 0.01f},
-                                            {.bearing_rad = NAN, .sigma_rad = 0.01f},
-                                            {.bearing_rad = 0.3f, .sigma_rad = 0.01f},
-                                            {.bearing_rad = 0.4f, .sigma_rad = 0.01f}};
-    const uint8_t fates[4] = {RHO_FATE_CLAIMED, RHO_FATE_STALE, RHO_FATE_HELD, RHO_FATE_NO_ROOM};
-    memcpy(full.fates, fates, sizeof fates);
-    push_bearings(bearings, 4);
-    assert_memory_equal(full.fates, fates, sizeof fates);
-    assert_int_equal(passive.batch.num_bearings[0][0], 1);
-    assert_float_equal(passive.batch.bearings[0][0][0].bearing_rad, 0.3, 1e-6);
-}
-
-/* Fates of the second scan follow those of the first. */
-static void fates_come_in_the_order_of_scans(void **state)
-{
-    (void)state;
-    prepare_batch();
-    scene.look[5][1].bearings[1].sigma_rad = 0.0f;
-    assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
-    for (unsigned i = 0; i < 4; i++) {
-        assert_int_equal(full.fates[i], i == 3 ? RHO_FATE_INVALID : RHO_FATE_HELD);
-    }
-}
-
-/* ---- full batches and degenerate geometry --------------------------------------------------- */
 
 static void expect_sound_search(void)
 {
@@ -637,8 +481,6 @@ static void extreme_scan_times_are_accepted(void **state)
     }
 }
 
-/* ---- random input --------------------------------------------------------------------------- */
-
 /* A value between `from` and `to`; any float in one of ten draws. */
 static float random_float(double from, double to)
 {
@@ -759,17 +601,8 @@ int main(void)
         cmocka_unit_test(null_pointers_are_refused),
         cmocka_unit_test(a_wrong_object_size_is_refused),
         cmocka_unit_test(an_object_without_init_is_refused),
-        cmocka_unit_test(a_frame_must_be_newer_than_the_newest),
         cmocka_unit_test(a_sensor_that_moved_is_refused),
-        cmocka_unit_test(a_sensor_twice_in_a_frame_is_refused),
         cmocka_unit_test(a_new_sensor_too_near_or_too_far_is_refused),
-        cmocka_unit_test(sensors_beyond_the_capacity_are_refused),
-        cmocka_unit_test(a_refused_frame_adds_no_sensor),
-        cmocka_unit_test(bearings_out_of_range_get_the_fate_invalid),
-        cmocka_unit_test(sigmas_out_of_range_get_the_fate_invalid),
-        cmocka_unit_test(bearings_beyond_the_capacity_find_no_room),
-        cmocka_unit_test(bearings_with_another_fate_than_held_are_not_taken),
-        cmocka_unit_test(fates_come_in_the_order_of_scans),
         cmocka_unit_test(a_full_batch_of_false_bearings_makes_one_track_at_most),
         cmocka_unit_test(the_most_certain_crossings_are_kept),
         cmocka_unit_test(parallel_bearings_make_no_track),

@@ -19,8 +19,6 @@
 #define RUNS 20
 #define START_MNAT 4605 /* a ratio of a hundred to one, which the tracker requires */
 
-/* ---- scenes ---------------------------------------------------------------------------------- */
-
 static void set_scene(unsigned sensors, unsigned targets, double first_target_vy_mps)
 {
     scene = scene_of(sensors, targets, 0.1, 1.0, 0.0);
@@ -53,8 +51,6 @@ static void draw_and_search(void)
     assert_int_equal(search_scene(&passive, &scene), RHO_OK);
     assert_true(are_tracks_finite_with_right_claims(&passive));
 }
-
-/* ---- margins --------------------------------------------------------------------------------- */
 
 static void test_two_targets_and_their_two_ghosts_have_next_to_no_margin(void **state)
 {
@@ -132,8 +128,6 @@ static void test_the_margin_of_a_lone_target_is_its_score(void **state)
                         passive.tracks[0].score_mnat + 2); /* rounding of float */
     }
 }
-
-/* ---- the tracker ----------------------------------------------------------------------------- */
 
 static unsigned started_after(unsigned frames)
 {

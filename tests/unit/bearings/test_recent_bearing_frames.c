@@ -77,8 +77,6 @@ static void push_frames(unsigned count)
     }
 }
 
-/* ---- init and sensors ----------------------------------------------------------------------- */
-
 static void init_refuses_values_out_of_range(void **state)
 {
     (void)state;
@@ -124,8 +122,6 @@ static void a_sensor_keeps_the_number_of_its_first_scan(void **state)
     assert_memory_equal(batch.num_bearings[1], num, sizeof num);
     assert_float_equal(batch.bearings[1][2][1].bearing_rad, given.bearings[2][1].bearing_rad, 0.0);
 }
-
-/* ---- refusals -------------------------------------------------------------------------------- */
 
 /* Three frames are pushed, and `given` is a valid fourth one. */
 static void prepare_refusal_tests(void)
@@ -252,8 +248,6 @@ static void sensors_beyond_the_capacity_are_refused(void **state)
     expect_frame_refused(RHO_ERROR_CAPACITY); /* one new sensor in a later frame */
 }
 
-/* ---- fates ----------------------------------------------------------------------------------- */
-
 static void fates_tell_which_bearings_are_held_or_invalid(void **state)
 {
     (void)state;
@@ -306,8 +300,6 @@ static void bearings_beyond_the_capacity_find_no_room(void **state)
     assert_int_equal(batch.num_bearings[0][0], RHO_MAX_BEARINGS);
     assert_int_equal(batch.num_bearings[0][1], RHO_MAX_BEARINGS);
 }
-
-/* ---- a simple model ------------------------------------------------------------------------- */
 
 struct plain_bearing {
     float bearing_rad, sigma_rad;
@@ -457,7 +449,7 @@ static void remove_random_bearings(void)
             }
         }
     }
-    assert_int_equal(rho_batch_mark_bearings_removed(&batch, claim), count);
+    assert_int_equal(rho_batch_remove(&batch, claim), count);
 }
 
 static void expect_bearings_of_scan(unsigned k, unsigned s)
@@ -508,15 +500,13 @@ static void random_calls_agree_with_a_simple_model(void **state)
             } else if (what < 0.9) {
                 remove_random_bearings();
             } else {
-                rho_batch_drop_bearings_marked_removed(&batch);
+                rho_batch_compact(&batch);
                 plain_drop_all_removed();
             }
             expect_batch_agrees_with_model();
         }
     }
 }
-
-/* ---- searches after tracks were started ----------------------------------------------------- */
 
 /* Two targets seen by two sensors, searched for. */
 static void search_two_target_scene(unsigned seed)

@@ -35,8 +35,6 @@ static inline double uniform(double from, double to)
     return from + (to - from) * (double)(random_state >> 11) / 9007199254740992.0;
 }
 
-/* ---- the whole plane ------------------------------------------------------------------------- */
-
 static uint16_t *plane; /* each cell's bit mask of scans, or number of points */
 static const struct rho_accumulator_config *of;
 
@@ -153,10 +151,6 @@ static inline uint32_t list_peaks_of_whole_plane(void)
     qsort(expected, count, sizeof expected[0], by_rank);
     return count;
 }
-
-/*
- * ---- runs of the library ----------------------------------------------------------------------
- */
 
 static inline struct rho_accumulator_config paper_cells(void)
 {

@@ -7,10 +7,6 @@
 
 #define CELLS_MAX 800000
 
-/*
- * ---- runs of the library ----------------------------------------------------------------------
- */
-
 static struct rho_hough hough;
 static struct rho_hough_result result;
 static struct rho_accumulator_peak peaks[CELLS_MAX];
@@ -61,10 +57,6 @@ static inline int by_rank(const void *a, const void *b)
     }
     return (p->rho_cell > q->rho_cell) - (p->rho_cell < q->rho_cell);
 }
-
-/*
- * ---- votes ------------------------------------------------------------------------------------
- */
 
 /* A vote for a cell. Of one source, a pair, plot or scan, a cell counts the largest vote only. */
 struct vote {
@@ -265,10 +257,6 @@ static inline void expect_reference(void)
     sum_votes_by_cell();
 }
 
-/*
- * ---- comparison of cells ----------------------------------------------------------------------
- */
-
 static struct {
     size_t cells, exact; /* cells compared, and those of them without a value near a limit */
     double worst;        /* largest error, in parts of a vote for each voter */
@@ -339,10 +327,6 @@ static inline void expect_counts(void)
     assert_in_range(result.candidates, counted.candidates_surely, counted.candidates);
     assert_true(result.votes >= counted.votes_surely && result.votes <= counted.votes);
 }
-
-/*
- * ---- peaks ------------------------------------------------------------------------------------
- */
 
 struct peak {
     double votes;

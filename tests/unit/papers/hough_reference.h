@@ -28,10 +28,6 @@
 
 static struct rho_hough_config config;
 
-/*
- * ---- plots ------------------------------------------------------------------------------------
- */
-
 #define PLOTS_MAX 70000
 
 static float x_m[PLOTS_MAX], y_m[PLOTS_MAX], t_s[PLOTS_MAX];
@@ -155,10 +151,6 @@ static inline void add_scene_of_table_1(unsigned num_scans, double noise_m, int 
     }
 }
 
-/*
- * ---- lines ------------------------------------------------------------------------------------
- */
-
 struct line {
     double rho, theta;
 };
@@ -245,10 +237,6 @@ static inline double gaussian_of_offset(struct line offset)
     return exp(-(rho * rho + theta * theta) / 2.0);
 }
 
-/*
- * ---- pairs ------------------------------------------------------------------------------------
- */
-
 enum verdict { NO, MAYBE, YES };
 
 static inline enum verdict verdict_below_limit(double value, double limit, double slack)
@@ -314,10 +302,6 @@ static inline struct pairs voting_pairs_of_scan(unsigned scan)
     }
     return pairs;
 }
-
-/*
- * ---- bounds of a pair's vote ------------------------------------------------------------------
- */
 
 /* A vote in exact arithmetic, and the least and most that float may make of it. */
 struct vote_bounds {

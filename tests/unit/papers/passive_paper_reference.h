@@ -21,10 +21,6 @@
 
 static struct scene scene; /* the scene that is searched */
 
-/*
- * ---- crossings --------------------------------------------------------------------------------
- */
-
 #define CROSSINGS_MAX (SCENE_SCANS * LOOK_MAX * LOOK_MAX)
 #define PAIRS_MAX 6
 #define ROWS_MAX 90
@@ -155,10 +151,6 @@ static void cross_pair(unsigned a, unsigned b, const struct rho_passive_paper_co
         cross_scan(a, b, k, config);
     }
 }
-
-/*
- * ---- planes -----------------------------------------------------------------------------------
- */
 
 /*
  * Votes of a pair: `sure` without crossings near a border of cells, `most` with them on both sides.
@@ -307,10 +299,6 @@ static inline int fill_heights(const struct rho_passive_paper_config *config, un
     return is_sure && !is_doubtful;
 }
 
-/*
- * ---- lines ------------------------------------------------------------------------------------
- */
-
 struct place {
     int row, column;
 };
@@ -407,10 +395,6 @@ static inline void expect_line(const struct rho_passive_paper_line *line, struct
     assert_int_equal(line->votes_sum, height - 1);
     assert_int_equal(line->votes, least);
 }
-
-/*
- * ---- states -----------------------------------------------------------------------------------
- */
 
 /* Sums over the crossings that voted for a line; times are relative to the newest scan. */
 struct sums {

@@ -53,10 +53,6 @@ static void peaks_agree_with_the_whole_plane_at_coarse_cells(void **state)
     }
 }
 
-/*
- * ---- lines and votes --------------------------------------------------------------------------
- */
-
 /* A target on a line, with one point a scan. */
 static void add_points_on_line(unsigned num_scans, double from_x_m, double from_y_m, double dx_m,
                                double dy_m)
@@ -82,7 +78,8 @@ static void a_line_is_found_at_its_theta_and_rho(void **state)
         assert_true(result.num_peaks >= 1);
         assert_int_equal(peaks[0].mask, 0x7f);
         double theta = rho_accumulator_theta_rad(&accumulator, peaks[0].theta_cell);
-        double rho = rho_accumulator_rho_m(&accumulator, peaks[0].rho_cell);
+        double rho =
+            (peaks[0].rho_cell + 0.5) * (double)config.rho_cell_m - (double)config.rho_max_m;
         double normal = course + 1.5707963267948966;
         double turned = sin(theta - normal); /* 0 for parallel or opposite directions */
         assert_float_equal(turned, 0.0, 0.004);
@@ -246,10 +243,6 @@ static void without_points_there_are_no_peaks(void **state)
     assert_int_equal(result.num_peaks + result.votes + result.votes_max, 0);
 }
 
-/*
- * ---- suppression ------------------------------------------------------------------------------
- */
-
 static int are_peaks_near(const struct rho_accumulator_peak *a,
                           const struct rho_accumulator_peak *b, int theta_cells, int rho_cells)
 {
@@ -295,10 +288,6 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
     }
     assert_true(kept < all);
 }
-
-/*
- * ---- refusals ---------------------------------------------------------------------------------
- */
 
 #define REFUSED(field, value)                                                                      \
     do {                                                                                           \

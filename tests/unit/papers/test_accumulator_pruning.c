@@ -51,10 +51,6 @@ static void expect_peaks_of_whole_plane(const struct rho_accumulator_config *con
     assert_memory_equal(peaks, expected, count * sizeof peaks[0]);
 }
 
-/*
- * ---- random cases -----------------------------------------------------------------------------
- */
-
 /* Adds points scan by scan: one of each target, then clutter. */
 static void add_targets_and_clutter(unsigned num_scans, unsigned num_targets, unsigned clutter,
                                     double half_m)
@@ -132,10 +128,6 @@ static struct rho_accumulator_config random_case(int is_paper, unsigned clutter_
     distort_points(random_below(8), half_m);
     return random_config(half_m, is_paper, num_scans);
 }
-
-/*
- * ---- comparisons ------------------------------------------------------------------------------
- */
 
 static void pruning_changes_no_peak_and_no_count(void **state)
 {

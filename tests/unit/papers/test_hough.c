@@ -11,10 +11,6 @@
 static const enum rho_hough_method methods[] = {RHO_HOUGH_HT, RHO_HOUGH_MHT, RHO_HOUGH_IHT,
                                                 RHO_HOUGH_NHT_A, RHO_HOUGH_NHT_C};
 
-/*
- * ---- the papers' scenes -----------------------------------------------------------------------
- */
-
 static struct line line_of_target(int target)
 {
     return line_of_plots((unsigned)target, (unsigned)(target + 3));
@@ -134,10 +130,6 @@ static void lines_mirrored_in_an_axis_are_two_peaks(void **state)
     }
 }
 
-/*
- * ---- the Hough transform ----------------------------------------------------------------------
- */
-
 static void hough_votes_agree_with_double_precision(void **state)
 {
     (void)state;
@@ -188,10 +180,6 @@ static void votes_count_points_or_scans(void **state)
     assert_int_equal(peaks[0].votes, 4 * RHO_HOUGH_VOTE);
     assert_int_equal(peaks[0].mask, 0xf);
 }
-
-/*
- * ---- plots that voted -------------------------------------------------------------------------
- */
 
 /* The plots that voted for a cell; is_sure is 0 if some vote was near a limit. */
 struct voters {

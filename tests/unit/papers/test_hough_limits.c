@@ -16,10 +16,6 @@ static const enum rho_hough_method methods[] = {RHO_HOUGH_HT, RHO_HOUGH_MHT, RHO
 
 static struct rho_hough was;
 
-/*
- * ---- configurations ---------------------------------------------------------------------------
- */
-
 static void expect_config_refused(void)
 {
     memset(&hough, 0x5a, sizeof hough);
@@ -144,10 +140,6 @@ static void cells_have_the_theta_and_rho_of_their_centres(void **state)
     assert_float_equal(rho_hough_rho_m(&hough, 1999), 4997.5, 1e-3);
     assert_true(sizeof hough <= RHO_RAM_HOUGH_BYTES);
 }
-
-/*
- * ---- refused inputs ---------------------------------------------------------------------------
- */
 
 /* Expects the input refused; peaks, result and track stay as they were. */
 static void expect_input_refused(enum rho_status expected, const struct rho_hough_points *input)
@@ -311,10 +303,6 @@ static void thresholds_are_not_rounded_down(void **state)
     assert_int_equal(result.num_peaks, 0);
 }
 
-/*
- * ---- capacities -------------------------------------------------------------------------------
- */
-
 static void the_best_peaks_are_the_same_for_any_room(void **state)
 {
     (void)state;
@@ -405,10 +393,6 @@ static void kernels_beyond_the_capacity_are_counted(void **state)
 }
 
 #endif
-
-/*
- * ---- extreme inputs ---------------------------------------------------------------------------
- */
 
 static void expect_nothing(void)
 {
@@ -536,10 +520,6 @@ static void pairs_are_counted_without_a_search(void **state)
     assert_int_equal(candidates, result.candidates);
     assert_true(pairs > 10 * candidates / 2 && candidates > 1000);
 }
-
-/*
- * ---- repeated runs ----------------------------------------------------------------------------
- */
 
 static void earlier_contents_of_the_object_do_not_matter(void **state)
 {

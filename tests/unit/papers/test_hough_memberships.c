@@ -45,10 +45,6 @@ static struct rho_hough_memberships memberships_of_pair(unsigned first, unsigned
     return of;
 }
 
-/*
- * ---- memberships of one vote ------------------------------------------------------------------
- */
-
 static void a_vote_has_truth_indeterminacy_and_falsity(void **state)
 {
     (void)state;
@@ -135,10 +131,6 @@ static void the_truth_of_a_vote_is_that_of_the_nearest_kernel(void **state)
     print_message("%u votes, of %u truth is not 0\n", compared, true_ones);
     assert_true(compared > 1000 && true_ones > 50 && true_ones < compared);
 }
-
-/*
- * ---- matrices ---------------------------------------------------------------------------------
- */
 
 static uint32_t component_of(const struct rho_hough_memberships *of,
                              enum rho_hough_component component)
@@ -240,10 +232,6 @@ static void the_largest_of_sums_is_at_most_the_sum_of_the_largest(void **state)
         assert_true(equal > 100 && less > 5);
     }
 }
-
-/*
- * ---- planes and searches ----------------------------------------------------------------------
- */
 
 static void a_plane_of_votes_agrees_with_the_search(void **state)
 {

@@ -174,10 +174,6 @@ static void all_builds_give_the_same_cells(void **state)
     }
 }
 
-/*
- * ---- the ends of theta ------------------------------------------------------------------------
- */
-
 static void add_vertical_targets(double noise_m, double lean)
 {
     points.at.num_scans = 0;

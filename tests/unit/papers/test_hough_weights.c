@@ -8,10 +8,6 @@
 #define PARTS                                                                                      \
     16.0 /* largest rounding error of a voter, 2^-12 of a vote; a quarter of that without I */
 
-/*
- * ---- the neutrosophic vote --------------------------------------------------------------------
- */
-
 static void votes_with_indeterminacy_agree_with_double_precision(void **state)
 {
     (void)state;
@@ -85,10 +81,6 @@ static void pairs_that_did_not_vote_are_kernels_for_later_ones(void **state)
     find_peaks();
     assert_int_equal(result.votes, 0);
 }
-
-/*
- * ---- votes in whole numbers --------------------------------------------------------------------
- */
 
 /* Number of peaks in `listed` that the library does not have. */
 static size_t count_missing_peaks(size_t num)

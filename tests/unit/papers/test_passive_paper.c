@@ -17,10 +17,6 @@
 
 static struct rho_passive_paper paper;
 
-/*
- * ---- comparison of lines ----------------------------------------------------------------------
- */
-
 struct agreement {
     unsigned scenes, sure, lines;
 };
@@ -128,10 +124,6 @@ static void votes_may_count_crossings_instead_of_scans(void **state)
 }
 
 /*
- * ---- rho of a crossing, eq. (3) ---------------------------------------------------------------
- */
-
-/*
  * Draws a place within 80 km seen by two of the four sensors; true if float determines its range to
  * a metre.
  */
@@ -208,10 +200,6 @@ static void rho_of_given_places_is_right(void **state)
     assert_float_equal(rho_passive_paper_rho_m(5000.0f, 0.0f, 10e3f, 20e3f, 0.25f * pi),
                        35000.0 / sqrt(2.0), 2e-2);
 }
-
-/*
- * ---- scenes by hand ---------------------------------------------------------------------------
- */
 
 /* Sets a scene that all sensors see without noise or misses. */
 static void set_scene(unsigned sensors, unsigned targets, const struct target *target)
@@ -362,10 +350,6 @@ static void the_ghost_rule_decides_which_crossings_vote(void **state)
     assert_int_equal(ghosts[RHO_GHOST_LITERAL], 16);
     assert_int_equal(ghosts[RHO_GHOST_SAFE], 16);
 }
-
-/*
- * ---- figures ----------------------------------------------------------------------------------
- */
 
 /*
  * Scene and expected figures: share of targets with a line near their path, and other lines a run.

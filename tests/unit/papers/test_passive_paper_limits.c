@@ -59,10 +59,6 @@ static void expect_frame_refused(enum rho_status status)
     assert_memory_equal(full.fates, fates, sizeof fates);
 }
 
-/*
- * ---- configuration ----------------------------------------------------------------------------
- */
-
 static void expect_config_status(const struct rho_passive_paper_config *config,
                                  enum rho_status status)
 {
@@ -162,10 +158,6 @@ static void the_object_has_a_bounded_size(void **state)
     assert_true(sizeof paper < (RHO_MAX_BEARINGS > 8 ? 90u : 48u) * 1024u);
 }
 
-/*
- * ---- refusals ---------------------------------------------------------------------------------
- */
-
 static void null_pointers_are_refused(void **state)
 {
     (void)state;
@@ -232,10 +224,6 @@ static void sensors_too_far_apart_for_the_cells_are_refused(void **state)
     full.scans[1].y_m = -10e3f + 55.9e3f;
     assert_int_equal(rho_passive_paper_push(&paper, &full.frame, full.fates), RHO_OK);
 }
-
-/*
- * ---- too few frames or sensors ----------------------------------------------------------------
- */
 
 static void fewer_than_four_frames_make_no_line(void **state)
 {
@@ -311,10 +299,6 @@ static void lines_of_one_scan_have_no_state(void **state)
         assert_true(line->x_m * line->x_m + line->vx_mps * line->vx_mps < 1e-9f);
     }
 }
-
-/*
- * ---- full capacities --------------------------------------------------------------------------
- */
 
 /* Adds bearings that all cross those of the other sensor within 100 km. */
 static void fill_scans_with_bearings(void)

@@ -40,10 +40,6 @@ static struct rho_votes_picture whole_plane(void)
     return (struct rho_votes_picture){.height = (uint16_t)rows, .width = COLUMNS, .votes = picture};
 }
 
-/*
- * ---- pairs and parameter space ----------------------------------------------------------------
- */
-
 static void pairs_are_in_the_order_of_the_search(void **state)
 {
     (void)state;
@@ -75,10 +71,6 @@ static void rho_is_measured_from_the_middle_of_the_sensors(void **state)
     assert_int_equal(space.theta_cells, 90);
     assert_int_equal(space.rho_cells, COLUMNS);
 }
-
-/*
- * ---- ghosts -----------------------------------------------------------------------------------
- */
 
 /* Crossings left in all scans are as many as in the reference. */
 static void ghost_matrices_agree_with_the_search(void **state)
@@ -115,10 +107,6 @@ static void ghost_matrices_agree_with_the_search(void **state)
     }
     assert_true(pruned_by_rule > 100);
 }
-
-/*
- * ---- planes -----------------------------------------------------------------------------------
- */
 
 /* Votes are between the reference's sure and possible ones. */
 static void the_plane_of_a_pair_has_its_votes(void **state)
@@ -184,10 +172,6 @@ static void the_plane_of_all_pairs_has_the_cells_that_all_confirm(void **state)
     assert_true(lines > 12);
 }
 
-/*
- * ---- cells of a pair --------------------------------------------------------------------------
- */
-
 static void listed_cells_of_a_pair_have_enough_votes_and_their_scans(void **state)
 {
     (void)state;
@@ -230,10 +214,6 @@ static void listed_cells_of_a_pair_have_enough_votes_and_their_scans(void **stat
     }
     assert_true(cells > 18);
 }
-
-/*
- * ---- refusals ---------------------------------------------------------------------------------
- */
 
 static void views_without_a_search_or_valid_pair_are_refused(void **state)
 {

@@ -20,10 +20,6 @@
 
 static const int axes_of[RHO_GATE_PLANES][2] = {{0, 1}, {0, 2}, {1, 2}};
 
-/*
- * ---- theta* -----------------------------------------------------------------------------------
- */
-
 static double change_of_rho(const double change[2], double theta_rad)
 {
     return fabs(change[0] * cos(theta_rad) + change[1] * sin(theta_rad));
@@ -162,10 +158,6 @@ static void without_a_change_of_velocity_the_lowest_cell_is_chosen(void **state)
     }
 }
 
-/*
- * ---- residuals --------------------------------------------------------------------------------
- */
-
 static void residuals_are_sums_of_rho_over_the_chosen_planes(void **state)
 {
     (void)state;
@@ -238,10 +230,6 @@ static void an_accelerating_target_has_a_smaller_residual_than_clutter(void **st
     }
     assert_in_range(right, 990, 1000);
 }
-
-/*
- * ---- refusals ---------------------------------------------------------------------------------
- */
 
 static void assert_init_refused(uint8_t planes, float theta_cell_rad, const float before_mps[3],
                                 const float newest_mps[3], enum rho_status expected)

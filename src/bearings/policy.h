@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * policy: constants of this room that neither physics nor a parameter sets; tools/gates/mutate.py
+ * changes each.
+ */
+#ifndef RHOTRACK_BEARINGS_POLICY_H
+#define RHOTRACK_BEARINGS_POLICY_H
+
+/* several files of the search */
+
+/*
+ * Smallest gain of a total score that counts, so that rounding does not keep exchanges going. Half
+ * or twice: still far above rounding and below a bearing's worth.
+ */
+#define GAIN_MIN_NAT 1.0e-3f
+/*
+ * Half width, in sigmas of rho, of a crossing's votes and of the band in which it is on a line.
+ * Half: a third of a target's crossings miss its line. Twice: lines blur, and ghosts join them.
+ */
+#define SPREAD_SIGMAS 2.0f
+/*
+ * Best candidates from which choices start, and whose bearings are swapped in pairs. Half: targets
+ * behind ghosts of the lower half stay hidden. Twice: four times as many swaps.
+ */
+#define BEST_TRIED 12u
+
+/* passive.c */
+
+/*
+ * Lines that a pass takes. Half: in dense scenes weak targets are not reached. Twice: the longest
+ * search takes twice the time.
+ */
+#define LINES_MAX 96u
+/*
+ * Smallest number of scans whose crossings must vote for a line; one scan tells no velocity. Half:
+ * where few scans have two sensors each crossing is a line. Twice: short batches need all scans.
+ */
+#define VOTES_MIN 2u
+/*
+ * Share of the scans with crossings that must vote for a line; less in the second pass, where fewer
+ * bearings are left. Half: many lines of ghosts are fitted. Twice: a target with misses has none.
+ */
+#define FIRST_VOTES_SHARE 0.6f
+#define SECOND_VOTES_SHARE 0.5f
+
+/* passive_bearings_near_state.c */
+
+/*
+ * Bearings farther than this from the predicted bearing never match: a hypothesis through two
+ * crossings has several times a bearing's error. Half: true hypotheses look empty. Twice: ghosts
+ * agree with bearings of others.
+ */
+#define MATCH_SIGMAS 9.0f
+
+/* passive_best_candidate_subset.c, passive_candidate_list.c */
+
+/*
+ * Share of a candidate's bearings at which another is the same target for the margin. Half: targets
+ * side by side count as one. Twice: other fits of the target take its place, and margins vanish.
+ */
+#define SAME_TARGET_SHARE 0.7f
+/*
+ * Share at which the lower of two candidates is dropped as a duplicate. Half: targets side by side
+ * lose theirs. Twice: no candidate is dropped, and the list fills.
+ */
+#define DUPLICATE_SHARE 0.8f
+
+/* passive_crossings.c */
+
+/*
+ * A third sensor's bearing within this of a crossing supports it. Half: one true crossing in eight
+ * has no support. Twice: ghosts find support by chance.
+ */
+#define SUPPORT_SIGMAS 3.0f
+
+/* passive_fit.c */
+
+/*
+ * Gate of a track's bearings, 99.95 % of them. Half: one bearing in twelve is a miss. Twice: false
+ * bearings pull the fit.
+ */
+#define BEARING_GATE_SIGMAS 3.5f
+/*
+ * Sigma of the weak prior of speed, which keeps fits from diverging. Half: fast targets are pulled
+ * to rest where the bearings say little. Twice: poorly observed fits wander.
+ */
+#define SPEED_PRIOR_MPS 500.0f
+/*
+ * Sigma of the motion model: it limits the weight of bearings taken near a sensor. Half or twice:
+ * four times more or less weight at most, felt only within some hundred metres.
+ */
+#define EXACT_M 1.0f
+/*
+ * Largest change of a state component in a step, in range_max_m. Half: bad starts do not arrive in
+ * four steps. Twice: they overshoot.
+ */
+#define STEP_MAX_RANGES 0.1f
+/*
+ * Largest magnitude of a state component, in range_max_m. Half: positions at the limit of range are
+ * clipped. Twice: diverged fits lose more digits.
+ */
+#define POSITION_MAX_RANGES 2.0f
+
+/* passive_fit_of_several_tracks.c */
+
+/* Rounds of assignment and fit. Half: assignments of the start stay. Twice: hardly any change. */
+#define FIT_ROUNDS 3u
+
+/* passive_hough_votes_of_crossings.c */
+
+/*
+ * Cells on either side that a crossing's votes may reach. Half: poor crossings miss their line.
+ * Twice: one poor crossing votes for lines in half the plane.
+ */
+#define SPREAD_CELLS_MAX 8
+/*
+ * Cells on either side that are cleared with a line. Half: a target's line is taken several times.
+ * Twice: targets on similar courses lose their line.
+ */
+#define NEIGHBOUR_CELLS 2
+
+/* passive_hypotheses_from_crossing_pairs.c */
+
+/*
+ * Crossings within this many rho cells always count as on the line. Half: those of the cell's edge
+ * may not. Twice: crossings of other targets are tried too.
+ */
+#define LINE_CELLS 1.5f
+/*
+ * Scans between two crossings of a pair: closer ones tell little of the velocity. Half: poor
+ * hypotheses fill the list. Twice: short tracks have no pair.
+ */
+#define PAIR_SCANS_MIN 3u
+/*
+ * Margin above v_max_mps for the speed of a pair, as crossings are inaccurate before the fit. Half:
+ * some fast targets get no hypothesis. Twice: more hypotheses that cannot be tracks.
+ */
+#define SPEED_SLACK_MPS 150.0f
+/*
+ * Crossings of a line that are paired. Half: those of the last sensor pairs are left out in dense
+ * scenes. Twice: four times the pairs.
+ */
+#define LINE_POINTS_MAX 160u
+/* Pairs of a line that are fitted. Half: true pairs are missed among ghosts. Twice: the time. */
+#define FITS_PER_LINE 20u
+
+/* passive_prepare.c */
+
+/*
+ * Floor of the density of false bearings, so that an empty sky does not make every bearing certain.
+ * Half or twice: 0.7 nat more or less a bearing where there are few.
+ */
+#define DENSITY_MIN_PER_RAD 0.3f
+/*
+ * Largest ratio of sigmas: float32 has too few digits for the normal equations of very different
+ * bearings. Half: the most exact bearings count a quarter. Twice: two bits more are lost.
+ */
+#define SIGMA_RATIO_MAX 200.0f
+
+/* passive_score_lost_without_a_track.c: the final tracks */
+
+/*
+ * Alternatives whose total is lower than the best choice's by more than this are not fitted, as a
+ * fit gains less. Half: some margins are too large. Twice: time for sets that cannot win.
+ */
+#define ALTERNATIVES_WITHIN_NAT 20.0f
+/* Alternatives fitted for each track. Half: margins may be too large. Twice: twice the time. */
+#define ALTERNATIVES_MAX 4u
+/* Times that another set may become the best. Half: a better one may be missed. Twice: the time. */
+#define CHANGES_MAX 4u
+
+#endif
