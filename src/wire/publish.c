@@ -22,9 +22,9 @@ uint16_t rho_publish_num_parts(const struct rho_report *report)
     return (uint16_t)rho_num_parts(report ? num_entries(report) : 0, PART_TRACKS);
 }
 
-static struct rho_message_track live_track(const struct rho_track_report *track)
+static void fill_live_track(const struct rho_track_report *track, struct rho_message_track *message)
 {
-    struct rho_message_track message = {
+    *message = (struct rho_message_track){
         .track_id = (int32_t)(track->track_id & INT32_MAX),
         .status = track->status == RHO_TRACK_CONFIRMED  ? RHO_MESSAGE_TRACK_CONFIRMED
                   : track->status == RHO_TRACK_COASTING ? RHO_MESSAGE_TRACK_COASTING
@@ -46,8 +46,7 @@ static struct rho_message_track live_track(const struct rho_track_report *track)
         .score_nat = track->score_nat,
         .maneuver_probability = track->maneuver_probability,
     };
-    memcpy(message.covariance, track->covariance, sizeof message.covariance);
-    return message;
+    memcpy(message->covariance, track->covariance, sizeof message->covariance);
 }
 
 enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step, int32_t epoch,
@@ -67,16 +66,18 @@ enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step
         .part = (int16_t)part,
         .num_parts = (int16_t)rho_publish_num_parts(report)};
     struct rho_message_writer writer;
+    struct rho_message_track track;
     enum rho_status status = rho_message_track_list_begin(&writer, buffer, capacity, &head);
     for (unsigned i = part * PART_TRACKS;
          i < num_entries(report) && i < (part + 1u) * PART_TRACKS && status == RHO_OK; i++) {
-        const struct rho_message_track track =
-            i < report->num_tracks
-                ? live_track(&report->tracks[i])
-                : (struct rho_message_track){
-                      .track_id = (int32_t)(report->ended[i - report->num_tracks] & INT32_MAX),
-                      .status = RHO_MESSAGE_TRACK_DELETED,
-                      .plot = -1};
+        if (i < report->num_tracks) {
+            fill_live_track(&report->tracks[i], &track);
+        } else {
+            track = (struct rho_message_track){
+                .track_id = (int32_t)(report->ended[i - report->num_tracks] & INT32_MAX),
+                .status = RHO_MESSAGE_TRACK_DELETED,
+                .plot = -1};
+        }
         status = rho_message_track_list_add(&writer, &track);
     }
     return status == RHO_OK ? rho_message_end(&writer, size) : status;
