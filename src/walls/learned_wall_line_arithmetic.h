@@ -3,8 +3,8 @@
  * learned_wall_line_arithmetic: arithmetic of a line that may be a wall: places along and across
  * it, its uncertainty and its refinement. Private to src/walls.
  */
-#ifndef RHOTRACK_LEARNED_WALL_LINE_ARITHMETIC_H
-#define RHOTRACK_LEARNED_WALL_LINE_ARITHMETIC_H
+#ifndef RHOTRACK_WALL_LINE_H
+#define RHOTRACK_WALL_LINE_H
 
 #include "policy.h"
 #include "rhotrack/detail/approx.h"

@@ -3,8 +3,8 @@
  * Functions that are private to the scan assembler: decoding of messages, admission of scans, slots
  * in which scans are assembled, and the conversion of messages to plots.
  */
-#ifndef RHOTRACK_SCAN_ASSEMBLER_INTERNAL_H
-#define RHOTRACK_SCAN_ASSEMBLER_INTERNAL_H
+#ifndef RHOTRACK_SCAN_INTERNAL_H
+#define RHOTRACK_SCAN_INTERNAL_H
 
 #include <stddef.h>
 #include <stdint.h>
