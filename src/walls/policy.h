@@ -48,8 +48,8 @@
 
 /*
  * Limit of chi-square that two tracks are beside each other, at one speed along the line: 99 % of
- * two dimensions. Half: every tenth pair of target and image is left out. Twice: tracks in a row
- * are taken for pairs.
+ * two dimensions. Half: every tenth pair of target and image is left out. Twice: tracks that
+ * are not beside each other are taken for pairs.
  */
 #define PAIR_CHI2 9.2f
 
