@@ -323,26 +323,44 @@ static int does_line_lie_on_wall(const struct rho_learned_reflector *line,
            (along_m[0] <= length_m + limit_m || along_m[1] <= length_m + limit_m);
 }
 
-static int does_line_pass_as_wall(const struct rho_learned_reflector *line)
+static void forget_line(struct rho_learned_reflector *line)
+{
+    line->is_taken = line->is_used = 0;
+    line->pairs = 0.0f;
+}
+
+/*
+ * Forgets a line with more witnesses against it than for it; uses it as a wall where it passes as
+ * one, unless the tracker knows that wall already.
+ */
+static void judge_line(struct rho_reflector_learning *learning, const struct rho_tracker *tracker,
+                       struct rho_learned_reflector *line)
 {
     const float sigma_m2 = line->sigma_m * line->sigma_m;
+    if (line->witnesses_against > line->witnesses_for + 1) {
+        forget_line(line);
+        return;
+    }
     /*
      * The line must be as precise as tracks' places are, and the distances at which witnesses
      * passed must spread more than errors explain: two lanes mirror one another at one distance,
      * but for errors and for the cars' places in their lanes.
      */
-    return line->witnesses_for >= WALL_WITNESSES &&
-           line->witnesses_for >= WALL_WITNESSES * line->witnesses_against &&
-           line->late_ones >= WALL_LATE_ONES &&
-           line->distance_m2 >= ERROR_SIGMAS * ERROR_SIGMAS * (line->off_m2 + sigma_m2) &&
-           line_variance_at(line, line->from_m) <= sigma_m2 &&
-           line_variance_at(line, line->to_m) <= sigma_m2;
-}
-
-static void forget_line(struct rho_learned_reflector *line)
-{
-    line->is_taken = line->is_used = 0;
-    line->pairs = 0.0f;
+    if (!line->is_taken || line->is_used || line->witnesses_for < WALL_WITNESSES ||
+        line->witnesses_for < WALL_WITNESSES * line->witnesses_against ||
+        line->late_ones < WALL_LATE_ONES ||
+        !(line->distance_m2 >= ERROR_SIGMAS * ERROR_SIGMAS * (line->off_m2 + sigma_m2)) ||
+        !(line_variance_at(line, line->from_m) <= sigma_m2) ||
+        !(line_variance_at(line, line->to_m) <= sigma_m2)) {
+        return;
+    }
+    line->is_used = learning->num_told + learning->num_used < RHO_MAX_REFLECTORS;
+    for (unsigned i = 0; i < tracker->num_reflectors; i++) {
+        if (does_line_lie_on_wall(line, &tracker->reflectors[i])) {
+            forget_line(line);
+        }
+    }
+    learning->num_used = (uint16_t)(learning->num_used + line->is_used);
 }
 
 int rho_reflector_learning_wall(const struct rho_reflector_learning *learning, unsigned place,
@@ -441,20 +459,9 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     }
     learning->next_line = (learning->next_line + 1u) % RHO_LEARNED_REFLECTORS;
     unsigned num_used = 0;
-    for (unsigned k = 0; k < RHO_LEARNED_REFLECTORS; k++) {
-        struct rho_learned_reflector *line = &learning->lines[k];
-        if (line->witnesses_against > line->witnesses_for + 1) {
-            forget_line(line);
-        } else if (line->is_taken && !line->is_used && does_line_pass_as_wall(line)) {
-            line->is_used = learning->num_told + learning->num_used < RHO_MAX_REFLECTORS;
-            for (unsigned i = 0; i < tracker->num_reflectors; i++) {
-                if (does_line_lie_on_wall(line, &tracker->reflectors[i])) {
-                    forget_line(line); /* the tracker knows the wall already */
-                }
-            }
-            learning->num_used = (uint16_t)(learning->num_used + line->is_used);
-        }
-        num_used += line->is_used;
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        judge_line(learning, tracker, &learning->lines[i]);
+        num_used += learning->lines[i].is_used;
     }
     if (!has_walls && num_used == 0) {
         return RHO_OK;

@@ -102,7 +102,8 @@ const char *rho_show_next(struct rho_show *show, const struct rho_show_source *s
         capacity < RHO_SHOW_MAX_SIZE) {
         return NULL;
     }
-    struct rho_show_output output = {.buffer = buffer, .capacity = capacity};
+    struct rho_show_output output = {.capacity = capacity};
+    output.buffer = buffer;
     output.size = size;
     for (unsigned kind = 0; kind < RHO_NUM_SHOW_KINDS; kind++) {
         struct rho_show_rate *rate = &show->rates[kind];

@@ -101,22 +101,6 @@ static int is_inside_polygon(const struct rho_zone *zone, float x_m, float y_m)
     return inside;
 }
 
-static int is_near_border(const struct rho_zone *zone, float x_m, float y_m)
-{
-    int is_near = 0;
-    for (unsigned i = 0; i < zone->num_corners && !is_near; i++) {
-        const struct zone_side side = side_of_zone(zone, i);
-        const float along_x_m = side.to_x_m - side.x_m, along_y_m = side.to_y_m - side.y_m;
-        const float off_x_m = x_m - side.x_m, off_y_m = y_m - side.y_m;
-        const float length2_m2 = along_x_m * along_x_m + along_y_m * along_y_m;
-        float share = off_x_m * along_x_m + off_y_m * along_y_m;
-        share = share <= 0.0f ? 0.0f : share >= length2_m2 ? 1.0f : share / length2_m2;
-        const float left_x_m = off_x_m - share * along_x_m, left_y_m = off_y_m - share * along_y_m;
-        is_near = left_x_m * left_x_m + left_y_m * left_y_m <= zone->margin_m * zone->margin_m;
-    }
-    return is_near;
-}
-
 /* Events */
 
 /* The values of a reported track that zones use. */
@@ -187,13 +171,24 @@ static void update_zone(struct rho_zones *zones, struct rho_zone_visitor *visito
     struct rho_zone_counts *counts = &zones->counts[place];
     const int was_inside = (int)(visitor->inside >> place & 1u);
     const int inside = is_inside_polygon(zone, track->x_m, track->y_m);
+    int leaves = was_inside && !inside; /* and is farther than the margin from each side */
+    for (unsigned i = 0; i < zone->num_corners && leaves; i++) {
+        const struct zone_side side = side_of_zone(zone, i);
+        const float along_x_m = side.to_x_m - side.x_m, along_y_m = side.to_y_m - side.y_m;
+        const float off_x_m = track->x_m - side.x_m, off_y_m = track->y_m - side.y_m;
+        const float length2_m2 = along_x_m * along_x_m + along_y_m * along_y_m;
+        float share = off_x_m * along_x_m + off_y_m * along_y_m;
+        share = share <= 0.0f ? 0.0f : share >= length2_m2 ? 1.0f : share / length2_m2;
+        const float left_x_m = off_x_m - share * along_x_m, left_y_m = off_y_m - share * along_y_m;
+        leaves = !(left_x_m * left_x_m + left_y_m * left_y_m <= zone->margin_m * zone->margin_m);
+    }
     if (!was_inside && inside && track->is_believed) {
         visitor->inside |= 1u << place;
         visitor->since_us[place] = zones->time_us;
         counts->entered = rho_count(counts->entered, 1);
         (void)add_event(zones, visitor, place, RHO_ZONE_ENTERS, direction_along_lane(zone, track),
                         track->speed_mps);
-    } else if (was_inside && !inside && !is_near_border(zone, track->x_m, track->y_m)) {
+    } else if (leaves) {
         const int8_t direction = direction_along_lane(zone, track);
         const float dwell_s =
             add_event(zones, visitor, place, RHO_ZONE_LEAVES, direction, track->speed_mps);
@@ -234,26 +229,9 @@ static void update_zone(struct rho_zones *zones, struct rho_zone_visitor *visito
     occupants->queued++;
 }
 
-enum rho_status rho_zones_step(struct rho_zones *zones, const struct rho_report *report)
+/* Removes visitors whose track has ended, with an event, or is in no zone any more. */
+static void remove_gone_visitors(struct rho_zones *zones, const struct rho_report *report)
 {
-    if (!zones || !report) {
-        return RHO_ERROR_NULL;
-    }
-    if (zones->magic != ZONES_MAGIC) {
-        return RHO_ERROR_STATE;
-    }
-    if (report->num_tracks > RHO_MAX_TRACKS) {
-        return RHO_ERROR_VALUE;
-    }
-    zones->num_events = 0;
-    if (report->time_us < zones->time_us) {
-        for (unsigned i = 0; i < zones->num_visitors; i++) {
-            end_visits(zones, &zones->visitors[i]);
-        }
-        zones->num_visitors = 0;
-    }
-    zones->time_us = report->time_us;
-    /* visitors whose track has ended are removed, with an event, and those in no zone any more */
     unsigned kept = 0, from = 0; /* a visitor's report is sought from behind the one before */
     for (unsigned i = 0; i < zones->num_visitors; i++) {
         const struct rho_zone_visitor *visitor = &zones->visitors[i];
@@ -273,9 +251,31 @@ enum rho_status rho_zones_step(struct rho_zones *zones, const struct rho_report 
         }
     }
     zones->num_visitors = (uint16_t)kept;
+}
+
+enum rho_status rho_zones_step(struct rho_zones *zones, const struct rho_report *report)
+{
+    if (!zones || !report) {
+        return RHO_ERROR_NULL;
+    }
+    if (zones->magic != ZONES_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    if (report->num_tracks > RHO_MAX_TRACKS) {
+        return RHO_ERROR_VALUE;
+    }
+    zones->num_events = 0;
+    if (report->time_us < zones->time_us) {
+        for (unsigned i = 0; i < zones->num_visitors; i++) {
+            end_visits(zones, &zones->visitors[i]);
+        }
+        zones->num_visitors = 0;
+    }
+    zones->time_us = report->time_us;
+    remove_gone_visitors(zones, report);
     /* all zones by each track, in the order of the report, and then the zones' counts */
     struct occupants occupants_of[RHO_MAX_ZONES] = {{0}};
-    from = 0;
+    unsigned from = 0;
     for (unsigned i = 0; i < report->num_tracks; i++) {
         const struct rho_track_report *reported = &report->tracks[i];
         const float vx_mps = reported->state[RHO_VX], vy_mps = reported->state[RHO_VY];
