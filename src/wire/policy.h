@@ -21,9 +21,9 @@
 #define CLOCK_OFFSET_SHARE 8
 
 /*
- * scan_admission.c: scan intervals of silence after which a sensor may have stopped: two scans may be
- * lost. Half: a sensor that loses a scan has no say against newcomers. Twice: newcomers wait
- * longer for a sensor that has gone.
+ * scan_admission.c: scan intervals of silence after which a sensor may have stopped: two may be
+ * lost. Half: a sensor that loses a scan has no say against newcomers. Twice: newcomers wait longer
+ * for a sensor that has gone.
  */
 #define PRESENT_INTERVALS 3u
 
