@@ -156,7 +156,10 @@ RHO_MUST_CHECK enum rho_status rho_reflector_learning_step(struct rho_reflector_
 int rho_reflector_learning_wall(const struct rho_reflector_learning *learning, unsigned place,
                                 struct rho_reflector *reflector);
 
-/* True where an object of unknown origin (a snapshot) is consistent. Constant cost. */
+/*
+ * True where an object of unknown origin (a snapshot) is consistent. Constant cost.
+ * Stack: 112 bytes.
+ */
 int rho_reflector_learning_is_sound(const struct rho_reflector_learning *learning);
 
 #ifdef __cplusplus

@@ -376,7 +376,7 @@ RHO_MUST_CHECK enum rho_status rho_scan_assembler_take(struct rho_scan_assembler
  * now_us INT64_MAX: all that is there goes out.
  * Returns 0 where nothing is due, or assembler is not initialised. Cost: RHO_MAX_OPEN_SCANS times
  * RHO_MAX_SENSORS.
- * Stack: 290 bytes.
+ * Stack: 300 bytes.
  */
 int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us,
                             struct rho_scan_assembler_item *item);

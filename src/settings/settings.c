@@ -1,28 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "rhotrack/settings.h"
 
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
-
-/*
- * Share of the largest acceleration that the initiator assumes turning targets to keep for a
- * window.
- */
-#define TURN_SHARE 0.2f
-
-/*
- * Scan intervals by which the network may delay a scan, and the largest late_max_s that a tracker
- * accepts.
- */
-#define LATE_SCANS 2.0f
-#define LATE_LIMIT_S 60.0f
-
-/*
- * Least and largest range_max_m of a passive search; and the span of all its cells of rho over
- * range_max_m: range_max_m either way, and room for the sensors' own places.
- */
-#define PASSIVE_RANGE_MIN_M 1000.0f
-#define PASSIVE_RANGE_MAX_M 500000.0f
-#define PASSIVE_SPAN 2.56f
 
 void rho_settings_default(struct rho_settings *settings)
 {
@@ -44,106 +24,48 @@ void rho_settings_default(struct rho_settings *settings)
     };
 }
 
-/* ---- check --------------------------------------------------------------------------------- */
-
 /*
  * True where the value is finite and in min .. max. Always notes field, value and limits in *fault,
  * so that the first refused one stands there.
  */
-static int is_within_noting_fault(struct rho_settings_fault *fault, const char *field, float value,
-                                  float min, float max)
+static int note_range(struct rho_settings_fault *fault, const char *field, float value, float min,
+                      float max)
 {
     *fault = (struct rho_settings_fault){field, value, min, max};
     return rho_is_within(value, min, max);
 }
 
-/* True where the value is in min .. max, max excluded. Notes field, value and limits in *fault. */
-static int is_below_max_noting_fault(struct rho_settings_fault *fault, const char *field,
-                                     float value, float min, float max)
-{
-    return is_within_noting_fault(fault, field, value, min, max) && value < max;
-}
-
-static int is_length_sigma_noting_fault(struct rho_settings_fault *fault, const char *field,
-                                        float sigma)
-{
-    return is_within_noting_fault(fault, field, sigma, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX);
-}
-
-static int is_angle_sigma_noting_fault(struct rho_settings_fault *fault, const char *field,
-                                       float sigma_rad)
-{
-    return is_within_noting_fault(fault, field, sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN,
-                                  RHO_LIMIT_SIGMA_RAD_MAX);
-}
-
-static int has_usable_targets(const struct rho_settings *settings, struct rho_settings_fault *fault)
-{
-    return is_within_noting_fault(fault, "v_max_mps", settings->v_max_mps, 1.0f,
-                                  RHO_LIMIT_SPEED_MPS) &&
-           is_below_max_noting_fault(fault, "v_min_mps", settings->v_min_mps, 0.0f,
-                                     settings->v_max_mps) &&
-           is_within_noting_fault(fault, "accel_max_mps2", settings->accel_max_mps2, 0.0f, 1000.0f);
-}
-
-static int has_usable_sensor_values(const struct rho_settings *settings,
-                                    struct rho_settings_fault *fault)
-{
-    return is_within_noting_fault(fault, "pd", settings->pd, 0.01f, 0.999f) &&
-           is_within_noting_fault(fault, "scan_interval_s", settings->scan_interval_s, 1e-3f,
-                                  3600.0f) &&
-           is_length_sigma_noting_fault(fault, "sigma_range_m", settings->sigma_range_m) &&
-           is_angle_sigma_noting_fault(fault, "sigma_azimuth_rad", settings->sigma_azimuth_rad) &&
-           is_angle_sigma_noting_fault(fault, "sigma_elevation_rad",
-                                       settings->sigma_elevation_rad) &&
-           is_length_sigma_noting_fault(fault, "sigma_range_rate_mps",
-                                        settings->sigma_range_rate_mps) &&
-           is_angle_sigma_noting_fault(fault, "sigma_rad", settings->sigma_rad) &&
-           is_within_noting_fault(fault, "range_max_m", settings->range_max_m, 1.0f,
-                                  2.0f * RHO_LIMIT_POSITION_M) &&
-           is_below_max_noting_fault(fault, "range_min_m", settings->range_min_m, 0.0f,
-                                     settings->range_max_m);
-}
-
-static int has_usable_area(const struct rho_settings *settings, struct rho_settings_fault *fault)
-{
-    const struct rho_extent *area = &settings->area;
-    const float limit_m = RHO_LIMIT_POSITION_M;
-    return !settings->area_is_fixed ||
-           (is_within_noting_fault(fault, "area.x_max_m", area->x_max_m, -limit_m, limit_m) &&
-            is_within_noting_fault(fault, "area.y_max_m", area->y_max_m, -limit_m, limit_m) &&
-            is_below_max_noting_fault(fault, "area.x_min_m", area->x_min_m, -limit_m,
-                                      area->x_max_m) &&
-            is_below_max_noting_fault(fault, "area.y_min_m", area->y_min_m, -limit_m,
-                                      area->y_max_m));
-}
-
-static int has_usable_rates_and_limits(const struct rho_settings *settings,
-                                       struct rho_settings_fault *fault)
-{
-    const float scans = settings->scans;
-    return is_within_noting_fault(fault, "false_tracks_per_hour", settings->false_tracks_per_hour,
-                                  1e-6f, 1e6f) &&
-           is_within_noting_fault(fault, "scans", scans, 3.0f, (float)RHO_MAX_SCANS) &&
-           (settings->min_scans == 0 ||
-            is_within_noting_fault(fault, "min_scans", settings->min_scans, 3.0f, scans)) &&
-           is_within_noting_fault(fault, "coast_scans_max", settings->coast_scans_max, 1.0f,
-                                  (float)UINT8_MAX) &&
-           is_within_noting_fault(fault, "work_max", (float)settings->work_max, 0.0f,
-                                  (float)RHO_LIMIT_WORK) &&
-           /* compared as an integer, too: the float may have been rounded down to the limit */
-           settings->work_max <= RHO_LIMIT_WORK;
-}
+#define IS_WITHIN(field, min, max)                                                                 \
+    note_range(&first, #field, (float)settings->field, (float)(min), (float)(max))
+#define IS_BELOW(field, min, max) (IS_WITHIN(field, min, max) && settings->field < (max))
+#define IS_LENGTH_SIGMA(field) IS_WITHIN(field, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX)
+#define IS_ANGLE_SIGMA(field) IS_WITHIN(field, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX)
 
 enum rho_status rho_settings_check(const struct rho_settings *settings,
                                    struct rho_settings_fault *fault)
 {
+    const float limit_m = RHO_LIMIT_POSITION_M;
     struct rho_settings_fault first;
     if (!settings) {
         return RHO_ERROR_NULL;
     }
-    if (has_usable_targets(settings, &first) && has_usable_sensor_values(settings, &first) &&
-        has_usable_area(settings, &first) && has_usable_rates_and_limits(settings, &first)) {
+    if (IS_WITHIN(v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
+        IS_BELOW(v_min_mps, 0.0f, settings->v_max_mps) &&
+        IS_WITHIN(accel_max_mps2, 0.0f, 1000.0f) && IS_WITHIN(pd, 0.01f, 0.999f) &&
+        IS_WITHIN(scan_interval_s, 1e-3f, 3600.0f) && IS_LENGTH_SIGMA(sigma_range_m) &&
+        IS_ANGLE_SIGMA(sigma_azimuth_rad) && IS_ANGLE_SIGMA(sigma_elevation_rad) &&
+        IS_LENGTH_SIGMA(sigma_range_rate_mps) && IS_ANGLE_SIGMA(sigma_rad) &&
+        IS_WITHIN(range_max_m, 1.0f, 2.0f * limit_m) &&
+        IS_BELOW(range_min_m, 0.0f, settings->range_max_m) &&
+        (!settings->area_is_fixed || (IS_WITHIN(area.x_max_m, -limit_m, limit_m) &&
+                                      IS_WITHIN(area.y_max_m, -limit_m, limit_m) &&
+                                      IS_BELOW(area.x_min_m, -limit_m, settings->area.x_max_m) &&
+                                      IS_BELOW(area.y_min_m, -limit_m, settings->area.y_max_m))) &&
+        IS_WITHIN(false_tracks_per_hour, 1e-6f, 1e6f) && IS_WITHIN(scans, 3, RHO_MAX_SCANS) &&
+        (settings->min_scans == 0 || IS_WITHIN(min_scans, 3, settings->scans)) &&
+        IS_WITHIN(coast_scans_max, 1, UINT8_MAX) && IS_WITHIN(work_max, 0, RHO_LIMIT_WORK) &&
+        /* compared as an integer, too: the float may have been rounded down to the limit */
+        settings->work_max <= RHO_LIMIT_WORK) {
         return RHO_OK;
     }
     if (fault) {
@@ -152,55 +74,39 @@ enum rho_status rho_settings_check(const struct rho_settings *settings,
     return RHO_ERROR_CONFIG;
 }
 
-/* ---- apply --------------------------------------------------------------------------------- */
-
-static void apply_to_tracker(const struct rho_settings *settings, struct rho_tracker_config *config)
-{
-    config->pd = settings->pd;
-    config->v_min_mps = settings->v_min_mps;
-    config->v_max_mps = settings->v_max_mps;
-    config->accel_max_mps2 = settings->accel_max_mps2;
-    config->coast_scans_max = settings->coast_scans_max;
-    config->work_max = settings->work_max;
-    config->late_max_s = rho_smaller(LATE_SCANS * settings->scan_interval_s, LATE_LIMIT_S);
-}
-
-static void apply_to_initiator(const struct rho_settings *settings,
-                               struct rho_initiator_config *config)
-{
-    config->scans = settings->scans;
-    config->min_scans = settings->min_scans;
-    config->v_min_mps = settings->v_min_mps;
-    config->v_max_mps = settings->v_max_mps;
-    config->pd = settings->pd;
-    config->false_tracks_per_hour = settings->false_tracks_per_hour;
-    config->turn_mps2 = TURN_SHARE * settings->accel_max_mps2;
-    config->work_max = settings->work_max;
-    config->area_is_fixed = settings->area_is_fixed;
-    config->area = settings->area;
-}
-
-static void apply_to_passive(const struct rho_settings *settings, struct rho_passive_config *config)
-{
-    const float range_m = rho_smaller(settings->range_max_m, PASSIVE_RANGE_MAX_M);
-    config->range_max_m = range_m > PASSIVE_RANGE_MIN_M ? range_m : PASSIVE_RANGE_MIN_M;
-    config->rho_cell_m = PASSIVE_SPAN * config->range_max_m / (float)RHO_PASSIVE_RHO_CELLS;
-    config->v_max_mps = settings->v_max_mps;
-    config->pd = settings->pd;
-    config->false_tracks_per_hour = settings->false_tracks_per_hour;
-}
-
 void rho_settings_apply(const struct rho_settings *settings, struct rho_tracker_config *tracker,
                         struct rho_initiator_config *initiator, struct rho_passive_config *passive)
 {
     if (tracker) {
-        apply_to_tracker(settings, tracker);
+        tracker->pd = settings->pd;
+        tracker->v_min_mps = settings->v_min_mps;
+        tracker->v_max_mps = settings->v_max_mps;
+        tracker->accel_max_mps2 = settings->accel_max_mps2;
+        tracker->coast_scans_max = settings->coast_scans_max;
+        tracker->work_max = settings->work_max;
+        /* at most what a tracker accepts */
+        tracker->late_max_s = rho_smaller(LATE_SCANS * settings->scan_interval_s, 60.0f);
     }
     if (initiator) {
-        apply_to_initiator(settings, initiator);
+        initiator->scans = settings->scans;
+        initiator->min_scans = settings->min_scans;
+        initiator->v_min_mps = settings->v_min_mps;
+        initiator->v_max_mps = settings->v_max_mps;
+        initiator->pd = settings->pd;
+        initiator->false_tracks_per_hour = settings->false_tracks_per_hour;
+        initiator->turn_mps2 = TURN_SHARE * settings->accel_max_mps2;
+        initiator->work_max = settings->work_max;
+        initiator->area_is_fixed = settings->area_is_fixed;
+        initiator->area = settings->area;
     }
     if (passive) {
-        apply_to_passive(settings, passive);
+        /* within the limits of a passive search */
+        const float range_m = rho_smaller(settings->range_max_m, 500000.0f);
+        passive->range_max_m = range_m > 1000.0f ? range_m : 1000.0f;
+        passive->rho_cell_m = PASSIVE_SPAN * passive->range_max_m / (float)RHO_PASSIVE_RHO_CELLS;
+        passive->v_max_mps = settings->v_max_mps;
+        passive->pd = settings->pd;
+        passive->false_tracks_per_hour = settings->false_tracks_per_hour;
     }
 }
 

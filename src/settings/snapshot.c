@@ -13,27 +13,29 @@
  * Offsets and sizes of a snapshot image's fields, in bytes. Numbers have the least significant byte
  * first on every machine.
  */
-#define MAGIC_AT 0u
-#define VERSION_AT 8u
-#define LAYOUT_AT 12u
-#define SIZE_AT 16u
-#define NUM_PARTS_AT 20u
-#define HEADER_BYTES 24u
-#define PART_BYTES 16u /* fields of a part: kind, id, size, 0 */
-#define END_BYTES 8u   /* fields at the end of an image: 0, checksum */
+enum {
+    MAGIC_AT = 0,
+    VERSION_AT = 8,
+    LAYOUT_AT = 12,
+    SIZE_AT = 16,
+    NUM_PARTS_AT = 20,
+    HEADER_BYTES = 24,
+    PART_BYTES = 16, /* fields of a part: kind, id, size, 0 */
+    END_BYTES = 8    /* fields at the end of an image: 0, checksum */
+};
 
 static const uint8_t magic[8] = {'r', 'h', 'o', 's', 'n', 'a', 'p', '\n'};
 
-/* ---- numbers and checksum -------------------------------------------------------------------- */
+/* Numbers and checksum */
 
-static void put_little_endian_u32(uint8_t *bytes, uint32_t value)
+static void put_u32(uint8_t *bytes, uint32_t value)
 {
     for (unsigned i = 0; i < 4; i++) {
         bytes[i] = (uint8_t)(value >> 8 * i);
     }
 }
 
-static uint32_t get_little_endian_u32(const uint8_t *bytes)
+static uint32_t get_u32(const uint8_t *bytes)
 {
     return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 |
            (uint32_t)bytes[3] << 24;
@@ -56,10 +58,7 @@ static uint32_t add_to_crc(uint32_t crc, const uint8_t *bytes, size_t size)
     return crc;
 }
 
-/* Running CRC-32 after bytes that are followed by their own checksum. */
-#define CRC_OF_ALL 0xdebb20e3u
-
-/* ---- layout ---------------------------------------------------------------------------------- */
+/* Layout */
 
 #define PLACE(type, field) (uint32_t) offsetof(struct type, field)
 
@@ -166,10 +165,10 @@ static uint32_t layout_hash(void)
     return add_to_crc(0, (const uint8_t *)facts, sizeof facts);
 }
 
-/* ---- kinds ----------------------------------------------------------------------------------- */
+/* Kinds */
 
 /* Size of the object of a snapshot kind; 0: there is no such kind in this build. */
-static size_t object_size_of_snapshot_kind(uint32_t kind)
+static size_t size_of_kind(uint32_t kind)
 {
     switch (kind) {
     case RHO_SNAPSHOT_TRACKER:
@@ -189,7 +188,7 @@ static size_t object_size_of_snapshot_kind(uint32_t kind)
     }
 }
 
-static int is_snapshot_object_sound(uint32_t kind, const void *object)
+static int is_object_sound(uint32_t kind, const void *object)
 {
     switch (kind) {
     case RHO_SNAPSHOT_TRACKER:
@@ -211,7 +210,7 @@ static int is_snapshot_object_sound(uint32_t kind, const void *object)
     }
 }
 
-static size_t padding_to_alignment(size_t size)
+static size_t padding_of(size_t size)
 {
     return (RHO_SNAPSHOT_ALIGNMENT - size % RHO_SNAPSHOT_ALIGNMENT) % RHO_SNAPSHOT_ALIGNMENT;
 }
@@ -225,10 +224,10 @@ static enum rho_status check_parts(const struct rho_snapshot_part *parts, unsign
         if (!parts[i].object) {
             return RHO_ERROR_NULL;
         }
-        if (object_size_of_snapshot_kind((uint32_t)parts[i].kind) == 0) {
+        if (size_of_kind((uint32_t)parts[i].kind) == 0) {
             return RHO_ERROR_VALUE;
         }
-        if (object_size_of_snapshot_kind((uint32_t)parts[i].kind) != parts[i].size) {
+        if (size_of_kind((uint32_t)parts[i].kind) != parts[i].size) {
             return RHO_ERROR_SIZE;
         }
     }
@@ -239,7 +238,7 @@ static size_t image_size(const struct rho_snapshot_part *parts, unsigned num_par
 {
     size_t size = HEADER_BYTES + (size_t)num_parts * PART_BYTES + END_BYTES;
     for (unsigned i = 0; i < num_parts; i++) {
-        size += parts[i].size + padding_to_alignment(parts[i].size);
+        size += parts[i].size + padding_of(parts[i].size);
     }
     return size;
 }
@@ -249,7 +248,7 @@ size_t rho_snapshot_size(const struct rho_snapshot_part *parts, unsigned num_par
     return check_parts(parts, num_parts) == RHO_OK ? image_size(parts, num_parts) : 0;
 }
 
-/* ---- save ------------------------------------------------------------------------------------ */
+/* Save */
 
 /*
  * Writer of a snapshot image. All bytes of the image pass in order; those from `from` to before
@@ -263,7 +262,7 @@ struct writer {
 };
 
 /* Writes those bytes that lie in the requested range of the image, and passes over the others. */
-static void put_bytes_in_requested_range(struct writer *writer, const void *data, size_t size)
+static void put_bytes(struct writer *writer, const void *data, size_t size)
 {
     const uint8_t *bytes = data;
     const size_t at = writer->at;
@@ -278,37 +277,29 @@ static void put_bytes_in_requested_range(struct writer *writer, const void *data
     writer->at += size;
 }
 
-static void put_header_and_table(struct writer *writer, const struct rho_snapshot_part *parts,
-                                 unsigned num_parts)
+static void put_header(struct writer *writer, const struct rho_snapshot_part *parts,
+                       unsigned num_parts)
 {
     uint8_t bytes[HEADER_BYTES];
     memcpy(bytes + MAGIC_AT, magic, sizeof magic);
-    put_little_endian_u32(bytes + VERSION_AT, RHO_SNAPSHOT_VERSION);
-    put_little_endian_u32(bytes + LAYOUT_AT, layout_hash());
-    put_little_endian_u32(bytes + SIZE_AT, (uint32_t)image_size(parts, num_parts));
-    put_little_endian_u32(bytes + NUM_PARTS_AT, num_parts);
-    put_bytes_in_requested_range(writer, bytes, HEADER_BYTES);
+    put_u32(bytes + VERSION_AT, RHO_SNAPSHOT_VERSION);
+    put_u32(bytes + LAYOUT_AT, layout_hash());
+    put_u32(bytes + SIZE_AT, (uint32_t)image_size(parts, num_parts));
+    put_u32(bytes + NUM_PARTS_AT, num_parts);
+    put_bytes(writer, bytes, HEADER_BYTES);
     for (unsigned i = 0; i < num_parts; i++) {
-        put_little_endian_u32(bytes, (uint32_t)parts[i].kind);
-        put_little_endian_u32(bytes + 4, (uint32_t)parts[i].id);
-        put_little_endian_u32(bytes + 8, (uint32_t)parts[i].size);
-        put_little_endian_u32(bytes + 12, 0);
-        put_bytes_in_requested_range(writer, bytes, PART_BYTES);
+        put_u32(bytes, (uint32_t)parts[i].kind);
+        put_u32(bytes + 4, (uint32_t)parts[i].id);
+        put_u32(bytes + 8, (uint32_t)parts[i].size);
+        put_u32(bytes + 12, 0);
+        put_bytes(writer, bytes, PART_BYTES);
     }
 }
 
-static void put_snapshot_checksum(struct writer *writer)
-{
-    uint8_t bytes[4] = {0};
-    put_bytes_in_requested_range(writer, bytes, sizeof bytes);
-    put_little_endian_u32(bytes, ~writer->crc);
-    put_bytes_in_requested_range(writer, bytes, sizeof bytes);
-}
-
-static int are_all_objects_sound(const struct rho_snapshot_part *parts, unsigned num_parts)
+static int are_objects_sound(const struct rho_snapshot_part *parts, unsigned num_parts)
 {
     for (unsigned i = 0; i < num_parts; i++) {
-        if (!is_snapshot_object_sound((uint32_t)parts[i].kind, parts[i].object)) {
+        if (!is_object_sound((uint32_t)parts[i].kind, parts[i].object)) {
             return 0;
         }
     }
@@ -323,7 +314,7 @@ enum rho_status rho_snapshot_save(const struct rho_snapshot_part *parts, unsigne
     if (!buffer || !length || status != RHO_OK) {
         return status != RHO_OK ? status : RHO_ERROR_NULL;
     }
-    if (offset == 0 && !are_all_objects_sound(parts, num_parts)) {
+    if (offset == 0 && !are_objects_sound(parts, num_parts)) {
         return RHO_ERROR_STATE;
     }
     const size_t all = image_size(parts, num_parts);
@@ -334,20 +325,23 @@ enum rho_status rho_snapshot_save(const struct rho_snapshot_part *parts, unsigne
                             .crc = UINT32_MAX,
                             .has_crc = offset + *length > all - 4u};
     writer.buffer = buffer;
-    put_header_and_table(&writer, parts, num_parts);
+    put_header(&writer, parts, num_parts);
     for (unsigned i = 0; i < num_parts; i++) {
-        put_bytes_in_requested_range(&writer, parts[i].object, parts[i].size);
-        put_bytes_in_requested_range(&writer, zeros, padding_to_alignment(parts[i].size));
+        put_bytes(&writer, parts[i].object, parts[i].size);
+        put_bytes(&writer, zeros, padding_of(parts[i].size));
     }
-    put_snapshot_checksum(&writer);
+    uint8_t checksum[4] = {0};
+    put_bytes(&writer, checksum, sizeof checksum);
+    put_u32(checksum, ~writer.crc);
+    put_bytes(&writer, checksum, sizeof checksum);
     return RHO_OK;
 }
 
-/* ---- load ------------------------------------------------------------------------------------ */
+/* Load */
 
-static uint32_t part_field_of_snapshot_image(const uint8_t *image, unsigned part, unsigned field)
+static uint32_t part_field(const uint8_t *image, unsigned part, unsigned field)
 {
-    return get_little_endian_u32(image + HEADER_BYTES + (size_t)part * PART_BYTES + 4u * field);
+    return get_u32(image + HEADER_BYTES + (size_t)part * PART_BYTES + 4u * field);
 }
 
 /* True where each part of an image has the size of its kind, and the parts fill the image. */
@@ -359,13 +353,11 @@ static int is_filled_by_parts(const uint8_t *image, uint32_t size, uint32_t num_
     }
     left -= num_parts * PART_BYTES;
     for (unsigned i = 0; i < num_parts; i++) {
-        const size_t bytes =
-            object_size_of_snapshot_kind(part_field_of_snapshot_image(image, i, 0));
-        if (bytes == 0 || part_field_of_snapshot_image(image, i, 2) != bytes ||
-            bytes + padding_to_alignment(bytes) > left) {
+        const size_t bytes = size_of_kind(part_field(image, i, 0));
+        if (bytes == 0 || part_field(image, i, 2) != bytes || bytes + padding_of(bytes) > left) {
             return 0;
         }
-        left -= bytes + padding_to_alignment(bytes);
+        left -= bytes + padding_of(bytes);
     }
     return left == 0;
 }
@@ -383,19 +375,19 @@ static enum rho_status check_image(const uint8_t *image, size_t size)
         return RHO_ERROR_SHORT;
     }
     if (memcmp(image, magic, sizeof magic) != 0 ||
-        get_little_endian_u32(image + VERSION_AT) != RHO_SNAPSHOT_VERSION) {
+        get_u32(image + VERSION_AT) != RHO_SNAPSHOT_VERSION) {
         return RHO_ERROR_TYPE;
     }
-    if (get_little_endian_u32(image + LAYOUT_AT) != layout_hash()) {
+    if (get_u32(image + LAYOUT_AT) != layout_hash()) {
         return RHO_ERROR_SIZE;
     }
-    const uint32_t said = get_little_endian_u32(image + SIZE_AT);
+    const uint32_t said = get_u32(image + SIZE_AT);
     if (said > size) {
         return RHO_ERROR_SHORT;
     }
     if (said < HEADER_BYTES + END_BYTES ||
-        ~add_to_crc(UINT32_MAX, image, said - 4u) != get_little_endian_u32(image + said - 4u) ||
-        !is_filled_by_parts(image, said, get_little_endian_u32(image + NUM_PARTS_AT))) {
+        ~add_to_crc(UINT32_MAX, image, said - 4u) != get_u32(image + said - 4u) ||
+        !is_filled_by_parts(image, said, get_u32(image + NUM_PARTS_AT))) {
         return RHO_ERROR_VALUE;
     }
     return RHO_OK;
@@ -412,44 +404,13 @@ enum rho_status rho_snapshot_list(const void *image, size_t size, struct rho_sna
     if (status != RHO_OK) {
         return status;
     }
-    *num_parts = get_little_endian_u32(bytes + NUM_PARTS_AT);
+    *num_parts = get_u32(bytes + NUM_PARTS_AT);
     for (unsigned i = 0; i < *num_parts && i < max_parts; i++) {
-        parts[i].kind = (enum rho_snapshot_kind)part_field_of_snapshot_image(bytes, i, 0);
-        parts[i].id = (int32_t)part_field_of_snapshot_image(bytes, i, 1);
-        parts[i].size = part_field_of_snapshot_image(bytes, i, 2);
+        parts[i].kind = (enum rho_snapshot_kind)part_field(bytes, i, 0);
+        parts[i].id = (int32_t)part_field(bytes, i, 1);
+        parts[i].size = part_field(bytes, i, 2);
     }
     return RHO_OK;
-}
-
-static int are_parts_of_image(const struct rho_snapshot_part *parts, unsigned num_parts,
-                              const uint8_t *image)
-{
-    if (get_little_endian_u32(image + NUM_PARTS_AT) != num_parts) {
-        return 0;
-    }
-    for (unsigned i = 0; i < num_parts; i++) {
-        if (part_field_of_snapshot_image(image, i, 0) != (uint32_t)parts[i].kind ||
-            part_field_of_snapshot_image(image, i, 1) != (uint32_t)parts[i].id) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-/* Checks that an image's objects are consistent; is_copy: copies them to the parts instead. */
-static int check_or_copy_objects(const struct rho_snapshot_part *parts, unsigned num_parts,
-                                 const uint8_t *image, int is_copy)
-{
-    const uint8_t *object = image + HEADER_BYTES + (size_t)num_parts * PART_BYTES;
-    for (unsigned i = 0; i < num_parts; i++) {
-        if (is_copy) {
-            memcpy(parts[i].object, object, parts[i].size);
-        } else if (!is_snapshot_object_sound((uint32_t)parts[i].kind, object)) {
-            return 0;
-        }
-        object += parts[i].size + padding_to_alignment(parts[i].size);
-    }
-    return 1;
 }
 
 enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts, unsigned num_parts,
@@ -463,17 +424,31 @@ enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts, unsigne
     if (status != RHO_OK) {
         return status;
     }
-    if (!are_parts_of_image(parts, num_parts, bytes)) {
+    if (get_u32(bytes + NUM_PARTS_AT) != num_parts) {
         return RHO_ERROR_COUNT;
     }
-    if (!check_or_copy_objects(parts, num_parts, bytes, 0)) {
-        return RHO_ERROR_VALUE;
+    for (unsigned i = 0; i < num_parts; i++) {
+        if (part_field(bytes, i, 0) != (uint32_t)parts[i].kind ||
+            part_field(bytes, i, 1) != (uint32_t)parts[i].id) {
+            return RHO_ERROR_COUNT;
+        }
     }
-    (void)check_or_copy_objects(parts, num_parts, bytes, 1);
+    /* all objects are checked before any part is changed */
+    for (int is_copy = 0; is_copy < 2; is_copy++) {
+        const uint8_t *object = bytes + HEADER_BYTES + (size_t)num_parts * PART_BYTES;
+        for (unsigned i = 0; i < num_parts; i++) {
+            if (is_copy) {
+                memcpy(parts[i].object, object, parts[i].size);
+            } else if (!is_object_sound((uint32_t)parts[i].kind, object)) {
+                return RHO_ERROR_VALUE;
+            }
+            object += parts[i].size + padding_of(parts[i].size);
+        }
+    }
     return RHO_OK;
 }
 
-/* ---- load in pieces -------------------------------------------------------------------------- */
+/* Load in pieces */
 
 static size_t smaller_size(size_t a, size_t b)
 {
@@ -481,8 +456,8 @@ static size_t smaller_size(size_t a, size_t b)
 }
 
 /* Compares a piece of an image with the header and the table of parts that the loader expects. */
-static enum rho_status compare_header_and_table(const struct rho_snapshot_loader *loader,
-                                                const uint8_t *bytes, size_t size)
+static enum rho_status compare_header(const struct rho_snapshot_loader *loader,
+                                      const uint8_t *bytes, size_t size)
 {
     uint8_t expected[PART_BYTES] = {0};
     for (size_t i = 0; i < size; i++) {
@@ -490,7 +465,7 @@ static enum rho_status compare_header_and_table(const struct rho_snapshot_loader
         if (i % PART_BYTES == 0) {
             struct writer writer = {.from = at, .end = at + smaller_size(PART_BYTES, size - i)};
             writer.buffer = expected;
-            put_header_and_table(&writer, loader->parts, loader->num_parts);
+            put_header(&writer, loader->parts, loader->num_parts);
         }
         if (bytes[i] != expected[i % PART_BYTES]) {
             return at < LAYOUT_AT ? RHO_ERROR_TYPE
@@ -502,8 +477,7 @@ static enum rho_status compare_header_and_table(const struct rho_snapshot_loader
 }
 
 /* Copies the bytes of a piece of an image that belong to objects. */
-static void copy_piece_to_objects(const struct rho_snapshot_loader *loader, const uint8_t *bytes,
-                                  size_t size)
+static void copy_piece(const struct rho_snapshot_loader *loader, const uint8_t *bytes, size_t size)
 {
     size_t first = HEADER_BYTES + (size_t)loader->num_parts * PART_BYTES;
     for (unsigned i = 0; i < loader->num_parts; i++) {
@@ -514,7 +488,7 @@ static void copy_piece_to_objects(const struct rho_snapshot_loader *loader, cons
             memcpy((uint8_t *)part->object + (from - first), bytes + (from - loader->at),
                    end - from);
         }
-        first += part->size + padding_to_alignment(part->size);
+        first += part->size + padding_of(part->size);
     }
 }
 
@@ -522,11 +496,10 @@ static void copy_piece_to_objects(const struct rho_snapshot_loader *loader, cons
  * Ends a pass over an image: the first pass checks the checksum, the second one the loaded objects
  * too, which are cleared where that fails.
  */
-static enum rho_status end_pass_and_check_image(struct rho_snapshot_loader *loader)
+static enum rho_status end_pass(struct rho_snapshot_loader *loader)
 {
-    int is_whole = loader->crc == CRC_OF_ALL;
-    if (loader->passes == 1 &&
-        !(is_whole && are_all_objects_sound(loader->parts, loader->num_parts))) {
+    int is_whole = loader->crc == 0xdebb20e3u /* after bytes and their own checksum */;
+    if (loader->passes == 1 && !(is_whole && are_objects_sound(loader->parts, loader->num_parts))) {
         for (unsigned i = 0; i < loader->num_parts; i++) {
             memset(loader->parts[i].object, 0, loader->parts[i].size);
         }
@@ -564,15 +537,15 @@ enum rho_status rho_snapshot_take(struct rho_snapshot_loader *loader, const uint
     const size_t head = HEADER_BYTES + (size_t)loader->num_parts * PART_BYTES;
     const size_t taken = smaller_size(size, all - loader->at);
     if (loader->passes == 0 && loader->at < head) {
-        status = compare_header_and_table(loader, bytes, smaller_size(taken, head - loader->at));
+        status = compare_header(loader, bytes, smaller_size(taken, head - loader->at));
     }
     if (loader->passes == 1) {
-        copy_piece_to_objects(loader, bytes, taken);
+        copy_piece(loader, bytes, taken);
     }
     loader->crc = add_to_crc(loader->crc, bytes, taken);
     loader->at += (uint32_t)taken;
     if (status == RHO_OK && loader->at == all) {
-        status = end_pass_and_check_image(loader);
+        status = end_pass(loader);
     }
     if (status != RHO_OK) {
         loader->passes = RHO_SNAPSHOT_PASSES + 1; /* marks the image as refused */

@@ -3,17 +3,14 @@
  * learned_wall_line_arithmetic: arithmetic of a line that may be a wall: places along and across
  * it, its uncertainty and its refinement. Private to src/walls.
  */
-#ifndef RHOTRACK_LEARNED_WALL_LINE_ARITHMETIC_H
-#define RHOTRACK_LEARNED_WALL_LINE_ARITHMETIC_H
+#ifndef RHOTRACK_WALL_LINE_H
+#define RHOTRACK_WALL_LINE_H
 
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/reflectors.h"
 #include "rhotrack/tracker.h"
-
-#define TARGET_HITS 8 /* least hits of a confirmed track that may have an image */
-/* factor of the variance of a pair's place: a track's errors are alike in about so many looks */
-#define REPEATED 8.0f
 
 static inline void to_line_frame(const struct rho_learned_reflector *line, float x_m, float y_m,
                                  float *along_m, float *across_m)
@@ -99,9 +96,8 @@ static inline float variance_along(const float *covariance, int first, float cos
  * way between them refines a learned line, or begins one (wall_line_from_track_pairs.c).
  *   sensor  of the scan; NULL: at the origin
  */
-void rho_reflector_learning_update_by_pairs(struct rho_reflector_learning *learning,
-                                            const struct rho_sensor *sensor,
-                                            const struct rho_scan *scan,
-                                            const struct rho_report *report);
+void rho_reflector_learning_pairs(struct rho_reflector_learning *learning,
+                                  const struct rho_sensor *sensor, const struct rho_scan *scan,
+                                  const struct rho_report *report);
 
 #endif

@@ -11,50 +11,13 @@
 #include "../tracker/sensors.h"
 #include "../tracker/step.h"
 #include "learned_wall_line_arithmetic.h"
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/linalg.h"
 
-#define MAGIC 0x52464c4eu /* "RFLN" */
-
-/*
- * Limits of the work of a step: images that are looked for, and comparisons of a plot with an
- * image.
- */
-#define IMAGES_MAX 16u
-#define PLOTS_MAX 65536u
-
-/* ---- witnesses ---- */
-#define OBSERVED_PAIRS 3.0f /* pairs of tracks on a line from which it is observed */
-#define JUDGED_LOOKS 24
-/*
- * A witness speaks for a line with this many hits at its image, and HITS_OF_OTHER more for each hit
- * beside the image, of JUDGED_LOOKS looks.
- */
-#define FOR_HITS 4
-#define HITS_OF_OTHER 3
-
-/* ---- walls ---- */
-#define WALL_WITNESSES 4
-#define WALL_RATIO 4
-#define WALL_LATE_ONES 2
-/* least spread of the distances at which witnesses passed, over the spread that errors explain */
-#define WALL_SPREAD 3.0f
-#define WALL_SIGMA 1.0f
-/* number of witnesses at which the counts for and against a line are halved */
-#define MEMORY_WITNESSES 16
-
-/*
- * Largest distance of a line's ends from a known wall that is the same one, in sigmas of tracks'
- * places.
- */
-#define SAME_SIGMAS 6.0f
-
-/* Largest variance of a consistent line: of its offset, m^2, and of its slope. */
-#define VARIANCE_MAX 1e12f
-/* Largest square of a covariance over the product of its variances, rounding allowed for. */
-#define VARIANCE_ROUNDING 1.01f
+enum { MAGIC = 0x52464c4e /* "RFLN" */ };
 
 enum rho_status rho_reflector_learning_init(struct rho_reflector_learning *learning, size_t size)
 {
@@ -69,7 +32,7 @@ enum rho_status rho_reflector_learning_init(struct rho_reflector_learning *learn
     return RHO_OK;
 }
 
-/* ---- places on a line ------------------------------------------------------------------------ */
+/* Places on a line */
 
 static void place_on_line(const struct rho_learned_reflector *line, float along_m, float *x_m,
                           float *y_m)
@@ -95,7 +58,7 @@ static struct rho_reflector wall_of_line(const struct rho_learned_reflector *lin
     return wall;
 }
 
-/* ---- witnesses ------------------------------------------------------------------------------- */
+/* Witnesses */
 
 /*
  * The scan of a step, the tracker's results, and the number of images that may still be looked for.
@@ -109,34 +72,12 @@ struct observation {
     unsigned images_left;
 };
 
-static int did_scan_cover_image(const struct observation *observation,
-                                const struct rho_kalman *image)
-{
-    const struct rho_plot at = {
-        .x_m = image->state[RHO_X], .y_m = image->state[RHO_Y], .z_m = image->state[RHO_Z]};
-    const float from_x_m = observation->sensor ? observation->sensor->x_m : 0.0f,
-                from_y_m = observation->sensor ? observation->sensor->y_m : 0.0f;
-    return rho_coverage_holds_plot(observation->sensor, &at, observation->scan->measures) &&
-           rho_angle_in_sector(rho_atan2(at.y_m - from_y_m, at.x_m - from_x_m),
-                               observation->scan->sector_from_rad,
-                               observation->scan->sector_to_rad);
-}
-
-/* True where a plot is the target's own, or another one of the target's body. */
-static int is_own_or_body_plot_of_target(const struct observation *observation,
-                                         const struct rho_track_report *target, uint32_t plot)
+/* Row of the nearest plot in the gate of an image, those of the target left out; -1: none. */
+static int32_t nearest_other_plot(const struct observation *observation,
+                                  const struct rho_kalman *image,
+                                  const struct rho_track_report *target)
 {
     const struct rho_groups *groups = &observation->tracker->bodies.groups;
-    return (int32_t)plot == target->plot ||
-           (rho_bodies_are_used(observation->tracker) && plot < RHO_BODY_PLOTS &&
-            groups->of[plot] == groups->of[target->plot]);
-}
-
-/* Row of the nearest plot in the gate of an image, the target's own plots left out; -1: none. */
-static int32_t nearest_other_plot_in_gate(const struct observation *observation,
-                                          const struct rho_kalman *image,
-                                          const struct rho_track_report *target)
-{
     struct rho_gate gate;
     struct rho_gate_result result;
     float least = 0.0f;
@@ -145,8 +86,10 @@ static int32_t nearest_other_plot_in_gate(const struct observation *observation,
                   observation->scan->measures);
     for (uint32_t i = 0; i < observation->scan->num_plots; i++) {
         const struct rho_plot *plot = &observation->scan->plots[i];
-        if (!is_own_or_body_plot_of_target(observation, target, i) &&
-            rho_measurement_is_valid_plot(plot, observation->scan->measures) &&
+        const int is_of_target = (int32_t)i == target->plot ||
+                                 (rho_tracker_has_bodies(observation->tracker) &&
+                                  i < RHO_BODY_PLOTS && groups->of[i] == groups->of[target->plot]);
+        if (!is_of_target && rho_measurement_is_valid_plot(plot, observation->scan->measures) &&
             rho_gate_test(&gate, plot, &result) && (nearest < 0 || result.distance2 < least)) {
             least = result.distance2;
             nearest = (int32_t)i;
@@ -156,27 +99,13 @@ static int32_t nearest_other_plot_in_gate(const struct observation *observation,
 }
 
 /*
- * Widens the covariance of an image by the line's error: the image moves twice as far, across the
- * line.
- */
-static void widen_image_by_line_error(const struct rho_learned_reflector *line, float along_m,
-                                      struct rho_kalman *image)
-{
-    const float variance_m2 = 4.0f * line_variance_at(line, along_m);
-    const float c = line->cos_along, s = line->sin_along;
-    image->covariance[RHO_AT(RHO_X, RHO_X)] += variance_m2 * s * s;
-    image->covariance[RHO_AT(RHO_Y, RHO_X)] -= variance_m2 * s * c;
-    image->covariance[RHO_AT(RHO_Y, RHO_Y)] += variance_m2 * c * c;
-}
-
-/*
  * Refines and lengthens a line by the plot of a target's image: the line is half way between both.
  * Returns the distance of that place from the line as it was before.
  */
-static float refine_line_by_image_and_return_offset_m(struct rho_learned_reflector *line,
-                                                      const struct observation *observation,
-                                                      const struct rho_track_report *target,
-                                                      const struct rho_plot *plot, float crossing_m)
+static float refine_by_image(struct rho_learned_reflector *line,
+                             const struct observation *observation,
+                             const struct rho_track_report *target, const struct rho_plot *plot,
+                             float crossing_m)
 {
     struct rho_measurement seen;
     float noise[6], along_m, across_m;
@@ -190,45 +119,32 @@ static float refine_line_by_image_and_return_offset_m(struct rho_learned_reflect
         0.25f * (variance_along(target->covariance, RHO_X, -line->sin_along, line->cos_along) +
                  variance_along(noise, RHO_X, -line->sin_along, line->cos_along));
     const float off_m = across_m - line_across_at(line, along_m);
-    refine_line(line, along_m, across_m, REPEATED * variance_m2);
+    refine_line(line, along_m, across_m, (float)ALIKE_LOOKS * variance_m2);
     lengthen_line_to(line, crossing_m);
     line->sigma_m += 0.05f * (target->sigma_m - line->sigma_m);
     return off_m;
 }
 
 /* True of a line that is used as a wall, or that enough pairs of tracks support. */
-static int is_line_worth_observing(const struct rho_learned_reflector *line)
+static int is_worth_observing(const struct rho_learned_reflector *line)
 {
     return line->is_taken && (line->is_used || line->pairs >= OBSERVED_PAIRS);
-}
-
-/*
- * Adds a witness to the means of a line: the distance at which it passed, and how far off the line
- * the places half way to its images were.
- */
-static void add_witness_statistics(struct rho_learned_reflector *line, float distance_m,
-                                   float off_m)
-{
-    const float gain = 1.0f / (float)line->witnesses_for, more_m = distance_m - line->distance_m;
-    line->distance_m += gain * more_m;
-    line->distance_m2 = (1.0f - gain) * (line->distance_m2 + gain * more_m * more_m);
-    line->off_m2 += gain * (off_m * off_m - line->off_m2);
 }
 
 /*
  * True where another observed line lies between the sensor and the track. The track may then be an
  * image itself, which has no image of its own, and it does not count against this line.
  */
-static int may_be_image_in_other_line(const struct rho_reflector_learning *learning,
-                                      const struct rho_learned_reflector *line,
-                                      const struct rho_sensor *sensor,
-                                      const struct rho_track_report *track)
+static int may_be_image_in_other(const struct rho_reflector_learning *learning,
+                                 const struct rho_learned_reflector *line,
+                                 const struct rho_sensor *sensor,
+                                 const struct rho_track_report *track)
 {
     const float x_m = sensor ? sensor->x_m : 0.0f, y_m = sensor ? sensor->y_m : 0.0f;
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
         const struct rho_learned_reflector *other = &learning->lines[i];
         float from_m, to_m;
-        if (other == line || !is_line_worth_observing(other)) {
+        if (other == line || !is_worth_observing(other)) {
             continue;
         }
         const float sensor_m = off_line_m(other, x_m, y_m, &from_m);
@@ -243,16 +159,15 @@ static int may_be_image_in_other_line(const struct rho_reflector_learning *learn
     return 0;
 }
 
-static void count_witness_verdict(struct rho_reflector_learning *learning,
-                                  struct rho_learned_reflector *line,
-                                  const struct rho_sensor *sensor,
-                                  const struct rho_reflector_witness *witness,
-                                  const struct rho_track_report *target)
+static void count_verdict(struct rho_reflector_learning *learning,
+                          struct rho_learned_reflector *line, const struct rho_sensor *sensor,
+                          const struct rho_reflector_witness *witness,
+                          const struct rho_track_report *target)
 {
-    if (witness->hits < FOR_HITS + HITS_OF_OTHER * witness->other) {
+    if (witness->hits <= HITS_OF_OTHER * (witness->other + 1)) {
         line->witnesses_against =
             (uint16_t)(line->witnesses_against +
-                       !may_be_image_in_other_line(learning, line, sensor, target));
+                       !may_be_image_in_other(learning, line, sensor, target));
     } else {
         float along_m;
         const float off_m = off_line_m(line, target->state[RHO_X], target->state[RHO_Y], &along_m);
@@ -262,62 +177,18 @@ static void count_witness_verdict(struct rho_reflector_learning *learning,
             line->late_ones++;
         }
         line->witnesses_for++;
-        add_witness_statistics(line, off_m < 0.0f ? -off_m : off_m,
-                               witness->off_m / (float)witness->hits);
+        /* means of the distance at which witnesses passed, and of how far off the line they were */
+        const float image_off_m = witness->off_m / (float)witness->hits;
+        const float gain = 1.0f / (float)line->witnesses_for;
+        const float more_m = (off_m < 0.0f ? -off_m : off_m) - line->distance_m;
+        line->distance_m += gain * more_m;
+        line->distance_m2 = (1.0f - gain) * (line->distance_m2 + gain * more_m * more_m);
+        line->off_m2 += gain * (image_off_m * image_off_m - line->off_m2);
     }
     if (line->witnesses_for + line->witnesses_against >= MEMORY_WITNESSES) {
         line->witnesses_for /= 2;
         line->witnesses_against /= 2;
     }
-}
-
-/* The line's slot of a track's witness, or a free slot; NULL where there is neither. */
-static struct rho_reflector_witness *
-witness_slot_of_track_or_free(struct rho_learned_reflector *line, uint32_t track_id)
-{
-    struct rho_reflector_witness *found = 0;
-    for (unsigned i = 0; i < RHO_REFLECTOR_WITNESSES; i++) {
-        struct rho_reflector_witness *witness = &line->witnesses[i];
-        if (witness->track_id == track_id) {
-            return witness;
-        }
-        if (!found && witness->track_id == 0) {
-            found = witness;
-        }
-    }
-    return found;
-}
-
-static void forget_ended_witnesses(struct rho_learned_reflector *line,
-                                   const struct rho_report *report)
-{
-    for (unsigned i = 0; i < RHO_REFLECTOR_WITNESSES; i++) {
-        struct rho_reflector_witness *witness = &line->witnesses[i];
-        unsigned row = 0;
-        while (row < report->num_tracks && report->tracks[row].track_id != witness->track_id) {
-            row++;
-        }
-        if (row == report->num_tracks) {
-            witness->track_id = 0;
-        }
-    }
-}
-
-/*
- * Size of an image's gate, its half sides in x and y added, for a plot as uncertain as the
- * target's.
- */
-static float image_gate_half_sides_x_plus_y_m(const struct observation *observation,
-                                              const struct rho_track_report *target,
-                                              const struct rho_kalman *image)
-{
-    const float sigma_m = rho_plot_sigma_m(&observation->scan->plots[target->plot]);
-    struct rho_gate gate;
-    float half_m[2];
-    rho_gate_open(&gate, image, observation->noise_density, observation->sensor,
-                  observation->scan->measures);
-    rho_gate_box(&gate, sigma_m, 0.0f, half_m);
-    return half_m[0] + half_m[1];
 }
 
 /*
@@ -338,8 +209,8 @@ static int is_image_outside_body(const struct observation *observation,
     }
     const float c = rho_cos(body.heading_rad), s = rho_sin(body.heading_rad);
     const float along_m = c * dx_m + s * dy_m, across_m = c * dy_m - s * dx_m;
-    const float length_m = body.length_m + 3.0f * body.sigma_length_m,
-                width_m = body.width_m + 3.0f * body.sigma_width_m;
+    const float length_m = body.length_m + ERROR_SIGMAS * body.sigma_length_m,
+                width_m = body.width_m + ERROR_SIGMAS * body.sigma_width_m;
     return along_m > length_m || along_m < -length_m || across_m > width_m || across_m < -width_m;
 }
 
@@ -348,25 +219,46 @@ static int is_image_outside_body(const struct observation *observation,
  * the gate does not reach. Counts both for the track's witness, and the verdict after JUDGED_LOOKS
  * looks.
  */
-static void look_for_image_plot_and_count(struct rho_reflector_learning *learning,
-                                          struct rho_learned_reflector *line,
-                                          struct observation *observation,
-                                          const struct rho_track_report *target)
+static void look_for_image(struct rho_reflector_learning *learning,
+                           struct rho_learned_reflector *line, struct observation *observation,
+                           const struct rho_track_report *target)
 {
+    const struct rho_scan *scan = observation->scan;
+    const struct rho_sensor *sensor = observation->sensor;
     const struct rho_reflector wall = wall_of_line(line);
     struct rho_kalman of, image;
     float crossing_m;
     memcpy(of.state, target->state, sizeof of.state);
     memcpy(of.covariance, target->covariance, sizeof of.covariance);
     const float slack_m = line->is_used ? 0.1f * (line->to_m - line->from_m) : 0.0f;
-    if (!rho_reflector_mirror_state(&wall, observation->sensor, slack_m, &of, &image,
-                                    &crossing_m) ||
-        !did_scan_cover_image(observation, &image)) {
+    if (!rho_reflector_mirror_state(&wall, sensor, slack_m, &of, &image, &crossing_m)) {
+        return;
+    }
+    const struct rho_plot at = {
+        .x_m = image.state[RHO_X], .y_m = image.state[RHO_Y], .z_m = image.state[RHO_Z]};
+    const float from_x_m = sensor ? sensor->x_m : 0.0f, from_y_m = sensor ? sensor->y_m : 0.0f;
+    if (!rho_tracker_coverage_holds_plot(sensor, &at, scan->measures) ||
+        !rho_angle_in_sector(rho_atan2(at.y_m - from_y_m, at.x_m - from_x_m), scan->sector_from_rad,
+                             scan->sector_to_rad)) {
         return;
     }
     crossing_m += line->from_m - extension_of_short_line_m(line);
-    widen_image_by_line_error(line, crossing_m, &image);
-    struct rho_reflector_witness *witness = witness_slot_of_track_or_free(line, target->track_id);
+    /* the line's error moves the image twice as far, across the line */
+    const float variance_m2 = 4.0f * line_variance_at(line, crossing_m);
+    const float c = line->cos_along, s = line->sin_along;
+    image.covariance[RHO_AT(RHO_X, RHO_X)] += variance_m2 * s * s;
+    image.covariance[RHO_AT(RHO_Y, RHO_X)] -= variance_m2 * s * c;
+    image.covariance[RHO_AT(RHO_Y, RHO_Y)] += variance_m2 * c * c;
+    struct rho_reflector_witness *witness = NULL; /* the track's, or else a free one */
+    for (unsigned i = 0; i < RHO_REFLECTOR_WITNESSES; i++) {
+        struct rho_reflector_witness *other = &line->witnesses[i];
+        if (other->track_id == target->track_id || (!witness && other->track_id == 0)) {
+            witness = other;
+        }
+        if (other->track_id == target->track_id) {
+            break;
+        }
+    }
     if (!witness || !is_image_outside_body(observation, target, &image)) {
         return;
     }
@@ -375,51 +267,33 @@ static void look_for_image_plot_and_count(struct rho_reflector_learning *learnin
             (struct rho_reflector_witness){.track_id = target->track_id, .since = learning->steps};
     }
     observation->images_left--;
-    const int32_t nearest = nearest_other_plot_in_gate(observation, &image, target);
-    const float off_m = nearest >= 0 ? refine_line_by_image_and_return_offset_m(
-                                           line, observation, target,
-                                           &observation->scan->plots[nearest], crossing_m)
-                                     : 0.0f;
+    const int32_t nearest = nearest_other_plot(observation, &image, target);
+    const float off_m =
+        nearest >= 0 ? refine_by_image(line, observation, target, &scan->plots[nearest], crossing_m)
+                     : 0.0f;
     if (witness->looks >= JUDGED_LOOKS || crossing_m < line->from_m || crossing_m > line->to_m) {
         return;
     }
-    const float reach_m = image_gate_half_sides_x_plus_y_m(observation, target, &image);
+    /* half sides of the image's gate, for a plot as uncertain as the target's */
+    struct rho_gate gate;
+    float half_m[2];
+    rho_gate_open(&gate, &image, observation->noise_density, sensor, scan->measures);
+    rho_gate_box(&gate, rho_plot_sigma_m(&scan->plots[target->plot]), 0.0f, half_m);
+    const float reach_m = half_m[0] + half_m[1];
     const float beside_m = witness->looks % 2u ? 2.0f * reach_m : -2.0f * reach_m;
     image.state[RHO_X] += beside_m * line->cos_along;
     image.state[RHO_Y] += beside_m * line->sin_along;
     witness->hits = (uint16_t)(witness->hits + (nearest >= 0));
     witness->off_m += off_m;
     witness->other =
-        (uint16_t)(witness->other + (nearest_other_plot_in_gate(observation, &image, target) >= 0));
+        (uint16_t)(witness->other + (nearest_other_plot(observation, &image, target) >= 0));
     witness->looks++;
     if (witness->looks == JUDGED_LOOKS) {
-        count_witness_verdict(learning, line, observation->sensor, witness, target);
+        count_verdict(learning, line, sensor, witness, target);
     }
 }
 
-/* Looks for the images of all tracks in each line worth observing, up to the limit of images. */
-static void look_for_images_in_lines(struct rho_reflector_learning *learning,
-                                     struct observation *observation,
-                                     const struct rho_report *report)
-{
-    for (unsigned k = 0; k < RHO_LEARNED_REFLECTORS && observation->images_left > 0; k++) {
-        struct rho_learned_reflector *line =
-            &learning->lines[(learning->next_line + k) % RHO_LEARNED_REFLECTORS];
-        if (!is_line_worth_observing(line)) {
-            continue;
-        }
-        forget_ended_witnesses(line, report);
-        for (unsigned i = 0; i < report->num_tracks && observation->images_left > 0; i++) {
-            const struct rho_track_report *target = &report->tracks[i];
-            if (may_have_image(target, observation->scan)) {
-                look_for_image_plot_and_count(learning, line, observation, target);
-            }
-        }
-    }
-    learning->next_line = (learning->next_line + 1u) % RHO_LEARNED_REFLECTORS;
-}
-
-/* ---- walls ----------------------------------------------------------------------------------- */
+/* Walls */
 
 /*
  * True where both ends of a line lie on a known wall or its extension, and the two overlap. A line
@@ -428,7 +302,7 @@ static void look_for_images_in_lines(struct rho_reflector_learning *learning,
 static int does_line_lie_on_wall(const struct rho_learned_reflector *line,
                                  const struct rho_reflector *wall)
 {
-    const float limit_m = SAME_SIGMAS * line->sigma_m;
+    const float limit_m = APART_SIGMAS * line->sigma_m;
     float x_m[2], y_m[2], along_m[2];
     place_on_line(line, line->from_m, &x_m[0], &y_m[0]);
     place_on_line(line, line->to_m, &x_m[1], &y_m[1]);
@@ -450,31 +324,6 @@ static int does_line_lie_on_wall(const struct rho_learned_reflector *line,
            (along_m[0] <= length_m + limit_m || along_m[1] <= length_m + limit_m);
 }
 
-static int is_line_precise(const struct rho_learned_reflector *line)
-{
-    const float limit_m2 = WALL_SIGMA * WALL_SIGMA * line->sigma_m * line->sigma_m;
-    return line_variance_at(line, line->from_m) <= limit_m2 &&
-           line_variance_at(line, line->to_m) <= limit_m2;
-}
-
-/*
- * True where the distances at which witnesses passed spread more than errors explain. Two lanes
- * mirror one another at one distance, but for errors and for the cars' places in their lanes.
- */
-static int do_witness_distances_vary_beyond_errors(const struct rho_learned_reflector *line)
-{
-    return line->distance_m2 >=
-           WALL_SPREAD * WALL_SPREAD * (line->off_m2 + line->sigma_m * line->sigma_m);
-}
-
-static int does_line_pass_as_wall(const struct rho_learned_reflector *line)
-{
-    return line->witnesses_for >= WALL_WITNESSES &&
-           line->witnesses_for >= WALL_RATIO * line->witnesses_against &&
-           line->late_ones >= WALL_LATE_ONES && do_witness_distances_vary_beyond_errors(line) &&
-           is_line_precise(line);
-}
-
 static void forget_line(struct rho_learned_reflector *line)
 {
     line->is_taken = line->is_used = 0;
@@ -485,21 +334,34 @@ static void forget_line(struct rho_learned_reflector *line)
  * Forgets a line with more witnesses against it than for it; uses it as a wall where it passes as
  * one, unless the tracker knows that wall already.
  */
-static void accept_or_forget_line(struct rho_reflector_learning *learning,
-                                  const struct rho_tracker *tracker,
-                                  struct rho_learned_reflector *line)
+static void judge_line(struct rho_reflector_learning *learning, const struct rho_tracker *tracker,
+                       struct rho_learned_reflector *line)
 {
+    const float sigma_m2 = line->sigma_m * line->sigma_m;
     if (line->witnesses_against > line->witnesses_for + 1) {
         forget_line(line);
-    } else if (line->is_taken && !line->is_used && does_line_pass_as_wall(line)) {
-        line->is_used = learning->num_told + learning->num_used < RHO_MAX_REFLECTORS;
-        for (unsigned i = 0; i < tracker->num_reflectors; i++) {
-            if (does_line_lie_on_wall(line, &tracker->reflectors[i])) {
-                forget_line(line);
-            }
-        }
-        learning->num_used = (uint16_t)(learning->num_used + line->is_used);
+        return;
     }
+    /*
+     * The line must be as precise as tracks' places are, and the distances at which witnesses
+     * passed must spread more than errors explain: two lanes mirror one another at one distance,
+     * but for errors and for the cars' places in their lanes.
+     */
+    if (!line->is_taken || line->is_used || line->witnesses_for < WALL_WITNESSES ||
+        line->witnesses_for < WALL_WITNESSES * line->witnesses_against ||
+        line->late_ones < WALL_LATE_ONES ||
+        !(line->distance_m2 >= ERROR_SIGMAS * ERROR_SIGMAS * (line->off_m2 + sigma_m2)) ||
+        !(line_variance_at(line, line->from_m) <= sigma_m2) ||
+        !(line_variance_at(line, line->to_m) <= sigma_m2)) {
+        return;
+    }
+    line->is_used = learning->num_told + learning->num_used < RHO_MAX_REFLECTORS;
+    for (unsigned i = 0; i < tracker->num_reflectors; i++) {
+        if (does_line_lie_on_wall(line, &tracker->reflectors[i])) {
+            forget_line(line);
+        }
+    }
+    learning->num_used = (uint16_t)(learning->num_used + line->is_used);
 }
 
 int rho_reflector_learning_wall(const struct rho_reflector_learning *learning, unsigned place,
@@ -513,45 +375,27 @@ int rho_reflector_learning_wall(const struct rho_reflector_learning *learning, u
     return 1;
 }
 
-static int are_equal_walls(const struct rho_reflector *a, const struct rho_reflector *b)
-{
-    return !(a->from_x_m < b->from_x_m || a->from_x_m > b->from_x_m || a->from_y_m < b->from_y_m ||
-             a->from_y_m > b->from_y_m || a->to_x_m < b->to_x_m || a->to_x_m > b->to_x_m ||
-             a->to_y_m < b->to_y_m || a->to_y_m > b->to_y_m);
-}
-
-/* True where the tracker has the walls that give_walls_to_tracker gave it last. */
+/* True where the tracker has the walls that the last step gave it. */
 static int has_tracker_these_walls(const struct rho_reflector_learning *learning,
                                    const struct rho_tracker *tracker)
 {
     const unsigned all = (unsigned)learning->num_told + learning->num_used;
     unsigned count = learning->num_told;
-    struct rho_reflector wall;
+    struct rho_reflector a;
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS && count < all; i++) {
-        if (!rho_reflector_learning_wall(learning, i, &wall)) {
+        if (!rho_reflector_learning_wall(learning, i, &a)) {
             continue;
         }
-        if (count >= tracker->num_reflectors ||
-            !are_equal_walls(&wall, &tracker->reflectors[count])) {
+        const struct rho_reflector *b = &tracker->reflectors[count];
+        if (count >= tracker->num_reflectors || a.from_x_m < b->from_x_m ||
+            a.from_x_m > b->from_x_m || a.from_y_m < b->from_y_m || a.from_y_m > b->from_y_m ||
+            a.to_x_m < b->to_x_m || a.to_x_m > b->to_x_m || a.to_y_m < b->to_y_m ||
+            a.to_y_m > b->to_y_m) {
             return 0;
         }
         count++;
     }
     return count == all && tracker->num_reflectors == all;
-}
-
-/* Gives the tracker the walls that it was told, and behind them the learned ones. */
-static enum rho_status give_walls_to_tracker(struct rho_reflector_learning *learning,
-                                             struct rho_tracker *tracker)
-{
-    struct rho_reflector walls[RHO_MAX_REFLECTORS > 0 ? RHO_MAX_REFLECTORS : 1];
-    unsigned count = learning->num_told;
-    memcpy(walls, tracker->reflectors, count * sizeof walls[0]);
-    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS && count != RHO_MAX_REFLECTORS; i++) {
-        count += rho_reflector_learning_wall(learning, i, &walls[count]) != 0;
-    }
-    learning->num_used = (uint16_t)(count - learning->num_told);
-    return rho_tracker_set_reflectors(tracker, walls, count);
 }
 
 enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learning,
@@ -589,59 +433,84 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
                                           of_plots < IMAGES_MAX ? of_plots + 1u : IMAGES_MAX};
     const int has_walls = learning->num_used > 0;
     learning->steps++;
-    rho_reflector_learning_update_by_pairs(learning, observation.sensor, scan, report);
-    look_for_images_in_lines(learning, &observation, report);
-    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
-        accept_or_forget_line(learning, tracker, &learning->lines[i]);
+    rho_reflector_learning_pairs(learning, observation.sensor, scan, report);
+    /* looks for the images of all tracks in each line worth observing, up to the limit of images */
+    for (unsigned k = 0; k < RHO_LEARNED_REFLECTORS && observation.images_left > 0; k++) {
+        struct rho_learned_reflector *line =
+            &learning->lines[(learning->next_line + k) % RHO_LEARNED_REFLECTORS];
+        if (!is_worth_observing(line)) {
+            continue;
+        }
+        for (unsigned i = 0; i < RHO_REFLECTOR_WITNESSES; i++) { /* forgets ended ones */
+            unsigned row = 0;
+            while (row < report->num_tracks &&
+                   report->tracks[row].track_id != line->witnesses[i].track_id) {
+                row++;
+            }
+            if (row == report->num_tracks) {
+                line->witnesses[i].track_id = 0;
+            }
+        }
+        for (unsigned i = 0; i < report->num_tracks && observation.images_left > 0; i++) {
+            const struct rho_track_report *target = &report->tracks[i];
+            if (may_have_image(target, scan)) {
+                look_for_image(learning, line, &observation, target);
+            }
+        }
     }
+    learning->next_line = (learning->next_line + 1u) % RHO_LEARNED_REFLECTORS;
     unsigned num_used = 0;
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        judge_line(learning, tracker, &learning->lines[i]);
         num_used += learning->lines[i].is_used;
     }
-    return has_walls || num_used > 0 ? give_walls_to_tracker(learning, tracker) : RHO_OK;
-}
-
-/* ---- objects of unknown origin --------------------------------------------------------------- */
-
-static int has_sound_variance(const struct rho_learned_reflector *line)
-{
-    const float *p = line->variance;
-    return rho_is_within(p[0], 0.0f, VARIANCE_MAX) && rho_is_within(p[2], 0.0f, VARIANCE_MAX) &&
-           p[1] * p[1] <= VARIANCE_ROUNDING * p[0] * p[2];
-}
-
-static int has_sound_witnesses(const struct rho_learned_reflector *line)
-{
-    unsigned i = 0;
-    while (i < RHO_REFLECTOR_WITNESSES && rho_is_within(line->witnesses[i].off_m, -1e9f, 1e9f)) {
-        i++;
+    if (!has_walls && num_used == 0) {
+        return RHO_OK;
     }
-    return i == RHO_REFLECTOR_WITNESSES && rho_is_within(line->distance_m, 0.0f, 1e9f) &&
-           rho_is_within(line->distance_m2, 0.0f, 1e18f) &&
-           rho_is_within(line->off_m2, 0.0f, 1e18f);
+    /* gives the tracker the walls that it was told, and behind them the learned ones */
+    struct rho_reflector walls[RHO_MAX_REFLECTORS > 0 ? RHO_MAX_REFLECTORS : 1];
+    unsigned count = learning->num_told;
+    memcpy(walls, tracker->reflectors, count * sizeof walls[0]);
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS && count != RHO_MAX_REFLECTORS; i++) {
+        count += rho_reflector_learning_wall(learning, i, &walls[count]) != 0;
+    }
+    learning->num_used = (uint16_t)(count - learning->num_told);
+    return rho_tracker_set_reflectors(tracker, walls, count);
 }
 
-/* True where the places of a line that is in use can be a wall of the tracker. */
-static int has_sound_direction_and_wall_ends(const struct rho_learned_reflector *line)
-{
-    const float one = line->cos_along * line->cos_along + line->sin_along * line->sin_along;
-    if (!rho_is_within(one, 0.999f, 1.001f) || !(line->from_m <= line->to_m)) {
-        return 0;
-    }
-    const struct rho_reflector wall = wall_of_line(line);
-    return rho_is_coordinate(wall.from_x_m) && rho_is_coordinate(wall.from_y_m) &&
-           rho_is_coordinate(wall.to_x_m) && rho_is_coordinate(wall.to_y_m);
-}
+/* Objects of unknown origin */
 
 static int is_sound_line(const struct rho_learned_reflector *line)
 {
-    return line->is_taken <= 1 && line->is_used <= line->is_taken && rho_is_coordinate(line->x_m) &&
-           rho_is_coordinate(line->y_m) && rho_is_coordinate(line->offset_m) &&
-           rho_is_within(line->slope, -10.0f, 10.0f) && has_sound_variance(line) &&
-           rho_is_coordinate(line->from_m) && rho_is_coordinate(line->to_m) &&
-           (!line->is_taken || has_sound_direction_and_wall_ends(line)) &&
-           has_sound_witnesses(line) && rho_is_within(line->pairs, -1.0f, 1e9f) &&
-           rho_is_within(line->sigma_m, 0.0f, 1e6f);
+    const float *p = line->variance; /* of the offset, m^2, and of the slope */
+    const float one = line->cos_along * line->cos_along + line->sin_along * line->sin_along;
+    for (unsigned i = 0; i < RHO_REFLECTOR_WITNESSES; i++) {
+        if (!rho_is_within(line->witnesses[i].off_m, -1e9f, 1e9f)) {
+            return 0;
+        }
+    }
+    if (line->is_taken > 1 || line->is_used > line->is_taken || !rho_is_coordinate(line->x_m) ||
+        !rho_is_coordinate(line->y_m) || !rho_is_coordinate(line->offset_m) ||
+        !rho_is_within(line->slope, -10.0f, 10.0f) || !rho_is_within(p[0], 0.0f, 1e12f) ||
+        !rho_is_within(p[2], 0.0f, 1e12f) ||
+        !(p[1] * p[1] <= 1.01f * p[0] * p[2]) || /* rounding allowed for */
+        !rho_is_coordinate(line->from_m) || !rho_is_coordinate(line->to_m) ||
+        !rho_is_within(line->distance_m, 0.0f, 1e9f) ||
+        !rho_is_within(line->distance_m2, 0.0f, 1e18f) ||
+        !rho_is_within(line->off_m2, 0.0f, 1e18f) || !rho_is_within(line->pairs, -1.0f, 1e9f) ||
+        !rho_is_within(line->sigma_m, 0.0f, 1e6f)) {
+        return 0;
+    }
+    if (!line->is_taken) {
+        return 1;
+    }
+    if (!rho_is_within(one, 0.999f, 1.001f) || !(line->from_m <= line->to_m)) {
+        return 0;
+    }
+    /* the places of a line that is in use can be a wall of the tracker */
+    const struct rho_reflector wall = wall_of_line(line);
+    return rho_is_coordinate(wall.from_x_m) && rho_is_coordinate(wall.from_y_m) &&
+           rho_is_coordinate(wall.to_x_m) && rho_is_coordinate(wall.to_y_m);
 }
 
 int rho_reflector_learning_is_sound(const struct rho_reflector_learning *learning)

@@ -6,26 +6,8 @@
 #include <string.h>
 
 #include "learned_wall_line_arithmetic.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
-
-/* Most pairs of tracks that are compared in a step. */
-#define PAIRS_MAX 256u
-
-#define IMAGE_HITS 5 /* least hits of a track that may be an image */
-/*
- * limit of chi-square that two tracks are beside each other, at one speed along the line: 99 % of
- * two dimensions
- */
-#define PAIR_CHI2 9.2f
-/* least distance between a target and its image, in sigmas of both places */
-#define APART_SIGMAS 6.0f
-/*
- * least speed along the line, in sigmas of its component across: the line has its direction from
- * the velocities
- */
-#define SPEED_SIGMAS 5.0f
-/* largest distance of a pair from a line, and largest angle to it, in sigmas */
-#define LINE_SIGMAS 3.0f
 
 /*
  * The line half way between two tracks that may be a target and its image: the wall, if they are.
@@ -37,30 +19,6 @@ struct mirror_line {
     float crossing_x_m, crossing_y_m;
     float sigma_m; /* sigma of the target's place */
 };
-
-/*
- * True where sensor and target are on one side of the line, and the image on the other. Sets the
- * place where the line of sight to the image crosses the line.
- */
-static int find_sight_crossing(const struct rho_sensor *sensor,
-                               const struct rho_track_report *target,
-                               const struct rho_track_report *image, struct mirror_line *mirror)
-{
-    const float x_m = sensor ? sensor->x_m : 0.0f, y_m = sensor ? sensor->y_m : 0.0f;
-    const float c = mirror->cos_along, s = mirror->sin_along;
-    const float sensor_m = (y_m - mirror->y_m) * c - (x_m - mirror->x_m) * s;
-    const float target_m =
-        (target->state[RHO_Y] - mirror->y_m) * c - (target->state[RHO_X] - mirror->x_m) * s;
-    const float image_m =
-        (image->state[RHO_Y] - mirror->y_m) * c - (image->state[RHO_X] - mirror->x_m) * s;
-    if (!(sensor_m * target_m > 0.0f) || !(sensor_m * image_m < 0.0f)) {
-        return 0;
-    }
-    const float part = sensor_m / (sensor_m - image_m);
-    mirror->crossing_x_m = x_m + part * (image->state[RHO_X] - x_m);
-    mirror->crossing_y_m = y_m + part * (image->state[RHO_Y] - y_m);
-    return 1;
-}
 
 /*
  * True where two tracks may be a target and its image: beside each other, equally fast along the
@@ -102,7 +60,17 @@ static int may_be_image_pair(const struct rho_sensor *sensor, const struct rho_t
                                    variance_along(image->covariance, RHO_X, -s, c));
     mirror->slope_variance = turned;
     mirror->sigma_m = target->sigma_m;
-    return find_sight_crossing(sensor, target, image, mirror);
+    const float x_m = sensor ? sensor->x_m : 0.0f, y_m = sensor ? sensor->y_m : 0.0f;
+    const float sensor_m = (y_m - mirror->y_m) * c - (x_m - mirror->x_m) * s;
+    const float target_m = (t[RHO_Y] - mirror->y_m) * c - (t[RHO_X] - mirror->x_m) * s;
+    const float image_m = (g[RHO_Y] - mirror->y_m) * c - (g[RHO_X] - mirror->x_m) * s;
+    if (!(sensor_m * target_m > 0.0f) || !(sensor_m * image_m < 0.0f)) {
+        return 0;
+    }
+    const float part = sensor_m / (sensor_m - image_m);
+    mirror->crossing_x_m = x_m + part * (g[RHO_X] - x_m);
+    mirror->crossing_y_m = y_m + part * (g[RHO_Y] - y_m);
+    return 1;
 }
 
 /*
@@ -119,42 +87,24 @@ static int does_pair_fit_line(const struct rho_learned_reflector *line,
     const float cosine = mirror->cos_along * line->cos_along + mirror->sin_along * line->sin_along;
     const float sine = mirror->sin_along * line->cos_along - mirror->cos_along * line->sin_along;
     const float turned = cosine > 0.0f ? sine - line->slope : -sine - line->slope;
-    return off_m * off_m <= LINE_SIGMAS * LINE_SIGMAS * limit_m2 &&
+    return off_m * off_m <= ERROR_SIGMAS * ERROR_SIGMAS * limit_m2 &&
            turned * turned <=
-               LINE_SIGMAS * LINE_SIGMAS * (mirror->slope_variance + line->variance[2]);
-}
-
-static void begin_line_of_pair(struct rho_learned_reflector *line, const struct mirror_line *mirror)
-{
-    float across_m;
-    memset(line, 0, sizeof *line);
-    line->x_m = mirror->x_m;
-    line->y_m = mirror->y_m;
-    line->cos_along = mirror->cos_along;
-    line->sin_along = mirror->sin_along;
-    line->variance[0] = mirror->variance_m2;
-    line->variance[2] = mirror->slope_variance;
-    line->pairs = 1.0f;
-    line->sigma_m = mirror->sigma_m;
-    line->is_taken = 1;
-    to_line_frame(line, mirror->crossing_x_m, mirror->crossing_y_m, &line->from_m, &across_m);
-    line->to_m = line->from_m;
+               ERROR_SIGMAS * ERROR_SIGMAS * (mirror->slope_variance + line->variance[2]);
 }
 
 /*
  * Refines the learned line on which a pair of tracks lies. Where there is none, the pair takes a
  * count off the unused line with the fewest pairs, and replaces that line once its count is spent.
  */
-static void refine_line_of_pair_or_wear_weakest_line(struct rho_reflector_learning *learning,
-                                                     const struct mirror_line *mirror)
+static void learn_line(struct rho_reflector_learning *learning, const struct mirror_line *mirror)
 {
     struct rho_learned_reflector *least = 0;
+    float along_m, across_m;
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
         struct rho_learned_reflector *line = &learning->lines[i];
         if (line->is_taken && does_pair_fit_line(line, mirror)) {
-            float along_m, across_m;
             to_line_frame(line, mirror->x_m, mirror->y_m, &along_m, &across_m);
-            refine_line(line, along_m, across_m, REPEATED * mirror->variance_m2);
+            refine_line(line, along_m, across_m, (float)ALIKE_LOOKS * mirror->variance_m2);
             to_line_frame(line, mirror->crossing_x_m, mirror->crossing_y_m, &along_m, &across_m);
             lengthen_line_to(line, along_m);
             line->pairs += 1.0f;
@@ -164,18 +114,29 @@ static void refine_line_of_pair_or_wear_weakest_line(struct rho_reflector_learni
             least = line;
         }
     }
-    if (least) {
-        least->pairs -= 1.0f;
-        if (least->pairs < 0.0f) {
-            begin_line_of_pair(least, mirror);
-        }
+    if (!least) {
+        return;
+    }
+    least->pairs -= 1.0f;
+    if (least->pairs < 0.0f) {
+        memset(least, 0, sizeof *least);
+        least->x_m = mirror->x_m;
+        least->y_m = mirror->y_m;
+        least->cos_along = mirror->cos_along;
+        least->sin_along = mirror->sin_along;
+        least->variance[0] = mirror->variance_m2;
+        least->variance[2] = mirror->slope_variance;
+        least->pairs = 1.0f;
+        least->sigma_m = mirror->sigma_m;
+        least->is_taken = 1;
+        to_line_frame(least, mirror->crossing_x_m, mirror->crossing_y_m, &least->from_m, &across_m);
+        least->to_m = least->from_m;
     }
 }
 
-void rho_reflector_learning_update_by_pairs(struct rho_reflector_learning *learning,
-                                            const struct rho_sensor *sensor,
-                                            const struct rho_scan *scan,
-                                            const struct rho_report *report)
+void rho_reflector_learning_pairs(struct rho_reflector_learning *learning,
+                                  const struct rho_sensor *sensor, const struct rho_scan *scan,
+                                  const struct rho_report *report)
 {
     const uint32_t num_tracks = report->num_tracks, all = num_tracks * num_tracks;
     struct mirror_line mirror;
@@ -186,7 +147,7 @@ void rho_reflector_learning_update_by_pairs(struct rho_reflector_learning *learn
         learning->next_pair = pair + 1u;
         if (target != image && may_have_image(target, scan) && image->plot >= 0 &&
             image->hits >= IMAGE_HITS && may_be_image_pair(sensor, target, image, &mirror)) {
-            refine_line_of_pair_or_wear_weakest_line(learning, &mirror);
+            learn_line(learning, &mirror);
         }
     }
 }

@@ -21,7 +21,7 @@ struct setting_field {
 #field, offsetof(struct rho_settings, field), kind, RHO_MESSAGE_SETTING_ANSWER_##applies   \
     }
 
-static const struct setting_field *find_field_by_number(int number)
+static const struct setting_field *find_field(int number)
 {
     static const struct setting_field fields[RHO_MESSAGE_SETTING_WORK_MAX + 1] = {
         [RHO_MESSAGE_SETTING_V_MIN_MPS] = FIELD(v_min_mps, AS_FLOAT, STEP),
@@ -47,39 +47,35 @@ static const struct setting_field *find_field_by_number(int number)
 
 const char *rho_command_setting_name(int field)
 {
-    const struct setting_field *found = find_field_by_number(field);
+    const struct setting_field *found = find_field(field);
     return found ? found->name : 0;
 }
 
-static int is_same_name(const char *a, const char *b)
+/* Number of the field of a name; 0: there is none. */
+static int16_t number_of_name(const char *name)
 {
-    while (*a && *a == *b) {
-        a++;
-        b++;
+    const struct setting_field *field;
+    for (int16_t number = 1; (field = find_field(number)); number++) {
+        size_t i = 0;
+        while (name[i] && name[i] == field->name[i]) {
+            i++;
+        }
+        if (name[i] == field->name[i]) {
+            return number;
+        }
     }
-    return *a == *b;
-}
-
-static int16_t setting_number_by_name_or_0(const char *name)
-{
-    int16_t number = 1;
-    while (find_field_by_number(number) &&
-           !is_same_name(find_field_by_number(number)->name, name)) {
-        number++;
-    }
-    return find_field_by_number(number) ? number : 0;
+    return 0;
 }
 
 /*
  * Stores a value in its field; a whole number too large for the field's type becomes its maximum,
  * which the check refuses. Returns 0 for a fraction in a field of whole numbers.
  */
-static int store_value_unless_fraction_for_count(const struct setting_field *field, float value,
-                                                 struct rho_settings *settings)
+static int store_value(const struct setting_field *field, float value,
+                       struct rho_settings *settings)
 {
     char *at = (char *)settings + field->place;
-    const float most = 4.0e9f;
-    const int is_count = value >= 0.0f && value < most;
+    const int is_count = value >= 0.0f && value < 4.0e9f;
     const uint32_t whole = is_count ? (uint32_t)value : UINT32_MAX;
     const uint16_t half = whole < UINT16_MAX ? (uint16_t)whole : UINT16_MAX;
     if (field->kind == AS_FLOAT) {
@@ -101,7 +97,7 @@ enum rho_status rho_command_set(const struct rho_message_setting *setting,
     if (!setting || !settings || !answer) {
         return RHO_ERROR_NULL;
     }
-    const struct setting_field *field = find_field_by_number(setting->field);
+    const struct setting_field *field = find_field(setting->field);
     struct rho_settings changed = *settings;
     struct rho_settings_fault fault = {0};
     const int is_number = rho_are_finite(&setting->value, 1);
@@ -110,15 +106,14 @@ enum rho_status rho_command_set(const struct rho_message_setting *setting,
                                                   .field = setting->field,
                                                   .applies = field ? field->applies : 0,
                                                   .value = is_number ? setting->value : 0.0f};
-    if (field && is_number &&
-        store_value_unless_fraction_for_count(field, setting->value, &changed)) {
+    if (field && is_number && store_value(field, setting->value, &changed)) {
         status = rho_settings_check(&changed, &fault);
     }
     answer->status = (int8_t)status;
     if (status == RHO_OK) {
         *settings = changed;
     } else if (fault.field) {
-        answer->fault_field = setting_number_by_name_or_0(fault.field);
+        answer->fault_field = number_of_name(fault.field);
         answer->value = answer->fault_field == setting->field ? setting->value : fault.value;
         answer->min = fault.min;
         answer->max = fault.max;

@@ -27,9 +27,15 @@ static inline int32_t rho_clamp_sum_to_int32(int32_t counter, uint32_t more)
 }
 
 /* A sensor's number; -1 where it is beyond the range of the member. */
-static inline int16_t rho_int16_sensor_id_or_minus_1(int32_t sensor_id)
+static inline int16_t rho_clamp_sensor_id(int32_t sensor_id)
 {
     return (int16_t)(sensor_id >= INT16_MIN && sensor_id <= INT16_MAX ? sensor_id : -1);
+}
+
+/* Number of messages of at most `most` elements each for a number of elements; at least 1. */
+static inline unsigned rho_num_parts(unsigned elements, unsigned most)
+{
+    return elements <= most ? 1 : (elements + most - 1) / most;
 }
 
 #endif

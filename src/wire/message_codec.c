@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "message_codec.h"
 
-#include <float.h>
 #include <string.h>
 
 #include "rhotrack/types.h"
 
-/* ---- Numbers, big endian ---- */
+/* Numbers, big endian */
 
 static uint8_t *put16(uint8_t *to, uint16_t v)
 {
@@ -44,14 +43,13 @@ static uint64_t get64(const uint8_t *from)
     return (uint64_t)get32(from) << 32 | get32(from + 4);
 }
 
-/* ---- Members of one width ---- */
+/* Members of one width */
 
 static uint8_t *encode_members(uint8_t *to, const uint8_t *from, unsigned width, size_t count)
 {
     uint16_t v16;
     uint32_t v32;
     uint64_t v64;
-
     if (width == 4) { /* most members are 4 bytes wide */
         for (size_t i = 0; i < count; i++) {
             memcpy(&v32, from + 4 * i, sizeof v32);
@@ -78,7 +76,6 @@ static const uint8_t *decode_members(const uint8_t *from, uint8_t *to, unsigned 
     uint16_t v16;
     uint32_t v32;
     uint64_t v64;
-
     if (width == 4) {
         for (size_t i = 0; i < count; i++) {
             v32 = get32(from + 4 * i);
@@ -100,12 +97,11 @@ static const uint8_t *decode_members(const uint8_t *from, uint8_t *to, unsigned 
     return from;
 }
 
-/* ---- Structs ---- */
+/* Structs */
 
 static uint8_t *encode_struct(uint8_t *to, const uint8_t *from, const struct message_layout *layout)
 {
     const struct message_run *run = layout->runs;
-
     for (unsigned i = 0; i < layout->num_runs; i++, run++) {
         to = encode_members(to, from + run->offset, run->width, run->count);
     }
@@ -116,7 +112,6 @@ static const uint8_t *decode_struct(const uint8_t *from, uint8_t *to,
                                     const struct message_layout *layout)
 {
     const struct message_run *run = layout->runs;
-
     for (unsigned i = 0; i < layout->num_runs; i++, run++) {
         from = decode_members(from, to + run->offset, run->width, run->count);
     }
@@ -129,50 +124,34 @@ static int is_list_one_run(const struct message_format *format)
     return format->element.num_runs == 1 && format->element.wire_bytes == format->element_bytes;
 }
 
-static uint8_t *encode_list(uint8_t *to, const uint8_t *list, const struct message_format *format,
-                            size_t count)
+static void encode_list(uint8_t *to, const uint8_t *list, const struct message_format *format,
+                        size_t count)
 {
     const struct message_run *run = format->element.runs;
-
     if (is_list_one_run(format)) {
-        return encode_members(to, list, run->width, count * run->count);
+        (void)encode_members(to, list, run->width, count * run->count);
+        return;
     }
     for (size_t i = 0; i < count; i++) {
         to = encode_struct(to, list + i * format->element_bytes, &format->element);
     }
-    return to;
 }
 
-static void decode_list(const uint8_t *from, uint8_t *list, const struct message_format *format,
-                        size_t count)
-{
-    const struct message_run *run = format->element.runs;
-
-    if (is_list_one_run(format)) {
-        (void)decode_members(from, list, run->width, count * run->count);
-        return;
-    }
-    for (size_t i = 0; i < count; i++) {
-        from = decode_struct(from, list + i * format->element_bytes, &format->element);
-    }
-}
-
-static int16_t list_count_of_message_struct(const struct message_format *format,
-                                            const uint8_t *message)
+/* Number of list elements that a struct states; 0 in a message without a list. */
+static int16_t stated_count(const struct message_format *format, const uint8_t *message)
 {
     int16_t count = 0;
-
     if (format->max > 0) {
         memcpy(&count, message + format->count_offset, sizeof count);
     }
     return count;
 }
 
-/* ---- Encode ---- */
+/* Encode */
 
-static size_t encoded_head_bytes(const struct message_format *format)
+static size_t head_bytes(const struct message_format *format)
 {
-    return MESSAGE_FINGERPRINT_BYTES + format->head.wire_bytes +
+    return (size_t)MESSAGE_FINGERPRINT_BYTES + format->head.wire_bytes +
            (format->max > 0 ? MESSAGE_COUNT_BYTES : 0u);
 }
 
@@ -187,30 +166,26 @@ enum rho_status rho_message_encode(const struct message_format *format, const vo
                                    uint8_t *buffer, size_t capacity, size_t *size)
 {
     const uint8_t *bytes = message;
-    size_t count, total;
-    uint8_t *to;
-
     if (!message || !buffer || !size) {
         return RHO_ERROR_NULL;
     }
-    if (list_count_of_message_struct(format, bytes) < 0 ||
-        list_count_of_message_struct(format, bytes) > format->max) {
+    if (stated_count(format, bytes) < 0 || stated_count(format, bytes) > format->max) {
         return RHO_ERROR_COUNT;
     }
-    count = (size_t)list_count_of_message_struct(format, bytes);
-    total = encoded_head_bytes(format) + count * format->element.wire_bytes;
+    const size_t count = (size_t)stated_count(format, bytes);
+    const size_t total = head_bytes(format) + count * format->element.wire_bytes;
     if (total > capacity) {
         return RHO_ERROR_CAPACITY;
     }
-    to = encode_head(buffer, bytes, format, (uint16_t)count);
+    uint8_t *to = encode_head(buffer, bytes, format, (uint16_t)count);
     if (count > 0) {
-        (void)encode_list(to, bytes + format->list_offset, format, count);
+        encode_list(to, bytes + format->list_offset, format, count);
     }
     *size = total;
     return RHO_OK;
 }
 
-/* ---- Encode piece by piece ---- */
+/* Encode piece by piece */
 
 enum rho_status rho_message_begin(const struct message_format *format,
                                   struct rho_message_writer *writer, uint8_t *buffer,
@@ -219,13 +194,13 @@ enum rho_status rho_message_begin(const struct message_format *format,
     if (!writer || !buffer || !head) {
         return RHO_ERROR_NULL;
     }
-    if (encoded_head_bytes(format) > capacity) {
+    if (head_bytes(format) > capacity) {
         return RHO_ERROR_CAPACITY;
     }
     (void)encode_head(buffer, head, format, 0);
     *writer = (struct rho_message_writer){.buffer = buffer,
                                           .capacity = capacity,
-                                          .size = encoded_head_bytes(format),
+                                          .size = head_bytes(format),
                                           .fingerprint = format->fingerprint};
     return RHO_OK;
 }
@@ -243,10 +218,10 @@ enum rho_status rho_message_add(const struct message_format *format,
         writer->capacity - writer->size < format->element.wire_bytes) {
         return RHO_ERROR_CAPACITY;
     }
-    (void)encode_list(writer->buffer + writer->size, element, format, 1);
+    encode_list(writer->buffer + writer->size, element, format, 1);
     writer->size += format->element.wire_bytes;
     writer->count++;
-    (void)put16(writer->buffer + encoded_head_bytes(format) - MESSAGE_COUNT_BYTES, writer->count);
+    (void)put16(writer->buffer + head_bytes(format) - MESSAGE_COUNT_BYTES, writer->count);
     return RHO_OK;
 }
 
@@ -263,15 +238,18 @@ enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size)
     return RHO_OK;
 }
 
-/* ---- Decode ---- */
+/* Decode */
 
-/* Checks fingerprint, size and list count of an encoded message, before any of it is decoded. */
-static enum rho_status check_encoded_bytes(const struct message_format *format, const uint8_t *data,
-                                           size_t size, size_t *count)
+enum rho_status rho_message_decode(const struct message_format *format, const uint8_t *data,
+                                   size_t size, void *message)
 {
-    size_t head = encoded_head_bytes(format), rest;
-
-    *count = 0;
+    uint8_t *bytes = message;
+    const size_t head = head_bytes(format);
+    size_t count = 0;
+    if (!data || !message) {
+        return RHO_ERROR_NULL;
+    }
+    /* fingerprint, size and list count are checked before any of it is decoded */
     if (size < MESSAGE_FINGERPRINT_BYTES) {
         return RHO_ERROR_SHORT;
     }
@@ -281,43 +259,35 @@ static enum rho_status check_encoded_bytes(const struct message_format *format, 
     if (size < head) {
         return RHO_ERROR_SHORT;
     }
-    if (format->max > 0) {
-        *count = get16(data + head -
-                       MESSAGE_COUNT_BYTES); /* a negative count reads as more than 32767 */
+    if (format->max > 0) { /* a negative count reads as more than 32767 */
+        count = get16(data + head - MESSAGE_COUNT_BYTES);
     }
-    if (*count > format->max) {
+    if (count > format->max) {
         return RHO_ERROR_COUNT;
     }
-    rest = *count * format->element.wire_bytes;
-    return size - head < rest ? RHO_ERROR_SHORT : size - head > rest ? RHO_ERROR_TRAILING : RHO_OK;
-}
-
-enum rho_status rho_message_decode(const struct message_format *format, const uint8_t *data,
-                                   size_t size, void *message)
-{
-    uint8_t *bytes = message;
-    enum rho_status status;
-    const uint8_t *from;
-    int16_t stored;
-    size_t count;
-
-    if (!data || !message) {
-        return RHO_ERROR_NULL;
+    const size_t rest = count * format->element.wire_bytes;
+    if (size - head != rest) {
+        return size - head < rest ? RHO_ERROR_SHORT : RHO_ERROR_TRAILING;
     }
-    status = check_encoded_bytes(format, data, size, &count);
-    if (status != RHO_OK) {
-        return status;
-    }
-    from = decode_struct(data + MESSAGE_FINGERPRINT_BYTES, bytes, &format->head);
+    const uint8_t *from = decode_struct(data + MESSAGE_FINGERPRINT_BYTES, bytes, &format->head);
     if (format->max > 0) {
-        stored = (int16_t)count;
+        const int16_t stored = (int16_t)count;
+        const struct message_run *run = format->element.runs;
+        uint8_t *list = bytes + format->list_offset;
         memcpy(bytes + format->count_offset, &stored, sizeof stored);
-        decode_list(from + MESSAGE_COUNT_BYTES, bytes + format->list_offset, format, count);
+        from += MESSAGE_COUNT_BYTES;
+        if (is_list_one_run(format)) {
+            (void)decode_members(from, list, run->width, count * run->count);
+            return RHO_OK;
+        }
+        for (size_t i = 0; i < count; i++) {
+            from = decode_struct(from, list + i * format->element_bytes, &format->element);
+        }
     }
     return RHO_OK;
 }
 
-/* ---- Validate ---- */
+/* Validate */
 
 static int64_t read_native_int(const uint8_t *from, unsigned width)
 {
@@ -325,7 +295,6 @@ static int64_t read_native_int(const uint8_t *from, unsigned width)
     int16_t v16;
     int32_t v32;
     int64_t v64;
-
     switch (width) {
     case 1:
         memcpy(&v8, from, sizeof v8);
@@ -345,8 +314,7 @@ static int64_t read_native_int(const uint8_t *from, unsigned width)
 static int keeps_int_rule(const uint8_t *bytes, const struct message_int_rule *rule,
                           unsigned offset)
 {
-    int64_t v = read_native_int(bytes + offset, rule->width);
-
+    const int64_t v = read_native_int(bytes + offset, rule->width);
     switch (rule->kind) {
     case MESSAGE_ONE_OF:
         return v >= 0 && v < 31 && ((uint32_t)rule->max >> v & 1u) != 0;
@@ -363,52 +331,30 @@ static int keeps_int_rule(const uint8_t *bytes, const struct message_int_rule *r
 
 #define ALL_GOOD UINT16_MAX
 
-/* Offset of the first integer that breaks the rule; ALL_GOOD where none does. */
-static uint16_t offset_of_bad_int(const uint8_t *bytes, const struct message_int_rule *rule)
-{
-    unsigned offset = rule->offset;
-
-    for (unsigned i = 0; i < rule->count; i++, offset += rule->width) {
-        if (!keeps_int_rule(bytes, rule, offset)) {
-            return (uint16_t)offset;
-        }
-    }
-    return ALL_GOOD;
-}
-
-static uint16_t offset_of_bad_float(const uint8_t *bytes, const struct message_float_rule *rule)
-{
-    float v;
-
-    for (unsigned i = 0; i < rule->count; i++) {
-        memcpy(&v, bytes + rule->offset + i * sizeof v, sizeof v);
-        if (!(v >= rule->min && v <= rule->max)) {
-            return (uint16_t)(rule->offset + i * sizeof v);
-        }
-    }
-    return ALL_GOOD;
-}
-
+/* Offset of the first integer, or else float, that breaks its rule; ALL_GOOD where none does. */
 static uint16_t offset_of_bad_member(const uint8_t *bytes, const struct message_checks *checks)
 {
-    uint16_t bad = ALL_GOOD;
-
-    for (unsigned i = 0; i < checks->num_ints && bad == ALL_GOOD; i++) {
-        bad = offset_of_bad_int(bytes, &checks->ints[i]);
+    for (unsigned i = 0; i < checks->num_ints; i++) {
+        const struct message_int_rule *rule = &checks->ints[i];
+        unsigned offset = rule->offset;
+        for (unsigned k = 0; k < rule->count; k++, offset += rule->width) {
+            if (!keeps_int_rule(bytes, rule, offset)) {
+                return (uint16_t)offset;
+            }
+        }
     }
-    for (unsigned i = 0; i < checks->num_floats && bad == ALL_GOOD; i++) {
-        bad = offset_of_bad_float(bytes, &checks->floats[i]);
+    for (unsigned i = 0; i < checks->num_floats; i++) {
+        const struct message_float_rule *rule = &checks->floats[i];
+        unsigned offset = rule->offset;
+        for (unsigned k = 0; k < rule->count; k++, offset += (unsigned)sizeof(float)) {
+            float v;
+            memcpy(&v, bytes + offset, sizeof v);
+            if (!(v >= rule->min && v <= rule->max)) {
+                return (uint16_t)offset;
+            }
+        }
     }
-    return bad;
-}
-
-static enum rho_status set_bad_place(enum rho_status status, struct rho_message_place *place,
-                                     uint16_t offset, int element)
-{
-    if (place) {
-        *place = (struct rho_message_place){offset, (int16_t)element};
-    }
-    return status;
+    return ALL_GOOD;
 }
 
 enum rho_status rho_message_validate(const struct message_rules *rules, const void *message,
@@ -416,26 +362,29 @@ enum rho_status rho_message_validate(const struct message_rules *rules, const vo
 {
     const struct message_format *format = rules->format;
     const uint8_t *bytes = message;
-    uint16_t bad;
-    int count;
-
     if (!message) {
         return RHO_ERROR_NULL;
     }
-    count = list_count_of_message_struct(format, bytes);
+    const int count = stated_count(format, bytes);
+    enum rho_status status = RHO_ERROR_VALUE;
+    uint16_t bad;
+    int element = -1;
     if (count < 0 || count > format->max) {
-        return set_bad_place(RHO_ERROR_COUNT, place, format->count_offset, -1);
-    }
-    bad = offset_of_bad_member(bytes, &rules->head);
-    if (bad != ALL_GOOD) {
-        return set_bad_place(RHO_ERROR_VALUE, place, bad, -1);
-    }
-    for (int i = 0; i < count; i++) {
-        bad = offset_of_bad_member(bytes + format->list_offset + (size_t)i * format->element_bytes,
-                                   &rules->element);
-        if (bad != ALL_GOOD) {
-            return set_bad_place(RHO_ERROR_VALUE, place, bad, i);
+        status = RHO_ERROR_COUNT;
+        bad = format->count_offset;
+    } else {
+        bad = offset_of_bad_member(bytes, &rules->head);
+        while (bad == ALL_GOOD && ++element < count) {
+            bad = offset_of_bad_member(bytes + format->list_offset +
+                                           (size_t)element * format->element_bytes,
+                                       &rules->element);
         }
     }
-    return RHO_OK;
+    if (bad == ALL_GOOD) {
+        return RHO_OK;
+    }
+    if (place) {
+        *place = (struct rho_message_place){bad, (int16_t)element};
+    }
+    return status;
 }

@@ -15,8 +15,8 @@
 #include "rhotrack/message.h"
 #include "rhotrack/types.h"
 
-#define MESSAGE_FINGERPRINT_BYTES 8u
-#define MESSAGE_COUNT_BYTES 2u
+/* Bytes on the wire before a message's members, and before its list. */
+enum { MESSAGE_FINGERPRINT_BYTES = 8, MESSAGE_COUNT_BYTES = 2 };
 
 /* Members of one width without a gap between them. */
 struct message_run {

@@ -18,7 +18,7 @@ int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
     }
     *learned = (struct rho_message_learned){
         .utime = tracker->time_us,
-        .sensor_id = rho_int16_sensor_id_or_minus_1(sensor->sensor_id),
+        .sensor_id = rho_clamp_sensor_id(sensor->sensor_id),
         .innovations = rho_clamp_to_int16(known.innovations),
         .sigma_range_factor = known.range_factor,
         .sigma_cross_factor = known.cross_factor,

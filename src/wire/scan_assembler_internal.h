@@ -3,8 +3,8 @@
  * Functions that are private to the scan assembler: decoding of messages, admission of scans, slots
  * in which scans are assembled, and the conversion of messages to plots.
  */
-#ifndef RHOTRACK_SCAN_ASSEMBLER_INTERNAL_H
-#define RHOTRACK_SCAN_ASSEMBLER_INTERNAL_H
+#ifndef RHOTRACK_SCAN_INTERNAL_H
+#define RHOTRACK_SCAN_INTERNAL_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -45,44 +45,10 @@ enum scan_verdict {
 };
 
 /* Values of source.check; higher ones are checksums of the first part of the newest scan. */
-#define CHECK_NONE 0u                        /* no first part was received */
-#define CHECK_NOT_ADMITTED (CHECK_NONE + 1u) /* the scan of a newcomer was refused its turn */
-
-/* scan_admission.c: numbers and clocks. */
-
-/* Classifies a scan by the numbers and times of its sensor's scans before it. */
-enum scan_verdict rho_scan_assembler_classify_scan(const struct rho_scan_assembler *assembler,
-                                                   const struct rho_scan_assembler_source *source,
-                                                   const struct rho_scan_assembler_place *place,
-                                                   int64_t now_us);
-
-/* 1 where a refused scan may belong to a new sequence of its sensor, if others agree with it. */
-int rho_scan_assembler_may_begin_sequence(const struct rho_scan_assembler_config *config,
-                                          const struct rho_scan_assembler_source *source,
-                                          const struct rho_scan_assembler_place *place,
-                                          enum scan_verdict verdict);
-
-/* Adds a refused scan to the series that it continues, or begins a series of refused scans. */
-void rho_scan_assembler_remember_refused_scan(const struct rho_scan_assembler_config *config,
-                                              struct rho_scan_assembler_source *source,
-                                              const struct rho_scan_assembler_place *place);
-
-/* Makes an accepted scan its sensor's newest. Returns the number of skipped scan numbers. */
-uint32_t rho_scan_assembler_set_newest_and_count_skipped(
-    const struct rho_scan_assembler_config *config, struct rho_scan_assembler_source *source,
-    const struct rho_scan_assembler_place *place, enum scan_verdict verdict, int64_t now_us);
-
-/* 1 where time_us is at most late_max_us (bearings: 0) before the newest scan that went out. */
-int rho_scan_assembler_is_not_too_late(const struct rho_scan_assembler *assembler,
-                                       enum rho_scan_assembler_kind kind, int64_t time_us);
-
-/* Marks a skipped scan number as received; the sensor's newest scan stays the same. */
-void rho_scan_assembler_mark_number_received(struct rho_scan_assembler_source *source,
-                                             int32_t scan);
-
-/* 1 where the scan number before `scan` was skipped, and may still come. */
-int rho_scan_assembler_awaits_previous_number(const struct rho_scan_assembler_source *source,
-                                              int32_t scan);
+enum scan_check {
+    CHECK_NONE = 0,    /* no first part was received */
+    CHECK_NOT_ADMITTED /* the scan of a newcomer was refused its turn */
+};
 
 /* 1 in builds for several sensors: only these have newcomers, and votes on the clock. */
 #define HAS_OTHERS (RHO_MAX_SENSORS > 1)
@@ -99,27 +65,63 @@ int rho_scan_assembler_awaits_previous_number(const struct rho_scan_assembler_so
  */
 #define FOLLOWS_REPEATS HAS_OTHERS
 
+/* scan_admission.c: numbers and clocks */
+
+/* Classifies a scan by the numbers and times of its sensor's scans before it. */
+enum scan_verdict rho_scan_classify(const struct rho_scan_assembler *assembler,
+                                    const struct rho_scan_assembler_source *source,
+                                    const struct rho_scan_assembler_place *place, int64_t now_us);
+
+/* 1 where a refused scan may belong to a new sequence of its sensor, if others agree with it. */
+int rho_scan_may_begin_sequence(const struct rho_scan_assembler_config *config,
+                                const struct rho_scan_assembler_source *source,
+                                const struct rho_scan_assembler_place *place,
+                                enum scan_verdict verdict);
+
+/* Adds a refused scan to the series that it continues, or begins a series of refused scans. */
+void rho_scan_remember_refused(const struct rho_scan_assembler_config *config,
+                               struct rho_scan_assembler_source *source,
+                               const struct rho_scan_assembler_place *place);
+
+/* Makes an accepted scan its sensor's newest. Returns the number of skipped scan numbers. */
+uint32_t rho_scan_set_newest(const struct rho_scan_assembler_config *config,
+                             struct rho_scan_assembler_source *source,
+                             const struct rho_scan_assembler_place *place,
+                             enum scan_verdict verdict, int64_t now_us);
+
+/* 1 where time_us is at most late_max_us (bearings: 0) before the newest scan that went out. */
+int rho_scan_is_in_time(const struct rho_scan_assembler *assembler,
+                        enum rho_scan_assembler_kind kind, int64_t time_us);
+
+/* Marks a skipped scan number as received; the sensor's newest scan stays the same. */
+void rho_scan_mark_received(struct rho_scan_assembler_source *source, int32_t scan);
+
+/* 1 where the scan number before `scan` was skipped, and may still come. */
+int rho_scan_awaits_previous(const struct rho_scan_assembler_source *source, int32_t scan);
+
+/* 1 where a sensor has sent scans, and the last of them at most jump_max_us ago. */
+int rho_scan_is_live(const struct rho_scan_assembler *assembler,
+                     const struct rho_scan_assembler_source *source, int64_t now_us);
+
+/* 1 where a sensor has sent at least follow_scans accepted scans. */
+int rho_scan_is_proven(const struct rho_scan_assembler_config *config,
+                       const struct rho_scan_assembler_source *source);
+
 /* Longest time for which any proven sensor that still sends was heard; 0: there is none. */
-uint32_t rho_scan_assembler_eldest_sensor_known_us(const struct rho_scan_assembler *assembler,
-                                                   int64_t now_us);
+uint32_t rho_scan_eldest_known_us(const struct rho_scan_assembler *assembler, int64_t now_us);
 
 /*
  * 1 where a sensor heard for known_us is a newcomer beside one heard for eldest_us: it has no vote
  * on the clock, and its scans wait for others.
  */
-int rho_scan_assembler_is_newcomer(uint32_t known_us, uint32_t eldest_us);
+int rho_scan_is_newcomer(uint32_t known_us, uint32_t eldest_us);
 
 /*
  * Reception time until which a newcomer's scan is held. INT64_MIN: it may go out at once;
  * INT64_MAX: a part of an older scan of an established sensor is missing.
  */
-int64_t
-rho_scan_assembler_scan_of_new_sensor_held_until_us(const struct rho_scan_assembler *assembler,
-                                                    const struct rho_scan_assembler_slot *slot);
-
-/* 1 where a sensor has sent at least follow_scans accepted scans. */
-int rho_scan_assembler_is_proven(const struct rho_scan_assembler_config *config,
-                                 const struct rho_scan_assembler_source *source);
+int64_t rho_scan_held_until_us(const struct rho_scan_assembler *assembler,
+                               const struct rho_scan_assembler_slot *slot);
 
 /* The time of an accepted scan, compared with the common clock of all sensors. */
 enum scan_clock {
@@ -129,16 +131,15 @@ enum scan_clock {
 };
 
 /* Compares a scan's time with the common clock, and moves the clock on, or sets it anew. */
-enum scan_clock rho_scan_assembler_update_common_clock(struct rho_scan_assembler *assembler,
-                                                       struct rho_scan_assembler_source *source,
-                                                       int64_t time_us, enum scan_verdict verdict,
-                                                       int64_t now_us);
+enum scan_clock rho_scan_update_clock(struct rho_scan_assembler *assembler,
+                                      struct rho_scan_assembler_source *source, int64_t time_us,
+                                      enum scan_verdict verdict, int64_t now_us);
 
 /* Takes count tokens out of a rate limit's bucket; 0: it holds fewer, and is unchanged. */
-int rho_scan_assembler_take_tokens(struct rho_scan_assembler_bucket *bucket, uint32_t count,
-                                   uint32_t per_s, int64_t now_us);
+int rho_scan_take_tokens(struct rho_scan_assembler_bucket *bucket, uint32_t count, uint32_t per_s,
+                         int64_t now_us);
 
-/* scan_slots.c: slots of scans. */
+/* scan_slots.c: slots of scans */
 
 enum slot_state {
     SLOT_FREE = 0,
@@ -155,97 +156,88 @@ enum slot_order {
 };
 
 /* Adds 1 to a counter, which saturates. */
-void rho_scan_assembler_increment(uint32_t *counter);
+void rho_scan_increment(uint32_t *counter);
 
-/* The first slot in a state, and the open slot of the scan of a message; NULL: there is none. */
-struct rho_scan_assembler_slot *
-rho_scan_assembler_find_slot_in_state(struct rho_scan_assembler *assembler, enum slot_state state);
-struct rho_scan_assembler_slot *
-rho_scan_assembler_find_open_scan(struct rho_scan_assembler *assembler,
-                                  const struct rho_scan_assembler_source *source,
-                                  const struct scan_heading *heading);
+/* The first slot in a state; NULL: there is none. */
+struct rho_scan_assembler_slot *rho_slot_in_state(struct rho_scan_assembler *assembler,
+                                                  enum slot_state state);
+
+/* The open slot of the scan of a message; NULL: there is none. */
+struct rho_scan_assembler_slot *rho_slot_find_open(struct rho_scan_assembler *assembler,
+                                                   const struct rho_scan_assembler_source *source,
+                                                   const struct scan_heading *heading);
 
 /* 1 where the sensor has an out-of-sequence scan whose parts are still coming. */
-int rho_scan_assembler_has_open_out_of_sequence(const struct rho_scan_assembler *assembler,
-                                                const struct rho_scan_assembler_source *source);
+int rho_slot_has_out_of_sequence(const struct rho_scan_assembler *assembler,
+                                 const struct rho_scan_assembler_source *source);
 
 /*
  * Finds a scan that may go out to make room: the first complete scan that is not a newcomer's held
  * one, or else an open scan of a newcomer or unproven sensor. Its release neither cuts short an
  * established sensor's scan whose parts are still coming, nor makes it out of sequence. NULL: none.
  */
-struct rho_scan_assembler_slot *
-rho_scan_assembler_find_scan_to_release_early(struct rho_scan_assembler *assembler, int64_t now_us);
+struct rho_scan_assembler_slot *rho_slot_find_spare(struct rho_scan_assembler *assembler,
+                                                    int64_t now_us);
 
 /* Begins a scan in a free slot, without any of its parts. */
-void rho_scan_assembler_open_scan(struct rho_scan_assembler *assembler,
-                                  struct rho_scan_assembler_slot *slot,
-                                  const struct rho_scan_assembler_source *source,
-                                  const struct scan_heading *heading, enum slot_order order);
-
-/* Ends the wait for parts of an open scan; counts the scan where some are missing. */
-void rho_scan_assembler_complete_scan(struct rho_scan_assembler *assembler,
-                                      struct rho_scan_assembler_slot *slot);
+void rho_slot_open(struct rho_scan_assembler *assembler, struct rho_scan_assembler_slot *slot,
+                   const struct rho_scan_assembler_source *source,
+                   const struct scan_heading *heading, enum slot_order order);
 
 /* Ends the wait for parts of a sensor's open scans; numbers_restart: its numbers begin anew. */
-void rho_scan_assembler_complete_open_scans(struct rho_scan_assembler *assembler,
-                                            const struct rho_scan_assembler_source *source,
-                                            int numbers_restart);
+void rho_slot_complete_all(struct rho_scan_assembler *assembler,
+                           const struct rho_scan_assembler_source *source, int numbers_restart);
 
 /*
  * Finds or makes a free slot. An out-of-sequence scan is dropped for it, and, for a scan of an
  * established sensor, a newcomer's held scan. NULL: no slot can be freed.
  *   for_newcomer  1: the slot is for a newcomer's scan
  */
-struct rho_scan_assembler_slot *
-rho_scan_assembler_find_free_slot_or_drop_scan(struct rho_scan_assembler *assembler,
-                                               int for_newcomer, int64_t now_us);
+struct rho_scan_assembler_slot *rho_slot_make_free(struct rho_scan_assembler *assembler,
+                                                   int for_newcomer, int64_t now_us);
 
 /* Drops all waiting scans: the common clock was set anew, and they are of the old one. */
-void rho_scan_assembler_drop_waiting_scans(struct rho_scan_assembler *assembler);
+void rho_slot_drop_waiting(struct rho_scan_assembler *assembler);
 
 /* Counts a part that was received before, with the same bytes or from another sender. */
-void rho_scan_assembler_count_duplicate(struct rho_scan_assembler *assembler,
-                                        struct rho_scan_assembler_source *source,
-                                        const struct scan_heading *heading);
+void rho_slot_count_duplicate(struct rho_scan_assembler *assembler,
+                              struct rho_scan_assembler_source *source,
+                              const struct scan_heading *heading);
 
 /* Adds a part to its scan; counts one that is there already, or contradicts the others. */
-void rho_scan_assembler_add_part(struct rho_scan_assembler *assembler,
-                                 struct rho_scan_assembler_slot *slot,
-                                 const struct scan_heading *heading,
-                                 const union scan_message *message, int64_t now_us);
+void rho_slot_add_part(struct rho_scan_assembler *assembler, struct rho_scan_assembler_slot *slot,
+                       const struct scan_heading *heading, const union scan_message *message,
+                       int64_t now_us);
 
 /* Completes overdue scans and drops late ones; returns the scan to go out now, or NULL. */
-struct rho_scan_assembler_slot *
-rho_scan_assembler_complete_and_find_due(struct rho_scan_assembler *assembler, int64_t now_us);
+struct rho_scan_assembler_slot *rho_slot_find_due(struct rho_scan_assembler *assembler,
+                                                  int64_t now_us);
 
 /* Describes a slot's scan to the caller; the item points into the slot. */
-void rho_scan_assembler_fill_item_with_scan(const struct rho_scan_assembler_slot *slot,
-                                            struct rho_scan_assembler_item *item);
+void rho_slot_fill_item(const struct rho_scan_assembler_slot *slot,
+                        struct rho_scan_assembler_item *item);
 
-/* scan_decoding.c: decoding of messages. */
+/* scan_decoding.c: decoding of messages */
 
 /* Decodes and validates a message, and fills its heading. */
-enum rho_status rho_scan_assembler_decode_message(enum rho_scan_assembler_kind kind,
-                                                  const uint8_t *data, size_t size,
-                                                  union scan_message *message,
-                                                  struct scan_heading *heading);
+enum rho_status rho_scan_decode(enum rho_scan_assembler_kind kind, const uint8_t *data, size_t size,
+                                union scan_message *message, struct scan_heading *heading);
 
 /*
  * Subtracts the sensor's time bias from the scan's time, which is then on the common clock. Returns
  * 0 where it is beyond RHO_LIMIT_TIME_US.
  */
-int rho_scan_assembler_subtract_time_bias(const struct rho_scan_assembler *assembler,
-                                          struct scan_heading *heading);
+int rho_scan_subtract_time_bias(const struct rho_scan_assembler *assembler,
+                                struct scan_heading *heading);
 
 /* Inserts a part's plots or bearings in the order of parts; counts those beyond the slot's room. */
-void rho_scan_assembler_add_measurements(struct rho_scan_assembler *assembler,
-                                         struct rho_scan_assembler_slot *slot,
-                                         const struct scan_heading *heading,
-                                         const union scan_message *message);
+void rho_slot_add_measurements(struct rho_scan_assembler *assembler,
+                               struct rho_scan_assembler_slot *slot,
+                               const struct scan_heading *heading,
+                               const union scan_message *message);
 
 /* The description of a sensor, or the config's `other` for one that was not described. */
-const struct rho_scan_assembler_sensor *
-rho_scan_assembler_sensor_or_default(const struct rho_scan_assembler *assembler, int32_t sensor_id);
+const struct rho_scan_assembler_sensor *rho_scan_sensor(const struct rho_scan_assembler *assembler,
+                                                        int32_t sensor_id);
 
 #endif

@@ -6,14 +6,17 @@
 #include "rhotrack/detail/measurement.h"
 #include "scan_assembler_internal.h"
 
-#define NOT_A_PLACE FLT_MAX /* x_m of a plot that the tracker is to give the fate INVALID */
-
-/* ---- Headings ---- */
+/* Headings */
 
 static struct scan_heading heading_of_plots(const struct rho_message_plot_scan *scan)
 {
-    struct scan_heading heading = {
+    const int has_z = scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_3D ||
+                      scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D;
+    const int has_velocity = scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_2D ||
+                             scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D;
+    return (struct scan_heading){
         .place = {scan->utime, scan->scan, scan->epoch},
+        .measures = (has_z ? RHO_MEASURES_Z : 0u) | (has_velocity ? RHO_MEASURES_VELOCITY : 0u),
         .sector_from_rad = scan->sector_from_rad,
         .sector_to_rad = scan->sector_to_rad,
         .part = (uint16_t)scan->part,
@@ -22,16 +25,6 @@ static struct scan_heading heading_of_plots(const struct rho_message_plot_scan *
         .sensor_id = scan->sensor_id,
         .kind = RHO_SCAN_ASSEMBLER_PLOTS,
     };
-
-    if (scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_3D ||
-        scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D) {
-        heading.measures |= RHO_MEASURES_Z;
-    }
-    if (scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_2D ||
-        scan->kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D) {
-        heading.measures |= RHO_MEASURES_VELOCITY;
-    }
-    return heading;
 }
 
 static struct scan_heading heading_of_polar_plots(const struct rho_message_polar_scan *scan)
@@ -53,31 +46,24 @@ static struct scan_heading heading_of_polar_plots(const struct rho_message_polar
     };
 }
 
-static struct scan_heading heading_of_bearings(const struct rho_message_bearing_scan *scan)
-{
-    return (struct scan_heading){
-        .place = {scan->utime, scan->scan, scan->epoch},
-        .x_m = scan->sensor_x_m,
-        .y_m = scan->sensor_y_m,
-        .num_parts = 1,
-        .num_inputs = (uint16_t)scan->num_bearings,
-        .sensor_id = scan->sensor_id,
-        .kind = RHO_SCAN_ASSEMBLER_BEARINGS,
-    };
-}
-
-enum rho_status rho_scan_assembler_decode_message(enum rho_scan_assembler_kind kind,
-                                                  const uint8_t *data, size_t size,
-                                                  union scan_message *message,
-                                                  struct scan_heading *heading)
+enum rho_status rho_scan_decode(enum rho_scan_assembler_kind kind, const uint8_t *data, size_t size,
+                                union scan_message *message, struct scan_heading *heading)
 {
     enum rho_status status;
-
     if (RHO_SCAN_ASSEMBLER_IS(kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
+        const struct rho_message_bearing_scan *scan = &message->bearings;
         status = rho_message_bearing_scan_decode(data, size, &message->bearings);
         if (status == RHO_OK) {
-            status = rho_message_bearing_scan_validate(&message->bearings, NULL);
-            *heading = heading_of_bearings(&message->bearings);
+            status = rho_message_bearing_scan_validate(scan, NULL);
+            *heading = (struct scan_heading){
+                .place = {scan->utime, scan->scan, scan->epoch},
+                .x_m = scan->sensor_x_m,
+                .y_m = scan->sensor_y_m,
+                .num_parts = 1,
+                .num_inputs = (uint16_t)scan->num_bearings,
+                .sensor_id = scan->sensor_id,
+                .kind = RHO_SCAN_ASSEMBLER_BEARINGS,
+            };
         }
     } else if (RHO_SCAN_ASSEMBLER_IS(kind, RHO_SCAN_ASSEMBLER_PLOTS)) {
         status = rho_message_plot_scan_decode(data, size, &message->plots);
@@ -95,22 +81,21 @@ enum rho_status rho_scan_assembler_decode_message(enum rho_scan_assembler_kind k
     return status;
 }
 
-/* ---- Plots and bearings ---- */
+/* Plots and bearings */
 
 /* The stated sigma, or the default where none is stated, or a newcomer states a smaller one. */
-static float sigma_or_default(float stated, float fallback, int is_newcomer)
+static float stated_sigma(float stated, float fallback, int is_newcomer)
 {
     return stated > 0.0f && !(is_newcomer && stated < fallback) ? stated : fallback;
 }
 
 static void convert_plots(struct rho_plot *to, unsigned count,
                           const struct rho_message_plot_scan *scan,
-                          const struct rho_scan_assembler_noise *noise, int keeps_default_as_least)
+                          const struct rho_scan_assembler_noise *noise, int is_newcomer)
 {
     for (unsigned i = 0; i < count; i++) {
         const struct rho_message_plot *plot = &scan->plots[i];
-        float sigma_m = sigma_or_default(plot->sigma_m, noise->sigma_m, keeps_default_as_least);
-
+        const float sigma_m = stated_sigma(plot->sigma_m, noise->sigma_m, is_newcomer);
         to[i] = (struct rho_plot){.offset_us = plot->dt_us,
                                   .x_m = plot->x_m,
                                   .y_m = plot->y_m,
@@ -121,8 +106,8 @@ static void convert_plots(struct rho_plot *to, unsigned count,
                                   .sigma_range_m = sigma_m,
                                   .sigma_cross_m = sigma_m,
                                   .sigma_up_m = sigma_m,
-                                  .sigma_mps = sigma_or_default(plot->sigma_mps, noise->sigma_mps,
-                                                                keeps_default_as_least),
+                                  .sigma_mps =
+                                      stated_sigma(plot->sigma_mps, noise->sigma_mps, is_newcomer),
                                   .sigma_range_rate_mps = noise->sigma_range_rate_mps,
                                   .snr_db = plot->snr_db};
     }
@@ -135,49 +120,34 @@ static void convert_polar_plots(struct rho_plot *to, unsigned count,
 {
     struct rho_sensor seen_from = *sensor;
     struct rho_polar_plot polar = {
-        .sigma_range_m = sigma_or_default(scan->sigma_range_m, noise->sigma_range_m, is_newcomer),
+        .sigma_range_m = stated_sigma(scan->sigma_range_m, noise->sigma_range_m, is_newcomer),
         .sigma_azimuth_rad =
-            sigma_or_default(scan->sigma_azimuth_rad, noise->sigma_azimuth_rad, is_newcomer),
+            stated_sigma(scan->sigma_azimuth_rad, noise->sigma_azimuth_rad, is_newcomer),
         .sigma_elevation_rad =
-            sigma_or_default(scan->sigma_elevation_rad, noise->sigma_elevation_rad, is_newcomer),
+            stated_sigma(scan->sigma_elevation_rad, noise->sigma_elevation_rad, is_newcomer),
         .sigma_range_rate_mps =
-            sigma_or_default(scan->sigma_range_rate_mps, noise->sigma_range_rate_mps, is_newcomer)};
-
+            stated_sigma(scan->sigma_range_rate_mps, noise->sigma_range_rate_mps, is_newcomer)};
     seen_from.time_bias_s = 0.0f; /* the scan's time has been corrected already */
     for (unsigned i = 0; i < count; i++) {
         const struct rho_message_polar_plot *plot = &scan->polar_plots[i];
-
         polar.offset_us = plot->dt_us;
         polar.range_m = plot->range_m;
         polar.azimuth_rad = plot->azimuth_rad;
         polar.elevation_rad = plot->elevation_rad;
         polar.range_rate_mps = plot->range_rate_mps;
         polar.snr_db = plot->snr_db;
-        /* An invalid plot keeps its row, so that the rows of the plots behind it stay the same. */
+        /*
+         * An invalid plot keeps its row, so that the rows of the plots behind it stay the same, and
+         * is at no place: the tracker gives it the fate INVALID.
+         */
         if (rho_measurement_from_polar(&polar, measures, &seen_from, &to[i]) != RHO_OK) {
-            to[i] = (struct rho_plot){.x_m = NOT_A_PLACE};
+            to[i] = (struct rho_plot){.x_m = FLT_MAX};
         }
     }
 }
 
-static void convert_bearings(struct rho_bearing *to, unsigned count,
-                             const struct rho_message_bearing_scan *scan,
-                             const struct rho_scan_assembler_sensor *known, int is_newcomer)
-{
-    for (unsigned i = 0; i < count; i++) {
-        float bearing_rad = scan->bearing_rad[i];
-
-        if (known->sensor.azimuth_bias_rad < 0.0f || known->sensor.azimuth_bias_rad > 0.0f) {
-            bearing_rad = rho_angle_difference(bearing_rad, known->sensor.azimuth_bias_rad);
-        }
-        to[i] = (struct rho_bearing){
-            .bearing_rad = bearing_rad,
-            .sigma_rad = sigma_or_default(scan->sigma_rad, known->noise.sigma_rad, is_newcomer)};
-    }
-}
-
-const struct rho_scan_assembler_sensor *
-rho_scan_assembler_sensor_or_default(const struct rho_scan_assembler *assembler, int32_t sensor_id)
+const struct rho_scan_assembler_sensor *rho_scan_sensor(const struct rho_scan_assembler *assembler,
+                                                        int32_t sensor_id)
 {
     for (unsigned i = 0; i < assembler->num_known; i++) {
         if (assembler->known[i].sensor.sensor_id == sensor_id) {
@@ -188,43 +158,29 @@ rho_scan_assembler_sensor_or_default(const struct rho_scan_assembler *assembler,
 }
 
 /* The subtraction cannot overflow: a valid time is within RHO_LIMIT_TIME_US. */
-int rho_scan_assembler_subtract_time_bias(const struct rho_scan_assembler *assembler,
-                                          struct scan_heading *heading)
+int rho_scan_subtract_time_bias(const struct rho_scan_assembler *assembler,
+                                struct scan_heading *heading)
 {
     int64_t *time_us = &heading->place.time_us;
-
-    *time_us -= rho_measurement_time_bias_us(
-        &rho_scan_assembler_sensor_or_default(assembler, heading->sensor_id)->sensor);
+    *time_us -=
+        rho_measurement_time_bias_us(&rho_scan_sensor(assembler, heading->sensor_id)->sensor);
     return *time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US;
 }
 
-/* ---- Parts ---- */
-
-/* Number of stored plots or bearings of a scan's parts before a part. */
-static unsigned num_measurements_before_part(const struct rho_scan_assembler_slot *slot,
-                                             unsigned part)
+void rho_slot_add_measurements(struct rho_scan_assembler *assembler,
+                               struct rho_scan_assembler_slot *slot,
+                               const struct scan_heading *heading,
+                               const union scan_message *message)
 {
-    unsigned count = 0;
-
-    for (unsigned i = 0; i < part; i++) {
-        count += slot->parts[i] > 0 ? slot->parts[i] - 1u : 0u;
+    const struct rho_scan_assembler_sensor *known = rho_scan_sensor(assembler, heading->sensor_id);
+    const int is_bearings = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS);
+    const unsigned room = is_bearings ? RHO_MAX_BEARINGS : RHO_MAX_PLOTS;
+    unsigned at = 0, count = heading->num_inputs, dropped = 0;
+    for (unsigned i = 0; i < heading->part; i++) {
+        at += slot->parts[i] > 0 ? slot->parts[i] - 1u : 0u;
     }
-    return count < slot->num_inputs ? count : slot->num_inputs;
-}
-
-void rho_scan_assembler_add_measurements(struct rho_scan_assembler *assembler,
-                                         struct rho_scan_assembler_slot *slot,
-                                         const struct scan_heading *heading,
-                                         const union scan_message *message)
-{
-    const struct rho_scan_assembler_sensor *known =
-        rho_scan_assembler_sensor_or_default(assembler, heading->sensor_id);
-    unsigned room = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)
-                        ? RHO_MAX_BEARINGS
-                        : RHO_MAX_PLOTS;
-    unsigned at = num_measurements_before_part(slot, heading->part), count = heading->num_inputs;
-    unsigned behind = slot->num_inputs - at, dropped = 0;
-
+    at = at < slot->num_inputs ? at : slot->num_inputs;
+    unsigned behind = slot->num_inputs - at;
     /* A full slot keeps the first rows of the scan: a part in between displaces the last ones. */
     if (at + count > room) {
         dropped += at + count - room;
@@ -234,8 +190,18 @@ void rho_scan_assembler_add_measurements(struct rho_scan_assembler *assembler,
         dropped += at + count + behind - room;
         behind = room - at - count;
     }
-    if (RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
-        convert_bearings(slot->bearings + at, count, &message->bearings, known, heading->is_new);
+    if (is_bearings) {
+        const struct rho_message_bearing_scan *scan = &message->bearings;
+        const float bias_rad = known->sensor.azimuth_bias_rad;
+        for (unsigned i = 0; i < count; i++) {
+            const float bearing_rad = scan->bearing_rad[i];
+            slot->bearings[at + i] = (struct rho_bearing){
+                .bearing_rad = bias_rad < 0.0f || bias_rad > 0.0f
+                                   ? rho_angle_difference(bearing_rad, bias_rad)
+                                   : bearing_rad,
+                .sigma_rad =
+                    stated_sigma(scan->sigma_rad, known->noise.sigma_rad, heading->is_new)};
+        }
         assembler->counters.bearings_in =
             rho_count(assembler->counters.bearings_in, heading->num_inputs);
     } else {

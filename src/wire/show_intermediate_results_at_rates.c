@@ -10,10 +10,11 @@
 #include "message_clamps.h"
 #include "show_writers.h"
 
-#define MAGIC 0x53484f57u /* "SHOW" */
-#define SECOND_US 1000000
-#define RATE_MAX 10000u
-#define ALL_KINDS ((1u << RHO_NUM_SHOW_KINDS) - 1u)
+enum {
+    MAGIC = 0x53484f57, /* "SHOW" */
+    SECOND_US = 1000000,
+    ALL_KINDS = (1 << RHO_NUM_SHOW_KINDS) - 1
+};
 
 void rho_show_config_default(struct rho_show_config *config)
 {
@@ -30,7 +31,7 @@ enum rho_status rho_show_init(struct rho_show *show, size_t size,
         return RHO_ERROR_SIZE;
     }
     if (config->kinds == 0 || config->kinds > ALL_KINDS || config->messages_per_s == 0 ||
-        config->messages_per_s > RATE_MAX) {
+        config->messages_per_s > 10000) {
         return RHO_ERROR_CONFIG;
     }
     const struct rho_show_config kept = *config; /* config may point into *show */
@@ -38,13 +39,6 @@ enum rho_status rho_show_init(struct rho_show *show, size_t size,
     show->config = kept;
     show->magic = MAGIC;
     return RHO_OK;
-}
-
-/* ---- rates ----------------------------------------------------------------------------------- */
-
-static int64_t message_cost_us(const struct rho_show *show)
-{
-    return (SECOND_US + show->config.messages_per_s - 1) / show->config.messages_per_s;
 }
 
 static void add_elapsed_credit(struct rho_show_rate *rate, int64_t now_us)
@@ -60,59 +54,37 @@ static void add_elapsed_credit(struct rho_show_rate *rate, int64_t now_us)
     rate->has_time = 1;
 }
 
-/* Plans to send `sent` of a step's messages, takes their cost off the credit, counts the others. */
-static void plan_messages_and_spend_credit(const struct rho_show *show, struct rho_show_rate *rate,
-                                           uint32_t sent, uint32_t all)
-{
-    rate->left = sent;
-    rate->at = 0;
-    rate->credit_us -= (int64_t)sent * message_cost_us(show);
-    rate->not_sent = rho_count(rate->not_sent, all - sent);
-}
-
-/* Number of messages, one a track, that the credit pays for: at most `all`. */
-static uint32_t num_affordable_messages(const struct rho_show *show,
-                                        const struct rho_show_rate *rate, uint32_t all)
-{
-    const int64_t most =
-        rate->credit_us > 0 ? (rate->credit_us - 1) / message_cost_us(show) + 1 : 0;
-    return most < (int64_t)all ? (uint32_t)most : all;
-}
-
-/* ---- a step ---------------------------------------------------------------------------------- */
-
-static uint32_t num_messages_of_kind(const struct rho_show *show,
-                                     const struct rho_show_source *source, unsigned kind)
-{
-    return kind == RHO_SHOW_GHOSTS  ? rho_show_count_ghost_matrix_messages(source)
-           : kind == RHO_SHOW_VOTES ? rho_show_count_accumulator_messages(show, source)
-                                    : source->report->num_tracks;
-}
-
 void rho_show_begin(struct rho_show *show, const struct rho_show_source *source, int64_t now_us)
 {
     if (!show || show->magic != MAGIC) {
         return;
     }
+    const int64_t cost_us =
+        (SECOND_US + show->config.messages_per_s - 1) / show->config.messages_per_s;
     for (unsigned kind = 0; kind < RHO_NUM_SHOW_KINDS; kind++) {
         struct rho_show_rate *rate = &show->rates[kind];
         rate->left = 0;
         if (!source || !source->tracker || !source->report || !(show->config.kinds >> kind & 1u)) {
             continue;
         }
-        const uint32_t all = num_messages_of_kind(show, source, kind);
+        const uint32_t all = kind == RHO_SHOW_GHOSTS  ? rho_show_count_ghosts(source)
+                             : kind == RHO_SHOW_VOTES ? rho_show_count_accumulators(show, source)
+                                                      : source->report->num_tracks;
         add_elapsed_credit(rate, now_us);
-        plan_messages_and_spend_credit(show, rate,
-                                       kind == RHO_SHOW_HYPOTHESES
-                                           ? num_affordable_messages(show, rate, all)
-                                       : rate->credit_us > 0 ? all
-                                                             : 0,
-                                       all);
+        /* Whole matrices and accumulators, or as many tracks as the credit pays for, are sent. */
+        int64_t most = rate->credit_us > 0 ? all : 0;
+        if (kind == RHO_SHOW_HYPOTHESES && most > 0) {
+            most = (rate->credit_us - 1) / cost_us + 1;
+        }
+        rate->left = most < (int64_t)all ? (uint32_t)most : all;
+        rate->at = 0;
+        rate->credit_us -= (int64_t)rate->left * cost_us;
+        rate->not_sent = rho_count(rate->not_sent, all - rate->left);
     }
 }
 
 /* Row of the track to be shown next: the one with the next identity after the last shown one. */
-static unsigned choose_next_track_to_show(struct rho_show *show, const struct rho_report *report)
+static unsigned choose_next_track(struct rho_show *show, const struct rho_report *report)
 {
     unsigned track = 0;
     while (track < report->num_tracks && report->tracks[track].track_id <= show->last_track_id) {
@@ -123,18 +95,6 @@ static unsigned choose_next_track_to_show(struct rho_show *show, const struct rh
     return track;
 }
 
-static const char *write_message_and_give_channel(struct rho_show *show,
-                                                  const struct rho_show_source *source,
-                                                  unsigned kind, uint32_t number,
-                                                  const struct rho_show_output *output)
-{
-    return kind == RHO_SHOW_GHOSTS ? rho_show_write_ghost_matrix_part(source, number, output)
-           : kind == RHO_SHOW_VOTES
-               ? rho_show_write_accumulator_or_picture(show, source, number, output)
-               : rho_show_write_hypotheses_message(
-                     source, choose_next_track_to_show(show, source->report), output);
-}
-
 const char *rho_show_next(struct rho_show *show, const struct rho_show_source *source,
                           uint8_t *buffer, size_t capacity, size_t *size)
 {
@@ -142,17 +102,21 @@ const char *rho_show_next(struct rho_show *show, const struct rho_show_source *s
         capacity < RHO_SHOW_MAX_SIZE) {
         return NULL;
     }
-    struct rho_show_output output;
+    struct rho_show_output output = {.capacity = capacity};
     output.buffer = buffer;
-    output.capacity = capacity;
     output.size = size;
     for (unsigned kind = 0; kind < RHO_NUM_SHOW_KINDS; kind++) {
         struct rho_show_rate *rate = &show->rates[kind];
         output.not_sent = rho_clamp_to_int32(rate->not_sent);
         while (rate->left > 0) {
+            const uint32_t number = rate->at++;
             rate->left--;
             const char *channel =
-                write_message_and_give_channel(show, source, kind, rate->at++, &output);
+                kind == RHO_SHOW_GHOSTS ? rho_show_write_ghosts(source, number, &output)
+                : kind == RHO_SHOW_VOTES
+                    ? rho_show_write_accumulator(show, source, number, &output)
+                    : rho_show_write_hypotheses(source, choose_next_track(show, source->report),
+                                                &output);
             if (channel) {
                 return channel;
             }

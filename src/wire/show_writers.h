@@ -16,24 +16,22 @@ struct rho_show_output {
     int32_t not_sent;
 };
 
-/* show_ghosts_among_bearing_crossings.c: messages of the ghost matrices of the newest frame */
-uint32_t rho_show_count_ghost_matrix_messages(const struct rho_show_source *source);
-const char *rho_show_write_ghost_matrix_part(const struct rho_show_source *source, uint32_t number,
-                                             const struct rho_show_output *output);
+/* show_ghosts.c: messages of the ghost matrices of the newest frame */
+uint32_t rho_show_count_ghosts(const struct rho_show_source *source);
+const char *rho_show_write_ghosts(const struct rho_show_source *source, uint32_t number,
+                                  const struct rho_show_output *output);
 
 /*
  * show_accumulators.c: messages of accumulators; writing an accumulator's first one makes its
  * picture
  */
-uint32_t rho_show_count_accumulator_messages(const struct rho_show *show,
-                                             const struct rho_show_source *source);
-const char *rho_show_write_accumulator_or_picture(struct rho_show *show,
-                                                  const struct rho_show_source *source,
-                                                  uint32_t number,
-                                                  const struct rho_show_output *output);
+uint32_t rho_show_count_accumulators(const struct rho_show *show,
+                                     const struct rho_show_source *source);
+const char *rho_show_write_accumulator(struct rho_show *show, const struct rho_show_source *source,
+                                       uint32_t number, const struct rho_show_output *output);
 
 /* show_hypotheses.c: the message of a track's hypotheses; track: its row in the tracker */
-const char *rho_show_write_hypotheses_message(const struct rho_show_source *source, unsigned track,
-                                              const struct rho_show_output *output);
+const char *rho_show_write_hypotheses(const struct rho_show_source *source, unsigned track,
+                                      const struct rho_show_output *output);
 
 #endif

@@ -5,26 +5,19 @@
 
 #include "rhotrack/types.h"
 
-#define NUMBERS_BYTES 8u /* bytes of a datagram's magic and sequence number */
+enum { NUMBERS_BYTES = 8 }; /* of a datagram's magic and sequence number */
 
 static const uint8_t magic[4] = {'L', 'C', '0', '2'};
 
-/* Length of a channel name; RHO_UDPM_MAX_CHANNEL + 1 where no NUL ends it in time. */
+/* Length of a channel name; 0 where it is empty, or no NUL ends it in time. */
 static size_t channel_length(const char *channel, size_t size)
 {
-    size_t most = size < RHO_UDPM_MAX_CHANNEL + 1u ? size : RHO_UDPM_MAX_CHANNEL + 1u;
-
-    for (size_t i = 0; i < most; i++) {
+    for (size_t i = 0; i < size && i <= RHO_UDPM_MAX_CHANNEL; i++) {
         if (channel[i] == '\0') {
             return i;
         }
     }
-    return RHO_UDPM_MAX_CHANNEL + 1u;
-}
-
-static int is_valid_channel_length(size_t length)
-{
-    return length >= 1 && length <= RHO_UDPM_MAX_CHANNEL;
+    return 0;
 }
 
 int rho_udpm_admits(struct rho_udpm_guard *guard, uint32_t source_ipv4)
@@ -44,13 +37,11 @@ int rho_udpm_admits(struct rho_udpm_guard *guard, uint32_t source_ipv4)
 enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, uint32_t sequence,
                                const char *channel, size_t *head)
 {
-    size_t length;
-
     if (!buffer || !channel || !head) {
         return RHO_ERROR_NULL;
     }
-    length = channel_length(channel, SIZE_MAX);
-    if (!is_valid_channel_length(length)) {
+    const size_t length = channel_length(channel, SIZE_MAX);
+    if (length == 0) {
         return RHO_ERROR_VALUE;
     }
     if (capacity < NUMBERS_BYTES + length + 1) {
@@ -67,10 +58,6 @@ enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, uint32_t sequen
 
 enum rho_status rho_udpm_parse(const uint8_t *data, size_t size, struct rho_udpm_datagram *datagram)
 {
-    const char *channel;
-    uint32_t sequence = 0;
-    size_t length, head;
-
     if (!data || !datagram) {
         return RHO_ERROR_NULL;
     }
@@ -80,15 +67,16 @@ enum rho_status rho_udpm_parse(const uint8_t *data, size_t size, struct rho_udpm
     if (memcmp(data, magic, sizeof magic) != 0) {
         return RHO_ERROR_TYPE;
     }
-    channel = (const char *)data + NUMBERS_BYTES;
-    length = channel_length(channel, size - NUMBERS_BYTES);
-    if (!is_valid_channel_length(length)) {
+    const char *channel = (const char *)data + NUMBERS_BYTES;
+    const size_t length = channel_length(channel, size - NUMBERS_BYTES);
+    if (length == 0) {
         return RHO_ERROR_VALUE;
     }
+    uint32_t sequence = 0;
     for (unsigned i = 0; i < 4; i++) {
         sequence = sequence << 8 | data[4 + i];
     }
-    head = NUMBERS_BYTES + length + 1;
+    const size_t head = NUMBERS_BYTES + length + 1;
     *datagram = (struct rho_udpm_datagram){sequence, channel, data + head, size - head};
     return RHO_OK;
 }
@@ -97,7 +85,6 @@ int rho_udpm_is_self_test(const struct rho_udpm_datagram *datagram)
 {
     static const char name[] = "LCM_SELF_TEST";
     size_t i = 0;
-
     if (!datagram || !datagram->channel) {
         return 0;
     }

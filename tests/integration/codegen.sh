@@ -198,5 +198,33 @@ status=0
 grep -F -A 1 'plot_scan, kind), 1, 1, MESSAGE_ONE_OF' "$copy/tree/src/wire/message_types.c" |
     tr -s '\n ' ' ' >"$copy/output" || status=$?
 expect '... has its own value' 0 '1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6'
+
+# ---- What it leaves in a program ----
+
+# One message that is decoded and one that is written: no table of a third one is linked.
+cat >"$copy/two.c" <<'END'
+#include "rhotrack/message.h"
+int main(int count, char **words)
+{
+    static struct rho_message_plot_scan scan;
+    static uint8_t buffer[RHO_MESSAGE_TRACK_LIST_MAX_SIZE];
+    const struct rho_message_track_list_head head = {.scan = count};
+    const struct rho_message_track track = {.hits = 1};
+    struct rho_message_writer writer;
+    return rho_message_plot_scan_decode((const uint8_t *)words[0], (size_t)count, &scan) |
+           rho_message_plot_scan_validate(&scan, NULL) |
+           rho_message_track_list_begin(&writer, buffer, sizeof buffer, &head) |
+           rho_message_track_list_add(&writer, &track);
+}
+END
+status=0
+{ ${CC:-gcc} -std=c99 -Os -ffunction-sections -fdata-sections -Wl,--gc-sections -Iinclude \
+    -o "$copy/two" "$copy/two.c" src/wire/message_*.c src/base/time_and_value_checks.c &&
+    nm "$copy/two" >"$copy/symbols"; } 2>"$copy/output" || status=$?
+sed -nE 's/.* ([a-z_]+_(runs|ints|floats|format|rules|names))$/\1/p' "$copy/symbols" | sort \
+    >"$copy/tables"
+printf '%s\n' {plot,plot_scan}_{floats,ints,runs} {plot_scan,track_list}_format plot_scan_rules \
+    {track,track_list}_runs | sort | diff - "$copy/tables" >>"$copy/output" 2>&1 || status=1
+expect 'no table of other messages in a program' 0 ''
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

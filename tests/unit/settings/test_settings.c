@@ -32,7 +32,7 @@ static void init_objects_with_settings(void)
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
 }
 
-/* ---- defaults and fields --------------------------------------------------------------------- */
+/* Defaults and fields */
 
 static void test_default_settings_leave_the_default_configs(void **state)
 {
@@ -109,9 +109,7 @@ static void test_derived_fields_keep_to_their_limits(void **state)
     assert_true(fabsf(search.rho_cell_m * RHO_PASSIVE_RHO_CELLS - 2560.0f) < 0.01f);
 }
 
-/*
- * ---- bounds -----------------------------------------------------------------------------------
- */
+/* Bounds */
 
 static const struct bounds {
     const char *field;
@@ -248,9 +246,7 @@ static void test_no_settings_are_refused(void **state)
     assert_true(fault.value == 42.0f);
 }
 
-/*
- * ---- presets ----------------------------------------------------------------------------------
- */
+/* Presets */
 
 #define SCANS 60
 #define TURN_FROM 30 /* scan from which on the target makes a right-angled turn */

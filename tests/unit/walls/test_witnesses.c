@@ -187,7 +187,7 @@ static void a_plot_at_the_image_moves_the_line(void **state)
     assert_true(fabs((double)learning.lines[0].offset_m - 0.5 * 0.25 / 4.25) < 0.003);
 }
 
-/* ---- work of a step ------------------------------------------------------------------------- */
+/* Work of a step */
 
 /*
  * Number of images looked for, of 18 from six targets and three lines, in a scan of this many
@@ -236,7 +236,7 @@ static void many_plots_allow_fewer_images_a_step(void **state)
     assert_int_equal(count_images_looked_for(MANY_PLOTS), 32768 / 4096 + 1);
 }
 
-/* ---- walls ---------------------------------------------------------------------------------- */
+/* Walls */
 
 /* Prepares a line that is just good enough for a wall. */
 static struct rho_learned_reflector *prepare_wall(void)

@@ -42,7 +42,7 @@ struct message_shape {
 
 #define MESSAGE_BYTES_MAX 1472 /* more than the longest message */
 
-/* ---- bits of a number, in memory and on the wire --------------------------------------------- */
+/* Bits of a number, in memory and on the wire */
 
 static inline uint64_t load_bits(const void *at, unsigned width_bytes)
 {
@@ -85,7 +85,7 @@ static inline uint8_t *put_big_endian(uint8_t *to, unsigned width, uint64_t bits
     return to;
 }
 
-/* ---- parts of a message ---------------------------------------------------------------------- */
+/* Parts of a message */
 
 static inline int16_t message_count(const struct message_shape *shape, const void *message)
 {
@@ -161,7 +161,7 @@ static inline bool walk_to_next(struct walk *w)
     return true;
 }
 
-/* ---- encoding as the specification of LCM says ----------------------------------------------- */
+/* Encoding as the specification of LCM says */
 
 static inline size_t encode_plainly(const struct message_shape *shape, uint64_t fingerprint,
                                     void *message, uint8_t *bytes)
@@ -189,7 +189,7 @@ static inline bool are_numbers_equal(const struct message_shape *shape, void *me
     return !walk_to_next(&b);
 }
 
-/* ---- random contents ------------------------------------------------------------------------- */
+/* Random contents */
 
 /* random bits by splitmix64 */
 static inline uint64_t draw_bits(uint64_t *state)
@@ -263,7 +263,7 @@ static inline void fill_with_valid_numbers(const struct message_shape *shape, vo
     }
 }
 
-/* ---- The messages of the golden vectors ---- */
+/* The messages of the golden vectors */
 
 enum golden { GOLDEN_EMPTY, GOLDEN_TYPICAL, GOLDEN_FULL, GOLDEN_EXTREME, NUM_GOLDEN };
 

@@ -69,9 +69,7 @@ static inline void model_start(const struct rho_scan_assembler_config *config)
     model.share.bucket = config->stranger_plots_per_s;
 }
 
-/*
- * ---- numbers and times of one sensor ----------------------------------------------------------
- */
+/* Numbers and times of one sensor */
 
 static inline wide model_elapsed_us(int64_t from_us, int64_t to_us)
 {
@@ -289,9 +287,7 @@ static inline void model_accept_scan(struct model_source *source,
     source->believed++;
 }
 
-/*
- * ---- the common clock -------------------------------------------------------------------------
- */
+/* The common clock */
 
 static inline wide model_clock_tolerance_us(void)
 {
@@ -496,9 +492,7 @@ static inline int model_update_clock(struct model_source *source, int64_t time_u
     return 1;
 }
 
-/*
- * ---- messages ---------------------------------------------------------------------------------
- */
+/* Messages */
 
 static inline struct model_scan *model_scan_in_state(enum model_state state)
 {
@@ -869,7 +863,7 @@ static inline enum rho_status model_take_part(const struct look *look, int64_t n
     return RHO_OK;
 }
 
-/* ---- scans that are given -------------------------------------------------------------------- */
+/* Scans that are given */
 
 static inline int model_was_held(const struct model_scan *scan, int64_t now_us)
 {

@@ -194,7 +194,7 @@ static inline void take_scan(int16_t sensor_id, int32_t scan, int64_t time_us)
     take_message(&look, time_us);
 }
 
-/* ---- scans that are given -------------------------------------------------------------------- */
+/* Scans that are given */
 
 static inline int64_t item_time_us(void)
 {

@@ -84,7 +84,7 @@ static void assert_decode_refused(struct kit *kit, const uint8_t *bytes, size_t 
     assert_untouched(kit->other, sizeof kit->other);
 }
 
-/* ---- names, channels and fingerprints -------------------------------------------------------- */
+/* Names, channels and fingerprints */
 
 static void names_channels_and_fingerprints_follow_lcm_types(void **state)
 {
@@ -139,7 +139,7 @@ static void the_fingerprint_tells_the_message_type(void **state)
     }
 }
 
-/* ---- encode and decode ----------------------------------------------------------------------- */
+/* Encode and decode */
 
 static void a_plot_is_encoded_as_documented_bytes(void **state)
 {
@@ -274,7 +274,7 @@ static void messages_of_lcm_gen_are_read_and_written(void **state)
     }
 }
 
-/* ---- What decode refuses ---- */
+/* What decode refuses */
 
 static void decoding_null_pointers_is_refused(void **state)
 {
@@ -389,7 +389,7 @@ static void counts_beyond_the_list_are_refused_by_decode(void **state)
     }
 }
 
-/* ---- What encode refuses ---- */
+/* What encode refuses */
 
 /* A refused encode writes neither bytes nor the size. */
 static void assert_not_encoded(struct kit *kit, size_t capacity, enum rho_status expected)
@@ -467,7 +467,7 @@ static void encode_and_validate_refuse_counts_beyond_the_list(void **state)
     }
 }
 
-/* ---- rules of values ------------------------------------------------------------------------- */
+/* Rules of values */
 
 struct value_case {
     uint64_t bits;
@@ -639,7 +639,7 @@ static void every_field_has_its_name(void **state)
     }
 }
 
-/* ---- the writer of lists --------------------------------------------------------------------- */
+/* The writer of lists */
 
 /* Copies the members before the list into the head struct. */
 static void copy_head_members(const struct kit *kit, char *head)

@@ -439,7 +439,7 @@ static void status_of_null_objects_is_all_zero(void **state)
     assert_int_equal(rho_message_status_validate(&status, &place), RHO_OK);
 }
 
-/* ---- work ----------------------------------------------------------------------------------- */
+/* Work */
 
 static void the_work_message_holds_the_trackers_work(void **state)
 {

@@ -285,7 +285,7 @@ static void parts_beyond_the_capacity_are_refused(void **state)
     assert_int_equal(item.parts_missing, RHO_MAX_PARTS - 1);
 }
 
-/* ---- order of scans from several sensors ----------------------------------------------------- */
+/* Order of scans from several sensors */
 
 static void scans_of_a_single_sensor_are_given_at_once(void **state)
 {

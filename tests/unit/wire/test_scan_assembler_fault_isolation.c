@@ -108,7 +108,7 @@ static size_t write_message(const struct message *message, uint8_t *buffer)
     return end_message(&writer);
 }
 
-/* ---- assembler, tracker and recorded reports ------------------------------------------------- */
+/* Assembler, tracker and recorded reports */
 
 static void record_report_of_good_radar(void)
 {

@@ -217,7 +217,7 @@ static void late_bearings_are_refused(void **state)
     }
 }
 
-/* ---- skipped scans that are waited for ------------------------------------------------------- */
+/* Skipped scans that are waited for */
 
 /*
  * Scans 1 .. 5 of sensors 1 and 2, one a second; then 9 of sensor 1, or its first part, so that 8
@@ -371,7 +371,7 @@ static void scans_before_a_restart_are_not_waited_for(void **state)
     COUNTERS_ARE(.scans_accepted = 8, .scans_lost = 3, .scans_bad = 2, .sensor_restarts = 1);
 }
 
-/* ---- each late scan is counted once ---------------------------------------------------------- */
+/* Each late scan is counted once */
 
 static void a_late_scan_held_too_long_is_dropped(void **state)
 {

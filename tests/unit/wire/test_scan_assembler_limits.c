@@ -4,7 +4,7 @@
 
 static struct rho_scan_assembler before;
 
-/* ---- flood limit ----------------------------------------------------------------------------- */
+/* Flood limit */
 
 static void messages_beyond_flood_per_s_are_not_read(void **state)
 {
@@ -202,7 +202,7 @@ static void a_replaced_sensors_scan_is_still_given(void **state)
     assert_int_equal(item.scan.num_plots, 1);
 }
 
-/* ---- slots of open scans --------------------------------------------------------------------- */
+/* Slots of open scans */
 
 static void without_room_the_oldest_scan_is_given_for_a_new_message(void **state)
 {
@@ -387,7 +387,7 @@ static void of_too_many_bearings_the_first_are_kept(void **state)
     }
 }
 
-/* ---- refused messages and configurations ----------------------------------------------------- */
+/* Refused messages and configurations */
 
 static void only_channels_of_sensors_are_accepted(void **state)
 {

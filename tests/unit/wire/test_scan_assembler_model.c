@@ -94,7 +94,7 @@ static void offer_to_both(const struct look *look)
     past[num_past++ % PAST] = *look;
 }
 
-/* ---- random streams -------------------------------------------------------------------------- */
+/* Random streams */
 
 static int64_t random_time_below(int64_t most)
 {

@@ -233,7 +233,7 @@ static void when_a_record_is_played_no_sensor_is_a_newcomer(void **state)
     expect_next_scan(turn * INTERVAL_US - SECOND_US + HOLD_US, 9, turn * INTERVAL_US - 2);
 }
 
-/* ---- shared limits of newcomers -------------------------------------------------------------- */
+/* Shared limits of newcomers */
 
 static void newcomers_share_a_limit_of_plots_and_scans(void **state)
 {
@@ -322,7 +322,7 @@ static void a_newcomers_noise_is_at_least_that_of_the_config(void **state)
     }
 }
 
-/* ---- allowed sensors, two senders of one number ---------------------------------------------- */
+/* Allowed sensors, two senders of one number */
 
 static void messages_of_sensors_not_allowed_are_counted(void **state)
 {

@@ -86,7 +86,7 @@ static const struct message *nth_message_on(const char *channel, unsigned n)
         assert_int_equal(rho_message_##type##_validate(into, NULL), RHO_OK);                       \
     } while (0)
 
-/* ---- searches in plots ----------------------------------------------------------------------- */
+/* Searches in plots */
 
 static void start_with_method(enum rho_hough_method method, int gate)
 {
@@ -239,7 +239,7 @@ static void without_a_search_no_accumulator_is_sent(void **state)
     assert_int_equal(count_messages_on(RHO_MESSAGE_ACCUMULATOR_CHANNEL), 1);
 }
 
-/* ---- hypotheses ------------------------------------------------------------------------------ */
+/* Hypotheses */
 
 static void a_track_started_by_nht_has_the_evidence_of_its_line(void **state)
 {
@@ -319,7 +319,7 @@ static void hypotheses_messages_hold_those_of_the_track(void **state)
     assert_true(several > 0);
 }
 
-/* ---- searches in bearings -------------------------------------------------------------------- */
+/* Searches in bearings */
 
 static const float place_m[SENSORS][2] = {{-20000.0f, 0.0f}, {20000.0f, 0.0f}, {0.0f, -20000.0f}};
 
@@ -490,7 +490,7 @@ static void bearing_accumulators_are_sent_for_all_pairs_and_each_pair(void **sta
     assert_int_equal(num_messages, 4 * 5);
 }
 
-/* ---- message rates --------------------------------------------------------------------------- */
+/* Message rates */
 
 /* A step a second with 5 messages of votes: messages_per_s pass, and the rest is counted. */
 static void pictures_are_sent_whole_within_the_message_rate(void **state)
@@ -559,7 +559,7 @@ static void tracks_take_turns_within_the_message_rate(void **state)
     assert_true(rho_show_not_sent(&show, RHO_SHOW_HYPOTHESES) > 150);
 }
 
-/* ---- refusals -------------------------------------------------------------------------------- */
+/* Refusals */
 
 static void bad_configurations_are_refused(void **state)
 {
