@@ -13,9 +13,9 @@
 #define ACCEL_SHARE 0.5f
 #define ACCEL_TIME_S 1.0f
 
-int rho_step_is_late(const struct rho_tracker *tracker, int64_t time_us)
+int rho_step_is_newest(const struct rho_tracker *tracker, int64_t time_us)
 {
-    return tracker->has_time && time_us < tracker->time_us;
+    return !tracker->has_time || time_us >= tracker->time_us;
 }
 
 int rho_step_is_usable_time(int64_t time_us)
@@ -67,17 +67,16 @@ static void open_sensor(struct rho_tracker *tracker, struct rho_look *look)
  */
 static int open_time(struct rho_tracker *tracker, struct rho_look *look)
 {
-    look->is_late = rho_step_is_late(tracker, look->time_us);
-    look->teaches = !look->is_late;
-    look->starts = !look->is_late ||
-                   (look->initiator && rho_initiator_accepts(look->initiator, look->time_us));
-    if (look->is_late && !(RHO_SECTORS && rho_retrodiction_accepts(look))) {
+    look->teaches = rho_step_is_newest(tracker, look->time_us);
+    look->starts =
+        look->teaches || (look->initiator && rho_initiator_accepts(look->initiator, look->time_us));
+    if (!look->teaches && !(RHO_SECTORS && rho_retrodiction_accepts(look))) {
         memset(look->fates, RHO_FATE_STALE, look->num_gated);
         tracker->counters.scans_late = rho_count(tracker->counters.scans_late, 1);
         return 0;
     }
     tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
-    if (RHO_SECTORS && look->is_late) {
+    if (RHO_SECTORS && !look->teaches) {
         tracker->counters.scans_retrodicted = rho_count(tracker->counters.scans_retrodicted, 1);
         return 1;
     }

@@ -20,8 +20,8 @@ int rho_step_begin(struct step *step);
 /* Sets the step's motion model, the filter of new tracks, and the volumes of clutter densities. */
 void rho_step_set_model(struct rho_tracker *tracker, struct rho_look *look);
 int rho_step_is_usable_time(int64_t time_us);
-/* True where a time is before that of the tracker's newest step. */
-int rho_step_is_late(const struct rho_tracker *tracker, int64_t time_us);
+/* True where no step of the tracker has a later time. */
+int rho_step_is_newest(const struct rho_tracker *tracker, int64_t time_us);
 
 /* predict.c: moves the tracks that a look can see to the time of the step */
 void rho_step_predict(struct step *step);

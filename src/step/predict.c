@@ -15,7 +15,7 @@ void rho_step_predict(struct step *step)
         struct rho_track *track = &tracker->tracks[i];
         track->plot = -1;
         if (RHO_SECTORS) {
-            rho_retrodiction_keep_time(track);
+            track->ahead_us = track->time_us; /* to return to, from an earlier time of the look */
         }
         if (rho_look_may_see(look, track)) {
             look->in_view[i / 32] |= 1u << i % 32;

@@ -63,7 +63,7 @@ static void report_track(const struct rho_look *look, const struct rho_track *tr
         .hits = track->hits,
         .misses = track->misses,
         .sensor_id = track->sensor_id,
-        .plot = rho_step_is_late(look->tracker, look->time_us) ? -1 : track->plot,
+        .plot = rho_step_is_newest(look->tracker, look->time_us) ? track->plot : -1,
         .update_age_us = age_us < 0           ? 0
                          : age_us < INT32_MAX ? (int32_t)age_us
                                               : INT32_MAX,
@@ -99,7 +99,7 @@ static void count_plot_fates(const struct step *step)
         report->fates_total[RHO_FATE_INVALID] += step->num_beyond_invalid;
         others -= step->num_beyond_claimed + step->num_beyond_invalid;
     }
-    report->fates_total[step->look.is_late ? RHO_FATE_STALE : RHO_FATE_NO_ROOM] += others;
+    report->fates_total[step->look.teaches ? RHO_FATE_NO_ROOM : RHO_FATE_STALE] += others;
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
         counters->fates[fate] = rho_count(counters->fates[fate], report->fates_total[fate]);
     }

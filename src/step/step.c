@@ -37,9 +37,9 @@ static enum rho_status check_scan(const struct rho_tracker *tracker,
         return RHO_ERROR_VALUE;
     }
     /* a time before the newest step need not fit: the largest time tests that it is ready */
-    return !initiator || rho_initiator_accepts(initiator, rho_step_is_late(tracker, scan->time_us)
-                                                              ? RHO_LIMIT_TIME_US
-                                                              : scan->time_us)
+    return !initiator || rho_initiator_accepts(initiator, rho_step_is_newest(tracker, scan->time_us)
+                                                              ? scan->time_us
+                                                              : RHO_LIMIT_TIME_US)
                ? RHO_OK
                : RHO_ERROR_STATE;
 }
@@ -94,7 +94,7 @@ static enum rho_status check_frame(const struct rho_tracker *tracker,
             return RHO_ERROR_VALUE;
         }
     }
-    return passive && !rho_step_is_late(tracker, frame->time_us)
+    return passive && rho_step_is_newest(tracker, frame->time_us)
                ? rho_passive_accepts(passive, frame)
                : RHO_OK;
 }

@@ -101,7 +101,7 @@ int rho_step_admit(struct step *step, struct rho_track *track,
         rho_echoes_store_start(track);
     }
     if (RHO_SECTORS) {
-        rho_retrodiction_keep_time(track);
+        track->ahead_us = track->time_us;
     }
     track->seen_us = step->look.time_us;
     rho_life_apply(step, track, limits);
@@ -214,6 +214,7 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
     if (RHO_SECTORS) {
         const struct rho_tracker_look *health = rho_tracker_look_of(tracker, scan.sensor_id);
         step.look.count = health ? health->count : 0;
+        step.look.teaches = 1;
         rho_turn_note_seen(&step.look, &track);
     }
     return admit_track_between_steps(&step, &track);

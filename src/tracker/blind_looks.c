@@ -10,29 +10,10 @@
  * learned pd.
  */
 #include "clutter.h"
-#include "plots.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/imm_notch.h"
-#include "sensors.h"
-#include "step.h"
-
-/* Detection probability of a target in the Doppler notch. */
-#define NOTCH_PD 0.03f
-
-/* Largest share of blind looks that is assumed of a track, per cent. */
-#define BLIND_PERCENT_MOST 99.0f
-
-/*
- * ln of the miss probability of a target that may stand. Almost 0: a target that stands stays in
- * the notch, so that successive looks without a plot are no independent evidence.
- */
-#define STAND_MISS_NAT (-1.0e-4f)
-
-/* Expected clutter plots in the gate up to which a track may coast in the notch. */
-#define BLIND_CLUTTER_MAX 3.0f
-
-/* Longest time without a plot for which a track may coast in the notch; then it is rather gone. */
-#define BLIND_MAX_S 300.0f
+#include "sight.h"
 
 /* Probability that a look at the track is blind, as its range rate lies in the sensor's notch. */
 static float blind_look_probability(const struct rho_look *look, const struct rho_track *track)
@@ -51,20 +32,6 @@ static float blind_look_probability(const struct rho_look *look, const struct rh
     return shares > 0.0f ? sum / shares : 0.0f;
 }
 
-/*
- * Per cent of blind looks; 0 where the track was unseen for too long or clutter would be claimed.
- */
-static uint8_t blind_percent_if_may_coast(const struct rho_look *look,
-                                          const struct rho_track *track)
-{
-    if (rho_seconds_between(track->updated_us, look->time_us) > BLIND_MAX_S ||
-        rho_clutter_in_gate(look, track) > BLIND_CLUTTER_MAX) {
-        return 0;
-    }
-    const float percent = 100.0f * blind_look_probability(look, track);
-    return (uint8_t)(percent < BLIND_PERCENT_MOST ? percent : BLIND_PERCENT_MOST);
-}
-
 void rho_notch_mark_tracks(struct rho_tracker *tracker, struct rho_look *look)
 {
     look->notch_look = (struct rho_notch_look){
@@ -73,8 +40,14 @@ void rho_notch_mark_tracks(struct rho_tracker *tracker, struct rho_look *look)
     };
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->status != RHO_TRACK_FREE && rho_look_has_in_view(look, row)) {
-            track->blind_percent = blind_percent_if_may_coast(look, track);
+        if (track->status == RHO_TRACK_FREE || !rho_look_has_in_view(look, row)) {
+            continue;
+        }
+        track->blind_percent = 0; /* unseen for too long, or clutter would be claimed */
+        if (!(rho_seconds_between(track->updated_us, look->time_us) > BLIND_MAX_S) &&
+            !(rho_clutter_in_gate(look, track) > COAST_CLUTTER_MAX)) {
+            const float percent = 100.0f * blind_look_probability(look, track);
+            track->blind_percent = (uint8_t)(percent < 99.0f ? percent : 99.0f);
         }
     }
 }
@@ -86,24 +59,22 @@ void rho_notch_clear_tracks(struct rho_tracker *tracker)
     }
 }
 
-static int may_target_stand_still_in_notch(const struct rho_look *look,
-                                           const struct rho_track *track)
-{
-    const float *velocity_mps = &track->kalman.state[3];
-    const float most_mps = RHO_NOTCH_STAND_WIDTHS * look->sensor->notch_mps;
-    return rho_notch_is_mostly_blind(track) &&
-           velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] <=
-               most_mps * most_mps;
-}
-
 struct detection rho_notch_detection(const struct rho_look *look, const struct rho_track *track,
                                      struct detection elsewhere)
 {
     const float blind = 0.01f * (float)track->blind_percent;
     const float seen = rho_exp(elsewhere.log_pd) * (1.0f - blind);
+    const float *velocity_mps = &track->kalman.state[3];
+    const float most_mps = RHO_NOTCH_STAND_WIDTHS * look->sensor->notch_mps;
+    const int may_stand = rho_notch_is_mostly_blind(track) &&
+                          velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] <=
+                              most_mps * most_mps;
+    /*
+     * a target that stands stays in the notch: successive looks without a plot are no independent
+     * evidence, and the miss probability is almost 1
+     */
     return (struct detection){rho_log(seen + NOTCH_PD * blind),
-                              may_target_stand_still_in_notch(look, track) ? STAND_MISS_NAT
-                                                                           : rho_log(1.0f - seen)};
+                              may_stand ? -1.0e-4f : rho_log(1.0f - seen)};
 }
 
 void rho_notch_coast(const struct rho_look *look, struct rho_track *track)

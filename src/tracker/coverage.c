@@ -8,33 +8,20 @@
  * with the uncertainty of the track's place, so that a track that no sensor sees is predicted in
  * the end, until its place is too uncertain to be of use.
  */
-#include "clutter.h"
-#include "plots.h"
+#include "policy.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
-#include "sensors.h"
-#include "step.h"
-
-/*
- * Margin of the field of view: standard deviations of the track's place, and a share of the range
- * that allows for biases of the plots.
- */
-#define MARGIN_SIGMAS 8.0f
-#define MARGIN_SHARE 0.05f
+#include "sight.h"
 
 static int is_near_sector(float azimuth_rad, float from_rad, float to_rad, float margin_rad)
 {
-    float to_first_rad = rho_angle_difference(azimuth_rad, from_rad);
-    float to_last_rad = rho_angle_difference(azimuth_rad, to_rad);
-
+    const float to_first_rad = rho_angle_difference(azimuth_rad, from_rad);
+    const float to_last_rad = rho_angle_difference(azimuth_rad, to_rad);
     return rho_angle_in_sector(azimuth_rad, from_rad, to_rad) ||
            (to_first_rad <= margin_rad && to_first_rad >= -margin_rad) ||
            (to_last_rad <= margin_rad && to_last_rad >= -margin_rad);
 }
-
-/* Standard deviations of its noise that a plot may lie outside of the sensor's stated coverage. */
-#define PLOT_SIGMAS 4.0f
 
 int rho_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
                             uint32_t measures)
@@ -58,24 +45,12 @@ int rho_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_pl
 }
 
 /* True where the scan or the sensor covers a sector instead of the full circle. */
-static int covers_less_than_full_circle(const struct rho_look *look)
+static int covers_part_of_circle(const struct rho_look *look)
 {
     const struct rho_scan *scan = look->scan;
     const struct rho_sensor *sensor = look->sensor;
-
     return !rho_angle_is_circle(scan->sector_from_rad, scan->sector_to_rad) ||
            (sensor && !rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad));
-}
-
-static int is_near_scan_and_sensor_sectors(const struct rho_look *look, float azimuth_rad,
-                                           float margin_rad)
-{
-    const struct rho_scan *scan = look->scan;
-    const struct rho_sensor *sensor = look->sensor;
-
-    return is_near_sector(azimuth_rad, scan->sector_from_rad, scan->sector_to_rad, margin_rad) &&
-           (!sensor || is_near_sector(azimuth_rad, sensor->sector_from_rad, sensor->sector_to_rad,
-                                      margin_rad));
 }
 
 int rho_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_rad, float margin_rad)
@@ -85,34 +60,36 @@ int rho_coverage_holds_bearing(const struct rho_sensor *sensor, float bearing_ra
 
 int rho_coverage_may_see(const struct rho_look *look, const struct rho_track *track)
 {
+    const struct rho_scan *scan = look->scan;
     const struct rho_sensor *sensor = look->sensor;
     const float *state = track->kalman.state;
-    float dt_s, dx_m, dy_m, range_m, margin_m;
-
-    if (!sensor && !covers_less_than_full_circle(look)) {
+    const int is_part = covers_part_of_circle(look);
+    if (!sensor && !is_part) {
         return 1;
     }
-    dt_s = rho_seconds_between(track->time_us, look->time_us);
-    dx_m = state[0] + state[3] * dt_s - (sensor ? sensor->x_m : 0.0f);
-    dy_m = state[1] + state[4] * dt_s - (sensor ? sensor->y_m : 0.0f);
-    range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
-    if (sensor && range_m <= sensor->range_max_m && range_m >= sensor->range_min_m &&
-        !covers_less_than_full_circle(look)) {
+    float dt_s = rho_seconds_between(track->time_us, look->time_us);
+    const float dx_m = state[0] + state[3] * dt_s - (sensor ? sensor->x_m : 0.0f);
+    const float dy_m = state[1] + state[4] * dt_s - (sensor ? sensor->y_m : 0.0f);
+    const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    if (sensor && range_m <= sensor->range_max_m && range_m >= sensor->range_min_m && !is_part) {
         return 1;
     }
     dt_s = dt_s < 0.0f ? -dt_s : dt_s; /* the track's estimate may be newer than the scan */
-    margin_m = MARGIN_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
-               look->tracker->config.accel_max_mps2 * dt_s * dt_s + MARGIN_SHARE * range_m;
+    const float margin_m =
+        MARGIN_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
+        look->tracker->config.accel_max_mps2 * dt_s * dt_s + MARGIN_SHARE * range_m;
     if (sensor &&
         (range_m - margin_m > sensor->range_max_m || range_m + margin_m < sensor->range_min_m)) {
         return 0;
     }
-    if (!(margin_m < range_m) || !covers_less_than_full_circle(look)) {
+    if (!(margin_m < range_m) || !is_part) {
         return 1; /* plots of a track within the margin of the sensor may be in any direction */
     }
     /* upper bound of the angle that the margin subtends: asin(x) <= x pi / 2 for x in 0 .. 1 */
-    return is_near_scan_and_sensor_sectors(look, rho_atan2(dy_m, dx_m),
-                                           margin_m / range_m * (0.5f * RHO_PI));
+    const float margin_rad = margin_m / range_m * (0.5f * RHO_PI);
+    const float azimuth_rad = rho_atan2(dy_m, dx_m);
+    return is_near_sector(azimuth_rad, scan->sector_from_rad, scan->sector_to_rad, margin_rad) &&
+           (!sensor || rho_coverage_holds_bearing(sensor, azimuth_rad, margin_rad));
 }
 
 int rho_look_has_in_view(const struct rho_look *look, unsigned row)

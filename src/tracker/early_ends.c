@@ -27,43 +27,44 @@
  * false track in twenty instead of ten, all targets would be confirmed later where aircraft come
  * and go.
  */
-#include "clutter.h"
-#include "plots.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
-#include "sensors.h"
 #include "step.h"
 
-/* Detection probability of a seldom seen object that is no target, over that of a target. */
-#define SELDOM 0.3f
-/* Evidence of a hit, ln(1 / SELDOM), and of the three hits that start a track. */
-#define HIT_NAT 1.2039728f
-#define START_NAT (3.0f * HIT_NAT)
-/* Evidence from which a track counts as almost established. */
-#define ALMOST_ESTABLISHED_NAT (2.0f * START_NAT)
-
-/* Wanted number of true tracks for each false one, and prior number of established tracks. */
-#define TRUE_PER_FALSE 10.0f
-#define ESTABLISHED_PRIOR 2.0f
-
-/* Standard deviations by which the count of tracks that ended early may exceed its mean. */
-#define EXCESS_SIGMAS 0.5f
-
-/* Time in which the counts of ended and established tracks fade to 1/e. */
-#define MEMORY_S 1600.0f
-
-/* Prior hits and misses of established tracks, for the share of looks that see them. */
-#define PRIOR_HITS 9.0f
-#define PRIOR_MISSES 1.0f
+/* Evidence of the three hits that start a track, and of a track that is almost established. */
+#define START_NAT (HIT_NAT * 3.0f)
+#define ALMOST_ESTABLISHED_NAT (START_NAT * 2.0f)
 
 static float evidence_of_target(const struct step *step, const struct rho_track *track)
 {
     return (float)track->hits * HIT_NAT - (float)track->misses * step->miss_nat;
 }
 
-/* Evidence that a miss takes from a track, by the hits and misses of the established tracks. */
-static float learned_evidence_lost_per_miss_nat(const struct rho_tracker *tracker)
+void rho_evidence_update(struct step *step)
 {
-    float hits = PRIOR_HITS, misses = PRIOR_MISSES;
+    struct rho_tracker *tracker = step->tracker;
+    const struct rho_look *look = &step->look;
+    if (!(tracker->ended_early + tracker->established > 0.0f)) {
+        tracker->counted_us = look->time_us; /* no track was counted yet: nothing to fade */
+    } else if (look->time_us > tracker->counted_us) {
+        const float dt_s = rho_seconds_between(tracker->counted_us, look->time_us);
+        const float kept = rho_exp(-dt_s / MEMORY_S);
+        tracker->ended_early *= kept;
+        tracker->established *= kept;
+        tracker->straight_s *= kept;
+        tracker->turning_s *= kept;
+        rho_manoeuvres_learn(tracker, look, dt_s);
+        tracker->counted_us = look->time_us;
+    }
+    if (look->initiator) {
+        tracker->wanted_per_hour = look->initiator->config.false_tracks_per_hour;
+    }
+    float sensors = 0.0f;
+    for (unsigned i = 0; i < tracker->num_rows; i++) {
+        sensors += tracker->sensors[i].pace.is_heard ? 1.0f : 0.0f;
+    }
+    /* evidence that a miss takes from a track, by the hits and misses of established tracks */
+    float hits = PRIOR_HITS, misses = 1.0f;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
         if (rho_life_is_established(track) && track->hits < UINT16_MAX) { /* no saturated counts */
@@ -71,54 +72,21 @@ static float learned_evidence_lost_per_miss_nat(const struct rho_tracker *tracke
             misses += (float)track->misses;
         }
     }
-    return rho_log(((1.0f - SELDOM) * hits + misses) / misses);
-}
-
-/* Number of tracks not yet established, but with the evidence ALMOST_ESTABLISHED_NAT or more. */
-static float count_almost_established_tracks(const struct step *step)
-{
-    float count = 0.0f;
-    for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
-        const struct rho_track *track = &step->tracker->tracks[i];
-        count += !rho_life_is_established(track) &&
-                         evidence_of_target(step, track) >= ALMOST_ESTABLISHED_NAT
-                     ? 1.0f
-                     : 0.0f;
-    }
-    return count;
-}
-
-void rho_evidence_update(struct step *step)
-{
-    struct rho_tracker *tracker = step->tracker;
-    if (!(tracker->ended_early + tracker->established > 0.0f)) {
-        tracker->counted_us = step->look.time_us; /* no track was counted yet: nothing to fade */
-    } else if (step->look.time_us > tracker->counted_us) {
-        const float kept =
-            rho_exp(-rho_seconds_between(tracker->counted_us, step->look.time_us) / MEMORY_S);
-        tracker->ended_early *= kept;
-        tracker->established *= kept;
-        tracker->straight_s *= kept;
-        tracker->turning_s *= kept;
-        rho_manoeuvres_learn(tracker, &step->look,
-                             rho_seconds_between(tracker->counted_us, step->look.time_us));
-        tracker->counted_us = step->look.time_us;
-    }
-    if (step->look.initiator) {
-        tracker->wanted_per_hour = step->look.initiator->config.false_tracks_per_hour;
-    }
-    float sensors = 0.0f;
-    for (unsigned i = 0; i < tracker->num_rows; i++) {
-        sensors += tracker->sensors[i].pace.is_heard ? 1.0f : 0.0f;
+    step->miss_nat = rho_log(((1.0f - SELDOM) * hits + misses) / misses);
+    float almost = 0.0f; /* tracks not yet established, but nearly */
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        const struct rho_track *track = &tracker->tracks[i];
+        almost += !rho_life_is_established(track) &&
+                          evidence_of_target(step, track) >= ALMOST_ESTABLISHED_NAT
+                      ? 1.0f
+                      : 0.0f;
     }
     const float wanted =
         tracker->wanted_per_hour * rho_larger(sensors, 1.0f) * (MEMORY_S / 3600.0f);
     const float excess =
         tracker->ended_early - wanted - EXCESS_SIGMAS * rho_sqrt(tracker->ended_early);
-    step->miss_nat = learned_evidence_lost_per_miss_nat(tracker);
     const float odds =
-        TRUE_PER_FALSE * excess /
-        (tracker->established + count_almost_established_tracks(step) + ESTABLISHED_PRIOR);
+        TRUE_PER_FALSE * excess / (tracker->established + almost + ESTABLISHED_PRIOR);
     /* wanted_per_hour is 0 where score_min_nat sets the threshold: no evidence is needed then */
     step->needed_nat =
         odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;

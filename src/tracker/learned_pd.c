@@ -3,20 +3,10 @@
  * learned_pd: the detection probability that is used of a sensor, where it was learned to be lower
  * than the stated one. sensor_learning.c counts the looks and hits.
  */
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "sensors.h"
 
-/* Prior weights in looks: of the stated pd for all rings; of the pd of all rings for one ring. */
-#define PRIOR_OF_ALL 30.0f
-#define PRIOR_OF_RING 20.0f
-/*
- * Standard deviations by which the learned pd must be below the stated one to be used, and by which
- * it is then raised.
- */
-#define SURELY 2.5f
-#define CAUTION 1.0f
-
-/* Sensors are learned with hypotheses alone: one Kalman filter takes manoeuvres for noise. */
 int rho_learning_is_on(const struct rho_tracker_config *config)
 {
     return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST;
@@ -54,9 +44,9 @@ static struct pd_estimate estimate_over_rings(const struct rho_tracker_learned *
 static float lowered_pd(const struct rho_tracker_config *config, const struct pd_estimate *seen,
                         float stated)
 {
-    const float pd = seen->pd + CAUTION * seen->sigma;
+    const float pd = seen->pd + seen->sigma; /* with caution: raised by a sigma */
     const float least = config->learn_pd_min * stated;
-    return !(seen->pd + SURELY * seen->sigma < stated) ? stated : pd > least ? pd : least;
+    return !(seen->pd + PD_SURELY * seen->sigma < stated) ? stated : pd > least ? pd : least;
 }
 
 float rho_learning_pd_in_ring(const struct rho_tracker_config *config,

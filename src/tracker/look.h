@@ -57,16 +57,15 @@ struct rho_look {
     struct rho_tracker_learned *learned; /* of this sensor; NULL: not described, or bearings */
     /* measures the density of clutter, and starts tracks from its plots; NULL: none */
     struct rho_initiator *initiator;
-    struct rho_track_model
-        model; /* how tracks move to its time, and the filters that follow them */
+    struct rho_track_model model; /* how tracks move to its time, and their filters */
     int64_t time_us;
     int is_suspect; /* its sensor contradicts the others */
     uint16_t count; /* count of the sensor's scans; 0: not known */
     /* its sector continues the previous one: 1 counter-clockwise, -1 clockwise; else 0 */
     float turning;
-    int is_late; /* it is out of sequence: older than the newest step */
-    int teaches; /* it changes what is learned, and what tracks remember: not out of sequence */
-    int starts;  /* tracks may start from its plots */
+    /* it changes what is learned, and what tracks remember; 0: it is out of sequence */
+    int teaches;
+    int starts;          /* tracks may start from its plots */
     uint32_t num_inputs; /* plots or bearings */
     uint32_t num_gated;  /* of these the ones with a place in fates: the first RHO_MAX_PLOTS */
     uint32_t first_row;  /* row in the scan of the first plot of the part that is claimed now */

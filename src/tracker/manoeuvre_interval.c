@@ -18,19 +18,13 @@
  * With steps of two a few tracks do not change the model of the others. After a silence calm_s is
  * 300 s again, as nothing was learned meanwhile.
  */
-#include "clutter.h"
-#include "plots.h"
-#include "sensors.h"
+#include "policy.h"
+#include "sight.h"
 #include "step.h"
 
-/* Weight of the default mean time between manoeuvres, in manoeuvres seen. */
-#define PRIOR 4.0f
-#define LONGEST_S (8.0f * RHO_IMM_CALM_S)
-/* Probability of the manoeuvring model above which a target surely manoeuvres. */
-#define SURELY 0.9f
-
-/* Longest time between two steps that is counted. */
-#define LOOKED_S 60.0f
+#define LONGEST_S (RHO_IMM_CALM_S * 8.0f)
+/* Longest time between two steps that is counted: sensors are not silent for longer. */
+#define LOOKED_S ((float)RHO_TRACKER_SILENT_US * 1e-6f)
 
 void rho_manoeuvres_reset(struct rho_tracker *tracker, int64_t time_us)
 {
@@ -49,13 +43,13 @@ void rho_manoeuvres_learn(struct rho_tracker *tracker, const struct rho_look *lo
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
         if (rho_life_is_established(track) && track->status == RHO_TRACK_CONFIRMED) {
-            *(track->maneuver_probability > SURELY ? &tracker->turning_s : &tracker->straight_s) +=
-                dt_s;
+            *(track->maneuver_probability > TURNS_SURELY ? &tracker->turning_s
+                                                         : &tracker->straight_s) += dt_s;
         }
     }
     const struct rho_imm_model *model = &tracker->hypotheses.model;
-    const float calm_s = (PRIOR * RHO_IMM_CALM_S + tracker->straight_s) /
-                         (PRIOR + tracker->turning_s / model->maneuver_s);
+    const float calm_s = (MANOEUVRES_PRIOR * RHO_IMM_CALM_S + tracker->straight_s) /
+                         (MANOEUVRES_PRIOR + tracker->turning_s / model->maneuver_s);
     if (calm_s >= 2.0f * model->calm_s && model->calm_s < LONGEST_S) {
         rho_hypotheses_set_mean_manoeuvre_interval(&tracker->hypotheses, 2.0f * model->calm_s);
     } else if (calm_s < 0.75f * model->calm_s && model->calm_s > RHO_IMM_CALM_S) {

@@ -3,30 +3,15 @@
  * notch_learning: the Doppler notch of a sensor of which none was stated, from looks and hits by
  * interval of range rate.
  */
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 #include "sensors.h"
 
-/*
- * A learned notch: the pd in its intervals of range rates is below BLIND_SHARE of the pd at faster
- * ones, by BLIND_SURELY standard deviations, and in its fastest interval below BLIND_LAST_SHARE;
- * with at least BLIND_LOOKS looks in it and FASTER_LOOKS above. A notch in use loses its fastest
- * interval where the pd there is above BLIND_USED_SHARE, after BLIND_USED_LOOKS looks: all misses
- * count then, as tracks coast in the notch instead of ending.
- */
-#define BLIND_SHARE 0.65f
-#define BLIND_LAST_SHARE 0.85f
-#define BLIND_USED_SHARE 0.6f
-#define BLIND_USED_LOOKS 40.0f
-#define BLIND_SURELY 4.0f
-#define BLIND_LOOKS 20.0f
-#define FASTER_LOOKS 60.0f
-#define RATE_MIN2 0.0625f   /* square of the upper limit of the first interval, m^2/s^2 */
-#define FLOAT_EXPONENT 127u /* biased exponent in the bits of 1.0f */
-#define RATE_LOOKS_MAX 250  /* looks in an interval at which its looks and hits are halved */
-#define LOOKS_A_NOTCH 8u    /* looks in an interval from one search for a notch to the next */
-#define RATES_LEAST 4u      /* fewest intervals of a notch: targets that stop look like fewer */
-#define FORGOTTEN_MAX 3u    /* false notches after which no notch is learned any more */
+enum {
+    RATE_LOOKS_MAX = 250, /* looks at which those of an interval are halved: they fit uint8_t */
+    FORGOTTEN_MAX = 3     /* false notches after which none is learned any more: two bits */
+};
 
 /* Upper limit of the first num_rates intervals of range rates, m/s. */
 static float intervals_end_mps(unsigned num_rates)
@@ -63,40 +48,6 @@ void rho_learning_apply_notch(const struct rho_look *look)
     }
 }
 
-/* Index of the interval of a track's range rate; the last one where the rate is not defined. */
-static unsigned interval_of_rate(const struct rho_sensor *sensor, const struct rho_track *track)
-{
-    float row[6], rate_mps;
-    if (!rho_measurement_predict_range_rate(track->kalman.state, sensor,
-                                            track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
-                                            &rate_mps)) {
-        return RHO_LEARN_RATES - 1u;
-    }
-    /* the squares of the intervals' limits double, so that the float's exponent is the index */
-    const uint32_t exponent = rho_float_bits(rate_mps * rate_mps / RATE_MIN2) >> 23;
-    if (exponent < FLOAT_EXPONENT) {
-        return 0;
-    }
-    return exponent - FLOAT_EXPONENT + 1u < RHO_LEARN_RATES ? exponent - FLOAT_EXPONENT + 1u
-                                                            : RHO_LEARN_RATES - 1u;
-}
-
-/*
- * New number of intervals of a notch in use: as before, one less, or 0. last_looks and last_hits
- * are of its fastest interval, looks and hits of all, faster_pd of the intervals above.
- */
-static unsigned keep_notch(unsigned used, float last_looks, float last_hits, float looks,
-                           float hits, float faster_pd)
-{
-    if (hits > BLIND_SHARE * faster_pd * looks) {
-        return 0;
-    }
-    return used > RATES_LEAST && last_looks >= BLIND_USED_LOOKS &&
-                   last_hits > BLIND_USED_SHARE * faster_pd * last_looks
-               ? used - 1u
-               : used;
-}
-
 /* Number of intervals, from range rate 0 on, that make up a notch (BLIND_SHARE); 0: no notch. */
 static unsigned count_blind_intervals(const struct rho_tracker_learned *learned)
 {
@@ -111,8 +62,11 @@ static unsigned count_blind_intervals(const struct rho_tracker_learned *learned)
         const float pd = faster > 0.0f ? faster_hits / faster : 0.0f;
         const float here = (float)learned->rate_looks[i - 1u],
                     seen = (float)learned->rate_hits[i - 1u];
-        if (i == used) {
-            return keep_notch(used, here, seen, looks, hits, pd);
+        if (i == used) { /* kept, or without its fastest interval, or no notch at all */
+            return hits > BLIND_SHARE * pd * looks ? 0u
+                   : used > RATES_LEAST && here >= BLIND_USED_LOOKS && seen > last * pd * here
+                       ? used - 1u
+                       : used;
         }
         if (faster >= FASTER_LOOKS && looks >= BLIND_LOOKS && seen < last * pd * here &&
             hits < BLIND_SHARE * pd * looks &&
@@ -127,8 +81,32 @@ static unsigned count_blind_intervals(const struct rho_tracker_learned *learned)
     return 0;
 }
 
-static void update_learned_notch(struct rho_tracker_learned *learned)
+int rho_learning_count_rate(const struct rho_look *look, const struct rho_track *track,
+                            unsigned is_seen)
 {
+    struct rho_tracker_learned *learned = look->learned;
+    unsigned rate = RHO_LEARN_RATES - 1u; /* where the range rate is not defined */
+    float row[6], rate_mps;
+    if (rho_measurement_predict_range_rate(track->kalman.state, look->sensor,
+                                           track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
+                                           &rate_mps)) {
+        /* the squares of the intervals' limits double, so that the float's exponent is the index */
+        const uint32_t exponent = rho_float_bits(rate_mps * rate_mps / RATE_MIN2) >> 23;
+        const uint32_t of_one = rho_float_bits(1.0f) >> 23;
+        rate = exponent < of_one               ? 0u
+               : exponent - of_one + 1u < rate ? exponent - of_one + 1u
+                                               : rate;
+    }
+    uint8_t *looks = &learned->rate_looks[rate], *hits = &learned->rate_hits[rate];
+    *looks = (uint8_t)(*looks + 1u);
+    *hits = (uint8_t)(*hits + is_seen);
+    if (*looks >= RATE_LOOKS_MAX) {
+        *looks = (uint8_t)(*looks / 2u);
+        *hits = (uint8_t)(*hits / 2u);
+    }
+    if (*looks % LOOKS_A_NOTCH != 0) {
+        return rate >= learned->blind_rates;
+    }
     const unsigned found =
         learned->notches_forgotten < FORGOTTEN_MAX ? count_blind_intervals(learned) : 0u;
     if (found == 0 && learned->blind_rates > 0) {
@@ -142,26 +120,6 @@ static void update_learned_notch(struct rho_tracker_learned *learned)
         }
     }
     learned->blind_rates = found & 31u;
-}
-
-/*
- * Counts a look in the interval of the track's range rate, and looks for a notch now and then.
- * Returns 1 where the interval is outside of the notch.
- */
-int rho_learning_count_rate(const struct rho_look *look, const struct rho_track *track,
-                            unsigned is_seen)
-{
-    struct rho_tracker_learned *learned = look->learned;
-    const unsigned rate = interval_of_rate(look->sensor, track);
-    learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] + 1u);
-    learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] + is_seen);
-    if (learned->rate_looks[rate] >= RATE_LOOKS_MAX) {
-        learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] / 2u);
-        learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] / 2u);
-    }
-    if (learned->rate_looks[rate] % LOOKS_A_NOTCH == 0) {
-        update_learned_notch(learned);
-    }
     return rate >= learned->blind_rates;
 }
 

@@ -3,10 +3,7 @@
  * plot_noise: how noisy is a plot? The plot states its sigmas. Contributors, in their order: the
  * sensor's learned notch and noise, and the factor of a suspect sensor.
  */
-#include "clutter.h"
-#include "plots.h"
 #include "sensors.h"
-#include "step.h"
 
 void rho_look_open_noise(struct rho_tracker *tracker, struct rho_look *look)
 {

@@ -12,37 +12,26 @@
  *                  '----|---'   previous sector takes none here. One without a plot is missed
  *                               in the sector in which the antenna passes the end of its gate
  */
-#include "clutter.h"
-#include "plots.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
-#include "sensors.h"
-#include "step.h"
-
-/* Half width of a track's gate across the line of sight, standard deviations of its place. */
-#define GATE_SIGMAS 3.0f
-
-/* Clears in all tracks that this sensor saw them: the count of its scans begins anew. */
-static void forget_sensor_in_tracks(struct rho_tracker *tracker, int32_t sensor_id)
-{
-    for (unsigned i = 0; i < tracker->num_tracks; i++) {
-        struct rho_track *track = &tracker->tracks[i];
-        for (int k = 0; k < 2; k++) {
-            track->look[k] = track->look_sensor_id[k] == sensor_id ? 0 : track->look[k];
-        }
-    }
-}
+#include "sight.h"
 
 void rho_turn_note_look(struct rho_tracker *tracker, struct rho_look *look)
 {
     const struct rho_scan *scan = look->scan;
     struct rho_tracker_look *health = look->row ? &look->row->look : 0;
-    if (!health || look->is_late) {
+    if (!health || !look->teaches) {
         return;
     }
     if (health->count == 0) {
-        forget_sensor_in_tracks(tracker, scan->sensor_id);
+        /* the count of its scans begins anew: no track was seen by this sensor */
+        for (unsigned i = 0; i < tracker->num_tracks; i++) {
+            struct rho_track *track = &tracker->tracks[i];
+            for (int k = 0; k < 2; k++) {
+                track->look[k] = track->look_sensor_id[k] == scan->sensor_id ? 0 : track->look[k];
+            }
+        }
     } else {
         const unsigned ends =
             rho_angle_continued_ends(health->sector_from_rad, health->sector_to_rad,
@@ -101,7 +90,7 @@ int rho_turn_saw_before(const struct rho_look *look, const struct rho_track *tra
 
 void rho_turn_note_seen(const struct rho_look *look, struct rho_track *track)
 {
-    if (track->plot < 0 || look->is_late) {
+    if (track->plot < 0 || !look->teaches) {
         return;
     }
     if (track->look_sensor_id[0] != look->scan->sensor_id) {
@@ -121,7 +110,8 @@ static int sector_holds_gate_end(const struct rho_look *look, const struct rho_t
     const float dx_m = track->kalman.state[0] - (look->sensor ? look->sensor->x_m : 0.0f);
     const float dy_m = track->kalman.state[1] - (look->sensor ? look->sensor->y_m : 0.0f);
     const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
-    float margin_rad = GATE_SIGMAS * rho_track_sigma_m(track) / (range_m > 1.0f ? range_m : 1.0f);
+    /* a gate of three sigmas of the track's place, as in rho_clutter_in_gate */
+    float margin_rad = 3.0f * rho_track_sigma_m(track) / (range_m > 1.0f ? range_m : 1.0f);
     if (!(margin_rad < 0.5f * width_rad)) {
         margin_rad = 0.5f * width_rad;
     }
@@ -132,24 +122,19 @@ static int sector_holds_gate_end(const struct rho_look *look, const struct rho_t
                                   track->kalman.state[1] + turn * dx_m);
 }
 
-static int is_scan_less_than_full_turn(const struct rho_scan *scan)
-{
-    return rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad) < RHO_TWO_PI;
-}
-
 int rho_turn_has_passed(const struct rho_look *look, const struct rho_track *track)
 {
     const struct rho_scan *scan = look->scan;
     if (is_turning_direction_known(look)) {
         return sector_holds_gate_end(look, track, look->turning); /* the end that is passed last */
     }
-    if (look->is_late && is_scan_less_than_full_turn(scan)) {
+    if (!look->teaches &&
+        rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad) < RHO_TWO_PI) {
         /* where the sector does not hold the whole gate, a neighbouring sector may have the plot */
         return sector_holds_gate_end(look, track, 1.0f) &&
                sector_holds_gate_end(look, track, -1.0f);
     }
-    return rho_measurement_covers(look->sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                  track->kalman.state[0], track->kalman.state[1]);
+    return rho_coverage_holds_track(look, scan->sector_from_rad, scan->sector_to_rad, track);
 }
 
 float rho_turn_num_scans(const struct rho_look *look)
@@ -165,8 +150,6 @@ int rho_turn_was_seen_by(const struct rho_track *track, int32_t sensor_id)
     return (track->look[0] > 0 && track->look_sensor_id[0] == sensor_id) ||
            (track->look[1] > 0 && track->look_sensor_id[1] == sensor_id);
 }
-
-/* ---- snapshots ------------------------------------------------------------------------------- */
 
 int rho_turn_is_sound(const struct rho_tracker_look *health)
 {

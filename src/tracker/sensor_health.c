@@ -8,38 +8,10 @@
  * its plots' sigmas are multiplied by their mean NIS. It is still compared, and is trusted again
  * when it agrees with the tracks.
  */
-#include "clutter.h"
 #include "plots.h"
-#include "rhotrack/detail/approx.h"
+#include "policy.h"
 #include "sensors.h"
 #include "step.h"
-
-/* Memory of a sensor's running means, in looks or hits, and the least number that is decided by. */
-#define COMPARED_MAX 16u
-#define COMPARED_MIN 12u
-/*
- * Share of other sensors' tracks that a sensor sees, over its pd: below the first it sees too few,
- * above the second enough.
- */
-#define SHARE_LOW 0.3f
-#define SHARE_GOOD 0.6f
-/*
- * Mean NIS per dimension of a sensor's plots: above the first the sensor is biased, below the
- * second it agrees. It is 1 in theory, and about 2 with manoeuvres and too small covariances.
- */
-#define CHI2_HIGH 4.0f
-#define CHI2_GOOD 2.5f
-/* NIS per dimension that is assumed of a claimed plot outside of the plain Kalman filter's gate. */
-#define CHI2_OUTSIDE 9.0f
-/*
- * Largest mean NIS of a witness, over that of the biased sensor. A biased sensor pulls the tracks,
- * so that unbiased sensors look biased, too, but less so.
- */
-#define RIGHTER 0.7f
-/* Largest sigma ratio at which two sensors' normalised distances are comparable. */
-#define COARSER 1.9f
-/* Largest factor on the sigmas of a suspect sensor's plots. */
-#define FACTOR_MAX 20.0f
 
 static void add_to_running_mean(float *mean, float value, uint16_t *count)
 {
@@ -47,8 +19,7 @@ static void add_to_running_mean(float *mean, float value, uint16_t *count)
     *mean += (value - *mean) / (float)*count;
 }
 
-static float nis_per_dimension_of_plot(const struct rho_look *look, const struct rho_track *track,
-                                       int plot)
+static float nis_per_dimension(const struct rho_look *look, const struct rho_track *track, int plot)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
@@ -61,27 +32,10 @@ static float nis_per_dimension_of_plot(const struct rho_look *look, const struct
         gate.sensor = &sensor;
     }
     if (!rho_gate_test(&gate, &look->scan->plots[plot], &result)) {
-        return CHI2_OUTSIDE;
+        return 3.0f * 3.0f; /* outside of the plain Kalman filter's gate: as at three sigmas */
     }
     return result.distance2 /
            (2.0f + (result.has_z ? 1.0f : 0.0f) + (result.has_range_rate ? 1.0f : 0.0f));
-}
-
-static void add_track_to_seen_share_and_mean_nis(const struct rho_look *look,
-                                                 struct rho_tracker_look *health, unsigned row)
-{
-    const struct rho_tracker *tracker = look->tracker;
-    const struct rho_track *track = &tracker->tracks[row];
-    const int plot = rho_assignment_column(&tracker->assignment, row);
-    if (plot != RHO_ASSIGNMENT_NONE) {
-        add_to_running_mean(&health->seen_share, 1.0f, &health->watched);
-        health->sigma_m = rho_plot_sigma_m(&look->scan->plots[plot]);
-        add_to_running_mean(&health->distance2, nis_per_dimension_of_plot(look, track, plot),
-                            &health->watched_hits);
-    } else if (!look->has_more_parts && !rho_notch_is_mostly_blind(track) &&
-               rho_turn_has_passed(look, track)) {
-        add_to_running_mean(&health->seen_share, 0.0f, &health->watched);
-    }
 }
 
 static float stated_pd(const struct rho_tracker *tracker, const struct rho_tracker_sensor *row)
@@ -101,8 +55,7 @@ static int sees_enough_tracks(const struct rho_tracker *tracker,
  * True where one sensor's noise is much larger. The NIS is in each sensor's own sigmas: plots of a
  * coarse sensor agree with any track, and a precise, biased sensor pulls the tracks to its plots.
  */
-static int is_coarser_sensor(const struct rho_tracker_look *health,
-                             const struct rho_tracker_look *than)
+static int is_coarser(const struct rho_tracker_look *health, const struct rho_tracker_look *than)
 {
     return health->sigma_m > COARSER * than->sigma_m;
 }
@@ -116,17 +69,6 @@ struct witnesses {
      */
     unsigned agreeing, equal, coarser;
 };
-
-static void count_witness(struct witnesses *witnesses, const struct rho_tracker_look *other,
-                          const struct rho_tracker_look *health, int does_agree)
-{
-    if (is_coarser_sensor(other, health)) {
-        witnesses->coarser++;
-    } else {
-        witnesses->agreeing += does_agree ? 1u : 0u;
-        witnesses->equal += !is_coarser_sensor(health, other) ? 1u : 0u;
-    }
-}
 
 static struct witnesses count_witnesses(const struct rho_look *look,
                                         const struct rho_tracker_sensor *row)
@@ -142,8 +84,14 @@ static struct witnesses count_witnesses(const struct rho_look *look,
         }
         const int does_agree = other->distance2 < CHI2_GOOD;
         witnesses.num += does_agree ? 1u : 0u;
-        if (does_agree || other->distance2 < RIGHTER * row->look.distance2) {
-            count_witness(&witnesses, other, &row->look, does_agree);
+        if (!does_agree && !(other->distance2 < RIGHTER * row->look.distance2)) {
+            continue;
+        }
+        if (is_coarser(other, &row->look)) {
+            witnesses.coarser++;
+        } else {
+            witnesses.agreeing += does_agree ? 1u : 0u;
+            witnesses.equal += !is_coarser(&row->look, other) ? 1u : 0u;
         }
     }
     return witnesses;
@@ -155,7 +103,7 @@ static struct witnesses count_witnesses(const struct rho_look *look,
  * speak against it. One finer and one coarser sensor are not enough, as the finer may have pulled
  * the tracks, and the coarser cannot tell.
  */
-static void suspect_or_trust(struct rho_tracker *tracker, struct rho_look *look)
+static void judge_sensor(struct rho_tracker *tracker, struct rho_look *look)
 {
     const struct rho_tracker_sensor *row = look->row;
     struct rho_tracker_look *health = &look->row->look;
@@ -175,35 +123,38 @@ static void suspect_or_trust(struct rho_tracker *tracker, struct rho_look *look)
     look->is_suspect = health->is_suspect;
 }
 
-/*
- * True of a confirmed track in view that two sensors have seen, the last of them another one than
- * the scan's sensor and not suspect.
- */
-static int can_track_show_bias(const struct rho_look *look, unsigned row)
-{
-    const struct rho_track *track = &look->tracker->tracks[row];
-    const struct rho_tracker_look *last = rho_tracker_look_of(look->tracker, track->sensor_id);
-    return track->status != RHO_TRACK_FREE && track->was_confirmed && track->is_shared &&
-           track->sensor_id != look->scan->sensor_id && !(last && last->is_suspect) &&
-           rho_look_has_in_view(look, row);
-}
-
 void rho_health_compare(struct rho_tracker *tracker, struct rho_look *look)
 {
-    for (unsigned row = 0; row < tracker->num_tracks && look->row; row++) {
-        if (can_track_show_bias(look, row)) {
-            add_track_to_seen_share_and_mean_nis(look, &look->row->look, row);
+    struct rho_tracker_look *health = look->row ? &look->row->look : 0;
+    for (unsigned row = 0; row < tracker->num_tracks && health; row++) {
+        /* confirmed tracks in view, seen by two sensors, last by another one that is not suspect */
+        const struct rho_track *track = &tracker->tracks[row];
+        const struct rho_tracker_look *last = rho_tracker_look_of(tracker, track->sensor_id);
+        if (track->status == RHO_TRACK_FREE || !track->was_confirmed || !track->is_shared ||
+            track->sensor_id == look->scan->sensor_id || (last && last->is_suspect) ||
+            !rho_look_has_in_view(look, row)) {
+            continue;
+        }
+        const int plot = rho_assignment_column(&tracker->assignment, row);
+        if (plot != RHO_ASSIGNMENT_NONE) {
+            add_to_running_mean(&health->seen_share, 1.0f, &health->watched);
+            health->sigma_m = rho_plot_sigma_m(&look->scan->plots[plot]);
+            add_to_running_mean(&health->distance2, nis_per_dimension(look, track, plot),
+                                &health->watched_hits);
+        } else if (!look->has_more_parts && !rho_notch_is_mostly_blind(track) &&
+                   rho_turn_has_passed(look, track)) {
+            add_to_running_mean(&health->seen_share, 0.0f, &health->watched);
         }
     }
-    if (look->row && !look->has_more_parts) {
-        suspect_or_trust(tracker, look);
+    if (health && !look->has_more_parts) {
+        judge_sensor(tracker, look);
     }
 }
 
 float rho_health_sigma_factor(struct rho_tracker *tracker, struct rho_look *look)
 {
     if (look->row) {
-        suspect_or_trust(tracker, look); /* the witnesses may be silent by now */
+        judge_sensor(tracker, look); /* the witnesses may be silent by now */
     }
     /* the NIS, a ratio of variances, multiplies sigmas: a bias pulls tracks more than noise does */
     const float shown = look->is_suspect ? look->row->look.distance2 : 1.0f;

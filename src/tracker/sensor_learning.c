@@ -21,44 +21,16 @@
  * misses. Of several misses in a row the first alone is counted, so that the learned pd is rather
  * too high; it is never above the stated one.
  */
-#include "clutter.h"
-#include "plots.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
-#include "rhotrack/detail/measurement.h"
 #include "sensors.h"
 #include "step.h"
 
-/* Largest probability of the manoeuvring model at which a track teaches the sensor's noise. */
-#define MANEUVER_MAX 0.2f
 enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
-/* Units of track->shown for an innovation of one sigma, and the largest that an int8_t holds. */
-#define SHOWN_PER_SIGMA 16.0f
-#define SIGMAS_MAX (127.0f / SHOWN_PER_SIGMA)
+enum { SHOWN_PER_SIGMA = 16 };              /* units of track->shown for one sigma */
+#define SIGMAS_MAX ((float)INT8_MAX / SHOWN_PER_SIGMA)
 
-/* c^2, at which e is cut, and b, the mean of min(e, c^2) with normal noise. */
-#define CUT2 2.25f
-#define MEAN_CUT 0.7785f
-/* The gain g of the n-th innovation is GAIN / (n + INNOVATIONS_PRIOR). */
-#define GAIN 3.0f
-#define INNOVATIONS_PRIOR 40.0f
-#define LOG_NOISE_MAX 4.6f /* limit of ln f, either way: 10 times the sigma */
-/* Fewest innovations for learned noise to be used; the count stops at the second. */
-#define INNOVATIONS_MIN 100
-#define INNOVATIONS_MAX 1000
-/* Least share of the plot's noise in an innovation's variance; the rest is of the prediction. */
-#define NOISE_SHARE_MIN 0.4f
-/*
- * Largest ln f, either way, at which the noise counts as stated: AS_STATED, plus CHANCE over the
- * root of the number of innovations for chance.
- */
-#define AS_STATED 0.25f
-#define CHANCE 4.0f
-
-/* Looks at a ring of range at which its looks and hits are halved. */
-#define LOOKS_MAX 1000
-/* Largest share of blind looks, per cent, at which a look teaches the pd of a ring. */
-#define BLIND_PERCENT_MAX 2
 static int is_noise_learning_on(const struct rho_tracker_config *config)
 {
     return rho_learning_is_on(config) &&
@@ -69,8 +41,6 @@ static int is_pd_learning_on(const struct rho_tracker_config *config)
 {
     return config->learn_pd_min < 1.0f;
 }
-
-/* ---- use of noise ---------------------------------------------------------------------------- */
 
 static float usable_sigma_factor(const struct rho_tracker *tracker,
                                  const struct rho_tracker_learned *learned, int axis)
@@ -103,10 +73,9 @@ void rho_learning_write_noise(const struct rho_look *look, float suspicion,
     }
 }
 
-/* ---- noise learned --------------------------------------------------------------------------- */
-
-static const struct rho_kalman *steady_filter_if_not_turning(const struct rho_look *look,
-                                                             const struct rho_track *track)
+/* The steady filter of the best hypothesis at the look's time; NULL: the target may turn. */
+static const struct rho_kalman *steady_filter(const struct rho_look *look,
+                                              const struct rho_track *track)
 {
     const struct rho_hypotheses *pool = &look->tracker->hypotheses;
     for (unsigned i = 0; i < rho_hypotheses_count(pool, track->slot); i++) {
@@ -120,10 +89,9 @@ static const struct rho_kalman *steady_filter_if_not_turning(const struct rho_lo
     return 0;
 }
 
-/* Innovation along a direction, over its sigma; true where enough of its variance is plot noise. */
 struct innovation {
-    float sigmas;
-    int is_clear;
+    float sigmas; /* along a direction, over its sigma */
+    int is_clear; /* enough of its variance is plot noise */
 };
 
 /*
@@ -152,11 +120,10 @@ static struct innovation innovation_along(const struct rho_kalman *steady,
 }
 
 /*
- * Half of the squared difference from the track's last innovation on an axis, cut at CUT2; below 0
- * where it is not to be used. Stores the new innovation in the track.
+ * Stores an innovation in the track. Returns half of its squared difference from the last one on
+ * the axis, cut at CUT2; below 0 where it is not to be used.
  */
-static float half_squared_change_store_innovation(struct rho_track *track, int axis,
-                                                  const struct innovation *now)
+static float store_innovation(struct rho_track *track, int axis, const struct innovation *now)
 {
     const float off = now->sigmas - (float)track->shown[axis] * (1.0f / SHOWN_PER_SIGMA);
     const float square = 0.5f * off * off;
@@ -171,7 +138,8 @@ static int update_log_noise(float *log_noise, float excess, float gain)
     if (excess < 0.0f) {
         return 0;
     }
-    const float sum = *log_noise + gain * (excess / MEAN_CUT - 1.0f);
+    /* the mean of min(e, CUT2) with normal noise */
+    const float sum = *log_noise + gain * (excess / 0.7785f - 1.0f);
     *log_noise = sum > LOG_NOISE_MAX ? LOG_NOISE_MAX : sum < -LOG_NOISE_MAX ? -LOG_NOISE_MAX : sum;
     return 1;
 }
@@ -184,7 +152,7 @@ static void learn_noise_from_plot(const struct rho_look *look, struct rho_track 
                                   const struct rho_plot *plot, const float factors[2])
 {
     struct rho_tracker_learned *learned = look->learned;
-    const struct rho_kalman *steady = steady_filter_if_not_turning(look, track);
+    const struct rho_kalman *steady = steady_filter(look, track);
     const float dx_m = plot->x_m - look->sensor->x_m, dy_m = plot->y_m - look->sensor->y_m;
     const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     if (!steady || !(range_m > 1.0f)) {
@@ -203,41 +171,19 @@ static void learn_noise_from_plot(const struct rho_look *look, struct rho_track 
         innovation_along(steady, plot, x, y, (1.0f - rise2) * along_m2 * factors[0], up_m2);
     const struct innovation across =
         innovation_along(steady, plot, -y, x, across_m2 * factors[1], 0.0f);
-    const float along_excess = half_squared_change_store_innovation(track, 0, &along);
-    const float across_excess = half_squared_change_store_innovation(track, 1, &across);
+    const float along_excess = store_innovation(track, 0, &along);
+    const float across_excess = store_innovation(track, 1, &across);
     const float gain = GAIN / (INNOVATIONS_PRIOR + (float)learned->innovations);
     const int is_round = along_m2 <= across_m2 && along_m2 >= across_m2;
     int is_used = update_log_noise(&learned->log_noise[0], along_excess, gain);
+    is_used |= update_log_noise(&learned->log_noise[is_round ? 0 : 1], across_excess, gain);
     if (is_round) {
         /* the noise of isotropic plots is learned as one value for both axes */
-        is_used |= update_log_noise(&learned->log_noise[0], across_excess, gain);
         learned->log_noise[1] = learned->log_noise[0];
-    } else {
-        is_used |= update_log_noise(&learned->log_noise[1], across_excess, gain);
     }
     track->has_shown |= HAS_INNOVATION;
     learned->innovations =
-        (uint16_t)(learned->innovations + (is_used && learned->innovations < INNOVATIONS_MAX));
-}
-
-/* ---- pd -------------------------------------------------------------------------------------- */
-
-/* ---- pd of a look ---------------------------------------------------------------------------- */
-
-static void count_look_by_range_and_rate(const struct rho_look *look, const struct rho_track *track,
-                                         unsigned is_seen)
-{
-    struct rho_tracker_learned *learned = look->learned;
-    const unsigned ring = rho_learning_ring(look->sensor, track);
-    if (rho_learning_seeks_notch(look) && !rho_learning_count_rate(look, track, is_seen)) {
-        return;
-    }
-    learned->looks[ring] = (uint16_t)(learned->looks[ring] + 1u);
-    learned->hits[ring] = (uint16_t)(learned->hits[ring] + is_seen);
-    if (learned->looks[ring] >= LOOKS_MAX) {
-        learned->looks[ring] = (uint16_t)(learned->looks[ring] / 2u);
-        learned->hits[ring] = (uint16_t)(learned->hits[ring] / 2u);
-    }
+        (uint16_t)(learned->innovations + (is_used && learned->innovations < LEARNED_MAX));
 }
 
 /*
@@ -256,61 +202,41 @@ static void learn_pd_from_look(const struct rho_look *look, struct rho_track *tr
         }
         return;
     }
-    if (is_seen && is_own) {
-        count_look_by_range_and_rate(look, track, track->has_shown & IS_MISSED ? 0u : 1u);
+    const unsigned is_hit = track->has_shown & IS_MISSED ? 0u : 1u;
+    if (is_seen && is_own &&
+        (!rho_learning_seeks_notch(look) || rho_learning_count_rate(look, track, is_hit))) {
+        const unsigned ring = rho_learning_ring(look->sensor, track);
+        uint16_t *looks = &look->learned->looks[ring], *hits = &look->learned->hits[ring];
+        *looks = (uint16_t)(*looks + 1u);
+        *hits = (uint16_t)(*hits + is_hit);
+        if (*looks >= LEARNED_MAX) {
+            *looks = (uint16_t)(*looks / 2u);
+            *hits = (uint16_t)(*hits / 2u);
+        }
     }
     track->has_shown &= (uint8_t)~IS_MISSED;
     track->has_shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
-}
-
-/* Tests in one ring of range, another one each scan, whether the learned pd is below the stated. */
-static void update_lowered_pd_of_next_ring(const struct rho_look *look)
-{
-    struct rho_tracker_learned *learned = look->learned;
-    const float pd =
-        rho_learning_pd_in_ring(&look->tracker->config, learned, look->sensor->pd, learned->ring);
-    const unsigned bit = 1u << learned->ring, others = learned->is_lowered & ~bit;
-    learned->is_lowered = (uint8_t)(others | (pd < look->sensor->pd ? bit : 0u));
-    learned->ring = (uint8_t)((learned->ring + 1u) % RHO_LEARN_RINGS);
-}
-
-/* ---- a scan ---------------------------------------------------------------------------------- */
-
-static int can_teach_sensor(const struct rho_look *look, unsigned row)
-{
-    const struct rho_track *track = &look->tracker->tracks[row];
-    return track->status != RHO_TRACK_FREE && track->was_confirmed &&
-           rho_life_is_established(track) && rho_look_has_in_view(look, row);
-}
-
-static int can_teach_noise(const struct rho_track *track)
-{
-    return !track->is_shared && RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) &&
-           track->maneuver_probability < MANEUVER_MAX;
-}
-
-static int can_learn_from_scan(const struct rho_look *look)
-{
-    return !look->is_suspect && look->teaches && look->learned &&
-           rho_learning_is_on(&look->tracker->config);
 }
 
 void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *look)
 {
     /* with bodies no noise is learned: most of a group's noise is the extent of the body */
     const int has_noise = is_noise_learning_on(&tracker->config) && !rho_bodies_are_used(tracker);
-    if (!can_learn_from_scan(look)) {
+    struct rho_tracker_learned *learned = look->learned;
+    if (look->is_suspect || !look->teaches || !learned || !rho_learning_is_on(&tracker->config)) {
         return;
     }
-    const float factors[2] = {rho_exp(look->learned->log_noise[0]),
-                              rho_exp(look->learned->log_noise[1])};
+    const float factors[2] = {rho_exp(learned->log_noise[0]), rho_exp(learned->log_noise[1])};
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (!can_teach_sensor(look, row)) {
+        if (track->status == RHO_TRACK_FREE || !track->was_confirmed ||
+            !rho_life_is_established(track) || !rho_look_has_in_view(look, row)) {
             continue;
         }
         const int plot = rho_assignment_column(&tracker->assignment, row);
-        if (has_noise && plot != RHO_ASSIGNMENT_NONE && can_teach_noise(track)) {
+        if (has_noise && plot != RHO_ASSIGNMENT_NONE && !track->is_shared &&
+            RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) &&
+            track->maneuver_probability < MANEUVER_MAX) {
             learn_noise_from_plot(look, track, &look->scan->plots[plot], factors);
         }
         if (plot != RHO_ASSIGNMENT_NONE ||
@@ -319,16 +245,19 @@ void rho_learning_take_look(struct rho_tracker *tracker, const struct rho_look *
         }
     }
     if (is_pd_learning_on(&tracker->config) && !look->has_more_parts) {
-        update_lowered_pd_of_next_ring(look);
+        /* in one ring of range, another one each scan: is the learned pd below the stated one? */
+        const float stated = look->sensor->pd;
+        const float pd = rho_learning_pd_in_ring(&tracker->config, learned, stated, learned->ring);
+        const unsigned bit = 1u << learned->ring, others = learned->is_lowered & ~bit;
+        learned->is_lowered = (uint8_t)(others | (pd < stated ? bit : 0u));
+        learned->ring = (uint8_t)((learned->ring + 1u) % RHO_LEARN_RINGS);
     }
 }
-
-/* ---- what is known --------------------------------------------------------------------------- */
 
 int rho_learning_is_sound(const struct rho_tracker_learned *learned)
 {
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
-        if (learned->hits[ring] > learned->looks[ring] || learned->looks[ring] > LOOKS_MAX) {
+        if (learned->hits[ring] > learned->looks[ring] || learned->looks[ring] > LEARNED_MAX) {
             return 0;
         }
     }
@@ -336,7 +265,7 @@ int rho_learning_is_sound(const struct rho_tracker_learned *learned)
            (!RHO_SHARES_PLOTS || rho_cell_is_sound(learned)) &&
            rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
-           learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&
+           learned->innovations <= LEARNED_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&
            learned->ring < RHO_LEARN_RINGS;
 }
 

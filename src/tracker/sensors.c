@@ -5,13 +5,10 @@
  */
 #include <string.h>
 
-#include "clutter.h"
-#include "plots.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/doppler_notch.h"
 #include "rhotrack/detail/measurement.h"
 #include "sensors.h"
-#include "step.h"
 
 unsigned rho_sensors_row(const struct rho_tracker *tracker, int32_t sensor_id)
 {

@@ -28,11 +28,6 @@ void rho_pace_update(struct rho_tracker_pace *pace, const struct rho_sensor *sen
 float rho_health_sigma_factor(struct rho_tracker *tracker, struct rho_look *look);
 /* Compares the assigned plots with the tracks' predictions, before tracks are updated. */
 void rho_health_compare(struct rho_tracker *tracker, struct rho_look *look);
-/* True where the scan's sensor is suspect and no other sensor has seen the track. */
-static inline int rho_health_hides_track(const struct rho_look *look, const struct rho_track *track)
-{
-    return look->is_suspect && !track->is_shared;
-}
 
 /*
  * sensor_learning.c: noise, pd and notch of a sensor, estimated from established tracks. Noise is
@@ -75,10 +70,7 @@ float rho_learning_notch_mps(const struct rho_sensor *sensor,
                              const struct rho_tracker_learned *learned);
 int rho_learning_is_sound_notch(const struct rho_tracker_learned *learned);
 
-/*
- * resolution_cell.c (RHO_SHARES_PLOTS): distances at which a sensor does not resolve
- * two targets
- */
+/* resolution_cell.c (RHO_SHARES_PLOTS): distances at which a sensor does not resolve two targets */
 int rho_cell_is_usable(const struct rho_sensor *sensor);
 /* Variances of such distances at a plot's place, along the line of sight and across it. */
 void rho_cell_variances_at(const struct rho_look *look, const struct rho_plot *plot,

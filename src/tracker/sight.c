@@ -3,11 +3,8 @@
  * sight: would this look see this track? Three answers, each with its contributors in their order:
  * whether it may see the track at all, whether no plot is then a miss, and how probable a plot is.
  */
-#include "clutter.h"
-#include "plots.h"
 #include "rhotrack/detail/approx.h"
 #include "sensors.h"
-#include "step.h"
 
 void rho_look_set_pd(struct rho_look *look)
 {
@@ -18,10 +15,11 @@ void rho_look_set_pd(struct rho_look *look)
 
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track)
 {
+    /* the scan of a suspect sensor does not see tracks that no other sensor has seen */
     return !rho_track_is_frozen(track) &&
            (!look->scan || (rho_coverage_may_see(look, track) &&
                             !(RHO_SECTORS && rho_turn_saw_before(look, track)) &&
-                            !rho_health_hides_track(look, track)));
+                            !(look->is_suspect && !track->is_shared)));
 }
 
 int rho_look_may_miss(const struct rho_look *look, const struct rho_track *track)

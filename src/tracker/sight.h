@@ -11,8 +11,8 @@
 /* sight.c: sets log_pd and log_miss by the look's sensor, or by the tracker's default pd */
 void rho_look_set_pd(struct rho_look *look);
 /*
- * True where the look may see a track at all. A bearing may be anybody's: a frame may see
- * every track that is not frozen
+ * True where the look may see a track at all. A bearing may be anybody's: a frame may see every
+ * track that is not frozen
  */
 int rho_look_may_see(const struct rho_look *look, const struct rho_track *track);
 /* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
@@ -24,8 +24,8 @@ struct detection {
 struct detection rho_look_detection(const struct rho_look *look, const struct rho_track *track);
 
 /*
- * coverage.c: true where a plot, within its noise, is in the sensor's stated
- * coverage. sensor NULL: it covers all
+ * coverage.c: true where a plot, within its noise, is in the sensor's stated coverage. sensor NULL:
+ * it covers all
  */
 int rho_coverage_holds_plot(const struct rho_sensor *sensor, const struct rho_plot *plot,
                             uint32_t measures);
@@ -40,9 +40,7 @@ int rho_look_has_in_view(const struct rho_look *look, unsigned row);
 int rho_coverage_holds_track(const struct rho_look *look, float sector_from_rad,
                              float sector_to_rad, const struct rho_track *track);
 
-/*
- * sector_turns.c (RHO_SECTORS): how the sectors of one turn follow each other
- */
+/* sector_turns.c (RHO_SECTORS): how the sectors of one turn follow each other */
 #define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
 int rho_turn_is_sound(const struct rho_tracker_look *look);
 /* Records the scan's sector and time for its sensor, and finds which way the antenna turns. */
@@ -64,8 +62,8 @@ int rho_turn_has_passed(const struct rho_look *look, const struct rho_track *tra
 float rho_turn_num_scans(const struct rho_look *look);
 
 /*
- * blind_looks.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Sets
- * blind_percent of the tracks in view, before plots are scored
+ * blind_looks.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Sets blind_percent of the
+ * tracks in view, before plots are scored
  */
 void rho_notch_mark_tracks(struct rho_tracker *tracker, struct rho_look *look);
 /* Sets blind_percent of all tracks to 0, at the end of a step. */

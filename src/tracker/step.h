@@ -23,17 +23,9 @@ struct step {
     uint32_t num_beyond_claimed, num_beyond_invalid;
 };
 
-/*
- * retrodiction.c (RHO_SECTORS): scans older than the newest step that may still
- * update tracks
- */
-void rho_retrodiction_default(struct rho_tracker_config *config);
-int rho_retrodiction_is_usable(const struct rho_tracker_config *config);
+/* retrodiction.c (RHO_SECTORS): scans older than the newest step that may still update tracks */
 /* True of an out-of-sequence scan within late_max_s that is not its sensor's newest one again. */
 int rho_retrodiction_accepts(const struct rho_look *look);
-/* Stores the track's time before an out-of-sequence scan moves the track back. */
-void rho_retrodiction_keep_time(struct rho_track *track);
-int rho_retrodiction_is_sound(const struct rho_track *track);
 /*
  * After an out-of-sequence scan: tracks, step and report return to the newest time, and tracks that
  * cannot return end. 0: the scan was in sequence.
@@ -65,17 +57,15 @@ void rho_evidence_count_established(struct rho_tracker *tracker, const struct rh
 /* Counts an ended track if it ended early. */
 void rho_evidence_count_ended(struct step *step, const struct rho_track *track);
 
-/*
- * manoeuvre_interval.c: mean time between manoeuvres; learned from established tracks over
- * dt_s
- */
+/* manoeuvre_interval.c: mean time between manoeuvres; learned from established tracks over dt_s */
 void rho_manoeuvres_learn(struct rho_tracker *tracker, const struct rho_look *look, float dt_s);
 /* Sets the mean time between manoeuvres to its default where no scan came for long. */
 void rho_manoeuvres_reset(struct rho_tracker *tracker, int64_t time_us);
 
 /*
- * unseen_tracks.c: tracks that no sensor looks at. Returns 1 where a track is to end, as it was not observed for too long. Also smooths the time
- * between the track's hits, and lowers its score where it is doubtful after a long silence.
+ * unseen_tracks.c: tracks that no sensor looks at. Returns 1 where a track is to end, as it was not
+ * observed for too long. Also smooths the time between the track's hits, and lowers its score where
+ * it is doubtful after a long silence.
  */
 int rho_unseen_update(const struct rho_look *look, struct rho_track *track, int is_missed,
                       const struct rho_track_limits *limits);

@@ -7,13 +7,8 @@
 
 #include <string.h>
 
+#include "look.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/tracker.h"
-
-#define SCORE_LIMIT_MNAT 1000000000
-#define SCORE_LIMIT_NAT (0.001f * (float)SCORE_LIMIT_MNAT)
-
-/* ---- life cycle ------------------------------------------------------------------------------ */
 
 const char *rho_track_status_name(enum rho_track_status status)
 {
@@ -53,13 +48,11 @@ static void apply_event_to_status(struct rho_track *track, enum rho_track_event 
     track->status = (uint8_t)rho_track_next_status((enum rho_track_status)track->status, event);
 }
 
-/* ---- evidence -------------------------------------------------------------------------------- */
-
 static void add_score(struct rho_track *track, int32_t mnat)
 {
     int64_t score = (int64_t)track->score_mnat + mnat;
-    score = score > SCORE_LIMIT_MNAT ? SCORE_LIMIT_MNAT : score;
-    score = score < -SCORE_LIMIT_MNAT ? -SCORE_LIMIT_MNAT : score;
+    score = score > RHO_SCORE_MAX_MNAT ? RHO_SCORE_MAX_MNAT : score;
+    score = score < -RHO_SCORE_MAX_MNAT ? -RHO_SCORE_MAX_MNAT : score;
     track->score_mnat = (int32_t)score;
     if (track->score_mnat > track->score_max_mnat) {
         track->score_max_mnat = track->score_mnat;
@@ -93,16 +86,6 @@ static int32_t fall_of_score(const struct rho_track *track)
     return track->score_max_mnat - track->score_mnat;
 }
 
-static int is_missed_too_often_or_score_too_low(const struct rho_track *track,
-                                                const struct rho_track_limits *limits)
-{
-    if (track->misses_in_row >= limits->misses_in_row_max) {
-        return 1;
-    }
-    return track->was_confirmed ? fall_of_score(track) >= limits->fall_mnat
-                                : track->score_mnat < limits->tentative_mnat;
-}
-
 enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
                                                  const struct rho_track_limits *limits)
 {
@@ -112,12 +95,14 @@ enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
         event = RHO_TRACK_CONFIRM;
         track->was_confirmed = 1;
     }
-    apply_event_to_status(
-        track, is_missed_too_often_or_score_too_low(track, limits) ? RHO_TRACK_DROP : event);
+    if (track->misses_in_row >= limits->misses_in_row_max ||
+        (track->was_confirmed ? fall_of_score(track) >= limits->fall_mnat
+                              : track->score_mnat < limits->tentative_mnat)) {
+        event = RHO_TRACK_DROP;
+    }
+    apply_event_to_status(track, event);
     return (enum rho_track_status)track->status;
 }
-
-/* ---- accuracy -------------------------------------------------------------------------------- */
 
 static float root_mean_variance(const struct rho_kalman *kalman, int first)
 {
@@ -142,20 +127,11 @@ float rho_track_sigma_mps(const struct rho_track *track)
     return root_mean_variance(&track->kalman, 3);
 }
 
-/* ---- a plain Kalman filter ------------------------------------------------------------------- */
-
-static enum rho_status update_by_velocity(struct rho_kalman *kalman, const struct rho_plot *plot,
-                                          int has_z)
+/* Number of axes on which a plot measures the velocity. */
+static int num_velocities_of(const struct rho_track_plot *seen,
+                             const struct rho_measurement *measurement)
 {
-    float variance = plot->sigma_mps * plot->sigma_mps;
-    enum rho_status status = rho_kalman_update(kalman, 3, plot->vx_mps, variance, 0);
-    if (status == RHO_OK) {
-        status = rho_kalman_update(kalman, 4, plot->vy_mps, variance, 0);
-    }
-    if (status == RHO_OK && has_z) {
-        status = rho_kalman_update(kalman, 5, plot->vz_mps, variance, 0);
-    }
-    return status;
+    return !(seen->measures & RHO_MEASURES_VELOCITY) ? 0 : measurement->has_z ? 3 : 2;
 }
 
 /*
@@ -171,8 +147,11 @@ static enum rho_status update_state_by_plot(struct rho_kalman *kalman,
     rho_measurement_from_plot(plot, seen->measures, seen->sensor, &measurement);
     enum rho_status status = rho_kalman_update_position(
         kalman, &measurement, model->speed_sigma_mps * model->speed_sigma_mps);
-    if (status == RHO_OK && (seen->measures & RHO_MEASURES_VELOCITY)) {
-        status = update_by_velocity(kalman, plot, measurement.has_z);
+    const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
+    const int num_velocities = num_velocities_of(seen, &measurement);
+    for (int axis = 0; axis < num_velocities && status == RHO_OK; axis++) {
+        status = rho_kalman_update(kalman, 3 + axis, velocity_mps[axis],
+                                   plot->sigma_mps * plot->sigma_mps, 0);
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
         status =
@@ -182,9 +161,8 @@ static enum rho_status update_state_by_plot(struct rho_kalman *kalman,
     return status;
 }
 
-static enum rho_status predict_and_update_kalman(struct rho_track *track,
-                                                 const struct rho_track_plot *seen,
-                                                 const struct rho_track_model *model)
+static enum rho_status update_kalman(struct rho_track *track, const struct rho_track_plot *seen,
+                                     const struct rho_track_model *model)
 {
     struct rho_kalman kalman = track->kalman;
     enum rho_status status = rho_kalman_predict(
@@ -198,10 +176,8 @@ static enum rho_status predict_and_update_kalman(struct rho_track *track,
     return status;
 }
 
-/* ---- with input estimation ------------------------------------------------------------------- */
-
 /* Copies the estimate of the input estimation filter, and its inputs, to the track. */
-static void copy_input_estimate_to_track(struct rho_track *track)
+static void copy_input_estimate(struct rho_track *track)
 {
     rho_input_get_corrected_estimate(&track->input, &track->kalman);
     for (int axis = 0; axis < 3; axis++) {
@@ -211,71 +187,33 @@ static void copy_input_estimate_to_track(struct rho_track *track)
     track->maneuver_probability = track->input.present ? 1.0f : 0.0f;
 }
 
-static enum rho_status update_input_by_plot(struct rho_input *input,
-                                            const struct rho_track_plot *seen,
-                                            const struct rho_input_config *config)
+static enum rho_status update_input(struct rho_track *track, const struct rho_track_plot *seen,
+                                    const struct rho_track_model *model)
 {
     const struct rho_plot *plot = &seen->plot;
     const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
     struct rho_measurement measurement;
-    rho_measurement_from_plot(plot, seen->measures, seen->sensor, &measurement);
-    enum rho_status status = rho_input_update_position(input, config, &measurement);
-    int num_velocities = !(seen->measures & RHO_MEASURES_VELOCITY) ? 0 : measurement.has_z ? 3 : 2;
-    for (int axis = 0; axis < num_velocities && status == RHO_OK; axis++) {
-        status = rho_input_update_filter_by_element(input, config, 3 + axis, velocity_mps[axis],
-                                                    plot->sigma_mps * plot->sigma_mps);
-    }
-    if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
-        status =
-            rho_input_update_range_rate(input, config, seen->sensor, plot->range_rate_mps,
-                                        plot->sigma_range_rate_mps * plot->sigma_range_rate_mps);
-    }
-    return status;
-}
-
-static enum rho_status predict_and_update_input(struct rho_track *track,
-                                                const struct rho_track_plot *seen,
-                                                const struct rho_track_model *model)
-{
     struct rho_input input = track->input;
     enum rho_status status =
         rho_input_predict(&input, model->input, rho_seconds_between(track->time_us, seen->time_us));
     if (status == RHO_OK) {
-        status = update_input_by_plot(&input, seen, model->input);
+        rho_measurement_from_plot(plot, seen->measures, seen->sensor, &measurement);
+        status = rho_input_update_position(&input, model->input, &measurement);
+    }
+    for (int axis = 0; status == RHO_OK && axis < num_velocities_of(seen, &measurement); axis++) {
+        status = rho_input_update_filter_by_element(
+            &input, model->input, 3 + axis, velocity_mps[axis], plot->sigma_mps * plot->sigma_mps);
+    }
+    if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
+        status =
+            rho_input_update_range_rate(&input, model->input, seen->sensor, plot->range_rate_mps,
+                                        plot->sigma_range_rate_mps * plot->sigma_range_rate_mps);
     }
     if (status == RHO_OK) {
         rho_input_test_and_end_inputs(&input, model->input);
         track->input = input;
         track->is_undecided = 0;
-        copy_input_estimate_to_track(track);
-    }
-    return status;
-}
-
-/*
- * Decides which inputs are present after all bearings of a step: a bearing measures nothing along
- * its line of sight, so that bearings of several sensors are needed.
- */
-static void decide_undecided_inputs(struct rho_track *track, const struct rho_track_model *model)
-{
-    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
-        rho_input_test_and_end_inputs(&track->input, model->input);
-        copy_input_estimate_to_track(track);
-        track->is_undecided = 0;
-    }
-}
-
-/* ---- hypotheses ------------------------------------------------------------------------------ */
-
-static enum rho_status predict_and_update_hypotheses(struct rho_track *track,
-                                                     const struct rho_track_plot *seen,
-                                                     const struct rho_track_model *model)
-{
-    struct rho_imm_plot plot;
-    enum rho_status status = rho_hypotheses_predict(model->hypotheses, track->slot, seen->time_us);
-    if (status == RHO_OK) {
-        rho_imm_prepare_plot(&plot, &seen->plot, seen->measures, seen->sensor);
-        status = rho_hypotheses_update(model->hypotheses, track->slot, &plot, seen->time_us);
+        copy_input_estimate(track);
     }
     return status;
 }
@@ -284,7 +222,15 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
                                const struct rho_track_model *model)
 {
     struct rho_hypotheses_estimate estimate;
-    decide_undecided_inputs(track, model);
+    /*
+     * presence of inputs is decided after all bearings of a step: a bearing measures nothing along
+     * its line of sight, so that bearings of several sensors are needed
+     */
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
+        rho_input_test_and_end_inputs(&track->input, model->input);
+        copy_input_estimate(track);
+        track->is_undecided = 0;
+    }
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) ||
         rho_hypotheses_estimate(model->hypotheses, track->slot, time_us, &estimate) != RHO_OK) {
         return;
@@ -306,32 +252,33 @@ void rho_track_estimate_for_gate(const struct rho_track *track, struct rho_kalma
     }
 }
 
-/* ---- start and end --------------------------------------------------------------------------- */
-
-static enum rho_status update_hypotheses_input_or_kalman_by_plot(
-    struct rho_track *track, const struct rho_track_plot *seen, const struct rho_track_model *model)
+static enum rho_status update_filter(struct rho_track *track, const struct rho_track_plot *seen,
+                                     const struct rho_track_model *model)
 {
-    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        return predict_and_update_hypotheses(track, seen, model);
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
+        return update_input(track, seen, model);
     }
-    return RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? predict_and_update_input(track, seen, model)
-                                                   : predict_and_update_kalman(track, seen, model);
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        return update_kalman(track, seen, model);
+    }
+    enum rho_status status = rho_hypotheses_predict(model->hypotheses, track->slot, seen->time_us);
+    if (status == RHO_OK) {
+        struct rho_imm_plot plot;
+        rho_imm_prepare_plot(&plot, &seen->plot, seen->measures, seen->sensor);
+        status = rho_hypotheses_update(model->hypotheses, track->slot, &plot, seen->time_us);
+    }
+    return status;
 }
 
-/* The filter that new tracks get from a model: hypotheses, else input estimation, else Kalman. */
-static enum rho_track_filter filter_of_model(const struct rho_track_model *model)
+/*
+ * Starts the filter that the model asks for from the track's Kalman estimate: hypotheses, else
+ * input estimation, else Kalman.
+ */
+static enum rho_status start_filter(struct rho_track *track, const struct rho_track_model *model)
 {
-    if (model->hypotheses) {
-        return RHO_TRACK_HYPOTHESES;
-    }
-    return model->input ? RHO_TRACK_INPUT : RHO_TRACK_KALMAN;
-}
-
-/* Sets the filter that the model asks for, and starts it from the track's Kalman estimate. */
-static enum rho_status start_filter_of_model(struct rho_track *track,
-                                             const struct rho_track_model *model)
-{
-    const enum rho_track_filter filter = filter_of_model(model);
+    const enum rho_track_filter filter = model->hypotheses ? RHO_TRACK_HYPOTHESES
+                                         : model->input    ? RHO_TRACK_INPUT
+                                                           : RHO_TRACK_KALMAN;
     if (!RHO_HAS_FILTER(filter)) {
         return RHO_ERROR_CONFIG;
     }
@@ -358,24 +305,8 @@ static void store_velocity_after_hit(struct rho_track *track, int is_first_of_st
     }
 }
 
-static enum rho_status run_filter_over_plots(struct rho_track *track,
-                                             const struct rho_track_plot *plots, unsigned num_plots,
-                                             const struct rho_track_model *model)
-{
-    enum rho_status status = RHO_OK;
-    store_velocity_after_hit(track, 1);
-    for (unsigned i = 1; i < num_plots && status == RHO_OK; i++) {
-        status = update_hypotheses_input_or_kalman_by_plot(track, &plots[i], model);
-        track->time_us = plots[i].time_us;
-        store_velocity_after_hit(track, 1);
-    }
-    rho_track_merge_estimates(track, track->time_us, model);
-    return status;
-}
-
 /* With a configured initial variance, input estimation begins at the estimate of all plots. */
-static enum rho_status restart_input_with_initial_variance(struct rho_track *track,
-                                                           const struct rho_track_model *model)
+static enum rho_status restart_input(struct rho_track *track, const struct rho_track_model *model)
 {
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) || !(model->input->initial_variance > 0.0f)) {
         return RHO_OK;
@@ -415,14 +346,20 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
     rho_kalman_init(&start.kalman);
     enum rho_status status = update_state_by_plot(&start.kalman, &plots[0], model);
     if (status == RHO_OK) {
-        status = start_filter_of_model(&start, model);
+        status = start_filter(&start, model);
     }
     if (status != RHO_OK) {
         return status;
     }
-    status = run_filter_over_plots(&start, plots, num_plots, model);
+    store_velocity_after_hit(&start, 1);
+    for (unsigned i = 1; i < num_plots && status == RHO_OK; i++) {
+        status = update_filter(&start, &plots[i], model);
+        start.time_us = plots[i].time_us;
+        store_velocity_after_hit(&start, 1);
+    }
+    rho_track_merge_estimates(&start, start.time_us, model);
     if (status == RHO_OK) {
-        status = restart_input_with_initial_variance(&start, model);
+        status = restart_input(&start, model);
     }
     if (status != RHO_OK) {
         rho_track_free_hypotheses(&start, model);
@@ -456,9 +393,9 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     start.time_us = time_us;
     start.updated_us = time_us;
     start.kalman = *estimate;
-    enum rho_status status = start_filter_of_model(&start, model);
+    enum rho_status status = start_filter(&start, model);
     if (status == RHO_OK) {
-        status = restart_input_with_initial_variance(&start, model);
+        status = restart_input(&start, model);
     }
     if (status != RHO_OK) {
         return status;
@@ -478,20 +415,6 @@ void rho_track_free_hypotheses(struct rho_track *track, const struct rho_track_m
     }
 }
 
-/* ---- predict and update ---------------------------------------------------------------------- */
-
-/*
- * Predicts the merged estimate of a track with hypotheses without noise, which is a rough value
- * until rho_track_merge_estimates computes it at the end of the step. Passes errors on.
- */
-static enum rho_status move_merged_estimate_unless_error(struct rho_track *track, int64_t time_us,
-                                                         enum rho_status status)
-{
-    return status == RHO_OK ? rho_kalman_predict(&track->kalman,
-                                                 rho_seconds_between(track->time_us, time_us), 0.0f)
-                            : status;
-}
-
 enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
                                   const struct rho_track_model *model)
 {
@@ -499,13 +422,16 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     if (!track || !model) {
         return RHO_ERROR_NULL;
     }
-    float dt_s = rho_seconds_between(track->time_us, time_us);
-    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        status = move_merged_estimate_unless_error(
-            track, time_us, rho_hypotheses_predict(model->hypotheses, track->slot, time_us));
-    } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
+    const float dt_s = rho_seconds_between(track->time_us, time_us);
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         status = rho_input_predict(&track->input, model->input, dt_s);
-        copy_input_estimate_to_track(track);
+        copy_input_estimate(track);
+    } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        status = rho_hypotheses_predict(model->hypotheses, track->slot, time_us);
+        if (status == RHO_OK) {
+            /* a rough merged estimate until rho_track_merge_estimates at the end of the step */
+            status = rho_kalman_predict(&track->kalman, dt_s, 0.0f);
+        }
     } else {
         status = rho_kalman_predict(&track->kalman, dt_s, model->noise_density);
     }
@@ -515,22 +441,23 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     return status;
 }
 
-enum rho_status rho_track_return_to_time_it_was_moved_from(struct rho_track *track, int64_t time_us,
-                                                           const struct rho_track_model *model)
+enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
+                                 const struct rho_track_model *model)
 {
+    enum rho_status status = RHO_OK;
     if (!track || !model) {
         return RHO_ERROR_NULL;
     }
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         return rho_track_predict(track, time_us, model); /* input estimation has noise per scan */
     }
-    enum rho_status status =
-        RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
-            ? move_merged_estimate_unless_error(
-                  track, time_us,
-                  rho_hypotheses_predict_noiseless(model->hypotheses, track->slot, time_us))
-            : rho_kalman_predict(&track->kalman, rho_seconds_between(track->time_us, time_us),
-                                 0.0f);
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        status = rho_hypotheses_predict_noiseless(model->hypotheses, track->slot, time_us);
+    }
+    if (status == RHO_OK) {
+        status =
+            rho_kalman_predict(&track->kalman, rho_seconds_between(track->time_us, time_us), 0.0f);
+    }
     if (status == RHO_OK) {
         track->time_us = time_us;
     }
@@ -558,7 +485,7 @@ enum rho_status rho_track_update_by_plot(struct rho_track *track, const struct r
     if (!track || !plot || !model) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = update_hypotheses_input_or_kalman_by_plot(track, plot, model);
+    enum rho_status status = update_filter(track, plot, model);
     if (status != RHO_OK) {
         return status;
     }
@@ -591,9 +518,9 @@ enum rho_status rho_track_commit_hypotheses_to_scan(struct rho_track *track,
         return status;
     }
     track->plot = -1;
-    add_score(track,
-              (int32_t)(1000.0f * (outcome.gain_nat < -SCORE_LIMIT_NAT  ? -SCORE_LIMIT_NAT
-                                   : outcome.gain_nat > SCORE_LIMIT_NAT ? SCORE_LIMIT_NAT
+    const float most_nat = 0.001f * (float)RHO_SCORE_MAX_MNAT;
+    add_score(track, (int32_t)(1000.0f * (outcome.gain_nat < -most_nat  ? -most_nat
+                                          : outcome.gain_nat > most_nat ? most_nat
                                                                         : outcome.gain_nat)));
     if (outcome.row >= 0) {
         store_claimed_plot(
@@ -605,59 +532,41 @@ enum rho_status rho_track_commit_hypotheses_to_scan(struct rho_track *track,
     return RHO_OK;
 }
 
-/* ---- bearings -------------------------------------------------------------------------------- */
-
-static enum rho_status update_kalman_by_bearing(struct rho_track *track,
-                                                const struct rho_track_bearing *bearing,
-                                                const struct rho_track_model *model)
-{
-    struct rho_kalman kalman = track->kalman;
-    float dt_s = rho_seconds_between(track->time_us, bearing->time_us);
-    enum rho_status status = rho_kalman_predict(&kalman, dt_s, model->noise_density);
-    if (status == RHO_OK) {
-        status = rho_kalman_update_bearing(&kalman, bearing->x_m, bearing->y_m,
-                                           bearing->bearing_rad, bearing->sigma_rad);
-    }
-    if (status == RHO_OK) {
-        track->kalman = kalman;
-    }
-    return status;
-}
-
-static enum rho_status update_input_by_bearing(struct rho_track *track,
-                                               const struct rho_track_bearing *bearing,
-                                               const struct rho_track_model *model)
-{
-    struct rho_input input = track->input;
-    float dt_s = rho_seconds_between(track->time_us, bearing->time_us);
-    enum rho_status status = rho_input_predict(&input, model->input, dt_s);
-    if (status == RHO_OK) {
-        status = rho_input_update_bearing(&input, model->input, bearing->x_m, bearing->y_m,
-                                          bearing->bearing_rad, bearing->sigma_rad);
-    }
-    if (status == RHO_OK) {
-        track->input = input;
-        track->is_undecided = 1;
-        copy_input_estimate_to_track(track);
-    }
-    return status;
-}
-
 static enum rho_status update_by_bearing(struct rho_track *track,
                                          const struct rho_track_bearing *bearing,
                                          const struct rho_track_model *model)
 {
-    if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
-        return update_input_by_bearing(track, bearing, model);
+    const float dt_s = rho_seconds_between(track->time_us, bearing->time_us);
+    enum rho_status status;
+    if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        status = rho_hypotheses_update_bearing(model->hypotheses, track->slot, bearing->time_us,
+                                               bearing->x_m, bearing->y_m, bearing->bearing_rad,
+                                               bearing->sigma_rad);
+        /* merged at once, so that the gate for the next sensor's bearings is narrower */
+        rho_track_merge_estimates(track, bearing->time_us, model);
+    } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
+        struct rho_input input = track->input;
+        status = rho_input_predict(&input, model->input, dt_s);
+        if (status == RHO_OK) {
+            status = rho_input_update_bearing(&input, model->input, bearing->x_m, bearing->y_m,
+                                              bearing->bearing_rad, bearing->sigma_rad);
+        }
+        if (status == RHO_OK) {
+            track->input = input;
+            track->is_undecided = 1;
+            copy_input_estimate(track);
+        }
+    } else {
+        struct rho_kalman kalman = track->kalman;
+        status = rho_kalman_predict(&kalman, dt_s, model->noise_density);
+        if (status == RHO_OK) {
+            status = rho_kalman_update_bearing(&kalman, bearing->x_m, bearing->y_m,
+                                               bearing->bearing_rad, bearing->sigma_rad);
+        }
+        if (status == RHO_OK) {
+            track->kalman = kalman;
+        }
     }
-    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        return update_kalman_by_bearing(track, bearing, model);
-    }
-    enum rho_status status = rho_hypotheses_update_bearing(
-        model->hypotheses, track->slot, bearing->time_us, bearing->x_m, bearing->y_m,
-        bearing->bearing_rad, bearing->sigma_rad);
-    /* hypotheses are merged at once, so that the gate for the next sensor's bearings is narrower */
-    rho_track_merge_estimates(track, bearing->time_us, model);
     return status;
 }
 

@@ -4,27 +4,9 @@
  */
 #include "clutter.h"
 #include "plots.h"
+#include "policy.h"
 #include "rhotrack/detail/approx.h"
-#include "sensors.h"
 #include "step.h"
-
-/* Wald's lower threshold below the start score, ln 100: loses one true track in a hundred. */
-#define TENTATIVE_FALL_MNAT 4605
-
-/*
- * Fall of the score at which a target has probably gone, ln 200: a target's mean lifetime is 200
- * scans. In frames of bearings it is multiplied by the number of sensors, which are assumed to miss
- * a target together.
- */
-#define LIFETIME_MNAT 5298
-
-/*
- * The target of an established track that has moved, and is not seen any more, may be hidden behind
- * something. Its track is kept, tentative and unreported, for HIDE_SHARE times coast_scans_max
- * misses, while at most HIDE_CLUTTER_MAX clutter plots are expected in its gate.
- */
-#define HIDE_SHARE 2.4f
-#define HIDE_CLUTTER_MAX 3.0f
 
 void rho_life_end(struct step *step, struct rho_track *track)
 {
@@ -54,65 +36,50 @@ void rho_life_remove_ended(struct rho_tracker *tracker)
     }
 }
 
-/*
- * Largest loss of score by one miss, of all sensors. With the loss of the scan's own sensor alone,
- * a scan of a sensor with a low pd would lower the limit for the misses of a better one.
- */
-static float largest_miss_loss_of_sensors(const struct rho_look *look)
-{
-    float loss = -look->log_miss;
-    for (unsigned i = 0; i < look->tracker->num_sensors; i++) {
-        float other = -rho_log(1.0f - look->tracker->sensors[i].sensor.pd);
-        loss = other > loss ? other : loss;
-    }
-    return loss;
-}
-
 struct rho_track_limits rho_life_limits(const struct rho_look *look)
 {
     const struct rho_tracker *tracker = look->tracker;
-    struct rho_track_limits limits = {
+    /*
+     * Largest loss of score by one miss, of all sensors. With the loss of the scan's own sensor
+     * alone, a sensor with a low pd would lower the limit for the misses of a better one.
+     */
+    float loss = -look->log_miss;
+    for (unsigned i = 0; i < tracker->num_sensors; i++) {
+        float other = -rho_log(1.0f - tracker->sensors[i].sensor.pd);
+        loss = other > loss ? other : loss;
+    }
+    return (struct rho_track_limits){
         .confirm_mnat = tracker->confirm_mnat,
+        /* the sensors of a frame of bearings are assumed to miss a target together */
         .doubt_mnat = LIFETIME_MNAT * (int32_t)tracker->looks_max,
         .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
-        .fall_mnat =
-            rho_score_to_mnat(largest_miss_loss_of_sensors(look) *
-                              (float)tracker->config.coast_scans_max * (float)tracker->looks_max),
+        .fall_mnat = rho_score_to_mnat(loss * (float)tracker->config.coast_scans_max *
+                                       (float)tracker->looks_max),
         .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
     };
-    return limits;
-}
-
-static int may_be_hidden_target(const struct rho_look *look, const struct rho_track *track)
-{
-    return rho_life_is_established(track) &&
-           (RHO_MAX_ECHOES == 0 || rho_echoes_is_moving_target(track)) &&
-           rho_clutter_in_gate(look, track) <= HIDE_CLUTTER_MAX;
-}
-
-/*
- * Lets a track of a hidden target end later, and holds its score within twice doubt_mnat of its
- * highest: misses of a hidden target are no evidence, and two plots should confirm its return.
- */
-static void keep_hidden_target_longer(struct rho_track *track, struct rho_track_limits *limits)
-{
-    const float misses = HIDE_SHARE * (float)limits->misses_in_row_max;
-    const int32_t most_mnat = 2 * limits->doubt_mnat;
-    const int32_t least_mnat = track->score_max_mnat - most_mnat;
-    limits->misses_in_row_max = misses < (float)UINT8_MAX ? (uint8_t)misses : UINT8_MAX;
-    limits->fall_mnat = limits->fall_mnat > most_mnat ? limits->fall_mnat : most_mnat + 1;
-    track->score_mnat = track->score_mnat > least_mnat ? track->score_mnat : least_mnat;
 }
 
 void rho_life_apply(struct step *step, struct rho_track *track,
                     const struct rho_track_limits *limits)
 {
     const uint8_t was_confirmed = track->was_confirmed;
-    const int is_low = track->score_max_mnat - track->score_mnat > 2 * limits->doubt_mnat;
+    const int32_t most_mnat = 2 * limits->doubt_mnat;
+    const int is_low = track->score_max_mnat - track->score_mnat > most_mnat;
     const int is_missed_out = track->misses_in_row >= limits->misses_in_row_max;
     struct rho_track_limits own = *limits;
-    if ((is_low || is_missed_out) && may_be_hidden_target(&step->look, track)) {
-        keep_hidden_target_longer(track, &own);
+    /*
+     * The target of an established track that has moved may be hidden behind something. Its track
+     * ends later, and its score is held: misses of a hidden target are no evidence, and two plots
+     * should confirm its return.
+     */
+    if ((is_low || is_missed_out) && rho_life_is_established(track) &&
+        (RHO_MAX_ECHOES == 0 || rho_echoes_is_moving_target(track)) &&
+        rho_clutter_in_gate(&step->look, track) <= COAST_CLUTTER_MAX) {
+        const float misses = HIDE_SHARE * (float)own.misses_in_row_max;
+        const int32_t least_mnat = track->score_max_mnat - most_mnat;
+        own.misses_in_row_max = misses < (float)UINT8_MAX ? (uint8_t)misses : UINT8_MAX;
+        own.fall_mnat = own.fall_mnat > most_mnat ? own.fall_mnat : most_mnat + 1;
+        track->score_mnat = track->score_mnat > least_mnat ? track->score_mnat : least_mnat;
     }
     if (is_missed_out || rho_evidence_is_lacking(step, track)) {
         own.doubt_mnat = 0;

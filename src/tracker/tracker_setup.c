@@ -7,10 +7,7 @@
 #include <string.h>
 
 #include "clutter.h"
-#include "plots.h"
-#include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "sensors.h"
 #include "step.h"
 
 #define ALL_PLANES (RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ)
@@ -38,12 +35,10 @@ void rho_tracker_config_default(struct rho_tracker_config *config)
         .coast_scans_max = 5,
         .work_max = RHO_WORK_MAX,
         .gate = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST,
-        .planes = RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
+        .planes = ALL_PLANES,
         .theta_cell_rad = 5.0f * (RHO_PI / 180.0f),
+        .late_max_s = RHO_SECTORS ? 20.0f : 0.0f,
     };
-    if (RHO_SECTORS) {
-        rho_retrodiction_default(config);
-    }
     rho_input_config_default(&config->input);
     config->input.is_estimated = (RHO_FILTERS) == 1 << RHO_TRACK_INPUT;
 }
@@ -55,7 +50,7 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) &&
            rho_is_within(config->steady_s, 0.0f, 1e5f) &&
            rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
-           (!RHO_SECTORS || rho_retrodiction_is_usable(config)) &&
+           (!RHO_SECTORS || rho_is_within(config->late_max_s, 0.0f, 60.0f)) &&
            rho_is_within(config->learn_noise_min, 0.1f, 1.0f) &&
            rho_is_within(config->learn_noise_max, 1.0f, 10.0f) &&
            rho_is_within(config->learn_pd_min, 0.1f, 1.0f) && config->coast_scans_max >= 1 &&
@@ -70,7 +65,7 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            config->work_max <= RHO_LIMIT_WORK;
 }
 
-static struct rho_imm_model motion_model_of_config(const struct rho_tracker_config *config)
+static struct rho_imm_model motion_model(const struct rho_tracker_config *config)
 {
     struct rho_imm_model model;
     rho_imm_model_default(&model, config->accel_max_mps2, config->v_max_mps);
@@ -79,12 +74,6 @@ static struct rho_imm_model motion_model_of_config(const struct rho_tracker_conf
         model.steady_s = config->steady_s;
     }
     return model;
-}
-
-static enum rho_status init_hypotheses(struct rho_tracker *tracker)
-{
-    const struct rho_imm_model model = motion_model_of_config(&tracker->config);
-    return rho_hypotheses_init(&tracker->hypotheses, sizeof tracker->hypotheses, &model);
 }
 
 enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
@@ -99,8 +88,7 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     if (!rho_tracker_is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
-    enum rho_status status;
-    struct rho_tracker_config copy = *config;
+    const struct rho_tracker_config copy = *config;
     memset(tracker, 0, sizeof *tracker);
     tracker->config = copy;
     tracker->next_track_id = 1;
@@ -109,9 +97,13 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     if (RHO_MAX_ECHOES > 0) {
         rho_echoes_init(tracker);
     }
-    status = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? init_hypotheses(tracker) : RHO_OK;
-    if (status != RHO_OK) {
-        return status;
+    if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
+        const struct rho_imm_model model = motion_model(&copy);
+        const enum rho_status status =
+            rho_hypotheses_init(&tracker->hypotheses, sizeof tracker->hypotheses, &model);
+        if (status != RHO_OK) {
+            return status;
+        }
     }
     tracker->magic = RHO_TRACKER_MAGIC;
     return rho_assignment_init(&tracker->assignment, sizeof tracker->assignment);
@@ -134,7 +126,7 @@ enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
         return RHO_ERROR_STATE;
     }
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
-        const struct rho_imm_model model = motion_model_of_config(config);
+        const struct rho_imm_model model = motion_model(config);
         const enum rho_status status =
             rho_hypotheses_set_model_but_calm_time(&tracker->hypotheses, &model);
         if (status != RHO_OK) {

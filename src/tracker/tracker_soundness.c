@@ -3,27 +3,11 @@
  * tracker_soundness: tests whether a tracker of unknown origin, as a loaded snapshot, is safe to
  * use: its counts are in range and its numbers are finite and within their limits.
  */
+#include <string.h>
+
 #include "clutter.h"
-#include "plots.h"
-#include "rhotrack/detail/angle.h"
 #include "sensors.h"
 #include "step.h"
-
-/* Slots of the hypotheses' pool that are checked in one pass over the tracks. */
-#define PASS_SLOTS 256u
-
-/* ---- tracks ---------------------------------------------------------------------------------- */
-
-/*
- * True of the filter that tracks of plots are configured with, and of the Kalman filter (bearings).
- */
-static int is_sound_filter_kind(const struct rho_tracker *tracker, const struct rho_track *track)
-{
-    const unsigned own = (unsigned)rho_tracker_filter(&tracker->config);
-    return (track->filter == own || track->filter == RHO_TRACK_KALMAN) &&
-           RHO_HAS_FILTER(track->filter) &&
-           (track->filter != RHO_TRACK_HYPOTHESES || track->slot < RHO_HYPOTHESES_SLOTS);
-}
 
 static int is_sound_input(const struct rho_track *track)
 {
@@ -45,7 +29,14 @@ static int is_sound_input(const struct rho_track *track)
 
 static int is_sound_track(const struct rho_tracker *tracker, const struct rho_track *track)
 {
-    return (!RHO_SECTORS || rho_retrodiction_is_sound(track)) &&
+    /* the filter of tracks of plots, or the Kalman filter (bearings) */
+    const int has_sound_filter =
+        (track->filter == (unsigned)rho_tracker_filter(&tracker->config) ||
+         track->filter == RHO_TRACK_KALMAN) &&
+        RHO_HAS_FILTER(track->filter) &&
+        (track->filter != RHO_TRACK_HYPOTHESES || track->slot < RHO_HYPOTHESES_SLOTS);
+    return has_sound_filter && is_sound_input(track) &&
+           (!RHO_SECTORS || rho_is_stored_time(track->ahead_us)) &&
            (RHO_MAX_ECHOES == 0 ||
             (rho_echoes_is_sound_track(track) && rho_second_plots_is_sound_track(track))) &&
            (!RHO_DOPPLER_NOTCH || track->blind_percent == 0) &&
@@ -55,7 +46,6 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
            rho_tracker_is_score_in_range(track->score_max_mnat) &&
            rho_is_stored_time(track->time_us) && rho_is_stored_time(track->updated_us) &&
            rho_is_stored_time(track->seen_us) && rho_is_within(track->seen_every_s, 0.0f, 1e13f) &&
-           is_sound_filter_kind(tracker, track) && is_sound_input(track) &&
            rho_are_finite(track->kalman.state, RHO_KALMAN_STATES) &&
            rho_are_finite(track->kalman.covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)) &&
            rho_are_finite(track->accel_mps2, 3) && rho_are_finite(track->newest_mps, 3) &&
@@ -64,36 +54,20 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
 }
 
 /* True where no two tracks have the same slot in the pool of hypotheses. */
-static int has_no_shared_slots(const struct rho_tracker *tracker)
+static int has_own_slots(const struct rho_tracker *tracker)
 {
-    for (unsigned first = 0; first < RHO_HYPOTHESES_SLOTS; first += PASS_SLOTS) {
-        uint8_t is_met[PASS_SLOTS] = {0};
+    uint8_t is_met[256]; /* slots that are checked in one pass over the tracks */
+    for (size_t first = 0; first < RHO_HYPOTHESES_SLOTS; first += sizeof is_met) {
+        memset(is_met, 0, sizeof is_met);
         for (unsigned i = 0; i < tracker->num_tracks; i++) {
             const struct rho_track *track = &tracker->tracks[i];
-            if (track->filter != RHO_TRACK_HYPOTHESES || track->slot < first ||
-                track->slot - first >= PASS_SLOTS) {
-                continue;
-            }
-            if (is_met[track->slot - first]++) {
+            if (track->filter == RHO_TRACK_HYPOTHESES && track->slot >= first &&
+                track->slot - first < sizeof is_met && is_met[track->slot - first]++) {
                 return 0;
             }
         }
     }
     return 1;
-}
-
-static int has_sound_tracks(const struct rho_tracker *tracker)
-{
-    if (tracker->num_tracks > RHO_MAX_TRACKS) {
-        return 0;
-    }
-    for (unsigned i = 0; i < tracker->num_tracks; i++) {
-        if (!is_sound_track(tracker, &tracker->tracks[i])) {
-            return 0;
-        }
-    }
-    return !RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ||
-           (rho_hypotheses_is_sound(&tracker->hypotheses) && has_no_shared_slots(tracker));
 }
 
 static int is_sound_row(const struct rho_tracker_sensor *row, int is_described)
@@ -108,9 +82,12 @@ static int is_sound_row(const struct rho_tracker_sensor *row, int is_described)
            (RHO_MAX_ECHOES == 0 || rho_second_plots_are_sound(&row->second_plots));
 }
 
-static int has_sound_sensors(const struct rho_tracker *tracker)
+int rho_tracker_is_sound(const struct rho_tracker *tracker)
 {
-    if (tracker->num_sensors > tracker->num_rows || tracker->num_rows > RHO_MAX_SENSORS) {
+    const struct rho_extent *extent = &tracker->extent;
+    if (!rho_tracker_is_ready(tracker) || !rho_tracker_is_usable(&tracker->config) ||
+        tracker->num_sensors > tracker->num_rows || tracker->num_rows > RHO_MAX_SENSORS ||
+        tracker->num_tracks > RHO_MAX_TRACKS) {
         return 0;
     }
     for (unsigned i = 0; i < tracker->num_rows; i++) {
@@ -118,22 +95,13 @@ static int has_sound_sensors(const struct rho_tracker *tracker)
             return 0;
         }
     }
-    return 1;
-}
-
-/* ---- all ------------------------------------------------------------------------------------- */
-
-static int are_corners_within_coordinate_limits(const struct rho_extent *extent)
-{
-    return rho_is_coordinate(extent->x_min_m) && rho_is_coordinate(extent->x_max_m) &&
-           rho_is_coordinate(extent->y_min_m) && rho_is_coordinate(extent->y_max_m);
-}
-
-int rho_tracker_is_sound(const struct rho_tracker *tracker)
-{
-    return rho_tracker_is_ready(tracker) && rho_tracker_is_usable(&tracker->config) &&
-           rho_assignment_is_ready(&tracker->assignment) && tracker->next_track_id > 0 &&
-           rho_is_stored_time(tracker->time_us) &&
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        if (!is_sound_track(tracker, &tracker->tracks[i])) {
+            return 0;
+        }
+    }
+    return rho_assignment_is_ready(&tracker->assignment) && tracker->next_track_id > 0 &&
+           rho_is_stored_time(tracker->time_us) && rho_is_stored_time(tracker->counted_us) &&
            rho_tracker_is_score_in_range(tracker->start_mnat) &&
            rho_tracker_is_score_in_range(tracker->confirm_mnat) && tracker->looks_max > 0 &&
            rho_is_within(tracker->unclaimed_plots, 0.0f, 1e9f) &&
@@ -142,11 +110,13 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_is_within(tracker->straight_s, 0.0f, 1e9f) &&
            rho_is_within(tracker->turning_s, 0.0f, 1e9f) &&
            rho_is_within(tracker->wanted_per_hour, 0.0f, 1e9f) &&
-           rho_is_within(tracker->established, 0.0f, 1e9f) &&
-           rho_is_stored_time(tracker->counted_us) &&
-           are_corners_within_coordinate_limits(&tracker->extent) && has_sound_sensors(tracker) &&
+           rho_is_within(tracker->established, 0.0f, 1e9f) && rho_is_coordinate(extent->x_min_m) &&
+           rho_is_coordinate(extent->x_max_m) && rho_is_coordinate(extent->y_min_m) &&
+           rho_is_coordinate(extent->y_max_m) &&
            (RHO_MAX_REFLECTORS == 0 || rho_images_are_sound(tracker)) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || rho_areas_are_sound(tracker)) &&
            (!RHO_BODIES || rho_bodies_are_sound(tracker)) &&
-           (RHO_MAX_ECHOES == 0 || rho_echoes_are_sound(tracker)) && has_sound_tracks(tracker);
+           (RHO_MAX_ECHOES == 0 || rho_echoes_are_sound(tracker)) &&
+           (!RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ||
+            (rho_hypotheses_is_sound(&tracker->hypotheses) && has_own_slots(tracker)));
 }

@@ -207,9 +207,8 @@ RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_
  * time_us without process noise.
  * Errors and costs as rho_track_predict. Stack: 570 bytes.
  */
-RHO_MUST_CHECK enum rho_status
-rho_track_return_to_time_it_was_moved_from(struct rho_track *track, int64_t time_us,
-                                           const struct rho_track_model *model);
+RHO_MUST_CHECK enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
+                                                const struct rho_track_model *model);
 
 /*
  * Updates a track with a plot: predicts to the plot's time, and updates with its position, velocity

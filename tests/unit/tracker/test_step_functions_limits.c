@@ -369,19 +369,6 @@ static void manoeuvres_are_learned_in_gaps_up_to_a_minute(void **state)
     }
 }
 
-static void late_max_s_may_be_a_minute_at_most(void **state)
-{
-    (void)state;
-    if (!RHO_SECTORS) {
-        skip();
-    }
-    use_usual_configs(1);
-    config.late_max_s = 60.0f;
-    assert_true(rho_retrodiction_is_usable(&config));
-    config.late_max_s = 60.1f;
-    assert_false(rho_retrodiction_is_usable(&config));
-}
-
 /* ---- mirror images --------------------------------------------------------------------------- */
 
 #if RHO_MAX_REFLECTORS > 0
@@ -559,7 +546,6 @@ int main(void)
         cmocka_unit_test(tracks_stay_in_the_notch_for_five_minutes_at_most),
         cmocka_unit_test(a_look_in_the_notch_has_a_small_pd),
         cmocka_unit_test(manoeuvres_are_learned_in_gaps_up_to_a_minute),
-        cmocka_unit_test(late_max_s_may_be_a_minute_at_most),
 #if RHO_MAX_REFLECTORS > 0
         cmocka_unit_test(plots_at_images_of_established_tracks_are_ghosts),
         cmocka_unit_test(tracks_near_an_image_end),

@@ -328,18 +328,18 @@ static void going_back_in_time_restores_the_estimate(void **state)
     struct rho_track track = start_track(9000);
     assert_int_equal(rho_track_predict(&track, 12000000, &model), RHO_OK);
     const struct rho_track was = track;
-    assert_int_equal(rho_track_return_to_time_it_was_moved_from(&track, 9000000, &model), RHO_OK);
+    assert_int_equal(rho_track_return(&track, 9000000, &model), RHO_OK);
     assert_int_equal(track.time_us, 9000000);
     assert_true(fabsf(track.kalman.state[0] - was.kalman.state[0] + 3.0f * was.kalman.state[3]) <
                 0.01f);
-    assert_int_equal(rho_track_return_to_time_it_was_moved_from(&track, 12000000, &model), RHO_OK);
+    assert_int_equal(rho_track_return(&track, 12000000, &model), RHO_OK);
     assert_int_equal(track.time_us, 12000000);
     for (int i = 0; i < 6; i++) {
         assert_true(fabsf(track.kalman.state[i] - was.kalman.state[i]) < 0.01f);
     }
     assert_true(fabsf(track.kalman.covariance[0] - was.kalman.covariance[0]) <
                 0.01f * was.kalman.covariance[0]);
-    assert_int_equal(rho_track_return_to_time_it_was_moved_from(NULL, 0, &model), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_return(NULL, 0, &model), RHO_ERROR_NULL);
 }
 
 int main(void)

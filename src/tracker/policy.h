@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * policy: constants of this room that neither physics nor a parameter sets; tools/gates/mutate.py
+ * changes each.
+ */
+#ifndef RHOTRACK_TRACKER_POLICY_H
+#define RHOTRACK_TRACKER_POLICY_H
+
+/* Sensors and tracks. */
+
+/* sensor_health.c */
+
+/*
+ * Memory of a sensor's running means, and the least number that is decided by, in looks or hits.
+ * Half: chance makes sensors suspect. Twice: a failure is found after twice as many looks.
+ */
+#define COMPARED_MAX 16u
+#define COMPARED_MIN (COMPARED_MAX * 3u / 4u)
+/*
+ * Share of other sensors' tracks that a sensor sees, over its pd: below the first it sees too few,
+ * above the second enough. Half: a sensor that misses three targets in four stays trusted. Twice:
+ * no sensor sees enough to be a witness.
+ */
+#define SHARE_LOW 0.3f
+#define SHARE_GOOD (SHARE_LOW * 2.0f)
+/*
+ * Mean NIS per dimension of a sensor's plots: above the first the sensor is biased, below the
+ * second it agrees. It is 1 in theory, and about 2 with manoeuvres and too small covariances. Half:
+ * sensors are suspect as targets turn, or never trusted again. Twice: a bias of three sigmas passes.
+ */
+#define CHI2_HIGH 4.0f
+#define CHI2_GOOD 2.5f
+/*
+ * Largest mean NIS of a witness, over that of the biased sensor: a biased sensor pulls the tracks,
+ * so that unbiased sensors look biased, too, but less so. Half: no witness is found. Twice: the
+ * biased sensor speaks against the unbiased ones.
+ */
+#define RIGHTER 0.7f
+/*
+ * Largest sigma ratio at which two sensors' normalised distances are comparable. Half: no sensor is
+ * as fine as itself, and equal witnesses do not count. Twice: a coarse sensor, with which all plots
+ * agree, counts as a witness.
+ */
+#define COARSER 1.9f
+/*
+ * Largest factor on the sigmas of a suspect sensor's plots. Half: a large bias pulls tracks. Twice:
+ * its plots fit any track.
+ */
+#define FACTOR_MAX 20.0f
+
+/* sensor_learning.c */
+
+/*
+ * Largest probability of the manoeuvring model at which a track teaches noise. Half: calm targets
+ * teach little. Twice: manoeuvres are learned as noise.
+ */
+#define MANEUVER_MAX 0.2f
+/*
+ * Square of the difference of two innovations at which it is cut, against plots of clutter; the
+ * mean below the cut is in update_log_noise. Half or twice: the mean is another one, and stated
+ * noise is learned as larger or smaller.
+ */
+#define CUT2 2.25f
+/*
+ * The gain of the n-th innovation is GAIN / (n + INNOVATIONS_PRIOR). Half: noise is learned at half
+ * the speed, or jumps at the first innovations. Twice: the factor varies more by chance, or is
+ * learned late.
+ */
+#define GAIN 3.0f
+#define INNOVATIONS_PRIOR 40.0f
+/*
+ * Limit of ln f, either way: 10 times the sigma, as far as learn_noise_max goes. Half: noise of
+ * more than three times the stated sigma is not learned. Twice: a larger ln f than can be used is
+ * learned, and returns late.
+ */
+#define LOG_NOISE_MAX 4.6f
+/*
+ * Memory: looks at a ring of range at which looks and hits are halved, and innovations at which
+ * their count stops. Half: what was learned is less exact. Twice: changes are learned late.
+ */
+#define LEARNED_MAX 1000
+/* Fewest innovations for learned noise to be used: a tenth, as ln f then varies by a tenth. */
+#define INNOVATIONS_MIN (LEARNED_MAX / 10)
+/*
+ * Least share of the plot's noise in an innovation's variance; the rest is of the prediction. Half:
+ * errors of predictions are learned as noise. Twice: hardly any innovation teaches.
+ */
+#define NOISE_SHARE_MIN 0.4f
+/*
+ * Largest ln f, either way, at which noise counts as stated: AS_STATED, plus CHANCE over the root
+ * of the number of innovations. Half: noise is changed by chance. Twice: noise of 1.3 times the
+ * stated sigma stays unlearned.
+ */
+#define AS_STATED 0.25f
+#define CHANCE 4.0f
+/*
+ * Largest share of blind looks, per cent, at which a look teaches the pd of a ring. Half: slow
+ * targets teach nothing. Twice: misses in the notch lower the pd of the ring.
+ */
+#define BLIND_PERCENT_MAX 2
+
+/* learned_pd.c */
+
+/*
+ * Prior weight, in looks, of the pd of all rings for one ring; and of the stated pd for all rings.
+ * Half: few looks lower the pd of a ring. Twice: a ring with few targets keeps the pd of all.
+ */
+#define PRIOR_OF_RING 20.0f
+#define PRIOR_OF_ALL (PRIOR_OF_RING * 1.5f)
+/*
+ * Standard deviations by which the learned pd must be below the stated one to be used. Half: one
+ * ring in ten is lowered by chance. Twice: a pd that is a little lower is found late.
+ */
+#define PD_SURELY 2.5f
+
+/* notch_learning.c */
+
+/*
+ * Largest pd in a learned notch, over the pd at faster range rates: in all its intervals, and in
+ * the fastest of a new one, which it fills only in part. Half: notches with some plots are not
+ * found. Twice: any pd is a notch.
+ */
+#define BLIND_SHARE 0.65f
+#define BLIND_LAST_SHARE 0.85f
+/*
+ * Above this pd a notch in use loses its fastest interval, as misses count in full there: tracks
+ * coast in the notch instead of ending. Half: true notches shrink. Twice: wide ones stay wide.
+ */
+#define BLIND_USED_SHARE 0.6f
+/*
+ * Standard deviations by which the pd in a notch is below that at faster rates. Half: chance among
+ * many intervals finds notches. Twice: a notch is found after four times the looks.
+ */
+#define BLIND_SURELY 4.0f
+/*
+ * Looks that are needed in a notch; twice as many in the interval that a notch in use may lose, and
+ * three times as many above a notch. Half: slow targets that fade look like a notch. Twice: a notch
+ * is found late.
+ */
+#define BLIND_LOOKS 20.0f
+#define BLIND_USED_LOOKS (BLIND_LOOKS * 2.0f)
+#define FASTER_LOOKS (BLIND_LOOKS * 3.0f)
+/*
+ * Square of the upper limit of the first interval of range rates, m^2/s^2; those of the others
+ * double. Half or twice: each interval is another one, and the fastest notch is 0.7 or 1.4 times as
+ * wide.
+ */
+#define RATE_MIN2 0.0625f
+/*
+ * Looks in an interval from one search for a notch to the next. Half: twice as many searches.
+ * Twice: a notch is found some looks later.
+ */
+#define LOOKS_A_NOTCH 8u
+/*
+ * Fewest intervals of a notch: targets that stop look like fewer. Half: stopped targets make a
+ * notch. Twice: notches below 2.8 m/s are not found.
+ */
+#define RATES_LEAST 4u
+
+/* coverage.c */
+
+/*
+ * Margin of the field of view in standard deviations of the track's place. Half: tracks at its edge
+ * lose plots. Twice: tracks far outside are predicted in vain.
+ */
+#define MARGIN_SIGMAS 8.0f
+/*
+ * Share of the range in the margin, for biases of the plots. Half: a bias of five per cent loses
+ * plots at the edge. Twice: more tracks are predicted in vain.
+ */
+#define MARGIN_SHARE 0.05f
+/*
+ * Standard deviations of its noise that a plot may lie outside of the stated coverage: half of a
+ * track's, which targets leave as they turn. Half: one plot in forty at the edge is lost. Twice:
+ * clutter outside of the coverage is taken.
+ */
+#define PLOT_SIGMAS (MARGIN_SIGMAS / 2.0f)
+
+/* blind_looks.c */
+
+/*
+ * Detection probability of a target in the Doppler notch. Half or twice: a plot of a track in the
+ * notch weighs less or more by ln 2.
+ */
+#define NOTCH_PD 0.03f
+/*
+ * Expected clutter plots in its gate up to which a track coasts in the notch, or hidden
+ * (track_life.c). Half: tracks end in thin clutter. Twice: they claim clutter and drift away.
+ */
+#define COAST_CLUTTER_MAX 3.0f
+/*
+ * Longest time without a plot for which a track may coast in the notch; then it is rather gone.
+ * Half: targets that wait long lose their identity. Twice: tracks of targets that have gone stay.
+ */
+#define BLIND_MAX_S 300.0f
+
+/* unseen_tracks.c */
+
+/*
+ * Weight of the newest interval in a smoothed scan interval. Half: changes of an antenna's speed
+ * are followed late. Twice: one odd scan moves the interval by half.
+ */
+#define INTERVAL_SMOOTHING 0.25f
+/*
+ * Weights of the newest time between a track's hits: if shorter; if longer, as by missed scans.
+ * Half: the first gap lasts. Twice: misses lengthen the interval, and tracks coast too long.
+ */
+#define SHORTER_SMOOTHING (INTERVAL_SMOOTHING * 2.0f)
+#define LONGER_SMOOTHING (INTERVAL_SMOOTHING / 4.0f)
+/*
+ * Upper limit of a new interval over the smoothed one. Half: intervals never grow. Twice: an outage
+ * counts as a long interval.
+ */
+#define INTERVAL_LONGEST 2.0f
+/*
+ * Scan intervals without a look in the fixed direction after which another one is chosen. Half: a
+ * short outage changes the direction. Twice: a new sector's interval is known late.
+ */
+#define INTERVALS_GONE 16.0f
+/*
+ * Scan intervals by which a look may be late. Half: jitter of the antenna ends tracks. Twice: gone
+ * targets stay a scan longer.
+ */
+#define OVERDUE 0.5f
+/*
+ * Scan intervals by which a track that no sensor covers ends before coast_scans_max of them. Half:
+ * some end a scan late. Twice: all end more than a scan early.
+ */
+#define JITTER 0.7f
+/*
+ * Factor on the coasting time of a track whose place a sensor covers, but does not look at. Half:
+ * beams that return late find no track. Twice: tracks of targets that have gone stay.
+ */
+#define UNLOOKED 4.0f
+/*
+ * Misses in a row that end a track after a silence; those before it are included. Half: one miss
+ * after an outage ends a track. Twice: gone targets stay for three more scans.
+ */
+#define OVERDUE_MISSES 3
+/*
+ * Clutter plots expected in the gate above which a plot after a long silence is doubtful. Half:
+ * returning targets need another plot. Twice: clutter keeps tracks of gone targets.
+ */
+#define DOUBTFUL_PLOTS 0.1f
+
+/* early_ends.c */
+
+/*
+ * Detection probability of a seldom seen object that is no target, over that of a target; and the
+ * evidence of a hit, ln(1 / SELDOM). Half or twice: hits weigh too little or too much against
+ * misses.
+ */
+#define SELDOM 0.3f
+#define HIT_NAT 1.2039728f
+/*
+ * Wanted number of true tracks for each false one. Half: one confirmed track in five is false.
+ * Twice: targets are confirmed later where aircraft come and go.
+ */
+#define TRUE_PER_FALSE 10.0f
+/*
+ * Prior number of established tracks. Half: the first early ends ask for more evidence. Twice: more
+ * false tracks come before evidence is asked for.
+ */
+#define ESTABLISHED_PRIOR 2.0f
+/*
+ * Standard deviations by which the count of tracks that ended early may exceed its mean. Half:
+ * chance asks for evidence. Twice: clear excess is found later.
+ */
+#define EXCESS_SIGMAS 0.5f
+/*
+ * Time in which the counts of ended and established tracks fade to 1/e. Half: counts are small, and
+ * vary by chance. Twice: after a front has passed, confirmation stays slow for an hour.
+ */
+#define MEMORY_S 1600.0f
+/*
+ * Prior hits of established tracks for one miss. Half: at first a miss takes 1.4 nat instead
+ * of 2. Twice: it takes 2.6, and targets with misses are confirmed late.
+ */
+#define PRIOR_HITS 9.0f
+
+/* track_life.c */
+
+/*
+ * Wald's lower threshold below the start score, ln 100: loses one true track in a hundred. Half:
+ * one in ten is lost. Twice: tentative tracks of clutter live twice as long.
+ */
+#define TENTATIVE_FALL_MNAT 4605
+/*
+ * Fall of the score at which a target has probably gone, ln 200: a target's mean lifetime is 200
+ * scans. Half: two misses make a track tentative. Twice: gone targets are reported longer.
+ */
+#define LIFETIME_MNAT 5298
+/*
+ * Misses for which the track of a hidden target is kept, tentative, over coast_scans_max. Half: it
+ * ends about as any other. Twice: it comes back beside a new track of its target.
+ */
+#define HIDE_SHARE 2.4f
+
+/* manoeuvre_interval.c */
+
+/*
+ * Weight of the default mean time between manoeuvres, in manoeuvres seen. Half: calm_s is doubled
+ * after few straight tracks. Twice: hours of straight tracks teach little.
+ */
+#define MANOEUVRES_PRIOR 4.0f
+/*
+ * Probability of the manoeuvring model above which a target surely manoeuvres. Half: noise counts
+ * as manoeuvres. Twice: nothing does, and calm_s grows always.
+ */
+#define TURNS_SURELY 0.9f
+
+#endif
