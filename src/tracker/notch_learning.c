@@ -13,21 +13,20 @@ enum {
     FORGOTTEN_MAX = 3     /* false notches after which none is learned any more: two bits */
 };
 
-/* Upper limit of the first num_rates intervals of range rates, m/s. */
+/* Upper limit of the first num_rates intervals of range rates, m/s; 0: no interval. */
 static float intervals_end_mps(unsigned num_rates)
 {
     float end2 = RATE_MIN2;
     for (unsigned i = 1; i < num_rates; i++) {
         end2 *= 2.0f;
     }
-    return rho_sqrt(end2);
+    return num_rates > 0 ? rho_sqrt(end2) : 0.0f;
 }
 
 /* True where the sensor's description states no notch: it has none, or the learned one. */
 static int is_notch_free(const struct rho_sensor *sensor, const struct rho_tracker_learned *learned)
 {
-    const float learned_mps =
-        learned->used_rates > 0 ? intervals_end_mps(learned->used_rates) : 0.0f;
+    const float learned_mps = intervals_end_mps(learned->used_rates);
     return !(sensor->notch_mps > 0.0f) ||
            (sensor->notch_mps >= learned_mps && sensor->notch_mps <= learned_mps);
 }
@@ -43,8 +42,7 @@ void rho_learning_apply_notch(const struct rho_look *look)
     struct rho_tracker_learned *learned = look->learned;
     if (learned && rho_learning_is_on(&look->tracker->config) && rho_learning_seeks_notch(look)) {
         learned->used_rates = learned->blind_rates;
-        look->row->sensor.notch_mps =
-            learned->used_rates > 0 ? intervals_end_mps(learned->used_rates) : 0.0f;
+        look->row->sensor.notch_mps = intervals_end_mps(learned->used_rates);
     }
 }
 
@@ -126,7 +124,7 @@ int rho_learning_count_rate(const struct rho_look *look, const struct rho_track 
 float rho_learning_notch_mps(const struct rho_sensor *sensor,
                              const struct rho_tracker_learned *learned)
 {
-    return RHO_DOPPLER_NOTCH && learned->blind_rates > 0 && is_notch_free(sensor, learned)
+    return RHO_DOPPLER_NOTCH && is_notch_free(sensor, learned)
                ? intervals_end_mps(learned->blind_rates)
                : 0.0f;
 }

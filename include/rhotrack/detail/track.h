@@ -205,7 +205,7 @@ RHO_MUST_CHECK enum rho_status rho_track_predict(struct rho_track *track, int64_
 /*
  * Moves a track, which an out-of-sequence scan moved back and updated, forward to its former time
  * time_us without process noise.
- * Errors and costs as rho_track_predict. Stack: 570 bytes.
+ * Errors and costs as rho_track_predict. Stack: 580 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
                                                 const struct rho_track_model *model);
