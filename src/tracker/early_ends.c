@@ -105,7 +105,7 @@ void rho_evidence_count_established(struct rho_tracker *tracker, const struct rh
     }
 }
 
-void rho_evidence_count_ended(struct step *step, const struct rho_track *track)
+void rho_evidence_count_ended(const struct step *step, const struct rho_track *track)
 {
     if (!rho_life_is_established(track) && evidence_of_target(step, track) < 0.0f &&
         track->score_max_mnat >= step->tracker->confirm_mnat) {

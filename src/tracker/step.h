@@ -35,10 +35,10 @@ int rho_retrodiction_return(struct step *step);
 /* track_life.c: limits of score and misses that confirm and end the tracks of a step */
 struct rho_track_limits rho_life_limits(const struct rho_look *look);
 /* Confirms a track, makes it tentative or ends it, and counts it. */
-void rho_life_apply(struct step *step, struct rho_track *track,
+void rho_life_apply(const struct step *step, struct rho_track *track,
                     const struct rho_track_limits *limits);
 /* Ends a track: it stays in the table as FREE until rho_life_remove_ended. */
-void rho_life_end(struct step *step, struct rho_track *track);
+void rho_life_end(const struct step *step, struct rho_track *track);
 /* Removes the FREE tracks from the table, with their rows of the assignment. */
 void rho_life_remove_ended(struct rho_tracker *tracker);
 
@@ -55,7 +55,7 @@ int rho_evidence_is_lacking(const struct step *step, const struct rho_track *tra
 /* Counts a track that becomes established in this step. */
 void rho_evidence_count_established(struct rho_tracker *tracker, const struct rho_track *track);
 /* Counts an ended track if it ended early. */
-void rho_evidence_count_ended(struct step *step, const struct rho_track *track);
+void rho_evidence_count_ended(const struct step *step, const struct rho_track *track);
 
 /* manoeuvre_interval.c: mean time between manoeuvres; learned from established tracks over dt_s */
 void rho_manoeuvres_learn(struct rho_tracker *tracker, const struct rho_look *look, float dt_s);

@@ -8,7 +8,7 @@
 #include "rhotrack/detail/approx.h"
 #include "step.h"
 
-void rho_life_end(struct step *step, struct rho_track *track)
+void rho_life_end(const struct step *step, struct rho_track *track)
 {
     struct rho_report *report = step->report;
     if (track->was_confirmed) {
@@ -59,7 +59,7 @@ struct rho_track_limits rho_life_limits(const struct rho_look *look)
     };
 }
 
-void rho_life_apply(struct step *step, struct rho_track *track,
+void rho_life_apply(const struct step *step, struct rho_track *track,
                     const struct rho_track_limits *limits)
 {
     const uint8_t was_confirmed = track->was_confirmed;
