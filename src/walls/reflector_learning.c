@@ -87,7 +87,7 @@ static int32_t nearest_other_plot(const struct observation *observation,
     for (uint32_t i = 0; i < observation->scan->num_plots; i++) {
         const struct rho_plot *plot = &observation->scan->plots[i];
         const int is_of_target = (int32_t)i == target->plot ||
-                                 (rho_tracker_has_bodies(observation->tracker) &&
+                                 (rho_bodies_are_used(observation->tracker) &&
                                   i < RHO_BODY_PLOTS && groups->of[i] == groups->of[target->plot]);
         if (!is_of_target && rho_measurement_is_valid_plot(plot, observation->scan->measures) &&
             rho_gate_test(&gate, plot, &result) && (nearest < 0 || result.distance2 < least)) {
@@ -237,7 +237,7 @@ static void look_for_image(struct rho_reflector_learning *learning,
     const struct rho_plot at = {
         .x_m = image.state[RHO_X], .y_m = image.state[RHO_Y], .z_m = image.state[RHO_Z]};
     const float from_x_m = sensor ? sensor->x_m : 0.0f, from_y_m = sensor ? sensor->y_m : 0.0f;
-    if (!rho_tracker_coverage_holds_plot(sensor, &at, scan->measures) ||
+    if (!rho_coverage_holds_plot(sensor, &at, scan->measures) ||
         !rho_angle_in_sector(rho_atan2(at.y_m - from_y_m, at.x_m - from_x_m), scan->sector_from_rad,
                              scan->sector_to_rad)) {
         return;
